@@ -1,0 +1,21 @@
+"""What can go wrong, by meaning. Every message is a sentence that ends with a way out."""
+
+
+class ContactError(Exception):
+    """Anything the contact core refuses or cannot do."""
+
+
+class SceneError(ContactError):
+    """A scene, or a value in it, that cannot be used."""
+
+
+class OperatingPointError(ContactError):
+    """A load, speed or temperature outside what the contact can be asked for."""
+
+
+class StateError(ContactError):
+    """A stored state that is damaged or belongs to another contact."""
+
+
+class ConvergenceError(ContactError):
+    """No solution exists or none was found, also not by the fallback."""

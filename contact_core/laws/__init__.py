@@ -1,0 +1,17 @@
+"""Physics in slots: each law is a frozen dataclass with a `name`, its `source`, its parameters and array functions.
+
+A slot's table in a scene says `model = "<name>"`. A new law is one class and one entry in its module's LAWS.
+"""
+
+from . import boundary_friction, density, heat, plasticity, rheology, tribofilm, viscosity, wear
+
+SLOTS: dict[str, tuple[type, ...]] = {
+    "viscosity": viscosity.LAWS,
+    "density": density.LAWS,
+    "rheology": rheology.LAWS,
+    "plasticity": plasticity.LAWS,
+    "boundary_friction": boundary_friction.LAWS,
+    "heat": heat.LAWS,
+    "tribofilm": tribofilm.LAWS,
+    "wear": wear.LAWS,
+}

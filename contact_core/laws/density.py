@@ -1,0 +1,34 @@
+"""Density of the lubricant relative to its density at p = 0."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class DowsonHigginson:
+    """rho / rho0 = (5.9e8 + 1.34 p) / (5.9e8 + p), p in Pa."""
+
+    name: ClassVar[str] = "dowson_higginson"
+    source: ClassVar[str] = "Dowson & Higginson, Elasto-hydrodynamic Lubrication, Pergamon 1966"
+
+    def __call__(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Density ratio at pressures [Pa] (any shape)."""
+        return (5.9e8 + 1.34 * pressure) / (5.9e8 + pressure)
+
+
+@dataclass(frozen=True)
+class Incompressible:
+    """rho = rho0."""
+
+    name: ClassVar[str] = "none"
+    source: ClassVar[str] = ""
+
+    def __call__(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Ones in the shape of `pressure`."""
+        return np.ones_like(pressure)
+
+
+LAWS = (DowsonHigginson, Incompressible)

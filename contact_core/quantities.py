@@ -1,0 +1,130 @@
+"""THE table of what goes into a contact and what comes out: name, symbol, unit, text, range.
+
+It feeds the FMU's variables, the result files' attributes, the printed tables and the checks. Conventions of sign,
+averaging and direction are stated here, once. `parameter` does the same for the fields of a scene.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import Field, dataclass, field, fields, is_dataclass
+from typing import Any, Literal
+
+Role = Literal["input", "output", "diagnostic"]
+Kind = Literal["Real", "Integer", "Boolean"]
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One input or output of a contact, in SI."""
+
+    name: str
+    symbol: str
+    unit: str
+    text: str
+    role: Role = "output"
+    nominal: float = 1.0
+    minimum: float = -math.inf
+    maximum: float = math.inf
+    display: str = ""  # the unit people read, convertible to `unit`
+    kind: Kind = "Real"
+    relative: bool = False  # a temperature difference, not a temperature
+    levels: tuple[str, ...] = ("deterministic",)  # the fidelities that fill it
+
+
+def _pair(name: str, symbol: str, unit: str, text: str, **rest: Any) -> tuple[Quantity, Quantity]:
+    first, second = (
+        Quantity(f"{name}_{i}", f"{symbol}_{i}", unit, f"{text}, body {i}", **rest) for i in (1, 2)
+    )
+    return first, second
+
+
+INPUTS: tuple[Quantity, ...] = (
+    Quantity("load", "W", "N", "normal load", "input", 50.0, 0.0, 1e5),
+    Quantity("speed_1", "u_1", "m/s", "surface speed of body 1 along x, relative to the contact", "input", 1.0, -100, 100),
+    Quantity("speed_2", "u_2", "m/s", "surface speed of body 2 along x, relative to the contact", "input", 1.0, -100, 100),
+    Quantity("temperature", "T", "K", "oil temperature; both bodies are at it", "input", 350.0, 230.0, 500.0, "degC"),
+)
+
+OUTPUTS: tuple[Quantity, ...] = (
+    Quantity("friction_force", "F", "N", "friction force on body 1 along +x", nominal=1.0),
+    Quantity("friction_coefficient", "mu", "1", "|friction_force| / load, 0 at zero load", nominal=0.1, minimum=0.0),
+    Quantity("rolling_resistance", "F_r", "N",
+             "integral of (h/2) dp/dx over the fluid film: shear that the pressure flow exerts on each surface", nominal=0.1),
+    Quantity("power_loss", "P", "W", "-friction_force (speed_1 - speed_2)", nominal=1.0, minimum=0.0),
+    *_pair("wear_rate", "dV/dt", "m3/s", "wear volume of the step divided by the step", nominal=1e-17, minimum=0.0, display="um3/s"),
+    *_pair("wear_volume", "V", "m3", "wear volume of the whole track", nominal=1e-14, minimum=0.0, display="um3"),
+    *_pair("wear_depth", "w", "m", "mean wear depth over the track |y| < b", nominal=1e-8, minimum=0.0, display="nm"),
+    Quantity("h_c", "h_c", "m", "mean gap over the disc r < 2a/3", nominal=1e-8, minimum=0.0, display="nm"),
+    Quantity("h_central", "h_central", "m", "gap at the centre of the contact", nominal=1e-8, minimum=0.0, display="nm"),
+    Quantity("h_min", "h_min", "m", "smallest gap in the contact r < a", nominal=1e-9, minimum=0.0, display="nm"),
+    Quantity("lambda_ratio", "lambda", "1", "h_c / composite rms roughness over the same disc, at most 1000", minimum=0.0),
+    *_pair("tribofilm", "h_t", "m", "mean tribofilm thickness over the track |y| < b, all nodes", nominal=1e-8, minimum=0.0, display="nm"),
+    *_pair("tribofilm_roughness", "Rq_t", "m", "rms deviation of the tribofilm thickness over |y| < 2b/3", nominal=1e-8, minimum=0.0, display="nm"),
+    *_pair("roughness", "Rq", "m", "rms roughness over |y| < 2b/3, free of the groove's shape", nominal=1e-8, minimum=0.0, display="nm"),
+    Quantity("contact_area_ratio", "A_c", "1", "real contact area / Hertz area", minimum=0.0),
+    Quantity("contact_load_ratio", "W_c", "1", "load carried by the solids / load", minimum=0.0, maximum=1.0),
+    Quantity("pressure_max", "p_max", "Pa", "largest pressure", nominal=1e9, minimum=0.0, display="GPa"),
+    Quantity("flash_temperature_rise", "dT_f", "K", "mean flash temperature rise over the real contact", minimum=0.0, relative=True),
+    *_pair("temperature", "T", "K", "bulk temperature: that of the oil", nominal=350.0, minimum=0.0, display="degC"),
+    Quantity("approach", "delta", "m", "approach of the bodies from first touching of the undeformed, smooth shapes", nominal=1e-6, display="um"),
+    Quantity("valid", "", "", "false: the last input could not be used; state and outputs stand as they were", kind="Boolean"),
+    Quantity("range_flags", "", "", "sum of the RangeFlag values raised (see RangeFlag)", kind="Integer", minimum=0),
+    Quantity("iterations", "", "", "film iterations in the last step", kind="Integer", minimum=0),
+    Quantity("suggested_step", "dt", "s", "time until the stored contact is due to be solved again", nominal=60.0, minimum=0.0),
+    *_pair("load_cycles", "N", "1", "passes of a surface point through the contact", role="diagnostic", nominal=1e4, minimum=0.0),
+    *_pair("coverage", "C", "1", "share of the track |y| < b with a tribofilm above 1 nm", role="diagnostic", minimum=0.0, maximum=1.0),
+    *_pair("roughness_raw", "Rq_raw", "m", "rms roughness over |y| < 2b/3, groove included", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm"),
+    Quantity("blocks_dry", "", "1", "solved blocks so far that dry contact pressures drove", role="diagnostic", minimum=0.0),
+    Quantity("blocks_mixed", "", "1", "solved blocks so far that mixed lubrication pressures drove", role="diagnostic", minimum=0.0),
+    Quantity("blocks_fallback", "", "1", "solved blocks so far in which the dry solution had to stand in for a mixed one", role="diagnostic", minimum=0.0),
+)
+
+TABLE: dict[str, Quantity] = {q.name: q for q in (*INPUTS, *OUTPUTS)}
+
+
+def parameter(
+    unit: str,
+    text: str,
+    *,
+    above: float | None = None,
+    least: float | None = None,
+    most: float | None = None,
+    default: Any = ...,
+    choices: tuple[str, ...] = (),
+    shapes_arrays: bool = False,
+) -> Any:
+    """A dataclass field with its SI unit, text and allowed range.
+
+    `above` excludes its bound, `least` and `most` include theirs. `shapes_arrays` marks what decides the size of an
+    array (such a field cannot become a tunable FMU parameter).
+    """
+    metadata = {
+        "unit": unit, "text": text, "above": above, "least": least, "most": most, "choices": choices,
+        "shapes_arrays": shapes_arrays,
+    }
+    return field(metadata=metadata) if default is ... else field(default=default, metadata=metadata)
+
+
+def out_of_range(record: Any, path: str) -> Iterator[str]:
+    """Yield one sentence for each field of a dataclass (and of those in it) whose value is not allowed."""
+    for f in fields(record):
+        value, name = getattr(record, f.name), f"{path}.{f.name}" if path else f.name
+        if is_dataclass(value):
+            yield from out_of_range(value, name)
+        elif isinstance(value, (int, float)) and not isinstance(value, bool) and "unit" in f.metadata:
+            yield from _number_sentence(name, value, f)
+        elif f.metadata.get("choices") and value not in f.metadata["choices"]:
+            yield f"{name} = {value!r} is not one of {', '.join(f.metadata['choices'])}."
+
+
+def _number_sentence(name: str, value: float, f: "Field[Any]") -> Iterator[str]:
+    above, least, most, unit = (f.metadata[key] for key in ("above", "least", "most", "unit"))
+    low = -math.inf if above is None and least is None else above if above is not None else least
+    high = math.inf if most is None else most
+    inside = (value > low if above is not None else value >= low) and value <= high
+    if math.isfinite(value) and inside:
+        return
+    bounds = [f"above {above:g}" if above is not None else f"at least {least:g}" if least is not None else "",
+              f"at most {most:g}" if most is not None else ""]
+    allowed = " and ".join(b for b in bounds if b) or "finite"
+    yield f"{name} = {value:g} {unit} ({f.metadata['text']}) must be {allowed} {unit}".rstrip() + "."

@@ -1,0 +1,206 @@
+"""Everything that can change the next answer, frozen, and what a step gives back.
+
+A state is never changed: `advance` returns a new one, so the caller may keep, compare and go back to any of them.
+Arrays are read-only and lie on body-fixed patches [ny, nx], periodic along x, except `Film`'s, which lie on the grid of
+the contact.
+"""
+
+import json
+import struct
+from dataclasses import asdict, dataclass, fields
+from enum import IntFlag
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import StateError
+from .scene import OperatingPoint, Scene
+
+Array = NDArray[np.float64]
+_MAGIC, _SCHEMA = b"tribofmu", 1
+
+
+class RangeFlag(IntFlag):
+    """Why an answer is less sure than usual; `Outputs.range_flags` is the sum of what applies."""
+
+    LAMBDA_CAPPED = 1  # no roughness or no load: lambda_ratio stands at its cap or at zero
+    TRIBOFILM_TEMPERATURE = 2  # more than 5 K from the temperature of the film constants
+    INLET_UNRESOLVED = 4  # the grid is too coarse for the film in the inlet: the film is a number of this grid
+    NOT_CONVERGED = 8  # some film solutions of the block missed the tolerance and were used as they were
+    FALLBACK = 16  # the dry solution stood in for a film solution in part of the block
+    DOMAIN_EDGE = 32  # the contact or the wear scar reaches the edge of the grid
+    FEW_NODES = 64  # fewer than 8 nodes across the Hertz contact at this load
+
+
+@dataclass(frozen=True)
+class Outputs:
+    """The output quantities of `quantities.OUTPUTS` that the core computes, in SI."""
+
+    friction_force: float = 0.0
+    friction_coefficient: float = 0.0
+    rolling_resistance: float = 0.0
+    power_loss: float = 0.0
+    wear_rate_1: float = 0.0
+    wear_rate_2: float = 0.0
+    wear_volume_1: float = 0.0
+    wear_volume_2: float = 0.0
+    wear_depth_1: float = 0.0
+    wear_depth_2: float = 0.0
+    h_c: float = 0.0
+    h_central: float = 0.0
+    h_min: float = 0.0
+    lambda_ratio: float = 0.0
+    tribofilm_1: float = 0.0
+    tribofilm_2: float = 0.0
+    tribofilm_roughness_1: float = 0.0
+    tribofilm_roughness_2: float = 0.0
+    roughness_1: float = 0.0
+    roughness_2: float = 0.0
+    contact_area_ratio: float = 0.0
+    contact_load_ratio: float = 0.0
+    pressure_max: float = 0.0
+    flash_temperature_rise: float = 0.0
+    temperature_1: float = 0.0
+    temperature_2: float = 0.0
+    approach: float = 0.0
+    range_flags: int = 0
+    iterations: int = 0
+    suggested_step: float = 0.0
+    load_cycles_1: float = 0.0
+    load_cycles_2: float = 0.0
+    coverage_1: float = 0.0
+    coverage_2: float = 0.0
+    roughness_raw_1: float = 0.0
+    roughness_raw_2: float = 0.0
+    blocks_dry: float = 0.0
+    blocks_mixed: float = 0.0
+    blocks_fallback: float = 0.0
+
+
+@dataclass(frozen=True)
+class Body:
+    """One body's rubbing track, cut to a patch that repeats along x. Arrays [ny, nx]."""
+
+    growth: Array  # tribofilm formed [m]
+    removal: Array  # tribofilm removed [m]
+    wear: Array  # depth worn [m]
+    plastic: Array  # permanent depth pressed in [m]
+    pressure: Array  # solid pressure a point feels, mean over its track [Pa]; what wear needs of the last solution
+    rubbing: Array  # share of test time by which the tribofilm law counts a point as rubbed
+    travel: float  # distance moved along x [m]
+    cycles: float  # passes through the contact
+
+
+@dataclass(frozen=True)
+class Film:
+    """Where the last film solution stands: the warm start and the history that the squeeze term needs. Arrays [ny, nx]."""
+
+    pressure: Array  # total [Pa]
+    fluid: Array  # fluid's share [Pa]
+    solid: NDArray[np.bool_]  # nodes in solid contact
+    mass: Array  # density ratio times film thickness [m]
+    rigid_gap: float  # gap of the undeformed, smooth bodies at the centre [m]
+
+
+@dataclass(frozen=True)
+class ContactState:
+    """A contact's whole memory."""
+
+    digest: str  # fingerprint of the scene it belongs to
+    time: float  # [s]
+    bodies: tuple[Body, Body]
+    film: Film | None  # None: start dry
+    solved_for: OperatingPoint | None  # of the last block; None: nothing solved yet
+    change: float  # geometry change since the last block [m]
+    dry_blocks_left: int  # blocks until a mixed solution is tried again
+    outputs: Outputs
+
+    def to_bytes(self) -> bytes:
+        """Serialise: magic, length of a JSON header, header, raw little-endian arrays. The same state, the same bytes."""
+        arrays: list[NDArray[Any]] = []
+        tree = _pack(self, arrays)
+        shapes = [[a.dtype.str, list(a.shape)] for a in arrays]
+        header = json.dumps({"schema": _SCHEMA, "arrays": shapes, "state": tree}).encode()
+        return b"".join([_MAGIC, struct.pack("<I", len(header)), header, *(a.tobytes() for a in arrays)])
+
+    @staticmethod
+    def from_bytes(data: bytes, scene: Scene) -> "ContactState":
+        """Restore what `to_bytes` wrote, bit for bit. Raises StateError if damaged or of another scene."""
+        state = _read(data)
+        if state.digest != scene.digest():
+            raise StateError(
+                f"The stored state belongs to another contact (fingerprint {state.digest}, scene '{scene.name}' has "
+                f"{scene.digest()}): geometry, surfaces and grid must be the same. Use the scene it was made with."
+            )
+        return state
+
+
+def _pack(value: Any, arrays: list[NDArray[Any]]) -> Any:
+    if isinstance(value, np.ndarray):
+        arrays.append(np.ascontiguousarray(value).astype(value.dtype.newbyteorder("<"), copy=False))
+        return None
+    if isinstance(value, tuple):
+        return [_pack(item, arrays) for item in value]
+    if isinstance(value, (Outputs, OperatingPoint)):
+        return {name: float(x).hex() if isinstance(x, float) else x for name, x in asdict(value).items()}
+    if isinstance(value, (ContactState, Body, Film)):
+        return {f.name: _pack(getattr(value, f.name), arrays) for f in fields(value)}
+    return value.hex() if isinstance(value, float) else value
+
+
+def _read(data: bytes) -> ContactState:
+    start = len(_MAGIC) + 4
+    if data[: len(_MAGIC)] != _MAGIC or len(data) < start:
+        raise StateError("The stored state is not one of tribofmu's. Give a file that a run has written.")
+    try:
+        length = struct.unpack("<I", data[len(_MAGIC) : start])[0]
+        header = json.loads(data[start : start + length])
+        if header["schema"] != _SCHEMA:
+            raise StateError(f"The stored state has schema {header['schema']}, this version reads {_SCHEMA}.")
+        arrays, at = [], start + length
+        for dtype, shape in header["arrays"]:
+            array = np.frombuffer(data, np.dtype(dtype), int(np.prod(shape)), at).reshape(shape)
+            at += array.nbytes
+            arrays.append(array)
+        if at != len(data):
+            raise StateError("The stored state has the wrong length. It was cut or changed; use an earlier one.")
+        return _unpack_state(header["state"], iter(arrays))
+    except (ValueError, KeyError, TypeError, struct.error) as error:
+        raise StateError(f"The stored state is damaged ({error}). Use an earlier one.") from None
+
+
+def _unpack_state(tree: dict[str, Any], arrays: Any) -> ContactState:
+    def numbers(values: dict[str, Any]) -> dict[str, Any]:
+        return {name: float.fromhex(x) if isinstance(x, str) else x for name, x in values.items()}
+
+    def record(cls: Any, values: dict[str, Any]) -> Any:
+        return cls(**{
+            f.name: next(arrays) if values[f.name] is None else float.fromhex(values[f.name]) for f in fields(cls)
+        })
+
+    bodies = (record(Body, tree["bodies"][0]), record(Body, tree["bodies"][1]))
+    return ContactState(
+        digest=tree["digest"],
+        time=float.fromhex(tree["time"]),
+        bodies=bodies,
+        film=None if tree["film"] is None else record(Film, tree["film"]),
+        solved_for=None if tree["solved_for"] is None else OperatingPoint(**numbers(tree["solved_for"])),
+        change=float.fromhex(tree["change"]),
+        dry_blocks_left=tree["dry_blocks_left"],
+        outputs=Outputs(**numbers(tree["outputs"])),
+    )
+
+
+def initial_state(scene: Scene) -> ContactState:
+    """Fresh surfaces: no film, no wear, nothing solved."""
+    shape = (scene.film.points, scene.film.points - 1)
+    zeros = frozen(np.zeros(shape))
+    body = Body(zeros, zeros, zeros, zeros, zeros, zeros, 0.0, 0.0)
+    return ContactState(scene.digest(), 0.0, (body, body), None, None, 0.0, 0, Outputs())
+
+
+def frozen(array: NDArray[Any]) -> NDArray[Any]:
+    """Make an array read-only and return it."""
+    array.setflags(write=False)
+    return array
