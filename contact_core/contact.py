@@ -1,10 +1,154 @@
-"""One instant of a contact."""
+"""One instant of a scene in a state: geometry, film, friction and flash temperature, node by node."""
+
 from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from .film.deterministic import FilmSolution, FilmState, Instant
+from .laws.tribofilm import thickness
+from .scene import OperatingPoint, Scene, Surface
+from .state import Body, ContactState, frozen
+from .surfaces import generate, groove_free
+
+Array = NDArray[np.float64]
+
+
 @dataclass(frozen=True)
 class Transient:
-    """x"""
-    dt: float
+    """How an instant follows from the state's last film solution."""
+
+    dt: float  # time since then [s]
+    moved: int  # nodes by which the rougher surface has moved along +x since then
+    iterations: int  # at most
+    settled: bool = True  # False: the film history is of other inputs; start from it but leave the squeeze term out
+
+
 @dataclass(frozen=True)
 class ContactFields:
-    """x"""
-def solve(scene, op, state, transient=None): ...
+    """Everything about one instant. Arrays [ny, nx] on the grid of the contact, x along entrainment, SI."""
+
+    x: Array  # [nx]
+    y: Array  # [ny]
+    pressure: Array  # total
+    fluid_pressure: Array
+    solid_pressure: Array
+    gap: Array  # at least film.floor
+    heights: Array  # of both bodies together, positive into the gap, tribofilm and wear included
+    roughness: Array  # the same, free of the grooves' shape
+    cover_1: Array  # tribofilm of each body / its full thickness
+    cover_2: Array
+    overlap: Array  # what yields plastically in this instant
+    fluid_shear: Array  # on body 2 along +x
+    solid_shear: Array
+    flash_rise: float  # mean over the real contact [K]
+    film: FilmState
+    converged: bool
+    route: str  # "mixed", "dry" (no entrainment, or asked for), "fallback" (dry for want of a mixed solution) or "open" (no load)
+    iterations: int
+    pressure_change: float  # of the last iteration, relative
+    load_error: float  # relative
+    inlet_nodes: float  # nodes across the inlet zone; below 3 the film is a number of this grid
+
+
+def solve(
+    scene: Scene, op: OperatingPoint, state: ContactState, transient: Transient | None = None, *, dry: bool = False
+) -> ContactFields:
+    """Solve the contact at one instant; time and state stand still.
+
+    Without `transient` the film is steady. `dry` leaves the fluid out. Raises OperatingPointError for values that cannot be used and
+    ConvergenceError if no solution exists. A film solution that did not converge says so; if it cannot be used, the
+    dry one stands in (`route`).
+    """
+    op.check()
+    bare = bare_heights(scene)
+    nodes = [patch_nodes(scene, body) for body in state.bodies]
+    patches = [heights_of(z, body) for z, body in zip(bare, state.bodies, strict=True)]
+    films = [thickness(body.growth, body.removal) / scene.tribofilm.full_thickness for body in state.bodies]
+    heights = _on_grid(patches[0], nodes[0]) + _on_grid(patches[1], nodes[1])
+    rough = _on_grid(roughness_of(bare[0], patches[0]), nodes[0]) + _on_grid(roughness_of(bare[1], patches[1]), nodes[1])
+    cover_1, cover_2 = (_on_grid(film, n) for film, n in zip(films, nodes, strict=True))
+    limit = scene.plasticity.limit(np.maximum(cover_1, cover_2))
+    if op.load == 0.0:
+        film = _open(scene, heights)
+    else:
+        now = Instant(
+            op.load, op.entrainment_speed, op.temperature, scene.geometry.radius_x, scene.geometry.radius_y,
+            scene.solids.reduced_modulus, scene.lubricant.viscosity, scene.lubricant.density, heights, limit,
+            scene.plasticity.hardness, dry,
+        )
+        step = transient.dt if transient and transient.settled else None
+        film = scene.film.solve(now, state.film if transient else None, step, transient.moved if transient else 0,
+                                transient.iterations if transient else None)
+    return _with_friction(scene, op, film, heights, rough, cover_1, cover_2)
+
+
+def patch_nodes(scene: Scene, body: Body) -> int:
+    """Whole nodes by which a body's patch is shifted along +x."""
+    return round(body.offset / scene.film.spacing) % (scene.film.points - 1)
+
+
+def bare_heights(scene: Scene) -> tuple[Array, Array]:
+    """Generated heights [ny, nx] of both bodies' patches, as new."""
+    film = scene.film
+    return _bare(scene.surface_1, film.points, film.domain, 1), _bare(scene.surface_2, film.points, film.domain, 2)
+
+
+def heights_of(bare: Array, body: Body) -> Array:
+    """Heights of a body's patch as it is now: new surface - wear - plastic depth + tribofilm."""
+    return bare - body.wear - body.plastic + thickness(body.growth, body.removal)
+
+
+def roughness_of(bare: Array, heights: Array) -> Array:
+    """Heights of a patch without the groove it has got: what the rows have lost or gained on average is left out."""
+    return bare + groove_free(heights - bare)
+
+
+@lru_cache(maxsize=8)
+def _bare(surface: Surface, points: int, domain: float, body: int) -> Array:
+    return frozen(generate(surface, points, domain, body))
+
+
+def _on_grid(patch: Array, nodes: int) -> Array:
+    """A patch [ny, nx - 1] shifted along +x, on the grid [ny, nx]: the last column repeats the first."""
+    moved = np.roll(patch, nodes, axis=1)
+    return np.concatenate([moved, moved[:, :1]], axis=1)
+
+
+def _open(scene: Scene, heights: Array) -> FilmSolution:
+    """No load: the bodies just touch and nothing presses."""
+    x = scene.film.axis
+    shape = x[None, :] ** 2 / (2 * scene.geometry.radius_x) + x[:, None] ** 2 / (2 * scene.geometry.radius_y) - heights
+    rigid = scene.film.floor - float(shape.min())
+    zeros, nothing = np.zeros_like(shape), np.zeros(shape.shape, np.bool_)
+    state = FilmState(zeros, zeros, nothing, shape + rigid, rigid)
+    return FilmSolution(state, shape + rigid, zeros, True, "open", 0, 0.0, 0.0, np.inf)
+
+
+def _with_friction(
+    scene: Scene, op: OperatingPoint, film: FilmSolution, heights: Array, rough: Array, cover_1: Array, cover_2: Array
+) -> ContactFields:
+    fluid = film.state.fluid
+    solid = np.where(film.state.solid, film.state.pressure - fluid, 0.0)
+    sliding, oil = op.sliding_speed, scene.lubricant
+    fluid_shear = oil.rheology(oil.viscosity(fluid, op.temperature), sliding / film.gap, fluid)
+    solid_shear = scene.boundary_friction(solid, 0.5 * (cover_1 + cover_2), sliding)
+    rise = _flash_rise(scene, film.state.solid, fluid_shear + solid_shear, sliding)
+    axis = scene.film.axis
+    return ContactFields(
+        axis, axis, film.state.pressure, fluid, solid, film.gap, heights, rough, cover_1, cover_2, film.overlap, fluid_shear, solid_shear,
+        rise, film.state, film.converged, film.route, film.iterations, film.change, film.load_error, film.inlet_nodes,
+    )
+
+
+def _flash_rise(scene: Scene, solid: NDArray[np.bool_], shear: Array, sliding: float) -> float:
+    """Mean over the contact nodes of their spot's rise; a spot is a connected set of contact nodes."""
+    if scene.heat.name == "none" or sliding == 0.0 or not solid.any():
+        return 0.0
+    spots, count = ndimage.label(solid)
+    nodes = np.bincount(spots.ravel(), minlength=count + 1)[1:]
+    mean_shear = np.bincount(spots.ravel(), np.abs(shear).ravel(), count + 1)[1:] / nodes
+    radius = np.sqrt(nodes * scene.film.spacing**2 / np.pi)
+    return float((scene.heat.rise(radius, mean_shear, sliding) * nodes).sum() / nodes.sum())

@@ -124,7 +124,8 @@ def _number_sentence(name: str, value: float, f: "Field[Any]") -> Iterator[str]:
     inside = (value > low if above is not None else value >= low) and value <= high
     if math.isfinite(value) and inside:
         return
-    bounds = [f"above {above:g}" if above is not None else f"at least {least:g}" if least is not None else "",
+    bounds = ["" if math.isfinite(value) else "finite",
+              f"above {above:g}" if above is not None else f"at least {least:g}" if least is not None else "",
               f"at most {most:g}" if most is not None else ""]
-    allowed = " and ".join(b for b in bounds if b) or "finite"
-    yield f"{name} = {value:g} {unit} ({f.metadata['text']}) must be {allowed} {unit}".rstrip() + "."
+    unit = f" {unit}" if unit else ""
+    yield f"{name} = {value:g}{unit} ({f.metadata['text']}) must be {' and '.join(b for b in bounds if b)}{unit}."

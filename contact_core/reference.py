@@ -3,8 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.constants import Boltzmann, Planck
 from scipy.optimize import brentq
-from scipy.special import ellipe, ellipk
+from scipy.special import elliprd, elliprf, elliprg
 
 
 @dataclass(frozen=True)
@@ -34,16 +36,109 @@ def hertz_point(load: float, radius_x: float, radius_y: float, reduced_modulus: 
     small, large = sorted((radius_x, radius_y))
 
     def mismatch(log_ratio: float) -> float:
-        k = np.exp(log_ratio)  # short half width / long half width
-        m = 1.0 - k * k
-        return float((ellipe(m) / k**2 - ellipk(m)) / (ellipk(m) - ellipe(m)) - large / small)
+        k2 = np.exp(2.0 * log_ratio)  # (short half width / long half width)^2
+        return float(elliprd(0.0, 1.0, k2) / elliprd(0.0, k2, 1.0) - large / small)
 
-    k = float(np.exp(brentq(mismatch, np.log(1e-6), np.log(1.0 - 1e-9), xtol=1e-14)))
-    m = 1.0 - k * k
+    # Carlson's integrals, because E/k^2 - K and K - E lose their digits near the circle
+    k = float(np.exp(brentq(mismatch, np.log(1e-12), 0.0, xtol=1e-15)))
+    ellipk, ellipe = float(elliprf(0.0, k * k, 1.0)), 2.0 * float(elliprg(0.0, k * k, 1.0))
     curvature = 0.5 * (1.0 / small + 1.0 / large)
-    long = (3.0 * load * float(ellipe(m)) / (np.pi * k * k * reduced_modulus * curvature)) ** (1 / 3)
+    long = (3.0 * load * ellipe / (np.pi * k * k * reduced_modulus * curvature)) ** (1 / 3)
     short = k * long
     pressure = 1.5 * load / (np.pi * long * short)
-    approach = 2.0 * pressure * short * float(ellipk(m)) / reduced_modulus
+    approach = 2.0 * pressure * short * ellipk / reduced_modulus
     a, b = (short, long) if radius_x == small else (long, short)
     return Hertz(float(a), float(b), float(pressure), float(approach))
+
+
+@dataclass(frozen=True)
+class SmoothContact:
+    """A smooth, isothermal, Newtonian, fully flooded elastohydrodynamic point contact."""
+
+    load: float  # [N]
+    entrainment_speed: float  # u_e = (u1 + u2) / 2 [m/s], along x
+    viscosity: float  # at p = 0 [Pa s]
+    pressure_coefficient: float  # d ln(viscosity)/dp at p = 0 [Pa^-1]
+    radius_x: float  # of combined curvature, along x [m]
+    radius_y: float  # along y [m]
+    reduced_modulus: float  # E' = 2 / sum (1 - v^2)/E [Pa]
+
+    @property
+    def moes_parameters(self) -> tuple[float, float]:
+        """Moes' parameters of load and lubricant (M, L), on the sum of surface speeds and radius_x."""
+        speed = 2.0 * self.viscosity * self.entrainment_speed / (self.reduced_modulus * self.radius_x)
+        load = self.load / (self.reduced_modulus * self.radius_x**2)
+        return load * speed**-0.75, self.pressure_coefficient * self.reduced_modulus * speed**0.25
+
+
+def hamrock_dowson(contact: SmoothContact) -> tuple[float, float]:
+    """Central and minimum film thickness [m].
+
+    Source: Hamrock & Dowson, J. Lubr. Technol. 99 (1977) 264, doi:10.1115/1.3453074. Fitted to circles
+    and to ellipses with the long axis across the entrainment; the ellipticity is that of Hertz's contact.
+    """
+    speed = contact.viscosity * contact.entrainment_speed / (contact.reduced_modulus * contact.radius_x)
+    material = contact.pressure_coefficient * contact.reduced_modulus
+    load = contact.load / (contact.reduced_modulus * contact.radius_x**2)
+    hertz = hertz_point(contact.load, contact.radius_x, contact.radius_y, contact.reduced_modulus)
+    k = hertz.b / hertz.a
+    central = 2.69 * speed**0.67 * material**0.53 * load**-0.067 * (1.0 - 0.61 * np.exp(-0.73 * k))
+    minimum = 3.63 * speed**0.68 * material**0.49 * load**-0.073 * (1.0 - np.exp(-0.68 * k))
+    return float(central * contact.radius_x), float(minimum * contact.radius_x)
+
+
+def nijenbanning_venner_moes(contact: SmoothContact) -> float:
+    """Central film thickness [m], over all regimes from rigid-isoviscous to elastic-piezoviscous.
+
+    Source: Nijenbanning, Venner & Moes, Wear 176 (1994) 217, doi:10.1016/0043-1648(94)90150-3.
+    """
+    speed = 2.0 * contact.viscosity * contact.entrainment_speed / (contact.reduced_modulus * contact.radius_x)
+    film = moes_film(*contact.moes_parameters, contact.radius_x / contact.radius_y)
+    return float(film * np.sqrt(speed) * contact.radius_x)
+
+
+def moes_film(load: float, lubricant: float, ratio: float = 1.0) -> float:
+    """Central film thickness in Moes' units, (h / radius_x) U^-0.5, of Moes' M, L and radius_x / radius_y.
+
+    Source: as `nijenbanning_venner_moes`.
+    """
+    shape = 1.0 + 0.006 * np.log(ratio) + 0.63 * ratio ** (4 / 7)
+    rigid_iso = 145.0 * (1.0 + 0.796 * ratio ** (14 / 15)) ** (-15 / 7) / (ratio * load**2)
+    elastic_iso = 3.18 * shape ** (-14 / 25) * ratio ** (-1 / 15) * load ** (-2 / 15)
+    rigid_piezo = 1.29 * (1.0 + 0.691 * ratio) ** (-2 / 3) * lubricant ** (2 / 3)
+    elastic_piezo = 1.48 * shape ** (-7 / 20) * ratio ** (-1 / 24) * load ** (-1 / 12) * lubricant**0.75
+    unloaded = 1.8 / ratio
+    s = 1.5 * (1.0 + np.exp(-1.2 * elastic_iso / rigid_iso))
+    iso = (rigid_iso**1.5 + (elastic_iso**-4 + unloaded**-4) ** (-3 / 8)) ** (2 * s / 3)
+    return float((iso + (rigid_piezo**-8 + elastic_piezo**-8) ** (-s / 8)) ** (1.0 / s))
+
+
+def ghanbarzadeh_thickness(
+    time: float | NDArray[np.float64],
+    temperature: float,
+    full_thickness: float,
+    rate_factor: float,
+    removal_thickness: float,
+    removal_rate: float,
+) -> NDArray[np.float64]:
+    """Tribofilm [m] on a point rubbed for `time` [s] from bare: h_max (1 - e^-kt) - C3 (1 - e^-C4 t).
+
+    k = (k_B T / h) rate_factor [1/s] at `temperature` [K]; h_max and C3 [m]; C4 = removal_rate [1/s].
+    Source: Ghanbarzadeh et al., Tribol. Int. 93 (2016) 573, doi:10.1016/j.triboint.2014.12.018.
+    """
+    rate = Boltzmann * temperature / Planck * rate_factor
+    formed = full_thickness * (1.0 - np.exp(-rate * np.asarray(time)))
+    return formed - removal_thickness * (1.0 - np.exp(-removal_rate * np.asarray(time)))
+
+
+def archard_depth(coefficient: float, hardness: float, pressure: float, sliding_distance: float) -> float:
+    """Wear depth [m], K p s / H, under a pressure [Pa] over a sliding distance [m]; K dimensionless, H [Pa].
+
+    Source: Archard, J. Appl. Phys. 24 (1953) 981, doi:10.1063/1.1721448.
+    """
+    return coefficient * pressure * sliding_distance / hardness
+
+
+def load_cycles(speed: float, time: float, track_length: float) -> float:
+    """Passes of a surface point through the contact in `time` [s]: |speed| [m/s] time / track length [m]."""
+    return abs(speed) * time / track_length

@@ -67,7 +67,6 @@ class Control:
     """How the evolution over time is cut into blocks, in each of which the contact is solved once."""
 
     change: float = parameter("m", "largest change of film or wear in a block, as rms over the track", above=0.0, most=1e-6)
-    steps: int = parameter("", "transient steps by which a block samples the moving surfaces", least=2, most=100_000)
     dry_above: float = parameter("", "contact_load_ratio above which dry pressures drive the blocks", least=0.0, most=2.0)
     input_change: float = parameter("", "relative change of an input that asks for a new solution", least=0.0, most=1.0)
 
@@ -381,6 +380,10 @@ def tunables(scene: Scene) -> dict[str, tuple[float | int, "Field[Any]"]]:
 
 def with_values(scene: Scene, values: Mapping[str, float | int]) -> Scene:
     """Return the scene with some of its `tunables` changed (SI), checked like a new one."""
+    known = list(tunables(scene))
+    for name in values:
+        if name not in known:
+            raise SceneError(f"'{name}' is not a number that can be changed in a scene.{_did_you_mean(name, known)}")
 
     def rebuild(record: Any, path: str) -> Any:
         changes = {}

@@ -1,12 +1,13 @@
 """Everything that can change the next answer, frozen, and what a step gives back.
 
 A state is never changed: `advance` returns a new one, so the caller may keep, compare and go back to any of them.
-Arrays are read-only and lie on body-fixed patches [ny, nx], periodic along x, except `Film`'s, which lie on the grid of
+Arrays are read-only and lie on body-fixed patches [ny, nx], periodic along x, except the film's, which lie on the grid of
 the contact.
 """
 
 import json
 import struct
+import zlib
 from dataclasses import asdict, dataclass, fields
 from enum import IntFlag
 from typing import Any
@@ -15,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import StateError
+from .film.deterministic import FilmState
 from .scene import OperatingPoint, Scene
 
 Array = NDArray[np.float64]
@@ -22,15 +24,22 @@ _MAGIC, _SCHEMA = b"tribofmu", 1
 
 
 class RangeFlag(IntFlag):
-    """Why an answer is less sure than usual; `Outputs.range_flags` is the sum of what applies."""
+    """Why an answer is less sure than usual, in words by `text`; `Outputs.range_flags` is the sum of what applies."""
 
-    LAMBDA_CAPPED = 1  # no roughness or no load: lambda_ratio stands at its cap or at zero
-    TRIBOFILM_TEMPERATURE = 2  # more than 5 K from the temperature of the film constants
-    INLET_UNRESOLVED = 4  # the grid is too coarse for the film in the inlet: the film is a number of this grid
-    NOT_CONVERGED = 8  # some film solutions of the block missed the tolerance and were used as they were
-    FALLBACK = 16  # the dry solution stood in for a film solution in part of the block
-    DOMAIN_EDGE = 32  # the contact or the wear scar reaches the edge of the grid
-    FEW_NODES = 64  # fewer than 8 nodes across the Hertz contact at this load
+    text: str
+
+    def __new__(cls, value: int, text: str = "") -> "RangeFlag":
+        flag = int.__new__(cls, value)
+        flag._value_, flag.text = value, text
+        return flag
+
+    LAMBDA_CAPPED = 1, "no roughness or no load: lambda_ratio stands at its cap or at zero"
+    TRIBOFILM_TEMPERATURE = 2, "more than 5 K from the temperature of the film constants"
+    INLET_UNRESOLVED = 4, "the grid is too coarse for the film in the inlet: the film is a number of this grid"
+    NOT_CONVERGED = 8, "some film solutions of the block missed the tolerance and were used as they were"
+    FALLBACK = 16, "the dry solution stood in for a film solution in part of the block"
+    DOMAIN_EDGE = 32, "the contact or the wear scar reaches the edge of the grid"
+    FEW_NODES = 64, "fewer than 8 nodes across the Hertz contact at this load"
 
 
 @dataclass(frozen=True)
@@ -88,19 +97,8 @@ class Body:
     plastic: Array  # permanent depth pressed in [m]
     pressure: Array  # solid pressure a point feels, mean over its track [Pa]; what wear needs of the last solution
     rubbing: Array  # share of test time by which the tribofilm law counts a point as rubbed
-    travel: float  # distance moved along x [m]
+    offset: float  # how far the patch has moved along x in the solved steps [m], within one patch length
     cycles: float  # passes through the contact
-
-
-@dataclass(frozen=True)
-class Film:
-    """Where the last film solution stands: the warm start and the history that the squeeze term needs. Arrays [ny, nx]."""
-
-    pressure: Array  # total [Pa]
-    fluid: Array  # fluid's share [Pa]
-    solid: NDArray[np.bool_]  # nodes in solid contact
-    mass: Array  # density ratio times film thickness [m]
-    rigid_gap: float  # gap of the undeformed, smooth bodies at the centre [m]
 
 
 @dataclass(frozen=True)
@@ -110,19 +108,23 @@ class ContactState:
     digest: str  # fingerprint of the scene it belongs to
     time: float  # [s]
     bodies: tuple[Body, Body]
-    film: Film | None  # None: start dry
+    film: FilmState | None  # the last film solution: warm start and history of the squeeze term; None: start dry
     solved_for: OperatingPoint | None  # of the last block; None: nothing solved yet
     change: float  # geometry change since the last block [m]
     dry_blocks_left: int  # blocks until a mixed solution is tried again
     outputs: Outputs
 
     def to_bytes(self) -> bytes:
-        """Serialise: magic, length of a JSON header, header, raw little-endian arrays. The same state, the same bytes."""
+        """Serialise: magic, checksum of the rest, length of a JSON header, header, raw little-endian arrays.
+
+        The same state gives the same bytes.
+        """
         arrays: list[NDArray[Any]] = []
         tree = _pack(self, arrays)
         shapes = [[a.dtype.str, list(a.shape)] for a in arrays]
         header = json.dumps({"schema": _SCHEMA, "arrays": shapes, "state": tree}).encode()
-        return b"".join([_MAGIC, struct.pack("<I", len(header)), header, *(a.tobytes() for a in arrays)])
+        rest = b"".join([struct.pack("<I", len(header)), header, *(a.tobytes() for a in arrays)])
+        return _MAGIC + struct.pack("<I", zlib.crc32(rest)) + rest
 
     @staticmethod
     def from_bytes(data: bytes, scene: Scene) -> "ContactState":
@@ -144,17 +146,19 @@ def _pack(value: Any, arrays: list[NDArray[Any]]) -> Any:
         return [_pack(item, arrays) for item in value]
     if isinstance(value, (Outputs, OperatingPoint)):
         return {name: float(x).hex() if isinstance(x, float) else x for name, x in asdict(value).items()}
-    if isinstance(value, (ContactState, Body, Film)):
+    if isinstance(value, (ContactState, Body, FilmState)):
         return {f.name: _pack(getattr(value, f.name), arrays) for f in fields(value)}
     return value.hex() if isinstance(value, float) else value
 
 
 def _read(data: bytes) -> ContactState:
-    start = len(_MAGIC) + 4
+    start = len(_MAGIC) + 8
     if data[: len(_MAGIC)] != _MAGIC or len(data) < start:
         raise StateError("The stored state is not one of tribofmu's. Give a file that a run has written.")
+    checksum, length = struct.unpack("<II", data[len(_MAGIC) : start])
+    if zlib.crc32(data[start - 4 :]) != checksum:
+        raise StateError("The stored state is damaged: it was cut or changed. Use an earlier one.")
     try:
-        length = struct.unpack("<I", data[len(_MAGIC) : start])[0]
         header = json.loads(data[start : start + length])
         if header["schema"] != _SCHEMA:
             raise StateError(f"The stored state has schema {header['schema']}, this version reads {_SCHEMA}.")
@@ -162,11 +166,9 @@ def _read(data: bytes) -> ContactState:
         for dtype, shape in header["arrays"]:
             array = np.frombuffer(data, np.dtype(dtype), int(np.prod(shape)), at).reshape(shape)
             at += array.nbytes
-            arrays.append(array)
-        if at != len(data):
-            raise StateError("The stored state has the wrong length. It was cut or changed; use an earlier one.")
+            arrays.append(frozen(array.copy()))  # a copy, because the bytes need not be aligned
         return _unpack_state(header["state"], iter(arrays))
-    except (ValueError, KeyError, TypeError, struct.error) as error:
+    except (ValueError, KeyError, TypeError) as error:
         raise StateError(f"The stored state is damaged ({error}). Use an earlier one.") from None
 
 
@@ -184,7 +186,7 @@ def _unpack_state(tree: dict[str, Any], arrays: Any) -> ContactState:
         digest=tree["digest"],
         time=float.fromhex(tree["time"]),
         bodies=bodies,
-        film=None if tree["film"] is None else record(Film, tree["film"]),
+        film=None if tree["film"] is None else record(FilmState, tree["film"]),
         solved_for=None if tree["solved_for"] is None else OperatingPoint(**numbers(tree["solved_for"])),
         change=float.fromhex(tree["change"]),
         dry_blocks_left=tree["dry_blocks_left"],

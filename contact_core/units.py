@@ -77,7 +77,7 @@ def parse(value: object, si_unit: str, name: str) -> float:
             raise SceneError(f"{name} = {value!r} does not start with a number. Write {_example(si_unit)}.")
         number, given = float(match[1]), match[2].strip()
     else:
-        number, given = float(value), ""
+        number, given = float(value) if abs(value) < 1e308 else math.inf, ""
     if not math.isfinite(number):
         raise SceneError(f"{name} = {value!r} is not finite. Write for example {_example(si_unit)}.")
     if given in ("degC", "°C"):

@@ -1,0 +1,147 @@
+"""modelDescription.xml of a scene's FMU: variables, units, structure and capabilities."""
+
+import math
+from collections.abc import Iterable
+from xml.etree import ElementTree as ET
+
+import pythonfmu
+
+import contact_core
+from contact_core import units
+from contact_core.scene import Scene
+
+from .resources import MODEL, guid
+from .variables import Value, Variable, variables
+
+_CAPABILITIES = {
+    "needsExecutionTool": True,  # Python with the installed contact_core; also pythonfmu's default
+    "canHandleVariableCommunicationStepSize": True,
+    "canInterpolateInputs": False,
+    "canBeInstantiatedOnlyOncePerProcess": False,
+    "canNotUseMemoryManagementFunctions": True,
+    "canGetAndSetFMUstate": True,
+    "canSerializeFMUstate": True,
+}
+
+
+def model_description(scene: Scene) -> bytes:
+    """The XML document; the same scene and versions give the same bytes."""
+    table = variables(scene)
+    root = ET.Element(
+        "fmiModelDescription",
+        {
+            "fmiVersion": "2.0",
+            "modelName": MODEL,
+            "guid": guid(scene),
+            "description": scene.description,
+            "version": contact_core.__version__,
+            "generationTool": f"tribofmu {contact_core.__version__} with pythonfmu {pythonfmu.__version__}",
+            "variableNamingConvention": "structured",
+        },
+    )
+    ET.SubElement(
+        root,
+        "CoSimulation",
+        {
+            "modelIdentifier": MODEL,
+            **{name: _text(value) for name, value in _CAPABILITIES.items()},
+        },
+    )
+    _units(root, table)
+    categories = ET.SubElement(root, "LogCategories")
+    for name, text in pythonfmu.Fmi2Slave.log_categories.items():
+        ET.SubElement(categories, "Category", {"name": name, "description": text})
+    ET.SubElement(
+        root,
+        "DefaultExperiment",
+        {
+            "startTime": "0.0",
+            "stopTime": _text(scene.operation.duration),
+            "tolerance": _text(scene.film.tolerance),
+            "stepSize": _text(scene.operation.interval),
+        },
+    )
+    listed = ET.SubElement(root, "ModelVariables")
+    for reference, variable in enumerate(table):
+        listed.append(_scalar_variable(reference, variable))
+    _structure(root, table)
+    ET.indent(root)
+    return ET.tostring(root, encoding="UTF-8", xml_declaration=True) + b"\n"
+
+
+def _text(value: Value) -> str:
+    """Text of a value that reads back to the same bits."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _unit_name(variable: Variable) -> str:
+    return variable.unit or "1"
+
+
+def _units(root: ET.Element, table: Iterable[Variable]) -> None:
+    """Every unit in use, as exponents of the SI base units, and the units that people read beside it."""
+    displays: dict[str, set[str]] = {}
+    for variable in table:
+        if variable.kind == "Real":
+            displays.setdefault(_unit_name(variable), set()).update({variable.display} - {""})
+    definitions = ET.SubElement(root, "UnitDefinitions")
+    for name in sorted(displays):
+        factor, (metre, kilogram, second, kelvin) = units.unit(name)
+        exponents = {"kg": kilogram, "m": metre, "s": second, "K": kelvin}
+        unit = ET.SubElement(definitions, "Unit", {"name": name})
+        base = ET.SubElement(unit, "BaseUnit", {key: str(n) for key, n in exponents.items() if n})
+        if factor != 1.0:
+            base.set("factor", _text(factor))
+        for display in sorted(displays[name]):
+            ET.SubElement(unit, "DisplayUnit", {"name": display, **_conversion(display)})
+
+
+def _conversion(display: str) -> dict[str, str]:
+    """Attributes with which display value = factor * SI value + offset."""
+    if display == "degC":
+        return {"offset": "-273.15"}
+    return {"factor": f"{1.0 / units.unit(display)[0]:.15g}"}
+
+
+def _scalar_variable(reference: int, variable: Variable) -> ET.Element:
+    attributes = {
+        "name": variable.name,
+        "valueReference": str(reference),
+        "description": variable.text,
+        "causality": variable.causality,
+    }
+    if variable.causality == "parameter":
+        attributes |= {"variability": "fixed", "initial": "exact"}
+    else:
+        attributes["variability"] = "continuous" if variable.kind == "Real" else "discrete"
+    if variable.causality == "output":
+        attributes["initial"] = "calculated"
+    element = ET.Element("ScalarVariable", attributes)
+    typed = ET.SubElement(element, variable.kind)
+    if variable.kind == "Real":
+        typed.set("unit", _unit_name(variable))
+        if variable.display:
+            typed.set("displayUnit", variable.display)
+        if variable.relative:
+            typed.set("relativeQuantity", "true")
+    for name, bound in (("min", variable.minimum), ("max", variable.maximum)):
+        if math.isfinite(bound) and variable.kind in ("Real", "Integer"):
+            typed.set(name, str(int(bound)) if variable.kind == "Integer" else _text(float(bound)))
+    if variable.nominal is not None:
+        typed.set("nominal", _text(variable.nominal))
+    if variable.causality != "output":
+        typed.set("start", _text(variable.start))
+    return element
+
+
+def _structure(root: ET.Element, table: tuple[Variable, ...]) -> None:
+    """Between steps an output depends on the state alone; at the start, on every input and parameter."""
+    outputs = [i for i, v in enumerate(table, 1) if v.causality == "output"]
+    knowns = [str(i) for i, v in enumerate(table, 1) if v.causality != "output"]
+    at_start = {"dependencies": " ".join(knowns), "dependenciesKind": " ".join(["dependent"] * len(knowns))}
+    structure = ET.SubElement(root, "ModelStructure")
+    between_steps = {"dependencies": "", "dependenciesKind": ""}
+    for name, depends in (("Outputs", between_steps), ("InitialUnknowns", at_start)):
+        listed = ET.SubElement(structure, name)
+        for index in outputs:
+            ET.SubElement(listed, "Unknown", {"index": str(index), **depends})

@@ -1,0 +1,11 @@
+"""Systems around the contact's FMU, and the command `tribofmu`.
+
+    duty           load, speeds and temperature against time: constant, or steps from a CSV
+    ball_on_disc   drives the FMU of a ball on a disc through a duty, with fmpy
+    results        the run as an xarray Dataset, as netCDF and as CSV
+    report         the printed table and the overview picture
+    cli            the command line
+
+A system sees the contact only through its scene, the quantities and the FMU. In a ball-on-disc scene body 1
+is the ball and body 2 the disc.
+"""

@@ -1,0 +1,179 @@
+"""A ball on a disc: fmpy drives the contact's FMU through a duty.
+
+The rig prescribes load, speeds and temperature, so nothing flows back and no iteration is needed: the
+inputs are held over each communication step, and the outputs at its end are recorded.
+"""
+
+import logging
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from ctypes import byref
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import fmpy
+import numpy as np
+import xarray as xr
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+from fmpy.logging import addLoggerProxy
+from fmpy.model_description import ModelDescription, ModelVariable
+
+from contact_core.errors import ContactError
+
+from .duty import Duty
+from .results import to_dataset
+
+log = logging.getLogger(__name__)
+
+_INPUTS = ("load", "speed_1", "speed_2", "temperature")
+_MOST_STEPS = 1_000_000
+_LEVELS = (logging.INFO, logging.WARNING, logging.WARNING, logging.ERROR, logging.CRITICAL)  # by FMI status
+
+
+def run(
+    fmu_path: str | Path,
+    duty: Duty,
+    duration: float,
+    interval: float,
+    progress: Callable[[float], None] | None = None,
+) -> xr.Dataset:
+    """Drive a `MixedContact` FMU through a duty.
+
+    duration and interval in seconds. There is a row every `interval`, at every change of the duty and at
+    the end; the first row is the contact after initialisation. `progress` is called with the time reached.
+    A step that the FMU calls invalid is recorded like any other and warned about at the end. The FMU's
+    messages go to `logging`.
+
+    Returns a Dataset along `time` with the inputs and all outputs of the FMU, named and with units as in its
+    modelDescription.xml. Raises ContactError if the FMU fails or is not one of a contact.
+    """
+    points = communication_points(duty, duration, interval)
+    with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder:
+        if "%" in Path(folder).as_uri().replace("%20", ""):
+            raise ContactError(
+                f"The FMU cannot be loaded from '{folder}'. "
+                "Set TMPDIR to a folder named in plain letters and digits."
+            )
+        fmpy.extract(fmu_path, folder)
+        recorder = _Recorder(fmpy.read_model_description(folder))
+        with _instance(recorder.description, folder) as slave:
+            _drive(slave, recorder, duty, points, progress or (lambda time: None))
+    return recorder.dataset(points)
+
+
+def communication_points(duty: Duty, duration: float, interval: float) -> list[float]:
+    """Times [s] from 0 to `duration`: every `interval`, every change of the duty, and the end.
+
+    Raises ContactError if either is not above zero, or the interval cuts the duration into too many steps.
+    """
+    if not (0.0 < duration < np.inf and interval >= duration / _MOST_STEPS):
+        raise ContactError(
+            f"A duration of {duration:g} s cannot be cut into intervals of {interval:g} s: "
+            f"both must be above 0, and there may be {_MOST_STEPS:,} steps at most."
+        )
+    regular = interval * np.arange(np.ceil(duration / interval))
+    changes = np.array([*(time for time in duty.times if time < duration), duration])
+    # a multiple of the interval may miss a change by a rounding error only: then the change stands for both
+    apart = np.abs(regular[:, None] - changes).min(axis=1) > 1e-9 * duration
+    return [float(time) for time in np.union1d(regular[apart], changes)]
+
+
+def _drive(
+    slave: FMU2Slave,
+    recorder: "_Recorder",
+    duty: Duty,
+    points: list[float],
+    progress: Callable[[float], None],
+) -> None:
+    time = points[0]
+    try:
+        slave.setupExperiment(startTime=time, stopTime=points[-1])
+        slave.enterInitializationMode()
+        recorder.set_inputs(slave, duty, time)
+        slave.exitInitializationMode()
+        recorder.record(slave)
+        for time, end in pairwise(points):
+            recorder.set_inputs(slave, duty, time)
+            slave.doStep(time, end - time)
+            recorder.record(slave)
+            progress(end)
+        slave.terminate()
+    except FMICallException as error:
+        raise ContactError(f"The FMU failed at t = {time:g} s: {error} Its messages say why.") from error
+
+
+class _Recorder:
+    """Sets the inputs of a contact and keeps them, and every output that the FMU declares, row by row."""
+
+    def __init__(self, description: ModelDescription) -> None:
+        self.description = description
+        inputs = {v.name: v for v in description.modelVariables if v.causality == "input"}
+        outputs = [v for v in description.modelVariables if v.causality == "output"]
+        missing = {*_INPUTS, "valid"} - {*inputs, *(v.name for v in outputs)}
+        if missing:
+            raise ContactError(
+                f"The FMU '{description.modelName}' has no {', '.join(sorted(missing))}. "
+                "Use one that build_fmu.py has made."
+            )
+        self.inputs: list[ModelVariable] = [inputs[name] for name in _INPUTS]
+        self.outputs: dict[str, list[ModelVariable]] = {
+            kind: [v for v in outputs if v.type == kind] for kind in ("Real", "Integer", "Boolean")
+        }
+        self.rows: dict[str, list[Any]] = {v.name: [] for v in (*self.inputs, *outputs)}
+        self.units = {v.name: v.unit or "1" for v in (*self.inputs, *outputs)}
+        self.texts = {v.name: f"{v.description}, held over the step that ends here" for v in self.inputs}
+        self.texts |= {v.name: v.description or v.name for v in outputs}
+
+    def set_inputs(self, slave: FMU2Slave, duty: Duty, time: float) -> None:
+        """Set the operating point that holds from `time` on."""
+        point = duty.at(time)
+        self.held = [getattr(point, v.name) for v in self.inputs]
+        slave.setReal([v.valueReference for v in self.inputs], self.held)
+
+    def record(self, slave: FMU2Slave) -> None:
+        """Add a row."""
+        for variable, value in zip(self.inputs, self.held, strict=True):
+            self.rows[variable.name].append(value)
+        getters = {"Real": slave.getReal, "Integer": slave.getInteger, "Boolean": slave.getBoolean}
+        for kind, variables in self.outputs.items():
+            values = getters[kind]([v.valueReference for v in variables])
+            for variable, value in zip(variables, values, strict=True):
+                self.rows[variable.name].append(bool(value) if kind == "Boolean" else value)
+
+    def dataset(self, points: list[float]) -> xr.Dataset:
+        """What was recorded, with a warning if the FMU called some of it invalid."""
+        invalid = [time for time, valid in zip(points, self.rows["valid"], strict=True) if not valid]
+        if invalid:
+            log.warning(
+                "%d of %d rows are invalid, the first at %g s: the outputs stand as they were before.",
+                len(invalid), len(points), invalid[0],
+            )
+        return to_dataset(points, self.rows, self.units, self.texts)
+
+
+@contextmanager
+def _instance(description: ModelDescription, folder: str) -> Iterator[FMU2Slave]:
+    """An instance of an extracted FMU, freed whatever happens: left alone, it may crash its host at exit."""
+    slave = FMU2Slave(
+        guid=description.guid,
+        modelIdentifier=description.coSimulation.modelIdentifier,
+        unzipDirectory=folder,
+        instanceName="contact",
+    )
+    callbacks = fmi2CallbackFunctions()
+    callbacks.logger = fmi2CallbackLoggerTYPE(_on_message)
+    callbacks.allocateMemory = defaultCallbacks.allocateMemory
+    callbacks.freeMemory = defaultCallbacks.freeMemory
+    addLoggerProxy(byref(callbacks))  # a message is a printf format with its arguments
+    slave.instantiate(callbacks=callbacks, loggingOn=True)
+    try:
+        yield slave
+    finally:
+        slave.freeInstance()
+
+
+def _on_message(environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
+    log.log(_LEVELS[min(status, len(_LEVELS) - 1)], "%s", message.decode("utf-8", "replace"))

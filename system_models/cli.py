@@ -1,0 +1,149 @@
+"""The command `tribofmu`: list the shipped scenes, run one.
+
+Exit codes: 0 done; 1 some rows of the result are invalid; 2 refused or failed, with a sentence on stderr.
+"""
+
+import argparse
+import logging
+import os
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from contact_core.errors import ContactError
+from contact_core.scene import Scene, shipped_scenes
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from .duty import Duty
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit code."""
+    arguments = _parser().parse_args(argv)
+    try:
+        return int(arguments.command(arguments))
+    except ContactError as error:
+        print(f"tribofmu: {error}", file=sys.stderr)
+        return 2
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="tribofmu", description="Mixed lubrication, tribofilm and wear of a contact as an FMU."
+    )
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    listing = commands.add_parser("list", help="name the shipped scenes")
+    listing.set_defaults(command=_list)
+    run = commands.add_parser("run", help="build the FMU of a scene and drive it through its duty")
+    run.set_defaults(command=_run)
+    run.add_argument("scene", metavar="SCENE", help="a shipped scene's name, or the path of a .toml file")
+    run.add_argument("--out", metavar="DIR", type=Path, help="folder of the results (default: results/SCENE)")
+    run.add_argument("--hours", metavar="H", help="duration of the test, instead of operation.duration")
+    run.add_argument("--grid", metavar="N", help="nodes along x and y, instead of film.points")
+    run.add_argument("--duty", metavar="FILE.csv", help="CSV of the duty, instead of operation.file")
+    run.add_argument(
+        "--set", dest="settings", metavar="KEY=VALUE", nargs="+", action="extend", default=[],
+        type=_assignment, help="change values of the scene, e.g. tribofilm.model=none surface_2.rq='50 nm'",
+    )
+    return parser
+
+
+def _assignment(text: str) -> tuple[str, str]:
+    key, equals, value = text.partition("=")
+    if not key or not equals:
+        raise argparse.ArgumentTypeError(f"'{text}' is not KEY=VALUE, such as tribofilm.model=none")
+    return key.strip(), value.strip()
+
+
+def _list(arguments: argparse.Namespace) -> int:
+    scenes = shipped_scenes()
+    width = max(map(len, scenes))
+    for name, description in scenes.items():
+        print(f"{name:{width}}  {description}")
+    return 0
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    from .duty import Duty
+
+    scene = Scene.from_toml(arguments.scene, _overrides(arguments))
+    duty = Duty.of_scene(scene, _folder_of_duty(arguments))
+    scene = duty.sized(scene)
+    folder = _output_folder(arguments)
+    for warning in scene.warnings():
+        print(f"tribofmu: warning: {warning}", file=sys.stderr)
+    dataset = _simulate(scene, duty)
+
+    from . import report, results
+
+    dataset = results.with_scene(dataset, scene)
+    print(scene.description, report.table(dataset), *report.closing_lines(dataset), sep="\n")
+    written = [*results.write(dataset, folder), report.write_overview(dataset, folder / "overview.png")]
+    print(f"Written: {', '.join(map(str, written))}")
+    return 1 if report.invalid_rows(dataset) else 0
+
+
+def _overrides(arguments: argparse.Namespace) -> dict[str, str]:
+    settings = dict(arguments.settings)
+    if arguments.hours:
+        settings["operation.duration"] = f"{arguments.hours} h"
+    if arguments.grid:
+        settings["film.points"] = arguments.grid
+    if arguments.duty:
+        settings["operation.file"] = arguments.duty
+    return settings
+
+
+def _folder_of_duty(arguments: argparse.Namespace) -> Path:
+    """A path on the command line starts at the working folder, one in a scene's file at that file."""
+    if arguments.duty or not arguments.scene.endswith(".toml"):
+        return Path()
+    return Path(arguments.scene).parent
+
+
+def _output_folder(arguments: argparse.Namespace) -> Path:
+    """Made before the run, so that nothing computed is lost for want of a place."""
+    folder: Path = arguments.out or Path("results") / Path(arguments.scene).stem
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ContactError(
+            f"The folder '{folder}' cannot be made: {error.strerror}. Use another --out."
+        ) from None
+    if not os.access(folder, os.W_OK):
+        raise ContactError(f"The folder '{folder}' cannot be written to. Use another --out.")
+    return folder
+
+
+def _simulate(scene: Scene, duty: "Duty") -> "xr.Dataset":
+    """Build the FMU and drive it, with a progress bar in minutes of test time."""
+    from tqdm import tqdm
+    from tqdm.contrib.logging import logging_redirect_tqdm
+
+    from fmu_src import build
+
+    from .ball_on_disc import run
+
+    logging.basicConfig(format="%(message)s")
+    bar = tqdm(
+        total=scene.operation.duration / 60.0,
+        desc=scene.name,
+        bar_format="{desc} {percentage:3.0f} %|{bar}| {n:.1f}/{total:.1f} min [{elapsed}<{remaining}]",
+    )
+    with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder, bar, logging_redirect_tqdm():
+        fmu = build(scene, Path(folder) / f"{scene.name}.fmu")
+        return run(
+            fmu,
+            duty,
+            scene.operation.duration,
+            scene.operation.interval,
+            lambda time: bar.update(time / 60.0 - bar.n),
+        )
+
+
+if __name__ == "__main__":
+    sys.exit(main())

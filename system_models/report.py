@@ -1,0 +1,146 @@
+"""What a run says: a short table, closing lines, and one picture."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+
+from contact_core.state import RangeFlag
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+# heading, unit people read, variable, factor from SI, digits
+_COLUMNS = (
+    ("time", "min", "time", 1.0 / 60.0, 2),
+    ("friction", "", "friction_coefficient", 1.0, 4),
+    ("h_c", "nm", "h_c", 1e9, 2),
+    ("lambda", "", "lambda_ratio", 1.0, 3),
+    ("film ball", "nm", "tribofilm_1", 1e9, 2),
+    ("film disc", "nm", "tribofilm_2", 1e9, 2),
+    ("wear ball", "nm", "wear_depth_1", 1e9, 2),
+    ("wear disc", "nm", "wear_depth_2", 1e9, 2),
+    ("A_c", "", "contact_area_ratio", 1.0, 3),
+    ("W_c", "", "contact_load_ratio", 1.0, 3),
+)
+_SHARES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0)  # of the run: running-in is early
+_FEW_ROWS = 12
+
+_BLUE, _RED, _BLACK = "#0072B2", "#D55E00", "#000000"  # of Okabe and Ito: told apart by the colour-blind
+_Line = tuple[str, str, str]  # variable, legend, colour
+
+
+def _bodies(name: str) -> tuple[_Line, _Line]:
+    return (f"{name}_1", "ball", _BLUE), (f"{name}_2", "disc", _RED)
+
+
+# label, factor from SI, lines
+_PANELS: tuple[tuple[str, float, tuple[_Line, ...]], ...] = (
+    ("friction coefficient", 1.0, (("friction_coefficient", "", _BLACK),)),
+    ("mean tribofilm thickness [nm]", 1e9, _bodies("tribofilm")),
+    ("height [nm]", 1e9, (("h_c", "mean gap $h_c$", _BLUE), ("sigma", "composite roughness", _RED))),
+    ("mean wear depth [nm]", 1e9, _bodies("wear_depth")),
+    (r"film ratio $\lambda$", 1.0, (("lambda_ratio", "", _BLACK),)),
+    ("roughness Rq [nm]", 1e9, _bodies("roughness")),
+    ("share of the solids", 1.0, (
+        ("contact_area_ratio", "area $A_c$", _BLUE),
+        ("contact_load_ratio", "load $W_c$", _RED),
+    )),
+    ("largest pressure [GPa]", 1e-9, (("pressure_max", "", _BLACK),)),
+)
+
+
+def table(dataset: xr.Dataset) -> str:
+    """About ten rows of the run as text, denser early on; all rows if they are few."""
+    time = dataset["time"].values
+    rows: Sequence[int] = range(len(time))
+    if len(time) > _FEW_ROWS:
+        rows = sorted({int(np.abs(time - share * time[-1]).argmin()) for share in _SHARES})
+    columns = [
+        [heading, unit, *(f"{factor * dataset[name].values[row]:.{digits}f}" for row in rows)]
+        for heading, unit, name, factor, digits in _COLUMNS
+    ]
+    widths = [max(map(len, column)) for column in columns]
+    padded = [[cell.rjust(width) for cell in column] for column, width in zip(columns, widths, strict=True)]
+    return "\n".join("  ".join(line) for line in zip(*padded, strict=True))
+
+
+def closing_lines(dataset: xr.Dataset) -> list[str]:
+    """Load cycles, who drove the blocks, validity and range, in sentences."""
+    last = dataset.isel(time=-1)
+    ball, disc = (f"{int(last[f'load_cycles_{body}']):,}".replace(",", " ") for body in (1, 2))
+    blocks = {name: int(last[f"blocks_{name}"]) for name in ("dry", "mixed", "fallback")}
+    total = sum(blocks.values())
+    share = {name: f"{100.0 * count / max(total, 1):.1f} %" for name, count in blocks.items()}
+    return [
+        f"Load cycles: ball {ball}, disc {disc}.",
+        f"Blocks: {total} solved; driven dry {share['dry']}, mixed {share['mixed']}, "
+        f"by fallback {share['fallback']}.",
+        _validity(dataset),
+        *_range(dataset),
+    ]
+
+
+def invalid_rows(dataset: xr.Dataset) -> int:
+    """Number of rows that the FMU called invalid."""
+    return int((~dataset["valid"].values).sum())
+
+
+def _validity(dataset: xr.Dataset) -> str:
+    count, total = invalid_rows(dataset), dataset.sizes["time"]
+    if not count:
+        return f"Validity: all {total} rows are valid."
+    first = float(dataset["time"].values[~dataset["valid"].values][0])
+    return (
+        f"Validity: {count} of {total} rows are INVALID, the first at {first:g} s; "
+        "their outputs stand as they were before."
+    )
+
+
+def _range(dataset: xr.Dataset) -> list[str]:
+    flags, total = dataset["range_flags"].values, dataset.sizes["time"]
+    counts = {flag: int(((flags & flag) > 0).sum()) for flag in RangeFlag}
+    raised = [f"Range, in {n} of {total} rows: {flag.text}." for flag, n in counts.items() if n]
+    return raised or ["Range: nothing to note."]
+
+
+def write_overview(dataset: xr.Dataset, path: Path) -> Path:
+    """Draw the run into a PNG file and return its path."""
+    overview(dataset).savefig(path, dpi=150)
+    return path
+
+
+def overview(dataset: xr.Dataset) -> "Figure":
+    """The run against time; what the FMU called invalid is shaded."""
+    from matplotlib.figure import Figure
+
+    ratio = dataset["lambda_ratio"]
+    told = ratio.where((ratio > 0.0) & (ratio < 1e3))  # at its caps it says nothing about the roughness
+    shown = dataset.assign(sigma=dataset["h_c"] / told)
+    figure = Figure(figsize=(9.0, 10.0), layout="constrained")
+    axes = figure.subplots(4, 2, sharex=True)
+    for axis, panel in zip(axes.flat, _PANELS, strict=True):
+        _draw(axis, shown, *panel)
+    for axis in axes[-1]:
+        axis.set_xlabel("time [min]")
+    figure.align_ylabels()
+    figure.suptitle(dataset.attrs.get("title", ""), fontsize="medium")
+    return figure
+
+
+def _draw(axis: "Axes", dataset: xr.Dataset, label: str, factor: float, lines: tuple[_Line, ...]) -> None:
+    minutes = dataset["time"].values / 60.0
+    for name, legend, colour in lines:
+        axis.plot(minutes, factor * dataset[name].values, color=colour, linewidth=1.4, label=legend)
+    for start, end, valid in zip(minutes[:-1], minutes[1:], dataset["valid"].values[1:], strict=True):
+        if not valid:
+            axis.axvspan(start, end, color="0.85", linewidth=0.0)
+    if len(lines) > 1:
+        axis.legend(frameon=False)
+    axis.set_ylabel(label)
+    axis.set_xlim(minutes[0], minutes[-1])
+    axis.set_ylim(bottom=0.0)
+    axis.spines[["top", "right"]].set_visible(False)

@@ -1,0 +1,14 @@
+"""What all tests share: a test's marker is the folder it lies in, and random inputs repeat in every run."""
+
+from pathlib import Path
+
+import pytest
+from hypothesis import settings
+
+settings.register_profile("repeatable", derandomize=True, deadline=None, database=None, max_examples=60)
+settings.load_profile("repeatable")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    for item in items:
+        item.add_marker(item.path.relative_to(Path(__file__).parent).parts[0])

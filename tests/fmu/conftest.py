@@ -1,0 +1,59 @@
+"""One small FMU, built and unpacked once: 33 nodes, a short sweep, every law in use."""
+
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from fmu_host import Host, hosted
+
+from contact_core import Scene
+from fmu_src import build
+
+SMALL = {
+    "film.points": "33",
+    "surface_1.correlation_length": "16 um",
+    "surface_2.correlation_length": "16 um",
+    "control.steps": "4",
+}
+
+
+def unpacked(fmu: Path, folder: Path) -> Path:
+    with zipfile.ZipFile(fmu) as archive:
+        archive.extractall(folder)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def scene() -> Scene:
+    return Scene.from_toml("mtm_zddp", SMALL)
+
+
+@pytest.fixture(scope="session")
+def other_scene() -> Scene:
+    return Scene.from_toml("azam_case_a", SMALL | {"tribofilm.model": "none"})
+
+
+@pytest.fixture(scope="session")
+def fmu_file(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build(scene, tmp_path_factory.mktemp("fmu") / "small.fmu")
+
+
+@pytest.fixture(scope="session")
+def folder(fmu_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return unpacked(fmu_file, tmp_path_factory.mktemp("unpacked"))
+
+
+@pytest.fixture
+def host(folder: Path) -> Iterator[Host]:
+    with hosted(folder) as host:
+        yield host
+
+
+@pytest.fixture(scope="session")
+def stored(folder: Path) -> bytes:
+    """State of an FMU after its first step."""
+    with hosted(folder) as host:
+        host.initialise()
+        host.step(60.0)
+        return host.state()

@@ -1,0 +1,72 @@
+"""A host for one FMU: fmpy's low-level interface with variables by name, and a log."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+
+import fmpy
+from fmpy.simulation import instantiate_fmu
+
+
+class Host:
+    """An instance of the FMU that lies unpacked in `folder`."""
+
+    def __init__(self, folder: Path, logging: bool = True):
+        description = fmpy.read_model_description(str(folder))
+        self.log: list[tuple[int, str]] = []
+        self.variables = {v.name: v for v in description.modelVariables}
+        self.fmu = instantiate_fmu(str(folder), description, debug_logging=logging, logger=self._logged)
+        self.time = 0.0
+
+    def _logged(self, component, instance, status, category, message) -> None:
+        self.log.append((status, message.decode()))
+
+    def initialise(self, **values) -> Host:
+        self.fmu.setupExperiment()
+        self.fmu.enterInitializationMode()
+        self.set(**values)
+        self.fmu.exitInitializationMode()
+        return self
+
+    def set(self, **values) -> None:
+        """Set variables by name, `__` for the dot."""
+        for name, value in values.items():
+            variable = self.variables[name.replace("__", ".")]
+            getattr(self.fmu, f"set{variable.type}")([variable.valueReference], [value])
+
+    def get(self, name: str) -> float | int | bool | str:
+        variable = self.variables[name]
+        value = getattr(self.fmu, f"get{variable.type}")([variable.valueReference])[0]
+        return bool(value) if variable.type == "Boolean" else value
+
+    def step(self, dt: float, **inputs) -> dict[str, float]:
+        self.set(**inputs)
+        self.fmu.doStep(self.time, dt)
+        self.time += dt
+        return self.outputs()
+
+    def outputs(self) -> dict[str, float]:
+        return {name: self.get(name) for name, v in self.variables.items() if v.causality == "output"}
+
+    def state(self) -> bytes:
+        handle = self.fmu.getFMUstate()
+        data = self.fmu.serializeFMUstate(handle)
+        self.fmu.freeFMUstate(handle)
+        return data
+
+    def restore(self, data: bytes) -> None:
+        handle = self.fmu.deSerializeFMUstate(data)
+        self.fmu.setFMUstate(handle)
+        self.fmu.freeFMUstate(handle)
+
+
+@contextlib.contextmanager
+def hosted(folder: Path, **options) -> Iterator[Host]:
+    """Instantiate, and free in the end whatever happens."""
+    host = Host(folder, **options)
+    try:
+        yield host
+    finally:
+        host.fmu.freeInstance()

@@ -1,0 +1,138 @@
+"""modelDescription.xml is complete, and says what the core says."""
+
+import zipfile
+from xml.etree import ElementTree as ET
+
+import fmpy
+import pytest
+from fmpy.validation import validate_fmu
+
+from contact_core.quantities import INPUTS, OUTPUTS
+from contact_core.scene import tunables
+from contact_core.state import Outputs
+from fmu_src import build
+
+
+@pytest.fixture(scope="module")
+def description(fmu_file):
+    return fmpy.read_model_description(str(fmu_file))
+
+
+@pytest.fixture(scope="module")
+def by_name(description):
+    return {v.name: v for v in description.modelVariables}
+
+
+@pytest.fixture(scope="module")
+def xml(fmu_file):
+    with zipfile.ZipFile(fmu_file) as archive:
+        return ET.fromstring(archive.read("modelDescription.xml"))
+
+
+def test_fmpy_finds_no_problem(fmu_file):
+    assert validate_fmu(str(fmu_file)) == []
+
+
+def test_every_quantity_is_a_variable_with_its_unit_and_nominal(by_name):
+    for q in (*INPUTS, *OUTPUTS):
+        variable = by_name[q.name]
+        assert variable.causality == ("input" if q.role == "input" else "output")
+        assert (variable.type, variable.description) == (q.kind, q.text)
+        if q.kind == "Real":
+            assert (variable.unit, float(variable.nominal)) == (q.unit, q.nominal)
+            assert variable.displayUnit == (q.display or None)
+        else:
+            assert variable.variability == "discrete"
+
+
+def test_temperature_differences_are_marked_as_relative(xml):
+    marked = {v.get("name") for v in xml.iter("ScalarVariable") if v[0].get("relativeQuantity") == "true"}
+    assert marked == {q.name for q in (*INPUTS, *OUTPUTS) if q.relative}
+    assert "flash_temperature_rise" in marked
+
+
+def test_every_output_is_filled_by_the_core_or_is_valid(by_name):
+    outputs = {name for name, v in by_name.items() if v.causality == "output"}
+    assert outputs == {*Outputs.__dataclass_fields__, "valid"}
+
+
+def test_every_tunable_of_the_scene_is_a_fixed_parameter_at_its_exact_value(by_name, scene):
+    for name, (value, field) in tunables(scene).items():
+        variable = by_name[name]
+        assert (variable.causality, variable.variability, variable.initial) == ("parameter", "fixed", "exact")
+        assert type(value)(variable.start) == value
+        assert variable.description == field.metadata["text"]
+        assert variable.min is not None
+        assert variable.max is not None
+    assert by_name["lubricant.viscosity.viscosity"].unit == "Pa s"
+    assert by_name["surface_1.seed"].type == "Integer"
+    assert by_name["initial_state"].type == "String"
+
+
+def test_the_inputs_start_at_the_scenes_operation(by_name, scene):
+    for q in INPUTS:
+        assert float(by_name[q.name].start) == getattr(scene.operation, q.name)
+
+
+def test_units_are_exponents_of_the_base_units(xml):
+    units = {u.get("name"): u.find("BaseUnit").attrib for u in xml.iter("Unit")}
+    assert units["Pa"] == {"kg": "1", "m": "-1", "s": "-2"}
+    assert units["N"] == {"kg": "1", "m": "1", "s": "-2"}
+    assert units["W/(m K)"] == {"kg": "1", "m": "1", "s": "-3", "K": "-1"}
+    assert units["m3/s"] == {"m": "3", "s": "-1"}
+    assert units["1"] == {}
+
+
+def test_display_units_convert_from_si(xml):
+    units = {d.get("name"): d for d in xml.iter("DisplayUnit")}
+    displays = {name: (float(d.get("factor", 1)), float(d.get("offset", 0))) for name, d in units.items()}
+    assert displays["nm"] == (1e9, 0.0)
+    assert displays["um3"] == (1e18, 0.0)
+    assert displays["GPa"] == (1e-9, 0.0)
+    assert displays["degC"] == (1.0, -273.15)
+
+
+def test_outputs_depend_on_the_state_between_steps_and_on_every_known_at_the_start(description):
+    knowns = [v for v in description.modelVariables if v.causality != "output"]
+    outputs = [v for v in description.modelVariables if v.causality == "output"]
+    assert [u.variable for u in description.outputs] == outputs
+    assert all(u.dependencies == [] for u in description.outputs)
+    assert [u.variable for u in description.initialUnknowns] == outputs
+    assert all(u.dependencies == knowns for u in description.initialUnknowns)
+    assert all(set(u.dependenciesKind) == {"dependent"} for u in description.initialUnknowns)
+
+
+def test_the_default_experiment_is_the_scenes_operation(description, scene):
+    experiment = description.defaultExperiment
+    assert float(experiment.stopTime) == scene.operation.duration
+    assert float(experiment.stepSize) == scene.operation.interval
+    assert float(experiment.tolerance) == scene.film.tolerance
+
+
+def test_states_can_be_kept_and_instances_shared(description):
+    assert description.coSimulation.canGetAndSetFMUstate
+    assert description.coSimulation.canSerializeFMUstate
+    assert not description.coSimulation.canBeInstantiatedOnlyOncePerProcess
+    assert {c.name for c in description.logCategories} >= {"logStatusWarning", "logStatusError"}
+
+
+def test_the_same_scene_gives_the_same_bytes(fmu_file, scene, tmp_path):
+    assert build(scene, tmp_path / "again.fmu").read_bytes() == fmu_file.read_bytes()
+
+
+def test_another_scene_has_another_guid_and_script(fmu_file, other_scene, tmp_path):
+    def identity(fmu):
+        with zipfile.ZipFile(fmu) as archive:
+            root = ET.fromstring(archive.read("modelDescription.xml"))
+            return root.get("guid"), archive.read("resources/slavemodule.txt")
+
+    mine, other = identity(fmu_file), identity(build(other_scene, tmp_path / "other.fmu"))
+    assert mine[0] != other[0]
+    assert mine[1] != other[1]
+
+
+def test_the_documentation_names_laws_variables_and_flags(fmu_file):
+    with zipfile.ZipFile(fmu_file) as archive:
+        page = archive.read("documentation/index.html").decode()
+    for text in ("lubricant.viscosity: roelands", "friction_coefficient", "wear.bare", "range_flags is"):
+        assert text in page

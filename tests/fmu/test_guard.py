@@ -1,0 +1,143 @@
+"""Bad input neither crashes the host nor loses the state: status OK, valid = false, the log says why."""
+
+import math
+from dataclasses import replace
+
+import pytest
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import fmi2Terminated
+
+from contact_core import Outputs
+from fmu_src import slave
+
+
+@pytest.fixture
+def stepped(host, stored):
+    host.restore(stored)
+    return host
+
+
+@pytest.mark.parametrize(("inputs", "named"), [
+    ({"load": -5.0}, "load = -5 N"),
+    ({"load": math.nan}, "load = nan N"),
+    ({"speed_1": math.inf}, "speed_1 = inf m/s"),
+    ({"temperature": 20.0}, "temperature = 20 K"),
+])
+def test_an_unusable_input_is_named_and_the_next_good_one_recovers(stepped, inputs, named):
+    before = stepped.outputs()
+    good = {name: stepped.get(name) for name in inputs}
+    handle = stepped.fmu.getFMUstate()
+    expected = stepped.step(60.0)
+    stepped.fmu.setFMUstate(handle)
+    stepped.fmu.freeFMUstate(handle)
+
+    assert stepped.step(60.0, **inputs) == before | {"valid": False}
+    assert len(stepped.log) == 1
+    assert named in stepped.log[0][1]
+    assert stepped.step(60.0, **good) == expected
+
+
+@pytest.mark.parametrize("dt", [-1.0, math.nan, math.inf])
+def test_an_unusable_step_size_is_refused(stepped, dt):
+    before = stepped.outputs()
+    stepped.fmu.doStep(stepped.time, dt)
+    assert stepped.outputs() == before | {"valid": False}
+    assert len(stepped.log) == 1
+    assert stepped.step(60.0)["valid"]
+
+
+def test_unusable_inputs_at_initialisation_recover_in_the_first_good_step(host):
+    host.initialise(load=-1.0)
+    assert not host.get("valid")
+    assert all(value == 0 for value in host.outputs().values())
+    assert "load = -1 N" in host.log[0][1]
+    outputs = host.step(60.0, load=50.0)
+    assert outputs["valid"]
+    assert outputs["friction_coefficient"] > 0.0
+
+
+@pytest.mark.parametrize(("parameters", "named"), [
+    ({"plasticity__hardness": -1e9}, "plasticity.hardness = -1e+09 Pa"),
+    ({"wear__bare": math.nan}, "wear.bare = nan"),
+    ({"initial_state": "/nowhere/50%s.state"}, "initial_state = '/nowhere/50%s.state' cannot be read"),
+])
+def test_an_unusable_parameter_is_named_at_every_step_until_a_reset(host, parameters, named):
+    host.initialise(**parameters)
+    assert named in host.log[0][1]
+    outputs = host.step(60.0)
+    assert not outputs["valid"]
+    assert named in host.log[1][1]
+    host.fmu.reset()
+    assert host.initialise().step(60.0)["valid"]
+
+
+def test_an_initial_state_of_another_contact_is_refused(host, other_scene, tmp_path):
+    file = tmp_path / "other.state"
+    file.write_bytes(slave.initial_state(other_scene).to_bytes())
+    host.initialise(initial_state=str(file))
+    assert not host.get("valid")
+    assert "belongs to another contact" in host.log[0][1]
+
+
+def test_a_parameter_is_refused_after_initialisation(stepped):
+    before = stepped.get("wear.bare")
+    stepped.set(wear__bare=0.5)
+    assert stepped.get("wear.bare") == before
+    assert "wear.bare is a parameter" in stepped.log[0][1]
+
+
+def test_an_output_cannot_be_set(stepped):
+    before = stepped.get("h_c")
+    stepped.set(h_c=1.0)
+    assert stepped.get("h_c") == before
+    assert "h_c is an output" in stepped.log[0][1]
+
+
+def test_an_unknown_value_reference_is_refused(stepped):
+    assert list(stepped.fmu.getReal([9999])) == [0.0]
+    stepped.fmu.setReal([9999], [1.0])
+    stepped.fmu.setBoolean([stepped.variables["load"].valueReference], [True])
+    assert [text.rpartition(" ")[2] for _, text in stepped.log[:2]] == ["9999.", "9999."]
+    assert "no Boolean variable" in stepped.log[2][1]
+
+
+def test_a_step_before_initialisation_is_refused(host):
+    assert not host.step(60.0)["valid"]
+    assert "not set up" in host.log[0][1]
+
+
+def test_no_nan_leaves(stepped, monkeypatch):
+    before = stepped.outputs()
+
+    def broken(scene, point, state, dt):
+        return state, replace(Outputs(), h_c=math.nan)
+
+    monkeypatch.setattr(slave, "advance", broken)
+    assert stepped.step(60.0) == before | {"valid": False}
+    assert "No finite h_c" in stepped.log[0][1]
+
+
+def test_an_unexpected_error_is_logged_with_its_traceback_and_the_state_stands(stepped, monkeypatch):
+    before = stepped.outputs()
+
+    def broken(scene, point, state, dt):
+        raise ZeroDivisionError("100 %s surprising")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(slave, "advance", broken)
+        assert stepped.step(60.0) == before | {"valid": False}
+    status, text = stepped.log[0]
+    assert status == 3
+    assert "ZeroDivisionError: 100 %s surprising" in text
+    assert "Traceback" in text
+    assert stepped.step(60.0)["valid"]
+
+
+def test_the_users_interrupt_ends_the_simulation(stepped, monkeypatch):
+    def interrupted(scene, point, state, dt):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(slave, "advance", interrupted)
+    with pytest.raises(FMICallException, match="discard"):
+        stepped.step(60.0)
+    assert stepped.fmu.getBooleanStatus(fmi2Terminated)

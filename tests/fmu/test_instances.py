@@ -1,0 +1,72 @@
+"""Several FMUs and many instances live in one process."""
+
+import json
+import shutil
+import sys
+
+import pytest
+from conftest import unpacked
+from fmu_host import hosted
+
+from fmu_src import build
+
+
+def test_two_scenes_in_one_process_keep_to_themselves(folder, other_scene, tmp_path):
+    other_folder = unpacked(build(other_scene, tmp_path / "other.fmu"), tmp_path / "other")
+    with hosted(folder) as alone:
+        expected = alone.initialise().step(60.0)
+    with hosted(other_folder) as other, hosted(folder) as mine:
+        other.initialise()
+        mine.initialise()
+        other_outputs, outputs = other.step(60.0), mine.step(60.0)
+        assert outputs == expected
+        assert outputs["tribofilm_1"] > other_outputs["tribofilm_1"] == 0.0
+        assert other.get("surface_1.rq") == other_scene.surface_1.rq
+
+
+def test_two_instances_of_one_fmu_keep_to_themselves(folder):
+    with hosted(folder) as first, hosted(folder) as second:
+        first.initialise(load=30.0)
+        second.initialise()
+        assert first.step(60.0)["friction_force"] != second.step(60.0)["friction_force"]
+
+
+def test_twenty_instances_come_and_go_and_leave_no_path_behind(folder):
+    before = list(sys.path)
+    for _ in range(20):
+        with hosted(folder) as host:
+            assert host.get("load") == 53.7
+    assert sys.path == before
+
+
+def test_a_folder_with_a_space_in_its_name_works(fmu_file, tmp_path):
+    with hosted(unpacked(fmu_file, tmp_path / "a folder")) as host:
+        assert host.initialise().step(60.0)["valid"]
+
+
+def test_an_fmu_of_another_version_is_refused_by_name(folder, tmp_path, capfd):
+    copy = shutil.copytree(folder, tmp_path / "copy")
+    (copy / "resources/versions.json").write_text(json.dumps({"contact_core": "0.0.1"}))
+    with pytest.raises(Exception, match="Failed to instantiate"), hosted(copy):
+        pass
+    assert "built with contact_core 0.0.1" in capfd.readouterr().err
+    with hosted(folder) as host:
+        assert host.get("load") == 53.7
+
+
+def test_an_edited_scene_is_refused(folder, tmp_path, capfd):
+    copy = shutil.copytree(folder, tmp_path / "copy")
+    file = copy / "resources/scene.json"
+    file.write_text(file.read_text().replace("0.0095", "0.0096"))
+    with pytest.raises(Exception, match="Failed to instantiate"), hosted(copy):
+        pass
+    assert "was changed after building" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["scene.json", "versions.json"])
+def test_missing_resources_are_refused(folder, tmp_path, capfd, name):
+    copy = shutil.copytree(folder, tmp_path / "copy")
+    (copy / "resources" / name).unlink()
+    with pytest.raises(Exception, match="Failed to instantiate"), hosted(copy):
+        pass
+    assert "cannot be read" in capfd.readouterr().err

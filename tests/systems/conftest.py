@@ -1,0 +1,48 @@
+"""A contact on a coarse grid, its FMU, and a short run of it through a duty with steps."""
+
+from pathlib import Path
+
+import pytest
+import xarray as xr
+
+from contact_core import Scene
+from fmu_src import build
+from system_models.ball_on_disc import run
+from system_models.duty import Duty
+
+COARSE = {
+    "film.points": "33",
+    "surface_1.correlation_length": "16 um",
+    "surface_2.correlation_length": "16 um",
+    "operation.duration": "0.02 h",
+    "operation.interval": "30 s",
+}
+STEPS = "time [s],load [N],temperature [degC]\n0,53.7,80\n40,30,82\n"
+
+
+@pytest.fixture(scope="session")
+def scene() -> Scene:
+    return Scene.from_toml("mtm_zddp", COARSE)
+
+
+@pytest.fixture(scope="session")
+def duty(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Duty:
+    table = tmp_path_factory.mktemp("duty") / "steps.csv"
+    table.write_text(STEPS)
+    return Duty.from_csv(table, scene.operation.point)
+
+
+@pytest.fixture(scope="session")
+def fmu(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build(scene, tmp_path_factory.mktemp("fmu") / "contact.fmu")
+
+
+@pytest.fixture(scope="session")
+def dataset(fmu: Path, scene: Scene, duty: Duty) -> xr.Dataset:
+    return run(fmu, duty, scene.operation.duration, scene.operation.interval)
+
+
+@pytest.fixture
+def coarse() -> list[str]:
+    """The same contact on the command line."""
+    return [part for key, value in COARSE.items() for part in ("--set", f"{key}={value}")]

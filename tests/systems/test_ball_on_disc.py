@@ -1,0 +1,134 @@
+import logging
+import tempfile
+import zipfile
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave
+
+from contact_core import ContactError, OperatingPoint, Scene, advance, initial_state
+from system_models.ball_on_disc import communication_points, run
+from system_models.duty import Duty
+
+POINT = OperatingPoint(load=50.0, speed_1=0.1, speed_2=0.09, temperature=353.15)
+
+
+def duty_at(*times: float) -> Duty:
+    return Duty(times, (POINT,) * len(times))
+
+
+def test_rows_come_at_intervals_at_changes_and_at_the_end() -> None:
+    assert communication_points(duty_at(0.0, 30.0, 50.0), 100.0, 40.0) == [0.0, 30.0, 40.0, 50.0, 80.0, 100.0]
+
+
+def test_the_last_step_is_shortened_to_the_duration() -> None:
+    assert communication_points(duty_at(0.0), 70.0, 30.0) == [0.0, 30.0, 60.0, 70.0]
+
+
+def test_an_interval_above_the_duration_gives_one_step() -> None:
+    assert communication_points(duty_at(0.0), 70.0, 1e3) == [0.0, 70.0]
+
+
+def test_changes_after_the_end_are_left_out() -> None:
+    assert communication_points(duty_at(0.0, 70.0, 80.0), 70.0, 35.0) == [0.0, 35.0, 70.0]
+
+
+def test_a_multiple_of_the_interval_that_misses_a_change_by_rounding_makes_no_step_of_its_own() -> None:
+    assert 3 * 0.1 != 0.3
+    assert communication_points(duty_at(0.0, 0.3), 0.5, 0.1) == [0.0, 0.1, 0.2, 0.3, 0.4, 0.5]
+
+
+@pytest.mark.parametrize(
+    ("duration", "interval"), [(0.0, 1.0), (10.0, 0.0), (float("nan"), 1.0), (1e4, 1e-6)]
+)
+def test_a_duration_that_cannot_be_cut_is_refused(duration: float, interval: float) -> None:
+    with pytest.raises(ContactError, match="cannot be cut into intervals"):
+        communication_points(duty_at(0.0), duration, interval)
+
+
+def test_the_first_row_is_the_contact_after_initialisation(dataset: xr.Dataset) -> None:
+    first = dataset.isel(time=0)
+    assert first["time"] == 0.0
+    assert first["load_cycles_1"] == first["wear_depth_1"] == first["tribofilm_1"] == 0.0
+    assert first["friction_coefficient"] > 0.0
+    assert first["h_c"] > 0.0
+
+
+def test_the_duty_reaches_the_contact(dataset: xr.Dataset) -> None:
+    assert dataset["time"].values.tolist() == [0.0, 30.0, 40.0, 60.0, 72.0]
+    assert dataset["load"].values.tolist() == [53.7, 53.7, 53.7, 30.0, 30.0]
+    assert dataset["temperature_1"].values.tolist() == [353.15] * 3 + [355.15] * 2
+
+
+def test_friction_coefficient_is_force_over_the_load_of_the_same_row(dataset: xr.Dataset) -> None:
+    force, load = dataset["friction_force"].values, dataset["load"].values
+    np.testing.assert_allclose(dataset["friction_coefficient"].values, abs(force) / load, rtol=1e-14)
+
+
+def test_the_run_equals_the_core_bit_for_bit(dataset: xr.Dataset, scene: Scene, duty: Duty) -> None:
+    state, out = advance(scene, duty.at(0.0), initial_state(scene), 0.0)
+    rows = [out]
+    for time, end in pairwise(dataset["time"].values):
+        state, out = advance(scene, duty.at(time), state, end - time)
+        rows.append(out)
+    for name in ("friction_force", "h_c", "tribofilm_2", "wear_volume_1", "range_flags", "blocks_mixed"):
+        assert dataset[name].values.tolist() == [getattr(row, name) for row in rows], name
+
+
+def test_progress_tells_the_time_of_every_step(fmu: Path) -> None:
+    told: list[float] = []
+    run(fmu, Duty.constant(POINT), 2.0, 1.0, told.append)
+    assert told == [1.0, 2.0]
+
+
+def test_an_invalid_step_is_recorded_and_warned_about(fmu: Path, caplog: pytest.LogCaptureFixture) -> None:
+    impossible = OperatingPoint(load=-1.0, speed_1=0.1, speed_2=0.09, temperature=353.15)
+    dataset = run(fmu, Duty((0.0, 2.0, 3.0), (POINT, impossible, POINT)), 4.0, 1.0)
+    assert dataset["valid"].values.tolist() == [True, True, True, False, True]
+    assert dataset["load"].values.tolist() == [50.0, 50.0, 50.0, -1.0, 50.0]
+    held = dataset["friction_force"].values
+    assert held[3] == held[2] != 0.0
+    warnings = [record.getMessage() for record in caplog.records if record.levelno == logging.WARNING]
+    assert "load = -1 N" in warnings[0]
+    assert warnings[-1].startswith("1 of 5 rows are invalid, the first at 3 s")
+
+
+def test_an_fmu_that_fails_is_freed_and_the_time_is_told(fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    freed: list[bool] = []
+    free = FMU2Slave.freeInstance
+
+    def fail(self: FMU2Slave, time: float, step: float) -> None:
+        raise FMICallException(function="fmi2DoStep", status=3)
+
+    def note(self: FMU2Slave) -> None:
+        freed.append(True)
+        free(self)
+
+    monkeypatch.setattr(FMU2Slave, "doStep", fail)
+    monkeypatch.setattr(FMU2Slave, "freeInstance", note)
+    with pytest.raises(ContactError, match=r"The FMU failed at t = 0 s: fmi2DoStep failed with status 3"):
+        run(fmu, Duty.constant(POINT), 2.0, 1.0)
+    assert freed == [True]
+
+
+def test_an_fmu_that_is_no_contact_is_refused(fmu: Path, tmp_path: Path) -> None:
+    other = tmp_path / "other.fmu"
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(other, "w") as new:
+        for name in old.namelist():
+            new.writestr(name, old.read(name).replace(b'name="load"', b'name="weight"'))
+    with pytest.raises(ContactError, match=r"has no load\. Use one that build_fmu\.py has made"):
+        run(other, Duty.constant(POINT), 2.0, 1.0)
+
+
+def test_a_temporary_folder_that_the_binary_cannot_read_is_refused(
+    fmu: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = tmp_path / "a#b"
+    folder.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(folder))
+    with pytest.raises(ContactError, match=r"cannot be loaded from .*a#b.* Set TMPDIR"):
+        run(fmu, Duty.constant(POINT), 2.0, 1.0)

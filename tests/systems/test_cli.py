@@ -1,0 +1,138 @@
+import subprocess
+import sys
+from importlib import resources
+from pathlib import Path
+
+import pytest
+import xarray as xr
+
+from contact_core import OperatingPoint, Scene, shipped_scenes
+from system_models.cli import main
+from system_models.duty import Duty
+
+STILL = [  # nothing grows, wears or converges slowly: one solution serves for ever
+    part
+    for setting in ("tribofilm.model=none", "wear.model=none", "heat.model=none")
+    for part in ("--set", setting)
+]
+
+
+def test_list_names_the_shipped_scenes(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["list"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == ["azam_case_a", "mtm_zddp"]
+    assert all(text in line for text, line in zip(shipped_scenes().values(), lines, strict=True))
+
+
+def test_list_does_not_load_what_only_a_run_needs() -> None:
+    code = "import sys; from system_models.cli import main; main(['list']); print(*sys.modules)"
+    run = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    loaded = set(run.stdout.split())
+    assert "system_models.cli" in loaded
+    assert not {"matplotlib", "xarray", "fmpy", "pythonfmu", "tqdm"} & loaded
+
+
+def test_a_run_prints_a_table_and_writes_three_files(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["run", "mtm_zddp", *coarse, *STILL, "--hours", "0.01"]) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith("Azam's case B")
+    assert {"friction", "h_c", "lambda", "A_c", "W_c"} < set(out.splitlines()[1].split())
+    assert "driven dry" in out
+    assert "0.6/0.6 min" in err
+    folder = tmp_path / "results" / "mtm_zddp"
+    assert {path.name for path in folder.iterdir()} == {"result.nc", "result.csv", "overview.png"}
+    assert all(str(Path("results/mtm_zddp") / path.name) in out for path in folder.iterdir())
+    with xr.open_dataset(folder / "result.nc", engine="h5netcdf") as dataset:
+        assert dataset["time"].values.tolist() == [0.0, 30.0, 36.0]
+        assert dataset.attrs["scene"] == "mtm_zddp"
+
+
+def test_case_a_counts_the_load_cycles_of_two_hours(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, coarse: list[str]
+) -> None:
+    settings = [*coarse, *STILL, "--set", "operation.interval=1 h", "--hours", "2"]
+    assert main(["run", "azam_case_a", *settings, "--out", str(tmp_path)]) == 0
+    assert "Load cycles: ball 28 361, disc 7 419." in capsys.readouterr().out
+
+
+def test_a_duty_on_the_command_line_reaches_the_result(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("loads.csv").write_text("time [s],load [N]\n0,20\n10,60\n")
+    settings = [*coarse, *STILL, "--duty", "loads.csv", "--hours", "0.005"]
+    assert main(["run", "mtm_zddp", *settings, "--out", "out"]) == 0
+    with xr.open_dataset("out/result.nc", engine="h5netcdf") as dataset:
+        assert dataset["load"].values.tolist() == [20.0, 20.0, 60.0]
+        assert '"largest_load": "60.0 N"' in dataset.attrs["scene_json"]
+
+
+def test_a_duty_in_a_scenes_file_is_looked_for_beside_it(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scenes = tmp_path / "scenes"
+    scenes.mkdir()
+    shipped = resources.files("contact_core") / "data" / "scenes" / "mtm_zddp.toml"
+    text = shipped.read_text("utf-8") + 'file = "loads.csv"\n'  # [operation] is the last table
+    (scenes / "own.toml").write_text(text, "utf-8")
+    (scenes / "loads.csv").write_text("time [s],load [N]\n0,wrong\n")
+    monkeypatch.chdir(tmp_path)
+    assert main(["run", "scenes/own.toml"]) == 2
+    assert "loads.csv, line 2, column 'load [N]', value 'wrong'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["mtm_zdp"], "There is no scene 'mtm_zdp'. Did you mean 'mtm_zddp'?"),
+        (["nowhere.toml"], "The scene file 'nowhere.toml' cannot be read"),
+        (["mtm_zddp", "--set", "film.pionts=65"], "[film] has no key 'pionts'. Did you mean 'points'?"),
+        (["mtm_zddp", "--set", "operation.load=50 kg"], "operation.load = '50 kg' has the wrong unit"),
+        (["mtm_zddp", "--hours", "-1"], "operation.duration = -3600 s (test time) must be above 0"),
+        (["mtm_zddp", "--hours", "nan"], "operation.duration = 'nan h' is not finite"),
+        (["mtm_zddp", "--grid", "40"], "surface_1.correlation_length = 8e-06 m is 0.62 nodes of the grid"),
+        (["mtm_zddp", "--grid", "many"], "film.points = 'many' does not start with a number"),
+        (["mtm_zddp", "--duty", "nowhere.csv"], "The duty file 'nowhere.csv' cannot be read"),
+        (["mtm_zddp", "--out", "taken"], "The folder 'taken' cannot be made"),
+    ],
+)
+def test_bad_input_is_refused_with_one_sentence_and_code_2(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    arguments: list[str],
+    said: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("taken").write_text("a file")
+    assert main(["run", *arguments]) == 2
+    out, err = capsys.readouterr()
+    assert not out
+    assert err.startswith(f"tribofmu: {said}")
+    assert err.count("\n") == 1
+
+
+def test_a_setting_without_a_value_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as end:
+        main(["run", "mtm_zddp", "--set", "film.points"])
+    assert end.value.code == 2
+    assert "'film.points' is not KEY=VALUE" in capsys.readouterr().err
+
+
+def test_what_a_scene_resolves_badly_is_warned_about_and_invalid_steps_give_code_1(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
+) -> None:
+    impossible = OperatingPoint(load=-1.0, speed_1=0.1, speed_2=0.09, temperature=353.15)
+
+    def of_scene(scene: Scene, folder: Path) -> Duty:
+        return Duty((0.0, 10.0), (scene.operation.point, impossible))
+
+    monkeypatch.setattr(Duty, "of_scene", of_scene)
+    settings = [*coarse, *STILL, "--set", "surface_1.correlation_length=20 um", "--hours", "0.005"]
+    assert main(["run", "mtm_zddp", *settings, "--out", str(tmp_path)]) == 1
+    out, err = capsys.readouterr()
+    assert "warning: surface_1 has 1.28 nodes per correlation length" in err
+    assert "1 of 3 rows are INVALID" in out

@@ -1,0 +1,103 @@
+from pathlib import Path
+
+import pytest
+
+from contact_core import OperatingPoint, Scene, SceneError
+from system_models.duty import Duty
+
+REFERENCE = OperatingPoint(load=50.0, speed_1=0.1, speed_2=0.2, temperature=350.0)
+
+
+def write(folder: Path, text: str) -> Path:
+    path = folder / "duty.csv"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_a_constant_duty_holds_its_point_for_ever() -> None:
+    duty = Duty.constant(REFERENCE)
+    assert [duty.at(time) for time in (0.0, 1.0, 1e9)] == [REFERENCE] * 3
+
+
+def test_each_row_holds_from_its_own_time_on(tmp_path: Path) -> None:
+    duty = Duty.from_csv(write(tmp_path, "time [s],load [N]\n0,10\n20,30\n"), REFERENCE)
+    assert [duty.at(time).load for time in (0.0, 19.999, 20.0, 1e6)] == [10.0, 10.0, 30.0, 30.0]
+
+
+def test_columns_are_converted_from_the_units_of_the_header(tmp_path: Path) -> None:
+    text = "time [min],load [kN],speed_1 [mm/s],temperature [degC]\n0,0.01,5,80\n2,0.02,6,90\n"
+    duty = Duty.from_csv(write(tmp_path, text), REFERENCE)
+    assert duty.times == (0.0, 120.0)
+    assert duty.points[1] == OperatingPoint(20.0, 0.006, REFERENCE.speed_2, 363.15)
+
+
+def test_missing_columns_keep_the_reference(tmp_path: Path) -> None:
+    duty = Duty.from_csv(write(tmp_path, "time [s],speed_2 [m/s]\n0,1\n"), REFERENCE)
+    assert duty.points == (OperatingPoint(50.0, 0.1, 1.0, 350.0),)
+
+
+def test_spaces_blank_lines_and_a_byte_order_mark_do_no_harm(tmp_path: Path) -> None:
+    duty = Duty.from_csv(write(tmp_path, "\ufefftime [s] , load [N]\n\n 0 , 1 \n\n5,2\n"), REFERENCE)
+    assert [point.load for point in duty.points] == [1.0, 2.0]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("time [s],load [N]\n0,ten\n", r"duty\.csv, line 2, column 'load \[N\]', value 'ten': not a finite"),
+        ("time [s],load [N]\n0,1\n9,nan\n", r"line 3, column 'load \[N\]', value 'nan': not a finite number"),
+        ("time [s],load [N]\n0,-5\n", r"line 2, column 'load \[N\]', value '-5': load = -5 N .* at least 0"),
+        ("time [s],temperature [degC]\n0,900\n", r"value '900': temperature = 1173\.15 K .* at most 600 K"),
+        ("time [s],load [N]\n1,1\n", r"line 2: time = 1 s, but the first row must be at time 0"),
+        ("time [s],load [N]\n0,1\n5,1\n5,2\n", r"line 4: time = 5 s does not come after the 5 s of the row"),
+        ("time [s],load [N]\n0,1,5\n", r"line 2: 3 values for 2 columns\. Put a comma between values"),
+        ("time [s],lod [N]\n0,1\n", r"line 1: there is no column 'lod'\. Did you mean 'load'\? Known are"),
+        ("time [s],load\n0,1\n", r"line 1: column 'load' is not a name with a unit\. Write for example"),
+        ("time [s],load [m]\n0,1\n", r"line 1: load = '1\.0 m' has the wrong unit: .* convertible to N"),
+        ("time [s],load [N],load [N]\n0,1,1\n", r"line 1: column 'load' is there twice"),
+        ("load [N]\n1\n", r"line 1: the columns are load; 'time' and at least one of load, speed_1"),
+        ("time [s],load [N]\n", r"needs a header such as 'time \[s\],load \[N\]' and a row below it"),
+    ],
+)
+def test_a_bad_table_is_refused_with_what_is_wrong(tmp_path: Path, text: str, said: str) -> None:
+    with pytest.raises(SceneError, match=said):
+        Duty.from_csv(write(tmp_path, text), REFERENCE)
+
+
+def test_a_missing_file_is_refused_by_name() -> None:
+    with pytest.raises(SceneError, match=r"The duty file 'nowhere\.csv' cannot be read: No such file"):
+        Duty.from_csv("nowhere.csv", REFERENCE)
+
+
+def test_a_file_that_is_no_text_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "duty.csv"
+    path.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(SceneError, match="is not a CSV file in UTF-8"):
+        Duty.from_csv(path, REFERENCE)
+
+
+@pytest.mark.parametrize(("times", "points"), [((), 0), ((1.0,), 1), ((0.0, 0.0), 2), ((0.0, 1.0), 1)])
+def test_times_that_make_no_duty_are_refused(times: tuple[float, ...], points: int) -> None:
+    with pytest.raises(SceneError, match="must start at 0, increase, and be as many as its points"):
+        Duty(times, (REFERENCE,) * points)
+
+
+def test_a_scene_without_a_file_has_a_constant_duty(scene: Scene) -> None:
+    assert Duty.of_scene(scene) == Duty.constant(scene.operation.point)
+
+
+def test_a_scenes_file_is_looked_for_in_the_folder_given(tmp_path: Path) -> None:
+    write(tmp_path, "time [s],load [N]\n0,12\n")
+    scene = Scene.from_toml("mtm_zddp", {"operation.file": "duty.csv"})
+    assert Duty.of_scene(scene, tmp_path).points[0].load == 12.0
+
+
+def test_the_scene_is_sized_for_the_largest_load_of_the_duty(scene: Scene) -> None:
+    heavy = Duty((0.0, 1.0), (REFERENCE, OperatingPoint(60.0, 0.1, 0.2, 350.0)))
+    assert heavy.sized(scene).largest_load == 60.0
+    assert Duty.constant(REFERENCE).sized(scene) is scene
+
+
+def test_a_duty_too_heavy_for_the_grid_is_refused_by_the_scenes_rule(scene: Scene) -> None:
+    with pytest.raises(SceneError, match=r"film\.domain = 0\.0005 m is too small: at 400 N"):
+        Duty.constant(OperatingPoint(400.0, 0.1, 0.2, 350.0)).sized(scene)

@@ -1,0 +1,35 @@
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from contact_core import Scene
+from contact_core.scene import read_table
+from system_models.duty import Duty
+
+README = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
+
+
+def block(language: str, start: str) -> str:
+    (found,) = re.findall(rf"```{language}\n({re.escape(start)}.*?)```", README, re.DOTALL)
+    return found
+
+
+def test_the_python_example_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    names: dict[str, object] = {}
+    exec(block("python", "from contact_core"), names)
+    assert [line.split()[0] for line in capsys.readouterr().out.splitlines()] == ["1", "2", "3"]
+    assert isinstance(names["memory"], bytes)
+
+
+def test_the_scene_of_ones_own_is_a_scene() -> None:
+    table = read_table("mtm_zddp") | tomllib.loads(block("toml", "[surface_1]"))
+    scene = Scene.from_dict(table)
+    assert scene.tribofilm.full_thickness == 150e-9
+
+
+def test_the_duty_is_a_duty(tmp_path: Path, scene: Scene) -> None:
+    path = tmp_path / "duty.csv"
+    path.write_text(block("", "time [min]"))
+    assert Duty.from_csv(path, scene.operation.point).times == (0.0, 1800.0, 3600.0)

@@ -1,0 +1,113 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from contact_core import RangeFlag
+from contact_core.quantities import TABLE
+from system_models import report
+from system_models.results import to_dataset
+
+
+@pytest.fixture
+def long_run() -> xr.Dataset:
+    """Two hours with a row per minute: friction falls, the rest is plain."""
+    time = 60.0 * np.arange(121)
+    columns = {name: np.full(121, 0.5) for name in TABLE}
+    columns |= {"valid": np.full(121, True), "range_flags": np.zeros(121, int)}
+    columns["friction_coefficient"] = 0.13 - 1e-6 * time
+    columns["lambda_ratio"] = np.full(121, 0.25)
+    columns["h_c"] = 3e-8 + 1e-12 * time
+    units = {name: quantity.unit for name, quantity in TABLE.items()}
+    return to_dataset(list(time), columns, units, {name: q.text for name, q in TABLE.items()})
+
+
+def rows_of(text: str) -> list[list[float]]:
+    return [[float(cell) for cell in line.split()] for line in text.splitlines()[2:]]
+
+
+def test_the_table_has_ten_rows_denser_early_on(long_run: xr.Dataset) -> None:
+    minutes = [row[0] for row in rows_of(report.table(long_run))]
+    assert minutes == [0.0, 1.0, 2.0, 6.0, 12.0, 24.0, 42.0, 60.0, 90.0, 120.0]
+
+
+def test_a_short_run_is_printed_whole(long_run: xr.Dataset) -> None:
+    assert len(rows_of(report.table(long_run.isel(time=slice(12))))) == 12
+
+
+def test_the_table_converts_to_the_units_of_its_heading(long_run: xr.Dataset) -> None:
+    heading, units, *_ = (line.split() for line in report.table(long_run).splitlines())
+    assert heading[:3] == ["time", "friction", "h_c"]
+    assert units == ["min", *["nm"] * 5]
+    assert rows_of(report.table(long_run))[-1][:4] == [120.0, 0.1228, 37.2, 0.25]
+
+
+def test_load_cycles_are_whole_passes(long_run: xr.Dataset) -> None:
+    long_run["load_cycles_1"][-1], long_run["load_cycles_2"][-1] = 28361.9, 999.0
+    assert report.closing_lines(long_run)[0] == "Load cycles: ball 28 361, disc 999."
+
+
+def test_the_share_of_blocks_is_told(long_run: xr.Dataset) -> None:
+    for name, count in (("dry", 6.0), ("mixed", 3.0), ("fallback", 1.0)):
+        long_run[f"blocks_{name}"][-1] = count
+    line = report.closing_lines(long_run)[1]
+    assert line == "Blocks: 10 solved; driven dry 60.0 %, mixed 30.0 %, by fallback 10.0 %."
+
+
+def test_range_flags_are_told_in_words_with_their_rows(long_run: xr.Dataset) -> None:
+    long_run["range_flags"][:] = int(RangeFlag.INLET_UNRESOLVED)
+    long_run["range_flags"][:2] = int(RangeFlag.INLET_UNRESOLVED | RangeFlag.FEW_NODES)
+    assert report.closing_lines(long_run)[3:] == [
+        f"Range, in 121 of 121 rows: {RangeFlag.INLET_UNRESOLVED.text}.",
+        f"Range, in 2 of 121 rows: {RangeFlag.FEW_NODES.text}.",
+    ]
+
+
+def test_a_clean_run_says_so(long_run: xr.Dataset) -> None:
+    validity, *ranges = report.closing_lines(long_run)[2:]
+    assert validity == "Validity: all 121 rows are valid."
+    assert ranges == ["Range: nothing to note."]
+
+
+def test_invalid_rows_are_told(long_run: xr.Dataset) -> None:
+    long_run["valid"][[5, 9]] = False
+    assert report.invalid_rows(long_run) == 2
+    assert "2 of 121 rows are INVALID, the first at 300 s" in report.closing_lines(long_run)[2]
+
+
+def test_every_panel_has_a_label_and_a_legend_where_lines_must_be_told_apart(long_run: xr.Dataset) -> None:
+    axes = report.overview(long_run).axes
+    labels = [axis.get_ylabel() for axis in axes]
+    assert len(set(labels)) == 8
+    assert {"mean tribofilm thickness [nm]", "largest pressure [GPa]"} < set(labels)
+    for axis in axes:
+        assert (axis.get_legend() is None) == (len(axis.lines) == 1)
+
+
+def test_panels_draw_converted_values_against_minutes(long_run: xr.Dataset) -> None:
+    (heights,) = (axis for axis in report.overview(long_run).axes if axis.get_ylabel() == "height [nm]")
+    gap, sigma = heights.lines
+    np.testing.assert_allclose(gap.get_xdata(), np.arange(121))
+    np.testing.assert_allclose(gap.get_ydata(), 30.0 + 0.06 * np.arange(121))
+    np.testing.assert_allclose(sigma.get_ydata(), 4.0 * np.asarray(gap.get_ydata()))
+
+
+def test_the_composite_roughness_is_left_out_where_the_film_ratio_is_capped(long_run: xr.Dataset) -> None:
+    long_run["lambda_ratio"][:] = 1000.0
+    (heights,) = (axis for axis in report.overview(long_run).axes if axis.get_ylabel() == "height [nm]")
+    assert np.isnan(np.asarray(heights.lines[1].get_ydata(), float)).all()
+
+
+def test_invalid_steps_are_shaded(long_run: xr.Dataset) -> None:
+    assert not report.overview(long_run).axes[0].patches
+    long_run["valid"][7] = False
+    for axis in report.overview(long_run).axes:
+        (shade,) = axis.patches
+        extent = shade.get_extents().transformed(axis.transData.inverted())
+        assert extent.intervalx == pytest.approx([6.0, 7.0])
+
+
+def test_the_overview_is_a_png(long_run: xr.Dataset, tmp_path: Path) -> None:
+    path = report.write_overview(long_run, tmp_path / "overview.png")
+    assert path.read_bytes().startswith(b"\x89PNG")
