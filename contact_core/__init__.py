@@ -5,26 +5,29 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
 
     quantities   names, symbols, units, signs and averages of every input and output; ranges of every parameter
     units        "1.26 GPa" to SI, at the border
-    scene        Scene from TOML, its checks, OperatingPoint, Operation (the duty)
+    scene        Scene, its checks, OperatingPoint, Operation (the duty)
+    reading      TOML to records and back, with did-you-mean
     state        ContactState, Outputs, RangeFlag, serialisation
     surfaces     roughness: generation and statistics
     laws/        viscosity, density, rheology, plasticity, boundary friction, heat, tribofilm, wear
     film/        fluid and solid pressure of one instant
     kernels/     numba and FFT: arrays in, arrays out
     contact      solve: one instant of a scene in a state
+    block        a sweep of the moving surfaces through the contact: what they feel, mean outputs
     advance      advance: the evolution over time
     reference    closed forms
     data/        named oils, solids and tribofilms, and the shipped scenes
     errors       what can go wrong, each message with a way out
 
-Imports run one way: kernels <- laws <- film <- contact <- advance. Everything inside is SI; heights are metres above a
-body's mean plane, positive toward the other body; arrays are [ny, nx], x along entrainment.
+Imports run one way: kernels <- laws <- film <- contact <- block <- advance. Everything inside is SI; heights are
+metres above a body's mean plane, positive toward the other body; arrays are [ny, nx], x along entrainment.
 """
 
 from .advance import advance
 from .contact import ContactFields, Transient, solve
 from .errors import ContactError, ConvergenceError, OperatingPointError, SceneError, StateError
-from .scene import OperatingPoint, Scene, shipped_scenes
+from .reading import shipped_scenes
+from .scene import OperatingPoint, Scene
 from .state import ContactState, Outputs, RangeFlag, initial_state
 
 __version__ = "0.1.0"

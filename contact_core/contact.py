@@ -10,7 +10,7 @@ from scipy import ndimage
 from .film.deterministic import FilmSolution, FilmState, Instant
 from .laws.tribofilm import thickness
 from .scene import OperatingPoint, Scene, Surface
-from .state import Body, ContactState, frozen
+from .state import Body, ContactState
 from .surfaces import generate, groove_free
 
 Array = NDArray[np.float64]
@@ -46,7 +46,8 @@ class ContactFields:
     flash_rise: float  # mean over the real contact [K]
     film: FilmState
     converged: bool
-    route: str  # "mixed", "dry" (no entrainment, or asked for), "fallback" (dry for want of a mixed solution) or "open" (no load)
+    # "mixed", "dry" (no entrainment, or asked for), "fallback" (dry for want of a mixed solution) or "open" (no load)
+    route: str
     iterations: int
     pressure_change: float  # of the last iteration, relative
     load_error: float  # relative
@@ -58,7 +59,8 @@ def solve(
 ) -> ContactFields:
     """Solve the contact at one instant; time and state stand still.
 
-    Without `transient` the film is steady. `dry` leaves the fluid out. Raises OperatingPointError for values that cannot be used and
+    Without `transient` the film is steady. `dry` leaves the fluid out. Raises OperatingPointError for values that
+    cannot be used and
     ConvergenceError if no solution exists. A film solution that did not converge says so; if it cannot be used, the
     dry one stands in (`route`).
     """
@@ -68,20 +70,36 @@ def solve(
     patches = [heights_of(z, body) for z, body in zip(bare, state.bodies, strict=True)]
     films = [thickness(body.growth, body.removal) / scene.tribofilm.full_thickness for body in state.bodies]
     heights = _on_grid(patches[0], nodes[0]) + _on_grid(patches[1], nodes[1])
-    rough = _on_grid(roughness_of(bare[0], patches[0]), nodes[0]) + _on_grid(roughness_of(bare[1], patches[1]), nodes[1])
+    rough = _on_grid(roughness_of(bare[0], patches[0]), nodes[0]) + _on_grid(
+        roughness_of(bare[1], patches[1]), nodes[1]
+    )
     cover_1, cover_2 = (_on_grid(film, n) for film, n in zip(films, nodes, strict=True))
     limit = scene.plasticity.limit(np.maximum(cover_1, cover_2))
     if op.load == 0.0:
         film = _open(scene, heights)
     else:
         now = Instant(
-            op.load, op.entrainment_speed, op.temperature, scene.geometry.radius_x, scene.geometry.radius_y,
-            scene.solids.reduced_modulus, scene.lubricant.viscosity, scene.lubricant.density, heights, limit,
-            scene.plasticity.hardness, dry,
+            op.load,
+            op.entrainment_speed,
+            op.temperature,
+            scene.geometry.radius_x,
+            scene.geometry.radius_y,
+            scene.solids.reduced_modulus,
+            scene.lubricant.viscosity,
+            scene.lubricant.density,
+            heights,
+            limit,
+            scene.plasticity.hardness,
+            dry,
         )
         step = transient.dt if transient and transient.settled else None
-        film = scene.film.solve(now, state.film if transient else None, step, transient.moved if transient else 0,
-                                transient.iterations if transient else None)
+        film = scene.film.solve(
+            now,
+            state.film if transient else None,
+            step,
+            transient.moved if transient else 0,
+            transient.iterations if transient else None,
+        )
     return _with_friction(scene, op, film, heights, rough, cover_1, cover_2)
 
 
@@ -108,7 +126,9 @@ def roughness_of(bare: Array, heights: Array) -> Array:
 
 @lru_cache(maxsize=8)
 def _bare(surface: Surface, points: int, domain: float, body: int) -> Array:
-    return frozen(generate(surface, points, domain, body))
+    heights = generate(surface, points, domain, body)
+    heights.setflags(write=False)
+    return heights
 
 
 def _on_grid(patch: Array, nodes: int) -> Array:
@@ -138,8 +158,27 @@ def _with_friction(
     rise = _flash_rise(scene, film.state.solid, fluid_shear + solid_shear, sliding)
     axis = scene.film.axis
     return ContactFields(
-        axis, axis, film.state.pressure, fluid, solid, film.gap, heights, rough, cover_1, cover_2, film.overlap, fluid_shear, solid_shear,
-        rise, film.state, film.converged, film.route, film.iterations, film.change, film.load_error, film.inlet_nodes,
+        axis,
+        axis,
+        film.state.pressure,
+        fluid,
+        solid,
+        film.gap,
+        heights,
+        rough,
+        cover_1,
+        cover_2,
+        film.overlap,
+        fluid_shear,
+        solid_shear,
+        rise,
+        film.state,
+        film.converged,
+        film.route,
+        film.iterations,
+        film.change,
+        film.load_error,
+        film.inlet_nodes,
     )
 
 

@@ -32,12 +32,11 @@ class Quantity:
 
 
 def _pair(name: str, symbol: str, unit: str, text: str, **rest: Any) -> tuple[Quantity, Quantity]:
-    first, second = (
-        Quantity(f"{name}_{i}", f"{symbol}_{i}", unit, f"{text}, body {i}", **rest) for i in (1, 2)
-    )
+    first, second = (Quantity(f"{name}_{i}", f"{symbol}_{i}", unit, f"{text}, body {i}", **rest) for i in (1, 2))
     return first, second
 
 
+# fmt: off
 INPUTS: tuple[Quantity, ...] = (
     Quantity("load", "W", "N", "normal load", "input", 50.0, 0.0, 1e5),
     Quantity("speed_1", "u_1", "m/s", "surface speed of body 1 along x, relative to the contact", "input", 1.0, -100, 100),
@@ -74,10 +73,13 @@ OUTPUTS: tuple[Quantity, ...] = (
     *_pair("load_cycles", "N", "1", "passes of a surface point through the contact", role="diagnostic", nominal=1e4, minimum=0.0),
     *_pair("coverage", "C", "1", "share of the track |y| < b with a tribofilm above 1 nm", role="diagnostic", minimum=0.0, maximum=1.0),
     *_pair("roughness_raw", "Rq_raw", "m", "rms roughness over |y| < 2b/3, groove included", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm"),
+    Quantity("unconverged", "", "1", "share of the last block's film solutions that missed the tolerance", role="diagnostic", minimum=0.0, maximum=1.0),
     Quantity("blocks_dry", "", "1", "solved blocks so far that dry contact pressures drove", role="diagnostic", minimum=0.0),
     Quantity("blocks_mixed", "", "1", "solved blocks so far that mixed lubrication pressures drove", role="diagnostic", minimum=0.0),
     Quantity("blocks_fallback", "", "1", "solved blocks so far in which the dry solution had to stand in for a mixed one", role="diagnostic", minimum=0.0),
 )
+
+# fmt: on
 
 TABLE: dict[str, Quantity] = {q.name: q for q in (*INPUTS, *OUTPUTS)}
 
@@ -99,7 +101,12 @@ def parameter(
     array (such a field cannot become a tunable FMU parameter).
     """
     metadata = {
-        "unit": unit, "text": text, "above": above, "least": least, "most": most, "choices": choices,
+        "unit": unit,
+        "text": text,
+        "above": above,
+        "least": least,
+        "most": most,
+        "choices": choices,
         "shapes_arrays": shapes_arrays,
     }
     return field(metadata=metadata) if default is ... else field(default=default, metadata=metadata)
@@ -124,8 +131,10 @@ def _number_sentence(name: str, value: float, f: "Field[Any]") -> Iterator[str]:
     inside = (value > low if above is not None else value >= low) and value <= high
     if math.isfinite(value) and inside:
         return
-    bounds = ["" if math.isfinite(value) else "finite",
-              f"above {above:g}" if above is not None else f"at least {least:g}" if least is not None else "",
-              f"at most {most:g}" if most is not None else ""]
+    bounds = [
+        "" if math.isfinite(value) else "finite",
+        f"above {above:g}" if above is not None else f"at least {least:g}" if least is not None else "",
+        f"at most {most:g}" if most is not None else "",
+    ]
     unit = f" {unit}" if unit else ""
     yield f"{name} = {value:g}{unit} ({f.metadata['text']}) must be {' and '.join(b for b in bounds if b)}{unit}."

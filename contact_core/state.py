@@ -1,8 +1,8 @@
 """Everything that can change the next answer, frozen, and what a step gives back.
 
 A state is never changed: `advance` returns a new one, so the caller may keep, compare and go back to any of them.
-Arrays are read-only and lie on body-fixed patches [ny, nx], periodic along x, except the film's, which lie on the grid of
-the contact.
+Arrays are read-only and lie on body-fixed patches [ny, nx], periodic along x, except the film's, which lie on the
+grid of the contact.
 """
 
 import json
@@ -29,6 +29,7 @@ class RangeFlag(IntFlag):
     text: str
 
     def __new__(cls, value: int, text: str = "") -> "RangeFlag":
+        """Keep the sentence beside the number."""
         flag = int.__new__(cls, value)
         flag._value_, flag.text = value, text
         return flag
@@ -36,7 +37,7 @@ class RangeFlag(IntFlag):
     LAMBDA_CAPPED = 1, "no roughness or no load: lambda_ratio stands at its cap or at zero"
     TRIBOFILM_TEMPERATURE = 2, "more than 5 K from the temperature of the film constants"
     INLET_UNRESOLVED = 4, "the grid is too coarse for the film in the inlet: the film is a number of this grid"
-    NOT_CONVERGED = 8, "some film solutions of the block missed the tolerance and were used as they were"
+    NOT_CONVERGED = 8, "over a tenth of the block's film solutions missed the tolerance and were used as they were"
     FALLBACK = 16, "the dry solution stood in for a film solution in part of the block"
     DOMAIN_EDGE = 32, "the contact or the wear scar reaches the edge of the grid"
     FEW_NODES = 64, "fewer than 8 nodes across the Hertz contact at this load"
@@ -82,6 +83,7 @@ class Outputs:
     coverage_2: float = 0.0
     roughness_raw_1: float = 0.0
     roughness_raw_2: float = 0.0
+    unconverged: float = 0.0
     blocks_dry: float = 0.0
     blocks_mixed: float = 0.0
     blocks_fallback: float = 0.0
@@ -99,6 +101,10 @@ class Body:
     rubbing: Array  # share of test time by which the tribofilm law counts a point as rubbed
     offset: float  # how far the patch has moved along x in the solved steps [m], within one patch length
     cycles: float  # passes through the contact
+
+    def __post_init__(self) -> None:
+        for array in (self.growth, self.removal, self.wear, self.plastic, self.pressure, self.rubbing):
+            array.setflags(write=False)
 
 
 @dataclass(frozen=True)
@@ -166,7 +172,7 @@ def _read(data: bytes) -> ContactState:
         for dtype, shape in header["arrays"]:
             array = np.frombuffer(data, np.dtype(dtype), int(np.prod(shape)), at).reshape(shape)
             at += array.nbytes
-            arrays.append(frozen(array.copy()))  # a copy, because the bytes need not be aligned
+            arrays.append(array.copy())  # a copy, because the bytes need not be aligned
         return _unpack_state(header["state"], iter(arrays))
     except (ValueError, KeyError, TypeError) as error:
         raise StateError(f"The stored state is damaged ({error}). Use an earlier one.") from None
@@ -177,9 +183,9 @@ def _unpack_state(tree: dict[str, Any], arrays: Any) -> ContactState:
         return {name: float.fromhex(x) if isinstance(x, str) else x for name, x in values.items()}
 
     def record(cls: Any, values: dict[str, Any]) -> Any:
-        return cls(**{
-            f.name: next(arrays) if values[f.name] is None else float.fromhex(values[f.name]) for f in fields(cls)
-        })
+        return cls(
+            **{f.name: next(arrays) if values[f.name] is None else float.fromhex(values[f.name]) for f in fields(cls)}
+        )
 
     bodies = (record(Body, tree["bodies"][0]), record(Body, tree["bodies"][1]))
     return ContactState(
@@ -197,12 +203,6 @@ def _unpack_state(tree: dict[str, Any], arrays: Any) -> ContactState:
 def initial_state(scene: Scene) -> ContactState:
     """Fresh surfaces: no film, no wear, nothing solved."""
     shape = (scene.film.points, scene.film.points - 1)
-    zeros = frozen(np.zeros(shape))
+    zeros = np.zeros(shape)
     body = Body(zeros, zeros, zeros, zeros, zeros, zeros, 0.0, 0.0)
     return ContactState(scene.digest(), 0.0, (body, body), None, None, 0.0, 0, Outputs())
-
-
-def frozen(array: NDArray[Any]) -> NDArray[Any]:
-    """Make an array read-only and return it."""
-    array.setflags(write=False)
-    return array

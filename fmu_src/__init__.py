@@ -6,6 +6,7 @@
     document    documentation/index.html
     resources   what lies in the FMU for the slave: scene, versions, the script that pythonfmu's binary loads
     slave       the guarded slave: callbacks in, contact_core.advance out; no physics
+    loader      what pythonfmu's binary leaves behind, tidied up
     snapshot    the FMU's state as a frozen record and as bytes
 
 The FMU is thin: it carries its scene, the physics comes from the installed contact_core of the same version.

@@ -5,7 +5,6 @@ ends a simulation without a word. So every callback returns OK; what could not b
 turns false, and state and outputs stand until the next step that can be computed.
 """
 
-import contextlib
 import math
 import sys
 import traceback
@@ -29,7 +28,7 @@ from contact_core import (
 )
 from contact_core.scene import with_values
 
-from . import resources
+from . import loader, resources
 from .snapshot import Phase, Snapshot
 from .variables import INITIAL_STATE, ZERO, Causality, Kind, Value, variables
 
@@ -39,8 +38,7 @@ class ContactSlave(Fmi2Slave):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        with contextlib.suppress(ValueError):  # the loader adds it at each instantiation and leaves it there
-            sys.path.remove(self.resources)
+        loader.tidy(self.resources)
         self._module = type(self).__module__
         try:
             self._design = resources.read(self.resources, self._module)

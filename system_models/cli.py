@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_core.errors import ContactError
-from contact_core.scene import Scene, shipped_scenes
+from contact_core.reading import shipped_scenes
+from contact_core.scene import Scene
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -4,7 +4,7 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import ClassVar, Protocol
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,18 +28,6 @@ _CHANGE_ACCEPTED = 0.1
 _INTRUSION_ACCEPTED = 5.0
 
 
-class PressureLaw(Protocol):
-    """Viscosity [Pa s] at pressures [Pa] and a temperature [K]."""
-
-    def __call__(self, pressure: Array, temperature: float) -> Array: ...  # noqa: D102
-
-
-class DensityLaw(Protocol):
-    """Density ratio at pressures [Pa]."""
-
-    def __call__(self, pressure: Array) -> Array: ...  # noqa: D102
-
-
 @dataclass(frozen=True)
 class Instant:
     """What the film has to be solved for, in SI. Arrays [ny, nx]."""
@@ -50,8 +38,8 @@ class Instant:
     radius_x: float
     radius_y: float
     reduced_modulus: float
-    viscosity: PressureLaw
-    density: DensityLaw
+    viscosity: Callable[[Array, float], Array]  # [Pa s] at pressures and a temperature
+    density: Callable[[Array], Array]  # ratio to that at p = 0, at pressures
     heights: Array  # of both bodies together, positive into the gap
     limit: Array  # largest pressure
     hardness: float  # no limit is above it
@@ -65,13 +53,19 @@ class FilmState:
     pressure: Array
     fluid: Array
     solid: Mask
-    mass: Array
-    rigid_gap: float
+    mass: Array  # density ratio times film thickness
+    rigid_gap: float  # gap of the undeformed, smooth bodies at the centre
+
+    def __post_init__(self) -> None:
+        for array in (self.pressure, self.fluid, self.solid, self.mass):
+            array.setflags(write=False)
 
 
 @dataclass(frozen=True)
 class FilmSolution:
-    """The film of one instant. `gap` is at least the floor; `overlap` is what is missing to it and yields plastically."""
+    """The film of one instant. `gap` is at least the floor; `overlap` is what is missing to it and yields
+    plastically.
+    """
 
     state: FilmState
     gap: Array
@@ -92,12 +86,20 @@ class Deterministic:
     """
 
     name: ClassVar[str] = "deterministic"
-    source: ClassVar[str] = "Azam et al. 2019, doi:10.1016/j.triboint.2018.11.011; the split of fluid and solid pressure is ours"
+    source: ClassVar[str] = (
+        "Azam et al. 2019, doi:10.1016/j.triboint.2018.11.011; the split of fluid and solid pressure is ours"
+    )
 
     points: int = parameter("", "grid nodes along x and along y", least=17, most=4097, shapes_arrays=True)
-    domain: float = parameter("m", "side of the square grid, centred on the contact", above=0.0, most=1.0, shapes_arrays=True)
-    floor: float = parameter("m", "gap at which solids touch: thickness of the adsorbed boundary layer", above=1e-11, most=1e-7)
-    tolerance: float = parameter("", "pressure change at which a solution counts as converged, relative", above=0.0, most=0.1)
+    domain: float = parameter(
+        "m", "side of the square grid, centred on the contact", above=0.0, most=1.0, shapes_arrays=True
+    )
+    floor: float = parameter(
+        "m", "gap at which solids touch: thickness of the adsorbed boundary layer", above=1e-11, most=1e-7
+    )
+    tolerance: float = parameter(
+        "", "pressure change at which a solution counts as converged, relative", above=0.0, most=0.1
+    )
     iterations: int = parameter("", "most iterations of one solution", least=1, most=100_000)
     fft: str = parameter("", "library of the Fourier transforms", choices=("pyfftw", "scipy"), default="pyfftw")
 
@@ -109,20 +111,23 @@ class Deterministic:
     @property
     def axis(self) -> Array:
         """Coordinates of the nodes along x, and along y [m]; zero is the centre of the contact."""
-        return (np.arange(self.points) - 0.5 * (self.points - 1)) * self.spacing
+        nodes: Array = np.arange(self.points, dtype=np.float64)
+        return (nodes - 0.5 * (self.points - 1)) * self.spacing
 
     def solve(
         self, now: Instant, start: FilmState | None, step: float | None, moved: int, iterations: int | None = None
     ) -> FilmSolution:
         """Solve one instant.
 
-        start: a solution nearby, or None to start dry. step: time [s] since `start`, or None for a steady film. moved: nodes by
+        start: a solution nearby, or None to start dry. step: time [s] since `start`, or None for a steady film.
+        moved: nodes by
         which the rough surfaces have moved along +x since `start`. iterations: fewer than the scene allows. Raises
         ConvergenceError if even the dry contact has no solution. Entrainment along -x is solved in the mirror.
         """
         if now.entrainment_speed < 0.0:
-            mirrored = replace(now, entrainment_speed=-now.entrainment_speed, heights=now.heights[:, ::-1],
-                               limit=now.limit[:, ::-1])
+            mirrored = replace(
+                now, entrainment_speed=-now.entrainment_speed, heights=now.heights[:, ::-1], limit=now.limit[:, ::-1]
+            )
             return _mirror(self.solve(mirrored, start and _mirror_state(start), step, -moved, iterations))
         scaled = _Scaled(self, now)
         if now.dry or now.entrainment_speed == 0.0:
@@ -130,7 +135,13 @@ class Deterministic:
         problem = scaled.problem(start if step is not None else None, step)
         begins: list[tuple[Callable[[], Iterate], int]] = [(begin, self.iterations) for begin in scaled.fresh_starts()]
         if start is not None:
-            begins.insert(0, (lambda: advected(scaled.iterate(start), scaled.smooth, moved), min(iterations or self.iterations, self.iterations)))
+            begins.insert(
+                0,
+                (
+                    lambda: advected(scaled.iterate(start), scaled.smooth, moved),
+                    min(iterations or self.iterations, self.iterations),
+                ),
+            )
         spent = 0
         for begin, budget in begins:
             found = solve_mixed(scaled.half_space, problem, begin(), self.tolerance, budget)
@@ -159,7 +170,8 @@ class _Scaled:
         self.cap = now.limit / self.p_h
         if self.cap.sum() <= 1.01 * self.load:
             raise ConvergenceError(
-                f"{now.load:g} N are more than the grid of {film.domain:g} m can carry at the hardness. Lower the load or enlarge film.domain."
+                f"{now.load:g} N are more than the grid of {film.domain:g} m can carry at the hardness. "
+                "Lower the load or enlarge film.domain."
             )
         x = film.axis / self.a
         self.smooth = np.sqrt(np.maximum(1.0 - x[None, :] ** 2 - now.radius_x / now.radius_y * x[:, None] ** 2, 0.0))
@@ -173,21 +185,43 @@ class _Scaled:
         mobility = self.a**3 * self.p_h / (12.0 * viscosity * now.entrainment_speed * now.radius_x**2)
         mass = np.zeros_like(self.cap) if before is None else before.mass / self.length
         per_dt = 0.0 if before is None or step is None else self.a / (now.entrainment_speed * step)
-        return Problem(self.undeformed, self.cap, self.floor, self.dx, self.load, mobility, per_dt, mass, fluidity, density,
-                       top / self.p_h / (_TABLE - 1))
+        return Problem(
+            self.undeformed,
+            self.cap,
+            self.floor,
+            self.dx,
+            self.load,
+            mobility,
+            per_dt,
+            mass,
+            fluidity,
+            density,
+            top / self.p_h / (_TABLE - 1),
+        )
 
     def iterate(self, state: FilmState) -> Iterate:
         total = state.pressure.sum() / self.p_h
         scale = self.load / total / self.p_h if total > 0.0 else 1.0 / self.p_h
         pressure = np.minimum(state.pressure * scale, self.cap)
-        return Iterate(pressure, np.minimum(state.fluid * scale, pressure), state.solid.copy(), state.rigid_gap / self.length)
+        return Iterate(
+            pressure, np.minimum(state.fluid * scale, pressure), state.solid.copy(), state.rigid_gap / self.length
+        )
 
     def fresh_starts(self) -> list[Callable[[], Iterate]]:
-        """Where to begin from nothing: the dry contact, or Hertz's pressure under the smooth film if that clears the roughness."""
+        """Where to begin from nothing: the dry contact, or Hertz's pressure under the smooth film if that clears
+        the roughness.
+        """
         now = self.now
         eta = now.viscosity(np.array([0.0, 1e6]), now.temperature)
-        contact = SmoothContact(now.load, now.entrainment_speed, float(eta[0]), float(np.log(eta[1] / eta[0])) * 1e-6,
-                                now.radius_x, now.radius_y, now.reduced_modulus)
+        contact = SmoothContact(
+            now.load,
+            now.entrainment_speed,
+            float(eta[0]),
+            float(np.log(eta[1] / eta[0])) * 1e-6,
+            now.radius_x,
+            now.radius_y,
+            now.reduced_modulus,
+        )
         film = nijenbanning_venner_moes(contact)
 
         def dry() -> Iterate:
@@ -211,13 +245,23 @@ class _Scaled:
         rigid += self.floor
         gap = rigid + self.undeformed + self.half_space.deform(pressure)
         mass = np.maximum(gap, self.floor)
-        found = Solution(Iterate(pressure, np.zeros_like(pressure), pressure > 0.0, rigid), gap, mass, converged, iterations,
-                         _DRY_TOLERANCE, pressure.sum() / self.load - 1.0, 0.0)
+        found = Solution(
+            Iterate(pressure, np.zeros_like(pressure), pressure > 0.0, rigid),
+            gap,
+            mass,
+            converged,
+            iterations,
+            _DRY_TOLERANCE,
+            pressure.sum() / self.load - 1.0,
+            0.0,
+        )
         return replace(self.solution(found, iterations), route=route)
 
     def solution(self, found: Solution, iterations: int) -> FilmSolution:
         it = found.iterate
-        state = FilmState(it.pressure * self.p_h, it.fluid * self.p_h, it.solid, found.mass * self.length, it.rigid * self.length)
+        state = FilmState(
+            it.pressure * self.p_h, it.fluid * self.p_h, it.solid, found.mass * self.length, it.rigid * self.length
+        )
         capped = it.solid & (it.pressure >= self.cap)
         overlap = np.where(capped, np.maximum(self.floor - found.gap, 0.0), 0.0) * self.length
         gap = np.maximum(found.gap, self.floor) * self.length
@@ -226,17 +270,23 @@ class _Scaled:
         film = float(gap[centre].mean()) / self.length
         # the inlet zone ends where the Hertz gap, (4 sqrt2/3pi) d^1.5 at a distance d before the contact, is the film
         inlet = (film / 0.6) ** (2.0 / 3.0) / self.dx
-        return FilmSolution(state, gap, overlap, found.converged, "mixed", iterations, found.change, found.load_error, inlet)
+        return FilmSolution(
+            state, gap, overlap, found.converged, "mixed", iterations, found.change, found.load_error, inlet
+        )
 
 
 def _mirror_state(state: FilmState) -> FilmState:
-    flipped = (np.ascontiguousarray(f[:, ::-1]) for f in (state.pressure, state.fluid, state.solid, state.mass))
-    return FilmState(*flipped, state.rigid_gap)
+    pressure, fluid, mass = (np.ascontiguousarray(f[:, ::-1]) for f in (state.pressure, state.fluid, state.mass))
+    return FilmState(pressure, fluid, np.ascontiguousarray(state.solid[:, ::-1]), mass, state.rigid_gap)
 
 
 def _mirror(solution: FilmSolution) -> FilmSolution:
-    return replace(solution, state=_mirror_state(solution.state), gap=np.ascontiguousarray(solution.gap[:, ::-1]),
-                   overlap=np.ascontiguousarray(solution.overlap[:, ::-1]))
+    return replace(
+        solution,
+        state=_mirror_state(solution.state),
+        gap=np.ascontiguousarray(solution.gap[:, ::-1]),
+        overlap=np.ascontiguousarray(solution.overlap[:, ::-1]),
+    )
 
 
 _LOCAL = threading.local()  # plans and scratch may not be shared between threads
@@ -253,7 +303,9 @@ def _half_space(points: int, scale: float, library: str) -> HalfSpace:
 
 
 @lru_cache(maxsize=8)
-def _tables(viscosity: PressureLaw, density: DensityLaw, temperature: float, top: float) -> tuple[Array, Array, float]:
+def _tables(
+    viscosity: Callable[[Array, float], Array], density: Callable[[Array], Array], temperature: float, top: float
+) -> tuple[Array, Array, float]:
     """1 / viscosity relative to that at p = 0, density ratio, and the viscosity at p = 0."""
     pressure = np.linspace(0.0, top, _TABLE)
     values = viscosity(pressure, temperature)

@@ -6,5 +6,6 @@
     mixed         the iteration that couples them
     anderson      acceleration of a fixed point
 
-All kernels are serial, release the GIL, keep the order of summation and use no fast-math: the same input gives the same bits.
+All kernels are serial, release the GIL, keep the order of summation and use no fast-math: the same input gives the
+same bits.
 """

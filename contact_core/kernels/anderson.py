@@ -58,13 +58,24 @@ class Anderson:
         self._stored = 0
 
     def mix(self, x: Array, image: Array) -> Array:
-        """Return the next iterate from `x` and its image g(x) (1-D, not changed); the image itself where mixing is unsafe."""
+        """Return the next iterate from `x` and its image g(x) (1-D, not changed); the image itself where mixing is
+        unsafe.
+        """
         residual, depth = image - x, self._gram.shape[0]
         if self._old is not None:
             slot = self._stored % depth
             self._stored += 1
-            _store(residual, self._old[0], image, self._old[1], self._d_residual, self._d_image, self._gram, slot,
-                   min(self._stored, depth))
+            _store(
+                residual,
+                self._old[0],
+                image,
+                self._old[1],
+                self._d_residual,
+                self._d_image,
+                self._gram,
+                slot,
+                min(self._stored, depth),
+            )
         self._old = (residual, image)
         used = min(self._stored, depth)
         if used == 0:

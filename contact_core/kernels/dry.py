@@ -44,7 +44,9 @@ def _norm(g, p, cap, mean):  # type: ignore[no-untyped-def]
 
 @njit(cache=True, nogil=True)
 def _step(g, t, r, p, cap, mean_r, load):  # type: ignore[no-untyped-def]
-    """Move p along t, keep it in [0, cap], let nodes in, meet the load. Returns the relative change and whether nodes came in."""
+    """Move p along t, keep it in [0, cap], let nodes in, meet the load. Returns the relative change and whether
+    nodes came in.
+    """
     num, den = 0.0, 0.0
     ny, nx = p.shape
     for j in range(ny):
@@ -90,8 +92,8 @@ def solve_dry(
 ) -> tuple[Array, float, bool, int]:
     """Pressure [ny, nx] that carries `load` (its sum) with 0 <= p <= cap, and the rigid gap that goes with it.
 
-    gap [ny, nx] is that of the undeformed bodies up to a constant; start is any pressure of about the right place. Returns
-    (pressure, constant to add to `gap` + deformation so that it vanishes in contact, converged, iterations).
+    gap [ny, nx] is that of the undeformed bodies up to a constant; start is any pressure of about the right place.
+    Returns (pressure, constant to add to `gap` + deformation so that it vanishes in contact, converged, iterations).
     """
     p = np.clip(start, 0.0, cap)
     p *= load / p.sum()
@@ -99,7 +101,8 @@ def solve_dry(
     t = np.zeros_like(p)
     old_norm, keep = 1.0, 0.0
     converged, n = False, 0
-    for n in range(1, iterations + 1):
+    while n < iterations and not converged:
+        n += 1
         g = gap + half_space.deform(p)
         mean, count = _active_mean(g, p, cap)
         if count == 0:
@@ -111,8 +114,6 @@ def solve_dry(
         mean_r, _ = _active_mean(r, p, cap)
         change, came_in = _step(g, t, r, p, cap, mean_r, load)
         keep = 0.0 if came_in else 1.0
-        if change < tolerance:
-            converged = True
-            break
+        converged = change < tolerance
     mean, _ = _active_mean(gap + half_space.deform(p), p, cap)
     return p, -mean, converged, n

@@ -5,6 +5,7 @@ convolution: Liu, Wang & Liu, Wear 243 (2000) 101, doi:10.1016/S0043-1648(00)004
 """
 
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import scipy.fft
@@ -22,7 +23,7 @@ def influence(ny: int, nx: int) -> Array:
     x, y = np.arange(nx)[None, :], np.arange(ny)[:, None]
     xp, xm, yp, ym = x + 0.5, x - 0.5, y + 0.5, y - 0.5
 
-    def s(u: Array, v: Array) -> Array:
+    def s(u: NDArray[Any], v: NDArray[Any]) -> NDArray[Any]:
         return u + np.hypot(u, v)
 
     coefficients = (
@@ -64,7 +65,9 @@ class HalfSpace:
         return self._filter(pressure, self._deform)
 
     def press(self, gap: Array) -> Array:
-        """Pressure that would open a small gap [ny, nx] on the padded, periodic plane: an approximate inverse of `deform`."""
+        """Pressure that would open a small gap [ny, nx] on the padded, periodic plane: an approximate inverse of
+        `deform`.
+        """
         return self._filter(gap, self._undo)
 
     def _filter(self, field: Array, factor: Array) -> Array:

@@ -1,11 +1,13 @@
 """Mixed lubrication: one fixed point for fluid and solid pressure from full film to dry contact.
 
-Unknowns are the total pressure p, the fluid's share f, the set of solid contacts and the rigid gap. On solid contacts the gap is the
-floor and p >= f; elsewhere p = f; 0 <= p <= cap everywhere. An iteration mends the film residual in the stiff zone through the
-inverse of the half space, the rest by lines, and meets the load exactly; Anderson's method accelerates it.
+Unknowns are the total pressure p, the fluid's share f, the set of solid contacts and the rigid gap. On solid
+contacts the gap is the
+floor and p >= f; elsewhere p = f; 0 <= p <= cap everywhere. An iteration mends the film residual in the stiff zone
+through the inverse of the half space, the rest by lines, and meets the load exactly; Anderson's method accelerates it.
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numba import njit
@@ -13,7 +15,7 @@ from numpy.typing import NDArray
 
 from . import reynolds
 from .anderson import Anderson
-from .half_space import HalfSpace, influence
+from .half_space import HalfSpace
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -68,7 +70,9 @@ class Solution:
 
 @njit(cache=True, nogil=True)
 def _combine_corrections(p, cap, h, floor, stiff, dz, dp, unit, damping, load):  # type: ignore[no-untyped-def]
-    """Damp and bound the corrections, meet the load; dp becomes the next pressure. Returns the change of the rigid gap."""
+    """Damp and bound the corrections, meet the load; dp becomes the next pressure. Returns the change of the rigid
+    gap.
+    """
     size = 0.0
     ny, nx = p.shape
     for j in range(ny):
@@ -116,7 +120,9 @@ def _distance(a, b):  # type: ignore[no-untyped-def]
 
 @njit(cache=True, nogil=True)
 def _quality(p, f, cap, solid, h, floor):  # type: ignore[no-untyped-def]
-    """Load carried by solids, total load, mean distance of solid contacts below the cap from the floor, weighted by load."""
+    """Load carried by solids, total load, mean distance of solid contacts below the cap from the floor, weighted
+    by load.
+    """
     solids, total, intrusion = 0.0, 0.0, 0.0
     for j in range(p.shape[0]):
         for i in range(p.shape[1]):
@@ -149,10 +155,38 @@ def solve_mixed(half_space: HalfSpace, problem: Problem, start: Iterate, toleran
 
     def film() -> None:
         deformation = half_space.deform(p)
-        reynolds.film_pass(p, f, solid, q.undeformed, deformation, rigid, q.floor, q.mobility, q.fluidity, q.density,
-                           q.step, h, mass, e)
-        reynolds.fluid_under_contacts(p, f, solid, mass, q.mass_old, e, q.per_dt, dx, _SWEEPS_UNDER_CONTACTS, q.floor,
-                                      q.mobility, q.fluidity, q.density, q.step)
+        reynolds.film_pass(
+            p,
+            f,
+            solid,
+            q.undeformed,
+            deformation,
+            rigid,
+            q.floor,
+            q.mobility,
+            q.fluidity,
+            q.density,
+            q.step,
+            h,
+            mass,
+            e,
+        )
+        reynolds.fluid_under_contacts(
+            p,
+            f,
+            solid,
+            mass,
+            q.mass_old,
+            e,
+            q.per_dt,
+            dx,
+            _SWEEPS_UNDER_CONTACTS,
+            q.floor,
+            q.mobility,
+            q.fluidity,
+            q.density,
+            q.step,
+        )
 
     for n in range(1, iterations + 1):
         film()
@@ -163,7 +197,9 @@ def solve_mixed(half_space: HalfSpace, problem: Problem, start: Iterate, toleran
         if n % 5 == 1:
             unit = half_space.press(stiff.astype(np.float64))
         dp[:] = np.where(stiff, 0.5 * dz, 0.0)
-        reynolds.pressure_correction(p, f, solid, stiff, h, mass, e, r, q.floor, q.per_dt, dx, near, patch_wide, _LINE_SWEEPS, dp)
+        reynolds.pressure_correction(
+            p, f, solid, stiff, h, mass, e, r, q.floor, q.per_dt, dx, near, patch_wide, _LINE_SWEEPS, dp
+        )
         shift = _combine_corrections(p, q.cap, h, q.floor, stiff, dz, dp, unit, damping, q.load)
         change = _distance(dp, p) / q.load
         solids, total, intrusion = _quality(p, f, q.cap, solid, h, q.floor)
@@ -171,8 +207,12 @@ def solve_mixed(half_space: HalfSpace, problem: Problem, start: Iterate, toleran
         share = solids / q.load
         if not np.isfinite(change):
             break
-        converged = (change < tolerance and abs(load_error) < _LOAD_TOLERANCE and intrusion < _INTRUSION_TOLERANCE
-                     and abs(share - share_old) < tolerance)
+        converged = (
+            change < tolerance
+            and abs(load_error) < _LOAD_TOLERANCE
+            and intrusion < _INTRUSION_TOLERANCE
+            and abs(share - share_old) < tolerance
+        )
         if converged:
             break
         share_old = share
@@ -204,7 +244,7 @@ def advected(start: Iterate, smooth: Array, nodes: int) -> Iterate:
     return Iterate(pressure, np.where(solid, share, 1.0) * pressure, solid, start.rigid)
 
 
-def _moved(field: NDArray[np.generic], nodes: int) -> NDArray[np.generic]:
+def _moved(field: NDArray[Any], nodes: int) -> NDArray[Any]:
     out = np.zeros_like(field)
     if nodes > 0:
         out[:, nodes:] = field[:, :-nodes]

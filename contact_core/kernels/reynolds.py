@@ -3,8 +3,8 @@
     div(e grad f) - d(m)/dx - d(m)/dt = 0,   m = rho max(h, floor),   e = mobility rho max(h, floor)^3 / eta(f)
 
 f is the fluid pressure, solved everywhere; entrainment is along +x. Second order: central in pressure, upwind (1.5, -2,
-0.5) in the wedge. On nodes in solid contact (solid[j, i]) the gap is the floor and the total pressure p is at least f; elsewhere
-p = f. Viscosity and density come as tables over pressure (relative to those at p = 0).
+0.5) in the wedge. On nodes in solid contact (solid[j, i]) the gap is the floor and the total pressure p is at least
+f; elsewhere p = f. Viscosity and density come as tables over pressure (relative to those at p = 0).
 """
 
 import numpy as np
@@ -79,7 +79,9 @@ def fluid_under_contacts(p, f, solid, mass, mass_old, e, per_dt, dx, sweeps, flo
         for n in range(count):
             k = n if sweep % 2 == 0 else count - 1 - n
             j, i = at[k, 0], at[k, 1]
-            value = c[k, 0] * f[j, i - 1] + c[k, 1] * f[j, i + 1] + c[k, 2] * f[j - 1, i] + c[k, 3] * f[j + 1, i] + c[k, 4]
+            value = (
+                c[k, 0] * f[j, i - 1] + c[k, 1] * f[j, i + 1] + c[k, 2] * f[j - 1, i] + c[k, 3] * f[j + 1, i] + c[k, 4]
+            )
             if last and value > 1.05 * p[j, i]:
                 solid[j, i] = False
             f[j, i] = min(max(value, 0.0), p[j, i])
@@ -128,7 +130,9 @@ def stiff_zone(p, solid, e, dx, stiff):  # type: ignore[no-untyped-def]
 
 @_jit
 def film_correction(p, cap, solid, stiff, h, mass, e, r, floor, per_dt, dx, patch, dh):  # type: ignore[no-untyped-def]
-    """Change of the gap that mends the residual in the stiff zone, marched downstream; on solid contacts, to the floor."""
+    """Change of the gap that mends the residual in the stiff zone, marched downstream; on solid contacts, to the
+    floor.
+    """
     ny, nx = p.shape
     half = 0.5 / (dx * dx)
     a0, a1, a2 = 1.5 / dx, -2.0 / dx, 0.5 / dx
@@ -149,7 +153,9 @@ def film_correction(p, cap, solid, stiff, h, mass, e, r, floor, per_dt, dx, patc
 
 @_jit
 def pressure_correction(p, f, solid, stiff, h, mass, e, r, floor, per_dt, dx, near, patch_wide, sweeps, dp):  # type: ignore[no-untyped-def]
-    """Line over-relaxation of the linearised equation outside the stiff zone, dp given inside it. Updates dp, p + dp >= 0."""
+    """Line over-relaxation of the linearised equation outside the stiff zone, dp given inside it. Updates dp, p +
+    dp >= 0.
+    """
     ny, nx = p.shape
     half = 0.5 / (dx * dx)
     k0, k1, k2, k3, k4 = near[0, 0], near[0, 1], near[0, 2], near[0, 3], near[0, 4]

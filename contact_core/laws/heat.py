@@ -16,7 +16,9 @@ class NoHeat:
     name: ClassVar[str] = "none"
     source: ClassVar[str] = ""
 
-    def rise(self, radius: NDArray[np.float64], shear: NDArray[np.float64], sliding_speed: float) -> NDArray[np.float64]:
+    def rise(
+        self, radius: NDArray[np.float64], shear: NDArray[np.float64], sliding_speed: float
+    ) -> NDArray[np.float64]:
         """Zeros in the shape of `radius`."""
         return np.zeros_like(radius)
 
@@ -37,7 +39,9 @@ class FlashTemperature:
     diffusivity_1: float = parameter("m2/s", "thermal diffusivity of body 1", above=0.0, most=1.0)
     diffusivity_2: float = parameter("m2/s", "thermal diffusivity of body 2", above=0.0, most=1.0)
 
-    def rise(self, radius: NDArray[np.float64], shear: NDArray[np.float64], sliding_speed: float) -> NDArray[np.float64]:
+    def rise(
+        self, radius: NDArray[np.float64], shear: NDArray[np.float64], sliding_speed: float
+    ) -> NDArray[np.float64]:
         """Temperature rise [K] of spots of `radius` [m] under a mean |shear stress| [Pa]."""
         speed = abs(sliding_speed)
         into_1 = self.conductivity_1 * np.sqrt(0.6575 + speed * radius / (2.0 * self.diffusivity_1))

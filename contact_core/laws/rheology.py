@@ -14,7 +14,9 @@ class EyringLimited:
     """tau = min( tau_E asinh(eta |rate| / tau_E), Lambda p ), with the sign of the shear rate."""
 
     name: ClassVar[str] = "eyring_limited"
-    source: ClassVar[str] = "Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129; Bair & Winer, J. Lubr. Technol. 101 (1979) 258"
+    source: ClassVar[str] = (
+        "Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129; Bair & Winer, J. Lubr. Technol. 101 (1979) 258"
+    )
 
     eyring_stress: float = parameter("Pa", "shear stress at which the fluid begins to thin", above=0.0, most=1e9)
     limiting_coefficient: float = parameter("", "limiting shear stress / pressure", above=0.0, most=1.0)

@@ -40,7 +40,8 @@ class Ghanbarzadeh:
 
     In closed form for a node rubbed for a time t: h = h_max [1 - exp(-k t)] - C3 [1 - exp(-C4 t)].
     `dose` says how long a node is rubbed in a block of test time: "clock", the whole block if it touched the other body
-    in any pass (the constants were fitted that way); "contact_length", in proportion to the length of solid contact in a pass.
+    in any pass (the constants were fitted that way); "contact_length", in proportion to the length of solid contact
+    in a pass.
     """
 
     name: ClassVar[str] = "ghanbarzadeh"

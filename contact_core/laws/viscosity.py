@@ -10,6 +10,7 @@ from ..quantities import parameter
 
 _P0 = 1.0 / 5.1e-9  # Pa
 _LN_ETA_INF = -9.67  # ln(6.31e-5 Pa s)
+_STIFF = 500.0  # an oil e^500 times stiffer than at p = 0 does not flow: no need to overflow
 
 
 @dataclass(frozen=True)
@@ -21,7 +22,9 @@ class Roelands:
     """
 
     name: ClassVar[str] = "roelands"
-    source: ClassVar[str] = "Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of lubricating oils, TU Delft 1966"
+    source: ClassVar[str] = (
+        "Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of oils, TU Delft 1966"
+    )
 
     viscosity: float = parameter("Pa s", "viscosity at p = 0 and the reference temperature", above=6.4e-5, most=1e3)
     reference_temperature: float = parameter("K", "temperature of that viscosity", least=200.0, most=600.0)
@@ -34,7 +37,8 @@ class Roelands:
         z = self.pressure_coefficient * _P0 / log_range
         s0 = self.temperature_coefficient * (self.reference_temperature - 138.0) / log_range
         thermal = ((temperature - 138.0) / (self.reference_temperature - 138.0)) ** -s0
-        return self.viscosity * np.exp(log_range * (-1.0 + (1.0 + pressure / _P0) ** z * thermal))
+        exponent = log_range * (-1.0 + (1.0 + pressure / _P0) ** z * thermal)
+        return self.viscosity * np.exp(np.minimum(exponent, _STIFF))
 
 
 @dataclass(frozen=True)
@@ -53,7 +57,7 @@ class Barus:
         """Viscosity [Pa s] at pressures [Pa] (any shape) and one temperature [K]."""
         exponent = self.pressure_coefficient * pressure
         exponent = exponent - self.temperature_coefficient * (temperature - self.reference_temperature)
-        return self.viscosity * np.exp(np.minimum(exponent, 500.0))  # above e^500 nothing flows either way
+        return self.viscosity * np.exp(np.minimum(exponent, _STIFF))
 
 
 LAWS = (Roelands, Barus)

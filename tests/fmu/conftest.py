@@ -1,4 +1,4 @@
-"""One small FMU, built and unpacked once: 33 nodes, a short sweep, every law in use."""
+"""One small FMU, built and unpacked once: 33 nodes, every law in use."""
 
 import zipfile
 from collections.abc import Iterator
@@ -14,7 +14,6 @@ SMALL = {
     "film.points": "33",
     "surface_1.correlation_length": "16 um",
     "surface_2.correlation_length": "16 um",
-    "control.steps": "4",
 }
 
 

@@ -3,11 +3,20 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
 import fmpy
 from fmpy.simulation import instantiate_fmu
+
+import contact_core
+
+
+def environment() -> dict[str, str]:
+    """Environment of a process that finds the packages where this one found them."""
+    root = str(Path(contact_core.__file__).parents[1])
+    return os.environ | {"PYTHONPATH": os.pathsep.join([root, os.environ.get("PYTHONPATH", "")])}
 
 
 class Host:

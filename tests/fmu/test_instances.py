@@ -2,11 +2,12 @@
 
 import json
 import shutil
+import subprocess
 import sys
 
 import pytest
 from conftest import unpacked
-from fmu_host import hosted
+from fmu_host import environment, hosted
 
 from fmu_src import build
 
@@ -42,6 +43,13 @@ def test_twenty_instances_come_and_go_and_leave_no_path_behind(folder):
 def test_a_folder_with_a_space_in_its_name_works(fmu_file, tmp_path):
     with hosted(unpacked(fmu_file, tmp_path / "a folder")) as host:
         assert host.initialise().step(60.0)["valid"]
+
+
+def test_a_process_that_only_runs_the_fmu_ends_cleanly(fmu_file):
+    """The binary of pythonfmu frees its interpreter twice at exit unless the slave sees to it."""
+    code = f"import fmpy; print(len(fmpy.simulate_fmu({str(fmu_file)!r}, stop_time=2.0, output_interval=1.0)))"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment())
+    assert (run.returncode, run.stdout, run.stderr) == (0, "3\n", "")
 
 
 def test_an_fmu_of_another_version_is_refused_by_name(folder, tmp_path, capfd):

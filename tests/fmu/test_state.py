@@ -1,17 +1,15 @@
 """Save, step, restore, step: the same bits, in this process and in another."""
 
 import json
-import os
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 from conftest import unpacked
-from fmu_host import hosted
+from fmu_host import environment, hosted
 from replay import STEPS, replay
 
-import contact_core
 from fmu_src import build
 
 
@@ -60,11 +58,10 @@ def test_another_instance_continues_where_the_first_stood(stepped, folder):
 def test_a_fresh_process_continues_bit_for_bit(stepped, folder, tmp_path):
     file = tmp_path / "fmu.state"
     file.write_bytes(stepped.state())
-    root = str(Path(contact_core.__file__).parents[1])
     run = subprocess.run(
         [sys.executable, str(Path(__file__).with_name("replay.py")), str(folder), str(file)],
         capture_output=True, text=True, check=True,
-        env=os.environ | {"PYTHONPATH": os.pathsep.join([root, os.environ.get("PYTHONPATH", "")])},
+        env=environment(),
     )
     assert json.loads(run.stdout) == steps(stepped)
 

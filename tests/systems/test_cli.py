@@ -10,7 +10,7 @@ from contact_core import OperatingPoint, Scene, shipped_scenes
 from system_models.cli import main
 from system_models.duty import Duty
 
-STILL = [  # nothing grows, wears or converges slowly: one solution serves for ever
+STILL = [  # nothing grows or wears: one solution serves for ever
     part
     for setting in ("tribofilm.model=none", "wear.model=none", "heat.model=none")
     for part in ("--set", setting)

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from contact_core import Scene
-from contact_core.scene import read_table
+from contact_core.reading import read_table
 from system_models.duty import Duty
 
 README = (Path(__file__).parents[2] / "README.md").read_text("utf-8")

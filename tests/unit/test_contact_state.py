@@ -6,7 +6,7 @@ import pytest
 
 from contact_core import ContactState, Outputs, RangeFlag, Scene, StateError, initial_state
 from contact_core.film.deterministic import FilmState
-from contact_core.state import Body, frozen
+from contact_core.state import Body
 
 SMALL = {"film.points": "33", "surface_1.rq": "0 nm", "surface_2.correlation_length": "16 um"}
 AWKWARD = (-0.0, 5e-324, 1.0 / 3.0, -1.7976931348623157e308, 0.1 + 0.2)
@@ -28,11 +28,11 @@ def used(scene: Scene) -> ContactState:
             if hint is float:
                 values[name] = float(random.normal())
             elif get_args(get_args(hint)[1])[0] is np.bool_:
-                values[name] = frozen(random.random(shape) < 0.5)
+                values[name] = random.random(shape) < 0.5
             else:
                 array = random.normal(size=shape)
                 array.flat[: len(AWKWARD)] = AWKWARD
-                values[name] = frozen(array)
+                values[name] = array
         return cls(**values)
 
     n = scene.film.points

@@ -1,0 +1,34 @@
+"""What pythonfmu's binary leaves behind in the process, and how it is tidied up."""
+
+import atexit
+import contextlib
+import ctypes
+import functools
+import os
+import sys
+from pathlib import Path
+
+from .resources import MODEL
+
+
+def tidy(folder: str) -> None:
+    """Undo the side effects of one instantiation of the FMU whose resources lie in `folder`."""
+    with contextlib.suppress(ValueError):  # the binary puts it there at each instantiation and leaves it
+        sys.path.remove(folder)
+    _release_at_exit(folder)
+
+
+@functools.cache
+def _release_at_exit(folder: str) -> None:
+    """Let the binary of pythonfmu 0.7 give up its interpreter before the process ends.
+
+    On Linux it does so twice otherwise, in a static destructor and again when it is unloaded, if the C++ runtime
+    has pinned it until then: a use after free that now and then aborts a Python host at its exit.
+    """
+    if sys.platform == "linux":
+        atexit.register(_release, Path(folder).parent / "binaries" / "linux64" / f"{MODEL}.so")
+
+
+def _release(library: Path) -> None:
+    with contextlib.suppress(OSError):  # not loaded any more: nothing to give up
+        ctypes.CDLL(str(library), mode=os.RTLD_NOLOAD | os.RTLD_LAZY).finalizePythonInterpreter()
