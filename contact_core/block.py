@@ -21,7 +21,7 @@ from .state import ContactState, RangeFlag
 Array = NDArray[np.float64]
 
 _SETTLING = 80  # transient steps after a new start before the sweep is sampled: about one passage of the oil
-_ITERATIONS = 30  # at most, of one transient step; a warm one needs about 20
+_ITERATIONS = 60  # at most, of one transient step; a warm one needs about 20
 _DRY_SNAPSHOTS = 8
 _DRY_BLOCKS = 8  # blocks driven dry before a mixed solution is tried again
 _GOLDEN = (0.7548776662466927, 0.5698402909980532)  # the additive sequence R2, of low discrepancy in the plane
@@ -45,7 +45,7 @@ def solve_block(scene: Scene, op: OperatingPoint, state: ContactState) -> Contac
     elif dry:
         state = _dry_sweep(scene, op, state, sweep)
     else:
-        state = _mixed_sweep(scene, op, state, sweep, same)
+        state = _mixed_sweep(scene, op, state, sweep, same and state.film is not None)
     return _stored(scene, op, state, sweep)
 
 
@@ -115,14 +115,14 @@ def _dry_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: _Sw
 def _mixed_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: _Sweep, same: bool) -> ContactState:
     columns = scene.film.points - 1
     dt = scene.film.spacing / max(abs(speed) for speed in _speeds(op))
-    settled = same and state.film is not None
-    first = 0 if settled else -_SETTLING
     rougher = 0 if scene.surface_1.rq > scene.surface_2.rq else 1
-    for k in range(first, columns):
+    if state.film is None:
+        state = replace(state, film=solve(scene, op, state, dry=True).film)
+    for k in range(0 if same else -_SETTLING, columns):
         before = patch_nodes(scene, state.bodies[rougher])
         state = _moved(scene, state, [speed * dt for speed in _speeds(op)])
         moved = (patch_nodes(scene, state.bodies[rougher]) - before + columns // 2) % columns - columns // 2
-        fields = solve(scene, op, state, Transient(dt, moved, _ITERATIONS, settled or k > first))
+        fields = solve(scene, op, state, Transient(dt, moved, _ITERATIONS))
         if k >= 0:
             sweep.add(scene, op, state, fields)
         state = _yielded(scene, replace(state, film=fields.film), fields)

@@ -23,7 +23,6 @@ class Transient:
     dt: float  # time since then [s]
     moved: int  # nodes by which the rougher surface has moved along +x since then
     iterations: int  # at most
-    settled: bool = True  # False: the film history is of other inputs; start from it but leave the squeeze term out
 
 
 @dataclass(frozen=True)
@@ -92,11 +91,10 @@ def solve(
             scene.plasticity.hardness,
             dry,
         )
-        step = transient.dt if transient and transient.settled else None
         film = scene.film.solve(
             now,
             state.film if transient else None,
-            step,
+            transient.dt if transient else None,
             transient.moved if transient else 0,
             transient.iterations if transient else None,
         )

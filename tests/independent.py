@@ -22,7 +22,7 @@ def love_matrix(ny, nx):
 
 
 def deformation(pressure, spacing, reduced_modulus):
-    """Settlement [m] of both bodies under a pressure [Pa] of any size of grid."""
+    """Settlement [m] of both bodies under a pressure [Pa] on a grid of any shape."""
     ny, nx = pressure.shape
     kernel = love(np.arange(1 - nx, nx)[None, :], np.arange(1 - ny, ny)[:, None])
     full = fftconvolve(kernel, pressure, mode="full")
@@ -30,67 +30,68 @@ def deformation(pressure, spacing, reduced_modulus):
 
 
 def gap(scene, fields):
-    """Gap [m] of the loaded bodies, negative where they overlap."""
+    """Gap [m] of the loaded bodies, below the floor where they overlap."""
     x, y = fields.x[None, :], fields.y[:, None]
     shape = x**2 / (2.0 * scene.geometry.radius_x) + y**2 / (2.0 * scene.geometry.radius_y)
     settled = deformation(fields.pressure, scene.film.spacing, scene.solids.reduced_modulus)
     return fields.film.rigid_gap + shape - fields.heights + settled
 
 
-def net_inflow(scene, op, fluid, gap, before=None, dt=None):
-    """Net inflow of volume at p = 0 [m/s] into interior nodes: div(rho h^3/12 eta grad p) - u_e d(rho h)/dx - d(rho h)/dt.
+def volume_flow(scene, op, fluid, film):
+    """What pressure brings into each inner node and what entrainment along +x carries away from it [m/s at p = 0].
 
-    Written for entrainment along +x. `before` is rho h of `dt` ago.
+    div(rho h^3 / (12 eta) grad p) and u_e d(rho h)/dx, NaN on the edge of the grid.
     """
     spacing = scene.film.spacing
-    mass = scene.lubricant.density(fluid) * gap
-    flow = mass * gap**2 / (12.0 * scene.lubricant.viscosity(fluid, op.temperature))
-    along = 0.5 * (flow[:, 1:] + flow[:, :-1]) * np.diff(fluid, axis=1) / spacing
-    across = 0.5 * (flow[1:] + flow[:-1]) * np.diff(fluid, axis=0) / spacing
-    first = 0.5 * (mass[:, :1] + mass[:, 1:2])
-    carried = op.entrainment_speed * np.concatenate([first, 1.5 * mass[:, 1:] - 0.5 * mass[:, :-1]], axis=1)
-    inflow = np.full_like(fluid, np.nan)
-    inflow[1:-1, 1:-1] = np.diff(along, axis=1)[1:-1] + np.diff(across, axis=0)[:, 1:-1] - np.diff(carried, axis=1)[1:-1, :-1]
-    inflow /= spacing
-    return inflow if before is None else inflow - (mass - before) / dt
+    mass = scene.lubricant.density(fluid) * film
+    ease = mass * film**2 / (12.0 * scene.lubricant.viscosity(fluid, op.temperature))
+    along = 0.5 * (ease[:, 1:] + ease[:, :-1]) * np.diff(fluid, axis=1) / spacing
+    across = 0.5 * (ease[1:] + ease[:-1]) * np.diff(fluid, axis=0) / spacing
+    first = 0.5 * (mass[:, :1] + mass[:, 1:2])  # the face behind node 0; behind the others by extrapolation
+    faces = np.concatenate([first, 1.5 * mass[:, 1:] - 0.5 * mass[:, :-1]], axis=1)
+    brought, carried = np.full_like(fluid, np.nan), np.full_like(fluid, np.nan)
+    brought[1:-1, 1:-1] = (np.diff(along, axis=1)[1:-1] + np.diff(across, axis=0)[:, 1:-1]) / spacing
+    carried[1:-1, 1:-1] = op.entrainment_speed * np.diff(faces, axis=1)[1:-1, :-1] / spacing
+    return brought, carried
 
 
 @dataclass(frozen=True)
 class Judgement:
-    """How far fields are from solving the equations; every number is relative and would be 0 for the exact answer."""
+    """How far steady fields are from solving the equations; each number is relative and 0 for the exact answer."""
 
     load: float  # error of the total force
-    intrusion: float  # |gap - floor| on solid contacts below the hardness, weighted by their solid pressure, in floors
-    penetration: float  # largest overlap of nodes that are not in contact, in floors
-    film: float  # volume that appears or vanishes per time on nodes with fluid pressure alone / carried through the contact
-    cavity: float  # the same, on nodes without pressure that would have to fill up
-    beneath: float  # the same, on solid contacts whose fluid pressure is between 0 and the total
+    gap: float  # largest difference between the gap that is reported and that of the pressure, in floors
+    intrusion: float  # |gap - floor| on solid contacts below the hardness, mean by solid pressure, in floors
+    penetration: float  # largest overlap of nodes not in contact, in floors
+    film: float  # volume that appears or vanishes where there is fluid pressure alone / what entrainment brings and takes there
+    cavity: float  # volume that should fill a node without pressure / the same
+    beneath: float  # as film, on solid contacts whose fluid pressure is between zero and the total
+    bounds: float  # how far 0 <= fluid <= total <= limit is violated, and fluid = total off contact, in Hertz pressures
 
 
 def judge(scene, op, fields):
-    """Hold the steady fields of `solve` against the equations."""
-    if op.entrainment_speed < 0.0:
-        raise ValueError("written for entrainment along +x")
-    spacing, floor = scene.film.spacing, scene.film.floor
-    p, f, h = fields.pressure, fields.fluid_pressure, gap(scene, fields)
-    solid = fields.film.solid
-    cap = scene.plasticity.limit(np.maximum(fields.cover_1, fields.cover_2))
-    below = solid & (p < cap)
-    inflow = net_inflow(scene, op, f, np.where(solid, floor, np.maximum(h, floor)))
-    inside = np.isfinite(inflow)
-    hertz = scene.hertz(op.load)
-    centre = fields.gap[np.hypot(fields.x[None, :], fields.y[:, None]) < hertz.a].mean()
-    through = op.entrainment_speed * float(centre) * 2.0 * hertz.b
+    """Hold the steady fields of `solve`, entrained along +x, against the equations."""
+    floor, hertz = scene.film.floor, scene.hertz(op.load)
+    p, f, h, solid = fields.pressure, fields.fluid_pressure, gap(scene, fields), fields.film.solid
+    limit = scene.plasticity.limit(np.maximum(fields.cover_1, fields.cover_2))
+    film = np.where(solid, floor, np.maximum(h, floor))
+    brought, carried = volume_flow(scene, op, f, film)
+    inside, empty = np.isfinite(brought), p <= 1e-6 * hertz.pressure_max
+    scale = np.abs(carried[inside & ~solid & ~empty]).sum()
 
     def lost(where, bounded=np.abs):
-        return float(bounded(inflow[where & inside]).sum()) * spacing**2 / through
+        return float(bounded((brought - carried)[where & inside]).sum() / scale) if scale > 0.0 else 0.0
 
+    below = solid & (p < limit)
     weight = (p - f)[below]
+    violated = [-f.min(), (f - p).max(), (p - limit).max(), np.abs(p - f)[~solid].max(initial=0.0)]
     return Judgement(
-        load=float(p.sum() * spacing**2 / op.load - 1.0),
+        load=float(p.sum() * scene.film.spacing**2 / op.load - 1.0),
+        gap=float(np.abs(np.maximum(h, floor) - fields.gap).max() / floor),
         intrusion=float((weight * np.abs(h - floor)[below]).sum() / max(weight.sum(), 1e-300) / floor),
         penetration=float(np.maximum(floor - h, 0.0)[~solid].max(initial=0.0) / floor),
-        film=lost(~solid & (p > 0.0)),
-        cavity=lost(~solid & (p == 0.0), lambda r: np.maximum(r, 0.0)),
+        film=lost(~solid & ~empty),
+        cavity=lost(~solid & empty, lambda r: np.maximum(r, 0.0)),
         beneath=lost(solid & (f > 0.0) & (f < p)),
+        bounds=float(max(violated) / hertz.pressure_max),
     )

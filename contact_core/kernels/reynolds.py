@@ -114,6 +114,18 @@ def residual(f, solid, mass, mass_old, e, per_dt, dx, r):  # type: ignore[no-unt
 
 
 @_jit
+def imbalance(p, solid, mass, r):  # type: ignore[no-untyped-def]
+    """Sum of |residual| over the sum of mass, on the nodes where fluid alone carries a pressure."""
+    wrong, total = 0.0, 1e-300
+    for j in range(p.shape[0]):
+        for i in range(p.shape[1]):
+            if p[j, i] > 0.0 and not solid[j, i]:
+                wrong += abs(r[j, i])
+                total += mass[j, i]
+    return wrong / total
+
+
+@_jit
 def stiff_zone(p, solid, e, dx, stiff):  # type: ignore[no-untyped-def]
     """Mark where elasticity rules: solid contacts, and fluid nodes whose faces hardly pass any pressure flow."""
     ny, nx = p.shape

@@ -11,12 +11,6 @@ from contact_core import Outputs
 from fmu_src import slave
 
 
-@pytest.fixture
-def stepped(host, stored):
-    host.restore(stored)
-    return host
-
-
 @pytest.mark.parametrize(("inputs", "named"), [
     ({"load": -5.0}, "load = -5 N"),
     ({"load": math.nan}, "load = nan N"),

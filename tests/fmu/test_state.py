@@ -14,7 +14,8 @@ from fmu_src import build
 
 
 @pytest.fixture
-def stepped(host):
+def live(host):
+    """An FMU that has never been restored."""
     host.initialise()
     host.step(60.0, load=50.0)
     return host
@@ -24,46 +25,46 @@ def steps(host):
     return [{k: float(v).hex() for k, v in host.step(dt, **inputs).items()} for dt, inputs in STEPS]
 
 
-def test_a_state_in_memory_replays_bit_for_bit_as_often_as_asked(stepped):
-    handle = stepped.fmu.getFMUstate()
-    first = steps(stepped)
+def test_a_state_in_memory_replays_bit_for_bit_as_often_as_asked(live):
+    handle = live.fmu.getFMUstate()
+    first = steps(live)
     for _ in range(2):
-        stepped.fmu.setFMUstate(handle)
-        assert steps(stepped) == first
-    stepped.fmu.freeFMUstate(handle)
+        live.fmu.setFMUstate(handle)
+        assert steps(live) == first
+    live.fmu.freeFMUstate(handle)
     assert first[0] != first[1]
 
 
-def test_a_serialised_state_replays_bit_for_bit(stepped):
-    state = stepped.state()
-    first = steps(stepped)
-    assert replay(stepped, state) == first
-    assert stepped.log == []
+def test_a_serialised_state_replays_bit_for_bit(live):
+    state = live.state()
+    first = steps(live)
+    assert replay(live, state) == first
+    assert live.log == []
 
 
-def test_the_same_state_has_the_same_bytes_also_after_a_round_trip(stepped):
-    state = stepped.state()
-    assert stepped.state() == state
-    stepped.step(60.0)
-    stepped.restore(state)
-    assert stepped.state() == state
+def test_the_same_state_has_the_same_bytes_also_after_a_round_trip(live):
+    state = live.state()
+    assert live.state() == state
+    live.step(60.0)
+    live.restore(state)
+    assert live.state() == state
 
 
-def test_another_instance_continues_where_the_first_stood(stepped, folder):
-    state = stepped.state()
+def test_another_instance_continues_where_the_first_stood(live, folder):
+    state = live.state()
     with hosted(folder) as second:
-        assert replay(second, state) == steps(stepped)
+        assert replay(second, state) == steps(live)
 
 
-def test_a_fresh_process_continues_bit_for_bit(stepped, folder, tmp_path):
+def test_a_fresh_process_continues_bit_for_bit(live, folder, tmp_path):
     file = tmp_path / "fmu.state"
-    file.write_bytes(stepped.state())
+    file.write_bytes(live.state())
     run = subprocess.run(
         [sys.executable, str(Path(__file__).with_name("replay.py")), str(folder), str(file)],
         capture_output=True, text=True, check=True,
         env=environment(),
     )
-    assert json.loads(run.stdout) == steps(stepped)
+    assert json.loads(run.stdout) == steps(live)
 
 
 def test_parameters_travel_with_the_state(host, folder):

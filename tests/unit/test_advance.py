@@ -1,0 +1,387 @@
+"""Evolution over time: bookkeeping of wear, tribofilm and cycles, memory, and what `advance` promises."""
+
+import math
+from dataclasses import asdict, fields, is_dataclass, replace
+
+import numpy as np
+import pytest
+
+from contact_core import ContactState, OperatingPoint, OperatingPointError, RangeFlag, Scene, advance, initial_state, solve
+
+CHEAP = {
+    "film.points": "33",
+    "surface_1.correlation_length": "16 um",
+    "surface_2.correlation_length": "16 um",
+    "film.tolerance": "1e-2",
+    "film.iterations": "60",
+}
+BARE = CHEAP | {"tribofilm.model": "none"}
+
+
+def cheap(changes=CHEAP, **more):
+    scene = Scene.from_toml("azam_case_a", changes | {key.replace("__", "."): str(value) for key, value in more.items()})
+    return scene, initial_state(scene), scene.operation.point
+
+
+def run(scene, op, state, steps):
+    found = []
+    for dt in steps:
+        state, outputs = advance(scene, op, state, dt)
+        found.append(outputs)
+    return state, found
+
+
+def all_arrays(record):
+    if isinstance(record, np.ndarray):
+        yield record
+    elif isinstance(record, tuple):
+        for item in record:
+            yield from all_arrays(item)
+    elif is_dataclass(record):
+        for f in fields(record):
+            yield from all_arrays(getattr(record, f.name))
+
+
+def finite(outputs):
+    return all(math.isfinite(value) for value in asdict(outputs).values())
+
+
+def raised(outputs):
+    return RangeFlag(outputs.range_flags)
+
+
+def test_the_state_given_stays_as_it_was_and_usable():
+    scene, fresh, op = cheap()
+    blank = fresh.to_bytes()
+    used, _ = advance(scene, op, fresh, 30.0)
+    assert fresh.to_bytes() == blank
+    before = used.to_bytes()
+    onward, _ = advance(scene, op, used, 90.0)
+    assert used.to_bytes() == before
+    assert onward.to_bytes() != before
+    arrays = list(all_arrays(onward))
+    assert len(arrays) > 12
+    assert not any(array.flags.writeable for array in arrays)
+
+
+def test_the_same_call_gives_the_same_bits():
+    scene, fresh, op = cheap()
+    once, again = (advance(scene, op, fresh, 45.0) for _ in range(2))
+    assert once[0].to_bytes() == again[0].to_bytes()
+    assert once[1] == again[1]
+
+
+def test_a_step_saved_restored_and_repeated_gives_the_same_bits():
+    scene, fresh, op = cheap()
+    saved, _ = advance(scene, op, fresh, 20.0)
+    data = saved.to_bytes()
+    onward, outputs = advance(scene, replace(op, load=70.0), saved, 40.0)
+    again, outputs_again = advance(scene, replace(op, load=70.0), ContactState.from_bytes(data, scene), 40.0)
+    assert outputs == outputs_again
+    assert onward.to_bytes() == again.to_bytes()
+
+
+def test_what_another_state_did_in_between_leaves_no_trace():
+    scene, fresh, op = cheap()
+    saved, _ = advance(scene, op, fresh, 20.0)
+    expected, _ = advance(scene, op, saved, 40.0)
+    other, other_fresh, other_op = cheap(surface_2__seed=9)
+    for load in (10.0, 20.0, 30.0, 40.0, 50.0):
+        solve(other, replace(other_op, load=load), other_fresh)
+    assert advance(scene, op, saved, 40.0)[0].to_bytes() == expected.to_bytes()
+
+
+def test_no_time_changes_nothing_but_the_outputs():
+    scene, fresh, op = cheap()
+    first, outputs = advance(scene, op, fresh, 0.0)
+    second, again = advance(scene, op, first, 0.0)
+    assert again == outputs
+    assert second.to_bytes() == first.to_bytes()
+    assert first.time == 0.0
+    for body in first.bodies:
+        assert not body.wear.any()
+        assert not body.growth.any()
+        assert body.cycles == 0.0
+    assert outputs.friction_coefficient > 0.0
+    assert outputs.wear_rate_1 > 0.0
+
+
+def test_small_steps_and_one_large_step_end_alike():
+    scene, fresh, op = cheap()
+    few, a = run(scene, op, fresh, [300.0])
+    many, b = run(scene, op, fresh, [5.0] * 60)
+    assert many.time == pytest.approx(few.time, rel=1e-12)
+    last, same = b[-1], a[-1]
+    for name in ("tribofilm_1", "tribofilm_2", "wear_volume_1", "wear_volume_2"):
+        assert getattr(last, name) == pytest.approx(getattr(same, name), rel=0.02, abs=0.0), name
+    for name in ("load_cycles_1", "load_cycles_2"):
+        assert getattr(last, name) == pytest.approx(getattr(same, name), rel=1e-12), name
+
+
+def test_a_split_within_a_block_changes_nothing_but_round_off():
+    scene, fresh, op = cheap(control__change="100 nm")
+    whole, _ = advance(scene, op, fresh, 1.0)
+    split, _ = run(scene, op, fresh, [0.25] * 4)
+    for one, other in zip(whole.bodies, split.bodies, strict=True):
+        assert other.growth == pytest.approx(one.growth, rel=1e-12, abs=0.0)
+        assert other.removal == pytest.approx(one.removal, rel=1e-12, abs=0.0)
+        assert other.wear == pytest.approx(one.wear, rel=1e-3, abs=0.0)
+    assert split.outputs.blocks_mixed == whole.outputs.blocks_mixed == 1.0
+
+
+def test_wear_volume_is_the_integral_of_the_wear_rate():
+    scene, state, op = cheap()
+    steps = (0.3, 1.0, 7.0, 60.0, 200.0)
+    state, found = run(scene, op, state, steps)
+    for name in ("1", "2"):
+        total = sum(getattr(outputs, f"wear_rate_{name}") * dt for outputs, dt in zip(found, steps, strict=True))
+        assert getattr(found[-1], f"wear_volume_{name}") == pytest.approx(total, rel=1e-12, abs=0.0)
+
+
+@pytest.mark.parametrize(("speed_1", "speed_2"), [(0.2475, 0.2525), (0.2, 0.3), (-0.3, -0.2)])
+def test_archards_volume_is_met_by_both_moving_bodies(speed_1, speed_2):
+    """dV/dt = K W_c W |u_s| / H, whoever wears and however often a point passes."""
+    scene, state, op = cheap(BARE)
+    _, outputs = advance(scene, replace(op, speed_1=speed_1, speed_2=speed_2), state, 0.0)
+    law, solids = scene.wear, outputs.contact_load_ratio * op.load
+    expected = law.bare * solids * abs(speed_1 - speed_2) / scene.plasticity.hardness
+    assert outputs.wear_rate_1 == pytest.approx(expected, rel=1e-9, abs=0.0)
+    assert outputs.wear_rate_2 == pytest.approx(expected, rel=1e-9, abs=0.0)
+
+
+@pytest.mark.parametrize(("speed_1", "speed_2"), [(0.0, 0.05), (0.05, 0.0), (0.0, -0.05)])
+def test_archards_volume_is_met_by_a_resting_body_too(speed_1, speed_2):
+    scene, state, op = cheap(BARE)
+    state, _ = advance(scene, replace(op, speed_1=speed_1, speed_2=speed_2), state, 0.0)
+    state, outputs = advance(scene, replace(op, speed_1=speed_1, speed_2=speed_2), state, 1e-3)
+    expected = scene.wear.bare * outputs.contact_load_ratio * op.load * 0.05 / scene.plasticity.hardness
+    assert outputs.wear_rate_1 == pytest.approx(expected, rel=1e-3, abs=0.0)
+    assert outputs.wear_rate_2 == pytest.approx(expected, rel=1e-3, abs=0.0)
+    resting = 0 if speed_1 == 0.0 else 1
+    assert state.bodies[resting].cycles == 0.0
+    assert state.bodies[resting].wear.max() > 10.0 * state.bodies[1 - resting].wear.max()  # always under load
+
+
+def test_wear_depths_stand_as_the_load_cycles():
+    """Without tribofilm a point loses the same in every pass: the shorter track wears deeper."""
+    scene, state, op = cheap(BARE)
+    _, outputs = advance(scene, op, state, 300.0)
+    passes = outputs.load_cycles_1 / outputs.load_cycles_2
+    per_pass = op.speed_2 / op.speed_1  # pressure times sliding distance of a pass: p |u_s| (length / u)
+    assert outputs.wear_depth_1 / outputs.wear_depth_2 == pytest.approx(passes * per_pass, rel=0.02)
+    assert passes == pytest.approx(28361.0 / 7419.0, rel=1e-3)
+
+
+def test_two_hours_of_case_a_are_28361_and_7419_load_cycles():
+    scene, state, op = cheap(control__change="60 nm")
+    state, outputs = advance(scene, op, state, 7200.0)
+    assert round(outputs.load_cycles_1) == 28361
+    assert round(outputs.load_cycles_2) == 7419
+    assert state.time == pytest.approx(7200.0, rel=1e-12)
+    assert finite(outputs)
+    assert 20e-9 < outputs.tribofilm_1 < 120e-9
+    assert outputs.coverage_1 > 0.8
+    assert outputs.wear_volume_1 > 0.0
+
+
+def test_friction_opposes_sliding_and_is_odd():
+    scene, state, op = cheap()
+    ahead = advance(scene, replace(op, speed_1=0.26, speed_2=0.24), state, 0.0)[1]
+    back = advance(scene, replace(op, speed_1=0.24, speed_2=0.26), state, 0.0)[1]
+    assert ahead.friction_force < 0.0 < back.friction_force
+    assert back.friction_force == pytest.approx(-ahead.friction_force, rel=0.05)  # the surfaces meet differently
+    for outputs, slide in ((ahead, 0.02), (back, -0.02)):
+        assert outputs.power_loss == pytest.approx(-outputs.friction_force * slide, rel=1e-12)
+        assert outputs.friction_coefficient == pytest.approx(abs(outputs.friction_force) / op.load, rel=1e-12)
+        assert outputs.power_loss > 0.0
+        assert 0.01 < outputs.friction_coefficient < 0.13
+
+
+def test_tribofilm_stays_between_nothing_and_its_full_thickness():
+    scene, state, op = cheap(control__change="60 nm")
+    for dt in (1.0, 100.0, 3000.0, 20000.0):
+        state, outputs = advance(scene, op, state, dt)
+        for body in state.bodies:
+            assert body.growth.min() >= 0.0
+            assert (body.growth - body.removal).max() <= scene.tribofilm.full_thickness
+        assert 0.0 <= outputs.tribofilm_1 <= scene.tribofilm.full_thickness
+        assert 0.0 <= outputs.coverage_2 <= 1.0
+
+
+def test_without_additive_no_growth_law_runs_and_no_array_changes():
+    scene, state, op = cheap(BARE)
+    onward, outputs = advance(scene, op, state, 100.0)
+    for old, new in zip(state.bodies, onward.bodies, strict=True):
+        assert new.growth is old.growth
+        assert new.removal is old.removal
+    assert outputs.tribofilm_1 == outputs.coverage_2 == outputs.tribofilm_roughness_1 == 0.0
+    assert outputs.wear_volume_1 > 0.0
+
+
+def test_without_wear_nothing_is_worn():
+    scene, state, op = cheap(wear__model="none")
+    state, outputs = advance(scene, op, state, 100.0)
+    assert not state.bodies[0].wear.any()
+    assert outputs.wear_rate_1 == outputs.wear_volume_2 == outputs.wear_depth_1 == 0.0
+    assert outputs.tribofilm_1 > 0.0
+
+
+def test_additive_lowers_wear():
+    with_film, without = (
+        advance(scene, op, state, 600.0)[1] for scene, state, op in (cheap(), cheap(BARE))
+    )
+    assert with_film.wear_rate_1 < 0.95 * without.wear_rate_1
+
+
+def test_no_load_rests_the_surfaces_and_the_contact_comes_back():
+    scene, state, op = cheap()
+    state, _ = advance(scene, op, state, 30.0)
+    lifted, outputs = advance(scene, replace(op, load=0.0), state, 50.0)
+    assert finite(outputs)
+    assert outputs.friction_force == outputs.friction_coefficient == outputs.contact_load_ratio == 0.0
+    assert outputs.wear_rate_1 == outputs.wear_rate_2 == outputs.pressure_max == 0.0
+    assert RangeFlag.LAMBDA_CAPPED in raised(outputs)
+    for old, new in zip(state.bodies, lifted.bodies, strict=True):
+        assert (new.wear == old.wear).all()
+        assert (new.growth == old.growth).all()
+        assert new.cycles > old.cycles
+    _, again = advance(scene, op, lifted, 1.0)
+    assert again.contact_load_ratio > 0.0
+    assert RangeFlag.LAMBDA_CAPPED not in raised(again)
+
+
+def test_a_run_may_begin_without_load():
+    scene, state, op = cheap()
+    state, outputs = advance(scene, replace(op, load=0.0), state, 10.0)
+    assert finite(outputs)
+    assert outputs.wear_volume_1 == 0.0
+    assert outputs.suggested_step > 0.0
+    assert advance(scene, op, state, 10.0)[1].wear_volume_1 > 0.0
+
+
+def test_bodies_at_rest_neither_wear_nor_grow_a_film():
+    scene, state, op = cheap()
+    state, outputs = advance(scene, replace(op, speed_1=0.0, speed_2=0.0), state, 1000.0)
+    assert finite(outputs)
+    assert outputs.contact_load_ratio == pytest.approx(1.0, rel=1e-9)
+    assert outputs.friction_force == outputs.power_loss == outputs.flash_temperature_rise == 0.0
+    for body in state.bodies:
+        assert not body.wear.any()
+        assert not body.growth.any()
+        assert body.cycles == 0.0
+
+
+def test_pure_rolling_does_not_wear():
+    scene, state, op = cheap()
+    state, outputs = advance(scene, replace(op, speed_1=0.25, speed_2=0.25), state, 10.0)
+    assert outputs.wear_volume_1 == outputs.friction_force == outputs.power_loss == 0.0
+    assert outputs.load_cycles_1 > 0.0
+
+
+def test_a_new_solution_follows_the_inputs_and_not_the_calls():
+    scene, state, op = cheap(control__change="200 nm")
+    state, first = advance(scene, op, state, 0.1)
+    solved = first.blocks_mixed + first.blocks_dry
+    for factor in (1.0, 1.01, 0.99):
+        state, outputs = advance(scene, replace(op, load=factor * op.load), state, 0.1)
+        assert outputs.blocks_mixed + outputs.blocks_dry == solved
+    _, moved = advance(scene, replace(op, load=1.1 * op.load), state, 0.1)
+    assert moved.blocks_mixed + moved.blocks_dry == solved + 1.0
+    _, warmer = advance(scene, replace(op, temperature=op.temperature + 10.0), state, 0.1)
+    assert warmer.blocks_mixed + warmer.blocks_dry == solved + 1.0
+
+
+def test_the_suggested_step_is_when_the_next_solution_is_due():
+    scene, state, op = cheap()
+    state, outputs = advance(scene, op, state, 1.0)
+    solved = outputs.blocks_mixed
+    assert advance(scene, op, state, 0.85 * outputs.suggested_step)[1].blocks_mixed == solved
+    assert advance(scene, op, state, 1.02 * outputs.suggested_step)[1].blocks_mixed == solved + 1.0
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("load", -1.0), ("load", np.nan), ("speed_1", np.inf), ("temperature", 100.0)]
+)
+def test_an_input_that_cannot_be_used_is_refused_by_name_and_the_state_goes_on(name, value):
+    scene, state, op = cheap()
+    state, _ = advance(scene, op, state, 5.0)
+    before = state.to_bytes()
+    with pytest.raises(OperatingPointError, match=rf"^{name} = "):
+        advance(scene, replace(op, **{name: value}), state, 5.0)
+    assert state.to_bytes() == before
+    assert advance(scene, op, state, 5.0)[0].time == pytest.approx(10.0)
+
+
+@pytest.mark.parametrize("dt", [-1.0, np.nan, np.inf])
+def test_a_step_that_cannot_be_used_is_refused(dt):
+    scene, state, op = cheap()
+    with pytest.raises(OperatingPointError, match=r"dt = .* must be finite and not negative"):
+        advance(scene, op, state, dt)
+
+
+def test_flags_tell_what_is_uncertain():
+    scene, state, op = cheap()
+    plain = raised(advance(scene, op, state, 0.0)[1])
+    assert RangeFlag.INLET_UNRESOLVED in plain
+    assert not plain & (RangeFlag.TRIBOFILM_TEMPERATURE | RangeFlag.FEW_NODES | RangeFlag.LAMBDA_CAPPED | RangeFlag.DOMAIN_EDGE)
+    cold = raised(advance(scene, replace(op, temperature=op.temperature - 6.0), state, 0.0)[1])
+    assert RangeFlag.TRIBOFILM_TEMPERATURE in cold
+    light = raised(advance(scene, replace(op, load=1.0), state, 0.0)[1])
+    assert RangeFlag.FEW_NODES in light
+    heavy = raised(advance(scene, replace(op, load=400.0), state, 0.0)[1])
+    assert RangeFlag.DOMAIN_EDGE in heavy
+    fast = raised(advance(scene, replace(op, speed_1=39.6, speed_2=40.4), state, 0.0)[1])
+    assert RangeFlag.INLET_UNRESOLVED not in fast
+
+
+def test_smooth_bodies_have_a_capped_lambda():
+    scene, state, op = cheap(BARE, surface_1__rq="0 nm", surface_2__rq="0 nm", wear__model="none")
+    _, outputs = advance(scene, op, state, 0.0)
+    assert RangeFlag.LAMBDA_CAPPED in raised(outputs)
+    assert outputs.lambda_ratio == 1e3
+    assert outputs.roughness_1 == outputs.roughness_raw_2 == 0.0
+
+
+def test_solutions_cut_short_are_flagged():
+    scene, state, op = cheap(film__iterations=2, film__tolerance="1e-8")
+    _, outputs = advance(scene, op, state, 0.0)
+    assert RangeFlag.NOT_CONVERGED in raised(outputs)
+    assert finite(outputs)
+
+
+def test_each_body_keeps_its_own_surface():
+    scene, state, op = cheap()
+    state, outputs = advance(scene, op, state, 200.0)
+    one, two = state.bodies
+    assert not np.array_equal(one.wear, two.wear)
+    assert not np.array_equal(one.growth, two.growth)
+    assert outputs.coverage_1 > outputs.coverage_2  # the smooth ball's points meet all asperities of the disc
+
+
+def test_friction_falls_with_entrainment_from_boundary_to_full_film():
+    found = []
+    for speed in (1e-4, 0.25, 20.0):
+        scene, state, op = cheap()
+        found.append(advance(scene, replace(op, speed_1=0.99 * speed, speed_2=1.01 * speed), state, 0.0)[1])
+    shares = [outputs.contact_load_ratio for outputs in found]
+    frictions = [outputs.friction_coefficient for outputs in found]
+    assert shares[0] > 0.98
+    assert shares[2] < 0.05
+    assert shares[0] > shares[1] > shares[2]
+    assert frictions[0] == pytest.approx(scene.boundary_friction.bare * np.tanh(0.02), rel=0.05)
+    assert frictions[1] > frictions[2]
+
+
+def test_bulk_temperatures_are_the_oils():
+    scene, state, op = cheap()
+    outputs = advance(scene, replace(op, temperature=362.0), state, 1.0)[1]
+    assert outputs.temperature_1 == outputs.temperature_2 == 362.0
+
+
+def test_a_change_of_direction_is_survived_with_finite_outputs():
+    scene, state, op = cheap()
+    for u in (0.25, 0.01, 0.0, -0.01, -0.25, 0.25):
+        state, outputs = advance(scene, OperatingPoint(op.load, 0.99 * u, 1.01 * u, op.temperature), state, 2.0)
+        assert finite(outputs)
+        assert outputs.power_loss >= 0.0
+    assert state.time == 12.0
