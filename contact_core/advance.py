@@ -35,7 +35,7 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
     op.check()
     if not (math.isfinite(dt) and dt >= 0.0):
         raise OperatingPointError(f"The step dt = {dt!r} s must be finite and not negative.")
-    volumes = [_wear_volume(scene, body, i) for i, body in enumerate(state.bodies)]
+    before = [body.worn for body in state.bodies]
     left = dt
     while True:
         if is_due(scene, op, state):
@@ -46,7 +46,7 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
         left -= step
         state = replace(state, time=state.time + step, bodies=bodies, change=state.change + change)
     if dt > 0.0:
-        rates = [(_wear_volume(scene, body, i) - volumes[i]) / dt for i, body in enumerate(state.bodies)]
+        rates = [(body.worn - worn) / dt for body, worn in zip(state.bodies, before, strict=True)]
     else:
         rates = [_wear_rate_now(scene, op, state, i) for i in (0, 1)]
     outputs = replace(_with_surfaces(scene, op, state), wear_rate_1=rates[0], wear_rate_2=rates[1])
@@ -81,9 +81,15 @@ def _evolved(scene: Scene, op: OperatingPoint, state: ContactState, i: int, step
     warm = op.temperature + state.outputs.flash_temperature_rise
     growth, removal = law.evolve(body.growth, body.removal, body.rubbing * step, warm)
     film = 0.5 * (thickness(growth, removal) + thickness(body.growth, body.removal))
-    wear = body.wear + step * _wear_speed(scene, op, body, film)
-    cycles = body.cycles + abs((op.speed_1, op.speed_2)[i]) * step / track_length(scene, i)
-    return replace(body, growth=growth, removal=removal, wear=wear, cycles=cycles)
+    worn = step * _wear_speed(scene, op, body, film)
+    return replace(
+        body,
+        growth=growth,
+        removal=removal,
+        wear=body.wear + worn,
+        worn=body.worn + float(worn.sum()) * _area_of_node(scene, op, i),
+        cycles=body.cycles + abs((op.speed_1, op.speed_2)[i]) * step / track_length(scene, i),
+    )
 
 
 def _wear_speed(scene: Scene, op: OperatingPoint, body: Body, film: Array) -> Array:
@@ -95,16 +101,13 @@ def _wear_speed(scene: Scene, op: OperatingPoint, body: Body, film: Array) -> Ar
 def _wear_rate_now(scene: Scene, op: OperatingPoint, state: ContactState, i: int) -> float:
     body = state.bodies[i]
     speed = _wear_speed(scene, op, body, thickness(body.growth, body.removal))
-    return float(speed.sum()) * _area_of_node(scene, i)
+    return float(speed.sum()) * _area_of_node(scene, op, i)
 
 
-def _wear_volume(scene: Scene, body: Body, i: int) -> float:
-    return float(body.wear.sum()) * _area_of_node(scene, i)
-
-
-def _area_of_node(scene: Scene, i: int) -> float:
-    """Area of the track [m2] for which one node of the patch stands."""
-    return scene.film.spacing**2 * track_length(scene, i) / scene.film.domain
+def _area_of_node(scene: Scene, op: OperatingPoint, i: int) -> float:
+    """Area [m2] for which one node of the patch stands: the patch repeats along the track of a moving body."""
+    moving = (op.speed_1, op.speed_2)[i] != 0.0
+    return scene.film.spacing**2 * (track_length(scene, i) / scene.film.domain if moving else 1.0)
 
 
 def _track(scene: Scene, op: OperatingPoint, share: float = 1.0) -> NDArray[np.bool_]:
@@ -121,7 +124,7 @@ def _with_surfaces(scene: Scene, op: OperatingPoint, state: ContactState) -> Out
     for i, (bare, body) in enumerate(zip(bare_heights(scene), state.bodies, strict=True)):
         film, heights = thickness(body.growth, body.removal), heights_of(bare, body)
         found = {
-            "wear_volume": _wear_volume(scene, body, i),
+            "wear_volume": body.worn,
             "wear_depth": float(body.wear[track].mean()),
             "tribofilm": float(film[track].mean()),
             "tribofilm_roughness": rms_roughness(film, middle),

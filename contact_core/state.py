@@ -101,6 +101,7 @@ class Body:
     rubbing: Array  # share of test time by which the tribofilm law counts a point as rubbed
     offset: float  # how far the patch has moved along x in the solved steps [m], within one patch length
     cycles: float  # passes through the contact
+    worn: float  # wear volume of the whole track [m3]
 
     def __post_init__(self) -> None:
         for array in (self.growth, self.removal, self.wear, self.plastic, self.pressure, self.rubbing):
@@ -204,5 +205,5 @@ def initial_state(scene: Scene) -> ContactState:
     """Fresh surfaces: no film, no wear, nothing solved."""
     shape = (scene.film.points, scene.film.points - 1)
     zeros = np.zeros(shape)
-    body = Body(zeros, zeros, zeros, zeros, zeros, zeros, 0.0, 0.0)
+    body = Body(zeros, zeros, zeros, zeros, zeros, zeros, 0.0, 0.0, 0.0)
     return ContactState(scene.digest(), 0.0, (body, body), None, None, 0.0, 0, Outputs())

@@ -63,7 +63,7 @@ class Judgement:
     gap: float  # largest difference between the gap that is reported and that of the pressure, in floors
     intrusion: float  # |gap - floor| on solid contacts below the hardness, mean by solid pressure, in floors
     penetration: float  # largest overlap of nodes not in contact, in floors
-    film: float  # volume that appears or vanishes where there is fluid pressure alone / what entrainment brings and takes there
+    film: float  # volume gained or lost where fluid alone carries / what entrainment brings and takes there
     cavity: float  # volume that should fill a node without pressure / the same
     beneath: float  # as film, on solid contacts whose fluid pressure is between zero and the total
     bounds: float  # how far 0 <= fluid <= total <= limit is violated, and fluid = total off contact, in Hertz pressures

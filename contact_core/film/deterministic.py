@@ -169,8 +169,8 @@ def _steady(scaled: "_Scaled", begin: Iterate, tolerance: float, iterations: int
         problem = scaled.problem(before.mass, per_dt)
         found = solve_mixed(scaled.half_space, problem, before.iterate, 0.0, min(_MARCH_ITERATIONS, iterations - spent))
         spent += found.iterations
-        gained = float(np.abs(found.mass - before.mass)[found.iterate.pressure > 0.0].sum()) * per_dt
-        imbalance = gained / float(found.mass[found.iterate.pressure > 0.0].sum())
+        weight = found.iterate.pressure
+        imbalance = float((np.abs(found.mass - before.mass) * weight).sum() * per_dt / (found.mass * weight).sum())
         moved = float(np.abs(found.iterate.pressure - before.iterate.pressure).sum()) / scaled.load
         found = replace(found, iterations=spent, imbalance=imbalance, change=moved)
         calm = calm + 1 if moved < 0.3 * tolerance and imbalance < _MARCH_IMBALANCE else 0
@@ -289,7 +289,7 @@ class _Scaled:
         overlap = np.where(capped, np.maximum(self.floor - found.gap, 0.0), 0.0) * self.length
         gap = np.maximum(found.gap, self.floor) * self.length
         x = self.film.axis / self.a
-        centre = (x[None, :] ** 2 + x[:, None] ** 2) < 4.0 / 9.0
+        centre = (x[None, :] ** 2 + x[:, None] ** 2) < max(2.0 / 3.0, 0.71 * self.dx) ** 2  # at least the nearest nodes
         film = float(gap[centre].mean()) / self.length
         # the inlet zone ends where the Hertz gap, (4 sqrt2/3pi) d^1.5 at a distance d before the contact, is the film
         inlet = (film / 0.6) ** (2.0 / 3.0) / self.dx

@@ -73,12 +73,13 @@ def _step(g, t, r, p, cap, mean_r, load):  # type: ignore[no-untyped-def]
                     free += p[j, i]
                 else:
                     held += p[j, i]
-        if free <= 0.0 or abs(free + held - load) <= 1e-14 * load:
+        if abs(free + held - load) <= 1e-14 * load or (free <= 0.0 and held <= load):
             break
-        factor = (load - held) / free
+        all_give = held >= load  # too much at the bound: it gives way, too
+        factor = load / (free + held) if all_give else (load - held) / free
         for j in range(ny):
             for i in range(nx):
-                if p[j, i] < cap[j, i]:
+                if all_give or p[j, i] < cap[j, i]:
                     p[j, i] = min(max(p[j, i] * factor, 0.0), cap[j, i])
     change = 0.0
     for j in range(ny):
@@ -96,6 +97,8 @@ def solve_dry(
     Returns (pressure, constant to add to `gap` + deformation so that it vanishes in contact, converged, iterations).
     """
     p = np.clip(start, 0.0, cap)
+    if not p.any():  # a contact smaller than the spacing begins at the node that touches first
+        p.flat[np.argmin(gap)] = 1.0
     p *= load / p.sum()
     np.minimum(p, cap, out=p)
     t = np.zeros_like(p)

@@ -115,13 +115,13 @@ def residual(f, solid, mass, mass_old, e, per_dt, dx, r):  # type: ignore[no-unt
 
 @_jit
 def imbalance(p, solid, mass, r):  # type: ignore[no-untyped-def]
-    """Sum of |residual| over the sum of mass, on the nodes where fluid alone carries a pressure."""
+    """Mean |residual| of what fluid alone carries over the mean mass, both weighted by the pressure."""
     wrong, total = 0.0, 1e-300
     for j in range(p.shape[0]):
         for i in range(p.shape[1]):
-            if p[j, i] > 0.0 and not solid[j, i]:
-                wrong += abs(r[j, i])
-                total += mass[j, i]
+            total += mass[j, i] * p[j, i]
+            if not solid[j, i]:
+                wrong += abs(r[j, i]) * p[j, i]
     return wrong / total
 
 

@@ -1,4 +1,4 @@
-"""Any operating point of a machine: what comes out is finite, within the hardness, carries the load or is refused by name."""
+"""Any operating point of a machine: what comes out is finite, within the hardness and carries the load."""
 
 import math
 from dataclasses import asdict
@@ -30,7 +30,9 @@ def operating_points(draw):
     entrainment = draw(signed(logarithmic(1e-8, 30.0)))
     slip = draw(st.sampled_from([-2.0, -0.1, 0.0, 0.02, 0.5, 2.0, 2.5]))
     load, temperature = draw(logarithmic(1e-3, 120.0)), draw(st.floats(280.0, 420.0))
-    return OperatingPoint(load, entrainment * (1.0 + 0.5 * slip), entrainment * (1.0 - 0.5 * slip), temperature)
+    return OperatingPoint(
+        load, entrainment * (1.0 + 0.5 * slip), entrainment * (1.0 - 0.5 * slip), temperature
+    )
 
 
 def roughness():
@@ -42,7 +44,15 @@ def roughness():
 def test_an_instant_is_finite_bounded_and_carries_its_load(op, rq):
     scene = Scene.from_toml("azam_case_a", SMALL | {"surface_2.rq": rq})
     fields = solve(scene, op, initial_state(scene))
-    for name in ("pressure", "fluid_pressure", "solid_pressure", "gap", "fluid_shear", "solid_shear", "overlap"):
+    for name in (
+        "pressure",
+        "fluid_pressure",
+        "solid_pressure",
+        "gap",
+        "fluid_shear",
+        "solid_shear",
+        "overlap",
+    ):
         assert np.isfinite(getattr(fields, name)).all(), name
     assert fields.pressure.min() >= 0.0
     assert fields.fluid_pressure.min() >= 0.0
@@ -51,7 +61,7 @@ def test_an_instant_is_finite_bounded_and_carries_its_load(op, rq):
     assert fields.gap.min() >= scene.film.floor * (1.0 - 1e-9)
     carried = fields.pressure.sum() * scene.film.spacing**2
     assert abs(carried / op.load - 1.0) < 1e-3
-    assert fields.load_error == fields.load_error
+    assert abs(fields.load_error) < 1e-3
     assert fields.route in {"dry", "mixed", "fallback"}
     assert not (fields.route == "fallback" and fields.converged)
     if fields.converged and fields.route == "mixed":

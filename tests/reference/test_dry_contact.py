@@ -10,17 +10,25 @@ from contact_core.kernels.dry import solve_dry
 from contact_core.kernels.half_space import HalfSpace
 
 SMOOTH = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "film.domain": "0.45 mm"}
-ROUGH = {"film.points": "33", "surface_1.correlation_length": "16 um", "surface_2.correlation_length": "32 um"}
+ROUGH = {
+    "film.points": "33",
+    "surface_1.correlation_length": "16 um",
+    "surface_2.correlation_length": "32 um",
+}
 
 
 def dry(**changes):
-    scene = Scene.from_toml("azam_case_a", {key.replace("__", "."): str(value) for key, value in changes.items()})
+    scene = Scene.from_toml(
+        "azam_case_a", {key.replace("__", "."): str(value) for key, value in changes.items()}
+    )
     return scene, solve(scene, scene.operation.point, initial_state(scene), dry=True)
 
 
 def hertz_errors(points, **changes):
     """Relative errors against Hertz: pressure (mean over the grid), largest pressure, area, approach."""
-    scene, fields = dry(film__points=points, **{key.replace(".", "__"): value for key, value in SMOOTH.items()}, **changes)
+    scene, fields = dry(
+        film__points=points, **{key.replace(".", "__"): value for key, value in SMOOTH.items()}, **changes
+    )
     hertz = scene.hertz(scene.operation.load)
     x, y = fields.x[None, :] / hertz.a, fields.y[:, None] / hertz.b
     exact = hertz.pressure_max * np.sqrt(np.maximum(1.0 - x**2 - y**2, 0.0))
@@ -40,10 +48,16 @@ def test_hertz_pressure_area_and_approach_are_met_closer_on_every_finer_grid():
     assert fine == pytest.approx(np.zeros(4), abs=0.02)
 
 
-@pytest.mark.parametrize(("radius_y", "domain"), [("5 mm", "0.6 mm"), ("20 mm", "0.6 mm"), ("50 mm", "1.2 mm")])
+@pytest.mark.parametrize(
+    ("radius_y", "domain"), [("5 mm", "0.6 mm"), ("20 mm", "0.6 mm"), ("50 mm", "1.2 mm")]
+)
 def test_ellipses_long_across_and_along(radius_y, domain):
     scene, fields = dry(
-        film__points=65, surface_1__rq="0 nm", surface_2__rq="0 nm", geometry__radius_y=radius_y, film__domain=domain
+        film__points=65,
+        surface_1__rq="0 nm",
+        surface_2__rq="0 nm",
+        geometry__radius_y=radius_y,
+        film__domain=domain,
     )
     hertz, cell = scene.hertz(scene.operation.load), scene.film.spacing**2
     assert fields.pressure.sum() * cell == pytest.approx(scene.operation.load, rel=1e-12)
@@ -86,7 +100,14 @@ def test_the_hardness_bounds_the_pressure_and_the_load_is_met_all_the_same(hardn
 
 @pytest.mark.parametrize(
     ("ny", "nx", "cap", "share"),
-    [(17, 17, np.inf, 1.0), (15, 19, np.inf, 1.0), (17, 17, 1.2, 1.0), (16, 21, 0.9, 1.0), (17, 17, 0.9, 0.05), (17, 17, 0.3, 0.01)],
+    [
+        (17, 17, np.inf, 1.0),
+        (15, 19, np.inf, 1.0),
+        (17, 17, 1.2, 1.0),
+        (16, 21, 0.9, 1.0),
+        (17, 17, 0.9, 0.05),
+        (17, 17, 0.3, 0.01),
+    ],
 )
 def test_pressures_are_those_of_a_quadratic_programme_on_the_dense_matrix(ny, nx, cap, share):
     """Minimise elastic and potential energy under 0 <= p <= cap; the approach that gives the load by bisection."""

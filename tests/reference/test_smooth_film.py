@@ -42,7 +42,7 @@ def central(fields):
 def test_the_film_converges_to_second_order_on_that_of_the_formula(load, speed):
     films = []
     for points in (33, 65, 129):
-        scene, op, fields = smooth(points, load, speed, 0.04)
+        _, _, fields = smooth(points, load, speed, 0.04)
         assert fields.converged
         assert fields.route == "mixed"
         films.append(central(fields))

@@ -6,7 +6,16 @@ from dataclasses import asdict, fields, is_dataclass, replace
 import numpy as np
 import pytest
 
-from contact_core import ContactState, OperatingPoint, OperatingPointError, RangeFlag, Scene, advance, initial_state, solve
+from contact_core import (
+    ContactState,
+    OperatingPoint,
+    OperatingPointError,
+    RangeFlag,
+    Scene,
+    advance,
+    initial_state,
+    solve,
+)
 
 CHEAP = {
     "film.points": "33",
@@ -19,7 +28,9 @@ BARE = CHEAP | {"tribofilm.model": "none"}
 
 
 def cheap(changes=CHEAP, **more):
-    scene = Scene.from_toml("azam_case_a", changes | {key.replace("__", "."): str(value) for key, value in more.items()})
+    scene = Scene.from_toml(
+        "azam_case_a", changes | {key.replace("__", "."): str(value) for key, value in more.items()}
+    )
     return scene, initial_state(scene), scene.operation.point
 
 
@@ -134,7 +145,9 @@ def test_wear_volume_is_the_integral_of_the_wear_rate():
     steps = (0.3, 1.0, 7.0, 60.0, 200.0)
     state, found = run(scene, op, state, steps)
     for name in ("1", "2"):
-        total = sum(getattr(outputs, f"wear_rate_{name}") * dt for outputs, dt in zip(found, steps, strict=True))
+        total = sum(
+            getattr(outputs, f"wear_rate_{name}") * dt for outputs, dt in zip(found, steps, strict=True)
+        )
         assert getattr(found[-1], f"wear_volume_{name}") == pytest.approx(total, rel=1e-12, abs=0.0)
 
 
@@ -189,7 +202,9 @@ def test_friction_opposes_sliding_and_is_odd():
     ahead = advance(scene, replace(op, speed_1=0.26, speed_2=0.24), state, 0.0)[1]
     back = advance(scene, replace(op, speed_1=0.24, speed_2=0.26), state, 0.0)[1]
     assert ahead.friction_force < 0.0 < back.friction_force
-    assert back.friction_force == pytest.approx(-ahead.friction_force, rel=0.05)  # the surfaces meet differently
+    assert back.friction_force == pytest.approx(
+        -ahead.friction_force, rel=0.05
+    )  # the surfaces meet differently
     for outputs, slide in ((ahead, 0.02), (back, -0.02)):
         assert outputs.power_loss == pytest.approx(-outputs.friction_force * slide, rel=1e-12)
         assert outputs.friction_coefficient == pytest.approx(abs(outputs.friction_force) / op.load, rel=1e-12)
@@ -227,9 +242,7 @@ def test_without_wear_nothing_is_worn():
 
 
 def test_additive_lowers_wear():
-    with_film, without = (
-        advance(scene, op, state, 600.0)[1] for scene, state, op in (cheap(), cheap(BARE))
-    )
+    with_film, without = (advance(scene, op, state, 600.0)[1] for scene, state, op in (cheap(), cheap(BARE)))
     assert with_film.wear_rate_1 < 0.95 * without.wear_rate_1
 
 
@@ -323,7 +336,12 @@ def test_flags_tell_what_is_uncertain():
     scene, state, op = cheap()
     plain = raised(advance(scene, op, state, 0.0)[1])
     assert RangeFlag.INLET_UNRESOLVED in plain
-    assert not plain & (RangeFlag.TRIBOFILM_TEMPERATURE | RangeFlag.FEW_NODES | RangeFlag.LAMBDA_CAPPED | RangeFlag.DOMAIN_EDGE)
+    assert not plain & (
+        RangeFlag.TRIBOFILM_TEMPERATURE
+        | RangeFlag.FEW_NODES
+        | RangeFlag.LAMBDA_CAPPED
+        | RangeFlag.DOMAIN_EDGE
+    )
     cold = raised(advance(scene, replace(op, temperature=op.temperature - 6.0), state, 0.0)[1])
     assert RangeFlag.TRIBOFILM_TEMPERATURE in cold
     light = raised(advance(scene, replace(op, load=1.0), state, 0.0)[1])
@@ -381,7 +399,9 @@ def test_bulk_temperatures_are_the_oils():
 def test_a_change_of_direction_is_survived_with_finite_outputs():
     scene, state, op = cheap()
     for u in (0.25, 0.01, 0.0, -0.01, -0.25, 0.25):
-        state, outputs = advance(scene, OperatingPoint(op.load, 0.99 * u, 1.01 * u, op.temperature), state, 2.0)
+        state, outputs = advance(
+            scene, OperatingPoint(op.load, 0.99 * u, 1.01 * u, op.temperature), state, 2.0
+        )
         assert finite(outputs)
         assert outputs.power_loss >= 0.0
     assert state.time == 12.0

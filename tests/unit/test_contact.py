@@ -20,13 +20,18 @@ COARSE = ROUGH | {"film.points": "33"}
 
 
 def rough(changes=ROUGH, **more):
-    scene = Scene.from_toml("azam_case_a", changes | {key.replace("__", "."): str(value) for key, value in more.items()})
+    scene = Scene.from_toml(
+        "azam_case_a", changes | {key.replace("__", "."): str(value) for key, value in more.items()}
+    )
     return scene, initial_state(scene)
 
 
 def at(scene, entrainment, slide_roll=-0.02, load=77.85):
     return OperatingPoint(
-        load, entrainment * (1.0 + 0.5 * slide_roll), entrainment * (1.0 - 0.5 * slide_roll), scene.operation.temperature
+        load,
+        entrainment * (1.0 + 0.5 * slide_roll),
+        entrainment * (1.0 - 0.5 * slide_roll),
+        scene.operation.temperature,
     )
 
 
@@ -43,11 +48,14 @@ def distance(one, other):
     return np.abs(one.pressure - other.pressure).sum() / other.pressure.sum()
 
 
-def from_thick_film(scene, state, op, iterations=500):
-    """Steady solution that starts from the full film of a much faster contact."""
-    thick = solve(scene, at(scene, 20.0), state)
-    assert solid_share(thick) < 1e-3
-    return solve(scene, op, replace(state, film=thick.film), Transient(AGES, 0, iterations))
+def marched(scene, state, op, steps=100):
+    """Resting surfaces under moving oil, instant by instant from the full film of a much faster contact."""
+    fields = solve(scene, at(scene, 20.0), state)
+    assert solid_share(fields) < 1e-3
+    for _ in range(steps):
+        state = replace(state, film=fields.film)
+        fields = solve(scene, op, state, Transient(2.0 * scene.film.spacing / op.entrainment_speed, 0, 60))
+    return fields
 
 
 @pytest.mark.parametrize("speed", [0.25, 1.0, 4.0])
@@ -99,20 +107,19 @@ def test_standing_still_is_the_dry_contact(speed):
 def test_a_film_is_squeezed_out_until_the_contact_is_dry():
     scene, state = rough()
     dry = solve(scene, at(scene, 0.25), state, dry=True)
-    fields = from_thick_film(scene, state, at(scene, 1e-6))
-    assert fields.converged
-    assert distance(fields, dry) < 0.01
-    assert solid_share(fields) > 0.97
+    fields = marched(scene, state, at(scene, 1e-6), 60)
+    assert distance(fields, dry) < 0.005
+    assert solid_share(fields) > 0.95
 
 
-@pytest.mark.parametrize("speed", [0.01, 0.25, 1.0, 4.0])
-def test_the_answer_does_not_depend_on_the_start(speed):
-    scene, state = rough(film__tolerance=3e-4, film__iterations=2000)
+@pytest.mark.parametrize("speed", [0.25, 1.0, 4.0])
+def test_a_thick_film_settles_to_the_answer_that_a_dry_start_finds(speed):
+    scene, state = rough()
     op = at(scene, speed)
-    dry, thick = solve(scene, op, state), from_thick_film(scene, state, op, 2000)
-    assert mean_gap(scene, thick) == pytest.approx(mean_gap(scene, dry), rel=0.03)
-    assert distance(thick, dry) < 0.01
-    assert solid_share(thick) == pytest.approx(solid_share(dry), abs=0.03)
+    steady, late = solve(scene, op, state), marched(scene, state, op)
+    assert mean_gap(scene, late) == pytest.approx(mean_gap(scene, steady), rel=0.025)
+    assert distance(late, steady) < 0.01
+    assert solid_share(late) == pytest.approx(solid_share(steady), abs=0.03)
 
 
 def test_ten_times_the_speed_lowers_the_solids_load_and_raises_the_film():
@@ -145,7 +152,10 @@ def mirrored(state):
     """The state of bodies that are mirror images in x."""
 
     def turned(body):
-        change = {name: np.roll(getattr(body, name)[:, ::-1], 1, axis=1) for name in ("growth", "removal", "wear", "plastic")}
+        change = {
+            name: np.roll(getattr(body, name)[:, ::-1], 1, axis=1)
+            for name in ("growth", "removal", "wear", "plastic")
+        }
         return replace(body, **change)
 
     first, second = (turned(body) for body in state.bodies)
@@ -209,7 +219,9 @@ def test_bodies_may_swap_their_roles():
     other = solve(scene, replace(op, speed_1=op.speed_2, speed_2=op.speed_1), swapped)
     assert other.pressure == pytest.approx(one.pressure, rel=1e-6, abs=1.0)
     assert other.gap == pytest.approx(one.gap, rel=1e-6)
-    assert other.fluid_shear + other.solid_shear == pytest.approx(-(one.fluid_shear + one.solid_shear), rel=1e-6, abs=1.0)
+    assert other.fluid_shear + other.solid_shear == pytest.approx(
+        -(one.fluid_shear + one.solid_shear), rel=1e-6, abs=1.0
+    )
     assert (other.cover_1 == one.cover_2).all()
 
 

@@ -56,7 +56,9 @@ def test_deformation_is_symmetric():
     """Maxwell and Betti: the work of one pressure on the other's deformation is the same both ways."""
     half_space = HalfSpace(15, 18, 1.0, "scipy")
     one, other = pressure(15, 18), pressure(18, 15).T
-    assert (one * half_space.deform(other)).sum() == pytest.approx((other * half_space.deform(one)).sum(), rel=1e-13)
+    assert (one * half_space.deform(other)).sum() == pytest.approx(
+        (other * half_space.deform(one)).sum(), rel=1e-13
+    )
 
 
 def test_press_undoes_the_deformation_of_a_ripple_in_the_middle():
