@@ -29,6 +29,7 @@ def march(name: str, tolerance: str) -> tuple[list[np.ndarray], float, float, fl
     scene = Scene.from_toml(name, {"film.tolerance": tolerance, "film.iterations": "500"})
     op, state = scene.operation.point, initial_state(scene)
     dt = scene.film.spacing / op.speed_2
+    state = replace(state, film=solve(scene, op, state, dry=True).film)
     pressures, iterations, shares, missed, start = [], 0, [], 0, 0.0
     for k in range(2 * STEPS):
         if k == STEPS:
@@ -38,7 +39,7 @@ def march(name: str, tolerance: str) -> tuple[list[np.ndarray], float, float, fl
             for body, speed in zip(state.bodies, (op.speed_1, op.speed_2), strict=True)
         )
         state = replace(state, bodies=bodies)
-        fields = solve(scene, op, state, Transient(dt, 1, 500, k > 0))
+        fields = solve(scene, op, state, Transient(dt, 1, 500))
         state = replace(state, film=fields.film)
         if k >= STEPS:
             pressures.append(fields.pressure)

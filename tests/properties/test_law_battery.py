@@ -114,7 +114,7 @@ def test_a_shear_stress_follows_the_shear_rate_and_dissipates(law, viscosity, ra
     assert is_field(found)
     assert np.array_equal(law(viscosity, -rate, pressure), -found)
     assert np.all(found * np.sign(rate) >= 0.0)
-    assert np.all(np.abs(found) <= viscosity * np.abs(rate) * (1.0 + 1e-12))  # never above Newton's
+    assert np.all(np.abs(found) <= viscosity * np.abs(rate) * (1.0 + 1e-12) + 1e-300)  # never above Newton's
 
 
 @given(laws_of("plasticity"), covers)

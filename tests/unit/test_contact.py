@@ -71,6 +71,7 @@ def test_fluid_and_solids_satisfy_the_equations_written_independently(speed):
     assert found.cavity < 5e-3
     assert found.beneath < 5e-3
     assert found.intrusion < 0.2
+    assert found.penetration < 0.5
 
 
 @pytest.mark.parametrize("iterations", [5, 60, 500])
@@ -119,6 +120,7 @@ def test_a_thick_film_settles_to_the_answer_that_a_dry_start_finds(speed):
     steady, late = solve(scene, op, state), marched(scene, state, op)
     assert mean_gap(scene, late) == pytest.approx(mean_gap(scene, steady), rel=0.025)
     assert distance(late, steady) < 0.01
+    assert judge(scene, op, late).penetration < 0.5  # no asperity is left stuck in the other body
     assert solid_share(late) == pytest.approx(solid_share(steady), abs=0.03)
 
 
