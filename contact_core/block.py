@@ -21,7 +21,7 @@ from .state import ContactState, RangeFlag
 Array = NDArray[np.float64]
 
 _SETTLING = 80  # transient steps after a new start before the sweep is sampled: about one passage of the oil
-_ITERATIONS = 60  # at most, of one transient step; a warm one needs about 20
+_ITERATIONS = 40  # at most, of one transient step; a warm one needs about 20
 _DRY_SNAPSHOTS = 8
 _DRY_BLOCKS = 8  # blocks driven dry before a mixed solution is tried again
 _GOLDEN = (0.7548776662466927, 0.5698402909980532)  # the additive sequence R2, of low discrepancy in the plane

@@ -173,7 +173,7 @@ def _steady(scaled: "_Scaled", begin: Iterate, tolerance: float, iterations: int
         imbalance = float((np.abs(found.mass - before.mass) * weight).sum() * per_dt / (found.mass * weight).sum())
         moved = float(np.abs(found.iterate.pressure - before.iterate.pressure).sum()) / scaled.load
         found = replace(found, iterations=spent, imbalance=imbalance, change=moved)
-        calm = calm + 1 if moved < 0.3 * tolerance and imbalance < _MARCH_IMBALANCE else 0
+        calm = calm + 1 if moved < 0.25 * tolerance and imbalance < _MARCH_IMBALANCE else 0
         if calm == _MARCH_CALM:
             return replace(found, converged=True)
     return found

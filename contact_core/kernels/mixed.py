@@ -25,7 +25,8 @@ _SWEEPS_UNDER_CONTACTS = 6
 _LINE_SWEEPS = 1
 _LOAD_TOLERANCE = 1e-4
 _INTRUSION_TOLERANCE = 0.2
-_IMBALANCE_TOLERANCE = 0.05
+_IMBALANCE_PER_TOLERANCE = 100.0  # what a time step still owes is made up for in the next one...
+_STEADY_IMBALANCE = 0.05  # ...but a steady film has no next one
 _SHARE_TOLERANCE = 0.02  # nodes at the floor whose fluid pressure is about p change sides for ever, p unchanged
 
 
@@ -68,7 +69,7 @@ class Solution:
     change: float  # last relative change of the pressure by an iteration
     load_error: float  # relative
     intrusion: float  # mean distance of solid contacts below the cap from the floor, weighted by pressure, in floors
-    imbalance: float  # mass that the film gains or loses unasked, relative: in a time step, or in a / u_e if steady
+    imbalance: float  # mass that the film gains or loses unasked in a / u_e, relative, weighted by pressure
 
 
 @njit(cache=True, nogil=True)
@@ -134,7 +135,7 @@ def _quality(p, f, cap, solid, h, floor):  # type: ignore[no-untyped-def]
                 solids += p[j, i] - f[j, i]
                 if p[j, i] < cap[j, i]:
                     intrusion += p[j, i] * abs(floor - h[j, i])
-    return solids, total, intrusion / (floor * total)
+    return solids, total, intrusion / (floor * max(total, 1e-300))
 
 
 class _Iteration:
@@ -159,7 +160,7 @@ class _Iteration:
         deformation = self.half_space.deform(p)
         reynolds.film_pass(p, f, solid, q.undeformed, deformation, self.rigid, *oil, self.h, self.mass, self.e)
         balance = (self.mass, q.mass_old, self.e, q.per_dt, q.spacing)
-        reynolds.fluid_under_contacts(p, f, solid, *balance, _SWEEPS_UNDER_CONTACTS, *oil)
+        reynolds.fluid_under_contacts(p, f, solid, self.h, *balance, _SWEEPS_UNDER_CONTACTS, *oil)
         reynolds.residual(f, solid, *balance, self.r)
 
     def correct(self, damping: float, renew: bool) -> float:
@@ -174,22 +175,21 @@ class _Iteration:
         self.dp[:] = np.where(stiff, 0.5 * dz, 0.0)
         near = self.half_space.near
         reynolds.pressure_correction(p, self.f, solid, stiff, *film, near, self.patch_wide, _LINE_SWEEPS, self.dp)
-        return float(
-            _combine_corrections(p, q.cap, self.h, q.floor, stiff, dz, self.dp, self.unit, damping, q.load)
-        )
+        return float(_combine_corrections(p, q.cap, self.h, q.floor, stiff, dz, self.dp, self.unit, damping, q.load))
 
     def assess(self, n: int, tolerance: float) -> Solution:
         """How good the present pressure is; refers to the scratch arrays, so it holds until the next `film`."""
         q = self.problem
         change = float(_distance(self.dp, self.p)) / q.load
         solids, total, intrusion = _quality(self.p, self.f, q.cap, self.solid, self.h, q.floor)
-        imbalance = float(reynolds.imbalance(self.p, self.solid, self.mass, self.r)) / max(q.per_dt, 1.0)
+        imbalance = float(reynolds.imbalance(self.p, self.solid, self.mass, self.r))
+        owed = _IMBALANCE_PER_TOLERANCE * tolerance if q.per_dt > 0.0 else _STEADY_IMBALANCE
         share, load_error = solids / q.load, float(total) / q.load - 1.0
         converged = (
             change < tolerance
             and abs(load_error) < _LOAD_TOLERANCE
             and intrusion < _INTRUSION_TOLERANCE
-            and imbalance < _IMBALANCE_TOLERANCE
+            and imbalance < owed
             and abs(share - self.share) < _SHARE_TOLERANCE
         )
         self.share = share

@@ -52,7 +52,9 @@ def transport(mass, mass_old, per_dt, dx, j, i):  # type: ignore[no-untyped-def]
 
 
 @_jit
-def fluid_under_contacts(p, f, solid, mass, mass_old, e, per_dt, dx, sweeps, floor, mobility, fluidity, density, step):  # type: ignore[no-untyped-def]
+def fluid_under_contacts(  # type: ignore[no-untyped-def]
+    p, f, solid, h, mass, mass_old, e, per_dt, dx, sweeps, floor, mobility, fluidity, density, step
+):
     """Gauss-Seidel for the fluid pressure on solid contacts; releases those the fluid alone carries."""
     ny, nx = p.shape
     count = 0
@@ -82,7 +84,7 @@ def fluid_under_contacts(p, f, solid, mass, mass_old, e, per_dt, dx, sweeps, flo
             value = (
                 c[k, 0] * f[j, i - 1] + c[k, 1] * f[j, i + 1] + c[k, 2] * f[j - 1, i] + c[k, 3] * f[j + 1, i] + c[k, 4]
             )
-            if last and value > 1.05 * p[j, i]:
+            if last and value > 1.05 * p[j, i] and h[j, i] > 0.9 * floor:  # deeper ones have to come up first
                 solid[j, i] = False
             f[j, i] = min(max(value, 0.0), p[j, i])
     for k in range(count):
