@@ -31,7 +31,8 @@ _MANY = 0.1  # share of unconverged solutions that raises a flag
 
 def is_due(scene: Scene, op: OperatingPoint, state: ContactState) -> bool:
     """Whether geometry or inputs have moved so far that the contact has to be solved again."""
-    return state.solved_for is None or state.change >= scene.control.change or _has_moved(scene, op, state.solved_for)
+    used_up = state.change >= 0.999 * scene.control.change
+    return state.solved_for is None or used_up or _has_moved(scene, op, state.solved_for)
 
 
 def solve_block(scene: Scene, op: OperatingPoint, state: ContactState) -> ContactState:

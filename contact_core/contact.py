@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from .film.deterministic import FilmSolution, FilmState, Instant
+from .film.scaled import FilmSolution, FilmState, Instant
 from .laws.tribofilm import thickness
 from .scene import OperatingPoint, Scene, Surface
 from .state import Body, ContactState
