@@ -118,6 +118,9 @@ def out_of_range(record: Any, path: str) -> Iterator[str]:
         value, name = getattr(record, f.name), f"{path}.{f.name}" if path else f.name
         if is_dataclass(value):
             yield from out_of_range(value, name)
+        elif isinstance(value, tuple):
+            for i, item in enumerate(value):
+                yield from out_of_range(item, f"{name}[{i}]")
         elif isinstance(value, (int, float)) and not isinstance(value, bool) and "unit" in f.metadata:
             yield from _number_sentence(name, value, f)
         elif f.metadata.get("choices") and value not in f.metadata["choices"]:

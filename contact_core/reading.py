@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import MISSING, Field, fields, is_dataclass
 from importlib.resources import files
 from pathlib import Path
-from typing import Any, get_type_hints
+from typing import Any, get_args, get_origin, get_type_hints
 
 from . import units
 from .errors import SceneError
@@ -91,7 +91,11 @@ def _value(hint: Any, raw: Any, full: str, f: "Field[Any]") -> Any:
         return _build_law(models, raw, full)
     if is_dataclass(hint):
         return build(hint, raw, full)  # type: ignore[arg-type]
-    if hint is float:
+    if get_origin(hint) is tuple:
+        if not isinstance(raw, list):
+            raise SceneError(f"[[{full}]] must be a list of tables.")
+        return tuple(build(get_args(hint)[0], item, f"{full}[{i}]") for i, item in enumerate(raw))
+    if hint in (float, float | None):
         return units.parse(raw, f.metadata["unit"], full)
     if hint is int:
         number = units.parse(raw, "", full)
@@ -158,8 +162,12 @@ def unbuild(record: Any) -> dict[str, Any]:
     table: dict[str, Any] = {"model": record.name} if type(record) in _all_models() else {}
     for f in fields(record):
         value = getattr(record, f.name)
+        if value is None:
+            continue
         if is_dataclass(value):
             table[f.name] = unbuild(value)
+        elif isinstance(value, tuple):
+            table[f.name] = [unbuild(item) for item in value]
         elif isinstance(value, float) and f.metadata["unit"]:
             table[f.name] = f"{value!r} {f.metadata['unit']}"
         else:

@@ -5,6 +5,7 @@ import json
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import Field, dataclass, fields, is_dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -100,8 +101,19 @@ class OperatingPoint:
 
 
 @dataclass(frozen=True)
+class Step:
+    """A change of the duty at a time; what is not given keeps the value of `[operation]`."""
+
+    time: float = parameter("s", "time of the change", least=0.0, most=1e9)
+    load: float | None = parameter("N", "normal load", least=0.0, most=1e6, default=None)
+    speed_1: float | None = parameter("m/s", "surface speed of body 1", least=-1e3, most=1e3, default=None)
+    speed_2: float | None = parameter("m/s", "surface speed of body 2", least=-1e3, most=1e3, default=None)
+    temperature: float | None = parameter("K", "oil temperature", least=200.0, most=600.0, default=None)
+
+
+@dataclass(frozen=True)
 class Operation:
-    """The duty shipped with a scene: its point of reference, how long, and a table of changes if there are any."""
+    """The duty shipped with a scene: its point of reference, how long, and its changes if there are any."""
 
     load: float = parameter("N", "normal load", above=0.0, most=1e6)
     speed_1: float = parameter("m/s", "surface speed of body 1 along x", least=-1e3, most=1e3)
@@ -112,7 +124,8 @@ class Operation:
     largest_load: float = parameter(
         "N", "largest load of the duty; 0: the load above", least=0.0, most=1e6, default=0.0
     )
-    file: str = parameter("", "CSV of the duty; empty: constant", default="")
+    steps: tuple[Step, ...] = parameter("", "changes of the duty, in the order of time", default=())
+    file: str = parameter("", "CSV of the duty, instead of steps", default="")
 
     @property
     def point(self) -> OperatingPoint:
@@ -171,7 +184,8 @@ class Scene:
     @property
     def largest_load(self) -> float:
         """Largest load [N] that the scene's grid has to hold."""
-        return max(self.operation.largest_load, self.operation.load)
+        operation = self.operation
+        return max(operation.largest_load, operation.load, *(step.load or 0.0 for step in operation.steps))
 
     def digest(self) -> str:
         """Fingerprint of what a stored state depends on: shape, surfaces and grid."""
@@ -183,7 +197,7 @@ class Scene:
     def check(self) -> list[tuple[str, str]]:
         """Return (rule, sentence) for everything that makes the scene unusable."""
         ranges = [("range", sentence) for sentence in out_of_range(self, "")]
-        return ranges or [*self._shape_errors(), *self._roughness_errors()]
+        return ranges or [*self._shape_errors(), *self._roughness_errors(), *self._duty_errors()]
 
     def _shape_errors(self) -> Iterator[tuple[str, str]]:
         load, plasticity = self.largest_load, self.plasticity
@@ -219,6 +233,13 @@ class Scene:
                     f"at least 1 is needed. Use film.points = {1 + math.ceil(self.film.domain / length)} or more, "
                     "or a longer correlation length.",
                 )
+
+    def _duty_errors(self) -> Iterator[tuple[str, str]]:
+        times = [step.time for step in self.operation.steps]
+        if times and self.operation.file:
+            yield "duty", f"operation.steps and operation.file = '{self.operation.file}' exclude each other. Keep one."
+        if any(late <= early for early, late in pairwise([0.0, *times])):
+            yield "duty", f"The times of operation.steps, {times} s, must be above 0 and increase."
 
     def warnings(self) -> list[str]:
         """Return sentences on what can be computed but is not resolved well."""

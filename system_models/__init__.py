@@ -1,6 +1,6 @@
 """Systems around the contact's FMU, and the command `tribofmu`.
 
-    duty           load, speeds and temperature against time: constant, or steps from a CSV
+    duty           load, speeds and temperature against time: constant, steps, or a CSV
     ball_on_disc   drives the FMU of a ball on a disc through a duty, with fmpy
     results        the run as an xarray Dataset, as netCDF and as CSV
     report         the printed table and the overview picture

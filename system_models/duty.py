@@ -1,7 +1,7 @@
 """The duty: load, speeds and temperature against time.
 
-A duty holds each operating point from its time to the next one's. It is constant (the scene's
-`[operation]`) or a table of steps in a CSV file whose header names each column with its unit:
+A duty holds each operating point from its time to the next one's. It is constant (the scene's `[operation]`), has the
+`[[operation.steps]]` of the scene, or is a CSV file whose header names each column with its unit:
 
     time [min],load [N],temperature [degC]
     0,53.7,80
@@ -16,6 +16,7 @@ import csv
 import difflib
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 from pathlib import Path
@@ -23,7 +24,7 @@ from pathlib import Path
 from contact_core import units
 from contact_core.errors import SceneError
 from contact_core.quantities import out_of_range
-from contact_core.scene import OperatingPoint, Scene
+from contact_core.scene import OperatingPoint, Scene, Step
 
 _SI_UNITS = {"time": "s"} | {f.name: f.metadata["unit"] for f in fields(OperatingPoint)}
 _COLUMN = re.compile(r"\s*(\w+)\s*\[([^\]]+)\]\s*$")
@@ -44,9 +45,12 @@ class Duty:
             )
 
     @staticmethod
-    def constant(point: OperatingPoint) -> "Duty":
-        """Hold one operating point for ever."""
-        return Duty((0.0,), (point,))
+    def from_steps(point: OperatingPoint, steps: Sequence[Step] = ()) -> "Duty":
+        """Begin at `point` and hold it until a step changes what it names; the rest is as at the beginning."""
+        names = [f.name for f in fields(OperatingPoint)]
+        given = [{name: getattr(step, name) for name in names if getattr(step, name) is not None} for step in steps]
+        points = (point, *(replace(point, **values) for values in given))
+        return Duty((0.0, *(step.time for step in steps)), points)
 
     @staticmethod
     def from_csv(path: str | Path, reference: OperatingPoint) -> "Duty":
@@ -61,7 +65,7 @@ class Duty:
         """The duty of a scene's `[operation]`; a relative `operation.file` is looked for in `folder`."""
         point = scene.operation.point
         if not scene.operation.file:
-            return Duty.constant(point)
+            return Duty.from_steps(point, scene.operation.steps)
         return Duty.from_csv((folder or Path()) / scene.operation.file, point)
 
     def at(self, time: float) -> OperatingPoint:

@@ -81,7 +81,7 @@ def test_the_run_equals_the_core_bit_for_bit(dataset: xr.Dataset, scene: Scene, 
 
 def test_progress_tells_the_time_of_every_step(fmu: Path) -> None:
     told: list[float] = []
-    run(fmu, Duty.constant(POINT), 2.0, 1.0, told.append)
+    run(fmu, Duty.from_steps(POINT), 2.0, 1.0, told.append)
     assert told == [1.0, 2.0]
 
 
@@ -111,7 +111,7 @@ def test_an_fmu_that_fails_is_freed_and_the_time_is_told(fmu: Path, monkeypatch:
     monkeypatch.setattr(FMU2Slave, "doStep", fail)
     monkeypatch.setattr(FMU2Slave, "freeInstance", note)
     with pytest.raises(ContactError, match=r"The FMU failed at t = 0 s: fmi2DoStep failed with status 3"):
-        run(fmu, Duty.constant(POINT), 2.0, 1.0)
+        run(fmu, Duty.from_steps(POINT), 2.0, 1.0)
     assert freed == [True]
 
 
@@ -121,7 +121,7 @@ def test_an_fmu_that_is_no_contact_is_refused(fmu: Path, tmp_path: Path) -> None
         for name in old.namelist():
             new.writestr(name, old.read(name).replace(b'name="load"', b'name="weight"'))
     with pytest.raises(ContactError, match=r"has no load\. Use one that build_fmu\.py has made"):
-        run(other, Duty.constant(POINT), 2.0, 1.0)
+        run(other, Duty.from_steps(POINT), 2.0, 1.0)
 
 
 def test_a_temporary_folder_that_the_binary_cannot_read_is_refused(
@@ -131,4 +131,4 @@ def test_a_temporary_folder_that_the_binary_cannot_read_is_refused(
     folder.mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(folder))
     with pytest.raises(ContactError, match=r"cannot be loaded from .*a#b.* Set TMPDIR"):
-        run(fmu, Duty.constant(POINT), 2.0, 1.0)
+        run(fmu, Duty.from_steps(POINT), 2.0, 1.0)

@@ -1,8 +1,10 @@
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from contact_core import OperatingPoint, Scene, SceneError
+from contact_core.reading import read_table
 from system_models.duty import Duty
 
 REFERENCE = OperatingPoint(load=50.0, speed_1=0.1, speed_2=0.2, temperature=350.0)
@@ -15,7 +17,7 @@ def write(folder: Path, text: str) -> Path:
 
 
 def test_a_constant_duty_holds_its_point_for_ever() -> None:
-    duty = Duty.constant(REFERENCE)
+    duty = Duty.from_steps(REFERENCE)
     assert [duty.at(time) for time in (0.0, 1.0, 1e9)] == [REFERENCE] * 3
 
 
@@ -83,7 +85,7 @@ def test_times_that_make_no_duty_are_refused(times: tuple[float, ...], points: i
 
 
 def test_a_scene_without_a_file_has_a_constant_duty(scene: Scene) -> None:
-    assert Duty.of_scene(scene) == Duty.constant(scene.operation.point)
+    assert Duty.of_scene(scene) == Duty.from_steps(scene.operation.point)
 
 
 def test_a_scenes_file_is_looked_for_in_the_folder_given(tmp_path: Path) -> None:
@@ -95,9 +97,53 @@ def test_a_scenes_file_is_looked_for_in_the_folder_given(tmp_path: Path) -> None
 def test_the_scene_is_sized_for_the_largest_load_of_the_duty(scene: Scene) -> None:
     heavy = Duty((0.0, 1.0), (REFERENCE, OperatingPoint(60.0, 0.1, 0.2, 350.0)))
     assert heavy.sized(scene).largest_load == 60.0
-    assert Duty.constant(REFERENCE).sized(scene) is scene
+    assert Duty.from_steps(REFERENCE).sized(scene) is scene
 
 
 def test_a_duty_too_heavy_for_the_grid_is_refused_by_the_scenes_rule(scene: Scene) -> None:
     with pytest.raises(SceneError, match=r"film\.domain = 0\.0005 m is too small: at 400 N"):
-        Duty.constant(OperatingPoint(400.0, 0.1, 0.2, 350.0)).sized(scene)
+        Duty.from_steps(OperatingPoint(400.0, 0.1, 0.2, 350.0)).sized(scene)
+
+
+STEPS = [{"time": "60 s", "load": "30 N"}, {"time": "2 min", "speed_1": "-0.1 m/s", "temperature": "100 degC"}]
+
+
+def with_steps(steps: list[dict[str, str]], **operation: str) -> Scene:
+    table = read_table("mtm_zddp")
+    table["operation"] |= {"steps": steps} | operation
+    return Scene.from_dict(table)
+
+
+def test_steps_of_a_scene_change_what_they_name() -> None:
+    scene = with_steps(STEPS)
+    duty = Duty.of_scene(scene)
+    first = scene.operation.point
+    assert duty.times == (0.0, 60.0, 120.0)
+    assert duty.points == (first, replace(first, load=30.0), replace(first, speed_1=-0.1, temperature=373.15))
+    assert Scene.from_dict(scene.to_dict()) == scene
+
+
+def test_a_step_with_a_larger_load_sizes_the_grid() -> None:
+    assert with_steps([{"time": "1 s", "load": "60 N"}]).largest_load == 60.0
+    with pytest.raises(SceneError, match=r"film\.domain = 0\.0005 m is too small: at 600 N"):
+        with_steps([{"time": "1 s", "load": "600 N"}])
+
+
+@pytest.mark.parametrize(
+    ("steps", "sentence"),
+    [
+        ([{"time": "1 s", "laod": "3 N"}], r"\[operation.steps\[0\]\] has no key 'laod'. Did you mean 'load'"),
+        ([{"load": "3 N"}], "'operation.steps\\[0\\].time' is missing"),
+        ([{"time": "1 s", "load": "-3 N"}], "operation.steps\\[0\\].load = -3 N .* must be at least 0"),
+        ([{"time": "2 s"}, {"time": "1 s"}], "must be above 0 and increase"),
+        ([{"time": "0 s"}], "must be above 0 and increase"),
+    ],
+)
+def test_a_wrong_step_is_refused_by_name(steps: list[dict[str, str]], sentence: str) -> None:
+    with pytest.raises(SceneError, match=sentence):
+        with_steps(steps)
+
+
+def test_steps_and_a_file_exclude_each_other() -> None:
+    with pytest.raises(SceneError, match=r"operation\.steps and operation\.file = .duty\.csv. exclude each other"):
+        with_steps(STEPS, file="duty.csv")
