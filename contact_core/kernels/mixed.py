@@ -69,7 +69,7 @@ class Solution:
     change: float  # last relative change of the pressure by an iteration
     load_error: float  # relative
     intrusion: float  # mean distance of solid contacts below the cap from the floor, weighted by pressure, in floors
-    imbalance: float  # mass that the film gains or loses unasked in a / u_e, relative, weighted by pressure
+    imbalance: float  # mass that the film gains or loses unasked in a / u_e, relative, weighted by the load it carries
 
 
 @njit(cache=True, nogil=True)

@@ -117,14 +117,16 @@ def residual(f, solid, mass, mass_old, e, per_dt, dx, r):  # type: ignore[no-unt
 
 @_jit
 def imbalance(p, solid, mass, r):  # type: ignore[no-untyped-def]
-    """Mean |residual| of what fluid alone carries over the mean mass, both weighted by the pressure."""
-    wrong, total = 0.0, 1e-300
+    """Mean |residual| / mean mass where fluid alone carries load, weighted by pressure, times its share of the load."""
+    wrong, film, fluid, total = 0.0, 1e-300, 0.0, 1e-300
     for j in range(p.shape[0]):
         for i in range(p.shape[1]):
-            total += mass[j, i] * p[j, i]
+            total += p[j, i]
             if not solid[j, i]:
                 wrong += abs(r[j, i]) * p[j, i]
-    return wrong / total
+                film += mass[j, i] * p[j, i]
+                fluid += p[j, i]
+    return wrong / film * fluid / total
 
 
 @_jit

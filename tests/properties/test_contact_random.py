@@ -7,7 +7,8 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from contact_core import OperatingPoint, Scene, advance, initial_state, solve
+from contact_core import ConvergenceError, OperatingPoint, Scene, advance, initial_state, solve
+from contact_core.reference import SmoothContact, nijenbanning_venner_moes
 
 SMALL = {
     "film.points": "33",
@@ -39,11 +40,31 @@ def roughness():
     return st.sampled_from(["0 nm", "5 nm", "127 nm", "800 nm"])
 
 
+def formula_film(scene, op):
+    oil, geometry = scene.lubricant.viscosity, scene.geometry
+    return nijenbanning_venner_moes(
+        SmoothContact(
+            load=op.load,
+            entrainment_speed=abs(op.entrainment_speed),
+            viscosity=float(oil(np.zeros(1), op.temperature)[0]),
+            pressure_coefficient=oil.pressure_coefficient,
+            radius_x=geometry.radius_x,
+            radius_y=geometry.radius_y,
+            reduced_modulus=scene.solids.reduced_modulus,
+        )
+    )
+
+
 @settings(max_examples=40)
 @given(operating_points(), roughness())
 def test_an_instant_is_finite_bounded_and_carries_its_load(op, rq):
     scene = Scene.from_toml("azam_case_a", SMALL | {"surface_2.rq": rq})
-    fields = solve(scene, op, initial_state(scene))
+    try:
+        fields = solve(scene, op, initial_state(scene))
+    except ConvergenceError as error:  # only a film that clears the roughness may be too thick to solve
+        assert "oil film of about" in str(error)
+        assert formula_film(scene, op) > 2.0 * math.hypot(scene.surface_1.rq, scene.surface_2.rq)
+        return
     for name in (
         "pressure",
         "fluid_pressure",
@@ -74,8 +95,12 @@ def test_an_instant_is_finite_bounded_and_carries_its_load(op, rq):
 @given(operating_points(), operating_points(), st.floats(0.0, 20.0))
 def test_two_steps_in_a_row_give_finite_outputs_and_only_grow_wear(first, second, dt):
     scene = Scene.from_toml("azam_case_a", SMALL | {"control.change": "50 nm", "film.iterations": "20"})
-    state, before = advance(scene, first, initial_state(scene), dt)
-    state, after = advance(scene, second, state, dt)
+    try:
+        state, before = advance(scene, first, initial_state(scene), dt)
+        state, after = advance(scene, second, state, dt)
+    except ConvergenceError as error:
+        assert "oil film of about" in str(error)
+        return
     for outputs in (before, after):
         assert all(math.isfinite(value) for value in asdict(outputs).values())
         assert outputs.power_loss >= 0.0
