@@ -193,9 +193,11 @@ class Scaled:
         gap = np.maximum(found.gap, self.floor) * self.length
         x = self.film.axis / self.a
         centre = (x[None, :] ** 2 + x[:, None] ** 2) < max(2.0 / 3.0, 0.71 * self.dx) ** 2  # at least the nearest nodes
-        film = float(gap[centre].mean()) / self.length
+        film = float(gap[centre].mean())
+        if self.now.entrainment_speed > 0.0:  # roughness holds the gap open, yet it is the oil's own film that comes in
+            film = min(film, self.smooth_film)
         # the inlet zone ends where the Hertz gap, (4 sqrt2/3pi) d^1.5 at a distance d before the contact, is the film
-        inlet = (film / 0.6) ** (2.0 / 3.0) / self.dx
+        inlet = (film / self.length / 0.6) ** (2.0 / 3.0) / self.dx
         return FilmSolution(
             state, gap, overlap, found.converged, "mixed", iterations, found.change, found.load_error, inlet
         )
