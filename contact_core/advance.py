@@ -138,6 +138,6 @@ def _with_surfaces(scene: Scene, op: OperatingPoint, state: ContactState) -> Out
     flags = RangeFlag(state.outputs.range_flags) & ~RangeFlag.TRIBOFILM_TEMPERATURE
     if not scene.tribofilm.covers(op.temperature):
         flags |= RangeFlag.TRIBOFILM_TEMPERATURE
-    power = max(-state.outputs.friction_force * op.sliding_speed, 0.0)
+    power = max(0.0, -state.outputs.friction_force * op.sliding_speed)
     step, _, _ = _longest_step(scene, op, state, 10.0 * scene.operation.duration)
     return replace(state.outputs, **values, range_flags=int(flags), power_loss=power, suggested_step=step)

@@ -222,6 +222,9 @@ def _flags(scene: Scene, op: OperatingPoint, fields: ContactFields) -> RangeFlag
 def _stored(scene: Scene, op: OperatingPoint, state: ContactState, sweep: _Sweep) -> ContactState:
     """The state with a block's results: exposure of the surfaces, outputs, and what decides about the next block."""
     bodies = []
+    slow, fast = sorted(abs(speed) for speed in _speeds(op))
+    if op.load > 0.0 and 0.0 < slow < 0.9 * fast:
+        sweep.flags |= RangeFlag.SLOW_BODY
     for i, (body, speed) in enumerate(zip(state.bodies, _speeds(op), strict=True)):
         # a moving point spends patch / track of its time in reach of the contact, a resting one all of it
         share = scene.film.domain / track_length(scene, i) if speed != 0.0 else 1.0
@@ -251,7 +254,7 @@ def _stored(scene: Scene, op: OperatingPoint, state: ContactState, sweep: _Sweep
 def _rubbing(scene: Scene, op: OperatingPoint, sweep: _Sweep, i: int) -> Array:
     """Rubbing time per test time of each node of a patch, by the dose the tribofilm's constants were fitted with."""
     law = scene.tribofilm
-    if not isinstance(law, Ghanbarzadeh) or (op.speed_1 == 0.0 and op.speed_2 == 0.0):
+    if not isinstance(law, Ghanbarzadeh) or op.sliding_speed == 0.0:  # nothing rubs in pure rolling or at rest
         return np.zeros_like(sweep.touched[i])
     if law.dose == "clock":
         return (sweep.touched[i] > 0.0).astype(np.float64)

@@ -28,7 +28,6 @@ class Quantity:
     display: str = ""  # the unit people read, convertible to `unit`
     kind: Kind = "Real"
     relative: bool = False  # a temperature difference, not a temperature
-    levels: tuple[str, ...] = ("deterministic",)  # the fidelities that fill it
 
 
 def _pair(name: str, symbol: str, unit: str, text: str, **rest: Any) -> tuple[Quantity, Quantity]:
@@ -48,7 +47,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("friction_force", "F", "N", "friction force on body 1 along +x", nominal=1.0),
     Quantity("friction_coefficient", "mu", "1", "|friction_force| / load, 0 at zero load", nominal=0.1, minimum=0.0),
     Quantity("rolling_resistance", "F_r", "N",
-             "integral of (h/2) dp/dx over the fluid film: shear that the pressure flow exerts on each surface", nominal=0.1),
+             "integral of (h/2) dp/dx over the fluid film; each surface feels the opposite along +x; not in power_loss", nominal=0.1),
     Quantity("power_loss", "P", "W", "-friction_force (speed_1 - speed_2)", nominal=1.0, minimum=0.0),
     *_pair("wear_rate", "dV/dt", "m3/s", "wear volume of the step divided by the step", nominal=1e-17, minimum=0.0, display="um3/s"),
     *_pair("wear_volume", "V", "m3", "wear volume of the whole track", nominal=1e-14, minimum=0.0, display="um3"),
@@ -110,6 +109,12 @@ def parameter(
         "shapes_arrays": shapes_arrays,
     }
     return field(metadata=metadata) if default is ... else field(default=default, metadata=metadata)
+
+
+def input_parameter(name: str, *, default: Any = ...) -> Any:
+    """A dataclass field for one of `INPUTS`, with its unit, text and range from the table."""
+    q = TABLE[name]
+    return parameter(q.unit, q.text, least=q.minimum, most=q.maximum, default=default)
 
 
 def out_of_range(record: Any, path: str) -> Iterator[str]:

@@ -52,11 +52,14 @@ def did_you_mean(word: str, choices: list[str]) -> str:
 def override(table: dict[str, Any], key: str, value: str) -> None:
     """Set a dotted key; a new `model` drops the parameters of the old one."""
     *path, last = key.split(".")
+    where = ".".join(path)
     for part in path:
         table = table.setdefault(part, {})
         if not isinstance(table, dict):
             raise SceneError(f"'{key}' cannot be set: '{part}' is a value, not a table.")
-    if last == "model" and table.get("model") != value:
+    if last == "model":
+        if _with_named_set(dict(table), where).get("model") == value:
+            return
         table.clear()
     table[last] = value
 

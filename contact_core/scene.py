@@ -3,6 +3,7 @@
 import hashlib
 import json
 import math
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import Field, dataclass, fields, is_dataclass, replace
 from itertools import pairwise
@@ -19,7 +20,7 @@ from .laws.rheology import EyringLimited
 from .laws.tribofilm import Ghanbarzadeh, NoTribofilm
 from .laws.viscosity import Barus, Roelands
 from .laws.wear import Archard, NoWear
-from .quantities import out_of_range, parameter
+from .quantities import TABLE, input_parameter, out_of_range, parameter
 from .reading import build, did_you_mean, override, read_table, unbuild
 from .reference import Hertz, hertz_point
 
@@ -78,10 +79,10 @@ class Control:
 class OperatingPoint:
     """What is asked of the contact in one step."""
 
-    load: float = parameter("N", "normal load", least=0.0, most=1e6)
-    speed_1: float = parameter("m/s", "surface speed of body 1 along x", least=-1e3, most=1e3)
-    speed_2: float = parameter("m/s", "surface speed of body 2 along x", least=-1e3, most=1e3)
-    temperature: float = parameter("K", "oil temperature", least=200.0, most=600.0)
+    load: float = input_parameter("load")
+    speed_1: float = input_parameter("speed_1")
+    speed_2: float = input_parameter("speed_2")
+    temperature: float = input_parameter("temperature")
 
     @property
     def entrainment_speed(self) -> float:
@@ -105,20 +106,20 @@ class Step:
     """A change of the duty at a time; what is not given keeps the value of `[operation]`."""
 
     time: float = parameter("s", "time of the change", least=0.0, most=1e9)
-    load: float | None = parameter("N", "normal load", least=0.0, most=1e6, default=None)
-    speed_1: float | None = parameter("m/s", "surface speed of body 1", least=-1e3, most=1e3, default=None)
-    speed_2: float | None = parameter("m/s", "surface speed of body 2", least=-1e3, most=1e3, default=None)
-    temperature: float | None = parameter("K", "oil temperature", least=200.0, most=600.0, default=None)
+    load: float | None = input_parameter("load", default=None)
+    speed_1: float | None = input_parameter("speed_1", default=None)
+    speed_2: float | None = input_parameter("speed_2", default=None)
+    temperature: float | None = input_parameter("temperature", default=None)
 
 
 @dataclass(frozen=True)
 class Operation:
     """The duty shipped with a scene: its point of reference, how long, and its changes if there are any."""
 
-    load: float = parameter("N", "normal load", above=0.0, most=1e6)
-    speed_1: float = parameter("m/s", "surface speed of body 1 along x", least=-1e3, most=1e3)
-    speed_2: float = parameter("m/s", "surface speed of body 2 along x", least=-1e3, most=1e3)
-    temperature: float = parameter("K", "oil temperature", least=200.0, most=600.0)
+    load: float = parameter("N", "normal load", above=0.0, most=TABLE["load"].maximum)
+    speed_1: float = input_parameter("speed_1")
+    speed_2: float = input_parameter("speed_2")
+    temperature: float = input_parameter("temperature")
     duration: float = parameter("s", "test time", above=0.0, most=1e9)
     interval: float = parameter("s", "communication step: time between two rows of the result", above=0.0, most=1e9)
     largest_load: float = parameter(
@@ -197,6 +198,8 @@ class Scene:
     def check(self) -> list[tuple[str, str]]:
         """Return (rule, sentence) for everything that makes the scene unusable."""
         ranges = [("range", sentence) for sentence in out_of_range(self, "")]
+        if not re.fullmatch(r"[\w-]+", self.name):  # files are named after it
+            ranges.append(("name", f"name = {self.name!r} must be letters, digits, '_' and '-' only."))
         return ranges or [*self._shape_errors(), *self._roughness_errors(), *self._duty_errors()]
 
     def _shape_errors(self) -> Iterator[tuple[str, str]]:
@@ -226,6 +229,12 @@ class Scene:
         for name, surface in (("surface_1", self.surface_1), ("surface_2", self.surface_2)):
             length = surface.correlation_length
             nodes = length / self.film.spacing
+            if surface.rq > 0.0 and length > self.film.domain / 5.0:
+                yield (
+                    "resolution",
+                    f"{name}.correlation_length = {length:g} m is too long for film.domain = {self.film.domain:g} m. "
+                    f"Use at most {self.film.domain / 5.0:g} m, a larger domain, or rq = 0 for a smooth surface.",
+                )
             if surface.rq > 0.0 and nodes < 1.0 - 1e-9:
                 yield (
                     "resolution",

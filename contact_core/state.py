@@ -41,6 +41,7 @@ class RangeFlag(IntFlag):
     FALLBACK = 16, "the dry solution stood in for a film solution in part of the block"
     DOMAIN_EDGE = 32, "the contact or the wear scar reaches the edge of the grid"
     FEW_NODES = 64, "fewer than 8 nodes across the Hertz contact at this load"
+    SLOW_BODY = 128, "the slower body shows a block only part of its track: its film and wear are uneven along it"
 
 
 @dataclass(frozen=True)

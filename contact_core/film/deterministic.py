@@ -46,7 +46,9 @@ class Deterministic:
     tolerance: float = parameter(
         "", "pressure change at which a solution counts as converged, relative", above=0.0, most=0.1
     )
-    iterations: int = parameter("", "most iterations of one solution", least=1, most=100_000)
+    iterations: int = parameter(
+        "", "most iterations of one steady solution; an instant of a block gets at most 40", least=1, most=100_000
+    )
     fft: str = parameter("", "library of the Fourier transforms", choices=("pyfftw", "scipy"), default="pyfftw")
 
     @property

@@ -387,8 +387,9 @@ def test_friction_falls_with_entrainment_from_boundary_to_full_film():
     assert shares[0] > 0.98
     assert shares[2] < 0.05
     assert shares[0] > shares[1] > shares[2]
-    assert frictions[0] == pytest.approx(scene.boundary_friction.bare * np.tanh(0.02), rel=0.05)
-    assert frictions[1] > frictions[2]
+    law = scene.boundary_friction
+    assert frictions[0] == pytest.approx(law.bare * np.tanh(2e-6 / law.slip_speed), rel=0.05)
+    assert frictions[0] > frictions[1] > frictions[2]
 
 
 def test_bulk_temperatures_are_the_oils():
@@ -421,3 +422,17 @@ def test_a_film_far_thicker_than_the_contact_is_deep_is_survived_and_said(load, 
     else:
         assert finite(outputs)
         assert outputs.contact_load_ratio < 0.05
+
+
+def test_nothing_grows_or_wears_in_pure_rolling():
+    scene, state, op = cheap()
+    state, outputs = advance(scene, replace(op, speed_1=0.1, speed_2=0.1), state, 600.0)
+    assert outputs.contact_load_ratio > 0.0
+    assert outputs.tribofilm_1 == outputs.tribofilm_2 == outputs.wear_volume_1 == outputs.wear_volume_2 == 0.0
+
+
+@pytest.mark.parametrize(("speed_2", "told"), [(0.1, False), (0.095, False), (0.08, True), (0.0, False)])
+def test_a_body_too_slow_to_show_its_track_is_told(speed_2, told):
+    scene, state, op = cheap()
+    _, outputs = advance(scene, replace(op, speed_1=0.1, speed_2=speed_2), state, 0.0)
+    assert bool(raised(outputs) & RangeFlag.SLOW_BODY) is told

@@ -278,3 +278,19 @@ def test_an_impossible_operating_point_is_refused_by_name(point, named):
 
 def test_zero_load_is_an_operating_point():
     OperatingPoint(0.0, 0.0, 0.0, 350.0).check()
+
+
+def test_a_model_that_a_named_set_already_has_may_be_set_again():
+    assert Scene.from_toml("mtm_zddp", {"tribofilm.model": "ghanbarzadeh"}) == Scene.from_toml("mtm_zddp")
+    assert Scene.from_toml("mtm_zddp", {"heat.model": "none"}).heat.name == "none"
+
+
+@pytest.mark.parametrize("name", ["", "../out", "two words"])
+def test_a_name_that_no_file_can_have_is_refused(name):
+    with pytest.raises(SceneError, match=r"name = .* must be letters, digits"):
+        Scene.from_toml("mtm_zddp", {"name": name})
+
+
+def test_a_correlation_length_too_long_for_the_domain_is_refused():
+    with pytest.raises(SceneError, match=r"surface_1\.correlation_length = 0\.001 m is too long for film\.domain"):
+        Scene.from_toml("mtm_zddp", {"surface_1.correlation_length": "1 mm"})
