@@ -436,3 +436,16 @@ def test_a_body_too_slow_to_show_its_track_is_told(speed_2, told):
     scene, state, op = cheap()
     _, outputs = advance(scene, replace(op, speed_1=0.1, speed_2=speed_2), state, 0.0)
     assert bool(raised(outputs) & RangeFlag.SLOW_BODY) is told
+
+
+def test_dry_pressures_drive_the_blocks_above_the_threshold_until_the_film_is_tried_again():
+    scene, state, op = cheap({**CHEAP, "control.dry_above": "0", "control.change": "2 nm"})
+    drivers = []
+    for k in range(400):
+        state, outputs = advance(scene, op, state, 1.0 if k else 0.0)
+        solved = (outputs.blocks_mixed, outputs.blocks_dry)
+        if not drivers or solved != drivers[-1]:
+            drivers.append(solved)
+        if len(drivers) == 10:
+            break
+    assert drivers == [(1.0, float(dry)) for dry in range(9)] + [(2.0, 8.0)]  # eight dry blocks between mixed ones
