@@ -28,9 +28,8 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
     """Return the state and outputs after `dt` [s] under a held operating point; `state` stays as it is.
 
     dt = 0 evaluates the contact without moving time. Outputs hold at the end of the step; a wear rate is the step's
-    volume
-    divided by it. Raises OperatingPointError for inputs that cannot be used and ConvergenceError if the contact has no
-    solution.
+    volume divided by it. Raises OperatingPointError for inputs that cannot be used and ConvergenceError if the
+    contact has no solution.
     """
     op.check()
     if not (math.isfinite(dt) and dt >= 0.0):

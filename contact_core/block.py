@@ -1,10 +1,9 @@
 """One block: a sweep of the moving surfaces through the contact.
 
 Mixed lubrication is marched through transient instants a node apart, until the faster surface has moved by one patch
-length. Dry
-contact has no history: a few instants at surface offsets of low discrepancy sample it. Either way the block ends
-with what a
-surface point feels (its mean solid pressure, whether it is rubbed) and with the mean outputs of the contact.
+length. Dry contact has no history: a few instants at surface offsets of low discrepancy sample it. Either way the
+block ends with what a surface point feels (its mean solid pressure, whether it is rubbed) and with the mean outputs
+of the contact.
 """
 
 from dataclasses import dataclass, field, replace
@@ -51,9 +50,7 @@ def solve_block(scene: Scene, op: OperatingPoint, state: ContactState) -> Contac
 
 
 def _has_moved(scene: Scene, op: OperatingPoint, old: OperatingPoint) -> bool:
-    """Whether an input is further from the solved one than the scene tolerates (temperature: by the viscosity it
-    makes).
-    """
+    """Whether an input is further from the solved one than the scene tolerates; temperature counts by its viscosity."""
     viscosity = scene.lubricant.viscosity
     eta, eta_old = (float(viscosity(np.zeros(1), t)[0]) for t in (op.temperature, old.temperature))
     fastest = max(abs(op.speed_1), abs(op.speed_2), abs(old.speed_1), abs(old.speed_2))

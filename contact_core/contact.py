@@ -59,9 +59,8 @@ def solve(
     """Solve the contact at one instant; time and state stand still.
 
     Without `transient` the film is steady. `dry` leaves the fluid out. Raises OperatingPointError for values that
-    cannot be used and
-    ConvergenceError if no solution exists. A film solution that did not converge says so; if it cannot be used, the
-    dry one stands in (`route`).
+    cannot be used and ConvergenceError if no solution exists. A film solution that did not converge says so; if it
+    cannot be used, the dry one stands in (`route`).
     """
     op.check()
     bare = bare_heights(scene)

@@ -68,9 +68,9 @@ class Deterministic:
         """Solve one instant.
 
         start: a solution nearby, or None to start dry. step: time [s] since `start`, or None for a steady film.
-        moved: nodes by
-        which the rough surfaces have moved along +x since `start`. iterations: fewer than the scene allows. Raises
-        ConvergenceError if even the dry contact has no solution. Entrainment along -x is solved in the mirror.
+        moved: nodes by which the rough surfaces have moved along +x since `start`. iterations: fewer than the scene
+        allows. Raises ConvergenceError if even the dry contact has no solution. Entrainment along -x is solved in the
+        mirror.
         """
         if now.entrainment_speed < 0.0:
             mirrored = replace(

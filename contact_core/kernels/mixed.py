@@ -1,9 +1,9 @@
 """Mixed lubrication: one fixed point for fluid and solid pressure from full film to dry contact.
 
-Unknowns are the total pressure p, the fluid's share f, the set of solid contacts and the rigid gap. On solid
-contacts the gap is the
-floor and p >= f; elsewhere p = f; 0 <= p <= cap everywhere. An iteration mends the film residual in the stiff zone
-through the inverse of the half space, the rest by lines, and meets the load exactly; Anderson's method accelerates it.
+Unknowns are the total pressure p, the fluid's share f, the set of solid contacts and the rigid gap. On solid contacts
+the gap is the floor and p >= f; elsewhere p = f; 0 <= p <= cap everywhere. An iteration mends the film residual in
+the stiff zone through the inverse of the half space, the rest by lines, and meets the load exactly; Anderson's method
+accelerates it.
 """
 
 from dataclasses import dataclass, replace
@@ -74,9 +74,7 @@ class Solution:
 
 @njit(cache=True, nogil=True)
 def _combine_corrections(p, cap, h, floor, stiff, dz, dp, unit, damping, load):  # type: ignore[no-untyped-def]
-    """Damp and bound the corrections, meet the load; dp becomes the next pressure. Returns the change of the rigid
-    gap.
-    """
+    """Damp and bound the corrections, meet the load; dp becomes the next pressure. Returns the rigid gap's change."""
     size = 0.0
     ny, nx = p.shape
     for j in range(ny):

@@ -22,7 +22,6 @@ class NoTribofilm:
 
     name: ClassVar[str] = "none"
     source: ClassVar[str] = ""
-    grows: ClassVar[bool] = False
     full_thickness: ClassVar[float] = 1.0  # any positive number: the thickness is always zero
 
     def evolve(self, growth: Array, removal: Array, rubbing_time: Array, temperature: float) -> tuple[Array, Array]:
@@ -46,7 +45,6 @@ class Ghanbarzadeh:
 
     name: ClassVar[str] = "ghanbarzadeh"
     source: ClassVar[str] = "Ghanbarzadeh et al. 2016, doi:10.1016/j.triboint.2014.12.018"
-    grows: ClassVar[bool] = True
 
     full_thickness: float = parameter("m", "h_max, thickness without removal", above=0.0, most=1e-5)
     rate_factor: float = parameter("", "x, share of k_B T / h that forms film", least=0.0, most=1.0)
