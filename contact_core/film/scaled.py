@@ -118,6 +118,9 @@ class Scaled:
             fluidity,
             density,
             now.hardness / self.p_h / (_TABLE - 1),
+            1.0,
+            np.zeros_like(self.cap),
+            np.ones_like(self.cap),
         )
 
     def iterate(self, state: FilmState) -> Iterate:

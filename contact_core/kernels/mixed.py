@@ -32,19 +32,27 @@ _SHARE_TOLERANCE = 0.02  # nodes at the floor whose fluid pressure is about p ch
 
 @dataclass(frozen=True)
 class Problem:
-    """One instant in Hertz units, entrainment along +x. Arrays [ny, nx]; tables over p = 0, step, 2 step..."""
+    """One instant, entrainment along +x, in units of length l, pressure q and gap l^2 / radius. Arrays [ny, nx]; tables
+    over p = 0, step, 2 step...
+
+    In Hertz units (l = a, q = p_H) the deformation is 2 / pi^2 * integral p / r; `compliance` is the factor on that in
+    the units at hand. Units are chosen so that pressures and lengths of the solution are of order one.
+    """
 
     undeformed: Array  # gap of the undeformed bodies, roughness included, up to a constant
     cap: Array  # largest pressure
     floor: float
     spacing: float
-    load: float  # sum of p over the nodes
+    load: float  # sum of weight * p over the nodes
     mobility: float
     per_dt: float  # 1 / time step, 0: steady
     mass_old: Array  # mass of the previous instant
     fluidity: Array  # table of 1 / viscosity
     density: Array  # table
     step: float
+    compliance: float
+    edge: Array  # ratio of the pressure on an edge node to that of its inner neighbour; zero elsewhere
+    weight: Array  # of each node in the load: 1, on the edge also what lies beyond it
 
 
 @dataclass(frozen=True)
@@ -165,7 +173,7 @@ class _Iteration:
         """Put the next pressure into `dp`; return the change of the rigid gap. `renew` the lever of the load."""
         q, p, solid, stiff = self.problem, self.p, self.solid, self.stiff
         film = (self.h, self.mass, self.e, self.r, q.floor, q.per_dt, q.spacing)
-        reynolds.stiff_zone(p, solid, self.e, q.spacing, stiff)
+        reynolds.stiff_zone(p, solid, self.e, q.spacing, q.compliance, stiff)
         reynolds.film_correction(p, q.cap, solid, stiff, *film, self.patch, self.dh)
         dz = self.half_space.press(self.dh)
         if renew:

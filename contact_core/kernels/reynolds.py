@@ -130,10 +130,10 @@ def imbalance(p, solid, mass, r):  # type: ignore[no-untyped-def]
 
 
 @_jit
-def stiff_zone(p, solid, e, dx, stiff):  # type: ignore[no-untyped-def]
+def stiff_zone(p, solid, e, dx, compliance, stiff):  # type: ignore[no-untyped-def]
     """Mark where elasticity rules: solid contacts, and fluid nodes whose faces hardly pass any pressure flow."""
     ny, nx = p.shape
-    limit = 2.0 * dx * dx
+    limit = 2.0 * dx * dx * compliance
     stiff[:] = False
     for j in range(1, ny - 1):
         for i in range(1, nx - 1):

@@ -1,0 +1,39 @@
+"""What lies beyond the edge of the grid: the decay of the inlet pressure and the load it still carries.
+
+Far in the inlet the film is rigid, h = h0 + r^2 / 2, and the pressure goes like g = -x / h^2 for x < 0 and is zero
+behind: p = (4/5) (...) -x / h^2 is Kapitza's exact solution of the rigid, isoviscous half-flooded ball.
+Source: Kapitza, Zh. Tekh. Fiz. 25 (1955) 747; Brewe, Hamrock & Taylor, J. Lubr. Technol. 101 (1979) 231,
+doi:10.1115/1.3453329. Lengths in the unit of the problem, gaps in its square over the radius.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def far_field(x: Array, y: Array, film: float) -> tuple[Array, Array]:
+    """Ratio of the pressure of an edge node to that of its inner neighbour, and the weight of each node in the load.
+
+    x [nx], y [ny] equally spaced; film: central film of smooth bodies. Both results are [ny, nx]; the ratio is zero
+    off the edge and where the flow leaves, the weight is 1 off the edge and there holds what lies beyond.
+    """
+    spacing = x[1] - x[0]
+    xx, yy = np.meshgrid(x, y)
+    r2 = xx**2 + yy**2
+    decay = np.where(xx < 0.0, -xx, 0.0) / (film + 0.5 * r2) ** 2
+    ratio, weight = np.zeros_like(decay), np.ones_like(decay)
+    inner = ((np.s_[:, 0], np.s_[:, 1]), (np.s_[0, :], np.s_[1, :]), (np.s_[-1, :], np.s_[-2, :]))
+    for edge, neighbour in inner:
+        ratio[edge] = np.where(decay[neighbour] > 0.0, decay[edge] / np.maximum(decay[neighbour], 1e-300), 0.0)
+    # load of a sector from the edge to infinity, over its pressure at the edge
+    s = np.sqrt(0.5 * r2 / film)
+    radial = np.sqrt(2.0 / film) * (0.5 * np.pi - np.arctan(s) + s / (1.0 + s * s))
+    across = np.zeros_like(decay)  # angle that an edge node covers
+    across[:, 0] += spacing * np.abs(xx[:, 0]) / r2[:, 0]
+    for edge in (np.s_[0, :], np.s_[-1, :]):
+        across[edge] += spacing * np.abs(yy[edge]) / r2[edge]
+    cosine = np.where(xx < 0.0, -xx, 0.0) / np.sqrt(np.maximum(r2, 1e-300))
+    edge = ratio > 0.0
+    weight[edge] += (across * cosine * radial)[edge] / decay[edge] / spacing**2
+    return ratio, weight
