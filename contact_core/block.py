@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .contact import ContactFields, Transient, patch_nodes, solve
+from .film.instant import Grid
+from .film.outputs import disc, film_outputs, open_outputs
 from .laws.tribofilm import Ghanbarzadeh
 from .scene import OperatingPoint, Scene
 from .state import ContactState, RangeFlag
@@ -160,41 +162,25 @@ def _on_patch(grid: NDArray[Any], nodes: int) -> NDArray[Any]:
 def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[str, float]:
     """The outputs of one instant."""
     cell = scene.film.spacing**2
-    x, y = fields.x[None, :], fields.y[:, None]
-    centre = (x**2 + y**2) <= (x**2 + y**2).min() * (1.0 + 1e-9)
-    seen = {"h_central": float(fields.gap[centre].mean()), "approach": -fields.film.rigid_gap}
-    disc = inside = centre
+    seen = {"flash_temperature_rise": fields.flash_rise}
+    grid = Grid(fields.x, fields.y)
     if op.load > 0.0:
         hertz = scene.hertz(op.load)
-        radius_2 = (x / hertz.a) ** 2 + (y / hertz.b) ** 2
-        disc, inside = disc | (radius_2 < 4.0 / 9.0), inside | (radius_2 < 1.0)
-        contact = float((fields.solid_pressure > 0.0).sum()) * cell
         shear = float((fields.fluid_shear + fields.solid_shear).sum()) * cell
         slope = np.gradient(fields.fluid_pressure, scene.film.spacing, axis=1)
+        seen |= film_outputs(grid, fields.film, fields.gap, op.load, hertz)
         seen |= {
             "friction_force": -shear,
             "friction_coefficient": abs(shear) / op.load,
             "rolling_resistance": float((0.5 * fields.gap * slope).sum()) * cell,
-            "contact_area_ratio": contact / hertz.area,
-            "contact_load_ratio": float(fields.solid_pressure.sum()) * cell / op.load,
         }
+        sigma = float(fields.roughness[disc(grid, hertz)].std())
     else:
-        names = (
-            "friction_force",
-            "friction_coefficient",
-            "rolling_resistance",
-            "contact_area_ratio",
-            "contact_load_ratio",
-        )
-        seen |= dict.fromkeys(names, 0.0)
-    film, sigma = float(fields.gap[disc].mean()), float(fields.roughness[disc].std())
-    return seen | {
-        "h_c": film,
-        "h_min": float(fields.gap[inside].min()),
-        "lambda_ratio": min(film / sigma, _LAMBDA_CAP) if sigma > 0.0 else _LAMBDA_CAP,
-        "pressure_max": float(fields.pressure.max()),
-        "flash_temperature_rise": fields.flash_rise,
-    }
+        seen |= open_outputs(grid, fields.film, fields.gap)
+        seen |= dict.fromkeys(("friction_force", "friction_coefficient", "rolling_resistance"), 0.0)
+        sigma = 0.0
+    seen["lambda_ratio"] = min(seen["h_c"] / sigma, _LAMBDA_CAP) if sigma > 0.0 else _LAMBDA_CAP
+    return seen
 
 
 def _flags(scene: Scene, op: OperatingPoint, fields: ContactFields) -> RangeFlag:

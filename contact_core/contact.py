@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from .film.scaled import FilmSolution, FilmState, Instant
+from .film.instant import FilmSolution, FilmState, Instant
 from .laws.tribofilm import thickness
 from .scene import OperatingPoint, Scene, Surface
 from .state import Body, ContactState
@@ -45,11 +45,15 @@ class ContactFields:
     flash_rise: float  # mean over the real contact [K]
     film: FilmState
     converged: bool
+    shortfall: str  # why it is not converged, empty if it is
     # "mixed", "dry" (no entrainment, or asked for), "fallback" (dry for want of a mixed solution) or "open" (no load)
     route: str
+    algorithm: str  # row of the table in film/routes.py and what of it found the film
     iterations: int
     pressure_change: float  # of the last iteration, relative
     load_error: float  # relative
+    complementarity: float  # mean distance of solid contacts from the floor, weighted by pressure, in floors
+    imbalance: float  # mass that the film gains or loses unasked, relative
     inlet_nodes: float  # nodes across the inlet zone; below 3 the film is a number of this grid
 
 
@@ -77,25 +81,22 @@ def solve(
         film = _open(scene, heights)
     else:
         now = Instant(
-            op.load,
-            op.entrainment_speed,
-            op.temperature,
-            scene.geometry.radius_x,
-            scene.geometry.radius_y,
-            scene.solids.reduced_modulus,
-            scene.lubricant.viscosity,
-            scene.lubricant.density,
-            heights,
-            limit,
-            scene.plasticity.hardness,
-            dry,
+            load=op.load,
+            entrainment_speed=op.entrainment_speed,
+            temperature=op.temperature,
+            radius_x=scene.geometry.radius_x,
+            radius_y=scene.geometry.radius_y,
+            reduced_modulus=scene.solids.reduced_modulus,
+            viscosity=scene.lubricant.viscosity,
+            density=scene.lubricant.density,
+            heights=heights,
+            limit=limit,
+            hardness=scene.plasticity.hardness,
+            dry=dry,
         )
+        follows = (transient.dt, transient.moved) if transient and state.film else None
         film = scene.film.solve(
-            now,
-            state.film if transient else None,
-            transient.dt if transient else None,
-            transient.moved if transient else 0,
-            transient.iterations if transient else None,
+            now, state.film if transient else None, follows, transient.iterations if transient else None
         )
     return _with_friction(scene, op, film, heights, rough, cover_1, cover_2)
 
@@ -140,8 +141,21 @@ def _open(scene: Scene, heights: Array) -> FilmSolution:
     shape = x[None, :] ** 2 / (2 * scene.geometry.radius_x) + x[:, None] ** 2 / (2 * scene.geometry.radius_y) - heights
     rigid = scene.film.floor - float(shape.min())
     zeros, nothing = np.zeros_like(shape), np.zeros(shape.shape, np.bool_)
-    state = FilmState(zeros, zeros, nothing, shape + rigid, rigid)
-    return FilmSolution(state, shape + rigid, zeros, True, "open", 0, 0.0, 0.0, np.inf)
+    return FilmSolution(
+        state=FilmState(zeros, zeros, nothing, shape + rigid, rigid),
+        gap=shape + rigid,
+        overlap=zeros,
+        converged=True,
+        shortfall="",
+        route="open",
+        algorithm="none",
+        iterations=0,
+        change=0.0,
+        load_error=0.0,
+        complementarity=0.0,
+        imbalance=0.0,
+        inlet_nodes=np.inf,
+    )
 
 
 def _with_friction(
@@ -155,27 +169,31 @@ def _with_friction(
     rise = _flash_rise(scene, film.state.solid, fluid_shear + solid_shear, sliding)
     axis = scene.film.axis
     return ContactFields(
-        axis,
-        axis,
-        film.state.pressure,
-        fluid,
-        solid,
-        film.gap,
-        heights,
-        rough,
-        cover_1,
-        cover_2,
-        film.overlap,
-        fluid_shear,
-        solid_shear,
-        rise,
-        film.state,
-        film.converged,
-        film.route,
-        film.iterations,
-        film.change,
-        film.load_error,
-        film.inlet_nodes,
+        x=axis,
+        y=axis,
+        pressure=film.state.pressure,
+        fluid_pressure=fluid,
+        solid_pressure=solid,
+        gap=film.gap,
+        heights=heights,
+        roughness=rough,
+        cover_1=cover_1,
+        cover_2=cover_2,
+        overlap=film.overlap,
+        fluid_shear=fluid_shear,
+        solid_shear=solid_shear,
+        flash_rise=rise,
+        film=film.state,
+        converged=film.converged,
+        shortfall=film.shortfall,
+        route=film.route,
+        algorithm=film.algorithm,
+        iterations=film.iterations,
+        pressure_change=film.change,
+        load_error=film.load_error,
+        complementarity=film.complementarity,
+        imbalance=film.imbalance,
+        inlet_nodes=film.inlet_nodes,
     )
 
 

@@ -54,7 +54,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     *_pair("wear_depth", "w", "m", "mean wear depth over the track |y| < b", nominal=1e-8, minimum=0.0, display="nm"),
     Quantity("h_c", "h_c", "m", "mean gap over the disc r < 2a/3", nominal=1e-8, minimum=0.0, display="nm"),
     Quantity("h_central", "h_central", "m", "gap at the centre of the contact", nominal=1e-8, minimum=0.0, display="nm"),
-    Quantity("h_min", "h_min", "m", "smallest gap in the contact r < a", nominal=1e-9, minimum=0.0, display="nm"),
+    Quantity("h_min", "h_min", "m", "smallest gap", nominal=1e-9, minimum=0.0, display="nm"),
     Quantity("lambda_ratio", "lambda", "1", "h_c / composite rms roughness over the same disc, at most 1000", minimum=0.0),
     *_pair("tribofilm", "h_t", "m", "mean tribofilm thickness over the track |y| < b, all nodes", nominal=1e-8, minimum=0.0, display="nm"),
     *_pair("tribofilm_roughness", "Rq_t", "m", "rms deviation of the tribofilm thickness over |y| < 2b/3", nominal=1e-8, minimum=0.0, display="nm"),

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import StateError
-from .film.scaled import FilmState
+from .film.instant import FilmState
 from .scene import OperatingPoint, Scene
 
 Array = NDArray[np.float64]

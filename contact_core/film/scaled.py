@@ -1,221 +1,207 @@
-"""An instant of the film in SI, and in the Hertz units that the kernels work in."""
+"""An instant of the film in the dimensionless units that the kernels work in."""
 
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ConvergenceError
 from ..kernels.dry import solve_dry
+from ..kernels.far_field import far_field
 from ..kernels.half_space import HalfSpace
 from ..kernels.mixed import Iterate, Problem, Solution
 from ..reference import SmoothContact, hertz_point, nijenbanning_venner_moes
-
-if TYPE_CHECKING:
-    from .deterministic import Deterministic
+from .instant import FilmSolution, FilmState, Grid, Instant, Settings
 
 Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
-_TABLE = 16385  # entries over 0 <= p <= hardness: relative error of the viscosity below 1e-5
-_DRY_TOLERANCE = 1e-4
+_TABLE = 16385  # entries over 0 <= p <= hardness: relative error of the viscosity below 1e-4
+_TABLE_TOP = 2e10  # Pa: no oil flows above
+_DRY_TOLERANCE = 1e-6
 _DRY_ITERATIONS = 1000
-
-
-@dataclass(frozen=True)
-class Instant:
-    """What the film has to be solved for, in SI. Arrays [ny, nx]."""
-
-    load: float
-    entrainment_speed: float  # of either sign
-    temperature: float
-    radius_x: float
-    radius_y: float
-    reduced_modulus: float
-    viscosity: Callable[[Array, float], Array]  # [Pa s] at pressures and a temperature
-    density: Callable[[Array], Array]  # ratio to that at p = 0, at pressures
-    heights: Array  # of both bodies together, positive into the gap
-    limit: Array  # largest pressure
-    hardness: float  # no limit is above it
-    dry: bool = False  # leave the fluid out
-
-
-@dataclass(frozen=True)
-class FilmState:
-    """A film solution in SI, from which the next may start. Arrays [ny, nx]."""
-
-    pressure: Array
-    fluid: Array
-    solid: Mask
-    mass: Array  # density ratio times film thickness
-    rigid_gap: float  # gap of the undeformed, smooth bodies at the centre
-
-    def __post_init__(self) -> None:
-        for array in (self.pressure, self.fluid, self.solid, self.mass):
-            array.setflags(write=False)
-
-
-@dataclass(frozen=True)
-class FilmSolution:
-    """The film of one instant. `gap` is at least the floor; `overlap` is what is missing to it and yields
-    plastically.
-    """
-
-    state: FilmState
-    gap: Array
-    overlap: Array
-    converged: bool
-    route: str  # "mixed", "dry" (asked for, or no entrainment) or "fallback"
-    iterations: int
-    change: float
-    load_error: float
-    inlet_nodes: float  # grid nodes across the inlet zone of the film; below 3 the film is a number of the grid
+_FAR_FIELD_BELOW = 30.0  # Moes' M: above, what lies beyond a film-sized grid changes the film by less than 1 %
 
 
 class Scaled:
-    """An instant in Hertz units of the circular contact of radius_x: lengths a, pressures p_H, gaps a^2 / radius_x."""
+    """An instant in units of l (lengths), l^2 / radius_x (gaps) and p_H a^2 / l^2 (pressures).
 
-    def __init__(self, film: "Deterministic", now: Instant) -> None:
+    l^2 = a^2 + 1.4 radius_x h is the size of what carries the load: a of Hertz's circular contact of radius_x, or the
+    extent of a film of smooth bodies h that is thicker than that contact is deep. Both keep the solution of order one.
+    """
+
+    def __init__(self, now: Instant, grid: Grid, settings: Settings) -> None:
+        self.now, self.grid, self.settings = now, grid, settings
         hertz = hertz_point(now.load, now.radius_x, now.radius_x, now.reduced_modulus)
-        self.film, self.now = film, now
-        self.a, self.p_h, self.length = hertz.a, hertz.pressure_max, hertz.a**2 / now.radius_x
-        self.dx, self.floor = film.spacing / self.a, film.floor / self.length
+        self.a = hertz.a
+        self.size = film_size(hertz.a, now.radius_x, self.smooth_film)
+        self.p_unit = hertz.pressure_max * (self.a / self.size) ** 2
+        self.h_unit = self.size**2 / now.radius_x
+        self.dx, self.floor = grid.spacing / self.size, settings.floor / self.h_unit
         self.load = 2.0 * np.pi / 3.0 / self.dx**2
-        self.half_space = _half_space(film.points, 2.0 / np.pi**2 * self.dx, film.fft)
-        self.cap = now.limit / self.p_h
+        self.compliance = (self.a / self.size) ** 3
+        self.half_space = half_space(grid.shape, self.compliance * 2.0 / np.pi**2 * self.dx, settings.fft)
+        self.cap = now.limit / self.p_unit
         if self.cap.sum() <= 1.01 * self.load:
             raise ConvergenceError(
-                f"{now.load:g} N are more than the grid of {film.domain:g} m can carry at the hardness. "
-                "Lower the load or enlarge film.domain."
+                f"{now.load:g} N are more than a grid of {grid.shape[1] * grid.spacing:g} m by "
+                f"{grid.shape[0] * grid.spacing:g} m can carry at the hardness. Lower the load or enlarge the domain (film.domain)."
             )
-        x = film.axis / self.a
-        self.smooth = np.sqrt(np.maximum(1.0 - x[None, :] ** 2 - now.radius_x / now.radius_y * x[:, None] ** 2, 0.0))
-        shape = 0.5 * (x[None, :] ** 2 + now.radius_x / now.radius_y * x[:, None] ** 2)
-        self.undeformed = shape - now.heights / self.length
+        self.x, self.y = grid.x / self.size, grid.y / self.size
+        radius_2 = self.x[None, :] ** 2 + now.radius_x / now.radius_y * self.y[:, None] ** 2
+        self.smooth = np.sqrt(np.maximum(1.0 - radius_2, 0.0))
+        self.undeformed = 0.5 * radius_2 - now.heights / self.h_unit
 
-    def per_dt(self, step: float) -> float:
-        """1 / time step in Hertz units."""
-        return self.a / (self.now.entrainment_speed * step)
-
-    def problem(self, mass: Array | None, per_dt: float) -> Problem:
-        """What the kernels solve; `mass` [ny, nx] is that of the instant before, None for a steady film."""
+    @cached_property
+    def contact(self) -> SmoothContact:
+        """The smooth contact in the terms of film formulas."""
         now = self.now
-        fluidity, density, viscosity = _tables(now.viscosity, now.density, now.temperature, now.hardness)
-        mobility = self.a**3 * self.p_h / (12.0 * viscosity * now.entrainment_speed * now.radius_x**2)
-        return Problem(
-            self.undeformed,
-            self.cap,
-            self.floor,
-            self.dx,
-            self.load,
-            mobility,
-            per_dt,
-            np.zeros_like(self.cap) if mass is None else mass,
-            fluidity,
-            density,
-            now.hardness / self.p_h / (_TABLE - 1),
-            1.0,
-            np.zeros_like(self.cap),
-            np.ones_like(self.cap),
-        )
-
-    def iterate(self, state: FilmState) -> Iterate:
-        """A film state in Hertz units, scaled to carry the load."""
-        total = state.pressure.sum() / self.p_h
-        scale = self.load / total / self.p_h if total > 0.0 else 1.0 / self.p_h
-        pressure = np.minimum(state.pressure * scale, self.cap)
-        return Iterate(
-            pressure, np.minimum(state.fluid * scale, pressure), state.solid.copy(), state.rigid_gap / self.length
-        )
+        eta = now.viscosity(np.array([0.0, 1e6]), now.temperature)
+        rise = max(float(np.log(eta[1] / eta[0])) * 1e-6, 1e-12)
+        speed = abs(now.entrainment_speed)
+        return SmoothContact(now.load, speed, float(eta[0]), rise, now.radius_x, now.radius_y, now.reduced_modulus)
 
     @cached_property
     def smooth_film(self) -> float:
-        """Film [m] that smooth bodies would have, by formula."""
+        """Film [m] that smooth bodies would have, by formula; zero if there is none."""
         now = self.now
-        eta = now.viscosity(np.array([0.0, 1e6]), now.temperature)
-        rise = float(np.log(eta[1] / eta[0])) * 1e-6
-        return nijenbanning_venner_moes(
-            SmoothContact(
-                load=now.load,
-                entrainment_speed=now.entrainment_speed,
-                viscosity=float(eta[0]),
-                pressure_coefficient=rise,
-                radius_x=now.radius_x,
-                radius_y=now.radius_y,
-                reduced_modulus=now.reduced_modulus,
-            )
+        return 0.0 if now.dry or now.entrainment_speed == 0.0 else nijenbanning_venner_moes(self.contact)
+
+    @cached_property
+    def roughness(self) -> float:
+        """Rms height [m] of both bodies together where they meet."""
+        inside = self.grid.radius_2 < (1.5 * self.size) ** 2
+        return float(self.now.heights[inside].std()) if inside.any() else 0.0
+
+    def per_dt(self, step: float) -> float:
+        """1 / time step in the units at hand."""
+        return self.size / (self.now.entrainment_speed * step)
+
+    def problem(self, mass: Array | None = None, per_dt: float = 0.0) -> Problem:
+        """What the kernels solve; `mass` [ny, nx] is that of the instant before, None for a steady film."""
+        now = self.now
+        top = min(now.hardness, _TABLE_TOP)
+        fluidity, density, viscosity = _tables(now.viscosity, now.density, now.temperature, top)
+        mobility = self.size**3 * self.p_unit / (12.0 * viscosity * now.entrainment_speed * now.radius_x**2)
+        edge, weight = self._beyond
+        return Problem(
+            undeformed=self.undeformed,
+            cap=self.cap,
+            floor=self.floor,
+            spacing=self.dx,
+            load=self.load,
+            mobility=mobility,
+            per_dt=per_dt,
+            mass_old=np.zeros_like(self.cap) if mass is None else mass,
+            fluidity=fluidity,
+            density=density,
+            step=top / self.p_unit / (_TABLE - 1),
+            compliance=self.compliance,
+            edge=edge,
+            weight=weight,
         )
 
-    @property
-    def full_film(self) -> bool:
-        """Whether the smooth film clears the roughness."""
-        return self.smooth_film > 3.0 * float(self.now.heights.std())
+    @cached_property
+    def _beyond(self) -> tuple[Array, Array]:
+        if self.contact.moes_parameters[0] < _FAR_FIELD_BELOW:
+            return far_field(self.x, self.y, self.smooth_film / self.h_unit)
+        return np.zeros_like(self.cap), np.ones_like(self.cap)
 
-    def fresh_starts(self) -> list[Callable[[], Iterate]]:
-        """Where to begin from nothing, the likelier first: the dry contact, Hertz's pressure under the smooth film."""
+    def iterate(self, state: FilmState) -> Iterate:
+        """A film state in these units, scaled to carry the load."""
+        total = state.pressure.sum() / self.p_unit
+        scale = self.load / total / self.p_unit if total > 0.0 else 1.0 / self.p_unit
+        pressure = np.minimum(state.pressure * scale, self.cap)
+        fluid = np.minimum(state.fluid * scale, pressure)
+        return Iterate(pressure, fluid, state.solid.copy(), state.rigid_gap / self.h_unit)
 
-        def dry() -> Iterate:
-            pressure, rigid, _, _ = self.dry_pressure()
-            return Iterate(pressure, np.zeros_like(pressure), pressure > 0.0, rigid + self.floor)
+    def dry_start(self) -> Iterate:
+        """The dry contact, its fluid still to come."""
+        pressure, rigid, _, _ = self._dry_pressure()
+        return Iterate(pressure, np.zeros_like(pressure), pressure > 0.0, rigid + self.floor)
 
-        def lifted() -> Iterate:
-            pressure = np.minimum(self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300)), self.cap)
-            rigid = -1.0 + (self.smooth_film + 0.5 * max(float(self.now.heights.max()), 0.0)) / self.length
-            return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid)
+    def lifted_start(self) -> Iterate:
+        """A Hertz-like pressure under the film of smooth bodies and the highest asperities."""
+        pressure = np.minimum(self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300)), self.cap)
+        lift = self.smooth_film + 0.5 * max(float(self.now.heights.max()), 0.0)
+        rigid = lift / self.h_unit - self.compliance ** (2.0 / 3.0)  # the contact is a^2 / radius_x deep
+        return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid)
 
-        return [lifted, dry] if self.full_film else [dry, lifted]
-
-    def dry_pressure(self) -> tuple[Array, float, bool, int]:
-        """Pressure and rigid gap without a fluid, and whether and when that converged."""
-        start = np.where(self.smooth > 0.0, self.smooth, 0.0)
-        return solve_dry(self.half_space, self.undeformed, self.cap, self.load, start, _DRY_TOLERANCE, _DRY_ITERATIONS)
+    def _dry_pressure(self) -> tuple[Array, float, bool, int]:
+        return solve_dry(
+            self.half_space, self.undeformed, self.cap, self.load, self.smooth, _DRY_TOLERANCE, _DRY_ITERATIONS
+        )
 
     def dry(self, route: str) -> FilmSolution:
         """The contact without fluid pressure: its gap is the floor where solids touch."""
-        pressure, rigid, converged, iterations = self.dry_pressure()
+        pressure, rigid, converged, iterations = self._dry_pressure()
         rigid += self.floor
         gap = rigid + self.undeformed + self.half_space.deform(pressure)
-        mass = np.maximum(gap, self.floor)
         iterate = Iterate(pressure, np.zeros_like(pressure), pressure > 0.0, rigid)
         load_error = float(pressure.sum()) / self.load - 1.0
-        found = Solution(iterate, gap, mass, converged, iterations, _DRY_TOLERANCE, load_error, 0.0, 0.0)
-        return replace(self.solution(found, iterations), route=route)
+        mass = np.maximum(gap, self.floor)
+        why = "" if converged else f"dry contact short of {_DRY_TOLERANCE:g} after {iterations} iterations"
+        found = Solution(iterate, gap, mass, converged, iterations, _DRY_TOLERANCE, load_error, 0.0, 0.0, why)
+        return self.solution(found, route, "conjugate gradients")
 
-    def solution(self, found: Solution, iterations: int) -> FilmSolution:
+    def solution(self, found: Solution, route: str, algorithm: str) -> FilmSolution:
         """A solution in SI."""
         it = found.iterate
         state = FilmState(
-            it.pressure * self.p_h, it.fluid * self.p_h, it.solid, found.mass * self.length, it.rigid * self.length
+            it.pressure * self.p_unit, it.fluid * self.p_unit, it.solid, found.mass * self.h_unit, it.rigid * self.h_unit
         )
         capped = it.solid & (it.pressure >= self.cap)
-        overlap = np.where(capped, np.maximum(self.floor - found.gap, 0.0), 0.0) * self.length
-        gap = np.maximum(found.gap, self.floor) * self.length
-        x = self.film.axis / self.a
-        centre = (x[None, :] ** 2 + x[:, None] ** 2) < max(2.0 / 3.0, 0.71 * self.dx) ** 2  # at least the nearest nodes
+        overlap = np.where(capped, np.maximum(self.floor - found.gap, 0.0), 0.0) * self.h_unit
+        gap = np.maximum(found.gap, self.floor) * self.h_unit
+        return FilmSolution(
+            state=state,
+            gap=gap,
+            overlap=overlap,
+            converged=found.converged,
+            shortfall=found.shortfall,
+            route=route,
+            algorithm=algorithm,
+            iterations=found.iterations,
+            change=found.change,
+            load_error=found.load_error,
+            complementarity=found.intrusion,
+            imbalance=found.imbalance,
+            inlet_nodes=self._inlet_nodes(gap),
+        )
+
+    def _inlet_nodes(self, gap: Array) -> float:
+        """Nodes across the zone before the contact in which the film builds up."""
+        radius_2 = self.grid.radius_2
+        centre = radius_2 < max(4.0 / 9.0 * self.a**2, 1.01 * float(radius_2.min()))  # at least the nearest nodes
         film = float(gap[centre].mean())
         if self.now.entrainment_speed > 0.0:  # roughness holds the gap open, yet it is the oil's own film that comes in
             film = min(film, self.smooth_film)
-        # the inlet zone ends where the Hertz gap, (4 sqrt2/3pi) d^1.5 at a distance d before the contact, is the film
-        inlet = (film / self.length / 0.6) ** (2.0 / 3.0) / self.dx
-        return FilmSolution(
-            state, gap, overlap, found.converged, "mixed", iterations, found.change, found.load_error, inlet
-        )
+        return inlet_length(self.a, self.now.radius_x, film) / self.grid.spacing
+
+
+def film_size(a: float, radius: float, film: float) -> float:
+    """Half width [m] of what carries the load under a film [m] of smooth bodies; a [m] of Hertz's contact if thin."""
+    return float(np.sqrt(a**2 + 1.4 * radius * film))
+
+
+def inlet_length(a: float, radius: float, film: float) -> float:
+    """Distance [m] before Hertz's contact at which its gap, (4 sqrt2 / 3 pi) (d/a)^1.5 a^2 / R, is the film [m]."""
+    return float(a * (film * radius / a**2 / 0.6) ** (2.0 / 3.0))
 
 
 _LOCAL = threading.local()  # plans and scratch may not be shared between threads
 
 
-def _half_space(points: int, scale: float, library: str) -> HalfSpace:
-    store: dict[tuple[int, float, str], HalfSpace] = _LOCAL.__dict__.setdefault("half_spaces", {})
-    key = (points, scale, library)
+def half_space(shape: tuple[int, int], scale: float, library: str) -> HalfSpace:
+    """The half space of a grid, with plans kept from before."""
+    store: dict[tuple[tuple[int, int], float, str], HalfSpace] = _LOCAL.__dict__.setdefault("half_spaces", {})
+    key = (shape, scale, library)
     if key not in store:
-        if len(store) >= 4:
+        if len(store) >= 8:
             store.pop(next(iter(store)))
-        store[key] = HalfSpace(points, points, scale, library)
+        store[key] = HalfSpace(*shape, scale, library)
     return store[key]
 
 

@@ -1,4 +1,4 @@
-"""Anderson acceleration of a fixed point x -> g(x), with a ring of at most `depth` differences.
+"""Anderson acceleration of a fixed point x -> g(x), with at most `depth` differences.
 
 Source: Walker & Ni, SIAM J. Numer. Anal. 49 (2011) 1715, doi:10.1137/10078356X. Sums are in a fixed order.
 """
@@ -9,81 +9,121 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+_jit = njit(cache=True, nogil=True, error_model="numpy")
+_CHUNK = 512  # of the vectors, so that it stays in the fastest cache
+_REGULAR = 1e-6
+_LARGEST = 3.0  # sum of the magnitudes of the mixing weights
 
-@njit(cache=True, nogil=True)
-def _store(residual, residual_old, image, image_old, d_residual, d_image, gram, slot, used):  # type: ignore[no-untyped-def]
-    for i in range(residual.size):
-        d_residual[slot, i] = residual[i] - residual_old[i]
-        d_image[slot, i] = image[i] - image_old[i]
+
+@_jit
+def _dot(a, b):  # type: ignore[no-untyped-def]
+    """Four sums side by side, so that one need not wait for the other."""
+    s0, s1, s2, s3 = 0.0, 0.0, 0.0, 0.0
+    whole = a.size - a.size % 4
+    for i in range(0, whole, 4):
+        s0 += a[i] * b[i]
+        s1 += a[i + 1] * b[i + 1]
+        s2 += a[i + 2] * b[i + 2]
+        s3 += a[i + 3] * b[i + 3]
+    for i in range(whole, a.size):
+        s0 += a[i] * b[i]
+    return (s0 + s1) + (s2 + s3)
+
+
+@_jit
+def _remember(x, images, residuals, gram, slot, used):  # type: ignore[no-untyped-def]
+    """Residual of the newest image, and its products with all that are held."""
     for k in range(used):
-        total = 0.0
-        for i in range(residual.size):
-            total += d_residual[slot, i] * d_residual[k, i]
-        gram[slot, k] = total
-        gram[k, slot] = total
-
-
-@njit(cache=True, nogil=True)
-def _project(residual, d_residual, used):  # type: ignore[no-untyped-def]
-    right = np.zeros(used)
+        gram[slot, k] = 0.0
+    for first in range(0, x.size, _CHUNK):
+        part = slice(first, min(first + _CHUNK, x.size))
+        new, image, old = residuals[slot, part], images[slot, part], x[part]
+        for i in range(new.size):
+            new[i] = image[i] - old[i]
+        for k in range(used):
+            gram[slot, k] += _dot(new, residuals[k, part])
     for k in range(used):
-        total = 0.0
-        for i in range(residual.size):
-            total += residual[i] * d_residual[k, i]
-        right[k] = total
-    return right
+        gram[k, slot] = gram[slot, k]
 
 
-@njit(cache=True, nogil=True)
-def _combine(image, d_image, theta):  # type: ignore[no-untyped-def]
-    mixed = image.copy()
-    for k in range(theta.size):
-        for i in range(image.size):
-            mixed[i] -= theta[k] * d_image[k, i]
-    return mixed
+@_jit
+def _weights(gram, slot, used):  # type: ignore[no-untyped-def]
+    """Weights of the images, adding up to 1, that make the residual least; all on the newest where mixing is unsafe."""
+    rows, n = gram.shape[0], used - 1
+    at = np.empty(used, np.int64)  # oldest first
+    for k in range(used):
+        at[k] = (slot + 1 + k) % rows if used == rows else k
+    a, b = np.empty((n, n)), np.empty(n)
+    for k in range(n):
+        k0, k1 = at[k], at[k + 1]
+        b[k] = gram[slot, k1] - gram[slot, k0]
+        for m in range(n):
+            m0, m1 = at[m], at[m + 1]
+            a[k, m] = (gram[k1, m1] - gram[k1, m0]) - (gram[k0, m1] - gram[k0, m0])
+        a[k, k] += _REGULAR * a[k, k] + 1e-300
+    for k in range(n):  # positive definite: no pivoting
+        for m in range(k + 1, n):
+            factor = a[m, k] / a[k, k]
+            for q in range(k, n):
+                a[m, q] -= factor * a[k, q]
+            b[m] -= factor * b[k]
+    size = 0.0
+    for k in range(n - 1, -1, -1):
+        for m in range(k + 1, n):
+            b[k] -= a[k, m] * b[m]
+        b[k] /= a[k, k]
+        size += abs(b[k])
+    weights = np.zeros(rows)
+    weights[slot] = 1.0
+    if size <= _LARGEST:  # false for NaN
+        for k in range(n):
+            weights[at[k + 1]] -= b[k]
+            weights[at[k]] += b[k]
+    return weights
+
+
+@_jit
+def _combine(images, weights, used, x):  # type: ignore[no-untyped-def]
+    for first in range(0, x.size, _CHUNK):
+        part = slice(first, min(first + _CHUNK, x.size))
+        new = x[part]
+        new[:] = 0.0
+        for k in range(used):
+            image, weight = images[k, part], weights[k]
+            if weight != 0.0:
+                for i in range(new.size):
+                    new[i] += weight * image[i]
 
 
 class Anderson:
-    """Memory of one fixed-point iteration."""
+    """Memory of one fixed-point iteration of vectors [size].
+
+    Each round the caller writes the image of x into `image` and calls `mix`.
+    """
 
     def __init__(self, size: int, depth: int) -> None:
-        self._d_residual = np.zeros((depth, size))
-        self._d_image = np.zeros((depth, size))
-        self._gram = np.zeros((depth, depth))
-        self.clear()
+        self._images = np.zeros((depth + 1, size))
+        self._residuals = np.zeros((depth + 1, size))
+        self._gram = np.zeros((depth + 1, depth + 1))
+        self._stored = 0
 
     def clear(self) -> None:
         """Forget everything."""
-        self._old: tuple[Array, Array] | None = None
         self._stored = 0
 
-    def mix(self, x: Array, image: Array) -> Array:
-        """Return the next iterate from `x` and its image g(x) (1-D, not changed); the image itself where mixing is
-        unsafe.
-        """
-        residual, depth = image - x, self._gram.shape[0]
-        if self._old is not None:
-            slot = self._stored % depth
-            self._stored += 1
-            _store(
-                residual,
-                self._old[0],
-                image,
-                self._old[1],
-                self._d_residual,
-                self._d_image,
-                self._gram,
-                slot,
-                min(self._stored, depth),
-            )
-        self._old = (residual, image)
-        used = min(self._stored, depth)
-        if used == 0:
-            return image
-        gram = self._gram[:used, :used].copy()
-        gram[np.diag_indices(used)] *= 1.0 + 1e-6
-        gram[np.diag_indices(used)] += 1e-300
-        theta = np.linalg.solve(gram, _project(residual, self._d_residual, used))
-        if not np.all(np.isfinite(theta)) or np.abs(theta).sum() > 3.0:
-            return image
-        return _combine(image, self._d_image, theta)
+    @property
+    def image(self) -> Array:
+        """Where the next image g(x) goes."""
+        return self._images[self._slot]
+
+    @property
+    def _slot(self) -> int:
+        return self._stored % len(self._gram)
+
+    def mix(self, x: Array) -> None:
+        """Replace x, whose image has been written, by the next iterate."""
+        slot = self._slot
+        self._stored += 1
+        used = min(self._stored, len(self._gram))
+        _remember(x, self._images, self._residuals, self._gram, slot, used)
+        _combine(self._images, _weights(self._gram, slot, used), used, x)

@@ -7,7 +7,6 @@ accelerates it.
 """
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numba import njit
@@ -20,13 +19,18 @@ from .half_space import HalfSpace
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-_DEPTH = 5  # of Anderson's memory: deeper does not help where contacts come and go
+_jit = njit(cache=True, nogil=True, error_model="numpy")
+
+_DEPTH = 3  # of Anderson's memory: deeper does not help where contacts come and go
 _SWEEPS_UNDER_CONTACTS = 6
 _LINE_SWEEPS = 1
+_STIFF_STEP = 0.4  # part of their correction that nodes in the stiff zone take
+_RENEW = 0.02  # share of the stiff zone that changes before the lever of the load is computed anew
+_CARRIED = 0.3  # pressure of smooth bodies above which the pattern of the rough ones moves along with them
 _LOAD_TOLERANCE = 1e-4
 _INTRUSION_TOLERANCE = 0.2
 _IMBALANCE_PER_TOLERANCE = 100.0  # what a time step still owes is made up for in the next one...
-_STEADY_IMBALANCE = 0.05  # ...but a steady film has no next one
+_STEADY_IMBALANCE_PER_TOLERANCE = 20.0  # ...but a steady film has no next one
 _SHARE_TOLERANCE = 0.02  # nodes at the floor whose fluid pressure is about p change sides for ever, p unchanged
 
 
@@ -53,6 +57,7 @@ class Problem:
     compliance: float
     edge: Array  # ratio of the pressure on an edge node to that of its inner neighbour; zero elsewhere
     weight: Array  # of each node in the load: 1, on the edge also what lies beyond it
+    lumped: bool = False  # one pressure for fluid and solids, as in the unified Reynolds equation: f = p everywhere
 
 
 @dataclass(frozen=True)
@@ -77,130 +82,242 @@ class Solution:
     change: float  # last relative change of the pressure by an iteration
     load_error: float  # relative
     intrusion: float  # mean distance of solid contacts below the cap from the floor, weighted by pressure, in floors
-    imbalance: float  # mass that the film gains or loses unasked in a / u_e, relative, weighted by the load it carries
+    imbalance: float  # mass that the film gains or loses unasked in l / u_e, relative, weighted by the load it carries
+    shortfall: str = ""  # why it is not converged, empty if it is
 
 
-@njit(cache=True, nogil=True)
-def _combine_corrections(p, cap, h, floor, stiff, dz, dp, unit, damping, load):  # type: ignore[no-untyped-def]
-    """Damp and bound the corrections, meet the load; dp becomes the next pressure. Returns the rigid gap's change."""
-    size = 0.0
-    ny, nx = p.shape
+def shortfall(
+    tolerance: float, change: float, load_error: float, intrusion: float, imbalance: float, moving: bool
+) -> str:
+    """The stopping rule of every film: what is short of it, in words, or nothing. `moving`: a time step."""
+    owed = tolerance * (_IMBALANCE_PER_TOLERANCE if moving else _STEADY_IMBALANCE_PER_TOLERANCE)
+    rules = (
+        ("pressure change", change, tolerance),
+        ("load error", abs(load_error), _LOAD_TOLERANCE),
+        ("distance of contacts from the floor", intrusion, _INTRUSION_TOLERANCE),
+        ("mass imbalance", imbalance, owed),
+    )
+    return "; ".join(f"{name} {value:.2g}, not below {most:.2g}" for name, value, most in rules if not value < most)
+
+
+@_jit
+def _place(field, top, bottom, left, right, out):  # type: ignore[no-untyped-def]
+    """Put a part of a field into the corner of another one that is zero elsewhere."""
+    out[:] = 0.0
+    for j in range(top, bottom):
+        for i in range(left, right):
+            out[j - top, i - left] = field[j, i]
+
+
+@_jit
+def _begin(stiff, pressed, top, left, part, dp):  # type: ignore[no-untyped-def]
+    """Step dp of the stiff zone, a part of the pressure that mends its film; `pressed` begins at node (top, left)."""
+    ny, nx = dp.shape
     for j in range(ny):
         for i in range(nx):
-            if stiff[j, i] and p[j, i] >= cap[j, i] and h[j, i] < floor:
+            dp[j, i] = part * pressed[j - top, i - left] if stiff[j, i] else 0.0
+
+
+@_jit
+def _set_edge(p, edge):  # type: ignore[no-untyped-def]
+    """Edge nodes follow their inner neighbours."""
+    ny, nx = p.shape
+    for j in range(ny):
+        p[j, 0] = edge[j, 0] * p[j, 1]
+        p[j, nx - 1] = edge[j, nx - 1] * p[j, nx - 2]
+    for i in range(nx):
+        p[0, i] = edge[0, i] * p[1, i]
+        p[ny - 1, i] = edge[ny - 1, i] * p[ny - 2, i]
+
+
+@_jit
+def _load_beyond(p, weight):  # type: ignore[no-untyped-def]
+    """Load of the edge nodes and of what lies beyond them."""
+    ny, nx = p.shape
+    total = 0.0
+    for j in range(1, ny - 1):
+        total += weight[j, 0] * p[j, 0] + weight[j, nx - 1] * p[j, nx - 1]
+    for i in range(nx):
+        total += weight[0, i] * p[0, i] + weight[ny - 1, i] * p[ny - 1, i]
+    return total
+
+
+@_jit
+def _next_pressure(p, cap, h, floor, stiff, unit, damping, load, edge, weight, dp, image):  # type: ignore[no-untyped-def]
+    """Damp and bound the corrections dp, meet the load. Returns the rigid gap's change and sum |image - p|."""
+    ny, nx = p.shape
+    size = 0.0
+    for j in range(1, ny - 1):
+        for i in range(1, nx - 1):
+            step, here = dp[j, i], p[j, i]
+            if stiff[j, i] and here >= cap[j, i] and h[j, i] < floor:
                 stiff[j, i] = False  # yields: stays at the cap until its gap opens
-                dp[j, i] = 0.0
-                continue
-            step = 0.5 * dz[j, i] if stiff[j, i] else 0.7 * dp[j, i]
-            bound = 0.2 + 0.5 * p[j, i]
+                step = 0.0
+            bound = 0.2 + 0.5 * here
             step = min(max(step, -bound), bound)
             dp[j, i] = step
             size += abs(step)
     factor = min(damping, 0.1 * load / max(size, 1e-300))
-    for j in range(ny):
-        for i in range(nx):
-            dp[j, i] = p[j, i] + factor * dp[j, i]
+    nodes, count, rest, change = np.empty(p.size, np.int64), 0, 0.0, 0.0
+    for j in range(1, ny - 1):
+        for i in range(1, nx - 1):
+            value = p[j, i] + factor * dp[j, i]
+            if stiff[j, i]:
+                nodes[count] = j * nx + i
+                count += 1
+            else:
+                value = min(max(value, 0.0), cap[j, i])
+                rest += value
+                change += abs(value - p[j, i])
+            image[j, i] = value
+    _set_edge(image, edge)
+    rest += _load_beyond(image, weight)
+    values, caps, units, old = image.ravel(), cap.ravel(), unit.ravel(), p.ravel()
     shift = 0.0
     for _ in range(4):  # nodes at a bound cannot take their part
-        total, lever = 0.0, 0.0
-        for j in range(ny):
-            for i in range(nx):
-                value = dp[j, i] - (shift * unit[j, i] if stiff[j, i] else 0.0)
-                total += min(max(value, 0.0), cap[j, i])
-                if stiff[j, i] and 0.0 < value < cap[j, i]:
-                    lever += unit[j, i]
+        total, lever = rest, 0.0
+        for n in range(count):
+            k = nodes[n]
+            value = values[k] - shift * units[k]
+            total += min(max(value, 0.0), caps[k])
+            if 0.0 < value < caps[k]:
+                lever += units[k]
         if abs(total - load) <= 1e-10 * load or lever <= 1e-3 * load:
             break
         shift += (total - load) / lever
-    for j in range(ny):
-        for i in range(nx):
-            value = dp[j, i] - (shift * unit[j, i] if stiff[j, i] else 0.0)
-            dp[j, i] = min(max(value, 0.0), cap[j, i])
-    return shift
+    for n in range(count):
+        k = nodes[n]
+        values[k] = min(max(values[k] - shift * units[k], 0.0), caps[k])
+        change += abs(values[k] - old[k])
+    return shift, change
 
 
-@njit(cache=True, nogil=True)
-def _distance(a, b):  # type: ignore[no-untyped-def]
-    total = 0.0
-    for j in range(a.shape[0]):
-        for i in range(a.shape[1]):
-            total += abs(a[j, i] - b[j, i])
-    return total
+@_jit
+def _bounded(p, image, cap, edge, weight):  # type: ignore[no-untyped-def]
+    """Keep a mixed pressure within its bounds; returns the load.
 
-
-@njit(cache=True, nogil=True)
-def _quality(p, f, cap, solid, h, floor):  # type: ignore[no-untyped-def]
-    """Load carried by solids, total load, mean distance of solid contacts below the cap from the floor, weighted
-    by load.
+    What the image has at the cap stays there: mixed below it, it would be pushed against its overlap again.
     """
-    solids, total, intrusion = 0.0, 0.0, 0.0
-    for j in range(p.shape[0]):
-        for i in range(p.shape[1]):
-            total += p[j, i]
-            if solid[j, i]:
-                solids += p[j, i] - f[j, i]
-                if p[j, i] < cap[j, i]:
-                    intrusion += p[j, i] * abs(floor - h[j, i])
-    return solids, total, intrusion / (floor * max(total, 1e-300))
+    ny, nx = p.shape
+    total = 0.0
+    for j in range(1, ny - 1):
+        for i in range(1, nx - 1):
+            value = cap[j, i] if image[j, i] >= cap[j, i] else min(max(p[j, i], 0.0), cap[j, i])
+            p[j, i] = value
+            total += value
+    _set_edge(p, edge)
+    return total + _load_beyond(p, weight)
 
 
 class _Iteration:
     """One fixed-point iteration and its scratch arrays."""
 
-    def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate) -> None:
-        self.half_space, self.problem = half_space, problem
-        self.p, self.f = start.pressure.copy(), start.fluid.copy()
-        self.solid, self.rigid = start.solid.copy(), start.rigid
-        shape = self.p.shape
+    def __init__(
+        self, half_space: HalfSpace, problem: Problem, start: Iterate, depth: int = 5, stiff_step: float = 0.5
+    ) -> None:
+        self.half_space, self.problem, self.start, self.stiff_step = half_space, problem, start, stiff_step
+        shape = start.pressure.shape
+        self.memory = Anderson(start.pressure.size + 1, depth)
+        self.weight = float(max(shape))  # of the rigid gap among the pressures in Anderson's norm
+        self.x = np.append(start.pressure.ravel(), self.weight * start.rigid)
+        self.p = self.x[:-1].reshape(shape)
+        self.f, self.solid = start.fluid.copy(), start.solid.copy()
         self.h, self.mass, self.e, self.r, self.dh, self.dp, self.unit = (np.zeros(shape) for _ in range(7))
-        self.stiff = np.zeros(shape, np.bool_)
+        self.stiff, self.stiff_of_unit = (np.zeros(shape, np.bool_) for _ in range(2))
+        self.sums = np.zeros(5)
         near = half_space.near
         self.patch = near[0, 0] + 2 * near[0, 1] + 2 * near[1, 0] + 4 * near[1, 1]
         self.patch_wide = 4 * near.sum() - 2 * near[0].sum() - 2 * near[:, 0].sum() + near[0, 0]
-        self.share = np.inf
+        self.share = self.change = self.least = np.inf
+        self.damping = 1.0
+        self.load = _bounded(self.p, self.p, problem.cap, problem.edge, problem.weight)
 
-    def film(self) -> None:
-        """Gap, contacts, fluid pressure under them and mass balance of the present pressure."""
+    @property
+    def rigid(self) -> float:
+        """The rigid gap."""
+        return float(self.x[-1]) / self.weight
+
+    def filled(self) -> Array:
+        """Mass of the present film."""
+        self._film()
+        return self.mass.copy()
+
+    def step_on(self, mass: Array) -> None:
+        """Begin a time step from a mass."""
+        self.problem = replace(self.problem, mass_old=mass)
+        self.memory.clear()
+        self.damping, self.least = 1.0, np.inf
+
+    def correct(self) -> None:
+        """Film of the present iterate; its image goes into Anderson's memory."""
+        self._film()
+        self._press()
+        q, p = self.problem, self.p
+        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.spacing)
+        near = (self.half_space.near, self.patch_wide)
+        reynolds.relax_lines(p, self.solid, self.stiff, *film, *near, q.lumped, _LINE_SWEEPS, self.dp)
+        lever = (self.stiff, self.unit, self.damping, q.load, q.edge, q.weight)
+        vector = self.memory.image
+        shift, change = _next_pressure(p, q.cap, self.h, q.floor, *lever, self.dp, self._pressure_of(vector))
+        vector[-1] = self.x[-1] + self.weight * shift
+        self.change = change / q.load
+        if self.change > 0.03 and self.change > 3.0 * self.least:  # it runs away
+            self.memory.clear()
+            self.damping = max(0.6 * self.damping, 0.2)
+        self.least = min(self.least, self.change)
+
+    def mix(self) -> None:
+        """The next iterate."""
+        q, image = self.problem, self._pressure_of(self.memory.image)
+        self.memory.mix(self.x)
+        self.load = _bounded(self.p, image, q.cap, q.edge, q.weight)
+
+    def _pressure_of(self, vector: Array) -> Array:
+        return vector[:-1].reshape(self.p.shape)
+
+    def _film(self) -> None:
+        """Gap, contacts, fluid pressure under them, mass balance, and the change of the gap that mends it."""
         q, p, f, solid = self.problem, self.p, self.f, self.solid
         oil = (q.floor, q.mobility, q.fluidity, q.density, q.step)
-        deformation = self.half_space.deform(p)
-        reynolds.film_pass(p, f, solid, q.undeformed, deformation, self.rigid, *oil, self.h, self.mass, self.e)
-        balance = (self.mass, q.mass_old, self.e, q.per_dt, q.spacing)
-        reynolds.fluid_under_contacts(p, f, solid, self.h, *balance, _SWEEPS_UNDER_CONTACTS, *oil)
-        reynolds.residual(f, solid, *balance, self.r)
+        film = (self.h, self.mass, self.e)
+        gap = (q.undeformed, self.half_space.deform_padded(p), self.rigid)
+        reynolds.film_pass(p, f, solid, *gap, *oil, *film, q.lumped)
+        balance = (self.h, self.mass, q.mass_old, self.e)
+        if not q.lumped:
+            constants = (q.per_dt, q.spacing, _SWEEPS_UNDER_CONTACTS)
+            reynolds.fluid_under_contacts(p, f, solid, *balance, *constants, *oil)
+        scales = (q.floor, q.per_dt, q.spacing, q.compliance, self.patch)
+        out = (self.r, self.stiff, self.dh, self.sums)
+        self.zone = reynolds.mend_film(p, f, q.cap, solid, *balance, *scales, self.stiff_of_unit, *out)
 
-    def correct(self, damping: float, renew: bool) -> float:
-        """Put the next pressure into `dp`; return the change of the rigid gap. `renew` the lever of the load."""
-        q, p, solid, stiff = self.problem, self.p, self.solid, self.stiff
-        film = (self.h, self.mass, self.e, self.r, q.floor, q.per_dt, q.spacing)
-        reynolds.stiff_zone(p, solid, self.e, q.spacing, q.compliance, stiff)
-        reynolds.film_correction(p, q.cap, solid, stiff, *film, self.patch, self.dh)
-        dz = self.half_space.press(self.dh)
-        if renew:
-            self.unit = self.half_space.press(stiff.astype(np.float64))
-        self.dp[:] = np.where(stiff, 0.5 * dz, 0.0)
-        near = self.half_space.near
-        reynolds.pressure_correction(p, self.f, solid, stiff, *film, near, self.patch_wide, _LINE_SWEEPS, self.dp)
-        return float(_combine_corrections(p, q.cap, self.h, q.floor, stiff, dz, self.dp, self.unit, damping, q.load))
+    def _press(self) -> None:
+        """Pressure that mends the film of the stiff zone into `dp`, and the lever of the load."""
+        top, bottom, left, right, count, changed = self.zone
+        if count == 0:
+            self.dp[:] = 0.0
+            return
+        inverse = self.half_space.press_part(bottom - top, right - left)
+        if changed > _RENEW * count:
+            _place(self.stiff, top, bottom, left, right, inverse.field)
+            self.unit[:] = 0.0
+            self.unit[top:bottom, left:right] = inverse.run()[: bottom - top, : right - left]
+            self.stiff_of_unit[:] = self.stiff
+        _place(self.dh, top, bottom, left, right, inverse.field)
+        _begin(self.stiff, inverse.run(), top, left, self.stiff_step, self.dp)
 
     def assess(self, n: int, tolerance: float) -> Solution:
-        """How good the present pressure is; refers to the scratch arrays, so it holds until the next `film`."""
+        """How good the present pressure is; refers to the scratch arrays, so it holds until the next `correct`."""
         q = self.problem
-        change = float(_distance(self.dp, self.p)) / q.load
-        solids, total, intrusion = _quality(self.p, self.f, q.cap, self.solid, self.h, q.floor)
-        imbalance = float(reynolds.imbalance(self.p, self.solid, self.mass, self.r))
-        owed = _IMBALANCE_PER_TOLERANCE * tolerance if q.per_dt > 0.0 else _STEADY_IMBALANCE
-        share, load_error = solids / q.load, float(total) / q.load - 1.0
-        converged = (
-            change < tolerance
-            and abs(load_error) < _LOAD_TOLERANCE
-            and intrusion < _INTRUSION_TOLERANCE
-            and imbalance < owed
-            and abs(share - self.share) < _SHARE_TOLERANCE
-        )
+        wrong, film, fluid, solids, intrusion = (float(value) for value in self.sums)
+        load_error, share = self.load / q.load - 1.0, solids / q.load
+        intrusion /= q.floor * q.load
+        imbalance = wrong / max(film, 1e-300) * fluid / q.load
+        why = shortfall(tolerance, self.change, load_error, intrusion, imbalance, q.per_dt > 0.0)
+        if abs(share - self.share) >= _SHARE_TOLERANCE:
+            why = "; ".join(filter(None, (why, "the share of the solids still changes")))
         self.share = share
         iterate = Iterate(self.p, self.f, self.solid, self.rigid)
-        return Solution(iterate, self.h, self.mass, converged, n, change, load_error, float(intrusion), imbalance)
+        return Solution(iterate, self.h, self.mass, not why, n, self.change, load_error, intrusion, imbalance, why)
 
     def kept(self, found: Solution) -> Solution:
         """A copy of an assessed solution that outlives the scratch arrays."""
@@ -209,43 +326,38 @@ class _Iteration:
             # what the film still lacks of its mass balance goes into its history: the next instant makes up for it
             owed = np.where(self.solid | (self.p <= 0.0), 0.0, self.r / self.problem.per_dt)
             mass += np.clip(owed, -0.5 * mass, 0.5 * mass)
-        iterate = Iterate(self.p.copy(), self.f.copy(), self.solid.copy(), self.rigid)
+        fluid = np.where(self.solid, 0.0, self.f) if self.problem.lumped else self.f.copy()
+        iterate = Iterate(self.p.copy(), fluid, self.solid.copy(), self.rigid)
         return replace(found, iterate=iterate, gap=self.h.copy(), mass=mass)
 
 
 def solve_mixed(half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int) -> Solution:
     """Iterate from `start` until the relative pressure change is below `tolerance` or `iterations` are spent.
 
-    What is not converged is the best of the second half, in the pressure's change. Non-finite values never leave: what
+    What is not converged is the best of the last quarter, in the pressure's change. Non-finite values never leave: what
     is returned is finite, or its `change` is infinite.
     """
-    it = _Iteration(half_space, problem, start)
-    memory = Anderson(it.p.size + 1, _DEPTH)
-    weight = float(max(it.p.shape))  # of the rigid gap among the pressures in Anderson's norm
+    return _iterate(_Iteration(half_space, problem, start, _DEPTH, _STIFF_STEP), tolerance, iterations)
+
+
+def _iterate(it: _Iteration, tolerance: float, iterations: int) -> Solution:
+    problem = it.problem
     best: Solution | None = None
-    damping, least, n = 1.0, np.inf, 0
+    n = 0
     for n in range(1, iterations + 1):
-        it.film()
-        shift = it.correct(damping, renew=n % 5 == 1)
+        it.correct()
         found = it.assess(n, tolerance)
         if not np.isfinite(found.change):
             break
         if found.converged:
             return it.kept(found)
-        if 2 * n >= iterations and (best is None or found.change < best.change):
+        if 4 * n >= 3 * iterations and (best is None or found.change < best.change):
             best = it.kept(found)
-        if found.change > 0.03 and found.change > 3.0 * least:
-            memory.clear()
-            damping = max(0.6 * damping, 0.2)
-        least = min(least, found.change)
-        x = np.append(it.p.ravel(), weight * it.rigid)
-        mixed = memory.mix(x, np.append(it.dp.ravel(), weight * (it.rigid + shift)))
-        # what an iteration puts at the cap stays there: mixed below it, it would be pushed against its overlap again
-        bounded = np.clip(mixed[:-1].reshape(it.p.shape), 0.0, problem.cap)
-        it.p = np.where(it.dp >= problem.cap, problem.cap, bounded)
-        it.rigid = float(mixed[-1]) / weight
+        it.mix()
     if best is None:
-        return Solution(start, np.zeros_like(it.p), problem.mass_old, False, n, np.inf, np.inf, np.inf, np.inf)
+        zeros = np.zeros_like(problem.cap)
+        why = "no finite solution"
+        return Solution(it.start, zeros, problem.mass_old, False, n, np.inf, np.inf, np.inf, np.inf, why)
     return replace(best, iterations=n)
 
 
@@ -256,19 +368,17 @@ def advected(start: Iterate, smooth: Array, nodes: int) -> Iterate:
     """
     if nodes == 0:
         return start
-    shape = np.where(smooth > 0.3, smooth, 1.0)
-    inside = (smooth > 0.3) & (_moved(smooth, nodes) > 0.3)
-    pressure = np.where(inside, smooth * _moved(start.pressure / shape, nodes), start.pressure)
-    share = np.where(start.pressure > 0.0, start.fluid / np.maximum(start.pressure, 1e-300), 1.0)
-    share = np.where(inside, _moved(share, nodes), share)
-    solid = np.where(inside, _moved(start.solid, nodes), start.solid)
-    return Iterate(pressure, np.where(solid, share, 1.0) * pressure, solid, start.rigid)
+    pressure, fluid, solid = start.pressure.copy(), start.pressure.copy(), start.solid.copy()
+    _advect(start.pressure, start.fluid, start.solid, smooth, nodes, pressure, fluid, solid)
+    return Iterate(pressure, fluid, solid, start.rigid)
 
 
-def _moved(field: NDArray[Any], nodes: int) -> NDArray[Any]:
-    out = np.zeros_like(field)
-    if nodes > 0:
-        out[:, nodes:] = field[:, :-nodes]
-    else:
-        out[:, :nodes] = field[:, -nodes:]
-    return out
+@_jit
+def _advect(p_old, f_old, solid_old, smooth, nodes, p, f, solid):  # type: ignore[no-untyped-def]
+    ny, nx = p.shape
+    for j in range(ny):
+        for i in range(nx):
+            k = i - nodes if 0 <= i - nodes < nx and smooth[j, i] > _CARRIED < smooth[j, i - nodes] else i
+            p[j, i] = p_old[j, k] * (smooth[j, i] / smooth[j, k] if k != i else 1.0)
+            solid[j, i] = solid_old[j, k]
+            f[j, i] = p[j, i] * (f_old[j, k] / p_old[j, k] if solid[j, i] and p_old[j, k] > 0.0 else 1.0)

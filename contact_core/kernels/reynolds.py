@@ -1,16 +1,21 @@
-"""Passes over the film, in Hertz units: x by a, p by p_H, h by a^2/R, t by a/u_e.
+"""Passes over the film, in the units of `mixed.Problem`.
 
     div(e grad f) - d(m)/dx - d(m)/dt = 0,   m = rho max(h, floor),   e = mobility rho max(h, floor)^3 / eta(f)
 
 f is the fluid pressure, solved everywhere; entrainment is along +x. Second order: central in pressure, upwind (1.5, -2,
 0.5) in the wedge. On nodes in solid contact (solid[j, i]) the gap is the floor and the total pressure p is at least
-f; elsewhere p = f. Viscosity and density come as tables over pressure (relative to those at p = 0).
+f; elsewhere p = f. Viscosity and density come as tables over pressure (relative to those at p = 0). All arrays are
+[ny, nx] unless said otherwise.
 """
 
 import numpy as np
 from numba import njit
 
 _jit = njit(cache=True, nogil=True, error_model="numpy")
+
+_TOUCH = 0.5  # gap in floors below which a node becomes solid at once; below 1, where its film loses mass
+_DEEP = 0.9  # gap in floors below which a contact is not released: it has to come up first
+_OVER = 1.6  # relaxation of the lines
 
 
 @_jit
@@ -24,21 +29,45 @@ def interpolate(table, step, p):  # type: ignore[no-untyped-def]
 
 
 @_jit
-def film_pass(p, f, solid, undeformed, deformation, rigid, floor, mobility, fluidity, density, step, h, mass, e):  # type: ignore[no-untyped-def]
-    """Gap, new solid contacts, mass and mobility of every node, from the pressure."""
+def _properties(p, per_step, density, fluidity):  # type: ignore[no-untyped-def]
+    """Density and fluidity at a pressure, as `interpolate`."""
+    at = p * per_step
+    k = int(at)
+    if k >= density.size - 1:
+        return density[density.size - 1], fluidity[density.size - 1]
+    part = at - k
+    rho, flow = density[k], fluidity[k]
+    return rho + part * (density[k + 1] - rho), flow + part * (fluidity[k + 1] - flow)
+
+
+@_jit
+def film_pass(  # type: ignore[no-untyped-def]
+    p, f, solid, undeformed, deformation, rigid, floor, mobility, fluidity, density, step, h, mass, e, lumped=False
+):
+    """Gap, new solid contacts, mass and mobility of every node, from the pressure.
+
+    `deformation` may have more columns than there are nodes. lumped: f = p on solid contacts, too; where that is zero
+    they are released.
+    """
     ny, nx = p.shape
+    per_step = 1.0 / step
+    touch = _TOUCH * floor
     for j in range(ny):
         for i in range(nx):
             gap = rigid + undeformed[j, i] + deformation[j, i]
             h[j, i] = gap
-            if not solid[j, i]:
+            touches = solid[j, i]
+            if touches and p[j, i] <= 0.0 and (lumped or gap > floor):
+                touches = False  # it carries nothing
+            elif not touches:
+                touches = gap < touch
+            if lumped or not (solid[j, i] and touches):
                 f[j, i] = p[j, i]
-                if gap < 0.95 * floor:  # the 5 % (and those on release) keep nodes from flipping
-                    solid[j, i] = True
-            flow = floor if solid[j, i] else max(gap, floor)
-            rho = interpolate(density, step, f[j, i])
+            solid[j, i] = touches
+            flow = floor if touches else max(gap, floor)
+            rho, fluid = _properties(f[j, i], per_step, density, fluidity)
             mass[j, i] = rho * flow
-            e[j, i] = mobility * rho * flow**3 * interpolate(fluidity, step, f[j, i]) + 1e-300
+            e[j, i] = mobility * rho * fluid * (flow * flow * flow) + 1e-300
 
 
 @_jit
@@ -62,38 +91,42 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
         for i in range(1, nx - 1):
             if solid[j, i]:
                 count += 1
-    at = np.empty((count, 2), np.int64)
-    c = np.empty((count, 5))
-    k = 0
-    half = 0.5 / (dx * dx)
+    at, c = np.empty(count, np.int64), np.empty((count, 5))
+    half, n = 0.5 / (dx * dx), 0
     for j in range(1, ny - 1):
         for i in range(1, nx - 1):
             if solid[j, i]:
-                at[k, 0], at[k, 1] = j, i
-                west, east = half * (e[j, i] + e[j, i - 1]), half * (e[j, i] + e[j, i + 1])
-                south, north = half * (e[j, i] + e[j - 1, i]), half * (e[j, i] + e[j + 1, i])
-                total = west + east + south + north
-                c[k, 0], c[k, 1], c[k, 2], c[k, 3] = west / total, east / total, south / total, north / total
-                c[k, 4] = -transport(mass, mass_old, per_dt, dx, j, i) / total
-                k += 1
+                here = e[j, i]
+                west, east, south, north = (
+                    here + e[j, i - 1],
+                    here + e[j, i + 1],
+                    here + e[j - 1, i],
+                    here + e[j + 1, i],
+                )
+                part = 1.0 / (west + east + south + north)
+                at[n] = j * nx + i
+                c[n, 0], c[n, 1], c[n, 2], c[n, 3] = west * part, east * part, south * part, north * part
+                c[n, 4] = -transport(mass, mass_old, per_dt, dx, j, i) * part / half
+                n += 1
+    pp, ff, hh, ee, mm, ss = p.ravel(), f.ravel(), h.ravel(), e.ravel(), mass.ravel(), solid.ravel()
     for sweep in range(sweeps):
         last = sweep == sweeps - 1
-        for n in range(count):
-            k = n if sweep % 2 == 0 else count - 1 - n
-            j, i = at[k, 0], at[k, 1]
-            value = (
-                c[k, 0] * f[j, i - 1] + c[k, 1] * f[j, i + 1] + c[k, 2] * f[j - 1, i] + c[k, 3] * f[j + 1, i] + c[k, 4]
-            )
-            if last and value > 1.05 * p[j, i] and h[j, i] > 0.9 * floor:  # deeper ones have to come up first
-                solid[j, i] = False
-            f[j, i] = min(max(value, 0.0), p[j, i])
-    for k in range(count):
-        j, i = at[k, 0], at[k, 1]
-        if not solid[j, i]:
-            f[j, i] = p[j, i]
-        rho = interpolate(density, step, f[j, i])
-        mass[j, i] = rho * floor
-        e[j, i] = mobility * rho * floor**3 * interpolate(fluidity, step, f[j, i]) + 1e-300
+        for m in range(count):
+            n = m if sweep % 2 == 0 else count - 1 - m
+            k = at[n]
+            across = c[n, 2] * ff[k - nx] + c[n, 3] * ff[k + nx] + c[n, 4]
+            value = across + c[n, 1] * ff[k + 1] + c[n, 0] * ff[k - 1]
+            if last and value > pp[k] and hh[k] > _DEEP * floor:
+                ss[k] = False
+            ff[k] = min(max(value, 0.0), pp[k])
+    cube, per_step = mobility * (floor * floor * floor), 1.0 / step
+    for n in range(count):
+        k = at[n]
+        if not ss[k]:
+            ff[k] = pp[k]
+        rho, fluid = _properties(ff[k], per_step, density, fluidity)
+        mm[k] = rho * floor
+        ee[k] = cube * rho * fluid + 1e-300
 
 
 @_jit
@@ -130,45 +163,77 @@ def imbalance(p, solid, mass, r):  # type: ignore[no-untyped-def]
 
 
 @_jit
-def stiff_zone(p, solid, e, dx, compliance, stiff):  # type: ignore[no-untyped-def]
-    """Mark where elasticity rules: solid contacts, and fluid nodes whose faces hardly pass any pressure flow."""
-    ny, nx = p.shape
-    limit = 2.0 * dx * dx * compliance
-    stiff[:] = False
-    for j in range(1, ny - 1):
-        for i in range(1, nx - 1):
-            if solid[j, i]:
-                stiff[j, i] = True
-            elif p[j, i] > 0.0:
-                around = max(max(e[j, i - 1], e[j, i + 1]), max(e[j - 1, i], e[j + 1, i]))
-                stiff[j, i] = e[j, i] + around < limit
+def mend_film(  # type: ignore[no-untyped-def]
+    p, f, cap, solid, h, mass, mass_old, e, floor, per_dt, dx, compliance, patch, stiff_before, r, stiff, dh, sums
+):
+    """Residual r, the stiff zone, and the change of the gap dh in it that mends the residual, marched downstream.
 
+    r: net inflow of mass per area, zero on solid contacts and on the edge. stiff: where elasticity rules, solid
+    contacts and fluid nodes whose faces hardly pass any pressure flow. dh: on solid contacts, to the floor; zero
+    off the stiff zone. `patch`: opening of a gap by a unit pressure on it and its eight neighbours.
 
-@_jit
-def film_correction(p, cap, solid, stiff, h, mass, e, r, floor, per_dt, dx, patch, dh):  # type: ignore[no-untyped-def]
-    """Change of the gap that mends the residual in the stiff zone, marched downstream; on solid contacts, to the
-    floor.
+    Returns the first row, the row after the last, first column and column after the last of dh, and how many nodes are
+    stiff and how many of them differ from `stiff_before`. sums [5]: of |r| p, m p and p over nodes that fluid alone
+    carries; of p - f and, below the cap, of p |floor - h| over solid contacts.
     """
     ny, nx = p.shape
-    half = 0.5 / (dx * dx)
-    a0, a1, a2 = 1.5 / dx, -2.0 / dx, 0.5 / dx
-    dh[:] = 0.0
+    half, per_dx = 0.5 / (dx * dx), 1.0 / dx
+    limit = 2.0 * dx * dx * compliance
+    a0, a1, a2 = 1.5 * per_dx + per_dt, -2.0 * per_dx, 0.5 * per_dx
+    per_patch, per_floor = half / patch, 1.0 / floor
+    wrong, film, fluid, solids, intrusion = 0.0, 0.0, 0.0, 0.0, 0.0
+    top, bottom, left, right, count, changed = ny, 0, nx, 0, 0, 0
     for j in range(1, ny - 1):
+        before, before_2 = 0.0, 0.0  # dh of the two nodes upstream
         for i in range(1, nx - 1):
-            if not stiff[j, i]:
-                continue
-            if solid[j, i]:
-                change = floor - h[j, i]
-                dh[j, i] = 0.0 if change > 0.0 and p[j, i] >= cap[j, i] else change
-                continue
-            rho = mass[j, i] / max(h[j, i], floor)
-            before = dh[j, i - 2] if i > 1 else 0.0
-            faces = half * (4.0 * e[j, i] + e[j, i - 1] + e[j, i + 1] + e[j - 1, i] + e[j + 1, i])
-            dh[j, i] = (r[j, i] / rho - a1 * dh[j, i - 1] - a2 * before) / (a0 + per_dt + faces / (rho * patch))
+            here, own, m = p[j, i], h[j, i], mass[j, i]
+            touches, value, change, is_stiff = solid[j, i], 0.0, 0.0, False
+            if not touches:
+                ej, west, east, south, north = e[j, i], e[j, i - 1], e[j, i + 1], e[j - 1, i], e[j + 1, i]
+                flow = (ej + west) * (f[j, i - 1] - here) + (ej + east) * (f[j, i + 1] - here)
+                flow += (ej + south) * (f[j - 1, i] - here) + (ej + north) * (f[j + 1, i] - here)
+                wedge = 1.5 * m - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2] if i > 1 else m - mass[j, i - 1]
+                value = half * flow - per_dx * wedge - per_dt * (m - mass_old[j, i])
+                if own < floor and value < 0.0:
+                    touches, value = True, 0.0  # the film sinks on: solids carry what it cannot
+                    solid[j, i] = True
+            if touches:
+                is_stiff = True
+                change = floor - own
+                solids += here - f[j, i]
+                if here < cap[j, i]:
+                    intrusion += here * abs(change)
+                elif change > 0.0:
+                    change = 0.0
+            elif here > 0.0:
+                gap = max(own, floor)
+                # a film that loses mass sinks to the floor at most: near it, that is all it lacks
+                loss = min(-value, m * (gap * per_floor - 1.0) * per_dx)
+                gain = value if here < cap[j, i] else 0.0  # the solids yield to a film that presses on
+                wrong += max(loss, gain) * here
+                film += m * here
+                fluid += here
+                is_stiff = ej + max(max(west, east), max(south, north)) < limit
+                if is_stiff:
+                    faces = 4.0 * ej + west + east + south + north
+                    change = (value * gap - m * (a1 * before + a2 * before_2)) / (m * a0 + faces * per_patch * gap)
+                    change = max(change, min(floor - own, 0.0))  # solids stop it there
+                    if here >= cap[j, i]:
+                        change = min(change, 0.0)  # the solids yield, the gap does not open
+            r[j, i], stiff[j, i], dh[j, i] = value, is_stiff, change
+            before_2, before = before, change
+            if is_stiff:
+                count += 1
+                top, bottom = min(top, j), max(bottom, j + 1)
+                left, right = min(left, i), max(right, i + 1)
+            if is_stiff != stiff_before[j, i]:
+                changed += 1
+    sums[0], sums[1], sums[2], sums[3], sums[4] = wrong, film, fluid, solids, intrusion
+    return top, bottom, left, right, count, changed
 
 
 @_jit
-def pressure_correction(p, f, solid, stiff, h, mass, e, r, floor, per_dt, dx, near, patch_wide, sweeps, dp):  # type: ignore[no-untyped-def]
+def relax_lines(p, solid, stiff, h, mass, e, r, edge, floor, per_dt, dx, near, patch_wide, lumped, sweeps, dp):  # type: ignore[no-untyped-def]
     """Line over-relaxation of the linearised equation outside the stiff zone, dp given inside it. Updates dp, p +
     dp >= 0.
     """
@@ -179,46 +244,56 @@ def pressure_correction(p, f, solid, stiff, h, mass, e, r, floor, per_dt, dx, ne
     w_3 = (1.5 * k3 - 2.0 * k2 + 0.5 * k1) / dx
     w_2 = (1.5 * k2 - 2.0 * k1 + 0.5 * k0) / dx
     w_1 = (1.5 * k1 - 2.0 * k0 + 0.5 * k1) / dx
-    w0 = (1.5 * k0 - 2.0 * k1 + 0.5 * k2) / dx
+    w0 = (1.5 * k0 - 2.0 * k1 + 0.5 * k2) / dx + per_dt * patch_wide
     w1 = (1.5 * k1 - 2.0 * k2 + 0.5 * k3) / dx
     w2 = (1.5 * k2 - 2.0 * k3 + 0.5 * k4) / dx
-    squeeze = per_dt * patch_wide
-    lower, diag, upper, rhs = np.empty(nx), np.empty(nx), np.empty(nx), np.empty(nx)
+    ratio, known, free = np.zeros(nx), np.zeros(nx), np.zeros(nx, np.bool_)
     for sweep in range(sweeps):
         for row in range(1, ny - 1):
             j = row if sweep % 2 == 0 else ny - 1 - row
-            work = False
+            first, last = nx, 0
             for i in range(1, nx - 1):
-                lower[i], upper[i], diag[i], rhs[i] = 0.0, 0.0, 1.0, dp[j, i]
+                ratio[i], known[i], free[i] = 0.0, dp[j, i], False
                 if stiff[j, i]:
                     continue
                 dead = p[j, i] <= 0.0 and r[j, i] <= 0.0 and p[j, i - 1] <= 0.0 and p[j, i + 1] <= 0.0
                 if dead and p[j - 1, i] <= 0.0 and p[j + 1, i] <= 0.0 and dp[j - 1, i] <= 0.0 and dp[j + 1, i] <= 0.0:
-                    rhs[i] = 0.0
                     continue
-                work = True
-                west, east = half * (e[j, i] + e[j, i - 1]), half * (e[j, i] + e[j, i + 1])
-                south, north = half * (e[j, i] + e[j - 1, i]), half * (e[j, i] + e[j + 1, i])
-                rho = mass[j, i] / max(h[j, i], floor)
-                lift = 1.0 if h[j, i] > floor else 0.0  # at the floor the flow does not feel the deformation
-                free_w = 0.0 if solid[j, i - 1] else west  # the fluid pressure of a solid contact stays in this step
-                free_e = 0.0 if solid[j, i + 1] else east
-                d_south = 0.0 if solid[j - 1, i] else dp[j - 1, i]
-                d_north = 0.0 if solid[j + 1, i] else dp[j + 1, i]
-                far = w_2 * (dp[j, i - 2] if i > 1 else 0.0) + w2 * (dp[j, i + 2] if i < nx - 2 else 0.0)
-                far += w_3 * (dp[j, i - 3] if i > 2 else 0.0)
-                diag[i] = west + east + south + north + rho * lift * (w0 + squeeze)
-                lower[i] = -free_w + rho * lift * w_1
-                upper[i] = -free_e + rho * lift * w1
-                rhs[i] = r[j, i] + south * d_south + north * d_north - rho * lift * far
-            if not work:
-                continue
-            for i in range(2, nx - 1):
-                factor = lower[i] / diag[i - 1]
-                diag[i] -= factor * upper[i - 1]
-                rhs[i] -= factor * rhs[i - 1]
-            value = 0.0
-            for i in range(nx - 2, 0, -1):
-                value = (rhs[i] - upper[i] * value) / diag[i]
-                if not stiff[j, i]:
-                    dp[j, i] = max(dp[j, i] + 1.6 * (value - dp[j, i]), -p[j, i])
+                free[i] = True
+                first, last = min(first, i), i
+                ej = e[j, i]
+                west, east = half * (ej + e[j, i - 1]), half * (ej + e[j, i + 1])
+                south, north = half * (ej + e[j - 1, i]), half * (ej + e[j + 1, i])
+                # at the floor the flow does not feel the deformation
+                rho = mass[j, i] / h[j, i] if h[j, i] > floor else 0.0
+                far = w2 * dp[j, i + 2] if i < nx - 2 else 0.0
+                far += w_2 * dp[j, i - 2] if i > 1 else 0.0
+                far += w_3 * dp[j, i - 3] if i > 2 else 0.0
+                diag = west + east + south + north + rho * w0
+                lower, upper = rho * w_1, rho * w1
+                rhs = r[j, i] - rho * far
+                # the fluid pressure of a solid contact stays in this step
+                if lumped or not solid[j, i - 1]:
+                    lower -= west
+                if lumped or not solid[j, i + 1]:
+                    upper -= east
+                if lumped or not solid[j - 1, i]:
+                    rhs += south * dp[j - 1, i]
+                if lumped or not solid[j + 1, i]:
+                    rhs += north * dp[j + 1, i]
+                if i == 1:
+                    diag += lower * edge[j, 0]
+                if i == nx - 2:
+                    diag += upper * edge[j, nx - 1]
+                if j == 1:
+                    diag -= south * edge[0, i]
+                if j == ny - 2:
+                    diag -= north * edge[ny - 1, i]
+                pivot = 1.0 / (diag - lower * ratio[i - 1])
+                ratio[i] = upper * pivot
+                known[i] = (rhs - lower * known[i - 1]) * pivot
+            value = known[last + 1] if last < nx - 2 else 0.0
+            for i in range(last, first - 1, -1):
+                value = known[i] - ratio[i] * value
+                if free[i]:
+                    dp[j, i] = max(dp[j, i] + _OVER * (value - dp[j, i]), -p[j, i])

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from contact_core import ContactState, Outputs, RangeFlag, Scene, StateError, initial_state
-from contact_core.film.scaled import FilmState
+from contact_core.film.instant import FilmState
 from contact_core.state import Body
 
 SMALL = {"film.points": "33", "surface_1.rq": "0 nm", "surface_2.correlation_length": "16 um"}

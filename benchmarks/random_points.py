@@ -1,0 +1,90 @@
+"""Operating points drawn at random, far beyond what a machine sees, and the surfaces that go with them.
+
+Not a program: `hard_cases.py` and `error_estimate.py` draw from here.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from contact_core.film.fitted import fitted_grid
+from contact_core.film.instant import Grid
+from contact_core.reference import SmoothContact, hertz_point, nijenbanning_venner_moes
+
+MODULUS, ALPHA, HARDNESS, CORRELATION = 230.47e9, 15e-9, 6e9, 20e-6
+LARGEST_HERTZ = 4e9
+WAVES = 400
+
+
+@dataclass(frozen=True)
+class Point:
+    """A contact and what is asked of it, in SI."""
+
+    number: int
+    radius: float
+    load: float
+    speed: float  # entrainment, of either sign
+    viscosity: float
+    rq: float
+
+    @property
+    def contact(self) -> SmoothContact:
+        """As the film formulas take it."""
+        speed = abs(self.speed)
+        return SmoothContact(self.load, speed, self.viscosity, ALPHA, self.radius, self.radius, MODULUS)
+
+    @property
+    def film(self) -> float:
+        """Film [m] of smooth bodies by formula."""
+        return nijenbanning_venner_moes(self.contact) if self.speed != 0.0 else 0.0
+
+    def grid(self, nodes: int) -> Grid:
+        """The grid that fits the film, entered from the side the oil comes from."""
+        found = fitted_grid(self.load, self.radius, MODULUS, self.film, nodes, nodes)
+        return found if self.speed >= 0.0 else found.mirrored()
+
+    def heights(self, grid: Grid, correlation: float) -> np.ndarray:
+        """Gaussian heights [ny, nx] as a sum of waves: the same surface on every grid."""
+        random = np.random.Generator(np.random.Philox(key=[self.number, 2]))
+        kx, ky = random.normal(0.0, np.sqrt(2.0) / correlation, (2, WAVES))
+        phase = random.uniform(0.0, 2.0 * np.pi, WAVES)
+        along = np.exp(1j * (kx[:, None] * grid.x + phase[:, None]))
+        across = np.exp(1j * ky[:, None] * grid.y)
+        return self.rq * np.sqrt(2.0 / WAVES) * (across.T @ along).real
+
+    def arguments(self, nodes: int) -> dict:
+        """Of `point_contact`. The surface is 20 um long, or two nodes of the 129 grid where those are longer."""
+        grid = self.grid(nodes)
+        correlation = max(CORRELATION, 2.0 * self.grid(129).spacing)
+        return {
+            "load": self.load,
+            "radius_x": self.radius,
+            "reduced_modulus": MODULUS,
+            "speed_1": self.speed,
+            "speed_2": self.speed,
+            "viscosity": self.viscosity,
+            "pressure_viscosity": ALPHA,
+            "hardness": HARDNESS,
+            "heights_2": self.heights(grid, correlation),
+            "domain": (grid.x[0], grid.x[-1], grid.y[0], grid.y[-1]),
+        }
+
+
+def draw(seed: int) -> Iterator[Point | None]:
+    """Points for ever; None where the film by formula is thicker than a hundredth of the radius or p_H above 4 GPa."""
+    random = np.random.Generator(np.random.Philox(key=[seed, 1]))
+
+    def logarithmic(low: float, high: float) -> float:
+        return float(np.exp(random.uniform(np.log(low), np.log(high))))
+
+    number = 0
+    while True:
+        number += 1
+        radius, load = logarithmic(1e-3, 0.1), logarithmic(0.1, 1e3)
+        speed, viscosity = logarithmic(1e-6, 20.0), logarithmic(1e-4, 10.0)
+        rq, smooth, standing = logarithmic(1e-9, 1.5e-6), random.uniform() < 0.2, random.uniform() < 0.05
+        sign = random.choice([-1.0, 1.0])
+        point = Point(number, radius, load, 0.0 if standing else sign * speed, viscosity, 0.0 if smooth else rq)
+        too_high = hertz_point(load, radius, radius, MODULUS).pressure_max > LARGEST_HERTZ
+        yield None if too_high or point.film > 0.01 * radius else point

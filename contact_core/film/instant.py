@@ -1,0 +1,124 @@
+"""What a film has to be solved for and what comes of it, in SI. Arrays [ny, nx], x along entrainment."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Nodes of the contact, equally spaced and as far apart along y as along x. Zero is where the bodies touch."""
+
+    x: Array  # [nx] [m]
+    y: Array  # [ny] [m]
+
+    @staticmethod
+    def centred(ny: int, nx: int, spacing: float) -> "Grid":
+        """A grid about the contact."""
+        x, y = ((np.arange(n, dtype=np.float64) - 0.5 * (n - 1)) * spacing for n in (nx, ny))
+        return Grid(x, y)
+
+    @property
+    def spacing(self) -> float:
+        """Distance between neighbours [m]."""
+        return float(self.x[-1] - self.x[0]) / (self.x.size - 1)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Nodes along y and along x."""
+        return self.y.size, self.x.size
+
+    @property
+    def radius_2(self) -> Array:
+        """Square of the distance from the centre of the contact [m2], [ny, nx]."""
+        distance_2: Array = self.x[None, :] ** 2 + self.y[:, None] ** 2
+        return distance_2
+
+    def mirrored(self) -> "Grid":
+        """The grid of the contact seen from the other side: x becomes -x."""
+        return Grid(-self.x[::-1], self.y)
+
+
+@dataclass(frozen=True)
+class Instant:
+    """One instant of a contact."""
+
+    load: float
+    entrainment_speed: float  # of either sign
+    temperature: float
+    radius_x: float
+    radius_y: float
+    reduced_modulus: float
+    viscosity: Callable[[Array, float], Array]  # [Pa s] at pressures and a temperature
+    density: Callable[[Array], Array]  # ratio to that at p = 0, at pressures
+    heights: Array  # of both bodies together, positive into the gap
+    limit: Array  # largest pressure
+    hardness: float  # no limit is above it
+    dry: bool = False  # leave the fluid out
+
+    def mirrored(self) -> "Instant":
+        """The instant seen from the other side: entrained the other way."""
+        heights, limit = np.ascontiguousarray(self.heights[:, ::-1]), np.ascontiguousarray(self.limit[:, ::-1])
+        return replace(self, entrainment_speed=-self.entrainment_speed, heights=heights, limit=limit)
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How it is to be solved."""
+
+    floor: float  # gap at which solids touch [m]
+    tolerance: float  # pressure change at which a solution counts as converged
+    iterations: int
+    fft: str  # library: "pyfftw" or "scipy"
+    lumped: bool = False  # the thesis's criterion: total pressure in Reynolds' equation, solids included
+
+
+@dataclass(frozen=True)
+class FilmState:
+    """A film solution from which the next may start."""
+
+    pressure: Array
+    fluid: Array
+    solid: Mask
+    mass: Array  # density ratio times film thickness
+    rigid_gap: float  # gap of the undeformed, smooth bodies at the centre
+
+    def __post_init__(self) -> None:
+        for array in (self.pressure, self.fluid, self.solid, self.mass):
+            array.setflags(write=False)
+
+    def mirrored(self) -> "FilmState":
+        """The state seen from the other side."""
+        pressure, fluid, mass = (np.ascontiguousarray(f[:, ::-1]) for f in (self.pressure, self.fluid, self.mass))
+        return FilmState(pressure, fluid, np.ascontiguousarray(self.solid[:, ::-1]), mass, self.rigid_gap)
+
+
+@dataclass(frozen=True)
+class FilmSolution:
+    """The film of one instant. `gap` is at least the floor; `overlap` is what is missing to it and yields
+    plastically.
+    """
+
+    state: FilmState
+    gap: Array
+    overlap: Array
+    converged: bool
+    shortfall: str  # why it is not converged, empty if it is
+    route: str  # "mixed", "dry" (asked for, or no entrainment), "fallback" (dry for want of a film) or "open" (no load)
+    algorithm: str  # row of `routes.REGIMES` and the algorithm of it that found the film: "thick: multigrid"
+    iterations: int
+    change: float  # of the pressure in the last iteration, relative
+    load_error: float  # relative
+    complementarity: float  # mean distance of solid contacts from the floor, weighted by pressure, in floors
+    imbalance: float  # mass that the film gains or loses unasked, relative
+    inlet_nodes: float  # grid nodes across the inlet zone of the film; below 3 the film is a number of the grid
+
+    def mirrored(self) -> "FilmSolution":
+        """The solution seen from the other side."""
+        gap, overlap = np.ascontiguousarray(self.gap[:, ::-1]), np.ascontiguousarray(self.overlap[:, ::-1])
+        return replace(self, state=self.state.mirrored(), gap=gap, overlap=overlap)

@@ -1,0 +1,48 @@
+"""The numbers of a film, from its fields. Which mean each is stands in `quantities`."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..reference import Hertz
+from .instant import FilmState, Grid
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+def disc(grid: Grid, hertz: Hertz) -> Mask:
+    """Nodes that h_c is a mean over, r < 2a/3 (an ellipse with Hertz's); at least the nearest ones."""
+    radius_2 = grid.radius_2
+    nearest = radius_2 <= radius_2.min() * (1.0 + 1e-9)
+    inside: Mask = (grid.x[None, :] / hertz.a) ** 2 + (grid.y[:, None] / hertz.b) ** 2 < 4.0 / 9.0
+    return nearest | inside
+
+
+def at_centre(grid: Grid, field: Array) -> float:
+    """Bilinear interpolation of a field [ny, nx] at the centre of the contact."""
+    i, j = (min(max(int(np.searchsorted(axis, 0.0, "right")) - 1, 0), axis.size - 2) for axis in (grid.x, grid.y))
+    u, v = -grid.x[i] / grid.spacing, -grid.y[j] / grid.spacing
+    rows = field[j : j + 2, i : i + 2] @ np.array([1.0 - u, u])
+    return float(rows @ np.array([1.0 - v, v]))
+
+
+def film_outputs(grid: Grid, state: FilmState, gap: Array, load: float, hertz: Hertz) -> dict[str, float]:
+    """h_central, h_c, h_min, contact_area_ratio, contact_load_ratio, pressure_max and approach of a loaded contact."""
+    solid_pressure = np.where(state.solid, state.pressure - state.fluid, 0.0)
+    cell = grid.spacing**2
+    return {
+        "h_central": at_centre(grid, gap),
+        "h_c": float(gap[disc(grid, hertz)].mean()),
+        "h_min": float(gap.min()),
+        "contact_area_ratio": float((solid_pressure > 0.0).sum()) * cell / hertz.area,
+        "contact_load_ratio": float(solid_pressure.sum()) * cell / load,
+        "pressure_max": float(state.pressure.max()),
+        "approach": -state.rigid_gap,
+    }
+
+
+def open_outputs(grid: Grid, state: FilmState, gap: Array) -> dict[str, float]:
+    """The same of bodies that just touch: h_c is the gap at the centre."""
+    centre = at_centre(grid, gap)
+    ratios = dict.fromkeys(("contact_area_ratio", "contact_load_ratio", "pressure_max"), 0.0)
+    return {"h_central": centre, "h_c": centre, "h_min": float(gap.min()), "approach": -state.rigid_gap} | ratios

@@ -1,0 +1,374 @@
+"""Semi-smooth Newton method for steady or transient films, from the rigid, flooded ball to a few rough contacts.
+
+Unknowns are the total pressure of every node and the rigid gap; equations are those of `mixed`: no net inflow where
+fluid carries the load (p > 0), the gap at the floor on solid contacts, the load. Sets (cavity, contacts, cap) are
+guessed anew in every step. A step solves the linear system by GMRES with the full elastic coupling (FFT); it is
+preconditioned by a sparse LU of the local part: Reynolds' equation and a 3 x 3 patch of the deformation, bordered by
+rigid gap and load.
+
+Sources: active sets: Hintermueller, Ito & Kunisch, SIAM J. Optim. 13 (2003) 865, doi:10.1137/S1052623401383558;
+elimination order: George, SIAM J. Numer. Anal. 10 (1973) 345, doi:10.1137/0710032.
+"""
+
+from collections.abc import Callable
+from functools import lru_cache
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+from scipy.sparse import csc_matrix
+from scipy.sparse.linalg import splu
+
+from . import reynolds
+from .half_space import HalfSpace
+from .mixed import Iterate, Problem, Solution, shortfall
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+_LINEAR_TOLERANCE = 1e-2
+_KRYLOV = 40  # most GMRES steps; no restart
+_SWEEPS_UNDER_CONTACTS = 6
+_SWEEPS_AT_CAVITY = 30
+_LIGHT = 1e-2  # share of the largest pressure below which the cavity's edge is sought
+_FALL = 0.75  # rms relative fall of the film in a step, weighted by pressure
+_RISE = (2.0, 1.0)  # largest rise of a fluid pressure in a step, and by how much more if it is high already
+_TOUCH = 0.95  # gap in floors below which a node becomes solid
+_RELEASES = 1  # a contact that comes back after so many releases stays: some would come and go for ever
+
+# stencil of Reynolds' equation: centre, west, east, south, north, second west; then the corners of the patch
+_DJ = np.array([0, 0, 0, -1, 1, 0, -1, -1, 1, 1])
+_DI = np.array([0, -1, 1, 0, 0, -2, -1, 1, -1, 1])
+
+_jit = njit(cache=True, nogil=True, error_model="numpy")
+
+
+@_jit
+def _linearise(f, solid, h, m, e, floor, mobility, fluidity, density, step, dx, rate, slope, by_f, by_h):  # type: ignore[no-untyped-def]
+    """Derivatives of the net inflow by fluid pressure and by gap on the stencil: by_f, by_h [6, ny, nx]. `slope`
+    [4, ny, nx] is scratch: dm/df, dm/dh, de/df, de/dh.
+    """
+    ny, nx = f.shape
+    for j in range(ny):
+        for i in range(nx):
+            k = min(int(f[j, i] / step), density.size - 2)
+            rho, phi = reynolds.interpolate(density, step, f[j, i]), reynolds.interpolate(fluidity, step, f[j, i])
+            d_rho, d_phi = (density[k + 1] - density[k]) / step, (fluidity[k + 1] - fluidity[k]) / step
+            lift = 0.0 if solid[j, i] or h[j, i] <= floor else 1.0
+            flow = floor if solid[j, i] else max(h[j, i], floor)
+            slope[0, j, i], slope[1, j, i] = d_rho * flow, rho * lift
+            slope[2, j, i] = mobility * flow**3 * (d_rho * phi + rho * d_phi)
+            slope[3, j, i] = 3.0 * mobility * rho * flow**2 * phi * lift
+    half = 0.5 / (dx * dx)
+    by_f[:], by_h[:] = 0.0, 0.0
+    for j in range(1, ny - 1):
+        for i in range(1, nx - 1):
+            a0, a1, a2 = (1.5 / dx, -2.0 / dx, 0.5 / dx) if i > 1 else (1.0 / dx, -1.0 / dx, 0.0)
+            faces, fall = 0.0, 0.0
+            for n in range(1, 5):
+                jn, im = j + _DJ[n], i + _DI[n]
+                d = f[jn, im] - f[j, i]
+                face = half * (e[j, i] + e[jn, im])
+                by_f[n, j, i] = face + half * slope[2, jn, im] * d
+                by_h[n, j, i] = half * slope[3, jn, im] * d
+                faces += face
+                fall += d
+            by_f[0, j, i] = -faces + half * slope[2, j, i] * fall - (a0 + rate) * slope[0, j, i]
+            by_h[0, j, i] = half * slope[3, j, i] * fall - (a0 + rate) * slope[1, j, i]
+            by_f[1, j, i] -= a1 * slope[0, j, i - 1]
+            by_h[1, j, i] -= a1 * slope[1, j, i - 1]
+            if i > 1:
+                by_f[5, j, i] = -a2 * slope[0, j, i - 2]
+                by_h[5, j, i] = -a2 * slope[1, j, i - 2]
+
+
+@_jit
+def _product(by_f, by_h, scale, nodes, solid, df, dh, out):  # type: ignore[no-untyped-def]
+    """Rows of the Jacobian of all `nodes` times a change of the fluid pressure and of the gap."""
+    nx = df.shape[1]
+    for k in range(nodes.size):
+        j, i = nodes[k] // nx, nodes[k] % nx
+        if solid[j, i]:
+            out[k] = dh[j, i] * scale[j, i]
+            continue
+        total = 0.0
+        for n in range(6 if i > 1 else 5):
+            jn, im = j + _DJ[n], i + _DI[n]
+            total += by_f[n, j, i] * df[jn, im] + by_h[n, j, i] * dh[jn, im]
+        out[k] = total * scale[j, i]
+
+
+@_jit
+def _assemble(by_f, by_h, scale, patch, nodes, column, solid, edge, start, index, value):  # type: ignore[no-untyped-def]
+    """Compressed rows of the local Jacobian of `nodes`; patch [10, 6]: deformation of the stencil by the patch."""
+    ny, nx = solid.shape
+    row = np.empty(10)
+    count = 0
+    start[0] = 0
+    for k in range(nodes.size):
+        j, i = nodes[k] // nx, nodes[k] % nx
+        for o in range(10):
+            if solid[j, i]:
+                row[o] = patch[o, 0]
+                continue
+            row[o] = 0.0
+            for n in range(6):
+                row[o] += by_h[n, j, i] * patch[o, n]
+        if not solid[j, i]:
+            for n in range(6 if i > 1 else 5):
+                jn, im = j + _DJ[n], i + _DI[n]
+                if 0 < jn < ny - 1 and 0 < im < nx - 1:
+                    if not solid[jn, im]:
+                        row[n] += by_f[n, j, i]
+                else:  # an edge follows its inner neighbour
+                    row[1 if n == 5 else 0] += by_f[n, j, i] * edge[jn, im]
+        for o in range(10):
+            jn, im = j + _DJ[o], i + _DI[o]
+            if 0 < jn < ny - 1 and 0 < im < nx - 1 and column[jn, im] >= 0 and row[o] != 0.0:
+                index[count], value[count] = column[jn, im], row[o] * scale[j, i]
+                count += 1
+        start[k + 1] = count
+    return count
+
+
+@_jit
+def _seek_cavity(f, p, solid, e, mass, mass_old, per_dt, dx, rigid, light, sweeps):  # type: ignore[no-untyped-def]
+    """Projected over-relaxation of light pressures on a given film: moves the edge of the cavity by many nodes, where a
+    Newton step frees one row.
+    """
+    ny, nx = f.shape
+    half = 0.5 / (dx * dx)
+    for sweep in range(sweeps):
+        for row in range(1, ny - 1):
+            j = row if sweep % 2 == 0 else ny - 1 - row
+            for node in range(1, nx - 1):
+                i = node if sweep % 2 == 0 else nx - 1 - node
+                if solid[j, i] or f[j, i] > light:
+                    continue
+                west, east = half * (e[j, i] + e[j, i - 1]), half * (e[j, i] + e[j, i + 1])
+                south, north = half * (e[j, i] + e[j - 1, i]), half * (e[j, i] + e[j + 1, i])
+                total = west + east + south + north
+                inflow = west * f[j, i - 1] + east * f[j, i + 1] + south * f[j - 1, i] + north * f[j + 1, i]
+                if total < rigid or (f[j, i] <= 0.0 and inflow <= 0.0):
+                    continue
+                value = (inflow - reynolds.transport(mass, mass_old, per_dt, dx, j, i)) / total
+                f[j, i] = min(max(f[j, i] + 1.6 * (value - f[j, i]), 0.0), light)
+                p[j, i] = f[j, i]
+
+
+@lru_cache(maxsize=8)
+def _elimination_order(ny: int, nx: int) -> Indices:
+    """Nodes of a grid by nested dissection; separators are two nodes thick as the stencil reaches two nodes west."""
+    order: list[int] = []
+
+    def dissect(j0: int, j1: int, i0: int, i1: int) -> None:
+        if (j1 - j0) * (i1 - i0) <= 24:
+            order.extend(j * nx + i for i in range(i0, i1) for j in range(j0, j1))
+        elif i1 - i0 >= j1 - j0:
+            middle = (i0 + i1) // 2
+            dissect(j0, j1, i0, middle)
+            dissect(j0, j1, middle + 2, i1)
+            order.extend(j * nx + i for j in range(j0, j1) for i in range(middle, middle + 2))
+        else:
+            middle = (j0 + j1) // 2
+            dissect(j0, middle, i0, i1)
+            dissect(middle + 1, j1, i0, i1)
+            order.extend(middle * nx + i for i in range(i0, i1))
+
+    dissect(1, ny - 1, 1, nx - 1)
+    return np.array(order)
+
+
+def _follow_edge(field: Array, edge: Array) -> None:
+    """Put on the edge what follows from the inner neighbours."""
+    field[:, 0], field[:, -1] = edge[:, 0] * field[:, 1], edge[:, -1] * field[:, -2]
+    field[0], field[-1] = edge[0] * field[1], edge[-1] * field[-2]
+
+
+def _inner_weight(weight: Array, edge: Array) -> Array:
+    """Weight of the inner nodes in the load, that of the edge nodes that follow them included."""
+    w = weight.copy()
+    w[1] += edge[0] * w[0]
+    w[-2] += edge[-1] * w[-1]
+    w[:, 1] += edge[:, 0] * w[:, 0]
+    w[:, -2] += edge[:, -1] * w[:, -1]
+    return w
+
+
+def _gmres(operator: Callable[[Array], Array], invert: Callable[[Array], Array], right: Array) -> Array:
+    """Right-preconditioned GMRES of Saad & Schultz from zero, doi:10.1137/0907058."""
+    size = np.linalg.norm(right)
+    if size == 0.0:
+        return np.zeros_like(right)
+    basis: list[Array] = [right / size]
+    images: list[Array] = []
+    hessenberg = np.zeros((_KRYLOV + 1, _KRYLOV))
+    target = np.zeros(_KRYLOV + 1)
+    target[0] = size
+    weights: Array = np.zeros(1)
+    for k in range(_KRYLOV):
+        images.append(invert(basis[k]))
+        v = operator(images[k])
+        for n, u in enumerate(basis):
+            hessenberg[n, k] = u @ v
+            v -= hessenberg[n, k] * u
+        hessenberg[k + 1, k] = np.linalg.norm(v)
+        used = hessenberg[: k + 2, : k + 1]
+        weights = np.asarray(np.linalg.lstsq(used, target[: k + 2], rcond=None)[0], np.float64)
+        short = np.linalg.norm(used @ weights - target[: k + 2])
+        if not np.isfinite(short) or short < _LINEAR_TOLERANCE * size or hessenberg[k + 1, k] == 0.0:
+            break
+        basis.append(v / hessenberg[k + 1, k])
+    return np.sum([w * image for w, image in zip(weights, images, strict=True)], axis=0)
+
+
+class _Film:
+    """The present iterate, its film and its linearisation."""
+
+    def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate) -> None:
+        self.half_space, self.problem = half_space, problem
+        self.p, self.f = np.clip(start.pressure, 0.0, problem.cap), start.fluid.copy()
+        self.solid, self.rigid = start.solid.copy(), start.rigid
+        _follow_edge(self.p, problem.edge)
+        shape = self.p.shape
+        self.h, self.mass, self.e, self.r, self.scale = (np.zeros(shape) for _ in range(5))
+        self.slope, self.by_f, self.by_h = np.zeros((4, *shape)), np.zeros((6, *shape)), np.zeros((6, *shape))
+        self.inner_weight = _inner_weight(problem.weight, problem.edge)
+        self.order = _elimination_order(*shape)
+        self.inner = np.zeros(shape, np.bool_)
+        self.inner[1:-1, 1:-1] = True
+        self.releases = np.zeros(shape, np.int64)
+        near = half_space.near
+        apart_j, apart_i = (np.abs(d[:, None] - d[None, :6]) for d in (_DJ, _DI))
+        self.patch = np.where((apart_j < 2) & (apart_i < 2), near[np.minimum(apart_j, 1), np.minimum(apart_i, 1)], 0.0)
+
+    def evaluate(self) -> None:
+        """Gap, contacts, fluid pressure under them, edge of the cavity and mass balance of the present pressure."""
+        q, before, old = self.problem, self.solid.copy(), self.p.copy()
+        self._pass()
+        rigid = 30.0 * self.half_space.near[0, 0] / q.spacing  # there the gap does not feel light pressures
+        balance = (self.e, self.mass, q.mass_old, q.per_dt, q.spacing)
+        _seek_cavity(self.f, self.p, self.solid, *balance, rigid, _LIGHT * self.p.max(), _SWEEPS_AT_CAVITY)
+        _follow_edge(self.p, q.edge)
+        self.sought = float(np.abs(self.p - old).sum())
+        self._pass()
+        reynolds.residual(self.f, self.solid, self.mass, q.mass_old, self.e, q.per_dt, q.spacing, self.r)
+        self.releases += before & ~self.solid
+
+    def _pass(self) -> None:
+        q, p, f, solid = self.problem, self.p, self.f, self.solid
+        oil = (q.floor, q.mobility, q.fluidity, q.density, q.step)
+        deformation = self.half_space.deform(p)
+        solid |= self.inner & (self.rigid + q.undeformed + deformation < _TOUCH * q.floor)
+        reynolds.film_pass(p, f, solid, q.undeformed, deformation, self.rigid, *oil, self.h, self.mass, self.e)
+        solid &= self.inner  # the edge does not touch
+        settled = solid & (self.releases >= _RELEASES)
+        balance = (self.mass, q.mass_old, self.e, q.per_dt, q.spacing)
+        reynolds.fluid_under_contacts(p, f, solid, self.h, *balance, _SWEEPS_UNDER_CONTACTS, *oil)
+        solid |= settled
+
+    def correction(self) -> tuple[Array, Array, float] | None:
+        """Newton's changes of pressure, gap [ny, nx] and rigid gap; None if there are none."""
+        q, solid, near = self.problem, self.solid, self.half_space.near
+        oil = (q.floor, q.mobility, q.fluidity, q.density, q.step)
+        by_f, by_h, scale = self.by_f, self.by_h, self.scale
+        _linearise(self.f, solid, self.h, self.mass, self.e, *oil, q.spacing, q.per_dt, self.slope, by_f, by_h)
+        yields = solid & (self.p >= q.cap) & (self.h < q.floor)
+        wet = ((self.p > 0.0) | (self.r > 0.0)) & ~((self.p >= q.cap) & (self.r >= 0.0))
+        nodes = self.order[np.where(solid, ~yields, wet).ravel()[self.order]]
+        size, shape = nodes.size, solid.shape
+        if size == 0:
+            return None
+        own = -(by_f[0] + by_h[0] * near[0, 0] + by_h[1] * near[0, 1])
+        scale[:] = np.where(solid, -1.0 / near[0, 0], 1.0 / np.maximum(own, -by_f[0] + 1e-300))
+        column = np.full(shape, -1, np.int32)
+        column.ravel()[nodes] = np.arange(size)
+        start, index, value = np.empty(size + 1, np.int32), np.empty(10 * size, np.int32), np.empty(10 * size)
+        args = (by_f, by_h, scale, self.patch, nodes, column, solid, q.edge)
+        count = _assemble(*args, start, index, value)
+        rows = csc_matrix((value[:count], index[:count], start), shape=(size, size))  # the transpose, by columns
+        try:
+            lu = splu(rows, permc_spec="NATURAL", diag_pivot_thresh=0.01, options={"SymmetricMode": True})
+        except RuntimeError:  # singular
+            return None
+
+        lift = np.empty(size)
+        _product(by_f, by_h, scale, nodes, solid, np.zeros(shape), np.ones(shape), lift)
+        lifted = lu.solve(lift, "T")
+        weight = self.inner_weight.ravel()[nodes] / np.sqrt(q.load)
+        lever = weight @ lifted
+
+        def spread(x: Array) -> tuple[Array, Array]:
+            dp = np.zeros(shape)
+            dp.ravel()[nodes] = x[:-1]
+            _follow_edge(dp, q.edge)
+            return dp, self.half_space.deform(dp) + x[-1]
+
+        def operator(x: Array) -> Array:
+            dp, dh = spread(x)
+            out = np.empty(size + 1)
+            _product(by_f, by_h, scale, nodes, solid, np.where(solid, 0.0, dp), dh, out)
+            out[-1] = weight @ x[:-1]
+            return out
+
+        def invert(b: Array) -> Array:
+            y = lu.solve(b[:-1], "T")
+            rigid = (weight @ y - b[-1]) / lever
+            return np.append(y - rigid * lifted, rigid)
+
+        wanted = (np.where(solid, q.floor - self.h, -self.r) * scale).ravel()[nodes]
+        short = (q.load - float((q.weight * self.p).sum())) / np.sqrt(q.load)
+        x = _gmres(operator, invert, np.append(wanted, short))
+        return *spread(x), float(x[-1])
+
+    def advance(self, dp: Array, dh: Array, d_rigid: float) -> tuple[float, float]:
+        """Take as much of a correction as is safe; return the relative change of the pressure and that share."""
+        q, old = self.problem, self.p
+        wet = self.inner & ~self.solid & (old > 0.0)
+        weight = np.where(wet, old, 0.0)
+        thinner = np.maximum(-dh, 0.0) / np.maximum(self.h, q.floor)
+        fall = float(np.sqrt((weight * thinner**2).sum() / max(float(weight.sum()), 1e-300))) / _FALL
+        rise = float((np.where(wet, np.minimum(dp, q.cap - old), 0.0) / (_RISE[0] + _RISE[1] * old)).max())
+        share = 1.0 / max(fall, rise, 1.0)
+        self.p = np.clip(old + share * dp, 0.0, q.cap)
+        _follow_edge(self.p, q.edge)
+        self.rigid += share * d_rigid
+        self.solid &= self.p > 0.0
+        return float(np.abs(self.p - old).sum()) / q.load, share
+
+    def assess(self, n: int, change: float, whole: bool, tolerance: float) -> Solution:
+        """How good the present pressure is, `change` that of the last step and `whole` if that was not cut short."""
+        q, p = self.problem, self.p
+        load_error = float((q.weight * p).sum()) / q.load - 1.0
+        below_cap = self.solid & (p < q.cap)
+        total = max(float(p.sum()), 1e-300)
+        intrusion = float((p * np.abs(q.floor - self.h))[below_cap].sum()) / (q.floor * total)
+        balanced = np.where(p < q.cap, self.r, 0.0)  # at the cap the bodies yield until the film has room
+        imbalance = float(reynolds.imbalance(p, self.solid, self.mass, balanced))
+        change += self.sought / q.load
+        why = shortfall(tolerance, change if whole else np.inf, load_error, intrusion, imbalance, q.per_dt > 0.0)
+        iterate = Iterate(p, self.f, self.solid, self.rigid)
+        return Solution(iterate, self.h, self.mass, not why, n, change, load_error, intrusion, imbalance, why)
+
+
+def solve_newton(
+    half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int
+) -> Solution:
+    """Newton steps from `start` until a step of full length meets the rule of `shortfall` or `iterations` are spent.
+
+    Non-finite values never leave: what is returned is finite, or its `change` is infinite.
+    """
+    film = _Film(half_space, problem, start)
+    film.evaluate()
+    found = film.assess(0, np.inf, False, tolerance)
+    for n in range(1, iterations + 1):
+        correction = film.correction()
+        if correction is None or not np.isfinite(correction[0]).all():
+            nothing = np.zeros_like(film.p)
+            return Solution(start, nothing, problem.mass_old, False, n, *4 * (np.inf,), "no Newton step")
+        change, share = film.advance(*correction)
+        film.evaluate()
+        found = film.assess(n, change, share == 1.0, tolerance)
+        if found.converged:
+            break
+    return found
