@@ -52,6 +52,7 @@ class ContactFields:
     iterations: int
     pressure_change: float  # of the last iteration, relative
     load_error: float  # relative
+    load_beyond: float  # share of the load that a film wider than the grid carries beyond its edge
     complementarity: float  # mean distance of solid contacts from the floor, weighted by pressure, in floors
     imbalance: float  # mass that the film gains or loses unasked, relative
     inlet_nodes: float  # nodes across the inlet zone; below 3 the film is a number of this grid
@@ -152,6 +153,7 @@ def _open(scene: Scene, heights: Array) -> FilmSolution:
         iterations=0,
         change=0.0,
         load_error=0.0,
+        load_beyond=0.0,
         complementarity=0.0,
         imbalance=0.0,
         inlet_nodes=np.inf,
@@ -191,6 +193,7 @@ def _with_friction(
         iterations=film.iterations,
         pressure_change=film.change,
         load_error=film.load_error,
+        load_beyond=film.load_beyond,
         complementarity=film.complementarity,
         imbalance=film.imbalance,
         inlet_nodes=film.inlet_nodes,

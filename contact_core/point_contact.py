@@ -47,6 +47,7 @@ class PointContact:
     iterations: int
     pressure_change: float  # of the last iteration, relative
     load_error: float  # relative
+    load_beyond: float  # share of the load that a film wider than the grid carries beyond its edge
     complementarity: float  # mean distance of solid contacts from the floor, weighted by pressure, in floors
     imbalance: float  # mass that the film gains or loses unasked, relative
     error_estimate: dict[str, float]  # half width for each number above that is an output, in its unit; by two grids
@@ -165,6 +166,7 @@ def point_contact(
         iterations=found.iterations,
         pressure_change=found.change,
         load_error=found.load_error,
+        load_beyond=found.load_beyond,
         complementarity=found.complementarity,
         imbalance=found.imbalance,
         error_estimate=errors,

@@ -114,6 +114,7 @@ class FilmSolution:
     iterations: int
     change: float  # of the pressure in the last iteration, relative
     load_error: float  # relative
+    load_beyond: float  # share of the load that a film wider than the grid carries beyond its edge
     complementarity: float  # mean distance of solid contacts from the floor, weighted by pressure, in floors
     imbalance: float  # mass that the film gains or loses unasked, relative
     inlet_nodes: float  # grid nodes across the inlet zone of the film; below 3 the film is a number of the grid

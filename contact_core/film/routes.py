@@ -5,7 +5,6 @@ meets the stopping rule (`kernels.mixed.shortfall`). An instant that follows fro
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,16 +12,18 @@ import numpy as np
 from ..errors import ConvergenceError
 from ..kernels.direct import solve_direct
 from ..kernels.grids import prolong, restrict
-from ..kernels.mixed import Iterate, Solution, advected, solve_mixed
+from ..kernels.mixed import Iterate, Solution, advected, excess, solve_mixed
 from ..kernels.multigrid import is_applicable, solve_smooth
+from ..kernels.newton import solve_newton
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings
 from .scaled import Scaled
 
 _ALL = (0.0, math.inf)
 _FULL_FILM = 3.0  # formula film over rms roughness from which on a dry contact means nothing
+_MOST_BEYOND = 0.3  # share of the load that may lie beyond the grid
 _NESTED_FROM = 65  # nodes along an axis from which on a film begins on the grid of half of them
-_HYBRID_ITERATIONS, _DIRECT_ITERATIONS = 200, 100  # of one try at a steady film
-_CYCLES = 30
+_HYBRID_ITERATIONS, _DIRECT_ITERATIONS = 80, 100  # of one try at a steady film
+_CYCLES, _NEWTON_STEPS = 15, 60
 # a film short of its tolerance is still better than the dry contact within these
 _LOAD_ACCEPTED = 1e-3
 _CHANGE_ACCEPTED = 0.1
@@ -49,14 +50,18 @@ class Regime:
 REGIMES = (
     Regime(
         "smooth",
-        (("multigrid", "none"), ("hybrid", "film"), ("direct", "film"), ("direct", "dry")),
+        (("multigrid", "none"), ("newton", "film"), ("hybrid", "film"), ("direct", "film"), ("direct", "dry")),
         clearance=(1e3, math.inf),
     ),
-    Regime("light film", (("direct", "film"), ("direct", "dry")), clearance=(1.0, math.inf), load=(0.0, 50.0)),
-    Regime("light mixed", (("direct", "dry"), ("direct", "film")), load=(0.0, 30.0)),
-    Regime("boundary", (("hybrid", "dry"), ("direct", "dry"), ("hybrid", "nested")), clearance=(0.0, 0.03)),
-    Regime("film", (("hybrid", "nested"), ("hybrid", "film"), ("direct", "film")), clearance=(3.0, math.inf)),
-    Regime("mixed", (("hybrid", "nested"), ("direct", "nested"), ("direct", "dry"), ("direct", "film"))),
+    Regime(
+        "light",
+        (("newton", "film"), ("newton", "dry"), ("direct", "film"), ("direct", "dry")),
+        load=(0.0, 50.0),
+    ),
+    Regime("boundary", (("hybrid", "dry"), ("direct", "last"), ("direct", "film")), clearance=(0.0, 0.03)),
+    Regime("film", (("hybrid", "nested"), ("newton", "film"), ("direct", "film")), clearance=(3.0, math.inf)),
+    Regime("moderate", (("hybrid", "nested"), ("newton", "film"), ("direct", "dry")), load=(0.0, 300.0)),
+    Regime("mixed", (("hybrid", "nested"), ("direct", "last"), ("direct", "dry"), ("direct", "film"))),
 )
 
 
@@ -81,17 +86,21 @@ def solve_film(
     if now.dry or now.entrainment_speed == 0.0:
         return scaled.dry("dry")
     regime = next(row for row in REGIMES if row.holds(scaled))
-    best: Solution | None = None
-    used, spent = "", 0
-    for name, algorithm in _algorithms(scaled, regime, start, follows):
-        found = algorithm()
+    tries = (("hybrid", "before"), *regime.algorithms) if follows else regime.algorithms
+    solver, used, spent, least = _Solver(scaled, start, follows), "", 0, math.inf
+    for method, begin in tries:
+        found = solver.run(method, begin)
+        if found is None:
+            continue
         spent += found.iterations
-        if _usable(found) and (best is None or found.converged or found.change < best.change):
-            best, used = found, name
+        worst = excess(found, settings.tolerance, follows is not None)
+        if _usable(found) and (found.converged or worst < least):
+            solver.best, used, least = found, f"{regime.name}: {method} from {begin}", worst
         if found.converged:
             break
-    if best is not None:
-        return scaled.solution(replace(best, iterations=spent), "mixed", f"{regime.name}: {used}")
+    best = solver.best
+    if best is not None and 1.0 - float(best.iterate.pressure.sum()) / scaled.load < _MOST_BEYOND:
+        return scaled.solution(replace(best, iterations=spent), "mixed", used)
     if scaled.smooth_film > _FULL_FILM * scaled.roughness:  # no dry contact can stand in for that
         width, depth = (n * grid.spacing for n in reversed(grid.shape))
         raise ConvergenceError(
@@ -102,44 +111,46 @@ def solve_film(
     return replace(scaled.dry("fallback"), converged=False, shortfall=why, iterations=spent)
 
 
-def _algorithms(
-    scaled: Scaled, regime: Regime, start: FilmState | None, follows: tuple[float, int] | None
-) -> list[tuple[str, Callable[[], Solution]]]:
-    """What is tried, in turn."""
-    settings = scaled.settings
-    begins: dict[str, Callable[[], Iterate]] = {"dry": scaled.dry_start, "film": scaled.lifted_start}
-    if start is not None and follows is None:
-        begins["nested"] = lambda: scaled.iterate(start)
-    elif min(scaled.grid.shape) >= _NESTED_FROM:
-        begins["nested"] = lambda: scaled.iterate(_nested(scaled))
-    problem = scaled.problem()
-    tried: list[tuple[str, Callable[[], Solution]]] = []
-    if start is not None and follows is not None:
-        step, moved = follows
-        problem = scaled.problem(start.mass / scaled.h_unit, scaled.per_dt(step))
-        begins = {"dry": scaled.dry_start, "film": scaled.lifted_start} | {
-            "before": lambda: advected(scaled.iterate(start), scaled.smooth, moved)
-        }
+class _Solver:
+    """The algorithms and the starts of the table, for one instant."""
 
-    def hybrid(begin: str) -> Solution:
-        most = settings.iterations if problem.per_dt > 0.0 else min(settings.iterations, _HYBRID_ITERATIONS)
-        return solve_mixed(scaled.half_space, problem, begins[begin](), settings.tolerance, most)
+    def __init__(self, scaled: Scaled, start: FilmState | None, follows: tuple[float, int] | None) -> None:
+        self.scaled, self.state, self.follows = scaled, start, follows
+        self.best: Solution | None = None
+        self.problem = scaled.problem()
+        if start is not None and follows is not None:
+            self.problem = scaled.problem(start.mass / scaled.h_unit, scaled.per_dt(follows[0]))
 
-    def direct(begin: str) -> Solution:
-        most = min(settings.iterations, _DIRECT_ITERATIONS)
-        return solve_direct(scaled.half_space, problem, begins[begin](), settings.tolerance, most)
+    def run(self, method: str, begin: str) -> Solution | None:
+        """What a method finds from a start; None where they do not apply."""
+        scaled, settings, steady = self.scaled, self.scaled.settings, self.follows is None
+        if method == "multigrid":
+            if not (steady and is_applicable(self.problem)):
+                return None
+            film = scaled.smooth_film / scaled.h_unit
+            return solve_smooth(self.problem, scaled.x, scaled.y, settings.fft, film, settings.tolerance, _CYCLES)[0]
+        start = self._start(begin)
+        if start is None:
+            return None
+        solve, most = {
+            "hybrid": (solve_mixed, _HYBRID_ITERATIONS if steady else settings.iterations),
+            "direct": (solve_direct, _DIRECT_ITERATIONS),
+            "newton": (solve_newton, _NEWTON_STEPS),
+        }[method]
+        return solve(scaled.half_space, self.problem, start, settings.tolerance, min(most, settings.iterations))
 
-    def multigrid(_: str) -> Solution:
-        film = scaled.smooth_film / scaled.h_unit
-        return solve_smooth(problem, scaled.x, scaled.y, settings.fft, film, settings.tolerance, _CYCLES)[0]
-
-    methods = {"hybrid": hybrid, "direct": direct, "multigrid": multigrid}
-    if "before" in begins:
-        tried.append(("marched", lambda: hybrid("before")))
-    for method, begin in regime.algorithms:
-        if (begin in begins) or (method == "multigrid" and problem.per_dt == 0.0 and is_applicable(problem)):
-            tried.append((f"{method} from {begin}", lambda method=method, begin=begin: methods[method](begin)))
-    return tried
+    def _start(self, name: str) -> Iterate | None:
+        scaled, state = self.scaled, self.state
+        if name == "before" and state is not None and self.follows is not None:
+            return advected(scaled.iterate(state), scaled.smooth, self.follows[1])
+        if name == "nested" and self.follows is None:
+            if state is None and min(scaled.grid.shape) >= _NESTED_FROM:
+                now, grid = coarser(scaled.now, scaled.grid)
+                state = prolonged(solve_film(now, grid, scaled.settings).state, scaled.grid.shape)
+            return scaled.dry_start() if state is None else scaled.iterate(state)
+        if name == "last" and self.best is not None:
+            return self.best.iterate
+        return {"dry": scaled.dry_start, "film": scaled.lifted_start}.get(name, lambda: None)()
 
 
 def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:
@@ -153,11 +164,6 @@ def prolonged(state: FilmState, shape: tuple[int, int]) -> FilmState:
     pressure, fluid, mass = (prolong(field, shape) for field in (state.pressure, state.fluid, state.mass))
     solid = prolong(state.solid.astype(np.float64), shape) > 0.5
     return FilmState(pressure, fluid, solid, mass, state.rigid_gap)
-
-
-def _nested(scaled: Scaled) -> FilmState:
-    now, grid = coarser(scaled.now, scaled.grid)
-    return prolonged(solve_film(now, grid, scaled.settings).state, scaled.grid.shape)
 
 
 def _usable(solution: Solution) -> bool:

@@ -47,7 +47,7 @@ class Scaled:
         if self.cap.sum() <= 1.01 * self.load:
             raise ConvergenceError(
                 f"{now.load:g} N are more than a grid of {grid.shape[1] * grid.spacing:g} m by "
-                f"{grid.shape[0] * grid.spacing:g} m can carry at the hardness. Lower the load or enlarge the domain (film.domain)."
+                f"{grid.shape[0] * grid.spacing:g} m can carry at the hardness. Lower the load or enlarge film.domain."
             )
         self.x, self.y = grid.x / self.size, grid.y / self.size
         radius_2 = self.x[None, :] ** 2 + now.radius_x / now.radius_y * self.y[:, None] ** 2
@@ -126,7 +126,7 @@ class Scaled:
         """A Hertz-like pressure under the film of smooth bodies and the highest asperities."""
         pressure = np.minimum(self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300)), self.cap)
         lift = self.smooth_film + 0.5 * max(float(self.now.heights.max()), 0.0)
-        rigid = lift / self.h_unit - self.compliance ** (2.0 / 3.0)  # the contact is a^2 / radius_x deep
+        rigid = lift / self.h_unit - self.compliance  # what that pressure deforms the centre by
         return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid)
 
     def _dry_pressure(self) -> tuple[Array, float, bool, int]:
@@ -166,6 +166,7 @@ class Scaled:
             iterations=found.iterations,
             change=found.change,
             load_error=found.load_error,
+            load_beyond=1.0 + found.load_error - float(it.pressure.sum()) / self.load,
             complementarity=found.intrusion,
             imbalance=found.imbalance,
             inlet_nodes=self._inlet_nodes(gap),

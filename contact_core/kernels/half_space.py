@@ -66,7 +66,7 @@ class HalfSpace:
         self._padded = (_even_fast_length(2 * (ny - 1)), _even_fast_length(2 * (nx - 1)))
         self._part = (_even_fast_length(ny - 1), _even_fast_length(nx - 1))
         self.near = scale * influence(ny, nx)[:9, :9]
-        self._deform = Convolution(ny, _spectrum((ny, nx), self._padded, scale), library)
+        self._deform = Convolution(ny, _spectrum(self._padded, scale), library)
 
     def deform(self, pressure: Array) -> Array:
         """Deformation [ny, nx] under a pressure [ny, nx]."""
@@ -95,29 +95,33 @@ class HalfSpace:
         return self._press_part if fits else self._press
 
     @cached_property
-    def _press(self) -> Convolution:
+    def coarser(self) -> "HalfSpace":
+        """The half space of a grid of half the nodes, twice as far apart."""
         ny, nx = self.shape
-        return Convolution(ny, _inverse(_spectrum((ny, nx), self._padded, self._scale)), self._library)
+        return HalfSpace((ny + 1) // 2, (nx + 1) // 2, 2.0 * self._scale, self._library)
+
+    @cached_property
+    def _press(self) -> Convolution:
+        return Convolution(self.shape[0], _inverse(_spectrum(self._padded, self._scale)), self._library)
 
     @cached_property
     def _press_part(self) -> Convolution:
-        my, mx = self._part
-        spectrum = _spectrum((my // 2 + 1, mx // 2 + 1), self._part, self._scale)
-        return Convolution(my, _inverse(spectrum), self._library)
+        return Convolution(self._part[0], _inverse(_spectrum(self._part, self._scale)), self._library)
 
 
 def _even_fast_length(least: int) -> int:
     return 2 * scipy.fft.next_fast_len(max((least + 1) // 2, 1), real=False)
 
 
-def _spectrum(distances: tuple[int, int], padded: tuple[int, int], scale: float) -> Array:
-    """Transform of the kernel up to some distances; real since the kernel is even in both directions."""
-    (ny, nx), (my, mx) = distances, padded
+def _spectrum(padded: tuple[int, int], scale: float) -> Array:
+    """Transform of the kernel up to half the even lengths of the plane; real, since it is even in both directions."""
+    my, mx = padded
+    ny, nx = my // 2 + 1, mx // 2 + 1
     kernel = np.zeros((my, mx))
     quarter = scale * influence(ny, nx)
     kernel[:ny, :nx] = quarter
-    kernel[my - ny + 1 :, :nx] = quarter[:0:-1, :]
-    kernel[:, mx - nx + 1 :] = kernel[:, nx - 1 : 0 : -1]
+    kernel[ny:, :nx] = quarter[-2:0:-1, :]
+    kernel[:, nx:] = kernel[:, nx - 2 : 0 : -1]
     return np.asarray(scipy.fft.rfft2(kernel).real)
 
 

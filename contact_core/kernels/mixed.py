@@ -30,7 +30,7 @@ _CARRIED = 0.3  # pressure of smooth bodies above which the pattern of the rough
 _LOAD_TOLERANCE = 1e-4
 _INTRUSION_TOLERANCE = 0.2
 _IMBALANCE_PER_TOLERANCE = 100.0  # what a time step still owes is made up for in the next one...
-_STEADY_IMBALANCE_PER_TOLERANCE = 20.0  # ...but a steady film has no next one
+_STEADY_IMBALANCE_PER_TOLERANCE = 5.0  # ...but a steady film has no next one
 _SHARE_TOLERANCE = 0.02  # nodes at the floor whose fluid pressure is about p change sides for ever, p unchanged
 
 
@@ -90,14 +90,26 @@ def shortfall(
     tolerance: float, change: float, load_error: float, intrusion: float, imbalance: float, moving: bool
 ) -> str:
     """The stopping rule of every film: what is short of it, in words, or nothing. `moving`: a time step."""
+    rules = _rules(tolerance, change, load_error, intrusion, imbalance, moving)
+    return "; ".join(f"{name} {value:.2g}, not below {most:.2g}" for name, value, most in rules if not value < most)
+
+
+def excess(found: Solution, tolerance: float, moving: bool) -> float:
+    """How many times the stopping rule's worst number is above its limit."""
+    numbers = (found.change, found.load_error, found.intrusion, found.imbalance)
+    return max(value / most for _, value, most in _rules(tolerance, *numbers, moving))
+
+
+def _rules(
+    tolerance: float, change: float, load_error: float, intrusion: float, imbalance: float, moving: bool
+) -> tuple[tuple[str, float, float], ...]:
     owed = tolerance * (_IMBALANCE_PER_TOLERANCE if moving else _STEADY_IMBALANCE_PER_TOLERANCE)
-    rules = (
+    return (
         ("pressure change", change, tolerance),
         ("load error", abs(load_error), _LOAD_TOLERANCE),
         ("distance of contacts from the floor", intrusion, _INTRUSION_TOLERANCE),
         ("mass imbalance", imbalance, owed),
     )
-    return "; ".join(f"{name} {value:.2g}, not below {most:.2g}" for name, value, most in rules if not value < most)
 
 
 @_jit

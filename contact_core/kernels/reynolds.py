@@ -184,7 +184,7 @@ def mend_film(  # type: ignore[no-untyped-def]
     wrong, film, fluid, solids, intrusion = 0.0, 0.0, 0.0, 0.0, 0.0
     top, bottom, left, right, count, changed = ny, 0, nx, 0, 0, 0
     for j in range(1, ny - 1):
-        before, before_2 = 0.0, 0.0  # dh of the two nodes upstream
+        before, before_2 = 0.0, 0.0  # change of the film that flows at the two nodes upstream
         for i in range(1, nx - 1):
             here, own, m = p[j, i], h[j, i], mass[j, i]
             touches, value, change, is_stiff = solid[j, i], 0.0, 0.0, False
@@ -221,7 +221,8 @@ def mend_film(  # type: ignore[no-untyped-def]
                     if here >= cap[j, i]:
                         change = min(change, 0.0)  # the solids yield, the gap does not open
             r[j, i], stiff[j, i], dh[j, i] = value, is_stiff, change
-            before_2, before = before, change
+            before_2 = before
+            before = 0.0 if solid[j, i] else max(h[j, i] + change, floor) - max(h[j, i], floor)
             if is_stiff:
                 count += 1
                 top, bottom = min(top, j), max(bottom, j + 1)

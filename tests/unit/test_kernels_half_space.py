@@ -56,9 +56,7 @@ def test_deformation_is_symmetric():
     """Maxwell and Betti: the work of one pressure on the other's deformation is the same both ways."""
     half_space = HalfSpace(15, 18, 1.0, "scipy")
     one, other = pressure(15, 18), pressure(18, 15).T
-    assert (one * half_space.deform(other)).sum() == pytest.approx(
-        (other * half_space.deform(one)).sum(), rel=1e-13
-    )
+    assert (one * half_space.deform(other)).sum() == pytest.approx((other * half_space.deform(one)).sum(), rel=1e-13)
 
 
 def test_press_undoes_the_deformation_of_a_ripple_in_the_middle():
@@ -70,3 +68,31 @@ def test_press_undoes_the_deformation_of_a_ripple_in_the_middle():
     again = half_space.press(half_space.deform(p))
     middle = slice(n // 2 - 12, n // 2 + 13)
     assert np.abs((again - p)[middle, middle]).max() < 0.02
+
+
+@pytest.mark.parametrize("library", LIBRARIES)
+@pytest.mark.parametrize(("ny", "nx"), [(65, 65), (48, 80), (101, 33)])
+def test_the_inverse_of_part_of_the_plane_agrees_with_that_of_all_of_it(ny, nx, library):
+    half_space = HalfSpace(ny, nx, 0.3, library)
+    top, left, height, width = 7, 5, ny // 2, nx // 2
+    gap = np.zeros((ny, nx))
+    box = np.s_[top : top + height, left : left + width]
+    gap[box] = pressure(height, width)
+    gap[box] -= gap[box].mean()
+    part = half_space.press_part(height, width)
+    part.field[:] = 0.0
+    part.field[:height, :width] = gap[box]
+    expected = half_space.press(gap)[box]
+    fits = height + 16 <= ny - 1 and width + 16 <= nx - 1
+    assert (part.field.shape != (half_space.press_part(ny, nx).field.shape)) == fits
+    assert np.abs(part.run()[:height, :width] - expected).max() < 0.02 * np.abs(expected).max()
+
+
+def test_the_coarser_half_space_deforms_alike():
+    n = 65
+    x = np.linspace(-1.0, 1.0, n)
+    p = np.exp(-4.0 * (x[None, :] ** 2 + x[:, None] ** 2))
+    fine = HalfSpace(n, n, 0.1, "scipy")
+    found, expected = fine.coarser.deform(p[::2, ::2]), fine.deform(p)[::2, ::2]
+    assert fine.coarser.shape == (33, 33)
+    assert np.abs(found - expected).max() < 3e-3 * expected.max()

@@ -1,0 +1,181 @@
+"""What the parts of `core.py` share: a report in Markdown, contacts in Moes' terms, cost in two units."""
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+from matplotlib.figure import Figure
+from work_unit import work_unit
+
+from contact_core.film.instant import Grid, Instant, Settings
+from contact_core.film.scaled import Scaled
+from contact_core.laws.density import DowsonHigginson, Incompressible
+from contact_core.laws.viscosity import Barus, Roelands
+from contact_core.reference import hertz_point
+
+DOCS = Path(__file__).parent.parent / "docs"
+Array = np.ndarray
+Found = TypeVar("Found")
+
+
+def cells(values: Sequence[Any]) -> str:
+    """A row of a table; numbers with four digits, truth as yes or no."""
+
+    def text(value: Any) -> str:
+        if isinstance(value, bool | np.bool_):
+            return "yes" if value else "**no**"
+        return f"{value:.4g}" if isinstance(value, float | np.floating) else str(value)
+
+    return "| " + " | ".join(map(text, values)) + " |"
+
+
+@dataclass
+class Report:
+    """A page of docs, printed while it grows. What was asked and found comes first."""
+
+    part: str
+    title: str
+    body: list[str] = field(default_factory=list)
+    verdicts: list[str] = field(default_factory=list)
+
+    def _add(self, line: str) -> None:
+        self.body.append(line)
+        print(line, flush=True)
+
+    def say(self, text: str) -> None:
+        """A paragraph."""
+        self._add(f"\n{text}\n")
+
+    def header(self, *names: str) -> None:
+        """Begin a table."""
+        self._add(cells(names))
+        self._add("|" + "---|" * len(names))
+
+    def row(self, *values: Any) -> None:
+        """A row of it."""
+        self._add(cells(values))
+
+    def verdict(self, asked: str, found: str, met: bool) -> None:
+        """A figure that was asked for."""
+        self.verdicts.append(cells((asked, found, met)))
+        print(self.verdicts[-1], flush=True)
+
+    def picture(self, figure: Figure, name: str, text: str) -> None:
+        """Save a figure and show it."""
+        figure.savefig(DOCS / name, dpi=150)
+        self._add(f"\n![{text}]({name})\n")
+
+    def write(self) -> None:
+        """Write the page."""
+        intro = f"# {self.title}\n\nWritten by `python benchmarks/core.py {self.part}`. One process, one thread.\n"
+        asked = ["## Asked", "", "| asked | found | met? |", "|---|---|---|", *self.verdicts, "", "## Found"]
+        (DOCS / f"core_{self.part}.md").write_text("\n".join([intro, *asked, *self.body]).rstrip() + "\n")
+
+
+@dataclass(frozen=True)
+class MoesCase:
+    """A smooth circular contact given by Moes' numbers of load and lubricant (M, L); the rest is steel and oil."""
+
+    load: float
+    lubricant: float
+    viscosity_law: str = "barus"
+    density_law: str = "none"
+    radius: float = 10e-3
+    modulus: float = 2.26e11
+    viscosity: float = 0.04
+    alpha: float = 2.2e-8
+
+    @property
+    def speed_number(self) -> float:
+        """U = eta0 (u1 + u2) / (E' R), from L; any small one if there is no piezoviscosity."""
+        return (self.lubricant / (self.alpha * self.modulus)) ** 4 if self.lubricant > 0.0 else 1e-11
+
+    @property
+    def unit(self) -> float:
+        """Moes' unit of the film [m]."""
+        return self.radius * math.sqrt(self.speed_number)
+
+    @property
+    def newtons(self) -> float:
+        """Load."""
+        return self.load * self.speed_number**0.75 * self.modulus * self.radius**2
+
+    @property
+    def a(self) -> float:
+        """Hertz's half width [m]."""
+        return hertz_point(self.newtons, self.radius, self.radius, self.modulus).a
+
+    @property
+    def pressure(self) -> float:
+        """Hertz's pressure [Pa]."""
+        return hertz_point(self.newtons, self.radius, self.radius, self.modulus).pressure_max
+
+    def arguments(self) -> dict[str, Any]:
+        """Of `point_contact`."""
+        speed = 0.5 * self.speed_number * self.modulus * self.radius / self.viscosity
+        return {
+            "load": self.newtons,
+            "radius_x": self.radius,
+            "reduced_modulus": self.modulus,
+            "speed_1": speed,
+            "speed_2": speed,
+            "viscosity": self.viscosity,
+            "pressure_viscosity": self.alpha if self.lubricant > 0.0 else 0.0,
+            "viscosity_law": self.viscosity_law,
+            "density_law": self.density_law,
+        }
+
+
+def domain_of(case: MoesCase, width: Sequence[float]) -> tuple[float, ...]:
+    """A domain in half widths, in metres."""
+    return tuple(case.a * side for side in width)
+
+
+def scaled_of(arguments: dict[str, Any], domain: Sequence[float], nodes: int, tolerance: float) -> Scaled:
+    """The same smooth contact in the units of the kernels, on a grid of nodes x nodes."""
+    laws = {"barus": Barus, "roelands": Roelands, "none": Incompressible, "dowson_higginson": DowsonHigginson}
+    viscosity = laws[arguments["viscosity_law"]](arguments["viscosity"], 300.0, arguments["pressure_viscosity"], 0.0)
+    now = Instant(
+        load=arguments["load"],
+        entrainment_speed=0.5 * (arguments["speed_1"] + arguments["speed_2"]),
+        temperature=300.0,
+        radius_x=arguments["radius_x"],
+        radius_y=arguments["radius_x"],
+        reduced_modulus=arguments["reduced_modulus"],
+        viscosity=viscosity,
+        density=laws[arguments["density_law"]](),
+        heights=np.zeros((nodes, nodes)),
+        limit=np.full((nodes, nodes), 1e12),
+        hardness=1e12,
+    )
+    grid = Grid(np.linspace(*domain[:2], nodes), np.linspace(*domain[2:], nodes))
+    return Scaled(now, grid, Settings(1e-9, tolerance, 2000, "pyfftw"))
+
+
+def timed(task: Callable[[], Found], repeats: int = 1) -> tuple[Found, float]:
+    """The result and the least CPU time [s] of some runs."""
+    best = math.inf
+    for _ in range(repeats):
+        start = time.process_time()
+        found = task()
+        best = min(best, time.process_time() - start)
+    return found, best
+
+
+def unit_of(nodes: int) -> float:
+    """Seconds of a work unit on nodes x nodes."""
+    return work_unit(nodes, 200 if nodes < 200 else 30)
+
+
+def waves(x: Array, y: Array, rq: float, correlation: float, seed: int, number: int = 600) -> Array:
+    """Gaussian heights [ny, nx], autocorrelation rq^2 exp(-(r/l)^2), as a sum of waves: the same on every grid."""
+    random = np.random.Generator(np.random.Philox(key=[seed, 3]))
+    kx, ky = random.normal(0.0, math.sqrt(2.0) / correlation, (2, number))
+    phase = random.uniform(0.0, 2.0 * np.pi, number)
+    along, across = np.exp(1j * (kx[:, None] * x + phase[:, None])), np.exp(1j * ky[:, None] * y)
+    heights: Array = rq * math.sqrt(2.0 / number) * (across.T @ along).real
+    return heights

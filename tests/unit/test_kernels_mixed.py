@@ -1,0 +1,94 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from wavy_contact import problem
+
+from contact_core.kernels.mixed import Iterate, solve_mixed
+from contact_core.kernels.steady import shared_start, solve_steady
+
+N = 49
+WAVE = 0.04
+HEAVY = 1e4  # mobility: a film of the order of the floor
+
+
+def film_start(case, smooth, lift=0.15):
+    """Oil all over, thick enough to clear the waves."""
+    pressure = smooth * (case.load / smooth.sum())
+    return Iterate(pressure, pressure, np.zeros(smooth.shape, np.bool_), lift - 1.0)
+
+
+def difference(one, other):
+    return float(np.abs(one.iterate.pressure - other.iterate.pressure).sum() / one.iterate.pressure.sum())
+
+
+def test_a_steady_film_does_not_depend_on_where_it_starts():
+    case, smooth, half_space = problem(N, N, WAVE, mobility=HEAVY)
+    starts = shared_start(half_space, case, smooth), film_start(case, smooth)
+    below, above = (solve_steady(half_space, case, start, 2e-3, 2000) for start in starts)
+    assert below.converged
+    assert above.converged
+    solid = below.iterate.solid.sum()
+    assert 500 < solid < 1100
+    assert difference(below, above) < 5e-3
+    # an iteration without time does not move it either
+    again = solve_mixed(half_space, case, below.iterate, 0.0, 50)
+    assert difference(below, again) < 0.01
+
+
+@pytest.mark.parametrize("budget", [7, 18, 40])
+def test_a_steady_film_that_runs_out_of_iterations_says_so(budget):
+    case, smooth, half_space = problem(N, N, WAVE, mobility=HEAVY)
+    found = solve_steady(half_space, case, shared_start(half_space, case, smooth), 1e-6, budget)
+    assert not found.converged
+    assert found.shortfall
+    assert found.iterations == budget
+    assert np.isfinite(found.iterate.pressure).all()
+
+
+def test_a_start_that_is_no_number_comes_back_as_no_solution():
+    case, smooth, half_space = problem(N, N, WAVE, mobility=HEAVY)
+    start = film_start(case, smooth)
+    found = solve_steady(half_space, replace(case, undeformed=case.undeformed * np.nan), start, 1e-3, 50)
+    assert not found.converged
+    assert found.change == np.inf
+    assert np.isfinite(found.iterate.pressure).all()
+
+
+def test_the_same_problem_gives_the_same_bits():
+    case, smooth, half_space = problem(N, N, WAVE, mobility=HEAVY, library="pyfftw")
+    other = problem(N, N, WAVE, mobility=HEAVY, library="pyfftw")[2]
+    start = shared_start(half_space, case, smooth)
+    one, two, again = (solve_mixed(h, case, start, 0.0, 15) for h in (half_space, other, half_space))
+    assert one.iterate.pressure.tobytes() == two.iterate.pressure.tobytes() == again.iterate.pressure.tobytes()
+    assert one.gap.tobytes() == again.gap.tobytes()
+
+
+def test_edge_nodes_follow_their_inner_neighbours_and_weights_count_in_the_load():
+    case, smooth, half_space = problem(N, N)
+    edge, weight = np.zeros((N, N)), np.ones((N, N))
+    edge[:, 0], weight[:, 0] = 0.8, 4.0
+    case = replace(case, edge=edge, weight=weight)
+    found = solve_mixed(half_space, case, film_start(case, smooth), 1e-6, 300)
+    p = found.iterate.pressure
+    assert p[1:-1, 0].min() > 0.0
+    assert p[1:-1, 0] == pytest.approx(0.8 * p[1:-1, 1], rel=1e-12)
+    assert not p[:, -1].any()
+    assert (weight * p).sum() == pytest.approx(case.load, rel=1e-4)
+    assert p.sum() < (1.0 - 1e-6) * case.load
+
+
+def test_the_lumped_criterion_has_one_pressure_and_holds_solids_at_the_floor():
+    case, smooth, half_space = problem(N, N, WAVE, mobility=HEAVY, lumped=True)
+    start = shared_start(half_space, case, smooth)
+    found = solve_mixed(half_space, case, start, 0.0, 300)
+    it = found.iterate
+    assert it.solid.sum() > 500
+    assert not it.fluid[it.solid].any()
+    fluid = ~it.solid
+    assert (it.fluid[fluid] == it.pressure[fluid]).all()
+    assert np.abs(found.gap - case.floor)[it.solid & (it.pressure > 0.1)].max() < 0.2 * case.floor
+    assert it.pressure.sum() == pytest.approx(case.load, rel=1e-4)
+    # oil does not lift such a contact: more of it stays than where fluid and solids share the load
+    split = solve_mixed(half_space, replace(case, lumped=False), start, 0.0, 300)
+    assert it.solid.sum() > 1.2 * split.iterate.solid.sum()
