@@ -73,15 +73,17 @@ def formula(report: Report) -> None:
         for lubricant in (5, 10, 20):
             case = MoesCase(load, lubricant)
             films, seconds = timed(
-                lambda case=case: [point_contact(**case.arguments(), grid=nodes, tolerance=1e-4) for nodes in (129, 257)]
+                lambda case=case: [
+                    point_contact(**case.arguments(), grid=nodes, tolerance=1e-4) for nodes in (129, 257)
+                ]
             )
             coarse, fine = (film.h_central / case.unit for film in films)
             limit, reference = fine + (fine - coarse) / 3.0, moes_film(load, lubricant)
             off.append((abs(limit / reference - 1.0) * 100.0, load, lubricant))
             by = 100.0 * (limit / fine - 1.0)
-            report.row(
-                load, lubricant, limit, reference, 100.0 * (limit / reference - 1.0), fine, by, films[1].converged
-            )
+            algorithm = films[1].algorithm + ("" if films[1].converged else ", not converged")
+            beyond = 100.0 * (limit / reference - 1.0)
+            report.row(load, lubricant, limit, reference, beyond, fine, by, algorithm, round(seconds, 2))
     worst = max(off)
     report.verdict(
         "within 5 % of Nijenbanning, Venner and Moes for M >= 10",

@@ -138,8 +138,8 @@ def load_beyond(at: Answer, gap: Array) -> float:
 
 def net_inflow(at: Answer, film: Array) -> tuple[Array, Array]:
     """Mass per density and area that comes into each node [m/s], zero on the edge; and rho h^3 / 12 eta about it."""
-    dx, p, f = at.x[1] - at.x[0], at.pressure, at.fluid
-    mass = (5.9e8 + 1.34 * p) / (5.9e8 + p) * film  # oil between solids is pressed as they are
+    dx, f = at.x[1] - at.x[0], at.fluid
+    mass = (5.9e8 + 1.34 * f) / (5.9e8 + f) * film
     ease = mass * film**2 / (12.0 * at.viscosity(f))
     along = 0.5 * (ease[:, 1:] + ease[:, :-1]) * np.diff(f, axis=1) / dx
     across = 0.5 * (ease[1:] + ease[:-1]) * np.diff(f, axis=0) / dx
@@ -176,11 +176,11 @@ def judge(at: Answer) -> Judgement:
         loss = np.minimum(np.maximum(-net, 0.0), at.speed * film * (film / FLOOR - 1.0) / dx)
         wrong = loss + np.where(below, np.maximum(net, 0.0), 0.0)
         per_mass = at.size / at.speed / max(float((film * p)[oil].sum()), 1e-300)
-        imbalance = float((wrong * p)[oil].sum()) * per_mass * float(p[oil].sum() / total)
+        imbalance = float((wrong * p)[oil].sum() * per_mass * p[oil].sum() / total)
         dammed = np.where(~solid & (p <= 0.0), np.maximum(net, 0.0), 0.0) * dx**2 / (4.0 * ease)
         cavity = float(np.minimum(dammed, hertz.pressure_max).sum() / total)
         under = np.where(f > 0.0, np.abs(net), np.maximum(net, 0.0)) * np.where(solid, f, 0.0)
-        beneath = float(under.sum()) * at.size / at.speed / FLOOR / total
+        beneath = float(under.sum() * at.size / at.speed / FLOOR / total)
     violated = [-f.min(), (f - p).max(), (p - at.hardness).max(), np.abs(p - f)[~solid].max(initial=0.0)]
     return Judgement(
         force=float(total * dx**2 / at.load + beyond - 1.0),
@@ -533,8 +533,8 @@ def _row_table(lines: list[dict[str, str]]) -> list[str]:
 
 def report() -> None:
     """Write the tables and the map from what has been solved."""
-    drawn = [line for path in sorted(RESULTS.glob("random_*.csv")) for line in _read(path)]
-    drawn.sort(key=lambda line: int(line["case"]))
+    found = {int(line["case"]): line for path in sorted(RESULTS.glob("random_*.csv")) for line in _read(path)}
+    drawn = [found[case] for case in sorted(found)]
     listed = _read(RESULTS / "rows.csv")
     text = [
         "# Hard cases",

@@ -17,8 +17,17 @@ from work_unit import work_unit
 from contact_core import OperatingPoint, Scene, advance, initial_state
 
 DOCS = Path(__file__).parent.parent / "docs"
-OBSERVED = ("friction_coefficient", "h_c", "contact_load_ratio", "contact_area_ratio", "tribofilm_1", "tribofilm_2",
-            "wear_depth_1", "wear_depth_2", "roughness_2")
+OBSERVED = (
+    "friction_coefficient",
+    "h_c",
+    "contact_load_ratio",
+    "contact_area_ratio",
+    "tribofilm_1",
+    "tribofilm_2",
+    "wear_depth_1",
+    "wear_depth_2",
+    "roughness_2",
+)
 RUNS = (("4 nm", 129), ("8 nm", 129), ("16 nm", 129), ("8 nm", 97), ("8 nm", 65))
 
 

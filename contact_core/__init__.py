@@ -10,8 +10,9 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     state        ContactState, Outputs, RangeFlag, serialisation
     surfaces     roughness: generation and statistics
     laws/        viscosity, density, rheology, plasticity, boundary friction, heat, tribofilm, wear
-    film/        fluid and solid pressure of one instant
+    film/        fluid and solid pressure of one instant: units, grids, the table of algorithms (routes), error estimate
     kernels/     numba and FFT: arrays in, arrays out
+    point_contact, dry_contact   one call each, without a scene
     contact      solve: one instant of a scene in a state
     block        a sweep of the moving surfaces through the contact: what they feel, mean outputs
     advance      advance: the evolution over time
@@ -25,7 +26,9 @@ metres above a body's mean plane, positive toward the other body; arrays are [ny
 
 from .advance import advance
 from .contact import ContactFields, Transient, solve
+from .dry_contact import DryContact, dry_contact
 from .errors import ContactError, ConvergenceError, OperatingPointError, SceneError, StateError
+from .point_contact import PointContact, point_contact
 from .reading import shipped_scenes
 from .scene import OperatingPoint, Scene
 from .state import ContactState, Outputs, RangeFlag, initial_state
@@ -37,16 +40,20 @@ __all__ = [
     "ContactFields",
     "ContactState",
     "ConvergenceError",
+    "DryContact",
     "OperatingPoint",
     "OperatingPointError",
     "Outputs",
+    "PointContact",
     "RangeFlag",
     "Scene",
     "SceneError",
     "StateError",
     "Transient",
     "advance",
+    "dry_contact",
     "initial_state",
+    "point_contact",
     "shipped_scenes",
     "solve",
 ]

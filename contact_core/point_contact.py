@@ -132,7 +132,9 @@ def point_contact(
     film = 0.0
     if speed_1 + speed_2 != 0.0:
         speed = 0.5 * abs(speed_1 + speed_2)
-        smooth = SmoothContact(load, speed, viscosity, max(pressure_viscosity, 1e-12), radius_x, radius_x, reduced_modulus)
+        smooth = SmoothContact(
+            load, speed, viscosity, max(pressure_viscosity, 1e-12), radius_x, radius_x, reduced_modulus
+        )
         film = nijenbanning_venner_moes(smooth)
     nodes = _grid(numbers, film, heights, spacing, grid, domain)
     now = Instant(
@@ -202,7 +204,9 @@ def _heights(first: ArrayLike | None, second: ArrayLike | None) -> Array | None:
         if array.ndim != 2:
             _refuse([f"{name} has {array.ndim} dimensions; it must be an array [ny, nx] of heights in metres."])
         if not np.isfinite(array).all():
-            _refuse([f"{name} holds {int((~np.isfinite(array)).sum())} values that are not finite. Fill the gaps first."])
+            _refuse(
+                [f"{name} holds {int((~np.isfinite(array)).sum())} values that are not finite. Fill the gaps first."]
+            )
         given.append(array)
     if len(given) == 2 and given[0].shape != given[1].shape:
         _refuse(
@@ -220,10 +224,12 @@ def _grid(
     domain: tuple[float, float, float, float] | None,
 ) -> Grid:
     """The nodes that the arguments ask for."""
-    shape = (129, 129) if grid is None else (int(grid), int(grid)) if np.ndim(grid) == 0 else tuple(map(int, grid))  # type: ignore[arg-type,call-overload]
+    shape = (129, 129) if grid is None else (int(grid), int(grid)) if np.ndim(grid) == 0 else tuple(map(int, grid))  # type: ignore[arg-type]
     if heights is not None:
         if grid is not None and shape != heights.shape:
-            _refuse([f"grid = {grid} does not fit heights of {heights.shape} nodes. Leave grid out: heights decide it."])
+            _refuse(
+                [f"grid = {grid} does not fit heights of {heights.shape} nodes. Leave grid out: heights decide it."]
+            )
         shape = heights.shape
     if len(shape) != 2 or min(shape) < 17 or max(shape) > 4097:
         _refuse([f"grid = {shape} must be one number or (ny, nx), from 17 to 4097 nodes along each axis."])
@@ -243,7 +249,11 @@ def _grid(
 def _grid_of_domain(
     numbers: _Numbers, spacing: float | None, domain: tuple[float, float, float, float], ny: int, nx: int
 ) -> Grid:
-    if len(domain) != 4 or not np.isfinite(domain).all() or not (domain[0] < 0.0 < domain[1] and domain[2] < 0.0 < domain[3]):
+    if (
+        len(domain) != 4
+        or not np.isfinite(domain).all()
+        or not (domain[0] < 0.0 < domain[1] and domain[2] < 0.0 < domain[3])
+    ):
         _refuse([f"domain = {domain} must be (x_min, x_max, y_min, y_max) in metres about the contact at (0, 0)."])
     x, y = np.linspace(domain[0], domain[1], nx), np.linspace(domain[2], domain[3], ny)
     dx, dy = x[1] - x[0], y[1] - y[0]
@@ -251,7 +261,8 @@ def _grid_of_domain(
         _refuse(
             [
                 f"domain = {domain} on {ny} by {nx} nodes gives distances of {dx:.6g} m along x and {dy:.6g} m along y"
-                f"{'' if spacing is None else f', spacing says {spacing:.6g} m'}; they must be the same. Change grid or domain."
+                f"{'' if spacing is None else f', spacing says {spacing:.6g} m'}; they must be the same. "
+                "Change grid or domain."
             ]
         )
     return Grid(x, y)
@@ -264,8 +275,8 @@ def _warnings(found: FilmSolution, grid: Grid, a: float) -> list[str]:
         sentences.append("The dry contact stands in for a film that was not found.")
     if found.route == "mixed" and found.inlet_nodes < 3.0:
         sentences.append(
-            f"The film builds up across {found.inlet_nodes:.1f} nodes of the grid: it is a number of this grid. Use more "
-            "nodes or a smaller domain for its own value."
+            f"The film builds up across {found.inlet_nodes:.1f} nodes of the grid: it is a number of this grid. "
+            "Use more nodes or a smaller domain for its own value."
         )
     pressure = found.state.pressure
     edges = max(pressure[[1, -2], :].max(), pressure[:, [1, -2]].max())

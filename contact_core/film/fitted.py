@@ -22,5 +22,5 @@ def fitted_grid(load: float, radius: float, reduced_modulus: float, film: float,
     side = min(_SIDES * size, 1.15 * a + _INLETS_AROUND * inlet)
     spacing = max((left + right) / (nx - 1), 2.0 * side / (ny - 1))
     before = round((nx - 1) * left / (left + right))  # a node lies on the centre
-    y = (np.arange(ny) - 0.5 * (ny - 1)) * spacing
-    return Grid((np.arange(nx) - before) * spacing, y)
+    x, y = np.arange(nx, dtype=np.float64) - before, np.arange(ny, dtype=np.float64) - 0.5 * (ny - 1)
+    return Grid(x * spacing, y * spacing)

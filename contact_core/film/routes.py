@@ -22,7 +22,7 @@ _ALL = (0.0, math.inf)
 _FULL_FILM = 3.0  # formula film over rms roughness from which on a dry contact means nothing
 _MOST_BEYOND = 0.3  # share of the load that may lie beyond the grid
 _NESTED_FROM = 65  # nodes along an axis from which on a film begins on the grid of half of them
-_HYBRID_ITERATIONS, _DIRECT_ITERATIONS = 80, 100  # of one try at a steady film
+_HYBRID_ITERATIONS, _DIRECT_ITERATIONS = 150, 80  # of one try at a steady film
 _CYCLES, _NEWTON_STEPS = 15, 60
 # a film short of its tolerance is still better than the dry contact within these
 _LOAD_ACCEPTED = 1e-3
@@ -58,10 +58,10 @@ REGIMES = (
         (("newton", "film"), ("newton", "dry"), ("direct", "film"), ("direct", "dry")),
         load=(0.0, 50.0),
     ),
-    Regime("boundary", (("hybrid", "dry"), ("direct", "last"), ("direct", "film")), clearance=(0.0, 0.03)),
+    Regime("boundary", (("hybrid", "dry"), ("direct", "last"), ("direct", "shared")), clearance=(0.0, 0.03)),
     Regime("film", (("hybrid", "nested"), ("newton", "film"), ("direct", "film")), clearance=(3.0, math.inf)),
-    Regime("moderate", (("hybrid", "nested"), ("newton", "film"), ("direct", "dry")), load=(0.0, 300.0)),
-    Regime("mixed", (("hybrid", "nested"), ("direct", "last"), ("direct", "dry"), ("direct", "film"))),
+    Regime("moderate", (("hybrid", "shared"), ("newton", "film"), ("direct", "dry")), load=(0.0, 300.0)),
+    Regime("mixed", (("hybrid", "shared"), ("direct", "last"), ("direct", "dry"), ("direct", "film"))),
 )
 
 
@@ -89,6 +89,8 @@ def solve_film(
     tries = (("hybrid", "before"), *regime.algorithms) if follows else regime.algorithms
     solver, used, spent, least = _Solver(scaled, start, follows), "", 0, math.inf
     for method, begin in tries:
+        if settings.lumped and method != "hybrid":  # the others know the split criterion alone
+            continue
         found = solver.run(method, begin)
         if found is None:
             continue
@@ -150,7 +152,8 @@ class _Solver:
             return scaled.dry_start() if state is None else scaled.iterate(state)
         if name == "last" and self.best is not None:
             return self.best.iterate
-        return {"dry": scaled.dry_start, "film": scaled.lifted_start}.get(name, lambda: None)()
+        starts = {"dry": scaled.dry_start, "shared": scaled.shared_start, "film": scaled.lifted_start}
+        return starts[name]() if name in starts else None
 
 
 def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:

@@ -15,7 +15,7 @@ from scipy.sparse.linalg import splu
 
 from . import reynolds
 from .half_space import HalfSpace
-from .mixed import Iterate, Problem, Solution, _Iteration, _iterate, _set_edge
+from .mixed import Iterate, Problem, Solution, _iterate, _Iteration, _set_edge
 
 Array = NDArray[np.float64]
 
@@ -47,7 +47,27 @@ def _response(f, solid, h, floor, mobility, fluidity, density, step, mass_old, p
 
 @_jit
 def _equations(  # type: ignore[no-untyped-def]
-    p, solid, stiff, h, mass, e, r, edge, floor, per_dt, dx, near, patch_wide, given, unit, response, number, starts, columns, values, rhs
+    p,
+    solid,
+    stiff,
+    h,
+    mass,
+    e,
+    r,
+    edge,
+    floor,
+    per_dt,
+    dx,
+    near,
+    patch_wide,
+    given,
+    unit,
+    response,
+    number,
+    starts,
+    columns,
+    values,
+    rhs,
 ):
     """Rows of the linearised equation for the free nodes, numbered in `number` (-1: not free). Returns how many.
 
@@ -126,7 +146,7 @@ def _equations(  # type: ignore[no-untyped-def]
 
 @_jit
 def _carried(base, lever, shift, cap, edge, weight, out):  # type: ignore[no-untyped-def]
-    """Put base + shift * lever within its bounds into `out`; returns the load it carries and its rate with the shift."""
+    """Put base + shift * lever within its bounds into `out`; returns the load it carries and its rate."""
     ny, nx = base.shape
     for j in range(1, ny - 1):
         for i in range(1, nx - 1):
@@ -189,12 +209,12 @@ class _Direct(_Iteration):
             return
         rows = (self.values[:filled], self.columns[:filled], self.starts[: n + 1])
         # rows read as columns: the transpose. Its pattern is all but symmetric, which saves a third of the time
-        factors = splu(
-            csc_matrix(rows, shape=(n, n)),
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.01,
-            options={"SymmetricMode": True},
-        )
+        matrix, how = csc_matrix(rows, shape=(n, n)), {"SymmetricMode": True}
+        try:
+            factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options=how)
+        except RuntimeError:  # singular: no step
+            base[:] = np.nan
+            return
         free = self.number >= 0
         base[free], self.lever[free] = (factors.solve(side[:n], trans="T") for side in self.rhs)
 
@@ -214,6 +234,8 @@ class _Direct(_Iteration):
         return shift
 
 
-def solve_direct(half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int) -> Solution:
+def solve_direct(
+    half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int
+) -> Solution:
     """As `mixed.solve_mixed`, which it steps in for."""
     return _iterate(_Direct(half_space, problem, start), tolerance, iterations)

@@ -195,7 +195,7 @@ def _contact(half_space: HalfSpace, grid: _Grid, window: Window, width: int) -> 
     if key not in store:
         if len(store) >= 8:
             store.pop(next(iter(store)))
-        scale, library = width * half_space.near[0, 0] / influence(1, 1)[0, 0], half_space._library
+        scale, library = width * half_space.near[0, 0] / influence(1, 1)[0, 0], half_space.library
         same = width == 1 and gap.shape == half_space.shape
         inverse = _periodic_inverse(ny, nx, scale, library)
         store[key] = (None if same else HalfSpace(ny, nx, scale, library), inverse)

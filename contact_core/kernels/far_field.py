@@ -34,6 +34,6 @@ def far_field(x: Array, y: Array, film: float) -> tuple[Array, Array]:
     for edge in (np.s_[0, :], np.s_[-1, :]):
         across[edge] += spacing * np.abs(yy[edge]) / r2[edge]
     cosine = np.where(xx < 0.0, -xx, 0.0) / np.sqrt(np.maximum(r2, 1e-300))
-    edge = ratio > 0.0
-    weight[edge] += (across * cosine * radial)[edge] / decay[edge] / spacing**2
+    open_ = ratio > 0.0
+    weight[open_] += (across * cosine * radial)[open_] / decay[open_] / spacing**2
     return ratio, weight

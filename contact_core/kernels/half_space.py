@@ -62,7 +62,7 @@ class HalfSpace:
 
     def __init__(self, ny: int, nx: int, scale: float, library: str) -> None:
         self.shape = (ny, nx)
-        self._scale, self._library = scale, library
+        self.scale, self.library = scale, library
         self._padded = (_even_fast_length(2 * (ny - 1)), _even_fast_length(2 * (nx - 1)))
         self._part = (_even_fast_length(ny - 1), _even_fast_length(nx - 1))
         self.near = scale * influence(ny, nx)[:9, :9]
@@ -95,18 +95,12 @@ class HalfSpace:
         return self._press_part if fits else self._press
 
     @cached_property
-    def coarser(self) -> "HalfSpace":
-        """The half space of a grid of half the nodes, twice as far apart."""
-        ny, nx = self.shape
-        return HalfSpace((ny + 1) // 2, (nx + 1) // 2, 2.0 * self._scale, self._library)
-
-    @cached_property
     def _press(self) -> Convolution:
-        return Convolution(self.shape[0], _inverse(_spectrum(self._padded, self._scale)), self._library)
+        return Convolution(self.shape[0], _inverse(_spectrum(self._padded, self.scale)), self.library)
 
     @cached_property
     def _press_part(self) -> Convolution:
-        return Convolution(self._part[0], _inverse(_spectrum(self._part, self._scale)), self._library)
+        return Convolution(self._part[0], _inverse(_spectrum(self._part, self.scale)), self.library)
 
 
 def _even_fast_length(least: int) -> int:

@@ -249,17 +249,6 @@ class _Iteration:
         """The rigid gap."""
         return float(self.x[-1]) / self.weight
 
-    def filled(self) -> Array:
-        """Mass of the present film."""
-        self._film()
-        return self.mass.copy()
-
-    def step_on(self, mass: Array) -> None:
-        """Begin a time step from a mass."""
-        self.problem = replace(self.problem, mass_old=mass)
-        self.memory.clear()
-        self.damping, self.least = 1.0, np.inf
-
     def correct(self) -> None:
         """Film of the present iterate; its image goes into Anderson's memory."""
         self._film()

@@ -201,6 +201,11 @@ def mend_film(  # type: ignore[no-untyped-def]
                 is_stiff = True
                 change = floor - own
                 solids += here - f[j, i]
+                if here > 0.0 and f[j, i] >= here and here < cap[j, i]:  # oil alone carries it: it ought to lift it
+                    ej, west, east, south, north = e[j, i], e[j, i - 1], e[j, i + 1], e[j - 1, i], e[j + 1, i]
+                    flow = (ej + west) * (f[j, i - 1] - here) + (ej + east) * (f[j, i + 1] - here)
+                    flow += (ej + south) * (f[j - 1, i] - here) + (ej + north) * (f[j + 1, i] - here)
+                    wrong += max(half * flow - transport(mass, mass_old, per_dt, dx, j, i), 0.0) * here
                 if here < cap[j, i]:
                     intrusion += here * abs(change)
                 elif change > 0.0:
@@ -257,8 +262,7 @@ def relax_lines(p, solid, stiff, h, mass, e, r, edge, floor, per_dt, dx, near, p
                 ratio[i], known[i], free[i] = 0.0, dp[j, i], False
                 if stiff[j, i]:
                     continue
-                dead = p[j, i] <= 0.0 and r[j, i] <= 0.0 and p[j, i - 1] <= 0.0 and p[j, i + 1] <= 0.0
-                if dead and p[j - 1, i] <= 0.0 and p[j + 1, i] <= 0.0 and dp[j - 1, i] <= 0.0 and dp[j + 1, i] <= 0.0:
+                if p[j, i] <= 0.0 and r[j, i] <= 0.0:  # a cavity: its pressure would go below zero with its neighbours'
                     continue
                 free[i] = True
                 first, last = min(first, i), i

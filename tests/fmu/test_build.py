@@ -30,15 +30,18 @@ def test_a_scene_file_is_built_where_out_says(tmp_path, capsys):
         assert b'"name": "mine"' in archive.read("resources/scene.json")
 
 
-@pytest.mark.parametrize(("arguments", "named"), [
-    (["mtm_zdd"], "Did you mean 'mtm_zddp'"),
-    (["nowhere.toml"], "'nowhere.toml' cannot be read"),
-    (["mtm_zddp", "--set", "wear.bar=1"], "no key 'bar'"),
-    (["mtm_zddp", "--set", "operation.load=50 K"], "operation.load = '50 K' has the wrong unit"),
-    (["mtm_zddp", "--set", "plasticity.hardness=-1 GPa"], "plasticity.hardness = -1e+09 Pa"),
-    (["mtm_zddp", "--set", "surface_1.correlation_length=1 um"], "nodes of the grid"),
-    (["mtm_zddp", "--set", "film.points"], "has no '='"),
-])
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        (["mtm_zdd"], "Did you mean 'mtm_zddp'"),
+        (["nowhere.toml"], "'nowhere.toml' cannot be read"),
+        (["mtm_zddp", "--set", "wear.bar=1"], "no key 'bar'"),
+        (["mtm_zddp", "--set", "operation.load=50 K"], "operation.load = '50 K' has the wrong unit"),
+        (["mtm_zddp", "--set", "plasticity.hardness=-1 GPa"], "plasticity.hardness = -1e+09 Pa"),
+        (["mtm_zddp", "--set", "surface_1.correlation_length=1 um"], "nodes of the grid"),
+        (["mtm_zddp", "--set", "film.points"], "has no '='"),
+    ],
+)
 def test_a_bad_scene_is_refused_with_a_sentence(tmp_path, monkeypatch, capsys, arguments, named):
     monkeypatch.chdir(tmp_path)
     assert main(arguments) == 2

@@ -11,12 +11,15 @@ from contact_core import Outputs
 from fmu_src import slave
 
 
-@pytest.mark.parametrize(("inputs", "named"), [
-    ({"load": -5.0}, "load = -5 N"),
-    ({"load": math.nan}, "load = nan N"),
-    ({"speed_1": math.inf}, "speed_1 = inf m/s"),
-    ({"temperature": 20.0}, "temperature = 20 K"),
-])
+@pytest.mark.parametrize(
+    ("inputs", "named"),
+    [
+        ({"load": -5.0}, "load = -5 N"),
+        ({"load": math.nan}, "load = nan N"),
+        ({"speed_1": math.inf}, "speed_1 = inf m/s"),
+        ({"temperature": 20.0}, "temperature = 20 K"),
+    ],
+)
 def test_an_unusable_input_is_named_and_the_next_good_one_recovers(stepped, inputs, named):
     before = stepped.outputs()
     good = {name: stepped.get(name) for name in inputs}
@@ -50,11 +53,14 @@ def test_unusable_inputs_at_initialisation_recover_in_the_first_good_step(host):
     assert outputs["friction_coefficient"] > 0.0
 
 
-@pytest.mark.parametrize(("parameters", "named"), [
-    ({"plasticity__hardness": -1e9}, "plasticity.hardness = -1e+09 Pa"),
-    ({"wear__bare": math.nan}, "wear.bare = nan"),
-    ({"initial_state": "/nowhere/50%s.state"}, "initial_state = '/nowhere/50%s.state' cannot be read"),
-])
+@pytest.mark.parametrize(
+    ("parameters", "named"),
+    [
+        ({"plasticity__hardness": -1e9}, "plasticity.hardness = -1e+09 Pa"),
+        ({"wear__bare": math.nan}, "wear.bare = nan"),
+        ({"initial_state": "/nowhere/50%s.state"}, "initial_state = '/nowhere/50%s.state' cannot be read"),
+    ],
+)
 def test_an_unusable_parameter_is_named_at_every_step_until_a_reset(host, parameters, named):
     host.initialise(**parameters)
     assert named in host.log[0][1]

@@ -61,7 +61,9 @@ def test_a_fresh_process_continues_bit_for_bit(live, folder, tmp_path):
     file.write_bytes(live.state())
     run = subprocess.run(
         [sys.executable, str(Path(__file__).with_name("replay.py")), str(folder), str(file)],
-        capture_output=True, text=True, check=True,
+        capture_output=True,
+        text=True,
+        check=True,
         env=environment(),
     )
     assert json.loads(run.stdout) == steps(live)
@@ -85,13 +87,16 @@ def test_a_state_before_initialisation_can_be_kept_and_initialised_later(host):
     assert host.initialise().outputs() == first
 
 
-@pytest.mark.parametrize("damage", [
-    lambda data: b"",
-    lambda data: b"something else",
-    lambda data: data[:40],
-    lambda data: data[:-8],
-    lambda data: data.replace(b'"values": [', b'"values": {', 1),
-])
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda data: b"",
+        lambda data: b"something else",
+        lambda data: data[:40],
+        lambda data: data[:-8],
+        lambda data: data.replace(b'"values": [', b'"values": {', 1),
+    ],
+)
 def test_a_damaged_state_is_refused_and_the_contact_stands(stepped, damage):
     state, before = stepped.state(), stepped.outputs()
     stepped.restore(damage(state))

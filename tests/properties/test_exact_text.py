@@ -19,9 +19,7 @@ def test_any_number_survives_as_text_with_its_unit(si_unit, value):
     assert units.parse(f"{value!r} {si_unit}", si_unit, "field").hex() == value.hex()
 
 
-@given(
-    st.integers(-(10**9), 10**9), st.sampled_from([("um", -6), ("nm", -9), ("mm", -3), ("m", 0), ("km", 3)])
-)
+@given(st.integers(-(10**9), 10**9), st.sampled_from([("um", -6), ("nm", -9), ("mm", -3), ("m", 0), ("km", 3)]))
 def test_whole_numbers_of_a_prefixed_unit_are_the_nearest_float(number, unit):
     name, power = unit
     assert units.parse(f"{number} {name}", "m", "field") == float(f"{number}e{power}")

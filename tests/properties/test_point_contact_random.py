@@ -1,5 +1,6 @@
 """Points drawn far beyond a machine's: they converge, and what is called converged solves the equations."""
 
+import math
 import sys
 from dataclasses import replace
 from itertools import islice
@@ -23,7 +24,7 @@ def test_the_points_cover_light_and_heavy_smooth_and_rough_both_directions_and_s
     assert min(loads) < 50.0
     assert max(loads) > 1e5
     assert {point.rq > 0.0 for point in POINTS} == {True, False}
-    assert {(point.speed > 0.0) - (point.speed < 0.0) for point in POINTS} >= {1, -1}
+    assert {math.copysign(1.0, point.speed) for point in POINTS} == {1.0, -1.0}
 
 
 @pytest.mark.parametrize(("point", "nodes"), [(point, GRIDS[k % 3]) for k, point in enumerate(POINTS)])
@@ -40,7 +41,7 @@ def test_a_random_contact_meets_the_stopping_rule_and_an_independent_check(point
     [
         (lambda at: {"pressure": 1.01 * at.pressure, "fluid": 1.01 * at.fluid}, "force"),
         (lambda at: {"speed": 1.5 * at.speed}, "imbalance"),
-        (lambda at: {"rigid": at.rigid - 3.0 * at.film.min()}, "complementarity"),
+        (lambda at: {"rigid": at.rigid - 2.0 * at.film.max()}, "complementarity"),
         (lambda at: {"film": at.film + 1e-10}, "gap"),
         (lambda at: {"fluid": 0.99 * at.fluid}, "bounds"),
     ],

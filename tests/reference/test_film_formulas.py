@@ -23,9 +23,7 @@ def of_moes(load: float, lubricant: float, speed: float = 1e-11) -> SmoothContac
     )  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("name", "parameters"), [("azam_case_a", (3757.0, 3.32)), ("mtm_zddp", (5475.0, 2.68))]
-)
+@pytest.mark.parametrize(("name", "parameters"), [("azam_case_a", (3757.0, 3.32)), ("mtm_zddp", (5475.0, 2.68))])
 def test_moes_parameters_of_the_shipped_cases(name, parameters):
     assert smooth(name).moes_parameters == pytest.approx(parameters, rel=2e-3)
 
@@ -71,9 +69,7 @@ def test_hamrock_dowson_in_moes_units(load, lubricant, central, minimum):
 
 def test_dimensions_drop_out_of_the_moes_film():
     contact = of_moes(50.0, 8.0)
-    assert nijenbanning_venner_moes(contact) / contact.radius_x / np.sqrt(1e-11) == pytest.approx(
-        moes_film(50.0, 8.0)
-    )
+    assert nijenbanning_venner_moes(contact) / contact.radius_x / np.sqrt(1e-11) == pytest.approx(moes_film(50.0, 8.0))
 
 
 def test_light_load_and_thin_oil_reach_the_rigid_isoviscous_limit():
@@ -82,9 +78,7 @@ def test_light_load_and_thin_oil_reach_the_rigid_isoviscous_limit():
 
 
 def test_heavy_load_and_thin_oil_reach_the_elastic_isoviscous_limit():
-    assert moes_film(1e4, 1e-3) == pytest.approx(
-        3.18 * 1.63 ** (-14.0 / 25.0) * 1e4 ** (-2.0 / 15.0), rel=0.05
-    )
+    assert moes_film(1e4, 1e-3) == pytest.approx(3.18 * 1.63 ** (-14.0 / 25.0) * 1e4 ** (-2.0 / 15.0), rel=0.05)
 
 
 def test_heavy_load_and_thick_oil_reach_the_elastic_piezoviscous_limit():

@@ -42,9 +42,7 @@ def test_a_multiple_of_the_interval_that_misses_a_change_by_rounding_makes_no_st
     assert communication_points(duty_at(0.0, 0.3), 0.5, 0.1) == [0.0, 0.1, 0.2, 0.3, 0.4, 0.5]
 
 
-@pytest.mark.parametrize(
-    ("duration", "interval"), [(0.0, 1.0), (10.0, 0.0), (float("nan"), 1.0), (1e4, 1e-6)]
-)
+@pytest.mark.parametrize(("duration", "interval"), [(0.0, 1.0), (10.0, 0.0), (float("nan"), 1.0), (1e4, 1e-6)])
 def test_a_duration_that_cannot_be_cut_is_refused(duration: float, interval: float) -> None:
     with pytest.raises(ContactError, match="cannot be cut into intervals"):
         communication_points(duty_at(0.0), duration, interval)

@@ -11,9 +11,7 @@ from system_models.cli import main
 from system_models.duty import Duty
 
 STILL = [  # nothing grows or wears: one solution serves for ever
-    part
-    for setting in ("tribofilm.model=none", "wear.model=none", "heat.model=none")
-    for part in ("--set", setting)
+    part for setting in ("tribofilm.model=none", "wear.model=none", "heat.model=none") for part in ("--set", setting)
 ]
 
 

@@ -146,9 +146,7 @@ def test_wear_volume_is_the_integral_of_the_wear_rate():
     steps = (0.3, 1.0, 7.0, 60.0, 200.0)
     state, found = run(scene, op, state, steps)
     for name in ("1", "2"):
-        total = sum(
-            getattr(outputs, f"wear_rate_{name}") * dt for outputs, dt in zip(found, steps, strict=True)
-        )
+        total = sum(getattr(outputs, f"wear_rate_{name}") * dt for outputs, dt in zip(found, steps, strict=True))
         assert getattr(found[-1], f"wear_volume_{name}") == pytest.approx(total, rel=1e-12, abs=0.0)
 
 
@@ -203,9 +201,7 @@ def test_friction_opposes_sliding_and_is_odd():
     ahead = advance(scene, replace(op, speed_1=0.26, speed_2=0.24), state, 0.0)[1]
     back = advance(scene, replace(op, speed_1=0.24, speed_2=0.26), state, 0.0)[1]
     assert ahead.friction_force < 0.0 < back.friction_force
-    assert back.friction_force == pytest.approx(
-        -ahead.friction_force, rel=0.05
-    )  # the surfaces meet differently
+    assert back.friction_force == pytest.approx(-ahead.friction_force, rel=0.05)  # the surfaces meet differently
     for outputs, slide in ((ahead, 0.02), (back, -0.02)):
         assert outputs.power_loss == pytest.approx(-outputs.friction_force * slide, rel=1e-12)
         assert outputs.friction_coefficient == pytest.approx(abs(outputs.friction_force) / op.load, rel=1e-12)
@@ -338,10 +334,7 @@ def test_flags_tell_what_is_uncertain():
     plain = raised(advance(scene, op, state, 0.0)[1])
     assert RangeFlag.INLET_UNRESOLVED in plain
     assert not plain & (
-        RangeFlag.TRIBOFILM_TEMPERATURE
-        | RangeFlag.FEW_NODES
-        | RangeFlag.LAMBDA_CAPPED
-        | RangeFlag.DOMAIN_EDGE
+        RangeFlag.TRIBOFILM_TEMPERATURE | RangeFlag.FEW_NODES | RangeFlag.LAMBDA_CAPPED | RangeFlag.DOMAIN_EDGE
     )
     cold = raised(advance(scene, replace(op, temperature=op.temperature - 6.0), state, 0.0)[1])
     assert RangeFlag.TRIBOFILM_TEMPERATURE in cold
@@ -401,9 +394,7 @@ def test_bulk_temperatures_are_the_oils():
 def test_a_change_of_direction_is_survived_with_finite_outputs():
     scene, state, op = cheap()
     for u in (0.25, 0.01, 0.0, -0.01, -0.25, 0.25):
-        state, outputs = advance(
-            scene, OperatingPoint(op.load, 0.99 * u, 1.01 * u, op.temperature), state, 2.0
-        )
+        state, outputs = advance(scene, OperatingPoint(op.load, 0.99 * u, 1.01 * u, op.temperature), state, 2.0)
         assert finite(outputs)
         assert outputs.power_loss >= 0.0
     assert state.time == 12.0

@@ -155,8 +155,7 @@ def mirrored(state):
 
     def turned(body):
         change = {
-            name: np.roll(getattr(body, name)[:, ::-1], 1, axis=1)
-            for name in ("growth", "removal", "wear", "plastic")
+            name: np.roll(getattr(body, name)[:, ::-1], 1, axis=1) for name in ("growth", "removal", "wear", "plastic")
         }
         return replace(body, **change)
 
@@ -203,9 +202,7 @@ def test_a_reversed_transient_is_the_mirror_image_too():
     op = at(scene, 0.5)
     back = replace(op, speed_1=-op.speed_1, speed_2=-op.speed_2)
     state_back = mirrored(state)
-    state, state_back = (
-        replace(s, film=solve(scene, o, s).film) for s, o in ((state, op), (state_back, back))
-    )
+    state, state_back = (replace(s, film=solve(scene, o, s).film) for s, o in ((state, op), (state_back, back)))
     ahead = solve(scene, op, state, Transient(3e-5, 1, 60))
     reverse = solve(scene, back, state_back, Transient(3e-5, -1, 60))
     assert (reverse.gap == ahead.gap[:, ::-1]).all()

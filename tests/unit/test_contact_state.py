@@ -67,9 +67,7 @@ def arrays(record: Any) -> list[np.ndarray]:
         return [record]
     if isinstance(record, tuple):
         return [array for item in record for array in arrays(item)]
-    return (
-        [a for f in fields(record) for a in arrays(getattr(record, f.name))] if is_dataclass(record) else []
-    )
+    return [a for f in fields(record) for a in arrays(getattr(record, f.name))] if is_dataclass(record) else []
 
 
 def test_a_state_survives_its_bytes_bit_for_bit(scene, used):

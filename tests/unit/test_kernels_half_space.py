@@ -86,13 +86,3 @@ def test_the_inverse_of_part_of_the_plane_agrees_with_that_of_all_of_it(ny, nx, 
     fits = height + 16 <= ny - 1 and width + 16 <= nx - 1
     assert (part.field.shape != (half_space.press_part(ny, nx).field.shape)) == fits
     assert np.abs(part.run()[:height, :width] - expected).max() < 0.02 * np.abs(expected).max()
-
-
-def test_the_coarser_half_space_deforms_alike():
-    n = 65
-    x = np.linspace(-1.0, 1.0, n)
-    p = np.exp(-4.0 * (x[None, :] ** 2 + x[:, None] ** 2))
-    fine = HalfSpace(n, n, 0.1, "scipy")
-    found, expected = fine.coarser.deform(p[::2, ::2]), fine.deform(p)[::2, ::2]
-    assert fine.coarser.shape == (33, 33)
-    assert np.abs(found - expected).max() < 3e-3 * expected.max()

@@ -86,9 +86,7 @@ def test_boundary_friction_is_odd_in_sliding_and_fades_over_the_slip_speed():
     pressure, cover = np.array([1e9]), np.array([0.3])
     assert BLEND(pressure, cover, -3e-5)[0] == -BLEND(pressure, cover, 3e-5)[0]
     assert BLEND(pressure, cover, 0.0)[0] == 0.0
-    assert BLEND(pressure, cover, 1e-4)[0] / BLEND(pressure, cover, 1.0)[0] == pytest.approx(
-        np.tanh(1.0), rel=1e-14
-    )
+    assert BLEND(pressure, cover, 1e-4)[0] / BLEND(pressure, cover, 1.0)[0] == pytest.approx(np.tanh(1.0), rel=1e-14)
 
 
 def test_wear_is_linear_in_pressure_and_sliding_and_blind_to_direction():
@@ -96,9 +94,7 @@ def test_wear_is_linear_in_pressure_and_sliding_and_blind_to_direction():
     rate = law.rate(np.array([[1e9, 2e9]]), np.zeros((1, 2)), 0.005, 6e9)
     assert rate == pytest.approx(np.array([[1e-5 / 6.0 * 0.005, 1e-5 / 3.0 * 0.005]]), rel=1e-14, abs=0.0)
     assert np.array_equal(law.rate(np.array([[1e9, 2e9]]), np.zeros((1, 2)), -0.005, 6e9), rate)
-    assert law.rate(np.array([1e9]), np.zeros(1), 0.01, 6e9)[0] == pytest.approx(
-        2.0 * rate[0, 0], rel=1e-14, abs=0.0
-    )
+    assert law.rate(np.array([1e9]), np.zeros(1), 0.01, 6e9)[0] == pytest.approx(2.0 * rate[0, 0], rel=1e-14, abs=0.0)
 
 
 def test_a_full_tribofilm_wears_with_its_own_coefficient():
@@ -109,9 +105,7 @@ def test_a_full_tribofilm_wears_with_its_own_coefficient():
 
 def test_wear_coefficients_are_those_of_the_source_in_cubic_millimetres_per_newton_metre():
     law = Archard(bare=1e-5, film=1e-6)
-    per_pascal = law.rate(
-        np.ones(2), np.array([0.0, 1.0]), 1.0, 6e9
-    )  # m of depth per Pa and m of sliding = m2/N
+    per_pascal = law.rate(np.ones(2), np.array([0.0, 1.0]), 1.0, 6e9)  # m of depth per Pa and m of sliding = m2/N
     assert per_pascal * 1e9 == pytest.approx([1.7e-6, 1.7e-7], abs=0.05e-6)
 
 

@@ -39,9 +39,7 @@ def test_a_missing_table_is_named(key):
 def test_a_missing_key_is_named_with_its_meaning_and_unit():
     table = read_table("mtm_zddp")
     del table["geometry"]["radius_y"]
-    with pytest.raises(
-        SceneError, match=r"'geometry.radius_y' is missing. It is the combined radius .* \[m\]\."
-    ):
+    with pytest.raises(SceneError, match=r"'geometry.radius_y' is missing. It is the combined radius .* \[m\]\."):
         Scene.from_dict(table)
 
 
@@ -137,9 +135,7 @@ def test_a_set_for_a_table_that_has_none_is_refused():
     assert "[wear] has no named sets" in refusal(wear__set="steel")
 
 
-@pytest.mark.parametrize(
-    ("value", "reason"), [("129.5", "whole number"), ("8", "at least 17"), (True, "not a number")]
-)
+@pytest.mark.parametrize(("value", "reason"), [("129.5", "whole number"), ("8", "at least 17"), (True, "not a number")])
 def test_a_wrong_number_of_points_is_refused_by_name(value, reason):
     sentence = refusal(film__points=value)
     assert "film.points" in sentence
@@ -175,9 +171,7 @@ def test_everything_out_of_range_is_said_at_once():
 def test_an_unknown_scene_is_refused_with_the_shipped_ones():
     with pytest.raises(SceneError) as error:
         Scene.from_toml("mtm_zdpp")
-    assert "no scene 'mtm_zdpp'. Did you mean 'mtm_zddp'? Shipped are azam_case_a, mtm_zddp" in str(
-        error.value
-    )
+    assert "no scene 'mtm_zdpp'. Did you mean 'mtm_zddp'? Shipped are azam_case_a, mtm_zddp" in str(error.value)
 
 
 def test_a_missing_file_is_named(tmp_path: Path):
@@ -221,10 +215,7 @@ def test_the_digest_follows_shape_surfaces_and_grid_only():
     ]
     digests = {Scene.from_toml("mtm_zddp", change).digest() for change in other} | {scene.digest()}
     assert len(digests) == len(other) + 1
-    assert (
-        Scene.from_toml("mtm_zddp", {"wear.bare": "2e-5", "film.tolerance": "1e-3"}).digest()
-        == scene.digest()
-    )
+    assert Scene.from_toml("mtm_zddp", {"wear.bare": "2e-5", "film.tolerance": "1e-3"}).digest() == scene.digest()
 
 
 def test_tunables_are_the_numbers_that_shape_no_array():
@@ -239,9 +230,7 @@ def test_tunables_are_the_numbers_that_shape_no_array():
 
 def test_a_tunable_can_be_changed_and_the_rest_stays():
     scene = Scene.from_toml("mtm_zddp")
-    changed = with_values(
-        scene, {"wear.bare": 2e-5, "lubricant.rheology.eyring_stress": 7e6, "surface_1.seed": 5}
-    )
+    changed = with_values(scene, {"wear.bare": 2e-5, "lubricant.rheology.eyring_stress": 7e6, "surface_1.seed": 5})
     assert changed == Scene.from_toml(
         "mtm_zddp", {"wear.bare": "2e-5", "lubricant.rheology.eyring_stress": "7 MPa", "surface_1.seed": "5"}
     )

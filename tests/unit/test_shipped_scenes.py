@@ -24,9 +24,7 @@ def test_a_shipped_scene_runs_without_additive(name):
 
 
 @pytest.mark.parametrize("name", shipped_scenes())
-@pytest.mark.parametrize(
-    "overrides", [{}, {"tribofilm.model": "none", "wear.model": "none", "heat.model": "none"}]
-)
+@pytest.mark.parametrize("overrides", [{}, {"tribofilm.model": "none", "wear.model": "none", "heat.model": "none"}])
 def test_a_scene_survives_its_own_tables_bit_for_bit(name, overrides):
     scene = Scene.from_toml(name, overrides)
     assert Scene.from_dict(scene.to_dict()) == scene
@@ -51,9 +49,7 @@ def test_a_shipped_contact_has_the_pressure_and_size_of_its_source(name, pressur
     hertz = scene.hertz(scene.operation.load)
     assert hertz.pressure_max == pytest.approx(pressure, rel=1e-4)
     assert hertz.a == hertz.b == pytest.approx(half_width, rel=2e-4, abs=0.0)
-    assert (scene.geometry.track_length_1, scene.geometry.track_length_2) == pytest.approx(
-        tracks, rel=1e-12, abs=0.0
-    )
+    assert (scene.geometry.track_length_1, scene.geometry.track_length_2) == pytest.approx(tracks, rel=1e-12, abs=0.0)
 
 
 @pytest.mark.parametrize(

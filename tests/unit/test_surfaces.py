@@ -25,9 +25,7 @@ def test_a_patch_repeats_along_both_axes_and_has_one_row_more_than_columns(point
     assert np.abs(heights[:, 0] - heights[:, -1]).max() <= 1.2 * steps  # no seam
 
 
-@pytest.mark.parametrize(
-    ("rq", "length", "points"), [(127e-9, 40e-6, 65), (12e-9, 8e-6, 257), (1e-6, 60e-6, 130)]
-)
+@pytest.mark.parametrize(("rq", "length", "points"), [(127e-9, 40e-6, 65), (12e-9, 8e-6, 257), (1e-6, 60e-6, 130)])
 def test_a_resolved_surface_has_exactly_its_rms_roughness_and_no_mean(rq, length, points):
     heights = patch(points, length, rq=rq)
     assert rms_roughness(heights, ALL) == pytest.approx(rq, rel=1e-12, abs=0.0)
@@ -61,9 +59,7 @@ def test_a_finer_grid_shows_the_same_surface(points):
 def test_a_grid_of_two_nodes_per_correlation_length_misses_only_the_waves_it_cannot_carry():
     nodes, length = 128, 8e-6
     difference = patch(257, length)[::2, ::2] - patch(129, length)
-    share = (
-        1.0 - erf(np.pi * length * nodes / DOMAIN / 2.0) ** 2
-    )  # of the power beyond the coarse grid's Nyquist
+    share = 1.0 - erf(np.pi * length * nodes / DOMAIN / 2.0) ** 2  # of the power beyond the coarse grid's Nyquist
     assert 0.5 < rms_roughness(difference, ALL) / (127e-9 * np.sqrt(share)) < 2.0
     assert share < 2e-5
 
@@ -99,9 +95,7 @@ def test_another_seed_or_body_has_an_independent_surface(other):
 def test_the_surface_of_a_seed_stays_what_it_was():
     heights = patch(65)
     found = [heights[0, 0], heights[10, 20], heights[40, 63]]
-    assert found == pytest.approx(
-        [3.413327291914e-08, 1.694963207489e-07, 3.408913102427e-08], rel=1e-9, abs=0.0
-    )
+    assert found == pytest.approx([3.413327291914e-08, 1.694963207489e-07, 3.408913102427e-08], rel=1e-9, abs=0.0)
 
 
 def test_no_roughness_gives_zeros():
@@ -111,9 +105,7 @@ def test_no_roughness_gives_zeros():
 
 
 def test_a_correlation_length_beyond_the_domain_is_refused_with_a_way_out():
-    with pytest.raises(
-        SceneError, match=r"correlation_length = 0\.001 m is too long .* rq = 0 for a smooth surface"
-    ):
+    with pytest.raises(SceneError, match=r"correlation_length = 0\.001 m is too long .* rq = 0 for a smooth surface"):
         patch(65, 1e-3)
 
 
