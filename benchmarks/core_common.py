@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -11,11 +11,15 @@ import numpy as np
 from matplotlib.figure import Figure
 from work_unit import work_unit
 
-from contact_core.film.instant import Grid, Instant, Settings
+from contact_core.film.fitted import fitted_grid
+from contact_core.film.instant import FilmSolution, Grid, Instant, Settings
+from contact_core.film.outputs import film_outputs
+from contact_core.film.routes import prolonged, solve_film
 from contact_core.film.scaled import Scaled
+from contact_core.kernels.mixed import solve_mixed
 from contact_core.laws.density import DowsonHigginson, Incompressible
 from contact_core.laws.viscosity import Barus, Roelands
-from contact_core.reference import hertz_point
+from contact_core.reference import Hertz, SmoothContact, hertz_point, nijenbanning_venner_moes
 
 DOCS = Path(__file__).parent.parent / "docs"
 Array = np.ndarray
@@ -135,25 +139,121 @@ def domain_of(case: MoesCase, width: Sequence[float]) -> tuple[float, ...]:
     return tuple(case.a * side for side in width)
 
 
-def scaled_of(arguments: dict[str, Any], domain: Sequence[float], nodes: int, tolerance: float) -> Scaled:
-    """The same smooth contact in the units of the kernels, on a grid of nodes x nodes."""
+def instant_of(arguments: dict[str, Any], heights: Array, hardness: float = 1e12) -> Instant:
+    """What `point_contact` makes of its arguments; heights [ny, nx]."""
     laws = {"barus": Barus, "roelands": Roelands, "none": Incompressible, "dowson_higginson": DowsonHigginson}
-    viscosity = laws[arguments["viscosity_law"]](arguments["viscosity"], 300.0, arguments["pressure_viscosity"], 0.0)
-    now = Instant(
+    viscosity = laws[arguments.get("viscosity_law", "roelands")]
+    return Instant(
         load=arguments["load"],
         entrainment_speed=0.5 * (arguments["speed_1"] + arguments["speed_2"]),
         temperature=300.0,
         radius_x=arguments["radius_x"],
         radius_y=arguments["radius_x"],
         reduced_modulus=arguments["reduced_modulus"],
-        viscosity=viscosity,
-        density=laws[arguments["density_law"]](),
-        heights=np.zeros((nodes, nodes)),
-        limit=np.full((nodes, nodes), 1e12),
-        hardness=1e12,
+        viscosity=viscosity(arguments["viscosity"], 300.0, arguments["pressure_viscosity"], 0.0),
+        density=laws[arguments.get("density_law", "dowson_higginson")](),
+        heights=heights,
+        limit=np.full(heights.shape, hardness),
+        hardness=hardness,
     )
-    grid = Grid(np.linspace(*domain[:2], nodes), np.linspace(*domain[2:], nodes))
-    return Scaled(now, grid, Settings(1e-9, tolerance, 2000, "pyfftw"))
+
+
+def grid_of(domain: Sequence[float], nodes: int) -> Grid:
+    """nodes x nodes on (x_min, x_max, y_min, y_max)."""
+    return Grid(np.linspace(*domain[:2], nodes), np.linspace(*domain[2:], nodes))
+
+
+def scaled_of(arguments: dict[str, Any], domain: Sequence[float], nodes: int, tolerance: float) -> Scaled:
+    """A smooth contact in the units of the kernels, on a grid of nodes x nodes."""
+    now = instant_of(arguments, np.zeros((nodes, nodes)))
+    return Scaled(now, grid_of(domain, nodes), Settings(1e-9, tolerance, 2000, "pyfftw"))
+
+
+@dataclass(frozen=True)
+class RoughCase:
+    """A rough ball on a flat, in SI; the same surface on every grid."""
+
+    load: float
+    radius: float
+    viscosity: float
+    alpha: float
+    rq: float
+    correlation: float
+    speed: float
+    modulus: float = 230.47e9
+    hardness: float = 6e9
+    seed: int = 1
+
+    @property
+    def smooth(self) -> SmoothContact:
+        """The contact without its roughness."""
+        return SmoothContact(self.load, self.speed, self.viscosity, self.alpha, self.radius, self.radius, self.modulus)
+
+    @property
+    def film(self) -> float:
+        """Film of smooth bodies by formula [m]."""
+        return nijenbanning_venner_moes(self.smooth)
+
+    @property
+    def hertz(self) -> Hertz:
+        """The contact without roughness and oil."""
+        return hertz_point(self.load, self.radius, self.radius, self.modulus)
+
+    @property
+    def domain(self) -> tuple[float, ...]:
+        """The domain that fits the film."""
+        grid = fitted_grid(self.load, self.radius, self.modulus, self.film, 129, 129)
+        return tuple(float(side) for axis in (grid.x, grid.y) for side in (axis[0], axis[-1]))
+
+    def heights(self, nodes: int) -> Array:
+        """[nodes, nodes] on the domain."""
+        grid = grid_of(self.domain, nodes)
+        return waves(grid.x, grid.y, self.rq, self.correlation, self.seed)
+
+    def arguments(self) -> dict[str, Any]:
+        """Of `point_contact`, the grid aside."""
+        return {
+            "load": self.load,
+            "radius_x": self.radius,
+            "reduced_modulus": self.modulus,
+            "speed_1": self.speed,
+            "speed_2": self.speed,
+            "viscosity": self.viscosity,
+            "pressure_viscosity": self.alpha,
+        }
+
+
+@dataclass(frozen=True)
+class Level:
+    """A film on one grid of a cascade."""
+
+    nodes: int
+    grid: Grid
+    film: FilmSolution
+    outputs: dict[str, float]
+    seconds: float
+
+
+def cascade(case: RoughCase, grids: Sequence[int], settings: Settings) -> list[Level]:
+    """Films of a case from grid to grid: the first as `film/routes.py` has it, finer ones by the hybrid iteration from the
+    film of the grid before, of half their nodes. Ends with what the iterations of the settings reach.
+    """
+    levels: list[Level] = []
+    for nodes in grids:
+        grid, now = grid_of(case.domain, nodes), instant_of(case.arguments(), case.heights(nodes), case.hardness)
+        start = time.process_time()
+        if not levels:
+            film = solve_film(now, grid, settings)
+        else:
+            scaled = Scaled(now, grid, settings)
+            problem = replace(scaled.problem(), lumped=settings.lumped)
+            begin = scaled.iterate(prolonged(levels[-1].film.state, grid.shape))
+            found = solve_mixed(scaled.half_space, problem, begin, settings.tolerance, settings.iterations)
+            film = scaled.solution(found, "mixed", "hybrid from the coarser grid")
+        seconds = time.process_time() - start
+        outputs = film_outputs(grid, film.state, film.gap, case.load, case.hertz)
+        levels.append(Level(nodes, grid, film, outputs, seconds))
+    return levels
 
 
 def timed(task: Callable[[], Found], repeats: int = 1) -> tuple[Found, float]:

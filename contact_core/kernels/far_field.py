@@ -26,14 +26,12 @@ def far_field(x: Array, y: Array, film: float) -> tuple[Array, Array]:
     inner = ((np.s_[:, 0], np.s_[:, 1]), (np.s_[0, :], np.s_[1, :]), (np.s_[-1, :], np.s_[-2, :]))
     for edge, neighbour in inner:
         ratio[edge] = np.where(decay[neighbour] > 0.0, decay[edge] / np.maximum(decay[neighbour], 1e-300), 0.0)
-    # load of a sector from the edge to infinity, over its pressure at the edge
-    s = np.sqrt(0.5 * r2 / film)
-    radial = np.sqrt(2.0 / film) * (0.5 * np.pi - np.arctan(s) + s / (1.0 + s * s))
-    across = np.zeros_like(decay)  # angle that an edge node covers
-    across[:, 0] += spacing * np.abs(xx[:, 0]) / r2[:, 0]
-    for edge in (np.s_[0, :], np.s_[-1, :]):
-        across[edge] += spacing * np.abs(yy[edge]) / r2[edge]
+    # load of the sectors from behind the cells of the edge nodes to infinity, over the pressure at these nodes
     cosine = np.where(xx < 0.0, -xx, 0.0) / np.sqrt(np.maximum(r2, 1e-300))
-    open_ = ratio > 0.0
-    weight[open_] += (across * cosine * radial)[open_] / decay[open_] / spacing**2
+    for edge, distance in ((np.s_[:, 0], np.abs(xx)), (np.s_[0, :], np.abs(yy)), (np.s_[-1, :], np.abs(yy))):
+        d, r = distance[edge], np.sqrt(r2[edge])
+        s = r * (1.0 + 0.5 * spacing / d) / np.sqrt(2.0 * film)
+        radial = np.sqrt(2.0 / film) * (0.5 * np.pi - np.arctan(s) + s / (1.0 + s * s))
+        beyond = spacing * d / r**2 * cosine[edge] * radial / spacing**2  # over the angle of the cell
+        weight[edge] += np.where(ratio[edge] > 0.0, beyond / np.maximum(decay[edge], 1e-300), 0.0)
     return ratio, weight
