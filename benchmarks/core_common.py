@@ -234,21 +234,22 @@ class Level:
     seconds: float
 
 
-def cascade(case: RoughCase, grids: Sequence[int], settings: Settings) -> list[Level]:
+def cascade(case: RoughCase, grids: Sequence[int], settings: Settings, routed: bool = False) -> list[Level]:
     """Films of a case from grid to grid: the first as `film/routes.py` has it, finer ones by the hybrid iteration from the
-    film of the grid before, of half their nodes. Ends with what the iterations of the settings reach.
+    film of the grid before, of half their nodes. Ends with what the iterations of the settings reach. `routed`: every one
+    as `film/routes.py` has it.
     """
     levels: list[Level] = []
     for nodes in grids:
         grid, now = grid_of(case.domain, nodes), instant_of(case.arguments(), case.heights(nodes), case.hardness)
         start = time.process_time()
-        if not levels:
-            film = solve_film(now, grid, settings)
+        before = prolonged(levels[-1].film.state, grid.shape) if levels else None
+        if before is None or routed:
+            film = solve_film(now, grid, settings, before)
         else:
             scaled = Scaled(now, grid, settings)
-            problem = replace(scaled.problem(), lumped=settings.lumped)
-            begin = scaled.iterate(prolonged(levels[-1].film.state, grid.shape))
-            found = solve_mixed(scaled.half_space, problem, begin, settings.tolerance, settings.iterations)
+            begin = scaled.iterate(before)
+            found = solve_mixed(scaled.half_space, scaled.problem(), begin, settings.tolerance, settings.iterations)
             film = scaled.solution(found, "mixed", "hybrid from the coarser grid")
         seconds = time.process_time() - start
         outputs = film_outputs(grid, film.state, film.gap, case.load, case.hertz)

@@ -15,6 +15,7 @@ LAMBDAS = (0.005, 0.02, 0.05, 0.1, 0.3, 0.6, 1.2, 2.5, 4.0)
 GRIDS = (65, 129, 257)
 FINEST = 513  # at a floor of 1 nm only
 ITERATIONS = 200
+THICK = 2.0  # lambda from which on all grids are solved as the routes have it, to 257 nodes
 # name: floor [m], lumped, grids
 SERIES = {
     "split, 0.3 nm": (0.3e-9, False, GRIDS),
@@ -44,7 +45,7 @@ def run() -> None:
         f"{BASE.correlation * 1e6:.0f} um, the same on every grid; speed makes lambda, the formula film of smooth bodies over "
         "Rq. The domain fits the film, so that nodes lie closer for thin films. The coarsest grid is solved as "
         f"`film/routes.py` has it, finer ones by at most {ITERATIONS} hybrid iterations from the one before, to a pressure "
-        "change of 1e-3. W_c: load share of the solids; A_c: their area over Hertz's; gap: mean over r < 2a/3, in Rq."
+        "change of 1e-3; from lambda 2.5 on (split) all as the routes have it, to 257 nodes. W_c: load share of the solids; A_c: their area over Hertz's; gap: mean over r < 2a/3, in Rq."
     )
     report.header("criterion, floor", "lambda", "u [m/s]", "nodes", "W_c", "A_c", "gap", "imbalance", "converged")
     table: dict[tuple[str, int, float], dict[str, float]] = {}
@@ -52,7 +53,8 @@ def run() -> None:
         for ratio in LAMBDAS:
             case = at(ratio)
             settings = Settings(floor, 1e-3, ITERATIONS, "pyfftw", lumped)
-            for level in cascade(case, grids, settings):
+            thick = ratio >= THICK and not lumped
+            for level in cascade(case, GRIDS if thick else grids, settings, thick):
                 found = level.outputs | {"gap": mean_gap(level, case)}
                 table[name, level.nodes, ratio] = found
                 shown = (found[key] for key, _ in SHOWN)
@@ -108,8 +110,27 @@ def judge(report: Report, table: dict[tuple[str, int, float], dict[str, float]])
     report.say(
         "### What is a number of the grid\n\nChange from the second finest to the finest grid, floor 1 nm, split:"
     )
-    report.header("lambda", "W_c", "A_c", "gap [%]")
+    report.header("lambda", "nodes", "W_c", "A_c", "gap [%]")
     for ratio in LAMBDAS:
-        coarse, fine = (table["split, 1 nm", nodes, ratio] for nodes in (GRIDS[-1], FINEST))
+        last = (GRIDS[-1], FINEST) if ratio < THICK else GRIDS[-2:]
+        coarse, fine = (table["split, 1 nm", nodes, ratio] for nodes in last)
         changes = [f"{coarse[key]:.3f} to {fine[key]:.3f}" for key, _ in SHOWN[:2]]
-        report.row(ratio, *changes, 100.0 * (fine["gap"] / coarse["gap"] - 1.0))
+        report.row(ratio, f"{last[0]} to {last[1]}", *changes, 100.0 * (fine["gap"] / coarse["gap"] - 1.0))
+    report.say(STATEMENT)
+
+
+STATEMENT = """**Independent of the grid:** the mean gap, to about 15 % from 129 nodes on; and all of W_c, A_c and gap where the
+floor is thicker than the film that the oil would build (lambda 0.005 with a floor of 1 nm or more): there the answer is the
+dry one.
+
+**Not independent of it:** W_c and A_c by the split criterion from lambda 0.02 to 0.6. They fall with every refinement, in the
+end to nothing. The likely reason: an asperity slides in on oil that it presses together before itself, and a grid that
+does not resolve that inlet lets it touch. The floor moves them too where it is not far below the film on the asperities. So in
+this range W_c belongs to a grid and a floor, and has to be told with them. Below lambda 0.3 many of these films are short of the
+stopping rule, too: their mass balance is off by what the table says.
+
+**The lumped criterion** puts the pressure of the solids into the oil's flow. Solids then seal the oil off and keep themselves in
+contact: W_c stays about 0.94 up to lambda 0.1 on every grid, and up to lambda 0.3 to 1.2 by the grid, and its mass balance does
+not close. That is on the side of the published band (0.8 to 0.9 at lambda 0.05 to 0.1; Zhu & Wang 2012,
+doi:10.1177/1350650112461867); the split criterion is far below it, the more so the finer the grid. By these figures the band is
+a result of criterion and grid rather than of the contact."""

@@ -18,9 +18,16 @@ def block(language: str, start: str) -> str:
 
 def test_the_python_example_runs(capsys: pytest.CaptureFixture[str]) -> None:
     names: dict[str, object] = {}
-    exec(block("python", "from contact_core"), names)
+    exec(block("python", "from contact_core import Scene"), names)
     assert [line.split()[0] for line in capsys.readouterr().out.splitlines()] == ["1", "2", "3"]
     assert isinstance(names["memory"], bytes)
+
+
+def test_the_example_of_one_call_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    exec(block("python", "from contact_core import dry_contact"), {})
+    film, error, *_ = capsys.readouterr().out.split()
+    assert 12e-9 < float(film) < 14.4e-9
+    assert float(error) > 0.0
 
 
 def test_the_scene_of_ones_own_is_a_scene() -> None:

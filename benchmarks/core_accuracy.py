@@ -1,0 +1,195 @@
+"""The headline: error against cost, from full film to boundary lubrication, over grids and tolerances."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from core_common import Level, Report, RoughCase, cascade, grid_of, timed, unit_of
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogFormatterMathtext
+
+from contact_core.film.instant import Grid, Settings
+from contact_core.film.outputs import disc
+from contact_core.laws.viscosity import Roelands
+from contact_core.point_contact import point_contact
+
+BASE = {"load": 40.0, "radius": 10e-3, "viscosity": 0.04, "alpha": 15e-9, "rq": 100e-9, "correlation": 20e-6}
+TIGHT, LOOSE = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6), (1e-2, 3e-3, 1e-3)
+# name: speed [m/s], tolerances
+CASES = {"full film": (3.0, TIGHT), "mixed": (0.1, LOOSE), "near boundary": (0.005, LOOSE)}
+GRIDS = (33, 65, 129, 257)
+REFERENCE = (65, 129, 257, 513)
+DEFAULT = 1e-3
+LONG = 12.0  # s: what takes longer ends the row of grids
+SLIP, LIMIT, SOLID = 0.05, 0.05, 0.1  # slip, limiting shear over pressure, friction of solids
+# symbol, colour; all relative, W_c absolute
+OUTPUTS = {
+    "h_central": ("h central", "#1b4f72", "o"),
+    "h_min": ("h min", "#2e86c1", "s"),
+    "inverse gap": ("mean 1/h", "#ca6f1e", "D"),
+    "shear": ("friction", "#b03a2e", "^"),
+    "W_c": ("W_c, absolute", "#7d8a97", "v"),
+}
+
+
+@dataclass(frozen=True)
+class Row:
+    """A film and what it cost."""
+
+    nodes: int
+    tolerance: float
+    seconds: float
+    errors: dict[str, float]
+    algorithm: str
+    converged: bool
+
+
+def outputs(
+    case: RoughCase, grid: Grid, gap: np.ndarray, fluid: np.ndarray, solid: np.ndarray, numbers: dict[str, float]
+) -> dict[str, float]:
+    """What errors are taken of. Friction: Newtonian up to a limit, and solids, over the load."""
+    viscosity = Roelands(case.viscosity, 300.0, case.alpha, 0.0)(fluid, 300.0)
+    shear = np.minimum(viscosity * SLIP * case.speed / gap, LIMIT * fluid) + SOLID * solid
+    return {
+        "h_central": numbers["h_central"],
+        "h_min": numbers["h_min"],
+        "inverse gap": float((1.0 / gap[disc(grid, case.hertz)]).mean()),
+        "shear": float(shear.sum() * grid.spacing**2 / case.load),
+        "W_c": numbers["contact_load_ratio"],
+    }
+
+
+def of_level(case: RoughCase, level: Level) -> dict[str, float]:
+    state = level.film.state
+    solid = np.where(state.solid, state.pressure - state.fluid, 0.0)
+    return outputs(case, level.grid, level.film.gap, state.fluid, solid, level.outputs)
+
+
+def errors(found: dict[str, float], reference: dict[str, float]) -> dict[str, float]:
+    """Relative, of W_c absolute."""
+    return {
+        key: abs(value - reference[key]) / (1.0 if key == "W_c" else reference[key]) for key, value in found.items()
+    }
+
+
+def study(report: Report, name: str, units: dict[int, float]) -> list[Row]:
+    speed, tolerances = CASES[name]
+    case = RoughCase(**BASE, speed=speed)
+    thick = case.film > 2.0 * case.rq
+    levels = cascade(case, REFERENCE, Settings(1e-9, 1e-4 if not thick else 1e-5, 400, "pyfftw"), thick)
+    reference, film = of_level(case, levels[-1]), levels[-1].film
+    report.say(
+        f"### {name.capitalize()}\n\nu = {speed:g} m/s, M = {case.smooth.moes_parameters[0]:.0f}, film by formula "
+        f"{case.film * 1e9:.0f} nm, lambda {case.film / case.rq:.2f}. Reference: {levels[-1].nodes} nodes, {film.algorithm}, "
+        f"pressure change {film.change:.1g}, imbalance {film.imbalance:.1g}, {levels[-1].seconds:.1f} s: "
+        + ", ".join(f"{key} {value:.3g}" for key, value in reference.items())
+        + "."
+    )
+    report.header("nodes", "tolerance", "s", "WU", *(f"{key} [%]" for key in OUTPUTS), "algorithm", "converged")
+    rows: list[Row] = []
+    for nodes in GRIDS:
+        for tolerance in sorted(tolerances, key=lambda value: abs(np.log(value / DEFAULT))):
+            row = solved(case, nodes, tolerance, reference)
+            rows.append(row)
+            wu = row.seconds / units[nodes]
+            shown = (f"{100.0 * row.errors[key]:.2g}" for key in OUTPUTS)
+            report.row(nodes, f"{tolerance:g}", row.seconds, wu, *shown, row.algorithm, row.converged)
+            if row.seconds > LONG:
+                break
+        if rows[-1].seconds > LONG:
+            report.say(f"Ended: more than {LONG:g} s.")
+            break
+    for level in levels[:-1]:
+        found = errors(of_level(case, level), reference)
+        shown = (f"{100.0 * found[key]:.2g}" for key in OUTPUTS)
+        total = sum(other.seconds for other in levels if other.nodes <= level.nodes)
+        cells = (
+            level.nodes,
+            "cascade",
+            total,
+            total / units[level.nodes],
+            *shown,
+            level.film.algorithm,
+            level.film.converged,
+        )
+        report.row(*cells)
+    return rows
+
+
+def solved(case: RoughCase, nodes: int, tolerance: float, reference: dict[str, float]) -> Row:
+    arguments = case.arguments() | {
+        "heights_2": case.heights(nodes),
+        "domain": case.domain,
+        "hardness": case.hardness,
+        "tolerance": tolerance,
+    }
+    found, seconds = timed(lambda: point_contact(**arguments), 2)
+    numbers = {key: getattr(found, key) for key in ("h_central", "h_min", "contact_load_ratio")}
+    grid = grid_of(case.domain, nodes)
+    values = outputs(case, grid, found.film, found.fluid_pressure, found.solid_pressure, numbers)
+    return Row(nodes, tolerance, seconds, errors(values, reference), found.algorithm, found.converged)
+
+
+def run() -> None:
+    report = Report("accuracy", "Accuracy against cost")
+    units = {nodes: unit_of(nodes) for nodes in (*GRIDS, REFERENCE[-1])}
+    report.say(
+        "Ball of 10 mm, 40 N, E' 230 GPa, 0.04 Pa s, 15 1/GPa, Rq 100 nm, correlation length 20 um, the same surface and domain "
+        "on every grid. `point_contact` as it is, its error estimate (a second film on half the nodes) included: CPU seconds, "
+        "least of two where short. Errors against the finest grid, relative, of W_c absolute. 1/h: mean over r < 2a/3. Friction: "
+        f"slip {100 * SLIP:g} %, Newtonian up to {LIMIT:g} p, {SOLID:g} for solids. Rows `cascade`: every grid from the one before, "
+        "to the tolerance of the reference, 400 iterations at most, the time of the coarser ones included. One work unit: "
+        + ", ".join(f"{1e3 * unit:.3g} ms on {nodes}" for nodes, unit in units.items())
+        + "."
+    )
+    rows = {name: study(report, name, units) for name in CASES}
+    draw(report, rows, units[129])
+    for name, found in rows.items():
+        for key, bar in (("h_central", 0.05), ("shear", 0.05), ("W_c", 0.02)):
+            good = [row for row in found if row.errors[key] <= bar and row.converged]
+            best = min(good, key=lambda row: row.seconds) if good else min(found, key=lambda row: row.errors[key])
+            text = f"{100 * best.errors[key]:.1f} % for {best.seconds:.2f} s on {best.nodes} nodes, tolerance {best.tolerance:g}"
+            report.verdict(
+                f"picture, {name}: {OUTPUTS[key][0]} within {100 * bar:g} % (no bar in the task)", text, bool(good)
+            )
+    report.write()
+
+
+def draw(report: Report, rows: dict[str, list[Row]], unit: float) -> None:
+    figure = Figure(figsize=(11.5, 4.6), layout="constrained")
+    panels = figure.subplots(1, len(rows), sharey=True)
+    for panel, (name, found) in zip(panels, rows.items(), strict=True):
+        for key, (label, colour, marker) in OUTPUTS.items():
+            line = [(row.seconds, row.errors[key], row.converged) for row in found if row.tolerance == DEFAULT]
+            seconds, values, done = (np.array(part) for part in zip(*line, strict=True))
+            values = np.maximum(100.0 * values, 0.01)
+            panel.plot(1e3 * seconds, values, color=colour, lw=1.8, zorder=2)
+            for mask, face in ((done, colour), (~done, "white")):
+                panel.plot(1e3 * seconds[mask], values[mask], marker, color=colour, mfc=face, ms=6.5, zorder=3)
+            panel.plot([], [], marker + "-", color=colour, label=label)
+            rest = [
+                (1e3 * row.seconds, max(100.0 * row.errors[key], 0.01)) for row in found if row.tolerance != DEFAULT
+            ]
+            panel.scatter(*zip(*rest, strict=True), color=colour, marker=marker, s=9, alpha=0.35, lw=0, zorder=1)
+        for row in found:
+            if row.tolerance == DEFAULT:
+                top = max(100.0 * row.errors[key] for key in OUTPUTS)
+                panel.annotate(
+                    f"{row.nodes}", (1e3 * row.seconds, top), xytext=(0, 8), textcoords="offset points", ha="center",
+                    fontsize=9, color="0.35",
+                )  # fmt: skip
+        panel.set(xscale="log", yscale="log", xlabel="CPU time [ms]", ylim=(0.008, 400))
+        panel.set_title(name, fontsize="large", pad=12)
+        panel.yaxis.set_major_formatter(LogFormatterMathtext())
+        panel.spines[["top", "right"]].set_visible(False)
+        panel.grid(color="0.93", which="major")
+        above = panel.secondary_xaxis("top", functions=(lambda ms: ms / (1e3 * unit), lambda wu: wu * 1e3 * unit))
+        above.tick_params(labelsize="small", colors="0.45")
+        above.set_xlabel("work units of 129 nodes", fontsize="small", color="0.45")
+    panels[0].set_ylabel("error against the finest grid [%]")
+    panels[-1].legend(frameon=False, fontsize="small", loc="lower left")
+    report.picture(
+        figure,
+        "core_accuracy.png",
+        "error against cost; numbers are grid nodes at a tolerance of 1e-3, small marks other tolerances, hollow ones films "
+        "short of their tolerance",
+    )

@@ -1,0 +1,70 @@
+"""Whether the error estimate of `point_contact` is true: random points against grids of twice and four times the nodes.
+
+    python benchmarks/error_estimate.py [--points 200] [--seconds 1800]
+
+Writes docs/error_estimate.md. The points are those of `random_points.py`, seed 3, on 65 nodes; the true error is the
+difference to 257 nodes. A point that is not converged on one of the three grids is counted and left out.
+"""
+
+import argparse
+import time
+from pathlib import Path
+
+import numpy as np
+from random_points import draw
+
+from contact_core import ConvergenceError, point_contact
+
+DOCS = Path(__file__).parent.parent / "docs"
+OUTPUTS = (
+    "h_central", "h_c", "h_min", "contact_area_ratio", "contact_load_ratio", "pressure_max", "approach",
+)  # fmt: skip
+NODES = (65, 129, 257)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--points", type=int, default=200)
+    parser.add_argument("--seconds", type=float, default=1800.0, help="stop after this time")
+    parser.add_argument("--seed", type=int, default=3)
+    args = parser.parse_args()
+    reported: dict[str, list[float]] = {name: [] for name in OUTPUTS}
+    true: dict[str, list[float]] = {name: [] for name in OUTPUTS}
+    left_out, tried, begin = 0, 0, time.perf_counter()
+    for point in draw(args.seed):
+        if point is None:
+            continue
+        if tried == args.points or time.perf_counter() - begin > args.seconds:
+            break
+        tried += 1
+        try:
+            found = [point_contact(**point.arguments(n), tolerance=3e-3) for n in NODES]
+        except ConvergenceError:
+            left_out += 1
+            continue
+        if not all(answer.converged for answer in found):
+            left_out += 1
+            continue
+        for name in OUTPUTS:
+            reported[name].append(found[0].error_estimate[name])
+            true[name].append(abs(getattr(found[0], name) - getattr(found[-1], name)))
+    lines = [
+        "# Is the error estimate true?",
+        "",
+        f"Written by `python benchmarks/error_estimate.py --points {args.points}`: {tried} random points on 65 nodes, "
+        f"{left_out} of them left out because one of the grids did not converge; the truth is the answer on 257 nodes.",
+        "",
+        "| output | true <= reported | reported <= 10 true | median reported / true |",
+        "|---|---|---|---|",
+    ]
+    for name in OUTPUTS:
+        r, t = np.array(reported[name]), np.array(true[name])
+        ratio = np.median(r[t > 0.0] / t[t > 0.0]) if (t > 0.0).any() else np.nan
+        lines.append(f"| {name} | {(t <= r).mean():.0%} | {(r <= 10.0 * t).mean():.0%} | {ratio:.2g} |")
+    np.savez(Path("results") / "error_estimate.npz", **{f"{n}_r": reported[n] for n in OUTPUTS}, **{f"{n}_t": true[n] for n in OUTPUTS})
+    (DOCS / "error_estimate.md").write_text("\n".join(lines) + "\n")
+    print("\n".join(lines))
+
+
+if __name__ == "__main__":
+    main()
