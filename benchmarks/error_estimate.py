@@ -3,7 +3,8 @@
     python benchmarks/error_estimate.py [--points 200] [--seconds 1800]
 
 Writes docs/error_estimate.md. The points are those of `random_points.py`, seed 3, on 65 nodes; the true error is the
-difference to 257 nodes. A point that is not converged on one of the three grids is counted and left out.
+difference to 257 nodes, or a tolerance of the value if that is more: no film is solved better. A point that is not
+converged on one of the three grids is counted and left out.
 """
 
 import argparse
@@ -16,10 +17,9 @@ from random_points import draw
 from contact_core import ConvergenceError, point_contact
 
 DOCS = Path(__file__).parent.parent / "docs"
-OUTPUTS = (
-    "h_central", "h_c", "h_min", "contact_area_ratio", "contact_load_ratio", "pressure_max", "approach",
-)  # fmt: skip
+OUTPUTS = ("h_central", "h_c", "h_min", "contact_area_ratio", "contact_load_ratio", "pressure_max", "approach")
 NODES = (65, 129, 257)
+TOLERANCE = 3e-3
 
 
 def main() -> None:
@@ -38,7 +38,7 @@ def main() -> None:
             break
         tried += 1
         try:
-            found = [point_contact(**point.arguments(n), tolerance=3e-3) for n in NODES]
+            found = [point_contact(**point.arguments(n), tolerance=TOLERANCE) for n in NODES]
         except ConvergenceError:
             left_out += 1
             continue
@@ -46,8 +46,9 @@ def main() -> None:
             left_out += 1
             continue
         for name in OUTPUTS:
+            value, best = getattr(found[0], name), getattr(found[-1], name)
             reported[name].append(found[0].error_estimate[name])
-            true[name].append(abs(getattr(found[0], name) - getattr(found[-1], name)))
+            true[name].append(max(abs(value - best), TOLERANCE * abs(value)))
     lines = [
         "# Is the error estimate true?",
         "",
@@ -61,7 +62,6 @@ def main() -> None:
         r, t = np.array(reported[name]), np.array(true[name])
         ratio = np.median(r[t > 0.0] / t[t > 0.0]) if (t > 0.0).any() else np.nan
         lines.append(f"| {name} | {(t <= r).mean():.0%} | {(r <= 10.0 * t).mean():.0%} | {ratio:.2g} |")
-    np.savez(Path("results") / "error_estimate.npz", **{f"{n}_r": reported[n] for n in OUTPUTS}, **{f"{n}_t": true[n] for n in OUTPUTS})
     (DOCS / "error_estimate.md").write_text("\n".join(lines) + "\n")
     print("\n".join(lines))
 

@@ -1,6 +1,7 @@
 """One call, SI, arrays in and arrays out: a lubricated, circular point contact at one instant."""
 
 from dataclasses import dataclass
+from operator import index
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ Array = NDArray[np.float64]
 
 _REFERENCE = 300.0  # K: the laws of temperature play no part here
 _UNLIMITED = 1e12  # Pa
+_THICKEST = 0.01  # film over radius
 _VISCOSITY = {law.name: law for law in (Roelands, Barus)}
 _DENSITY = {law.name: law for law in (DowsonHigginson, Incompressible)}
 
@@ -64,7 +66,7 @@ class _Numbers:
     reduced_modulus: float = parameter("Pa", "E' = 2 / [(1 - v1^2)/E1 + (1 - v2^2)/E2]", above=1e3, most=1e13)
     speed_1: float = parameter("m/s", TABLE["speed_1"].text, least=-1e3, most=1e3)
     speed_2: float = parameter("m/s", TABLE["speed_2"].text, least=-1e3, most=1e3)
-    viscosity: float = parameter("Pa s", "viscosity at p = 0", above=6.4e-5, most=1e3)
+    viscosity: float = parameter("Pa s", "viscosity at p = 0", least=1e-4, most=1e3)
     pressure_viscosity: float = parameter("Pa^-1", "d ln(viscosity)/dp at p = 0", least=0.0, most=1e-7)
     hardness: float = parameter("Pa", "largest pressure", above=1e6, most=_UNLIMITED)
     floor: float = parameter("m", "gap at which solids touch", above=1e-11, most=1e-6)
@@ -107,51 +109,69 @@ def point_contact(
     fluid and solid pressure apart, "lumped" for one pressure as in Azam et al. 2019 (with floor = 0.47e-9).
 
     Raises OperatingPointError for values that cannot be used and ConvergenceError if no solution was found. A solution
-    short of the tolerance says so (`converged`, `shortfall`).
+    short of the tolerance says so (`converged`, `shortfall`). At rest the dry contact is the answer; the gap of solids
+    is the floor then, too, so that `approach` is a floor less than that of `dry_contact`.
     """
+    given = {
+        "load": load, "radius_x": radius_x, "reduced_modulus": reduced_modulus, "speed_1": speed_1, "speed_2": speed_2,
+        "viscosity": viscosity, "pressure_viscosity": pressure_viscosity, "floor": floor, "tolerance": tolerance,
+        "iterations": iterations,
+    } | {
+        name: value
+        for name, value in (("radius_y", radius_y), ("hardness", hardness), ("spacing", spacing))
+        if value is not None
+    }  # fmt: skip
+    _refuse(_no_numbers(given))
     numbers = _Numbers(
-        load=load,
-        radius_x=radius_x,
-        radius_y=radius_x if radius_y is None else radius_y,
-        reduced_modulus=reduced_modulus,
-        speed_1=speed_1,
-        speed_2=speed_2,
-        viscosity=viscosity,
-        pressure_viscosity=pressure_viscosity,
-        hardness=_UNLIMITED if hardness is None else hardness,
-        floor=floor,
-        tolerance=tolerance,
-        iterations=iterations,
+        load=float(load),
+        radius_x=float(radius_x),
+        radius_y=float(radius_x if radius_y is None else radius_y),
+        reduced_modulus=float(reduced_modulus),
+        speed_1=float(speed_1),
+        speed_2=float(speed_2),
+        viscosity=float(viscosity),
+        pressure_viscosity=float(pressure_viscosity),
+        hardness=_UNLIMITED if hardness is None else float(hardness),
+        floor=float(floor),
+        tolerance=float(tolerance),
+        iterations=int(iterations),
     )
     _refuse([*out_of_range(numbers, ""), *_circular(numbers)])
     choices = (("viscosity_law", viscosity_law, _VISCOSITY), ("density_law", density_law, _DENSITY))
     more = (("criterion", criterion, ("split", "lumped")), ("fft", fft, ("pyfftw", "scipy")))
-    _refuse([_choice(name, value, list(known)) for name, value, known in (*choices, *more) if value not in known])
-    law = _VISCOSITY[viscosity_law](viscosity, _REFERENCE, pressure_viscosity, 0.0)
-    heights = _heights(heights_1, heights_2)
+    _refuse([_choice(name, value, list(known)) for name, value, known in (*choices, *more) if value not in list(known)])
+    heights, radius, speed = _heights(heights_1, heights_2), numbers.radius_x, 0.5 * (numbers.speed_1 + numbers.speed_2)
+    law = _VISCOSITY[viscosity_law](numbers.viscosity, _REFERENCE, numbers.pressure_viscosity, 0.0)
     film = 0.0
-    if speed_1 + speed_2 != 0.0:
-        speed = 0.5 * abs(speed_1 + speed_2)
+    if speed != 0.0:
+        rise = max(numbers.pressure_viscosity, 1e-12)
         smooth = SmoothContact(
-            load, speed, viscosity, max(pressure_viscosity, 1e-12), radius_x, radius_x, reduced_modulus
+            numbers.load, abs(speed), numbers.viscosity, rise, radius, radius, numbers.reduced_modulus
         )
         film = nijenbanning_venner_moes(smooth)
+        if film > _THICKEST * radius:
+            _refuse(
+                [
+                    f"The oil film would be about {film:.2g} m, over {_THICKEST:g} of radius_x = {radius:g} m: "
+                    "the bodies are no parabolas on its scale. Raise load, or lower speed_1, speed_2 or viscosity."
+                ]
+            )
     nodes = _grid(numbers, film, heights, spacing, grid, domain)
     now = Instant(
-        load=load,
-        entrainment_speed=0.5 * (speed_1 + speed_2),
+        load=numbers.load,
+        entrainment_speed=speed,
         temperature=_REFERENCE,
-        radius_x=radius_x,
+        radius_x=radius,
         radius_y=numbers.radius_y,
-        reduced_modulus=reduced_modulus,
+        reduced_modulus=numbers.reduced_modulus,
         viscosity=law,
         density=_DENSITY[density_law](),
         heights=np.zeros(nodes.shape) if heights is None else heights,
         limit=np.full(nodes.shape, numbers.hardness),
         hardness=numbers.hardness,
     )
-    hertz = hertz_point(load, radius_x, numbers.radius_y, reduced_modulus)
-    settings = Settings(floor, tolerance, iterations, fft, criterion == "lumped")
+    hertz = hertz_point(numbers.load, radius, radius, numbers.reduced_modulus)
+    settings = Settings(numbers.floor, numbers.tolerance, numbers.iterations, fft, criterion == "lumped")
     found, values, errors = solve_with_estimate(now, nodes, settings, hertz)
     state = found.state
     return PointContact(
@@ -174,6 +194,15 @@ def point_contact(
         error_estimate=errors,
         warnings=tuple(_warnings(found, nodes, hertz.a)),
     )
+
+
+def _no_numbers(given: dict[str, Any]) -> list[str]:
+    """One sentence for each value that is not a real number."""
+    return [
+        f"{name} = {value!r} is not a number. Give it as one, in SI units without a unit string."
+        for name, value in given.items()
+        if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating))
+    ]
 
 
 def _refuse(sentences: list[str]) -> None:
@@ -200,7 +229,10 @@ def _heights(first: ArrayLike | None, second: ArrayLike | None) -> Array | None:
     for name, values in (("heights_1", first), ("heights_2", second)):
         if values is None:
             continue
-        array = np.array(values, dtype=np.float64)
+        try:
+            array = np.array(values, dtype=np.float64)
+        except (TypeError, ValueError):
+            _refuse([f"{name} is no array of real numbers; it must be an array [ny, nx] of heights in metres."])
         if array.ndim != 2:
             _refuse([f"{name} has {array.ndim} dimensions; it must be an array [ny, nx] of heights in metres."])
         if not np.isfinite(array).all():
@@ -224,8 +256,13 @@ def _grid(
     domain: tuple[float, float, float, float] | None,
 ) -> Grid:
     """The nodes that the arguments ask for."""
-    shape = (129, 129) if grid is None else (int(grid), int(grid)) if np.ndim(grid) == 0 else tuple(map(int, grid))  # type: ignore[arg-type]
+    try:
+        shape = (129, 129) if grid is None else tuple(index(n) for n in np.broadcast_to(np.asarray(grid), 2).tolist())
+    except (TypeError, ValueError):
+        _refuse([f"grid = {grid!r} must be one whole number or (ny, nx)."])
     if heights is not None:
+        if heights.shape[0] < 17 or heights.shape[1] < 17:
+            _refuse([f"heights of {heights.shape} nodes [ny, nx] are too few: 17 along each axis are the least."])
         if grid is not None and shape != heights.shape:
             _refuse(
                 [f"grid = {grid} does not fit heights of {heights.shape} nodes. Leave grid out: heights decide it."]
@@ -249,12 +286,13 @@ def _grid(
 def _grid_of_domain(
     numbers: _Numbers, spacing: float | None, domain: tuple[float, float, float, float], ny: int, nx: int
 ) -> Grid:
-    if (
-        len(domain) != 4
-        or not np.isfinite(domain).all()
-        or not (domain[0] < 0.0 < domain[1] and domain[2] < 0.0 < domain[3])
-    ):
-        _refuse([f"domain = {domain} must be (x_min, x_max, y_min, y_max) in metres about the contact at (0, 0)."])
+    try:
+        x_min, x_max, y_min, y_max = (float(value) for value in domain)
+        about = x_min < 0.0 < x_max and y_min < 0.0 < y_max and bool(np.isfinite(domain).all())
+    except (TypeError, ValueError):
+        about = False
+    if not about:
+        _refuse([f"domain = {domain!r} must be (x_min, x_max, y_min, y_max) in metres about the contact at (0, 0)."])
     x, y = np.linspace(domain[0], domain[1], nx), np.linspace(domain[2], domain[3], ny)
     dx, dy = x[1] - x[0], y[1] - y[0]
     if abs(dx - dy) > 1e-6 * dx or (spacing is not None and abs(spacing - dx) > 1e-6 * dx):
@@ -277,6 +315,11 @@ def _warnings(found: FilmSolution, grid: Grid, a: float) -> list[str]:
         sentences.append(
             f"The film builds up across {found.inlet_nodes:.1f} nodes of the grid: it is a number of this grid. "
             "Use more nodes or a smaller domain for its own value."
+        )
+    if found.load_beyond > 0.1:
+        sentences.append(
+            f"{found.load_beyond:.0%} of the load are carried beyond the grid, by the formula of a rigid inlet. "
+            "Integrals over the grid miss that part."
         )
     pressure = found.state.pressure
     edges = max(pressure[[1, -2], :].max(), pressure[:, [1, -2]].max())

@@ -110,7 +110,7 @@ class FilmSolution:
     converged: bool
     shortfall: str  # why it is not converged, empty if it is
     route: str  # "mixed", "dry" (asked for, or no entrainment), "fallback" (dry for want of a film) or "open" (no load)
-    algorithm: str  # row of `routes.REGIMES` and the algorithm of it that found the film: "thick: multigrid"
+    algorithm: str  # row of `routes.REGIMES` and the algorithm of it that found the film: "smooth: multigrid from none"
     iterations: int
     change: float  # of the pressure in the last iteration, relative
     load_error: float  # relative

@@ -23,7 +23,7 @@ _FULL_FILM = 3.0  # formula film over rms roughness from which on a dry contact 
 _MOST_BEYOND = 0.3  # share of the load that may lie beyond the grid
 _NESTED_FROM = 65  # nodes along an axis from which on a film begins on the grid of half of them
 _HYBRID_ITERATIONS, _DIRECT_ITERATIONS = 150, 80  # of one try at a steady film
-_CYCLES, _NEWTON_STEPS = 15, 60
+_CYCLES, _NEWTON_STEPS = 15, 30
 # a film short of its tolerance is still better than the dry contact within these
 _LOAD_ACCEPTED = 1e-3
 _CHANGE_ACCEPTED = 0.1
@@ -36,21 +36,24 @@ class Regime:
 
     name: str
     algorithms: tuple[tuple[str, str], ...]
+    floors: tuple[float, float] = _ALL  # formula film of smooth bodies / floor
     clearance: tuple[float, float] = _ALL  # formula film of smooth bodies / rms roughness (smooth: infinite)
     load: tuple[float, float] = _ALL  # Moes' M
 
     def holds(self, scaled: Scaled) -> bool:
         """Whether a contact belongs to this row."""
         load, _ = scaled.contact.moes_parameters
-        clearance = scaled.smooth_film / scaled.roughness if scaled.roughness > 0.0 else math.inf
-        pairs = ((self.clearance, clearance), (self.load, load))
+        film = scaled.smooth_film
+        clearance = film / scaled.roughness if scaled.roughness > 0.0 else math.inf
+        pairs = ((self.floors, film / scaled.settings.floor), (self.clearance, clearance), (self.load, load))
         return all(low <= value <= high for (low, high), value in pairs)
 
 
 REGIMES = (
+    Regime("dry", (("hybrid", "dry"), ("direct", "last")), floors=(0.0, 0.5)),
     Regime(
         "smooth",
-        (("multigrid", "none"), ("newton", "film"), ("hybrid", "film"), ("direct", "film"), ("direct", "dry")),
+        (("multigrid", "none"), ("hybrid", "film"), ("direct", "film"), ("direct", "dry")),
         clearance=(1e3, math.inf),
     ),
     Regime(
@@ -59,9 +62,9 @@ REGIMES = (
         load=(0.0, 50.0),
     ),
     Regime("boundary", (("hybrid", "dry"), ("direct", "last"), ("direct", "shared")), clearance=(0.0, 0.03)),
-    Regime("film", (("hybrid", "nested"), ("newton", "film"), ("direct", "film")), clearance=(3.0, math.inf)),
+    Regime("film", (("hybrid", "nested"), ("direct", "last"), ("direct", "film")), clearance=(3.0, math.inf)),
     Regime("moderate", (("hybrid", "shared"), ("newton", "film"), ("direct", "dry")), load=(0.0, 300.0)),
-    Regime("mixed", (("hybrid", "shared"), ("direct", "last"), ("direct", "dry"), ("direct", "film"))),
+    Regime("mixed", (("hybrid", "shared"), ("direct", "last"), ("direct", "dry"))),
 )
 
 

@@ -15,12 +15,13 @@ from scipy.sparse.linalg import splu
 
 from . import reynolds
 from .half_space import HalfSpace
-from .mixed import Iterate, Problem, Solution, _iterate, _Iteration, _set_edge
+from .mixed import Iterate, Iteration, Problem, Solution, iterate_on, set_edge
 
 Array = NDArray[np.float64]
 
 _jit = njit(cache=True, nogil=True, error_model="numpy")
 
+_DEPTH, _STIFF_STEP = 5, 0.5  # of Anderson's memory; part of their correction that stiff nodes take
 _LARGEST_STEP = 0.3  # of the load, that pressures may change by in an iteration
 _LARGEST_FALL = 0.5  # of the mean film, that the rigid gap may fall by
 _JUMP = 10.0  # times the change before, from which on the memory misleads
@@ -151,7 +152,7 @@ def _carried(base, lever, shift, cap, edge, weight, out):  # type: ignore[no-unt
     for j in range(1, ny - 1):
         for i in range(1, nx - 1):
             out[j, i] = min(max(base[j, i] + shift * lever[j, i], 0.0), cap[j, i])
-    _set_edge(out, edge)
+    set_edge(out, edge)
     total, rate = 0.0, 0.0
     for j in range(ny):
         for i in range(nx):
@@ -161,11 +162,11 @@ def _carried(base, lever, shift, cap, edge, weight, out):  # type: ignore[no-unt
     return total, rate
 
 
-class _Direct(_Iteration):
+class _Direct(Iteration):
     """As its parent; the free nodes by factorisation."""
 
     def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate) -> None:
-        super().__init__(half_space, problem, start)
+        super().__init__(half_space, problem, start, _DEPTH, _STIFF_STEP)
         shape, size = self.p.shape, self.p.size
         self.number, self.response, self.lever = np.zeros(shape, np.int64), np.zeros(shape), np.zeros(shape)
         self.starts, self.columns = np.zeros(size + 1, np.int64), np.zeros(8 * size, np.int64)
@@ -238,4 +239,4 @@ def solve_direct(
     half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int
 ) -> Solution:
     """As `mixed.solve_mixed`, which it steps in for."""
-    return _iterate(_Direct(half_space, problem, start), tolerance, iterations)
+    return iterate_on(_Direct(half_space, problem, start), tolerance, iterations)

@@ -8,11 +8,6 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-def halved(n: int) -> int:
-    """Nodes along an axis of the coarser grid."""
-    return (n + 1) // 2
-
-
 def restrict(field: NDArray[Any]) -> NDArray[Any]:
     """A field [ny, nx], or coordinates [n], on the coarser grid."""
     for axis in range(field.ndim):

@@ -131,7 +131,7 @@ def _begin(stiff, pressed, top, left, part, dp):  # type: ignore[no-untyped-def]
 
 
 @_jit
-def _set_edge(p, edge):  # type: ignore[no-untyped-def]
+def set_edge(p, edge):  # type: ignore[no-untyped-def]
     """Edge nodes follow their inner neighbours."""
     ny, nx = p.shape
     for j in range(ny):
@@ -182,7 +182,7 @@ def _next_pressure(p, cap, h, floor, stiff, unit, damping, load, edge, weight, d
                 rest += value
                 change += abs(value - p[j, i])
             image[j, i] = value
-    _set_edge(image, edge)
+    set_edge(image, edge)
     rest += _load_beyond(image, weight)
     values, caps, units, old = image.ravel(), cap.ravel(), unit.ravel(), p.ravel()
     shift = 0.0
@@ -217,16 +217,14 @@ def _bounded(p, image, cap, edge, weight):  # type: ignore[no-untyped-def]
             value = cap[j, i] if image[j, i] >= cap[j, i] else min(max(p[j, i], 0.0), cap[j, i])
             p[j, i] = value
             total += value
-    _set_edge(p, edge)
+    set_edge(p, edge)
     return total + _load_beyond(p, weight)
 
 
-class _Iteration:
+class Iteration:
     """One fixed-point iteration and its scratch arrays."""
 
-    def __init__(
-        self, half_space: HalfSpace, problem: Problem, start: Iterate, depth: int = 5, stiff_step: float = 0.5
-    ) -> None:
+    def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate, depth: int, stiff_step: float) -> None:
         self.half_space, self.problem, self.start, self.stiff_step = half_space, problem, start, stiff_step
         shape = start.pressure.shape
         self.memory = Anderson(start.pressure.size + 1, depth)
@@ -338,10 +336,11 @@ def solve_mixed(half_space: HalfSpace, problem: Problem, start: Iterate, toleran
     What is not converged is the best of the last quarter, in the pressure's change. Non-finite values never leave: what
     is returned is finite, or its `change` is infinite.
     """
-    return _iterate(_Iteration(half_space, problem, start, _DEPTH, _STIFF_STEP), tolerance, iterations)
+    return iterate_on(Iteration(half_space, problem, start, _DEPTH, _STIFF_STEP), tolerance, iterations)
 
 
-def _iterate(it: _Iteration, tolerance: float, iterations: int) -> Solution:
+def iterate_on(it: Iteration, tolerance: float, iterations: int) -> Solution:
+    """Iterate until the stopping rule holds or `iterations` are spent."""
     problem = it.problem
     best: Solution | None = None
     n = 0

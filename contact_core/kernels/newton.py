@@ -343,8 +343,10 @@ class _Film:
         below_cap = self.solid & (p < q.cap)
         total = max(float(p.sum()), 1e-300)
         intrusion = float((p * np.abs(q.floor - self.h))[below_cap].sum()) / (q.floor * total)
-        balanced = np.where(p < q.cap, self.r, 0.0)  # at the cap the bodies yield until the film has room
-        imbalance = float(reynolds.imbalance(p, self.solid, self.mass, balanced))
+        inflow, nowhere = np.zeros_like(p), np.zeros_like(self.solid)
+        reynolds.residual(self.f, nowhere, self.mass, q.mass_old, self.e, q.per_dt, q.spacing, inflow)
+        film = (self.solid, self.h, self.mass, inflow, q.floor, q.spacing)
+        imbalance = float(reynolds.imbalance(p, self.f, q.cap, *film))
         change += self.sought / q.load
         why = shortfall(tolerance, change if whole else np.inf, load_error, intrusion, imbalance, q.per_dt > 0.0)
         iterate = Iterate(p, self.f, self.solid, self.rigid)

@@ -14,7 +14,7 @@ from numba import njit
 _jit = njit(cache=True, nogil=True, error_model="numpy")
 
 _TOUCH = 0.5  # gap in floors below which a node becomes solid at once; below 1, where its film loses mass
-_DEEP = 0.9  # gap in floors below which a contact is not released: it has to come up first
+_DEEP = 0.5  # gap in floors below which a contact is not released: it has to come up first
 _OVER = 1.6  # relaxation of the lines
 
 
@@ -149,16 +149,27 @@ def residual(f, solid, mass, mass_old, e, per_dt, dx, r):  # type: ignore[no-unt
 
 
 @_jit
-def imbalance(p, solid, mass, r):  # type: ignore[no-untyped-def]
-    """Mean |residual| / mean mass where fluid alone carries load, weighted by pressure, times its share of the load."""
+def imbalance(p, f, cap, solid, h, mass, r, floor, dx):  # type: ignore[no-untyped-def]
+    """What the film gains or loses unasked over the film, weighted by pressure, times the oil's share of the load.
+
+    r: net inflow at every node, contacts included. The rules are those of `mend_film`, which counts as it goes.
+    """
     wrong, film, fluid, total = 0.0, 1e-300, 0.0, 1e-300
-    for j in range(p.shape[0]):
-        for i in range(p.shape[1]):
-            total += p[j, i]
-            if not solid[j, i]:
-                wrong += abs(r[j, i]) * p[j, i]
-                film += mass[j, i] * p[j, i]
-                fluid += p[j, i]
+    for j in range(1, p.shape[0] - 1):
+        for i in range(1, p.shape[1] - 1):
+            here, lack = p[j, i], abs(r[j, i])
+            total += here
+            if solid[j, i]:
+                if r[j, i] > 0.0 and f[j, i] >= here and here < cap[j, i]:
+                    wrong += lack * here
+                continue
+            if r[j, i] < 0.0:
+                lack = min(lack, mass[j, i] * max(h[j, i] / floor - 1.0, 0.0) / dx)
+            elif here >= cap[j, i]:
+                lack = 0.0
+            wrong += lack * here
+            film += mass[j, i] * here
+            fluid += here
     return wrong / film * fluid / total
 
 
