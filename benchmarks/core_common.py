@@ -3,7 +3,7 @@
 import math
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -159,7 +159,7 @@ def instant_of(arguments: dict[str, Any], heights: Array, hardness: float = 1e12
 
 
 def grid_of(domain: Sequence[float], nodes: int) -> Grid:
-    """nodes x nodes on (x_min, x_max, y_min, y_max)."""
+    """Nodes x nodes on (x_min, x_max, y_min, y_max)."""
     return Grid(np.linspace(*domain[:2], nodes), np.linspace(*domain[2:], nodes))
 
 

@@ -1,7 +1,6 @@
 """What solutions cost: smooth films cold, a warm step of moving roughness, the same cold."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 from core_common import MoesCase, Report, domain_of, scaled_of, timed, unit_of
