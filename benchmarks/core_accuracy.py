@@ -21,7 +21,7 @@ CASES = {"full film": (40.0, 3.0, TIGHT), "mixed": (20.0, 0.1, LOOSE), "near bou
 GRIDS = (33, 65, 129, 257, 513)
 REFERENCE = (65, 129, 257, 513)
 DEFAULT = 1e-3
-LONG = 2.0  # s: what takes longer ends the row of grids
+LONG = 6.0  # s: what takes longer ends the row of grids
 SLIP, LIMIT, SOLID = 0.05, 0.05, 0.1  # slip, limiting shear over pressure, friction of solids
 # symbol, colour; all relative, W_c absolute
 OUTPUTS = {
@@ -76,8 +76,7 @@ def errors(found: dict[str, float], reference: dict[str, float]) -> dict[str, fl
 def study(report: Report, name: str, units: dict[int, float]) -> tuple[list[Row], list[Row]]:
     load, speed, tolerances = CASES[name]
     case = RoughCase(load=load, speed=speed, **BASE)
-    thick = case.film > 2.0 * case.rq
-    levels = cascade(case, REFERENCE, Settings(1e-9, 1e-4 if not thick else 1e-5, 400, "pyfftw"), thick)
+    levels = cascade(case, REFERENCE, Settings(1e-9, 1e-5 if case.film > 2.0 * case.rq else 1e-4, 400, "pyfftw"))
     reference, film = of_level(case, levels[-1]), levels[-1].film
     report.say(
         f"### {name.capitalize()}\n\n{load:g} N, u = {speed:g} m/s, M = {case.smooth.moes_parameters[0]:.0f}, film by formula "
@@ -99,9 +98,8 @@ def study(report: Report, name: str, units: dict[int, float]) -> tuple[list[Row]
                 break
         if rows[-1].seconds > LONG:
             finer = ", ".join(str(n) for n in GRIDS if n > nodes)
-            report.row(
-                finer or "none", *("-" for _ in range(len(OUTPUTS) + 3)), f"left out: {nodes} took > {LONG:g} s", ""
-            )
+            if finer:
+                report.row(finer, *("-" for _ in range(len(OUTPUTS) + 3)), f"left out: {nodes} took > {LONG:g} s", "")
             break
     steps: list[Row] = []
     for level in levels[:-1]:
@@ -142,7 +140,7 @@ def run() -> None:
     report.say(
         "Ball of 10 mm, E' 230 GPa, 0.04 Pa s, 15 1/GPa, Rq 100 nm, correlation length 20 um, the same surface and domain "
         "on every grid. `point_contact` as it is, its error estimate (a second film on half the nodes) included: CPU seconds, "
-        "least of two where short. Errors against the finest grid, relative, of W_c absolute. 1/h: mean over r < 2a/3. Friction: "
+        "least of two where short; the error of 513 nodes is that of the iteration alone. Errors against the finest grid, relative, of W_c absolute. 1/h: mean over r < 2a/3. Friction: "
         f"slip {100 * SLIP:g} %, Newtonian up to {LIMIT:g} p, {SOLID:g} for solids. Rows `cascade`: every grid from the one before, "
         "to the tolerance of the reference, 400 iterations at most, the time of the coarser ones included. One work unit: "
         + ", ".join(f"{1e3 * unit:.3g} ms on {nodes}" for nodes, unit in units.items())
@@ -184,22 +182,26 @@ def draw(report: Report, rows: dict[str, tuple[list[Row], list[Row]]], unit: flo
     figure = Figure(figsize=(12.0, 5.4), layout="constrained")
     panels = figure.subplots(1, len(rows), sharey=True)
     for panel, (name, (found, steps)) in zip(panels, rows.items(), strict=True):
-        main = [row for row in found if row.tolerance == DEFAULT]
+        main = [row for row in found if row.tolerance == DEFAULT and row.nodes < REFERENCE[-1]]
         for key, (_, colour, marker) in OUTPUTS.items():
             line(panel, main, key, True)
             line(panel, steps, key, False)
-            rest = [(1e3 * row.seconds, 100.0 * row.errors[key]) for row in found if row.tolerance != DEFAULT]
+            rest = [
+                (1e3 * row.seconds, 100.0 * row.errors[key])
+                for row in found
+                if row.tolerance != DEFAULT and row.nodes < REFERENCE[-1]
+            ]
             panel.scatter(*zip(*rest, strict=True), color=colour, marker=marker, s=12, alpha=0.3, lw=0, zorder=1)
         for row in main:
             panel.axvline(1e3 * row.seconds, color="0.88", lw=0.8, zorder=0)
             panel.annotate(
                 f"{row.nodes}",
-                (1e3 * row.seconds, 0.012),
+                (1e3 * row.seconds, 1500),
                 fontsize=9,
                 color="0.35",
                 rotation=90,
                 ha="right",
-                va="bottom",
+                va="top",
             )
         panel.set(xscale="log", yscale="log", xlabel="CPU time [ms]", ylim=(0.01, 2000))
         panel.set_title(f"{name}, u = {CASES[name][1]:g} m/s", fontsize="large", pad=10)

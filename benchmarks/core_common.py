@@ -17,6 +17,7 @@ from contact_core.film.outputs import film_outputs
 from contact_core.film.routes import prolonged, solve_film
 from contact_core.film.scaled import Scaled
 from contact_core.kernels.mixed import solve_mixed
+from contact_core.kernels.newton import solve_newton
 from contact_core.laws.density import DowsonHigginson, Incompressible
 from contact_core.laws.viscosity import Barus, Roelands
 from contact_core.reference import Hertz, SmoothContact, hertz_point, nijenbanning_venner_moes
@@ -234,23 +235,24 @@ class Level:
     seconds: float
 
 
-def cascade(case: RoughCase, grids: Sequence[int], settings: Settings, routed: bool = False) -> list[Level]:
-    """Films of a case from grid to grid: the first as `film/routes.py` has it, finer ones by the hybrid iteration from the
-    film of the grid before, of half their nodes. Ends with what the iterations of the settings reach. `routed`: every one
-    as `film/routes.py` has it.
+def cascade(case: RoughCase, grids: Sequence[int], settings: Settings) -> list[Level]:
+    """Films of a case from grid to grid: the first as `film/routes.py` has it, finer ones from the film of the grid before, of
+    half their nodes: by Newton's method where the film clears the roughness twice, else by the hybrid iteration. Ends with
+    what the iterations of the settings reach.
     """
     levels: list[Level] = []
+    thick = case.film > 2.0 * case.rq and not settings.lumped
+    solve, most, name = (solve_newton, 60, "newton") if thick else (solve_mixed, settings.iterations, "hybrid")
     for nodes in grids:
         grid, now = grid_of(case.domain, nodes), instant_of(case.arguments(), case.heights(nodes), case.hardness)
         start = time.process_time()
-        before = prolonged(levels[-1].film.state, grid.shape) if levels else None
-        if before is None or routed:
-            film = solve_film(now, grid, settings, before)
+        if not levels:
+            film = solve_film(now, grid, settings)
         else:
             scaled = Scaled(now, grid, settings)
-            begin = scaled.iterate(before)
-            found = solve_mixed(scaled.half_space, scaled.problem(), begin, settings.tolerance, settings.iterations)
-            film = scaled.solution(found, "mixed", "hybrid from the coarser grid")
+            begin = scaled.iterate(prolonged(levels[-1].film.state, grid.shape))
+            found = solve(scaled.half_space, scaled.problem(), begin, settings.tolerance, most)
+            film = scaled.solution(found, "mixed", f"{name} from the coarser grid")
         seconds = time.process_time() - start
         outputs = film_outputs(grid, film.state, film.gap, case.load, case.hertz)
         levels.append(Level(nodes, grid, film, outputs, seconds))

@@ -15,7 +15,7 @@ LAMBDAS = (0.005, 0.02, 0.05, 0.1, 0.3, 0.6, 1.2, 2.5, 4.0)
 GRIDS = (65, 129, 257)
 FINEST = 513  # at a floor of 1 nm only
 ITERATIONS = 200
-THICK = 2.0  # lambda from which on all grids are solved as the routes have it, to 257 nodes
+THICK = 2.0  # lambda from which on films go to 257 nodes: Newton's method takes long on more
 # name: floor [m], lumped, grids
 SERIES = {
     "split, 0.3 nm": (0.3e-9, False, GRIDS),
@@ -45,7 +45,7 @@ def run() -> None:
         f"{BASE.correlation * 1e6:.0f} um, the same on every grid; speed makes lambda, the formula film of smooth bodies over "
         "Rq. The domain fits the film, so that nodes lie closer for thin films. The coarsest grid is solved as "
         f"`film/routes.py` has it, finer ones by at most {ITERATIONS} hybrid iterations from the one before, to a pressure "
-        "change of 1e-3; from lambda 2.5 on (split) all as the routes have it, to 257 nodes. W_c: load share of the solids; A_c: their area over Hertz's; gap: mean over r < 2a/3, in Rq."
+        "change of 1e-3; from lambda 2.5 on (split) by Newton's method, to 257 nodes. W_c: load share of the solids; A_c: their area over Hertz's; gap: mean over r < 2a/3, in Rq."
     )
     report.header("criterion, floor", "lambda", "u [m/s]", "nodes", "W_c", "A_c", "gap", "imbalance", "converged")
     table: dict[tuple[str, int, float], dict[str, float]] = {}
@@ -54,7 +54,7 @@ def run() -> None:
             case = at(ratio)
             settings = Settings(floor, 1e-3, ITERATIONS, "pyfftw", lumped)
             thick = ratio >= THICK and not lumped
-            for level in cascade(case, GRIDS if thick else grids, settings, thick):
+            for level in cascade(case, GRIDS if thick else grids, settings):
                 found = level.outputs | {"gap": mean_gap(level, case)}
                 table[name, level.nodes, ratio] = found
                 shown = (found[key] for key, _ in SHOWN)

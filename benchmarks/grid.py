@@ -15,7 +15,7 @@ from contact_core import Scene, advance, initial_state
 
 DOCS = Path(__file__).parent.parent / "docs"
 OBSERVED = ("friction_coefficient", "contact_load_ratio", "contact_area_ratio", "h_c", "wear_rate_1", "unconverged")
-GRIDS = (65, 97, 129, 193, 257)
+GRIDS = (65, 97, 129, 193)
 
 
 def main() -> None:

@@ -62,9 +62,9 @@ REGIMES = (
         load=(0.0, 50.0),
     ),
     Regime("boundary", (("hybrid", "dry"), ("direct", "last"), ("direct", "shared")), clearance=(0.0, 0.03)),
-    Regime("film", (("hybrid", "nested"), ("direct", "last"), ("direct", "film")), clearance=(3.0, math.inf)),
+    Regime("film", (("hybrid", "nested"), ("direct", "last"), ("direct", "film")), clearance=(1.5, math.inf)),
     Regime("moderate", (("hybrid", "shared"), ("newton", "film"), ("direct", "dry")), load=(0.0, 300.0)),
-    Regime("mixed", (("hybrid", "shared"), ("direct", "last"), ("direct", "dry"))),
+    Regime("mixed", (("hybrid", "shared"), ("hybrid", "nested"), ("direct", "last"), ("direct", "dry"))),
 )
 
 
