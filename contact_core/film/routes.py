@@ -62,6 +62,12 @@ REGIMES = (
         load=(0.0, 50.0),
     ),
     Regime("boundary", (("hybrid", "dry"), ("direct", "last"), ("direct", "shared")), clearance=(0.0, 0.03)),
+    Regime(
+        "thick film",
+        (("hybrid", "nested"), ("newton", "film"), ("direct", "film")),
+        clearance=(1.5, math.inf),
+        load=(0.0, 300.0),
+    ),
     Regime("film", (("hybrid", "nested"), ("direct", "last"), ("direct", "film")), clearance=(1.5, math.inf)),
     Regime("moderate", (("hybrid", "shared"), ("newton", "film"), ("direct", "dry")), load=(0.0, 300.0)),
     Regime("mixed", (("hybrid", "shared"), ("hybrid", "nested"), ("direct", "last"), ("direct", "dry"))),
