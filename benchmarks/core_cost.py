@@ -7,7 +7,7 @@ from core_common import MoesCase, Report, domain_of, scaled_of, timed, unit_of
 from matplotlib.figure import Figure
 
 from contact_core import Scene
-from contact_core.contact import bare_heights
+from contact_core.patches import bare_heights, contact_grid
 from contact_core.film.fitted import fitted_grid
 from contact_core.film.instant import FilmState, Instant, Settings
 from contact_core.film.outputs import at_centre
@@ -132,7 +132,7 @@ def case_a(report: Report) -> None:
 def march(scene: Scene) -> Iterator[tuple[Instant, float]]:
     """Instants of the rough surfaces moving, body 2 by a node each, and the time between [s]."""
     op = scene.operation.point
-    first, second = bare_heights(scene)
+    first, second = bare_heights(scene, scene.film.points)
     step = scene.film.spacing / op.speed_2
     for k in range(LEAD + STEPS + 1):
         shifts = round(k * op.speed_1 / op.speed_2), k
@@ -158,7 +158,7 @@ def march(scene: Scene) -> Iterator[tuple[Instant, float]]:
 
 def posed(scene: Scene, now: Instant, step: float, before: FilmState) -> tuple[Scaled, Problem]:
     """A step from the film before."""
-    scaled = Scaled(now, scene.film.grid, settings_of(scene, 0.0, 0))
+    scaled = Scaled(now, contact_grid(scene, scene.film.points), settings_of(scene, 0.0, 0))
     return scaled, scaled.problem(before.mass / scaled.h_unit, scaled.per_dt(step))
 
 
@@ -226,7 +226,7 @@ def steps(report: Report, scene: Scene, correlation: str, unit: float) -> dict[s
     state, shares, independent = None, [], 0.0
     for n, (now, step) in enumerate(march(scene)):
         if state is None:
-            state = solve_film(now, scene.film.grid, settings_of(scene, 3e-3, 200)).state
+            state = solve_film(now, contact_grid(scene, scene.film.points), settings_of(scene, 3e-3, 200)).state
             continue
         scaled, reference = warm(scene, now, step, state, MANY if n > LEAD else 60)
         pressure = reference.iterate.pressure
@@ -259,7 +259,7 @@ def steps(report: Report, scene: Scene, correlation: str, unit: float) -> dict[s
 
 def cold_films(report: Report, scene: Scene, correlation: str, unit: float) -> tuple[list[float], list[float]]:
     now, _ = next(march(scene))
-    grid = scene.film.grid
+    grid = contact_grid(scene, scene.film.points)
     scaled = Scaled(now, grid, settings_of(scene, 1e-6, 1000))
     begin = scaled.iterate(solve_film(now, grid, settings_of(scene, 1e-3, 400)).state)
     reference = solve_mixed(scaled.half_space, scaled.problem(), begin, 1e-6, 1000)

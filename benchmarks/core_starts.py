@@ -6,7 +6,7 @@ import numpy as np
 from core_common import Report, timed
 
 from contact_core import Scene
-from contact_core.contact import bare_heights
+from contact_core.patches import bare_heights, contact_grid
 from contact_core.film.instant import FilmSolution, Instant, Settings
 from contact_core.film.outputs import film_outputs
 from contact_core.film.routes import solve_film
@@ -22,7 +22,7 @@ SLOW, FAST = 1e-6, 40.0
 
 def instant(scene: Scene, speed: float, rough: bool = True) -> Instant:
     """The scene's surfaces as new, at a speed."""
-    heights = sum(bare_heights(scene))
+    heights = sum(bare_heights(scene, scene.film.points))
     heights = np.concatenate([heights, heights[:, :1]], axis=1)
     op = scene.operation.point
     return Instant(
@@ -67,7 +67,7 @@ def off(pressure: np.ndarray, reference: np.ndarray) -> float:
 def run() -> None:
     report = Report("starts", "Starts and limits")
     scene = Scene.from_toml("mtm_zddp")
-    grid, settings = scene.film.grid, Settings(scene.film.floor, 1e-3, 400, "pyfftw")
+    grid, settings = contact_grid(scene, scene.film.points), Settings(scene.film.floor, 1e-3, 400, "pyfftw")
     report.say(
         "Case B, its surfaces as new, 129 nodes, steady films to a pressure change of 1e-3, begun with the dry contact and with a "
         "Hertz-like pressure under a film that clears the asperities, by algorithms each on its own. (`point_contact` picks "
@@ -124,7 +124,7 @@ def run() -> None:
 def limits(report: Report, scene: Scene, settings: Settings) -> None:
     report.say("### Limits of speed\n\nThe same surfaces.")
     report.header("u [m/s]", "beside", "what", "found", "algorithm", "converged")
-    grid = scene.film.grid
+    grid = contact_grid(scene, scene.film.points)
     dry, slow = (solve_film(instant(scene, speed), grid, settings) for speed in (0.0, SLOW))
     error = off(slow.state.pressure, dry.state.pressure)
     report.row(SLOW, "dry contact", "L1 of the pressure", error, slow.algorithm, slow.converged)

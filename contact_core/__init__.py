@@ -13,18 +13,22 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     film/        fluid and solid pressure of one instant: units, grids, the table of algorithms (routes), error estimate
     kernels/     numba and FFT: arrays in, arrays out
     point_contact, dry_contact   one call each, without a scene
+    patches      body-fixed surfaces: what they are now, where they lie under the contact
     contact      solve: one instant of a scene in a state
-    block        a sweep of the moving surfaces through the contact: what they feel, mean outputs
-    advance      advance: the evolution over time
+    sweep        what a block's instants add up to
+    block        when and at which instants the contact is solved, and by which driver
+    evolution    tribofilm and wear between two solutions, in closed form
+    trends       outputs without their noise, errors of time steps and of sampling
+    advance      advance: the evolution over time; uncertainty: how sure its outputs are
     reference    closed forms
     data/        named oils, solids and tribofilms, and the shipped scenes
     errors       what can go wrong, each message with a way out
 
-Imports run one way: kernels <- laws <- film <- contact <- block <- advance. Everything inside is SI; heights are
+Imports run one way: kernels <- laws <- film <- patches <- evolution <- contact <- sweep <- block <- advance. Everything inside is SI; heights are
 metres above a body's mean plane, positive toward the other body; arrays are [ny, nx], x along entrainment.
 """
 
-from .advance import advance
+from .advance import advance, uncertainty
 from .contact import ContactFields, Transient, solve
 from .dry_contact import DryContact, dry_contact
 from .errors import ContactError, ConvergenceError, OperatingPointError, SceneError, StateError
@@ -56,4 +60,5 @@ __all__ = [
     "point_contact",
     "shipped_scenes",
     "solve",
+    "uncertainty",
 ]

@@ -1,7 +1,7 @@
 """The evolution over time: between two solved blocks, tribofilm and wear run on in closed form.
 
-A block holds until the geometry has changed by `control.change` or the inputs have moved, however short or long the
-caller's steps are.
+A block holds until the geometry has changed by `control.change`, a limit of time is reached or the inputs have moved,
+however short or long the caller's steps are.
 """
 
 import math
@@ -11,17 +11,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .block import is_due, solve_block, track_length
-from .contact import bare_heights, heights_of, roughness_of
+from .block import is_due, solve_block
 from .errors import OperatingPointError
+from .evolution import area_of_node, evolved, track_rows, wear_speed
 from .laws.tribofilm import thickness
+from .patches import bare_heights, heights_of, roughness_of
 from .scene import OperatingPoint, Scene
 from .state import Body, ContactState, Outputs, RangeFlag
-from .surfaces import rms_roughness
+from .surfaces import mean_roughness, rms_roughness
 
 Array = NDArray[np.float64]
 
 _COVERED = 1e-9  # a thinner tribofilm does not count as coverage [m]
+_UPPER = 0.8  # of the thickest tribofilm: nodes of the mean of the thick film
+_THIN = 3  # every third node along x and y is enough to tell the change of geometry
+_NO_TIME = 1e-9  # s: shorter than any block
 
 
 def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
@@ -32,6 +36,9 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
     contact has no solution.
     """
     op.check()
+    refusal = scene.tribofilm.refusal(op.temperature)
+    if refusal:
+        raise OperatingPointError(refusal)
     if not (math.isfinite(dt) and dt >= 0.0):
         raise OperatingPointError(f"The step dt = {dt!r} s must be finite and not negative.")
     before = [body.worn for body in state.bodies]
@@ -41,95 +48,80 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
             state = solve_block(scene, op, state)
         if left <= 0.0:
             break
-        step, bodies, change = _longest_step(scene, op, state, left)
+        step, change = _longest_step(scene, op, state, left)
         left -= step
-        state = replace(state, time=state.time + step, bodies=bodies, change=state.change + change)
+        flash = state.outputs.flash_temperature_rise
+        first, second = (evolved(scene, op, body, i, step, flash) for i, body in enumerate(state.bodies))
+        state = replace(
+            state,
+            time=state.time + step,
+            bodies=(first, second),
+            change=state.change + change,
+            held=state.held + step,
+            trends=state.trends.over(step, state.held),
+        )
     if dt > 0.0:
         rates = [(body.worn - worn) / dt for body, worn in zip(state.bodies, before, strict=True)]
     else:
-        rates = [_wear_rate_now(scene, op, state, i) for i in (0, 1)]
+        rates = [_wear_rate_now(scene, op, state.bodies[i], i) for i in (0, 1)]
     outputs = replace(_with_surfaces(scene, op, state), wear_rate_1=rates[0], wear_rate_2=rates[1])
     return replace(state, outputs=outputs), outputs
 
 
-def _longest_step(
-    scene: Scene, op: OperatingPoint, state: ContactState, left: float
-) -> tuple[float, tuple[Body, Body], float]:
-    """Time [s] in which the change of geometry is used up, at most `left`; the bodies after it and the change [m]
-    it made.
-    """
+def _longest_step(scene: Scene, op: OperatingPoint, state: ContactState, left: float) -> tuple[float, float]:
+    """Time [s] in which the block is used up, at most `left`, and the change of geometry [m] in it."""
     budget = scene.control.change - state.change
-    step = left
+    rest = max(state.hold - state.held, _NO_TIME)
+    step = min(left, rest)
+    samples = [_thinned(scene, op, body) for body in state.bodies]
+    flash = state.outputs.flash_temperature_rise
     while True:
-        bodies = (_evolved(scene, op, state, 0, step), _evolved(scene, op, state, 1, step))
-        change = max(_distance(scene, op, *pair) for pair in zip(state.bodies, bodies, strict=True))
+        after = [evolved(scene, op, body, i, step, flash) for i, body in enumerate(samples)]
+        change = max(_distance(*pair) for pair in zip(samples, after, strict=True))
         if change <= 1.01 * budget:
-            return step, bodies, change if change < 0.9 * budget else budget  # near enough: the block is used up
+            return step, change if change < 0.9 * budget else budget  # near enough: the block is used up
         step *= min(max(budget / change, 0.05), 0.95)  # the film's growth slows down: this ends within few rounds
 
 
-def _distance(scene: Scene, op: OperatingPoint, before: Body, after: Body) -> float:
-    """Rms change [m] of the heights of a track by tribofilm and wear."""
+def _thinned(scene: Scene, op: OperatingPoint, body: Body) -> Body:
+    """A body of every third node of its track."""
+    rows = np.flatnonzero(track_rows(scene, op, body.wear.shape[0]))[::_THIN]
+    return replace(body, **{name: getattr(body, name)[rows, ::_THIN] for name in Body.ARRAYS})
+
+
+def _distance(before: Body, after: Body) -> float:
+    """Rms change [m] of the heights by tribofilm and wear."""
     film = thickness(after.growth, after.removal) - thickness(before.growth, before.removal)
-    return float(np.sqrt(np.mean((film - after.wear + before.wear)[_track(scene, op)] ** 2)))
+    return float(np.sqrt(np.mean((film - after.wear + before.wear) ** 2)))
 
 
-def _evolved(scene: Scene, op: OperatingPoint, state: ContactState, i: int, step: float) -> Body:
-    """One body after `step` [s] of what its last solution makes it feel."""
-    body, law = state.bodies[i], scene.tribofilm
-    warm = op.temperature + state.outputs.flash_temperature_rise
-    growth, removal = law.evolve(body.growth, body.removal, body.rubbing * step, warm)
-    film = 0.5 * (thickness(growth, removal) + thickness(body.growth, body.removal))
-    worn = step * _wear_speed(scene, op, body, film)
-    return replace(
-        body,
-        growth=growth,
-        removal=removal,
-        wear=body.wear + worn,
-        worn=body.worn + float(worn.sum()) * _area_of_node(scene, op, i),
-        cycles=body.cycles + abs((op.speed_1, op.speed_2)[i]) * step / track_length(scene, i),
-    )
-
-
-def _wear_speed(scene: Scene, op: OperatingPoint, body: Body, film: Array) -> Array:
-    """Wear depth per second [m/s] of a patch under a tribofilm [m]."""
-    cover = film / scene.tribofilm.full_thickness
-    return scene.wear.rate(body.pressure, cover, op.sliding_speed, scene.plasticity.hardness)
-
-
-def _wear_rate_now(scene: Scene, op: OperatingPoint, state: ContactState, i: int) -> float:
-    body = state.bodies[i]
-    speed = _wear_speed(scene, op, body, thickness(body.growth, body.removal))
-    return float(speed.sum()) * _area_of_node(scene, op, i)
-
-
-def _area_of_node(scene: Scene, op: OperatingPoint, i: int) -> float:
-    """Area [m2] for which one node of the patch stands: the patch repeats along the track of a moving body."""
-    moving = (op.speed_1, op.speed_2)[i] != 0.0
-    return scene.film.spacing**2 * (track_length(scene, i) / scene.film.domain if moving else 1.0)
-
-
-def _track(scene: Scene, op: OperatingPoint, share: float = 1.0) -> NDArray[np.bool_]:
-    """Rows of the patches with |y| < share * b, at least the middle one."""
-    b = scene.hertz(op.load if op.load > 0.0 else scene.operation.load).b
-    rows: NDArray[np.bool_] = np.abs(scene.film.axis) < max(share * b, 0.51 * scene.film.spacing)
-    return rows
+def _wear_rate_now(scene: Scene, op: OperatingPoint, body: Body, i: int) -> float:
+    """Volume [m3/s] that a body loses now."""
+    speed = wear_speed(scene, op, body, i, thickness(body.growth, body.removal))
+    return float(speed.sum()) * area_of_node(scene, op, i)
 
 
 def _with_surfaces(scene: Scene, op: OperatingPoint, state: ContactState) -> Outputs:
     """The last block's contact outputs with what the surfaces are now."""
-    track, middle = _track(scene, op), _track(scene, op, 2.0 / 3.0)
+    rows = state.rows
+    track, middle = track_rows(scene, op, rows), track_rows(scene, op, rows, 2.0 / 3.0)
     values: dict[str, Any] = {}
-    for i, (bare, body) in enumerate(zip(bare_heights(scene), state.bodies, strict=True)):
+    for i, (bare, body) in enumerate(zip(bare_heights(scene, rows), state.bodies, strict=True)):
         film, heights = thickness(body.growth, body.removal), heights_of(bare, body)
+        rough = roughness_of(bare, heights)
+        rubbed = film[track]
+        covered, upper = rubbed > _COVERED, rubbed > _UPPER * rubbed.max()
         found = {
             "wear_volume": body.worn,
             "wear_depth": float(body.wear[track].mean()),
-            "tribofilm": float(film[track].mean()),
+            "tribofilm": float(rubbed.mean()),
+            "tribofilm_covered": float(rubbed[covered].mean()) if covered.any() else 0.0,
+            "tribofilm_upper": float(rubbed[upper].mean()) if upper.any() else 0.0,
             "tribofilm_roughness": rms_roughness(film, middle),
-            "roughness": rms_roughness(roughness_of(bare, heights), middle),
+            "roughness": rms_roughness(rough, middle),
+            "roughness_ra": mean_roughness(rough, middle),
             "roughness_raw": rms_roughness(heights, middle),
-            "coverage": float((film[track] > _COVERED).mean()),
+            "coverage": float(covered.mean()),
             "load_cycles": body.cycles,
             "temperature": op.temperature,
         }
@@ -138,5 +130,34 @@ def _with_surfaces(scene: Scene, op: OperatingPoint, state: ContactState) -> Out
     if not scene.tribofilm.covers(op.temperature):
         flags |= RangeFlag.TRIBOFILM_TEMPERATURE
     power = max(0.0, -state.outputs.friction_force * op.sliding_speed)
-    step, _, _ = _longest_step(scene, op, state, 10.0 * scene.operation.duration)
-    return replace(state.outputs, **values, range_flags=int(flags), power_loss=power, suggested_step=step)
+    step, _ = _longest_step(scene, op, state, 10.0 * scene.operation.duration)
+    return replace(
+        state.outputs, **values, **_errors(state, values), range_flags=int(flags), power_loss=power, suggested_step=step
+    )
+
+
+def uncertainty(state: ContactState) -> dict[str, tuple[float, float]]:
+    """Half widths (two sigma, in the unit of the output) of the errors by time steps and by sampling of the moving
+    surfaces, apart from each other, by the names of the outputs. The grid's error is in neither.
+    """
+    found = state.trends.half_widths()
+    force = abs(state.outputs.friction_force)
+    scale = state.outputs.friction_coefficient / force if force > 0.0 else 0.0
+    time, sampling = found["friction_force"]
+    return found | {"friction_coefficient": (time * scale, sampling * scale)}
+
+
+def _errors(state: ContactState, values: dict[str, float]) -> dict[str, float]:
+    """Both errors together, relative to the outputs they belong to."""
+    found = uncertainty(state)
+
+    def relative(name: str, value: float) -> float:
+        return float(np.hypot(*found[name])) / abs(value) if value != 0.0 else 0.0
+
+    out = state.outputs
+    return {
+        "error_friction": relative("friction_coefficient", out.friction_coefficient),
+        "error_film": relative("h_c", out.h_c),
+        "error_tribofilm": max(relative(name, values[name]) for name in ("tribofilm_1", "tribofilm_2")),
+        "error_wear": max(relative(name, values[name]) for name in ("wear_depth_1", "wear_depth_2")),
+    }

@@ -1,54 +1,73 @@
-"""One block: a sweep of the moving surfaces through the contact.
+"""One block: the moving surfaces are solved at a few instants; between blocks the geometry changes a little.
 
-Mixed lubrication is marched through transient instants a node apart, until the faster surface has moved by one patch
-length. Dry contact has no history: a few instants at surface offsets of low discrepancy sample it. Either way the
-block ends with what a surface point feels (its mean solid pressure, whether it is rubbed) and with the mean outputs
-of the contact.
+Who drives it is `control.driver`. Mixed lubrication has a memory, so its instants are a march, a node apart, that goes on
+from block to block. Before each block the smoother body is put elsewhere under it (an additive golden-ratio sequence, of
+low discrepancy), for in near rolling it would else meet the same asperities for ever; the oil's history moves with it.
+Dry contact has no memory: a few instants at offsets of both bodies, again of low discrepancy, sample it.
+
+Dry pressures stand for mixed ones where the solids carry more than `control.dry_above` of the load: weighted by that share,
+which a mixed march measures anew every few blocks.
 """
 
-from dataclasses import dataclass, field, replace
-from typing import Any
+import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .contact import ContactFields, Transient, patch_nodes, solve
-from .film.instant import Grid
-from .film.outputs import disc, film_outputs, open_outputs
-from .laws.tribofilm import Ghanbarzadeh
+from .contact import Transient, heights_now, solve
+from .evolution import rates, roughness_now, speeds_of, stable_time, track_length
+from .patches import on_patch, patch_nodes, widened
 from .scene import OperatingPoint, Scene
-from .state import ContactState, RangeFlag
+from .state import Body, ContactState, RangeFlag
+from .sweep import Sweep
 
 Array = NDArray[np.float64]
 
-_SETTLING = 80  # transient steps after a new start before the sweep is sampled: about one passage of the oil
-_ITERATIONS = 40  # at most, of one transient step; a warm one needs about 20
-_DRY_SNAPSHOTS = 8
-_DRY_BLOCKS = 8  # blocks driven dry before a mixed solution is tried again
+_SETTLING = 80  # transient steps after a new start before the march is sampled: about one passage of the oil
+_ITERATIONS = 40  # at most, of one transient step; a warm one needs about 16
+_DRY_BLOCKS = 10  # driven dry before the mixed share is measured again
+_DRY_PASS = 8  # dry instants that stand for one pass of a surface point through the contact
 _GOLDEN = (0.7548776662466927, 0.5698402909980532)  # the additive sequence R2, of low discrepancy in the plane
-_LAMBDA_CAP = 1e3
 _MANY = 0.1  # share of unconverged solutions that raises a flag
+_MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
+_SMOOTHER = 0.5  # a body below this share of the other's roughness may jump under the film
+_SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most
+_LONGER = 2.0  # a block may be so much longer than the one before
+_EDGE = 3  # rows at the edge into which the scar may not come
+_WIDEST = 4  # times the scene's rows
 
 
 def is_due(scene: Scene, op: OperatingPoint, state: ContactState) -> bool:
     """Whether geometry or inputs have moved so far that the contact has to be solved again."""
-    used_up = state.change >= 0.999 * scene.control.change
+    used_up = state.change >= 0.999 * scene.control.change or state.held >= state.hold
     return state.solved_for is None or used_up or _has_moved(scene, op, state.solved_for)
 
 
 def solve_block(scene: Scene, op: OperatingPoint, state: ContactState) -> ContactState:
-    """Solve the contact over one sweep; time stands still. Store what the surfaces feel and what the contact gives."""
+    """Solve the contact for one block; time stands still. Store what the surfaces feel and what the contact gives."""
     same = state.solved_for is not None and not _has_moved(scene, op, state.solved_for)
-    sweep = _Sweep.empty(state.bodies[0].wear.shape)
-    dry = op.entrainment_speed == 0.0 or (same and state.dry_blocks_left > 0)
+    if not same:
+        state = replace(state, dry_blocks_left=0, trends=state.trends.restarted(), held=0.0)
+    state = _wide_enough(scene, state)
+    sweep = Sweep.before(state)
     if op.load == 0.0:
         sweep.add(scene, op, state, solve(scene, op, state))
-        state = replace(state, film=None)
-    elif dry:
-        state = _dry_sweep(scene, op, state, sweep)
-    else:
+        return _stored(scene, op, replace(state, film=None, share=1.0), sweep)
+    driver = scene.control.driver
+    if op.entrainment_speed == 0.0 or driver == "dry":
+        state = replace(state, share=1.0, fluid_friction=0.0)
+    elif driver == "mixed" or state.dry_blocks_left == 0:
         state = _mixed_sweep(scene, op, state, sweep, same and state.film is not None)
-    return _stored(scene, op, state, sweep)
+        means = sweep.means()
+        share = means["contact_load_ratio"]
+        if driver == "mixed" or share <= scene.control.dry_above:
+            return _stored(scene, op, state, sweep)
+        state = replace(
+            state, share=share, fluid_friction=means["friction_of_fluid"], dry_blocks_left=_DRY_BLOCKS, film=None
+        )
+        sweep = Sweep.before(state)
+    return _stored(scene, op, _dry_sweep(scene, op, state, sweep), sweep)
 
 
 def _has_moved(scene: Scene, op: OperatingPoint, old: OperatingPoint) -> bool:
@@ -67,70 +86,60 @@ def _has_moved(scene: Scene, op: OperatingPoint, old: OperatingPoint) -> bool:
     return any(abs(now - then) > scene.control.input_change * scale for now, then, scale in now_then_scale)
 
 
-@dataclass
-class _Sweep:
-    """Sums over the instants of a block."""
-
-    pressures: tuple[Array, Array]
-    touched: tuple[Array, Array]
-    sums: dict[str, float] = field(default_factory=dict)
-    count: int = 0
-    iterations: int = 0
-    mixed: int = 0
-    missed: int = 0  # solutions that stayed short of the tolerance
-    fallbacks: int = 0
-    flags: RangeFlag = field(default_factory=lambda: RangeFlag(0))
-
-    @staticmethod
-    def empty(shape: tuple[int, ...]) -> "_Sweep":
-        """Sums of nothing."""
-        return _Sweep((np.zeros(shape), np.zeros(shape)), (np.zeros(shape), np.zeros(shape)))
-
-    def add(self, scene: Scene, op: OperatingPoint, state: ContactState, fields: ContactFields) -> None:
-        """Count one instant in."""
-        for i, body in enumerate(state.bodies):
-            nodes = patch_nodes(scene, body)
-            self.pressures[i][:] += _on_patch(fields.solid_pressure, nodes)
-            self.touched[i][:] += _on_patch(fields.solid_pressure > 0.0, nodes)
-        for name, value in _observed(scene, op, fields).items():
-            self.sums[name] = self.sums.get(name, 0.0) + value
-        self.count += 1
-        self.iterations += fields.iterations
-        self.mixed += fields.route == "mixed"
-        self.missed += not fields.converged
-        self.fallbacks += fields.route == "fallback"
-        self.flags |= _flags(scene, op, fields)
+def _wide_enough(scene: Scene, state: ContactState) -> ContactState:
+    """The state with more rows if the scar has reached the edge of the patches."""
+    rows = state.rows
+    edge = [body.wear[[*range(_EDGE), *range(-_EDGE, 0)]].max() > 1e-3 * body.wear.max() for body in state.bodies]
+    if not any(edge) or rows >= _WIDEST * scene.film.points:
+        return state
+    more = 8 * math.ceil(rows / 64)  # an eighth on either side
+    first, second = (widened(body, more) for body in state.bodies)
+    return replace(state, bodies=(first, second), film=None)
 
 
-def _dry_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: _Sweep) -> ContactState:
-    steps = [scene.film.domain * golden * (speed != 0.0) for golden, speed in zip(_GOLDEN, _speeds(op), strict=True)]
-    for _ in range(_DRY_SNAPSHOTS):
-        state = _moved(scene, state, steps)
+def _dry_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep) -> ContactState:
+    jumps = [scene.film.domain * golden * (speed != 0.0) for golden, speed in zip(_GOLDEN, speeds_of(op), strict=True)]
+    for _ in range(scene.control.dry_instants):
+        state = _moved(scene, state, jumps)
         fields = solve(scene, op, state, dry=True)
-        sweep.add(scene, op, state, fields)
-        state = _yielded(scene, replace(state, film=None), fields)
+        sweep.add(scene, op, state, fields, (1.0 / _DRY_PASS, 1.0 / _DRY_PASS))
+        state = _yielded(scene, replace(state, film=None), fields.overlap)
     return state
 
 
-def _mixed_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: _Sweep, same: bool) -> ContactState:
+def _mixed_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, warm: bool) -> ContactState:
     columns = scene.film.points - 1
-    dt = scene.film.spacing / max(abs(speed) for speed in _speeds(op))
+    dt = scene.film.spacing / max(abs(speed) for speed in speeds_of(op))
+    steps = [speed * dt for speed in speeds_of(op)]
+    passes = (abs(steps[0]) / scene.film.domain, abs(steps[1]) / scene.film.domain)
     rougher = 0 if scene.surface_1.rq > scene.surface_2.rq else 1
     if state.film is None:
         state = replace(state, film=solve(scene, op, state, dry=True).film)
-    for k in range(0 if same else -_SETTLING, columns):
+    elif warm:
+        state = _shuffled(scene, op, state, 1 - rougher)
+    for k in range(0 if warm else -_SETTLING, scene.control.mixed_instants):
         before = patch_nodes(scene, state.bodies[rougher])
-        state = _moved(scene, state, [speed * dt for speed in _speeds(op)])
+        state = _moved(scene, state, steps)
         moved = (patch_nodes(scene, state.bodies[rougher]) - before + columns // 2) % columns - columns // 2
         fields = solve(scene, op, state, Transient(dt, moved, _ITERATIONS))
         if k >= 0:
-            sweep.add(scene, op, state, fields)
-        state = _yielded(scene, replace(state, film=fields.film), fields)
+            sweep.add(scene, op, state, fields, passes)
+        state = _yielded(scene, replace(state, film=fields.film), fields.overlap)
     return state
 
 
-def _speeds(op: OperatingPoint) -> tuple[float, float]:
-    return op.speed_1, op.speed_2
+def _shuffled(scene: Scene, op: OperatingPoint, state: ContactState, i: int) -> ContactState:
+    """The state with body `i`, moving and the smoother one by far, put elsewhere under the film. What its heights
+    change by, the oil's history gives way to: a jump is no squeeze.
+    """
+    rq = (scene.surface_1.rq, scene.surface_2.rq)
+    if state.film is None or speeds_of(op)[i] == 0.0 or rq[i] > _SMOOTHER * rq[1 - i]:
+        return state
+    jumps = [scene.film.domain * _GOLDEN[0] * (k == i) for k in (0, 1)]
+    jumped = _moved(scene, state, jumps)
+    higher = heights_now(scene, jumped) - heights_now(scene, state)
+    mass = np.maximum(state.film.mass - higher, scene.film.floor)
+    return replace(jumped, film=replace(state.film, mass=mass))
 
 
 def _moved(scene: Scene, state: ContactState, steps: list[float]) -> ContactState:
@@ -141,109 +150,81 @@ def _moved(scene: Scene, state: ContactState, steps: list[float]) -> ContactStat
     return replace(state, bodies=(first, second))
 
 
-def _yielded(scene: Scene, state: ContactState, fields: ContactFields) -> ContactState:
+def _yielded(scene: Scene, state: ContactState, overlap: Array) -> ContactState:
     """The state after half of the overlap has been pressed into each body, for good."""
-    if not fields.overlap.any():
+    if not overlap.any():
         return state
     first, second = (
-        replace(body, plastic=body.plastic + 0.5 * _on_patch(fields.overlap, patch_nodes(scene, body)))
-        for body in state.bodies
+        replace(body, plastic=body.plastic + 0.5 * on_patch(overlap, patch_nodes(scene, body))) for body in state.bodies
     )
     return replace(state, bodies=(first, second))
 
 
-def _on_patch(grid: NDArray[Any], nodes: int) -> NDArray[Any]:
-    """A field of the grid [ny, nx] on a patch [ny, nx - 1] shifted by `nodes`. The grid's last column carries no
-    pressure.
+def _feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, i: int, share: float) -> Body:
+    """A body with what the block makes it feel: mean pressure over its track, and exposure per test time by the dose
+    that the constants of the tribofilm law were fitted with.
     """
-    return np.roll(grid[:, :-1], -nodes, axis=1)
+    body, law = state.bodies[i], scene.tribofilm
+    # a moving point spends patch / track of its time in reach of the contact, a resting one all of it
+    reach = scene.film.domain / track_length(scene, i) if speeds_of(op)[i] != 0.0 else 1.0
+    exposure = sweep.exposures[i] / sweep.count
+    if law.dose == "clock":
+        exposure = (sweep.since[i] < 1.0).astype(np.float64)
+    elif law.dose == "contact_length" and op.load > 0.0:
+        exposure = exposure * scene.film.domain / (2.0 * scene.hertz(op.load).a)
+    elif law.dose == "residence":
+        exposure = exposure * reach
+    if op.sliding_speed == 0.0 or op.load == 0.0:  # nothing rubs in pure rolling, at rest or apart
+        exposure = np.zeros_like(exposure)
+    pressure = sweep.pressures[i] / sweep.count * (reach * share)
+    return replace(body, pressure=pressure, exposure=exposure, since=sweep.since[i])
 
 
-def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[str, float]:
-    """The outputs of one instant."""
-    cell = scene.film.spacing**2
-    seen = {"flash_temperature_rise": fields.flash_rise}
-    grid = Grid(fields.x, fields.y)
+def _longest(scene: Scene, op: OperatingPoint, state: ContactState, before: float) -> float:
+    """Longest time [s] until the next block, whatever its change: wear stays stable, the regime and the block's length
+    (`before`: of the last one [s]) change little by little.
+    """
+    limits = [scene.control.longest]
     if op.load > 0.0:
-        hertz = scene.hertz(op.load)
-        shear = float((fields.fluid_shear + fields.solid_shear).sum()) * cell
-        slope = np.gradient(fields.fluid_pressure, scene.film.spacing, axis=1)
-        seen |= film_outputs(grid, fields.film, fields.gap, op.load, hertz)
-        seen |= {
-            "friction_force": -shear,
-            "friction_coefficient": abs(shear) / op.load,
-            "rolling_resistance": float((0.5 * fields.gap * slope).sum()) * cell,
-        }
-        sigma = float(fields.roughness[disc(grid, hertz)].std())
-    else:
-        seen |= open_outputs(grid, fields.film, fields.gap)
-        seen |= dict.fromkeys(("friction_force", "friction_coefficient", "rolling_resistance"), 0.0)
-        sigma = 0.0
-    seen["lambda_ratio"] = min(seen["h_c"] / sigma, _LAMBDA_CAP) if sigma > 0.0 else _LAMBDA_CAP
-    return seen
+        limits += [stable_time(scene, op, body, i) for i, body in enumerate(state.bodies)]
+        if before > 0.0:
+            step = abs(state.trends.slope_of("contact_load_ratio"))
+            limits += [before * min(_LONGER, _SHARE_STEP / max(step, 1e-6))]
+    return min(limits)
 
 
-def _flags(scene: Scene, op: OperatingPoint, fields: ContactFields) -> RangeFlag:
-    """What makes one instant less sure."""
-    flags = RangeFlag(0)
-    if op.load == 0.0:
-        return RangeFlag.LAMBDA_CAPPED
-    if fields.route == "fallback":
-        flags |= RangeFlag.FALLBACK
-    if fields.route == "mixed" and fields.inlet_nodes < 3.0:
-        flags |= RangeFlag.INLET_UNRESOLVED
-    rows, columns = fields.solid_pressure[[1, -2], :], fields.solid_pressure[:, [1, -2]]
-    if max(rows.max(), columns.max()) > 0.01 * fields.pressure.max():
-        flags |= RangeFlag.DOMAIN_EDGE
-    if 2.0 * scene.hertz(op.load).a < 8.0 * scene.film.spacing:
-        flags |= RangeFlag.FEW_NODES
-    if not fields.roughness.any():
-        flags |= RangeFlag.LAMBDA_CAPPED
-    return flags
-
-
-def _stored(scene: Scene, op: OperatingPoint, state: ContactState, sweep: _Sweep) -> ContactState:
+def _stored(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep) -> ContactState:
     """The state with a block's results: exposure of the surfaces, outputs, and what decides about the next block."""
-    bodies = []
-    slow, fast = sorted(abs(speed) for speed in _speeds(op))
-    if op.load > 0.0 and 0.0 < slow < 0.9 * fast:
-        sweep.flags |= RangeFlag.SLOW_BODY
-    for i, (body, speed) in enumerate(zip(state.bodies, _speeds(op), strict=True)):
-        # a moving point spends patch / track of its time in reach of the contact, a resting one all of it
-        share = scene.film.domain / track_length(scene, i) if speed != 0.0 else 1.0
-        pressure, rubbing = sweep.pressures[i] / sweep.count * share, _rubbing(scene, op, sweep, i)
-        bodies.append(replace(body, pressure=pressure, rubbing=rubbing))
-    seen = {name: total / sweep.count for name, total in sweep.sums.items()}
     driver = "fallback" if 2 * sweep.fallbacks > sweep.count else "mixed" if sweep.mixed else "dry"
-    blocks, unconverged = f"blocks_{driver}", sweep.missed / sweep.count
+    share = state.share if driver == "dry" else 1.0
+    slow, fast = sorted(abs(speed) for speed in speeds_of(op))
+    if op.load > 0.0 and 0.0 < slow < 0.9 * fast and driver != "dry":
+        sweep.flags |= RangeFlag.SLOW_BODY
+    bodies = (_feeling(scene, op, state, sweep, 0, share), _feeling(scene, op, state, sweep, 1, share))
+    seen, spread = sweep.means(), sweep.spread(apart=driver == "dry")
+    if driver == "dry":
+        seen["friction_force"] = share * seen["friction_force"] + state.fluid_friction
+        seen["contact_load_ratio"] *= share
+        seen["contact_load_ratio_disc"] *= share
+    state = replace(state, bodies=bodies)
+    for i, body in enumerate(bodies):
+        now = rates(scene, op, body, i)
+        seen |= {f"{name}_{i + 1}_rate": value for name, value in now.items()}
+        seen[f"roughness_{i + 1}"] = roughness_now(scene, op, body, i)
+    unconverged = sweep.missed / sweep.count
     if unconverged > _MANY:
         sweep.flags |= RangeFlag.NOT_CONVERGED
+    trends = state.trends.followed(seen, spread, _MEMORY["dry" if driver == "dry" else "mixed"])
+    smooth, blocks = trends.values(), f"blocks_{driver}"
     outputs = replace(
         state.outputs,
-        **seen,
+        **smooth,
         **{blocks: getattr(state.outputs, blocks) + 1.0},
+        friction_coefficient=abs(smooth["friction_force"]) / op.load if op.load > 0.0 else 0.0,
         range_flags=int(sweep.flags),
         iterations=sweep.iterations,
         unconverged=unconverged,
     )
-    dry_left = max(state.dry_blocks_left - 1, 0)
-    if driver == "mixed":
-        dry_left = _DRY_BLOCKS if seen["contact_load_ratio"] > scene.control.dry_above else 0
-    return replace(
-        state, bodies=(bodies[0], bodies[1]), solved_for=op, change=0.0, dry_blocks_left=dry_left, outputs=outputs
-    )
-
-
-def _rubbing(scene: Scene, op: OperatingPoint, sweep: _Sweep, i: int) -> Array:
-    """Rubbing time per test time of each node of a patch, by the dose the tribofilm's constants were fitted with."""
-    law = scene.tribofilm
-    if not isinstance(law, Ghanbarzadeh) or op.sliding_speed == 0.0:  # nothing rubs in pure rolling or at rest
-        return np.zeros_like(sweep.touched[i])
-    if law.dose == "clock":
-        return (sweep.touched[i] > 0.0).astype(np.float64)
-    return sweep.touched[i] / sweep.count * scene.film.domain / (2.0 * scene.hertz(op.load).a)
-
-
-def track_length(scene: Scene, i: int) -> float:
-    """Travel [m] of a point of body 1 (i = 0) or 2 (i = 1) between two passes."""
-    return (scene.geometry.track_length_1, scene.geometry.track_length_2)[i]
+    left = max(state.dry_blocks_left - 1, 0) if driver == "dry" else 0
+    state = replace(state, solved_for=op, change=0.0, dry_blocks_left=left, outputs=outputs, trends=trends)
+    return replace(state, hold=_longest(scene, op, state, state.held), held=0.0)

@@ -1,17 +1,16 @@
 """One instant of a scene in a state: geometry, film, friction and flash temperature, node by node."""
 
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from .film.instant import FilmSolution, FilmState, Instant
+from .film.instant import FilmSolution, FilmState, Grid, Instant
 from .laws.tribofilm import thickness
-from .scene import OperatingPoint, Scene, Surface
-from .state import Body, ContactState
-from .surfaces import generate, groove_free
+from .patches import bare_heights, contact_grid, heights_of, on_grid, patch_nodes, roughness_of
+from .scene import OperatingPoint, Scene
+from .state import ContactState
 
 Array = NDArray[np.float64]
 
@@ -68,18 +67,23 @@ def solve(
     cannot be used, the dry one stands in (`route`).
     """
     op.check()
-    bare = bare_heights(scene)
+    bare, law = bare_heights(scene, state.rows), scene.plasticity
     nodes = [patch_nodes(scene, body) for body in state.bodies]
     patches = [heights_of(z, body) for z, body in zip(bare, state.bodies, strict=True)]
-    films = [thickness(body.growth, body.removal) / scene.tribofilm.full_thickness for body in state.bodies]
-    heights = _on_grid(patches[0], nodes[0]) + _on_grid(patches[1], nodes[1])
-    rough = _on_grid(roughness_of(bare[0], patches[0]), nodes[0]) + _on_grid(
-        roughness_of(bare[1], patches[1]), nodes[1]
+    heights = on_grid(patches[0], nodes[0]) + on_grid(patches[1], nodes[1])
+    rough = on_grid(roughness_of(bare[0], patches[0]), nodes[0]) + on_grid(roughness_of(bare[1], patches[1]), nodes[1])
+    full = scene.tribofilm.full_thickness
+    film_1, film_2 = (
+        on_grid(thickness(body.growth, body.removal), n) for body, n in zip(state.bodies, nodes, strict=True)
     )
-    cover_1, cover_2 = (_on_grid(film, n) for film, n in zip(films, nodes, strict=True))
-    limit = scene.plasticity.limit(np.maximum(cover_1, cover_2))
+    pressed = np.zeros_like(heights)
+    if law.indentation == "total":
+        pressed += sum(on_grid(body.plastic, n) for body, n in zip(state.bodies, nodes, strict=True))
+    limit = law.limit(film_1, film_2, pressed, full)
+    cover_1, cover_2 = film_1 / full, film_2 / full
+    grid = contact_grid(scene, state.rows)
     if op.load == 0.0:
-        film = _open(scene, heights)
+        film = _open(scene, grid, heights)
     else:
         now = Instant(
             load=op.load,
@@ -97,49 +101,25 @@ def solve(
         )
         follows = (transient.dt, transient.moved) if transient and state.film else None
         film = scene.film.solve(
-            now, state.film if transient else None, follows, transient.iterations if transient else None
+            now, grid, state.film if transient else None, follows, transient.iterations if transient else None
         )
-    return _with_friction(scene, op, film, heights, rough, cover_1, cover_2)
+    return _with_friction(scene, op, grid, film, heights, rough, cover_1, cover_2)
 
 
-def patch_nodes(scene: Scene, body: Body) -> int:
-    """Whole nodes by which a body's patch is shifted along +x."""
-    return round(body.offset / scene.film.spacing) % (scene.film.points - 1)
+def heights_now(scene: Scene, state: ContactState) -> Array:
+    """Heights [ny, nx] of both bodies together on the grid of the contact."""
+    first, second = (
+        on_grid(heights_of(z, body), patch_nodes(scene, body))
+        for z, body in zip(bare_heights(scene, state.rows), state.bodies, strict=True)
+    )
+    total: Array = first + second
+    return total
 
 
-def bare_heights(scene: Scene) -> tuple[Array, Array]:
-    """Generated heights [ny, nx] of both bodies' patches, as new."""
-    film = scene.film
-    return _bare(scene.surface_1, film.points, film.domain, 1), _bare(scene.surface_2, film.points, film.domain, 2)
-
-
-def heights_of(bare: Array, body: Body) -> Array:
-    """Heights of a body's patch as it is now: new surface - wear - plastic depth + tribofilm."""
-    return bare - body.wear - body.plastic + thickness(body.growth, body.removal)
-
-
-def roughness_of(bare: Array, heights: Array) -> Array:
-    """Heights of a patch without the groove it has got: what the rows have lost or gained on average is left out."""
-    return bare + groove_free(heights - bare)
-
-
-@lru_cache(maxsize=8)
-def _bare(surface: Surface, points: int, domain: float, body: int) -> Array:
-    heights = generate(surface, points, domain, body)
-    heights.setflags(write=False)
-    return heights
-
-
-def _on_grid(patch: Array, nodes: int) -> Array:
-    """A patch [ny, nx - 1] shifted along +x, on the grid [ny, nx]: the last column repeats the first."""
-    moved = np.roll(patch, nodes, axis=1)
-    return np.concatenate([moved, moved[:, :1]], axis=1)
-
-
-def _open(scene: Scene, heights: Array) -> FilmSolution:
+def _open(scene: Scene, grid: Grid, heights: Array) -> FilmSolution:
     """No load: the bodies just touch and nothing presses."""
-    x = scene.film.axis
-    shape = x[None, :] ** 2 / (2 * scene.geometry.radius_x) + x[:, None] ** 2 / (2 * scene.geometry.radius_y) - heights
+    x, y = grid.x[None, :], grid.y[:, None]
+    shape = x**2 / (2 * scene.geometry.radius_x) + y**2 / (2 * scene.geometry.radius_y) - heights
     rigid = scene.film.floor - float(shape.min())
     zeros, nothing = np.zeros_like(shape), np.zeros(shape.shape, np.bool_)
     return FilmSolution(
@@ -161,7 +141,14 @@ def _open(scene: Scene, heights: Array) -> FilmSolution:
 
 
 def _with_friction(
-    scene: Scene, op: OperatingPoint, film: FilmSolution, heights: Array, rough: Array, cover_1: Array, cover_2: Array
+    scene: Scene,
+    op: OperatingPoint,
+    grid: Grid,
+    film: FilmSolution,
+    heights: Array,
+    rough: Array,
+    cover_1: Array,
+    cover_2: Array,
 ) -> ContactFields:
     fluid = film.state.fluid
     solid = np.where(film.state.solid, film.state.pressure - fluid, 0.0)
@@ -169,10 +156,9 @@ def _with_friction(
     fluid_shear = oil.rheology(oil.viscosity(fluid, op.temperature), sliding / film.gap, fluid)
     solid_shear = scene.boundary_friction(solid, 0.5 * (cover_1 + cover_2), sliding)
     rise = _flash_rise(scene, film.state.solid, fluid_shear + solid_shear, sliding)
-    axis = scene.film.axis
     return ContactFields(
-        x=axis,
-        y=axis,
+        x=grid.x,
+        y=grid.y,
         pressure=film.state.pressure,
         fluid_pressure=fluid,
         solid_pressure=solid,

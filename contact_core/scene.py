@@ -64,7 +64,7 @@ class Lubricant:
 
 @dataclass(frozen=True)
 class Control:
-    """How the evolution over time is cut into blocks, in each of which the contact is solved once."""
+    """How the evolution over time is cut into blocks, in each of which the contact is solved at a few instants."""
 
     change: float = parameter(
         "m", "largest change of film or wear in a block, as rms over the track", above=0.0, most=1e-6
@@ -73,6 +73,17 @@ class Control:
         "", "contact_load_ratio above which dry pressures drive the blocks", least=0.0, most=2.0
     )
     input_change: float = parameter("", "relative change of an input that asks for a new solution", least=0.0, most=1.0)
+    driver: str = parameter(
+        "",
+        "whose pressures drive film and wear: mixed lubrication's, dry contact's, or by contact_load_ratio",
+        choices=("auto", "mixed", "dry"),
+        default="auto",
+    )
+    dry_instants: int = parameter("", "instants of a block driven dry", least=1, most=1000, default=4)
+    mixed_instants: int = parameter(
+        "", "instants of a block driven by mixed lubrication", least=1, most=1000, default=16
+    )
+    longest: float = parameter("s", "longest block", above=0.0, most=1e9, default=180.0)
 
 
 @dataclass(frozen=True)

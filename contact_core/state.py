@@ -10,7 +10,7 @@ import struct
 import zlib
 from dataclasses import asdict, dataclass, fields
 from enum import IntFlag
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +18,10 @@ from numpy.typing import NDArray
 from .errors import StateError
 from .film.instant import FilmState
 from .scene import OperatingPoint, Scene
+from .trends import Trends
 
 Array = NDArray[np.float64]
-_MAGIC, _SCHEMA = b"tribofmu", 1
+_MAGIC, _SCHEMA = b"tribofmu", 2
 
 
 class RangeFlag(IntFlag):
@@ -82,8 +83,21 @@ class Outputs:
     load_cycles_2: float = 0.0
     coverage_1: float = 0.0
     coverage_2: float = 0.0
+    tribofilm_covered_1: float = 0.0
+    tribofilm_covered_2: float = 0.0
+    tribofilm_upper_1: float = 0.0
+    tribofilm_upper_2: float = 0.0
+    roughness_ra_1: float = 0.0
+    roughness_ra_2: float = 0.0
     roughness_raw_1: float = 0.0
     roughness_raw_2: float = 0.0
+    lambda_conventional: float = 0.0
+    contact_area_ratio_disc: float = 0.0
+    contact_load_ratio_disc: float = 0.0
+    error_friction: float = 0.0
+    error_film: float = 0.0
+    error_tribofilm: float = 0.0
+    error_wear: float = 0.0
     unconverged: float = 0.0
     blocks_dry: float = 0.0
     blocks_mixed: float = 0.0
@@ -92,21 +106,24 @@ class Outputs:
 
 @dataclass(frozen=True)
 class Body:
-    """One body's rubbing track, cut to a patch that repeats along x. Arrays [ny, nx]."""
+    """One body's rubbing track, cut to a patch that repeats along x. Arrays [rows, nx - 1]."""
 
     growth: Array  # tribofilm formed [m]
     removal: Array  # tribofilm removed [m]
     wear: Array  # depth worn [m]
     plastic: Array  # permanent depth pressed in [m]
     pressure: Array  # solid pressure a point feels, mean over its track [Pa]; what wear needs of the last solution
-    rubbing: Array  # share of test time by which the tribofilm law counts a point as rubbed
+    exposure: Array  # per test time, what the tribofilm law needs of the last solution
+    since: Array  # passes through the contact since a point was last exposed
     offset: float  # how far the patch has moved along x in the solved steps [m], within one patch length
     cycles: float  # passes through the contact
     worn: float  # wear volume of the whole track [m3]
 
+    ARRAYS: ClassVar[tuple[str, ...]] = ("growth", "removal", "wear", "plastic", "pressure", "exposure", "since")
+
     def __post_init__(self) -> None:
-        for array in (self.growth, self.removal, self.wear, self.plastic, self.pressure, self.rubbing):
-            array.setflags(write=False)
+        for name in self.ARRAYS:
+            getattr(self, name).setflags(write=False)
 
 
 @dataclass(frozen=True)
@@ -119,8 +136,18 @@ class ContactState:
     film: FilmState | None  # the last film solution: warm start and history of the squeeze term; None: start dry
     solved_for: OperatingPoint | None  # of the last block; None: nothing solved yet
     change: float  # geometry change since the last block [m]
-    dry_blocks_left: int  # blocks until a mixed solution is tried again
+    held: float  # time since the last block [s]
+    hold: float  # longest time until the next block [s]
+    dry_blocks_left: int  # blocks until the share of the solids is measured again
+    share: float  # of the load on solids: weight of dry pressures
+    fluid_friction: float  # friction force of the oil beside them [N]
+    trends: Trends
     outputs: Outputs
+
+    @property
+    def rows(self) -> int:
+        """Rows of the patches and of the grid of the contact."""
+        return self.bodies[0].wear.shape[0]
 
     def to_bytes(self) -> bytes:
         """Serialise: magic, checksum of the rest, length of a JSON header, header, raw little-endian arrays.
@@ -154,7 +181,7 @@ def _pack(value: Any, arrays: list[NDArray[Any]]) -> Any:
         return [_pack(item, arrays) for item in value]
     if isinstance(value, (Outputs, OperatingPoint)):
         return {name: float(x).hex() if isinstance(x, float) else x for name, x in asdict(value).items()}
-    if isinstance(value, (ContactState, Body, FilmState)):
+    if isinstance(value, (ContactState, Body, FilmState, Trends)):
         return {f.name: _pack(getattr(value, f.name), arrays) for f in fields(value)}
     return value.hex() if isinstance(value, float) else value
 
@@ -182,12 +209,13 @@ def _read(data: bytes) -> ContactState:
 
 def _unpack_state(tree: dict[str, Any], arrays: Any) -> ContactState:
     def numbers(values: dict[str, Any]) -> dict[str, Any]:
-        return {name: float.fromhex(x) if isinstance(x, str) else x for name, x in values.items()}
+        return {name: number(x) for name, x in values.items()}
+
+    def number(value: Any) -> Any:
+        return float.fromhex(value) if isinstance(value, str) else value
 
     def record(cls: Any, values: dict[str, Any]) -> Any:
-        return cls(
-            **{f.name: next(arrays) if values[f.name] is None else float.fromhex(values[f.name]) for f in fields(cls)}
-        )
+        return cls(**{f.name: next(arrays) if values[f.name] is None else number(values[f.name]) for f in fields(cls)})
 
     bodies = (record(Body, tree["bodies"][0]), record(Body, tree["bodies"][1]))
     return ContactState(
@@ -197,7 +225,12 @@ def _unpack_state(tree: dict[str, Any], arrays: Any) -> ContactState:
         film=None if tree["film"] is None else record(FilmState, tree["film"]),
         solved_for=None if tree["solved_for"] is None else OperatingPoint(**numbers(tree["solved_for"])),
         change=float.fromhex(tree["change"]),
+        held=float.fromhex(tree["held"]),
+        hold=float.fromhex(tree["hold"]),
         dry_blocks_left=tree["dry_blocks_left"],
+        share=float.fromhex(tree["share"]),
+        fluid_friction=float.fromhex(tree["fluid_friction"]),
+        trends=record(Trends, tree["trends"]),
         outputs=Outputs(**numbers(tree["outputs"])),
     )
 
@@ -206,5 +239,7 @@ def initial_state(scene: Scene) -> ContactState:
     """Fresh surfaces: no film, no wear, nothing solved."""
     shape = (scene.film.points, scene.film.points - 1)
     zeros = np.zeros(shape)
-    body = Body(zeros, zeros, zeros, zeros, zeros, zeros, 0.0, 0.0, 0.0)
-    return ContactState(scene.digest(), 0.0, (body, body), None, None, 0.0, 0, Outputs())
+    body = Body(zeros, zeros, zeros, zeros, zeros, zeros, np.full(shape, np.inf), 0.0, 0.0, 0.0)
+    return ContactState(
+        scene.digest(), 0.0, (body, body), None, None, 0.0, 0.0, 0.0, 0, 1.0, 0.0, Trends.fresh(), Outputs()
+    )

@@ -76,3 +76,9 @@ def groove_free(heights: Array) -> Array:
 def rms_roughness(heights: Array, rows: NDArray[np.bool_] | slice) -> float:
     """Rms deviation [m] of the chosen rows from their common mean."""
     return float(np.std(heights[rows]))
+
+
+def mean_roughness(heights: Array, rows: NDArray[np.bool_] | slice) -> float:
+    """Arithmetic mean deviation Ra [m] of the chosen rows from their common mean."""
+    chosen = heights[rows]
+    return float(np.abs(chosen - chosen.mean()).mean())

@@ -3,14 +3,9 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ..quantities import parameter
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings
 from .routes import solve_film
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -51,24 +46,15 @@ class Deterministic:
         """Distance between nodes [m]."""
         return self.domain / (self.points - 1)
 
-    @property
-    def grid(self) -> Grid:
-        """The nodes."""
-        return Grid.centred(self.points, self.points, self.spacing)
-
-    @property
-    def axis(self) -> Array:
-        """Coordinates of the nodes along x, and along y [m]; zero is the centre of the contact."""
-        return self.grid.x
-
     def solve(
         self,
         now: Instant,
+        grid: Grid,
         start: FilmState | None = None,
         follows: tuple[float, int] | None = None,
         iterations: int | None = None,
     ) -> FilmSolution:
-        """Solve one instant, as `routes.solve_film`; `iterations`: fewer than the scene allows."""
+        """Solve one instant on a grid of this spacing, as `routes.solve_film`; `iterations`: fewer than the scene allows."""
         most = min(iterations or self.iterations, self.iterations)
         settings = Settings(self.floor, self.tolerance, most, self.fft, self.criterion == "lumped")
-        return solve_film(now, self.grid, settings, start, follows)
+        return solve_film(now, grid, settings, start, follows)

@@ -1,0 +1,98 @@
+"""What runs on between two solutions: tribofilm and wear of one body in closed form, and how long that may go on."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .laws.tribofilm import thickness
+from .patches import bare_heights, contact_grid, heights_of, roughness_of
+from .scene import OperatingPoint, Scene
+from .state import Body
+from .surfaces import rms_roughness
+
+Array = NDArray[np.float64]
+
+
+def speeds_of(op: OperatingPoint) -> tuple[float, float]:
+    """Surface speeds [m/s] of body 1 and 2."""
+    return op.speed_1, op.speed_2
+
+
+def track_length(scene: Scene, i: int) -> float:
+    """Travel [m] of a point of body 1 (i = 0) or 2 (i = 1) between two passes."""
+    return (scene.geometry.track_length_1, scene.geometry.track_length_2)[i]
+
+
+def evolved(scene: Scene, op: OperatingPoint, body: Body, i: int, step: float, flash: float) -> Body:
+    """A body after `step` [s] of what its last solution makes it feel; `flash` [K] above the oil's temperature."""
+    growth, removal = scene.tribofilm.evolve(body.growth, body.removal, body.exposure * step, op.temperature + flash)
+    film = 0.5 * (thickness(growth, removal) + thickness(body.growth, body.removal))
+    worn = step * wear_speed(scene, op, body, i, film)
+    return replace(
+        body,
+        growth=growth,
+        removal=removal,
+        wear=body.wear + worn,
+        worn=body.worn + float(worn.sum()) * area_of_node(scene, op, i),
+        cycles=body.cycles + abs(speeds_of(op)[i]) * step / track_length(scene, i),
+    )
+
+
+def wear_speed(scene: Scene, op: OperatingPoint, body: Body, i: int, film: Array) -> Array:
+    """Wear depth per second [m/s] of a patch under a tribofilm [m]."""
+    cover = film / scene.tribofilm.full_thickness
+    return scene.wear.rate(body.pressure, cover, speeds_of(op), i, scene.plasticity.hardness)
+
+
+def area_of_node(scene: Scene, op: OperatingPoint, i: int) -> float:
+    """Area [m2] for which one node of the patch stands: the patch repeats along the track of a moving body."""
+    moving = speeds_of(op)[i] != 0.0
+    return scene.film.spacing**2 * (track_length(scene, i) / scene.film.domain if moving else 1.0)
+
+
+def track_rows(scene: Scene, op: OperatingPoint, rows: int, share: float = 1.0) -> NDArray[np.bool_]:
+    """Which of the patches' rows have |y| < share * b, at least the middle one."""
+    b = scene.hertz(op.load if op.load > 0.0 else scene.operation.load).b
+    y = contact_grid(scene, rows).y
+    inside: NDArray[np.bool_] = np.abs(y) < max(share * b, 0.51 * scene.film.spacing)
+    return inside
+
+
+def rates(scene: Scene, op: OperatingPoint, body: Body, i: int) -> dict[str, float]:
+    """Mean speeds [m/s] at which wear depth and tribofilm of the track change now."""
+    track = track_rows(scene, op, body.wear.shape[0])
+    film = thickness(body.growth, body.removal)
+    moment = 1e-3
+    later = scene.tribofilm.evolve(body.growth, body.removal, body.exposure * moment, op.temperature)
+    growing = (thickness(*later) - film)[track].mean() / moment
+    return {"wear_depth": float(wear_speed(scene, op, body, i, film)[track].mean()), "tribofilm": float(growing)}
+
+
+def roughness_now(scene: Scene, op: OperatingPoint, body: Body, i: int) -> float:
+    """Rms roughness [m] of a body over |y| < 2b/3, free of the groove's shape."""
+    rows = body.wear.shape[0]
+    bare = bare_heights(scene, rows)[i]
+    return rms_roughness(roughness_of(bare, heights_of(bare, body)), track_rows(scene, op, rows, 2.0 / 3.0))
+
+
+def stable_time(scene: Scene, op: OperatingPoint, body: Body, i: int) -> float:
+    """Longest time [s] between two solutions for which wear smooths the shortest waves instead of making new ones.
+
+    A wave of wear of amplitude w and wave number q changes the pressure by E* q w / 2 while it is in contact, so it
+    decays at the rate K |v| d E* q / (2 H), d being the share of time a point is in contact. Euler's steps follow that
+    decay if they are shorter than its time.
+    """
+    if scene.wear.name == "none":
+        return math.inf
+    track = track_rows(scene, op, body.wear.shape[0])
+    cover = float(thickness(body.growth, body.removal)[track].mean()) / scene.tribofilm.full_thickness
+    width = 2.0 * scene.hertz(op.load).a
+    duty = min(width / track_length(scene, i), 1.0) if speeds_of(op)[i] != 0.0 else 1.0
+    shortest = math.sqrt(2.0) * math.pi / scene.film.spacing
+    stiffness = 0.25 * scene.solids.reduced_modulus * shortest
+    slide = scene.wear.slide(speeds_of(op), i)
+    decay = scene.wear.coefficient(cover) * slide * duty * stiffness / scene.plasticity.hardness
+    # a point that a block sees in only part of its passes gets the more in those
+    return 1.0 / decay / max(1.0, scene.film.domain / width) if decay > 0.0 else math.inf

@@ -1,0 +1,76 @@
+"""Body-fixed patches: what a surface is now, and where it lies under the contact.
+
+A patch [rows, nx - 1] repeats along x and shares its rows with the grid of the contact [rows, nx]. All bodies start with as
+many rows as the scene has points; a scar that reaches the edge makes them more.
+"""
+
+from dataclasses import replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .film.instant import Grid
+from .laws.tribofilm import thickness
+from .scene import Scene, Surface
+from .state import Body
+from .surfaces import generate, groove_free
+
+Array = NDArray[np.float64]
+
+
+def contact_grid(scene: Scene, rows: int) -> Grid:
+    """The nodes of the contact with `rows` of them along y."""
+    return Grid.centred(rows, scene.film.points, scene.film.spacing)
+
+
+def patch_nodes(scene: Scene, body: Body) -> int:
+    """Whole nodes by which a body's patch is shifted along +x."""
+    return round(body.offset / scene.film.spacing) % (scene.film.points - 1)
+
+
+def on_grid(patch: Array, nodes: int) -> Array:
+    """A patch shifted along +x, on the grid: the last column repeats the first."""
+    moved = np.roll(patch, nodes, axis=1)
+    return np.concatenate([moved, moved[:, :1]], axis=1)
+
+
+def on_patch(grid: NDArray[Any], nodes: int) -> NDArray[Any]:
+    """A field of the grid on a patch shifted by `nodes`. The grid's last column carries no pressure."""
+    return np.roll(grid[:, :-1], -nodes, axis=1)
+
+
+def bare_heights(scene: Scene, rows: int) -> tuple[Array, Array]:
+    """Generated heights of both bodies' patches, as new. Rows beyond the scene's own repeat them."""
+    film = scene.film
+    return _bare(scene.surface_1, film.points, film.domain, 1, rows), _bare(
+        scene.surface_2, film.points, film.domain, 2, rows
+    )
+
+
+@lru_cache(maxsize=8)
+def _bare(surface: Surface, points: int, domain: float, body: int, rows: int) -> Array:
+    own = np.arange(rows) - (rows - points) // 2
+    heights = generate(surface, points, domain, body)[own % (points - 1)]
+    heights.setflags(write=False)
+    return heights
+
+
+def heights_of(bare: Array, body: Body) -> Array:
+    """Heights of a body's patch as it is now: new surface - wear - plastic depth + tribofilm."""
+    return bare - body.wear - body.plastic + thickness(body.growth, body.removal)
+
+
+def roughness_of(bare: Array, heights: Array) -> Array:
+    """Heights of a patch without the groove it has got: what the rows have lost or gained on average is left out."""
+    return bare + groove_free(heights - bare)
+
+
+def widened(body: Body, more: int) -> Body:
+    """A body with `more` fresh rows on either side."""
+
+    def fresh(name: str) -> Array:
+        return np.pad(getattr(body, name), ((more, more), (0, 0)), constant_values=np.inf if name == "since" else 0.0)
+
+    return replace(body, **{name: fresh(name) for name in Body.ARRAYS})

@@ -1,0 +1,142 @@
+"""What a block's instants add up to: what each surface point feels, and the mean outputs of the contact."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .contact import ContactFields
+from .film.instant import Grid
+from .film.outputs import disc, film_outputs, open_outputs
+from .patches import on_patch, patch_nodes
+from .reference import SmoothContact, hamrock_dowson
+from .scene import OperatingPoint, Scene
+from .state import ContactState, RangeFlag
+
+Array = NDArray[np.float64]
+
+_LAMBDA_CAP = 1e3
+
+
+@dataclass
+class Sweep:
+    """Sums over the instants of a block; fields of both bodies lie on their patches."""
+
+    pressures: tuple[Array, Array]
+    exposures: tuple[Array, Array]
+    since: tuple[Array, Array]  # passes since a node was last exposed
+    outputs: list[dict[str, float]] = field(default_factory=list)
+    iterations: int = 0
+    mixed: int = 0
+    missed: int = 0  # solutions that stayed short of the tolerance
+    fallbacks: int = 0
+    flags: RangeFlag = field(default_factory=lambda: RangeFlag(0))
+
+    @staticmethod
+    def before(state: ContactState) -> "Sweep":
+        """Sums of nothing, at the beginning of a block."""
+        first, second = (body.since.copy() for body in state.bodies)
+        zeros = [np.zeros_like(first) for _ in range(4)]
+        return Sweep((zeros[0], zeros[1]), (zeros[2], zeros[3]), (first, second))
+
+    @property
+    def count(self) -> int:
+        """Instants so far."""
+        return len(self.outputs)
+
+    def add(
+        self,
+        scene: Scene,
+        op: OperatingPoint,
+        state: ContactState,
+        fields: ContactFields,
+        passes: tuple[float, float] = (0.0, 0.0),
+    ) -> None:
+        """Count one instant in. `passes`: the part of a pass through the contact that each body makes until the next."""
+        shear = np.abs(fields.fluid_shear + fields.solid_shear)
+        exposure = scene.tribofilm.exposure(fields.solid_pressure, shear, op.sliding_speed)
+        for i, body in enumerate(state.bodies):
+            nodes = patch_nodes(scene, body)
+            exposed = on_patch(exposure, nodes)
+            self.pressures[i][:] += on_patch(fields.solid_pressure, nodes)
+            self.exposures[i][:] += exposed
+            self.since[i][:] += passes[i]
+            self.since[i][exposed > 0.0] = 0.0
+        self.outputs.append(_observed(scene, op, fields))
+        self.iterations += fields.iterations
+        self.mixed += fields.route == "mixed"
+        self.missed += not fields.converged
+        self.fallbacks += fields.route == "fallback"
+        self.flags |= _flags(scene, op, fields)
+
+    def means(self) -> dict[str, float]:
+        """Mean outputs of the instants."""
+        return {name: sum(seen[name] for seen in self.outputs) / self.count for name in self.outputs[0]}
+
+    def spread(self, *, apart: bool) -> dict[str, float]:
+        """Standard deviation of these means, the instants being apart from each other or a march of neighbours."""
+        effective = self.count if apart else 1
+        return {name: float(np.std([seen[name] for seen in self.outputs])) / effective**0.5 for name in self.outputs[0]}
+
+
+def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[str, float]:
+    """The outputs of one instant."""
+    cell = scene.film.spacing**2
+    seen = {"flash_temperature_rise": fields.flash_rise}
+    grid = Grid(fields.x, fields.y)
+    formula, sigma = 0.0, 0.0
+    if op.load > 0.0:
+        hertz = scene.hertz(op.load)
+        inside = disc(grid, hertz)
+        fluid = float(fields.fluid_shear.sum()) * cell
+        slope = np.gradient(fields.fluid_pressure, scene.film.spacing, axis=1)
+        seen |= film_outputs(grid, fields.film, fields.gap, op.load, hertz)
+        seen |= {
+            "friction_force": -fluid - float(fields.solid_shear.sum()) * cell,
+            "friction_of_fluid": -fluid,
+            "rolling_resistance": float((0.5 * fields.gap * slope).sum()) * cell,
+            "contact_area_ratio_disc": float((fields.solid_pressure[inside] > 0.0).mean()),
+            "contact_load_ratio_disc": float(fields.solid_pressure[inside].sum() / fields.pressure[inside].sum()),
+        }
+        sigma = float(fields.roughness[inside].std())
+        formula = _formula_film(scene, op)
+    else:
+        seen |= open_outputs(grid, fields.film, fields.gap)
+        names = ("friction_force", "friction_of_fluid", "rolling_resistance")
+        seen |= dict.fromkeys((*names, "contact_area_ratio_disc", "contact_load_ratio_disc"), 0.0)
+    for name, film in (("lambda_ratio", seen["h_c"]), ("lambda_conventional", formula)):
+        seen[name] = min(film / sigma, _LAMBDA_CAP) if sigma > 0.0 else _LAMBDA_CAP
+    return seen
+
+
+def _formula_film(scene: Scene, op: OperatingPoint) -> float:
+    """Hamrock & Dowson's central film [m] of the smooth bodies; zero without entrainment."""
+    speed = abs(op.entrainment_speed)
+    if speed == 0.0:
+        return 0.0
+    low, high = scene.lubricant.viscosity(np.array([0.0, 1e6]), op.temperature)
+    rise = max(float(np.log(high / low)) * 1e-6, 1e-12)
+    shape = scene.geometry
+    contact = SmoothContact(
+        op.load, speed, float(low), rise, shape.radius_x, shape.radius_y, scene.solids.reduced_modulus
+    )
+    return hamrock_dowson(contact)[0]
+
+
+def _flags(scene: Scene, op: OperatingPoint, fields: ContactFields) -> RangeFlag:
+    """What makes one instant less sure."""
+    flags = RangeFlag(0)
+    if op.load == 0.0:
+        return RangeFlag.LAMBDA_CAPPED
+    if fields.route == "fallback":
+        flags |= RangeFlag.FALLBACK
+    if fields.route == "mixed" and fields.inlet_nodes < 3.0:
+        flags |= RangeFlag.INLET_UNRESOLVED
+    rows, columns = fields.solid_pressure[[1, -2], :], fields.solid_pressure[:, [1, -2]]
+    if max(rows.max(), columns.max()) > 0.01 * fields.pressure.max():
+        flags |= RangeFlag.DOMAIN_EDGE
+    if 2.0 * scene.hertz(op.load).a < 8.0 * scene.film.spacing:
+        flags |= RangeFlag.FEW_NODES
+    if not fields.roughness.any():
+        flags |= RangeFlag.LAMBDA_CAPPED
+    return flags
