@@ -23,12 +23,7 @@ class ElasticPerfectlyPlastic:
     hardness: float = parameter("Pa", "hardness of the bare solids", above=1e6, most=1e12)
     film_hardness: float = parameter("Pa", "hardness of a full tribofilm", above=1e6, most=1e12)
 
-    indentation: str = parameter("", "x", choices=("none", "total"), default="none")
-
-    def limit(self, film_1, film_2, depth, full):
-        return self.limit_(np.maximum(film_1, film_2) / full)
-
-    def limit_(self, cover: NDArray[np.float64]) -> NDArray[np.float64]:
+    def limit(self, cover: NDArray[np.float64]) -> NDArray[np.float64]:
         """Largest pressure [Pa] where the thicker film is `cover` (0 to 1) of its full thickness."""
         return self.hardness - (self.hardness - self.film_hardness) * cover
 

@@ -23,13 +23,6 @@ class NoTribofilm:
     name: ClassVar[str] = "none"
     source: ClassVar[str] = ""
     full_thickness: ClassVar[float] = 1.0  # any positive number: the thickness is always zero
-    dose: ClassVar[str] = "clock"
-
-    def exposure(self, solid_pressure, shear, sliding_speed):
-        return np.zeros_like(solid_pressure)
-
-    def refusal(self, temperature):
-        return ""
 
     def evolve(self, growth: Array, removal: Array, rubbing_time: Array, temperature: float) -> tuple[Array, Array]:
         """Return both variables as they are."""
@@ -69,12 +62,6 @@ class Ghanbarzadeh:
         formed = -np.expm1(-self.rate(temperature) * rubbing_time)
         taken = -np.expm1(-self.removal_rate * rubbing_time)
         return growth + (self.full_thickness - growth) * formed, removal + (self.removal_thickness - removal) * taken
-
-    def exposure(self, solid_pressure, shear, sliding_speed):
-        return (solid_pressure > 0.0).astype(float)
-
-    def refusal(self, temperature):
-        return ""
 
     def covers(self, temperature: float) -> bool:
         """Whether `temperature` [K] is within 5 K of the fit: T enters the rate only by +-6 % from 60 to 100 degC."""

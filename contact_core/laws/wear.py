@@ -18,7 +18,7 @@ class NoWear:
     name: ClassVar[str] = "none"
     source: ClassVar[str] = ""
 
-    def rate(self, pressure, cover, speeds, body, hardness) -> Array:
+    def rate(self, pressure: Array, cover: Array, sliding_speed: float, hardness: float) -> Array:
         """Zeros in the shape of `pressure`."""
         return np.zeros_like(pressure)
 
@@ -32,17 +32,11 @@ class Archard:
 
     bare: float = parameter("", "dimensionless wear coefficient of bare solids", least=0.0, most=1.0)
     film: float = parameter("", "dimensionless wear coefficient under a full tribofilm", least=0.0, most=1.0)
-    sliding: str = parameter("", "x", choices=("difference", "surface_speed"), default="difference")
 
-    def rate(self, pressure, cover, speeds, body, hardness) -> Array:
+    def rate(self, pressure: Array, cover: Array, sliding_speed: float, hardness: float) -> Array:
         """Wear depth per second [m/s] under a solid pressure [Pa]; cover 0 to 1, hardness [Pa] of the solids."""
-        return self.coefficient(cover) * pressure * self.slide(speeds, body) / hardness
-
-    def slide(self, speeds, body):
-        return abs(speeds[0] - speeds[1]) if self.sliding == "difference" else abs(speeds[body])
-
-    def coefficient(self, cover):
-        return self.bare + (self.film - self.bare) * cover
+        coefficient = self.bare + (self.film - self.bare) * cover
+        return coefficient * pressure * abs(sliding_speed) / hardness
 
 
 LAWS = (NoWear, Archard)
