@@ -17,7 +17,7 @@ from .laws.density import DowsonHigginson, Incompressible
 from .laws.heat import FlashTemperature, NoHeat
 from .laws.plasticity import ElasticPerfectlyPlastic
 from .laws.rheology import EyringLimited
-from .laws.tribofilm import Ghanbarzadeh, NoTribofilm
+from .laws.tribofilm import Andersson, Ghanbarzadeh, NoTribofilm
 from .laws.viscosity import Barus, Roelands
 from .laws.wear import Archard, NoWear
 from .quantities import TABLE, input_parameter, out_of_range, parameter
@@ -159,7 +159,7 @@ class Scene:
     plasticity: ElasticPerfectlyPlastic
     boundary_friction: FilmBlend
     heat: NoHeat | FlashTemperature
-    tribofilm: NoTribofilm | Ghanbarzadeh
+    tribofilm: NoTribofilm | Ghanbarzadeh | Andersson
     wear: NoWear | Archard
     film: Deterministic
     control: Control

@@ -8,13 +8,20 @@ from numpy.typing import NDArray
 
 from ..quantities import parameter
 
+Array = NDArray[np.float64]
+
 
 @dataclass(frozen=True)
 class ElasticPerfectlyPlastic:
     """The pressure never exceeds the hardness; what overlaps beyond it stays as permanent depth, half on each body.
 
-    The hardness falls linearly from the steel's to the full tribofilm's with the thicker of the two facing films
-    (Azam, PhD thesis, University of Leeds 2018, section 5.4; no strengthening by plastic depth).
+    The hardness falls linearly from the steel's, at the foot of a tribofilm, to the full film's at its top. How deep
+    the surfaces have been pressed in decides what they meet: the thicker film, both films or, beyond both, the steel
+    (Andersson et al., Faraday Discuss. 156 (2012) 343, doi:10.1039/c2fd00132b, as in Azam, PhD thesis, University of
+    Leeds 2018, section 5.5.2 and Figure 5-4).
+
+    `indentation` says which depth counts for `limit`: "none", zero, as if every pass met films that have healed;
+    "total", all that has been pressed into both facing nodes so far, as if a film never healed.
     """
 
     name: ClassVar[str] = "elastic_perfectly_plastic"
@@ -22,9 +29,18 @@ class ElasticPerfectlyPlastic:
 
     hardness: float = parameter("Pa", "hardness of the bare solids", above=1e6, most=1e12)
     film_hardness: float = parameter("Pa", "hardness of a full tribofilm", above=1e6, most=1e12)
+    indentation: str = parameter(
+        "", "plastic depth that hardens the tribofilms", choices=("none", "total"), default="none"
+    )
 
-    def limit(self, cover: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Largest pressure [Pa] where the thicker film is `cover` (0 to 1) of its full thickness."""
+    def limit(self, film_1: Array, film_2: Array, depth: Array | float, full_thickness: float) -> Array:
+        """Largest pressure [Pa] between films [m] pressed in by a plastic `depth` [m]; full_thickness [m] is h_max.
+
+        The film left above the depth U is h' - U while U < |h1 - h2| (h' the thicker one), (h1 + h2 - U) / 2 up to
+        U = h1 + h2, then nothing: the largest of the three at every depth.
+        """
+        left = np.maximum(np.maximum(film_1, film_2) - depth, 0.5 * (film_1 + film_2 - depth))
+        cover = np.clip(left / full_thickness, 0.0, 1.0)
         return self.hardness - (self.hardness - self.film_hardness) * cover
 
 

@@ -1,11 +1,19 @@
 """Growth and removal of the tribofilm.
 
-A law carries two internal variables per node and body: `growth` (what tribochemistry has formed) and `removal` (what
-rubbing has taken). They are autonomous, so a state needs no age and may be cut and continued anywhere.
+In each solved instant a law says how strongly every node is exposed (`exposure`). Its `dose` says how the instants of a
+pass become the mean exposure per test time:
+
+    clock            the largest exposure in the last pass, for the whole time
+    contact_length   the mean over the crossing of the contact's length 2a
+    residence        the mean over the whole track
+
+Mean exposure times test time is what `evolve` takes. A law carries two internal variables per node and body: `growth`
+(what tribochemistry has formed) and `removal` (what rubbing has taken). They are autonomous, so a state needs no age
+and may be cut and continued anywhere.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +23,29 @@ from ..quantities import parameter
 
 Array = NDArray[np.float64]
 
+_FIT_WIDTH = 5.0  # K to either side of the fit
+
+
+def _fit_temperature() -> Any:
+    return parameter("K", "temperature at which the constants were fitted", least=200.0, most=600.0)
+
+
+def _beyond_fit() -> Any:
+    text = "what to do more than 5 K from the fit_temperature"
+    return parameter("", text, choices=("refuse", "extrapolate"), default="refuse")
+
+
+def _covers(fit: float, temperature: float) -> bool:
+    return abs(temperature - fit) <= _FIT_WIDTH + 1e-9  # 95 degC is 5 K from 90 degC also after rounding
+
+
+def _refusal(fit: float, temperature: float, extrapolated: str) -> str:
+    return (
+        f"temperature = {temperature:g} K is outside {fit - _FIT_WIDTH:g} K to {fit + _FIT_WIDTH:g} K, where the "
+        f"tribofilm's constants hold (tribofilm.fit_temperature = {fit:g} K). Use a set fitted at that temperature, or "
+        f"tribofilm.beyond_fit = 'extrapolate', which {extrapolated}."
+    )
+
 
 @dataclass(frozen=True)
 class NoTribofilm:
@@ -23,8 +54,13 @@ class NoTribofilm:
     name: ClassVar[str] = "none"
     source: ClassVar[str] = ""
     full_thickness: ClassVar[float] = 1.0  # any positive number: the thickness is always zero
+    dose: ClassVar[str] = "clock"
 
-    def evolve(self, growth: Array, removal: Array, rubbing_time: Array, temperature: float) -> tuple[Array, Array]:
+    def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float) -> Array:
+        """Zeros in the shape of `solid_pressure`."""
+        return np.zeros_like(solid_pressure)
+
+    def evolve(self, growth: Array, removal: Array, exposed: Array, temperature: float) -> tuple[Array, Array]:
         """Return both variables as they are."""
         return growth, removal
 
@@ -32,15 +68,21 @@ class NoTribofilm:
         """Whether the constants hold at `temperature` [K]."""
         return True
 
+    def refusal(self, temperature: float) -> str:
+        """Nothing to refuse at any `temperature` [K]."""
+        return ""
+
 
 @dataclass(frozen=True)
 class Ghanbarzadeh:
     """Growth to h_max at the rate k = (k_B T / h) x, removal up to C3 at the rate C4: thickness = growth - removal.
 
     In closed form for a node rubbed for a time t: h = h_max [1 - exp(-k t)] - C3 [1 - exp(-C4 t)].
-    `dose` says how long a node is rubbed in a block of test time: "clock", the whole block if it touched the other body
-    in any pass (the constants were fitted that way); "contact_length", in proportion to the length of solid contact
-    in a pass.
+    A node that slides is exposed (1) or not (0), so its exposure over a time is the time it counts as rubbed [s].
+    `nodes` says which are: "contacts", where solids touch; "stressed", also where a film of oil alone shears the
+    surface by more than `least_shear` (films grow without solid contact under enough shear stress: Zhang & Spikes
+    2016, doi:10.1007/s11249-016-0706-7; the threshold is assumed). The published constants were fitted to the clock
+    time of nodes in contact: the defaults.
     """
 
     name: ClassVar[str] = "ghanbarzadeh"
@@ -50,22 +92,87 @@ class Ghanbarzadeh:
     rate_factor: float = parameter("", "x, share of k_B T / h that forms film", least=0.0, most=1.0)
     removal_thickness: float = parameter("m", "C3, largest removed thickness", least=0.0, most=1e-5)
     removal_rate: float = parameter("s^-1", "C4, rate of removal", least=0.0, most=1.0)
-    fit_temperature: float = parameter("K", "temperature at which the constants were fitted", least=200.0, most=600.0)
+    fit_temperature: float = _fit_temperature()
     dose: str = parameter("", "how long a node counts as rubbed", choices=("clock", "contact_length"), default="clock")
+    nodes: str = parameter("", "which nodes are rubbed", choices=("contacts", "stressed"), default="contacts")
+    least_shear: float = parameter(
+        "Pa", "shear stress above which oil alone rubs a node, for nodes = stressed", least=0.0, most=1e10, default=1e8
+    )
+    beyond_fit: str = _beyond_fit()
 
     def rate(self, temperature: float) -> float:
         """Rate k of growth [1/s] at `temperature` [K]."""
         return Boltzmann * temperature / Planck * self.rate_factor
 
-    def evolve(self, growth: Array, removal: Array, rubbing_time: Array, temperature: float) -> tuple[Array, Array]:
-        """Both variables [m] after each node was rubbed for `rubbing_time` [s]; exact for any time."""
-        formed = -np.expm1(-self.rate(temperature) * rubbing_time)
-        taken = -np.expm1(-self.removal_rate * rubbing_time)
+    def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float) -> Array:
+        """1 where a node is rubbed, else 0, under solid pressure and total |shear stress| [Pa]; 0 without sliding."""
+        if sliding_speed == 0.0:
+            return np.zeros_like(solid_pressure)
+        rubbed = solid_pressure > 0.0
+        if self.nodes == "stressed":
+            rubbed |= shear > self.least_shear
+        return rubbed.astype(np.float64)
+
+    def evolve(self, growth: Array, removal: Array, exposed: Array, temperature: float) -> tuple[Array, Array]:
+        """Both variables [m] after each node was rubbed for a time `exposed` [s]; exact for any time."""
+        formed = -np.expm1(-self.rate(temperature) * exposed)
+        taken = -np.expm1(-self.removal_rate * exposed)
         return growth + (self.full_thickness - growth) * formed, removal + (self.removal_thickness - removal) * taken
 
     def covers(self, temperature: float) -> bool:
         """Whether `temperature` [K] is within 5 K of the fit: T enters the rate only by +-6 % from 60 to 100 degC."""
-        return abs(temperature - self.fit_temperature) <= 5.0
+        return _covers(self.fit_temperature, temperature)
+
+    def refusal(self, temperature: float) -> str:
+        """Why the law does not go to a bulk `temperature` [K], or an empty text if it does."""
+        if self.beyond_fit == "extrapolate" or self.covers(temperature):
+            return ""
+        changed = "changes the rate by +-6 % only between 60 and 100 degC: T enters by k_B T / h alone"
+        return _refusal(self.fit_temperature, temperature, changed)
+
+
+@dataclass(frozen=True)
+class Andersson:
+    """Growth by the frictional power per area q = |tau u_s| where solids touch; nothing is removed.
+
+    dh/dt = C5 (1 - h / h_max) max(q - C6, 0), Azam's equations (5-1) and (5-2) (PhD thesis, University of Leeds 2018),
+    which write q as mu p u_s. The exposure is max(q - C6, 0) [W/m2]; over a time and the whole track it adds up to an
+    energy per area E [J/m2], and h_max - h falls by exp(-C5 E / h_max).
+    """
+
+    name: ClassVar[str] = "andersson"
+    source: ClassVar[str] = (
+        "Andersson, Larsson, Almqvist, Grahn & Minami, Faraday Discuss. 156 (2012) 343, doi:10.1039/c2fd00132b"
+    )
+    dose: ClassVar[str] = "residence"
+
+    full_thickness: float = parameter("m", "h_max, largest thickness", above=0.0, most=1e-5)
+    growth_per_energy: float = parameter(
+        "m3/J", "C5, volume that frictional energy forms on bare solids", least=0.0, most=1e-6
+    )
+    least_power: float = parameter("W/m2", "C6, frictional power per area that forms nothing", least=0.0, most=1e12)
+    fit_temperature: float = _fit_temperature()
+    beyond_fit: str = _beyond_fit()
+
+    def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float) -> Array:
+        """Frictional power per area above the threshold [W/m2] where solids touch, total |shear stress| in Pa."""
+        power = np.maximum(shear * abs(sliding_speed) - self.least_power, 0.0)
+        return np.where(solid_pressure > 0.0, power, 0.0)
+
+    def evolve(self, growth: Array, removal: Array, exposed: Array, temperature: float) -> tuple[Array, Array]:
+        """Both variables [m] after each node took up `exposed` [J/m2]; exact for any energy."""
+        formed = -np.expm1(-self.growth_per_energy * exposed / self.full_thickness)
+        return growth + (self.full_thickness - growth) * formed, removal
+
+    def covers(self, temperature: float) -> bool:
+        """Whether `temperature` [K] is within 5 K of the fit."""
+        return _covers(self.fit_temperature, temperature)
+
+    def refusal(self, temperature: float) -> str:
+        """Why the law does not go to a bulk `temperature` [K], or an empty text if it does."""
+        if self.beyond_fit == "extrapolate" or self.covers(temperature):
+            return ""
+        return _refusal(self.fit_temperature, temperature, "leaves the rate as it is: the law has no temperature in it")
 
 
 def thickness(growth: Array, removal: Array) -> Array:
@@ -73,4 +180,4 @@ def thickness(growth: Array, removal: Array) -> Array:
     return np.maximum(growth - removal, 0.0)
 
 
-LAWS = (NoTribofilm, Ghanbarzadeh)
+LAWS = (NoTribofilm, Ghanbarzadeh, Andersson)

@@ -32,6 +32,8 @@ PLAUSIBLE = {
     "full_thickness": (1e-9, 1e-6),
     "removal_thickness": (0.0, 1e-6),
     "rate_factor": (0.0, 1e-14),
+    "growth_per_energy": (0.0, 1e-9),
+    "least_power": (0.0, 1e9),
     "conductivity_1": (0.1, 500.0),
     "conductivity_2": (0.1, 500.0),
     "diffusivity_1": (1e-7, 1e-4),
@@ -117,11 +119,51 @@ def test_a_shear_stress_follows_the_shear_rate_and_dissipates(law, viscosity, ra
     assert np.all(np.abs(found) <= viscosity * np.abs(rate) * (1.0 + 1e-12) + 1e-300)  # never above Newton's
 
 
-@given(laws_of("plasticity"), covers)
-def test_a_pressure_limit_lies_between_those_of_solid_and_film(law, cover):
-    found = law.limit(cover)
+FULL = 100e-9
+films = arrays(float, SHAPE, elements=st.floats(0.0, FULL))
+depths = arrays(float, SHAPE, elements=st.floats(0.0, 3.0 * FULL))
+
+
+@given(laws_of("plasticity"), films, films, depths)
+def test_a_pressure_limit_lies_between_those_of_solid_and_film(law, film_1, film_2, depth):
+    found = law.limit(film_1, film_2, depth, FULL)
     assert is_field(found)
     assert np.all((found >= law.film_hardness * (1.0 - 1e-12)) & (found <= law.hardness))
+    assert np.array_equal(law.limit(film_2, film_1, depth, FULL), found)
+    assert np.all(law.limit(film_1, film_2, film_1 + film_2, FULL) >= law.hardness * (1.0 - 1e-12))
+    assert np.all(law.limit(film_1 * 0.0, film_2 * 0.0, depth, FULL) == law.hardness)
+
+
+@given(laws_of("plasticity"), films, films, depths)
+def test_a_pressure_limit_is_that_of_one_of_three_layers(law, film_1, film_2, depth):
+    slope = (law.hardness - law.film_hardness) / FULL
+    expected = np.select(
+        [depth < np.abs(film_1 - film_2), depth <= film_1 + film_2],
+        [
+            law.hardness - slope * (np.maximum(film_1, film_2) - depth),
+            law.hardness - slope / 2.0 * (film_1 + film_2 - depth),
+        ],
+        law.hardness,
+    )
+    assert law.limit(film_1, film_2, depth, FULL) == pytest.approx(expected, rel=1e-12)
+
+
+@given(laws_of("plasticity"), films, films, st.floats(-1e-6, 1e-6))
+def test_a_pressure_limit_has_no_step_where_the_depth_reaches_another_layer(law, film_1, film_2, share):
+    steepest = (law.hardness - law.film_hardness) / FULL
+    for joint in (np.abs(film_1 - film_2), film_1 + film_2):
+        depth = np.maximum(joint + share * FULL, 0.0)
+        step = law.limit(film_1, film_2, depth, FULL) - law.limit(film_1, film_2, joint, FULL)
+        assert np.all(np.abs(step) <= steepest * np.abs(depth - joint) + 1e-12 * law.hardness)
+
+
+@given(laws_of("plasticity"), films, films, depths, depths)
+def test_a_pressure_limit_rises_with_depth_and_falls_with_film(law, film_1, film_2, depth, deeper):
+    found = law.limit(film_1, film_2, depth, FULL)
+    rounding = 1e-12 * law.hardness
+    assert np.all(law.limit(film_1, film_2, depth + deeper, FULL) >= found - rounding)
+    assert np.all(law.limit(film_1 + deeper, film_2, depth, FULL) <= found + rounding)
+    assert np.all(law.limit(film_1, film_2 + deeper, depth, FULL) <= found + rounding)
 
 
 @given(laws_of("boundary_friction"), pressures, covers, speeds)
@@ -141,13 +183,46 @@ def test_friction_only_warms(law, radius, shear, speed):
     assert not law.rise(radius, shear, 0.0).any()
 
 
-@given(laws_of("wear"), pressures, covers, speeds)
-def test_wear_only_removes_and_needs_pressure_and_sliding(law, pressure, cover, speed):
-    found = law.rate(pressure, cover, speed, 6e9)
+@given(laws_of("wear"), pressures, covers, speeds, speeds, st.sampled_from((0, 1)))
+def test_wear_only_removes_and_needs_pressure_and_sliding(law, pressure, cover, speed_1, speed_2, body):
+    found = law.rate(pressure, cover, (speed_1, speed_2), body, 6e9)
     assert is_field(found)
     assert np.all(found >= 0.0)
-    assert not law.rate(np.zeros(SHAPE), cover, speed, 6e9).any()
-    assert not law.rate(pressure, cover, 0.0, 6e9).any()
+    assert not law.rate(np.zeros(SHAPE), cover, (speed_1, speed_2), body, 6e9).any()
+    assert not law.rate(pressure, cover, (0.0, 0.0), body, 6e9).any()
+    if getattr(law, "sliding", "difference") == "difference":
+        assert not law.rate(pressure, cover, (speed_1, speed_1), body, 6e9).any()
+
+
+@given(laws_of("wear"), pressures, covers, speeds, speeds, st.sampled_from((0, 1)))
+def test_a_wear_rate_is_that_of_its_coefficient_and_its_sliding(law, pressure, cover, speed_1, speed_2, body):
+    found = law.rate(pressure, cover, (speed_1, speed_2), body, 6e9)
+    coefficient, slide = law.coefficient(cover), law.slide((speed_1, speed_2), body)
+    assert is_field(coefficient)
+    assert np.all((coefficient >= 0.0) & (coefficient <= 1.0))
+    assert slide >= 0.0
+    assert found == pytest.approx(coefficient * pressure * slide / 6e9, rel=1e-12, abs=0.0)
+
+
+shears = arrays(float, SHAPE, elements=st.floats(0.0, 1e9))
+
+
+@given(laws_of("tribofilm"), pressures, shears, speeds)
+def test_a_tribofilm_is_exposed_by_sliding_alone_and_wherever_more_stress_does_so_too(law, pressure, shear, speed):
+    found = law.exposure(pressure, shear, speed)
+    assert is_field(found)
+    assert np.all(found >= 0.0)
+    assert np.array_equal(law.exposure(pressure, shear, -speed), found)
+    assert not law.exposure(pressure, shear, 0.0).any()
+    assert not law.exposure(np.zeros(SHAPE), np.zeros(SHAPE), speed).any()
+    assert np.all(law.exposure(pressure, 2.0 * shear, speed) >= found)
+    assert law.dose in ("clock", "contact_length", "residence")
+
+
+@given(laws_of("tribofilm"), temperatures)
+def test_a_tribofilm_law_refuses_what_its_constants_do_not_cover_unless_told_to_extrapolate(law, temperature):
+    refused = law.refusal(temperature)
+    assert bool(refused) == (not law.covers(temperature) and law.beyond_fit == "refuse")
 
 
 times = arrays(float, SHAPE, elements=st.floats(0.0, 1e5))

@@ -1,5 +1,8 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from contact_core import Scene
 from contact_core.laws.tribofilm import thickness
@@ -69,3 +72,51 @@ def test_temperature_enters_the_growth_rate_in_proportion():
     law = Scene.from_toml("mtm_zddp").tribofilm
     rates = np.array([law.rate(t) / law.rate_factor for t in (333.15, 353.15, 363.15, 373.15)])
     assert rates == pytest.approx([6.942e12, 7.358e12, 7.567e12, 7.775e12], rel=1e-4)
+
+
+BY_ENERGY = {"tribofilm.set": "andersson_90c"}
+
+
+def test_growth_by_energy_is_that_of_the_differential_equation():
+    """A power that swings across the threshold, 200 times over, against the sum of its energy in one step."""
+    law = replace(Scene.from_toml("azam_case_a", BY_ENERGY).tribofilm, least_power=3e3)
+
+    def power(t):
+        return 5e3 * (1.0 + np.sin(t))
+
+    def exposed(t):
+        return law.exposure(np.ones(1), np.array([power(t) / 0.005]), -0.005)[0]
+
+    def growing(t, h):
+        return law.growth_per_energy * (1.0 - h / law.full_thickness) * max(power(t) - law.least_power, 0.0)
+
+    end = 200.0 * 2.0 * np.pi
+    found = solve_ivp(growing, (0.0, end), [20e-9], max_step=0.1, rtol=1e-8, atol=1e-16).y[0, -1]
+    middle = (np.arange(200_000) + 0.5) * end / 200_000
+    energy = sum(exposed(t) for t in middle[:1000]) * (end / 200_000) * 200  # of one swing, 200 times
+    growth, removal = law.evolve(np.array([20e-9]), np.zeros(1), np.array([energy]), 363.15)
+    assert 80e-9 < found < 175e-9
+    assert growth[0] == pytest.approx(found, rel=1e-5, abs=0.0)
+    assert not removal.any()
+
+
+def case_a_by_energy(seconds: np.ndarray) -> np.ndarray:
+    """Film [m] on the ball of case A under the mean Hertz pressure at mu = 0.1, from its time in contact."""
+    scene = Scene.from_toml("azam_case_a", BY_ENERGY)
+    hertz, zero = scene.hertz(scene.operation.load), np.zeros_like(seconds)
+    pressure = np.array([2.0 / 3.0 * hertz.pressure_max])
+    share = 2.0 * hertz.a / scene.geometry.track_length_1
+    exposure = scene.tribofilm.exposure(pressure, 0.1 * pressure, scene.operation.point.sliding_speed)
+    return thickness(*scene.tribofilm.evolve(zero, zero, exposure * share * seconds, 363.15))
+
+
+def test_the_assumed_constants_by_energy_start_as_fast_as_the_published_ones():
+    published = stepped("azam_case_a", np.array([0.1]))
+    assert case_a_by_energy(np.array([0.1])) == pytest.approx(published, rel=3e-3, abs=0.0)
+
+
+def test_growth_by_energy_shows_no_overshoot():
+    film = case_a_by_energy(60.0 * MINUTES)
+    assert np.all(np.diff(film) > 0.0)
+    assert np.all(np.diff(closed_form("azam_case_a", 60.0 * MINUTES))[5:] < 0.0)
+    assert film[-1] == pytest.approx(176e-9, rel=1e-3, abs=0.0)

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -6,7 +8,7 @@ from contact_core.laws.density import DowsonHigginson, Incompressible
 from contact_core.laws.heat import FlashTemperature, NoHeat
 from contact_core.laws.plasticity import ElasticPerfectlyPlastic
 from contact_core.laws.rheology import EyringLimited
-from contact_core.laws.tribofilm import Ghanbarzadeh, NoTribofilm, thickness
+from contact_core.laws.tribofilm import Andersson, Ghanbarzadeh, NoTribofilm, thickness
 from contact_core.laws.viscosity import Barus, Roelands
 from contact_core.laws.wear import Archard, NoWear
 
@@ -68,9 +70,42 @@ def test_the_film_pulls_with_the_sliding():
     assert forward[5] == 0.0
 
 
-def test_hardness_falls_from_the_solids_to_the_full_films():
-    law = ElasticPerfectlyPlastic(hardness=6e9, film_hardness=2e9)
-    assert law.limit(np.array([0.0, 0.25, 1.0])) == pytest.approx([6e9, 5e9, 2e9], rel=1e-15)
+LAYERED = ElasticPerfectlyPlastic(hardness=6e9, film_hardness=2e9)
+FULL = 100e-9
+
+
+def limit(film_1: float, film_2: float, depth: float) -> float:
+    return float(LAYERED.limit(np.array([film_1]), np.array([film_2]), np.array([depth]), FULL)[0])
+
+
+def test_without_depth_the_hardness_falls_from_the_solids_to_the_full_films_with_the_thicker_film():
+    thicker, none = np.array([0.0, 25e-9, 100e-9]), np.zeros(3)
+    for thinner in (none, thicker):
+        assert LAYERED.limit(thicker, thinner, none, FULL) == pytest.approx([6e9, 5e9, 2e9], rel=1e-15)
+        assert LAYERED.limit(thinner, thicker, none, FULL) == pytest.approx([6e9, 5e9, 2e9], rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("depth", "expected"),
+    [
+        (20e-9, 6e9 - 4e9 * 60e-9 / FULL),  # in the thicker film: 80 - 20 nm of it are left
+        (50e-9, 6e9 - 4e9 * 30e-9 / FULL),  # first joint, |h1 - h2|: from both sides 80 - 50 = (110 - 50) / 2
+        (70e-9, 6e9 - 4e9 * 20e-9 / FULL),  # in both films: half of what is left of the two
+        (110e-9, 6e9),  # second joint, h1 + h2: through both
+        (200e-9, 6e9),  # in the steel
+    ],
+)
+def test_a_hardness_is_that_of_the_layer_that_the_plastic_depth_has_reached(depth, expected):
+    assert limit(80e-9, 30e-9, depth) == pytest.approx(expected, rel=1e-14)
+    assert limit(30e-9, 80e-9, depth) == pytest.approx(expected, rel=1e-14)
+
+
+def test_no_film_is_softer_than_a_full_one():
+    assert limit(3.0 * FULL, 0.0, 0.0) == limit(3.0 * FULL, 3.0 * FULL, 0.0) == 2e9
+
+
+def test_plastic_depth_is_left_out_of_the_hardness_unless_asked_for():
+    assert LAYERED.indentation == "none"
 
 
 BLEND = FilmBlend(bare=0.13, film=0.115, slip_speed=1e-4)
@@ -89,32 +124,64 @@ def test_boundary_friction_is_odd_in_sliding_and_fades_over_the_slip_speed():
     assert BLEND(pressure, cover, 1e-4)[0] / BLEND(pressure, cover, 1.0)[0] == pytest.approx(np.tanh(1.0), rel=1e-14)
 
 
+WEAR = Archard(bare=1e-5, film=1e-6)
+
+
 def test_wear_is_linear_in_pressure_and_sliding_and_blind_to_direction():
-    law = Archard(bare=1e-5, film=1e-6)
-    rate = law.rate(np.array([[1e9, 2e9]]), np.zeros((1, 2)), 0.005, 6e9)
-    assert rate == pytest.approx(np.array([[1e-5 / 6.0 * 0.005, 1e-5 / 3.0 * 0.005]]), rel=1e-14, abs=0.0)
-    assert np.array_equal(law.rate(np.array([[1e9, 2e9]]), np.zeros((1, 2)), -0.005, 6e9), rate)
-    assert law.rate(np.array([1e9]), np.zeros(1), 0.01, 6e9)[0] == pytest.approx(2.0 * rate[0, 0], rel=1e-14, abs=0.0)
+    pressure, bare = np.array([[1e9, 2e9]]), np.zeros((1, 2))
+    rate = WEAR.rate(pressure, bare, (0.255, 0.25), 0, 6e9)
+    assert rate == pytest.approx(np.array([[1e-5 / 6.0 * 0.005, 1e-5 / 3.0 * 0.005]]), rel=1e-12, abs=0.0)
+    assert np.array_equal(WEAR.rate(pressure, bare, (0.25, 0.255), 0, 6e9), rate)
+    assert WEAR.rate(pressure, bare, (0.26, 0.25), 0, 6e9) == pytest.approx(2.0 * rate, rel=1e-12, abs=0.0)
+
+
+def test_both_bodies_slide_at_the_difference_of_their_speeds():
+    for speeds, slide in (((0.3, 0.1), 0.2), ((0.1, 0.3), 0.2), ((-0.1, 0.3), 0.4), ((0.2, 0.2), 0.0)):
+        assert WEAR.slide(speeds, 0) == WEAR.slide(speeds, 1) == pytest.approx(slide, rel=1e-14)
+
+
+def test_by_surface_speed_a_body_slides_the_contact_length_in_each_pass_whatever_the_slide_to_roll_ratio():
+    law = Archard(bare=1e-5, film=1e-6, sliding="surface_speed")
+    for ratio in (-0.1, 0.0, 0.1):
+        speeds = 0.25 * (1.0 + ratio / 2.0), -0.25 * (1.0 - ratio / 2.0)
+        for body in (0, 1):
+            assert law.slide(speeds, body) * (1e-4 / abs(speeds[body])) == pytest.approx(1e-4, rel=1e-14, abs=0.0)
+
+
+def test_by_surface_speed_the_faster_ball_wears_more_at_any_sign_of_sliding():
+    law = Archard(bare=1e-5, film=1e-6, sliding="surface_speed")
+    ratios = np.array([-0.1, -0.05, -0.02, -0.005, 0.005, 0.02, 0.05, 0.1])
+    speeds = [(0.25 * (1.0 + ratio / 2.0), 0.25 * (1.0 - ratio / 2.0)) for ratio in ratios]
+    ball = [law.rate(np.array([1e9]), np.zeros(1), pair, 0, 6e9)[0] for pair in speeds]
+    disc = [law.rate(np.array([1e9]), np.zeros(1), pair, 1, 6e9)[0] for pair in speeds]
+    assert np.all(np.diff(ball) > 0.0)
+    assert np.all(np.diff(disc) < 0.0)
+    assert ball[-1] / ball[0] == pytest.approx(0.2625 / 0.2375, rel=1e-12)
 
 
 def test_a_full_tribofilm_wears_with_its_own_coefficient():
-    law = Archard(bare=1e-5, film=1e-6)
-    rate = law.rate(np.full(3, 1e9), np.array([0.0, 0.5, 1.0]), 1.0, 6e9)
+    cover = np.array([0.0, 0.5, 1.0])
+    assert WEAR.coefficient(cover) == pytest.approx([1e-5, 5.5e-6, 1e-6], rel=1e-14, abs=0.0)
+    rate = WEAR.rate(np.full(3, 1e9), cover, (1.0, 0.0), 1, 6e9)
     assert rate / rate[0] == pytest.approx([1.0, 0.55, 0.1], rel=1e-14)
 
 
 def test_wear_coefficients_are_those_of_the_source_in_cubic_millimetres_per_newton_metre():
-    law = Archard(bare=1e-5, film=1e-6)
-    per_pascal = law.rate(np.ones(2), np.array([0.0, 1.0]), 1.0, 6e9)  # m of depth per Pa and m of sliding = m2/N
+    # m of depth per Pa and m of sliding = m2/N
+    per_pascal = WEAR.rate(np.ones(2), np.array([0.0, 1.0]), (1.0, 0.0), 0, 6e9)
     assert per_pascal * 1e9 == pytest.approx([1.7e-6, 1.7e-7], abs=0.05e-6)
 
 
 def test_what_is_switched_off_gives_zeros():
-    assert not NoWear().rate(PRESSURE, PRESSURE, 1.0, 6e9).any()
+    assert not NoWear().rate(PRESSURE, PRESSURE, (1.0, 0.0), 0, 6e9).any()
+    assert not NoWear().coefficient(PRESSURE).any()
+    assert NoWear().slide((1.0, 0.0), 0) == 0.0
     assert not NoHeat().rise(PRESSURE, PRESSURE, 1.0).any()
     growth, removal = NoTribofilm().evolve(np.zeros((2, 3)), np.zeros((2, 3)), np.full((2, 3), 1e4), 363.15)
     assert not thickness(growth, removal).any()
+    assert not NoTribofilm().exposure(PRESSURE, PRESSURE, 1.0).any()
     assert NoTribofilm().covers(230.0)
+    assert NoTribofilm().refusal(230.0) == ""
 
 
 FILM = Ghanbarzadeh(176e-9, 4.13e-16, 112.5e-9, 6.799e-4, 363.15)
@@ -131,10 +198,77 @@ def test_a_film_never_gets_thinner_than_nothing():
     assert np.array_equal(thickness(np.array([3.0, 1.0]), np.array([1.0, 3.0])), [2.0, 0.0])
 
 
-def test_film_constants_hold_within_five_kelvin():
-    assert FILM.covers(368.15)
-    assert not FILM.covers(368.2)
-    assert not FILM.covers(358.1)
+SOLID = np.array([0.0, 0.0, 1.0, 2e9])
+SHEAR = np.array([50e6, 150e6, 50e6, 250e6])
+
+
+def test_a_film_is_rubbed_where_solids_touch():
+    assert FILM.dose == "clock"
+    assert np.array_equal(FILM.exposure(SOLID, SHEAR, 0.005), [0.0, 0.0, 1.0, 1.0])
+
+
+@pytest.mark.parametrize(("least", "expected"), [(100e6, [0, 1, 1, 1]), (200e6, [0, 0, 1, 1]), (0.0, [1, 1, 1, 1])])
+def test_enough_shear_stress_rubs_a_film_through_oil_if_asked_for(least, expected):
+    law = replace(FILM, nodes="stressed", least_shear=least)
+    assert np.array_equal(law.exposure(SOLID, SHEAR, -0.005), expected)
+    assert np.array_equal(replace(law, nodes="contacts").exposure(SOLID, SHEAR, -0.005), [0.0, 0.0, 1.0, 1.0])
+
+
+ENERGY = Andersson(176e-9, 2e-13, 1e5, 363.15)
+
+
+def test_frictional_power_above_the_threshold_exposes_nodes_in_contact():
+    assert ENERGY.dose == "residence"
+    assert ENERGY.exposure(SOLID, SHEAR, 0.005) == pytest.approx([0.0, 0.0, 1.5e5, 11.5e5], rel=1e-12, abs=0.0)
+    assert np.array_equal(ENERGY.exposure(SOLID, SHEAR, -0.005), ENERGY.exposure(SOLID, SHEAR, 0.005))
+    assert not ENERGY.exposure(SOLID, SHEAR, 0.0001).any()
+
+
+def test_friction_forms_a_volume_in_proportion_to_its_energy_until_the_film_is_full():
+    zero = np.zeros(3)
+    energy = np.array([1.0, 1e3, 1e9])  # J/m2
+    growth, removal = ENERGY.evolve(zero, zero, energy, 363.15)
+    assert growth[:2] == pytest.approx(2e-13 * energy[:2], rel=1e-3, abs=0.0)
+    assert growth[2] == 176e-9
+    assert not removal.any()
+
+
+@pytest.mark.parametrize("law", [FILM, ENERGY])
+def test_film_constants_hold_within_five_kelvin(law):
+    assert law.covers(368.15)
+    assert law.covers(358.15)
+    assert not law.covers(368.2)
+    assert not law.covers(358.1)
+    assert law.refusal(368.15) == law.refusal(358.15) == ""
+
+
+@pytest.mark.parametrize(("law", "extrapolated"), [(FILM, "+-6 %"), (ENERGY, "as it is")])
+def test_another_temperature_is_refused_with_what_would_be_right(law, extrapolated):
+    sentence = law.refusal(343.15)
+    for said in (
+        "temperature = 343.15 K",
+        "358.15 K to 368.15 K",
+        "tribofilm.fit_temperature = 363.15 K",
+        "Use a set fitted at that temperature",
+        "tribofilm.beyond_fit = 'extrapolate'",
+        extrapolated,
+    ):
+        assert said in sentence
+    beyond = replace(law, beyond_fit="extrapolate")
+    assert beyond.refusal(343.15) == ""
+    assert not beyond.covers(343.15)
+
+
+@pytest.mark.parametrize("degrees", range(20, 200, 10))
+def test_a_border_of_five_kelvin_survives_rounding(degrees):
+    law = replace(FILM, fit_temperature=degrees + 273.15)
+    assert law.covers(degrees + 5.0 + 273.15)
+    assert law.covers(degrees - 5.0 + 273.15)
+
+
+def test_extrapolation_changes_the_rate_by_six_percent_between_sixty_and_a_hundred_degrees():
+    rates = np.array([FILM.rate(t) for t in (333.15, 373.15)]) / FILM.rate(353.15)
+    assert rates == pytest.approx([0.943, 1.057], abs=1e-3)
 
 
 STEEL = FlashTemperature(46.0, 46.0, 1.25e-5, 1.25e-5)
