@@ -36,7 +36,7 @@ def _beyond_fit() -> Any:
 
 
 def _covers(fit: float, temperature: float) -> bool:
-    return abs(temperature - fit) <= _FIT_WIDTH + 1e-9  # 95 degC is 5 K from 90 degC also after rounding
+    return abs(temperature - fit) <= _FIT_WIDTH
 
 
 def _refusal(fit: float, temperature: float, extrapolated: str) -> str:

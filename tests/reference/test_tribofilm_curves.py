@@ -1,9 +1,12 @@
+import tomllib
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+import contact_core
 from contact_core import Scene
 from contact_core.laws.tribofilm import thickness
 from contact_core.reference import ghanbarzadeh_thickness
@@ -113,6 +116,13 @@ def case_a_by_energy(seconds: np.ndarray) -> np.ndarray:
 def test_the_assumed_constants_by_energy_start_as_fast_as_the_published_ones():
     published = stepped("azam_case_a", np.array([0.1]))
     assert case_a_by_energy(np.array([0.1])) == pytest.approx(published, rel=3e-3, abs=0.0)
+
+
+def test_constants_that_nobody_published_are_marked_as_assumed():
+    path = Path(contact_core.__file__).parent / "data" / "tribofilms.toml"
+    sources = {name: table["source"] for name, table in tomllib.loads(path.read_text("utf-8")).items()}
+    assert set(sources) == {"zddp_90c", "zddp_80c", "andersson_90c"}
+    assert [name for name, source in sources.items() if source.startswith("Assumed")] == ["andersson_90c"]
 
 
 def test_growth_by_energy_shows_no_overshoot():
