@@ -406,7 +406,7 @@ def _answer_of(scene: Scene, op: OperatingPoint, found: ContactFields, before: A
         radius=scene.geometry.radius_x,
         modulus=scene.solids.reduced_modulus,
         speed=op.entrainment_speed,
-        hardness=scene.plasticity.limit(np.maximum(found.cover_1, found.cover_2)),
+        hardness=scene.plasticity.limit(found.cover_1, found.cover_2, 0.0, 1.0),
         size=scene.hertz(op.load).a,
         viscosity=lambda p: scene.lubricant.viscosity(p, op.temperature),
         before=before,

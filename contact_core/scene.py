@@ -258,6 +258,16 @@ class Scene:
         times = [step.time for step in self.operation.steps]
         if times and self.operation.file:
             yield "duty", f"operation.steps and operation.file = '{self.operation.file}' exclude each other. Keep one."
+        temperatures = [("operation", self.operation.temperature)]
+        temperatures += [
+            (f"operation.steps[{i}]", step.temperature)
+            for i, step in enumerate(self.operation.steps)
+            if step.temperature is not None
+        ]
+        for name, temperature in temperatures:
+            refusal = self.tribofilm.refusal(temperature)
+            if refusal:
+                yield "temperature", f"{name}.{refusal}"
         if any(late <= early for early, late in pairwise([0.0, *times])):
             yield "duty", f"The times of operation.steps, {times} s, must be above 0 and increase."
 
@@ -270,7 +280,8 @@ class Scene:
                 found.append(f"{name} has {nodes:.2f} nodes per correlation length; 2 or more resolve it.")
         if not self.tribofilm.covers(self.operation.temperature):
             found.append(
-                f"The tribofilm's constants were fitted at another temperature than {self.operation.temperature:g} K."
+                f"The tribofilm's constants were fitted at another temperature than {self.operation.temperature:g} K: "
+                "tribofilm.beyond_fit = 'extrapolate' takes them as they are."
             )
         return found
 

@@ -88,6 +88,7 @@ def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[s
     if op.load > 0.0:
         hertz = scene.hertz(op.load)
         inside = disc(grid, hertz)
+        carried = fields.pressure[inside].sum()
         fluid = float(fields.fluid_shear.sum()) * cell
         slope = np.gradient(fields.fluid_pressure, scene.film.spacing, axis=1)
         seen |= film_outputs(grid, fields.film, fields.gap, op.load, hertz)
@@ -96,7 +97,7 @@ def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[s
             "friction_of_fluid": -fluid,
             "rolling_resistance": float((0.5 * fields.gap * slope).sum()) * cell,
             "contact_area_ratio_disc": float((fields.solid_pressure[inside] > 0.0).mean()),
-            "contact_load_ratio_disc": float(fields.solid_pressure[inside].sum() / fields.pressure[inside].sum()),
+            "contact_load_ratio_disc": float(fields.solid_pressure[inside].sum() / carried) if carried > 0.0 else 0.0,
         }
         sigma = float(fields.roughness[inside].std())
         formula = _formula_film(scene, op)

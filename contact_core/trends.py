@@ -31,9 +31,9 @@ SMOOTHED = (
     "approach",
 )
 SHAPES = ("roughness_1", "roughness_2")  # followed for their slope; they need no smoothing
-_ALL = (*SMOOTHED, *SHAPES, *(f"{name}_rate" for name in RATES))
+NAMES = (*SMOOTHED, *SHAPES, *(f"{name}_rate" for name in RATES))
 _SIGNED = ("friction_force", "rolling_resistance", "approach")
-_LEAST = np.array([0.0 if name in SMOOTHED and name not in _SIGNED else -np.inf for name in _ALL])
+_LEAST = np.array([0.0 if name in SMOOTHED and name not in _SIGNED else -np.inf for name in NAMES])
 _MEMORY_OF_SPREAD = 0.1
 
 
@@ -41,7 +41,7 @@ _MEMORY_OF_SPREAD = 0.1
 class Trends:
     """Filter of `SMOOTHED` outputs and of `RATES`, in this order, and the errors the rates have led to so far."""
 
-    level: Array  # [_ALL]
+    level: Array  # [NAMES]
     slope: Array  # per block
     variance: Array  # of one block's mean
     gain: float  # share of the last block in the level
@@ -56,7 +56,7 @@ class Trends:
     @staticmethod
     def fresh() -> "Trends":
         """Nothing seen yet."""
-        n, rates = len(_ALL), np.zeros(len(RATES))
+        n, rates = len(NAMES), np.zeros(len(RATES))
         return Trends(np.zeros(n), np.zeros(n), np.zeros(n), 1.0, 0, rates, rates)
 
     def restarted(self) -> "Trends":
@@ -70,10 +70,10 @@ class Trends:
         Gains as in Morrison, Introduction to Sequential Smoothing and Prediction, McGraw-Hill 1969: least squares
         over all blocks at first, fading memory later.
         """
-        x = np.array([seen[name] for name in _ALL])
+        x = np.array([seen[name] for name in NAMES])
         n = self.blocks
         if n == 0:
-            own = np.array([spread.get(name, 0.0) for name in _ALL])
+            own = np.array([spread.get(name, 0.0) for name in NAMES])
             return replace(self, level=x, slope=np.zeros_like(x), variance=own**2, gain=1.0, blocks=1)
         first = max(1.0 - memory**2, 2.0 * (2 * n + 1) / ((n + 1) * (n + 2)))
         second = max((1.0 - memory) ** 2, 6.0 / ((n + 1) * (n + 2)))
@@ -91,7 +91,7 @@ class Trends:
         The rate at the end of a block has moved by the slope: half of it, over the time, is what Euler's step lacks.
         The rate's own scatter adds up within a block and at random between blocks.
         """
-        n = len(_ALL) - len(RATES)
+        n = len(NAMES) - len(RATES)
         return replace(
             self,
             time_error=self.time_error + 0.5 * self.slope[n:] * step,

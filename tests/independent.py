@@ -73,7 +73,7 @@ def judge(scene, op, fields):
     """Hold the steady fields of `solve`, entrained along +x, against the equations."""
     floor, hertz = scene.film.floor, scene.hertz(op.load)
     p, f, h, solid = fields.pressure, fields.fluid_pressure, gap(scene, fields), fields.film.solid
-    limit = scene.plasticity.limit(np.maximum(fields.cover_1, fields.cover_2))
+    limit = scene.plasticity.limit(fields.cover_1, fields.cover_2, 0.0, 1.0)
     film = np.where(solid, floor, np.maximum(h, floor))
     brought, carried = volume_flow(scene, op, f, film)
     inside, empty = np.isfinite(brought), p <= 1e-6 * hertz.pressure_max

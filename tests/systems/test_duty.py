@@ -105,7 +105,7 @@ def test_a_duty_too_heavy_for_the_grid_is_refused_by_the_scenes_rule(scene: Scen
         Duty.from_steps(OperatingPoint(400.0, 0.1, 0.2, 350.0)).sized(scene)
 
 
-STEPS = [{"time": "60 s", "load": "30 N"}, {"time": "2 min", "speed_1": "-0.1 m/s", "temperature": "100 degC"}]
+STEPS = [{"time": "60 s", "load": "30 N"}, {"time": "2 min", "speed_1": "-0.1 m/s", "temperature": "84 degC"}]
 
 
 def with_steps(steps: list[dict[str, str]], **operation: str) -> Scene:
@@ -119,7 +119,7 @@ def test_steps_of_a_scene_change_what_they_name() -> None:
     duty = Duty.of_scene(scene)
     first = scene.operation.point
     assert duty.times == (0.0, 60.0, 120.0)
-    assert duty.points == (first, replace(first, load=30.0), replace(first, speed_1=-0.1, temperature=373.15))
+    assert duty.points == (first, replace(first, load=30.0), replace(first, speed_1=-0.1, temperature=357.15))
     assert Scene.from_dict(scene.to_dict()) == scene
 
 

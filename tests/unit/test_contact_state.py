@@ -1,5 +1,5 @@
 from dataclasses import FrozenInstanceError, fields, is_dataclass, replace
-from typing import Any, get_args, get_type_hints
+from typing import Any, ClassVar, get_args, get_origin, get_type_hints
 
 import numpy as np
 import pytest
@@ -7,6 +7,7 @@ import pytest
 from contact_core import ContactState, Outputs, RangeFlag, Scene, StateError, initial_state
 from contact_core.film.instant import FilmState
 from contact_core.state import Body
+from contact_core.trends import NAMES, Trends
 
 SMALL = {"film.points": "33", "surface_1.rq": "0 nm", "surface_2.correlation_length": "16 um"}
 AWKWARD = (-0.0, 5e-324, 1.0 / 3.0, -1.7976931348623157e308, 0.1 + 0.2)
@@ -25,6 +26,8 @@ def used(scene: Scene) -> ContactState:
     def filled(cls: Any, shape: tuple[int, int]) -> Any:
         values = {}
         for name, hint in get_type_hints(cls).items():
+            if get_origin(hint) is ClassVar:
+                continue
             if hint is float:
                 values[name] = float(random.normal())
             elif get_args(get_args(hint)[1])[0] is np.bool_:
@@ -44,7 +47,12 @@ def used(scene: Scene) -> ContactState:
         film=filled(FilmState, (n, n)),
         solved_for=scene.operation.point,
         change=1e-9 / 3.0,
+        held=1.0 / 3.0,
+        hold=np.inf,
         dry_blocks_left=4,
+        share=6.0 / 7.0,
+        fluid_friction=-0.1 / 3.0,
+        trends=replace(Trends.fresh().followed(dict.fromkeys(NAMES, 1.0 / 3.0), {}, 0.5), gain=2.0 / 3.0),
         outputs=Outputs(**outputs),
     )
 
@@ -111,9 +119,10 @@ def test_a_fresh_state_has_no_film_no_wear_and_the_shape_of_the_grid(scene):
     assert state.film is None
     assert state.solved_for is None
     assert state.time == 0.0
-    for array in arrays(state.bodies):
-        assert array.shape == (33, 32)
-        assert not array.any()
+    for body in state.bodies:
+        assert all(getattr(body, name).shape == (33, 32) for name in Body.ARRAYS)
+        assert not any(getattr(body, name).any() for name in Body.ARRAYS if name != "since")
+        assert np.isinf(body.since).all()
 
 
 @pytest.mark.parametrize("length", [0, 5, 8, 12, 15, 16, 200, -8, -1])

@@ -198,10 +198,26 @@ def test_two_nodes_per_correlation_length_are_asked_for_by_a_warning():
     assert "surface_1 has 1.28 nodes per correlation length" in warning
 
 
-def test_a_temperature_far_from_that_of_the_film_constants_gives_a_warning():
-    scene = Scene.from_toml("mtm_zddp", {"operation.temperature": "100 degC"})
-    (warning,) = scene.warnings()
+HOT = {"operation.temperature": "100 degC"}
+
+
+def test_a_temperature_far_from_that_of_the_film_constants_is_refused_with_the_way_out():
+    with pytest.raises(SceneError, match=r"operation\.temperature = 373\.15 K is outside 348\.15 K to 358\.15 K") as error:
+        Scene.from_toml("mtm_zddp", HOT)
+    assert "tribofilm.beyond_fit = 'extrapolate'" in str(error.value)
+
+
+def test_the_temperature_of_a_step_is_checked_like_that_of_the_scene():
+    table = Scene.from_toml("mtm_zddp").to_dict()
+    table["operation"]["steps"] = [{"time": "60 s", "temperature": "100 degC"}]
+    with pytest.raises(SceneError, match=r"operation\.steps\[0\]\.temperature = 373\.15 K"):
+        Scene.from_dict(table)
+
+
+def test_constants_taken_beyond_their_fit_give_a_warning():
+    (warning,) = Scene.from_toml("mtm_zddp", HOT | {"tribofilm.beyond_fit": "extrapolate"}).warnings()
     assert "373.15 K" in warning
+    assert not Scene.from_toml("mtm_zddp", HOT | {"tribofilm.model": "none"}).warnings()
 
 
 def test_the_digest_follows_shape_surfaces_and_grid_only():
