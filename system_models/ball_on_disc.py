@@ -17,12 +17,14 @@ import fmpy
 import numpy as np
 import xarray as xr
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE, fmi2Discard
 from fmpy.logging import addLoggerProxy
 from fmpy.model_description import ModelDescription, ModelVariable
+from numpy.typing import NDArray
 
-from contact_core.errors import ContactError
+from contact_core.errors import ContactError, StateError
 
+from .checkpoint import Checkpoint, Saved
 from .duty import Duty
 from .results import to_dataset
 
@@ -30,6 +32,7 @@ log = logging.getLogger(__name__)
 
 _INPUTS = ("load", "speed_1", "speed_2", "temperature")
 _MOST_STEPS = 1_000_000
+_BINARY = {"Real": "<f8", "Integer": "<i4", "Boolean": "?"}  # of a value in a checkpoint
 _LEVELS = (logging.INFO, logging.WARNING, logging.WARNING, logging.ERROR, logging.CRITICAL)  # by FMI status
 
 
@@ -39,16 +42,19 @@ def run(
     duration: float,
     interval: float,
     progress: Callable[[float], None] | None = None,
+    checkpoint: Checkpoint | None = None,
 ) -> xr.Dataset:
     """Drive a `MixedContact` FMU through a duty.
 
     duration and interval in seconds. There is a row every `interval`, at every change of the duty and at
     the end; the first row is the contact after initialisation. `progress` is called with the time reached.
     A step that the FMU calls invalid is recorded like any other and warned about at the end. The FMU's
-    messages go to `logging`.
+    messages go to `logging`. With a `checkpoint` the run goes on from what it has saved, bit for bit, and saves what it
+    reaches; the last point stays until the caller has put the result away and removes it.
 
     Returns a Dataset along `time` with the inputs and all outputs of the FMU, named and with units as in its
-    modelDescription.xml. Raises ContactError if the FMU fails or is not one of a contact.
+    modelDescription.xml. Raises ContactError if the FMU fails or is not one of a contact, and KeyboardInterrupt also
+    when the interrupt reaches the FMU.
     """
     points = communication_points(duty, duration, interval)
     with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder:
@@ -60,7 +66,7 @@ def run(
         fmpy.extract(fmu_path, folder)
         recorder = _Recorder(fmpy.read_model_description(folder))
         with _instance(recorder.description, folder) as slave:
-            _drive(slave, recorder, duty, points, progress or (lambda time: None))
+            _drive(slave, recorder, duty, points, progress or (lambda time: None), checkpoint)
     return recorder.dataset(points)
 
 
@@ -87,22 +93,58 @@ def _drive(
     duty: Duty,
     points: list[float],
     progress: Callable[[float], None],
+    checkpoint: Checkpoint | None,
 ) -> None:
     time = points[0]
     try:
-        slave.setupExperiment(startTime=time, stopTime=points[-1])
-        slave.enterInitializationMode()
-        recorder.set_inputs(slave, duty, time)
-        slave.exitInitializationMode()
-        recorder.record(slave)
-        for time, end in pairwise(points):
+        if checkpoint and checkpoint.saved:
+            time = checkpoint.saved.time
+            _restore(slave, checkpoint.saved)
+            recorder.restore(checkpoint.saved.rows)
+        else:
+            slave.setupExperiment(startTime=time, stopTime=points[-1])
+            slave.enterInitializationMode()
+            recorder.set_inputs(slave, duty, time)
+            slave.exitInitializationMode()
+            recorder.record(slave)
+            # one that an interrupt cut short ends at the first step only, and must not be gone on from
+            if checkpoint and recorder.rows["valid"][-1]:
+                _save(slave, recorder, checkpoint, time)
+        for time, end in pairwise(points[recorder.count - 1 :]):
             recorder.set_inputs(slave, duty, time)
             slave.doStep(time, end - time)
             recorder.record(slave)
+            if checkpoint and (checkpoint.due() or end == points[-1]):
+                _save(slave, recorder, checkpoint, end)
             progress(end)
         slave.terminate()
     except FMICallException as error:
+        if (error.function, error.status) == ("fmi2DoStep", fmi2Discard):  # the contact does so only if interrupted
+            raise KeyboardInterrupt from error
         raise ContactError(f"The FMU failed at t = {time:g} s: {error} Its messages say why.") from error
+
+
+def _save(slave: FMU2Slave, recorder: "_Recorder", checkpoint: Checkpoint, time: float) -> None:
+    checkpoint.save(time, _serialised(slave), recorder.table(checkpoint.count))
+
+
+def _serialised(slave: FMU2Slave) -> bytes:
+    handle = slave.getFMUstate()
+    try:
+        return bytes(slave.serializeFMUstate(handle))
+    finally:
+        slave.freeFMUstate(handle)
+
+
+def _restore(slave: FMU2Slave, saved: Saved) -> None:
+    handle = slave.deSerializeFMUstate(saved.state)
+    slave.setFMUstate(handle)
+    slave.freeFMUstate(handle)
+    if _serialised(slave) != saved.state:
+        raise StateError(
+            f"The FMU does not take the state of the checkpoint at t = {saved.time:g} s; its messages say why. "
+            "Use the FMU that the checkpoint was made with, or start from the beginning."
+        )
 
 
 class _Recorder:
@@ -123,6 +165,7 @@ class _Recorder:
             kind: [v for v in outputs if v.type == kind] for kind in ("Real", "Integer", "Boolean")
         }
         self.rows: dict[str, list[Any]] = {v.name: [] for v in (*self.inputs, *outputs)}
+        self._record = np.dtype([(v.name, _BINARY[v.type]) for v in (*self.inputs, *outputs)])
         self.units = {v.name: v.unit or "1" for v in (*self.inputs, *outputs)}
         self.texts = {v.name: f"{v.description}, held over the step that ends here" for v in self.inputs}
         self.texts |= {v.name: v.description or v.name for v in outputs}
@@ -142,6 +185,19 @@ class _Recorder:
             values = getters[kind]([v.valueReference for v in variables])
             for variable, value in zip(variables, values, strict=True):
                 self.rows[variable.name].append(bool(value) if kind == "Boolean" else value)
+
+    @property
+    def count(self) -> int:
+        """Number of rows."""
+        return len(self.rows["valid"])
+
+    def table(self, first: int) -> NDArray[np.void]:
+        """The rows from `first` on as records, exactly."""
+        return np.array(list(zip(*(column[first:] for column in self.rows.values()), strict=True)), self._record)
+
+    def restore(self, table: NDArray[np.void]) -> None:
+        """Begin with rows that `table` gave."""
+        self.rows = {name: table[name].tolist() for name in self.rows}
 
     def dataset(self, points: list[float]) -> xr.Dataset:
         """What was recorded, with a warning if the FMU called some of it invalid."""

@@ -1,6 +1,7 @@
 """The command `tribofmu`: list the shipped scenes, run one.
 
-Exit codes: 0 done; 1 some rows of the result are invalid; 2 refused or failed, with a sentence on stderr.
+Exit codes: 0 done; 1 some rows of the result are invalid; 2 refused or failed, with a sentence on stderr; 130
+interrupted.
 """
 
 import argparse
@@ -12,13 +13,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from contact_core.errors import ContactError
+from contact_core.errors import ContactError, StateError
 from contact_core.reading import shipped_scenes
 from contact_core.scene import Scene
 
 if TYPE_CHECKING:
     import xarray as xr
 
+    from .checkpoint import Checkpoint
     from .duty import Duty
 
 
@@ -30,6 +32,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     except ContactError as error:
         print(f"tribofmu: {error}", file=sys.stderr)
         return 2
+    except KeyboardInterrupt as interrupt:
+        print(f"tribofmu: Interrupted. {interrupt}".rstrip(), file=sys.stderr)
+        return 130
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -42,7 +47,12 @@ def _parser() -> argparse.ArgumentParser:
     run = commands.add_parser("run", help="build the FMU of a scene and drive it through its duty")
     run.set_defaults(command=_run)
     run.add_argument("scene", metavar="SCENE", help="a shipped scene's name, or the path of a .toml file")
-    run.add_argument("--out", metavar="DIR", type=Path, help="folder of the results (default: results/SCENE)")
+    run.add_argument("--out", metavar="DIR", help="folder of the results (default: results/SCENE)")
+    run.add_argument(
+        "--resume", action="store_true",
+        help="go on from the checkpoint that a killed, interrupted or failed run has left in DIR, to the same result, "
+        "bit for bit; start from the beginning if there is none (without --resume always, and replace it)",
+    )
     run.add_argument("--hours", metavar="H", help="duration of the test, instead of operation.duration")
     run.add_argument("--grid", metavar="N", help="nodes along x and y, instead of film.points")
     run.add_argument("--duty", metavar="FILE.csv", help="CSV of the duty, instead of operation.file")
@@ -77,11 +87,64 @@ def _run(arguments: argparse.Namespace) -> int:
     folder = _output_folder(arguments)
     for warning in scene.warnings():
         print(f"tribofmu: warning: {warning}", file=sys.stderr)
-    dataset = _simulate(scene, duty)
+    checkpoint = _checkpoint(folder, scene, duty, arguments.resume)
+    if arguments.resume and not checkpoint.saved and (code := _finished(folder, scene, duty)) is not None:
+        return code
+    try:
+        code = _report(_simulate(scene, duty, checkpoint), scene, duty, folder)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(_how_to_go_on(checkpoint)) from None
+    except StateError:
+        raise
+    except ContactError as error:
+        raise ContactError(f"{error} {_how_to_go_on(checkpoint)}".rstrip()) from error
+    checkpoint.remove()
+    return code
 
+
+def _checkpoint(folder: Path, scene: Scene, duty: "Duty", resume: bool) -> "Checkpoint":
+    """Where the run goes on from, if it can and shall, said on stderr."""
+    from .checkpoint import Checkpoint, identity
+
+    run = identity(scene, duty)
+    if not resume:
+        checkpoint = Checkpoint(folder, run)
+        if checkpoint.file.exists():
+            _note(f"'{checkpoint.file}' of an unfinished run will be replaced; --resume would have gone on from it.")
+        return checkpoint
+    checkpoint = Checkpoint.resume(folder, run)
+    if checkpoint.saved:
+        _note(f"Going on from '{checkpoint.file}' at {checkpoint.saved.time / 60.0:.1f} min.")
+    return checkpoint
+
+
+def _finished(folder: Path, scene: Scene, duty: "Duty") -> int | None:
+    """The exit code of this very run if its result is there already."""
     from . import report, results
 
-    dataset = results.with_scene(dataset, scene)
+    dataset = results.find(folder, scene, duty)
+    if dataset is None:
+        _note(f"There is no checkpoint in '{folder}': the run starts from the beginning.")
+        return None
+    _note(f"This run is finished, its result is in '{folder}'. Leave out --resume to compute it again.")
+    return 1 if report.invalid_rows(dataset) else 0
+
+
+def _how_to_go_on(checkpoint: "Checkpoint") -> str:
+    if not checkpoint.count:
+        return ""
+    return f"What was computed is kept in '{checkpoint.file}': the same command with --resume goes on from there."
+
+
+def _note(sentence: str) -> None:
+    print(f"tribofmu: note: {sentence}", file=sys.stderr)
+
+
+def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path) -> int:
+    """Print and write the result; return the exit code."""
+    from . import report, results
+
+    dataset = results.with_scene(dataset, scene, duty)
     print(scene.description, report.table(dataset), *report.closing_lines(dataset), sep="\n")
     written = [*results.write(dataset, folder), report.write_overview(dataset, folder / "overview.png")]
     print(f"Written: {', '.join(map(str, written))}")
@@ -89,6 +152,9 @@ def _run(arguments: argparse.Namespace) -> int:
 
 
 def _overrides(arguments: argparse.Namespace) -> dict[str, str]:
+    for option in ("hours", "grid", "duty", "out"):
+        if getattr(arguments, option) == "":
+            raise ContactError(f"--{option} is empty. Give a value, or leave --{option} out.")
     settings = dict(arguments.settings)
     if arguments.hours:
         settings["operation.duration"] = f"{arguments.hours} h"
@@ -108,7 +174,7 @@ def _folder_of_duty(arguments: argparse.Namespace) -> Path:
 
 def _output_folder(arguments: argparse.Namespace) -> Path:
     """Made before the run, so that nothing computed is lost for want of a place."""
-    folder: Path = arguments.out or Path("results") / Path(arguments.scene).stem
+    folder = Path(arguments.out or Path("results") / Path(arguments.scene).stem)
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -120,7 +186,7 @@ def _output_folder(arguments: argparse.Namespace) -> Path:
     return folder
 
 
-def _simulate(scene: Scene, duty: "Duty") -> "xr.Dataset":
+def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint") -> "xr.Dataset":
     """Build the FMU and drive it, with a progress bar in minutes of test time."""
     from tqdm import tqdm
     from tqdm.contrib.logging import logging_redirect_tqdm
@@ -132,6 +198,7 @@ def _simulate(scene: Scene, duty: "Duty") -> "xr.Dataset":
     logging.basicConfig(format="%(message)s")
     bar = tqdm(
         total=scene.operation.duration / 60.0,
+        initial=checkpoint.saved.time / 60.0 if checkpoint.saved else 0.0,
         desc=scene.name,
         bar_format="{desc} {percentage:3.0f} %|{bar}| {n:.1f}/{total:.1f} min [{elapsed}<{remaining}]",
     )
@@ -143,6 +210,7 @@ def _simulate(scene: Scene, duty: "Duty") -> "xr.Dataset":
             scene.operation.duration,
             scene.operation.interval,
             lambda time: bar.update(time / 60.0 - bar.n),
+            checkpoint,
         )
 
 

@@ -14,6 +14,7 @@ without a column keep the scene's value.
 import bisect
 import csv
 import difflib
+import hashlib
 import math
 import re
 from collections.abc import Sequence
@@ -71,6 +72,12 @@ class Duty:
     def at(self, time: float) -> OperatingPoint:
         """The operating point held from `time` [s] on."""
         return self.points[max(bisect.bisect_right(self.times, time) - 1, 0)]
+
+    def fingerprint(self) -> str:
+        """A text that is the same for the same duty, bit for bit, and for no other."""
+        points = [tuple(float(getattr(point, f.name)).hex() for f in fields(point)) for point in self.points]
+        digest = hashlib.sha256(repr([[float(time).hex() for time in self.times], points]).encode()).hexdigest()
+        return f"{len(self.times)} rows, fingerprint {digest[:16]}"
 
     def sized(self, scene: Scene) -> Scene:
         """The scene with `operation.largest_load` raised to the duty's, so that its checks hold throughout.

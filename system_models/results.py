@@ -12,6 +12,8 @@ import xarray as xr
 import contact_core
 from contact_core.scene import Scene
 
+from .duty import Duty
+
 
 def to_dataset(
     times: Sequence[float],
@@ -28,14 +30,29 @@ def to_dataset(
     return xr.Dataset(variables, coords={"time": time})
 
 
-def with_scene(dataset: xr.Dataset, scene: Scene) -> xr.Dataset:
-    """The dataset with its scene in the attributes: Scene.from_dict makes it again from `scene_json`."""
-    return dataset.assign_attrs(
-        title=scene.description,
-        scene=scene.name,
-        scene_json=json.dumps(scene.to_dict()),
-        tribofmu_version=contact_core.__version__,
-    )
+def with_scene(dataset: xr.Dataset, scene: Scene, duty: Duty) -> xr.Dataset:
+    """The dataset with its origin in the attributes: Scene.from_dict makes the scene again from `scene_json`."""
+    return dataset.assign_attrs(_origin(scene, duty))
+
+
+def _origin(scene: Scene, duty: Duty) -> dict[str, str]:
+    return {
+        "title": scene.description,
+        "scene": scene.name,
+        "scene_json": json.dumps(scene.to_dict()),
+        "duty": duty.fingerprint(),
+        "tribofmu_version": contact_core.__version__,
+    }
+
+
+def find(folder: Path, scene: Scene, duty: Duty) -> xr.Dataset | None:
+    """The result in `folder` of just this scene and duty, if there is one."""
+    try:
+        with xr.open_dataset(folder / "result.nc", engine="h5netcdf") as dataset:
+            same = _origin(scene, duty).items() <= dataset.attrs.items()
+            return dataset.load() if same else None
+    except (OSError, ValueError):  # none, or cut
+        return None
 
 
 def write(dataset: xr.Dataset, folder: Path) -> list[Path]:

@@ -9,6 +9,7 @@ import contact_core
 from contact_core import Scene
 from contact_core.quantities import TABLE
 from system_models import results
+from system_models.duty import Duty
 
 
 def test_variables_have_the_names_units_and_texts_of_the_quantity_table(dataset: xr.Dataset) -> None:
@@ -25,15 +26,15 @@ def test_time_is_a_coordinate_in_seconds(dataset: xr.Dataset) -> None:
     assert dataset["time"].values[-1] == 72.0
 
 
-def test_the_attributes_make_the_scene_again(dataset: xr.Dataset, scene: Scene) -> None:
-    attributes = results.with_scene(dataset, scene).attrs
+def test_the_attributes_make_the_scene_again(dataset: xr.Dataset, scene: Scene, duty: Duty) -> None:
+    attributes = results.with_scene(dataset, scene, duty).attrs
     assert Scene.from_dict(json.loads(attributes["scene_json"])) == scene
     assert attributes["scene"] == "mtm_zddp"
     assert attributes["tribofmu_version"] == contact_core.__version__
 
 
-def test_netcdf_gives_back_what_was_written(dataset: xr.Dataset, scene: Scene, tmp_path: Path) -> None:
-    described = results.with_scene(dataset, scene)
+def test_netcdf_gives_back_what_was_written(dataset: xr.Dataset, scene: Scene, duty: Duty, tmp_path: Path) -> None:
+    described = results.with_scene(dataset, scene, duty)
     netcdf, _ = results.write(described, tmp_path)
     with xr.open_dataset(netcdf, engine="h5netcdf") as read:
         xr.testing.assert_identical(read.load(), described)
@@ -49,8 +50,8 @@ def test_csv_names_units_and_keeps_every_digit(dataset: xr.Dataset, tmp_path: Pa
     assert {row[header.index("valid [1]")] for row in rows} == {"True"}
 
 
-def test_the_same_run_writes_the_same_bytes(dataset: xr.Dataset, scene: Scene, tmp_path: Path) -> None:
-    described, folders = results.with_scene(dataset, scene), (tmp_path / "a", tmp_path / "b")
+def test_the_same_run_writes_the_same_bytes(dataset: xr.Dataset, scene: Scene, duty: Duty, tmp_path: Path) -> None:
+    described, folders = results.with_scene(dataset, scene, duty), (tmp_path / "a", tmp_path / "b")
     written = []
     for folder in folders:
         folder.mkdir()
