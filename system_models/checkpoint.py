@@ -30,6 +30,7 @@ from .duty import Duty
 log = logging.getLogger(__name__)
 
 _MAGIC = b"tribofmu run 1\n"
+_PAUSE = 2.0  # at least, between two checkpoints [s]
 _REST = 20.0  # at least this many times the time that a checkpoint takes lies between two
 _NAMED = 3  # differences told in full
 
@@ -50,13 +51,12 @@ class Saved:
 
 
 class Checkpoint:
-    """Where a run stores the point it has reached, at most every `pause` seconds; `saved` is where it goes on from."""
+    """Where a run stores the point it has reached; `saved` is where it goes on from."""
 
-    def __init__(self, folder: Path, run: Mapping[str, Any], pause: float = 2.0) -> None:
+    def __init__(self, folder: Path, run: Mapping[str, Any]) -> None:
         self.file, self._rows = folder / "checkpoint.tribofmu", folder / "checkpoint.rows"
         self._new = folder / "checkpoint.new"
         self._run = run
-        self._pause = pause
         self._next = -math.inf
         self._size = self._checksum = 0  # of the rows that count
         self._writable = True
@@ -95,7 +95,7 @@ class Checkpoint:
                     error.strerror,
                 )
             self._writable = False
-        self._next = monotonic() + max(self._pause, _REST * (monotonic() - start))
+        self._next = monotonic() + max(_PAUSE, _REST * (monotonic() - start))
 
     def remove(self) -> None:
         """Remove what is stored."""

@@ -1,0 +1,285 @@
+"""A run that was killed, interrupted or failed goes on to the result of one that was not, bit for bit."""
+
+import logging
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave
+
+import fmu_src.slave
+from contact_core import ContactError, OperatingPoint, Scene, StateError, advance
+from fmu_src import build
+from system_models import report
+from system_models.ball_on_disc import run
+from system_models.checkpoint import Checkpoint, identity
+from system_models.cli import main
+from system_models.duty import Duty
+
+STILL = [part for law in ("tribofilm", "wear", "heat") for part in ("--set", f"{law}.model=none")]
+NAMES = ["overview.png", "result.csv", "result.nc"]
+
+
+@pytest.fixture(scope="module")
+def faltering(scene: Scene) -> Duty:
+    """A duty with a step of the load and one point that cannot be used."""
+    low, impossible = (OperatingPoint(load, 0.1025, 0.0975, 353.15) for load in (40.0, -1.0))
+    return Duty((0.0, 90.0, 120.0, 150.0), (scene.operation.point, low, impossible, low))
+
+
+@pytest.fixture
+def no_picture(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Spare the time of drawing."""
+    monkeypatch.setattr(report, "write_overview", lambda dataset, path: path)
+
+
+def bits(dataset: xr.Dataset) -> dict[Any, tuple[str, bytes]]:
+    return {name: (str(values.dtype), values.values.tobytes()) for name, values in dataset.variables.items()}
+
+
+def test_a_run_goes_on_from_every_row_bit_for_bit(
+    fmu: Path, scene: Scene, faltering: Duty, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: Any
+) -> None:
+    who, folder = identity(scene, faltering), tmp_path / "run"
+    folder.mkdir()
+    saved: list[Path] = []
+    save = Checkpoint.save
+
+    def save_and_copy(self: Checkpoint, *arguments: Any) -> None:
+        save(self, *arguments)
+        saved.append(Path(shutil.copytree(folder, tmp_path / f"killed at {len(saved)}")))
+
+    whole = run(fmu, faltering, 200.0, 50.0)
+    with monkeypatch.context() as patch:
+        patch.setattr(Checkpoint, "save", save_and_copy)
+        patch.setattr(Checkpoint, "due", lambda self: True)
+        assert bits(run(fmu, faltering, 200.0, 50.0, None, Checkpoint(folder, who))) == bits(whole)
+    assert len(saved) == whole.sizes["time"] == 7
+    assert np.ptp(whole["tribofilm_1"].values) > 5e-9
+    assert whole["wear_volume_2"].values[-1] > whole["wear_volume_2"].values[-2] > 0.0
+    assert len(set(whole["iterations"].values)) > 2
+    assert (~whole["valid"].values).sum() == 1
+    told: list[float] = []
+    for count, left in enumerate(saved, 1):
+        told.clear()
+        caplog.clear()
+        checkpoint = Checkpoint.resume(left, who)
+        assert checkpoint.count == count
+        assert bits(run(fmu, faltering, 200.0, 50.0, told.append, checkpoint)) == bits(whole)
+        assert told == whole["time"].values[count:].tolist(), "only what is left is computed"
+        warned = [r.getMessage() for r in caplog.records if r.levelno == logging.WARNING]
+        assert warned[-1].startswith("1 of 7 rows are invalid, the first at 150 s")
+
+
+def test_the_first_and_the_last_row_are_stored_however_short_the_run(
+    fmu: Path, scene: Scene, duty: Duty, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    counts: list[int] = []
+    save = Checkpoint.save
+
+    def note(self: Checkpoint, *arguments: Any) -> None:
+        save(self, *arguments)
+        counts.append(self.count)
+
+    monkeypatch.setattr(Checkpoint, "save", note)
+    monkeypatch.setattr(Checkpoint, "due", lambda self: False)
+    run(fmu, duty, 72.0, 30.0, None, Checkpoint(tmp_path, identity(scene, duty)))
+    assert counts == [1, 5]
+
+
+def test_the_state_of_another_fmu_is_not_gone_on_from(fmu: Path, scene: Scene, duty: Duty, tmp_path: Path) -> None:
+    other = Scene.from_dict(scene.to_dict() | {"wear": {"model": "none"}})
+    run(build(other, tmp_path / "other.fmu"), duty, 30.0, 30.0, None, Checkpoint(tmp_path, {}))
+    with pytest.raises(StateError, match="does not take the state of the checkpoint at t = 30 s"):
+        run(fmu, duty, 60.0, 30.0, None, Checkpoint.resume(tmp_path, {}))
+
+
+def test_rows_before_a_failure_are_kept(
+    fmu: Path, scene: Scene, duty: Duty, dataset: xr.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    step = FMU2Slave.doStep
+
+    def fail(self: FMU2Slave, time: float, size: float) -> None:
+        if time == 40.0:
+            raise FMICallException(function="fmi2DoStep", status=3)
+        step(self, time, size)
+
+    who = identity(scene, duty)
+    with monkeypatch.context() as patch:
+        patch.setattr(FMU2Slave, "doStep", fail)
+        patch.setattr(Checkpoint, "due", lambda self: True)
+        with pytest.raises(ContactError, match="The FMU failed at t = 40 s"):
+            run(fmu, duty, 72.0, 30.0, None, Checkpoint(tmp_path, who))
+    assert Checkpoint.resume(tmp_path, who).count == 3
+    assert bits(run(fmu, duty, 72.0, 30.0, None, Checkpoint.resume(tmp_path, who))) == bits(dataset)
+
+
+# what a killed process runs: its own end is at a write that can be told, whatever the machine's speed
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from system_models.checkpoint import Checkpoint
+from system_models.cli import main
+
+where, last, *arguments = sys.argv[1:]
+calls = 0
+
+def deadly(function):
+    def call(self, *given):
+        global calls
+        calls += 1
+        if calls == int(last):
+            os.kill(os.getpid(), signal.SIGKILL)
+        return function(self, *given)
+    return call
+
+Checkpoint.due = lambda self: True
+if where == "before the checkpoint is replaced":
+    Path.replace = deadly(Path.replace)
+else:
+    Checkpoint.due = deadly(Checkpoint.due)
+main(arguments)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
+def test_a_run_that_is_killed_again_and_again_writes_the_same_files(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, coarse: list[str]
+) -> None:
+    command = ["run", "mtm_zddp", *coarse, "--set", "operation.interval=8 s", "--resume"]
+    whole, killed = tmp_path / "whole", tmp_path / "killed"
+    assert main([*command, "--out", str(whole)]) == 0
+    assert "There is no checkpoint" in capsys.readouterr().err
+    row = 0
+    for where, last in (("before the checkpoint is replaced", 3), ("between two steps", 4)):
+        child = subprocess.run(
+            [sys.executable, "-c", KILLED, where, str(last), *command, "--out", str(killed)],
+            capture_output=True,
+            text=True,
+        )
+        assert child.returncode == -signal.SIGKILL, child.stderr
+        assert (killed / "checkpoint.new").exists() == (where == "before the checkpoint is replaced")
+        row += last - 1
+        assert {path.name for path in killed.iterdir()} >= {"checkpoint.tribofmu", "checkpoint.rows"}
+    assert row == 5
+    assert main([*command, "--out", str(killed)]) == 0
+    assert f"Going on from '{killed / 'checkpoint.tribofmu'}' at 0.5 min" in capsys.readouterr().err
+    for folder in (whole, killed):
+        assert sorted(path.name for path in folder.iterdir()) == NAMES
+    for name in NAMES:
+        assert (whole / name).read_bytes() == (killed / name).read_bytes(), name
+    with xr.open_dataset(whole / "result.nc", engine="h5netcdf") as dataset:
+        assert dataset.sizes["time"] == 10
+        assert dataset["tribofilm_1"].values[-1] > dataset["tribofilm_1"].values[5] > 0.0
+
+
+def interrupted(call: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let Ctrl-C reach the contact in its advance number `call`."""
+    calls = 0
+
+    def advance_or_stop(*arguments: Any) -> Any:
+        nonlocal calls
+        calls += 1
+        if calls == call:
+            raise KeyboardInterrupt
+        return advance(*arguments)
+
+    monkeypatch.setattr(fmu_src.slave, "advance", advance_or_stop)
+
+
+def test_after_ctrl_c_the_command_says_how_to_go_on_and_does(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    coarse: list[str],
+    no_picture: None,
+) -> None:
+    command = ["run", "mtm_zddp", *coarse, *STILL, "--set", "operation.interval=20 s", "--resume", "--out"]
+    assert main([*command, str(tmp_path / "whole")]) == 0
+    monkeypatch.setattr(Checkpoint, "due", lambda self: True)
+    for call, count in ((1, 0), (2, 1), (4, 3)):  # the first is at initialisation
+        folder = tmp_path / str(call)
+        with monkeypatch.context() as patch:
+            interrupted(call, patch)
+            capsys.readouterr()
+            assert main([*command, str(folder)]) == 130
+        out, err = capsys.readouterr()
+        assert not out
+        kept = f" What was computed is kept in '{folder / 'checkpoint.tribofmu'}': the same command with --resume"
+        assert err.splitlines()[-1].startswith(f"tribofmu: Interrupted.{kept if count else ''}")
+        assert len(list(folder.glob("checkpoint.tribofmu"))) == (count > 0)
+        assert main([*command, str(folder)]) == 0
+        told = "Going on from" if count else "There is no checkpoint"
+        assert told in capsys.readouterr().err
+        assert (folder / "result.nc").read_bytes() == (tmp_path / "whole" / "result.nc").read_bytes()
+
+
+def test_a_failure_says_how_to_go_on(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
+) -> None:
+    def fail(self: FMU2Slave, time: float, size: float) -> None:
+        raise FMICallException(function="fmi2DoStep", status=3)
+
+    monkeypatch.setattr(FMU2Slave, "doStep", fail)
+    assert main(["run", "mtm_zddp", *coarse, *STILL, "--out", str(tmp_path)]) == 2
+    last = capsys.readouterr().err.splitlines()[-1]
+    assert "tribofmu: The FMU failed at t = 0 s" in last
+    assert last.endswith("the same command with --resume goes on from there.")
+
+
+def test_a_finished_run_is_not_computed_again(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    coarse: list[str],
+    no_picture: None,
+) -> None:
+    command = ["run", "mtm_zddp", *coarse, *STILL, "--out", str(tmp_path), "--resume"]
+    assert main(command) == 0
+    capsys.readouterr()
+    with monkeypatch.context() as patch:
+        patch.setattr("system_models.cli._simulate", None)
+        assert main(command) == 0
+    assert "This run is finished" in capsys.readouterr().err
+    assert main([*command, "--hours", "0.005"]) == 0
+    assert "There is no checkpoint" in capsys.readouterr().err, "another run's result is none of this one"
+    (tmp_path / "result.nc").write_bytes((tmp_path / "result.nc").read_bytes()[:3000])
+    assert main([*command, "--hours", "0.005"]) == 0
+    assert "There is no checkpoint" in capsys.readouterr().err
+
+
+def test_other_settings_and_damage_are_refused_and_a_run_without_resume_starts_over(
+    capsys: pytest.CaptureFixture[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    coarse: list[str],
+    no_picture: None,
+) -> None:
+    command = ["run", "mtm_zddp", *coarse, *STILL, "--out", str(tmp_path)]
+    with monkeypatch.context() as patch:
+        interrupted(2, patch)
+        assert main(command) == 130
+    duty = tmp_path / "duty.csv"
+    duty.write_text("time [s],load [N]\n0,30\n")
+    capsys.readouterr()
+    for more, said in (
+        (["--hours", "1"], "operation.duration = '72.0 s' there, '3600.0 s' here"),
+        (["--set", "operation.interval=5 s"], "operation.interval = '30.0 s' there, '5.0 s' here"),
+        (["--set", "wear.model=archard"], "wear.model = 'none' there, 'archard' here"),
+        (["--duty", str(duty)], "duty = '1 rows, fingerprint "),
+    ):
+        assert main([*command, *more, "--resume"]) == 2
+        assert said in capsys.readouterr().err.splitlines()[-1]
+    (tmp_path / "checkpoint.rows").write_bytes(b"")
+    assert main([*command, "--resume"]) == 2
+    assert "were cut or changed. Start from the beginning without --resume" in capsys.readouterr().err
+    assert main(command) == 0
+    assert "checkpoint.tribofmu' of an unfinished run will be replaced" in capsys.readouterr().err
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["duty.csv", "result.csv", "result.nc"]
