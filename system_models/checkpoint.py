@@ -109,7 +109,6 @@ class Checkpoint:
         with self._rows.open("r+b" if self._size else "wb") as file:
             file.seek(self._size)
             file.write(data)
-            file.truncate()
             _flush(file)
         size, checksum = self._size + len(data), zlib.crc32(data, self._checksum)
         header = json.dumps(
