@@ -110,7 +110,7 @@ def _checkpoint(folder: Path, scene: Scene, duty: "Duty", resume: bool) -> "Chec
     if not resume:
         checkpoint = Checkpoint(folder, run)
         if checkpoint.file.exists():
-            _note(f"'{checkpoint.file}' of an unfinished run will be replaced; --resume would have gone on from it.")
+            _note(f"'{checkpoint.file}' of an unfinished run will be replaced; to go on from it, use --resume.")
         return checkpoint
     checkpoint = Checkpoint.resume(folder, run)
     if checkpoint.saved:
