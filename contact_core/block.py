@@ -1,9 +1,9 @@
 """One block: the moving surfaces are solved at a few instants; between blocks the geometry changes a little.
 
 Who drives it is `control.driver`. Mixed lubrication has a memory, so its instants are a march, a node apart, that goes on
-from block to block. Before each block the smoother body is put elsewhere under it (an additive golden-ratio sequence, of
-low discrepancy), for in near rolling it would else meet the same asperities for ever; the oil's history moves with it.
-Dry contact has no memory: a few instants at offsets of both bodies, again of low discrepancy, sample it.
+from block to block. In near rolling the bodies would meet the same asperities of each other all the way, so the smoother
+one jumps under the march (an additive golden-ratio sequence, of low discrepancy); the oil, which follows the rougher
+one, stays where it is. Dry contact has no memory: a few instants at offsets of both bodies, again of low discrepancy, sample it.
 
 Dry pressures stand for mixed ones where the solids carry more than `control.dry_above` of the load: weighted by that share,
 which a mixed march measures anew every few blocks.
@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .contact import Transient, heights_now, solve
+from .contact import Transient, solve
 from .evolution import rates, roughness_now, speeds_of, stable_time, track_length
 from .patches import on_patch, patch_nodes, widened
 from .scene import OperatingPoint, Scene
@@ -28,10 +28,11 @@ _SETTLING = 80  # transient steps after a new start before the march is sampled:
 _ITERATIONS = 40  # at most, of one transient step; a warm one needs about 16
 _DRY_BLOCKS = 10  # driven dry before the mixed share is measured again
 _DRY_PASS = 8  # dry instants that stand for one pass of a surface point through the contact
-_GOLDEN = (0.7548776662466927, 0.5698402909980532)  # the additive sequence R2, of low discrepancy in the plane
+_GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy in the plane
 _MANY = 0.1  # share of unconverged solutions that raises a flag
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
-_SMOOTHER = 0.5  # a body below this share of the other's roughness may jump under the film
+_SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under the film with every instant
+_CALMING = 16  # transient steps after a jump of a rougher one before the march is sampled
 _SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most
 _LONGER = 2.0  # a block may be so much longer than the one before
 _EDGE = 3  # rows at the edge into which the scar may not come
@@ -98,7 +99,7 @@ def _wide_enough(scene: Scene, state: ContactState) -> ContactState:
 
 
 def _dry_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep) -> ContactState:
-    jumps = [scene.film.domain * golden * (speed != 0.0) for golden, speed in zip(_GOLDEN, speeds_of(op), strict=True)]
+    jumps = _dry_jumps(scene, op)
     for _ in range(scene.control.dry_instants):
         state = _moved(scene, state, jumps)
         fields = solve(scene, op, state, dry=True)
@@ -107,19 +108,36 @@ def _dry_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Swe
     return state
 
 
+def _dry_jumps(scene: Scene, op: OperatingPoint) -> list[float]:
+    """How far [m] the moving bodies jump from instant to instant.
+
+    The first one by a golden ratio of the patch. What the other one is behind, in whole nodes, shares no factor with the
+    patch's: after as many instants as the patch has nodes, each point has met every other once.
+    """
+    columns = scene.film.points - 1
+    behind = next(k for k in range(round(0.382 * columns), columns + 1) if math.gcd(k, columns) == 1)
+    first = _GOLDEN * scene.film.domain
+    second = first - behind * scene.film.spacing
+    return [jump * (speed != 0.0) for jump, speed in zip((first, second), speeds_of(op), strict=True)]
+
+
 def _mixed_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, warm: bool) -> ContactState:
     columns = scene.film.points - 1
     dt = scene.film.spacing / max(abs(speed) for speed in speeds_of(op))
     steps = [speed * dt for speed in speeds_of(op)]
     passes = (abs(steps[0]) / scene.film.domain, abs(steps[1]) / scene.film.domain)
     rougher = 0 if scene.surface_1.rq > scene.surface_2.rq else 1
+    jumps = _jumps(scene, op, 1 - rougher)
+    unsampled = _SETTLING
     if state.film is None:
         state = replace(state, film=solve(scene, op, state, dry=True).film)
+    elif warm and any(jumps):
+        unsampled = 0
     elif warm:
-        state = _shuffled(scene, op, state, 1 - rougher)
-    for k in range(0 if warm else -_SETTLING, scene.control.mixed_instants):
+        state, unsampled = _moved(scene, state, _jumps(scene, op, 1 - rougher, most=1.0)), _CALMING
+    for k in range(-unsampled, scene.control.mixed_instants):
         before = patch_nodes(scene, state.bodies[rougher])
-        state = _moved(scene, state, steps)
+        state = _moved(scene, state, [step + jump for step, jump in zip(steps, jumps, strict=True)])
         moved = (patch_nodes(scene, state.bodies[rougher]) - before + columns // 2) % columns - columns // 2
         fields = solve(scene, op, state, Transient(dt, moved, _ITERATIONS))
         if k >= 0:
@@ -128,18 +146,11 @@ def _mixed_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: S
     return state
 
 
-def _shuffled(scene: Scene, op: OperatingPoint, state: ContactState, i: int) -> ContactState:
-    """The state with body `i`, moving and the smoother one by far, put elsewhere under the film. What its heights
-    change by, the oil's history gives way to: a jump is no squeeze.
-    """
+def _jumps(scene: Scene, op: OperatingPoint, i: int, most: float = _SMOOTHER) -> list[float]:
+    """How far [m] the bodies jump: body `i`, if it moves and its roughness is at most `most` times the other's."""
     rq = (scene.surface_1.rq, scene.surface_2.rq)
-    if state.film is None or speeds_of(op)[i] == 0.0 or rq[i] > _SMOOTHER * rq[1 - i]:
-        return state
-    jumps = [scene.film.domain * _GOLDEN[0] * (k == i) for k in (0, 1)]
-    jumped = _moved(scene, state, jumps)
-    higher = heights_now(scene, jumped) - heights_now(scene, state)
-    mass = np.maximum(state.film.mass - higher, scene.film.floor)
-    return replace(jumped, film=replace(state.film, mass=mass))
+    jumping = speeds_of(op)[i] != 0.0 and rq[i] <= most * rq[1 - i]
+    return [scene.film.domain * _GOLDEN * (jumping and k == i) for k in (0, 1)]
 
 
 def _moved(scene: Scene, state: ContactState, steps: list[float]) -> ContactState:

@@ -106,16 +106,6 @@ def solve(
     return _with_friction(scene, op, grid, film, heights, rough, cover_1, cover_2)
 
 
-def heights_now(scene: Scene, state: ContactState) -> Array:
-    """Heights [ny, nx] of both bodies together on the grid of the contact."""
-    first, second = (
-        on_grid(heights_of(z, body), patch_nodes(scene, body))
-        for z, body in zip(bare_heights(scene, state.rows), state.bodies, strict=True)
-    )
-    total: Array = first + second
-    return total
-
-
 def _open(scene: Scene, grid: Grid, heights: Array) -> FilmSolution:
     """No load: the bodies just touch and nothing presses."""
     x, y = grid.x[None, :], grid.y[:, None]

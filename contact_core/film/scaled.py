@@ -121,7 +121,7 @@ class Scaled:
 
     def dry_start(self) -> Iterate:
         """The dry contact, its fluid still to come."""
-        pressure, rigid, _, _ = self._dry_pressure()
+        pressure, rigid, _, _ = self._dry_pressure(_DRY_TOLERANCE)
         return Iterate(pressure, np.zeros_like(pressure), pressure > 0.0, rigid + self.floor)
 
     def lifted_start(self) -> Iterate:
@@ -143,21 +143,22 @@ class Scaled:
         solid, rigid, _, _ = solve_dry(self.half_space, gap, room, left, self.smooth, _START_TOLERANCE, _DRY_ITERATIONS)
         return Iterate(solid + fluid, fluid, solid > 0.0, rigid + self.floor)
 
-    def _dry_pressure(self) -> tuple[Array, float, bool, int]:
+    def _dry_pressure(self, tolerance: float) -> tuple[Array, float, bool, int]:
         return solve_dry(
-            self.half_space, self.undeformed, self.cap, self.load, self.smooth, _DRY_TOLERANCE, _DRY_ITERATIONS
+            self.half_space, self.undeformed, self.cap, self.load, self.smooth, tolerance, _DRY_ITERATIONS
         )
 
     def dry(self, route: str) -> FilmSolution:
         """The contact without fluid pressure: its gap is the floor where solids touch."""
-        pressure, rigid, converged, iterations = self._dry_pressure()
+        tolerance = 0.1 * self.settings.tolerance  # conjugate gradients are cheap, and nothing corrects them
+        pressure, rigid, converged, iterations = self._dry_pressure(tolerance)
         rigid += self.floor
         gap = rigid + self.undeformed + self.half_space.deform(pressure)
         iterate = Iterate(pressure, np.zeros_like(pressure), pressure > 0.0, rigid)
         load_error = float(pressure.sum()) / self.load - 1.0
         mass = np.maximum(gap, self.floor)
-        why = "" if converged else f"dry contact short of {_DRY_TOLERANCE:g} after {iterations} iterations"
-        found = Solution(iterate, gap, mass, converged, iterations, _DRY_TOLERANCE, load_error, 0.0, 0.0, why)
+        why = "" if converged else f"dry contact short of {tolerance:g} after {iterations} iterations"
+        found = Solution(iterate, gap, mass, converged, iterations, tolerance, load_error, 0.0, 0.0, why)
         return self.solution(found, route, "conjugate gradients")
 
     def solution(self, found: Solution, route: str, algorithm: str) -> FilmSolution:
