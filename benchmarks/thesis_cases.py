@@ -33,6 +33,7 @@ NUMERICS: dict[str, dict[str, str]] = {
 }
 BARE = {"tribofilm.model": "none"}
 BY_OWN_SPEED = {"wear.sliding": "surface_speed"}
+MIXED = {"control.driver": "mixed"}
 SMOOTH = {**BARE, "surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "wear.model": "none"}
 # viscosities at which Hamrock and Dowson's film is 0.04 of the composite roughness
 THIN_A = {"lubricant.viscosity.viscosity": "0.65 mPa s"}
@@ -129,6 +130,8 @@ def _cases() -> list[Case]:
         Case("A_white", a, "set A, correlation length of one node", NEAR_WHITE),
         Case("B_white", b, "set B, correlation length of one node", NEAR_WHITE),
         Case("B_bare_white", b, "set B without additive, correlation length of one node", BARE | NEAR_WHITE),
+        Case("A_mixed", a, "set A, all blocks driven by mixed lubrication", MIXED, numerics=("ours",)),
+        Case("B_mixed", b, "set B, all blocks driven by mixed lubrication", MIXED, numerics=("ours",)),
         Case("A_thin", a, "set A, viscosity for λ = 0.04", THIN_A),
         Case("B_thin", b, "set B, viscosity for λ = 0.04", THIN_B),
         Case("B_bare_thin", b, "set B without additive, viscosity for λ = 0.04", BARE | THIN_B),

@@ -56,6 +56,7 @@ class Judged:
     seeds: str = ""  # in how many of the roughness seeds it holds
 
 
+SAID = {True: "agrees", False: "disagrees too", None: "cannot be judged"}  # of an experiment
 VERDICTS = ("agree", "disagree", "cannot be judged", "not run")
 
 
@@ -71,7 +72,7 @@ def judge(claim: Claim, book: Book, numerics: str) -> Judged:
         finding = claim.measure(get)
     except Missing as missing:
         return Judged("not run", str(missing))
-    causes = () if finding.holds is not False else tuple(_causes(claim, get))
+    causes = () if finding.holds else tuple(_causes(claim, get))
     return Judged(verdict_of(finding), finding.text, causes, _over_seeds(claim, book, numerics, finding))
 
 
@@ -80,7 +81,7 @@ def _causes(claim: Claim, get: Get) -> Iterator[str]:
     tried = [(entry, found) for entry in claim.experiments if (found := _tried(entry, claim, get))]
     tried.sort(key=lambda pair: not pair[1].holds)
     for entry, found in tried:
-        yield f"{entry.text}: {found.text} ({'agrees' if found.holds else 'disagrees too'})"
+        yield f"{entry.text}: {found.text} ({SAID[found.holds]})"
     if len(tried) < len(claim.experiments):
         yield f"experiments not run yet: {len(claim.experiments) - len(tried)}"
     elif tried and not any(found.holds for _, found in tried):
@@ -127,6 +128,14 @@ def peak(run: Run, name: str) -> tuple[float, float]:
     """Minute and height of the largest value."""
     k = int(np.argmax(run[name]))
     return float(run.t[k]), float(run[name][k])
+
+
+def takeovers(run: Run) -> Array:
+    """Minutes at which dry pressures took over from mixed lubrication, or the reverse: outputs of the film jump there."""
+    dry = np.diff(run["blocks_dry"]) > 0.0
+    moved = np.diff(run["blocks_mixed"] + run["blocks_dry"]) > 0.0
+    minutes, driver = run.t[1:][moved], dry[moved]
+    return minutes[1:][driver[1:] != driver[:-1]]
 
 
 def overshoot(run: Run, name: str) -> float:

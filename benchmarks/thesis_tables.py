@@ -210,7 +210,16 @@ def _limits() -> Iterator[tuple[str, str, str]]:
 def runs(book: Book) -> Lines:
     """What was run: how long it took, and how sure it is of itself."""
     lines = table(
-        "case", "what", "numerics", "blocks", "CPU [s]", "error of h_c", "of film", "of wear", "unconverged, largest"
+        "case",
+        "what",
+        "numerics",
+        "blocks: mixed + dry",
+        "CPU [s]",
+        "largest step of h_c in a minute, after 2 min",
+        "error of h_c",
+        "of film",
+        "of wear",
+        "unconverged, largest",
     )
     for case in CASES.values():
         for numerics in case.numerics:
@@ -220,6 +229,7 @@ def runs(book: Book) -> Lines:
                 continue
             errors = [f"{100 * run.end(f'error_{name}'):.1f} %" for name in ("film", "tribofilm", "wear")]
             unconverged = f"{100 * run['unconverged'].max():.0f} %"
-            blocks, seconds = f"{float(run['blocks']):.0f}", f"{float(run['seconds']):.0f}"
-            lines.append(cells((case.name, case.text, numerics, blocks, seconds, *errors, unconverged)))
+            blocks = f"{run.end('blocks_mixed'):.0f} + {run.end('blocks_dry'):.0f}"
+            seconds, jump = f"{float(run['seconds']):.0f}", nm(float(np.abs(np.diff(run["h_c"][2:])).max(initial=0.0)))
+            lines.append(cells((case.name, case.text, numerics, blocks, seconds, jump, *errors, unconverged)))
     return lines
