@@ -117,7 +117,7 @@ def _causes(chapter: int, found: Found) -> Lines:
             lines += [f"- **{chapter}.{k}** {claim.shows}. {claim.remark}".rstrip(), *said]
     if not lines:
         return []
-    note = "The same measure on runs in which one thing differs, or another measure on the same runs; first what makes it agree."
+    note = "Experiments: the same measure on runs in which one thing differs, or another measure on the same runs."
     return ["### Why not", "", note, "", *lines]
 
 

@@ -57,13 +57,13 @@ def _has_label(axes: Axes, label: str) -> bool:
     return label in axes.get_legend_handles_labels()[1]
 
 
-def _finish(axes: Axes, title: str, y: str, x: str = "time [min]") -> None:
+def _finish(axes: Axes, title: str, y: str, x: str = "time [min]", *, legend: bool = True) -> None:
     axes.set_title(title, fontsize="small", loc="left")
     axes.set_xlabel(x, fontsize="small")
     axes.set_ylabel(y, fontsize="small")
     axes.tick_params(labelsize="x-small")
     axes.grid(alpha=0.25, lw=0.5)
-    if axes.get_legend_handles_labels()[0]:
+    if legend and axes.get_legend_handles_labels()[0]:
         axes.legend(fontsize="x-small", frameon=False)
 
 
@@ -191,7 +191,8 @@ def lubrication(book: Book) -> Figure:
             place.axvline(minute, color=WITH, lw=0.6, alpha=0.4)
         if name == "h_c":
             _smooth_line(book, place, f"{kind}_smooth")
-        _finish(place, f"{figure_name}  set {kind}", label)
+        _finish(place, f"{figure_name}  set {kind}", label, legend=False)
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize="small")
     _title(
         figure, "Film, contact and roughness; vertical: dry pressures take over from mixed lubrication, or the reverse"
     )
@@ -230,8 +231,8 @@ def wear(book: Book) -> Figure:
         _finish(axes[row, 1], f"7-4  disc, {text}", "mean wear depth [nm]")
         _finish(axes[row, 2], f"7-5  ball, {text}", "worn surface, mean over x [nm]", "y [µm]")
     with suppress(Missing):
-        run = book.get("A", "ours")
-        axes[2, 0].plot(1e6 * run.y, 1e9 * run.y**2 / (2.0 * float(run["radius"])), ":", color="k", lw=1.0, label="new")
+        radius, y = float(book.get("A", "ours")["radius"]), np.linspace(-350e-6, 350e-6, 141)
+        axes[2, 0].plot(1e6 * y, 1e9 * y**2 / (2.0 * radius), ":", color="k", lw=1.0, label="new")
     _finish(axes[2, 0], "7-6  shape of the ball, wear by own speed", "height [nm]", "y [µm]")
     for column, (name, text) in enumerate((("A", "u1 - u2"), ("A_own_speed_srr-2", "own speed")), 1):
         _profile(book, axes[2, column], name, DISC, "one line", lambda run: run.map("heights_2")[:, 0])

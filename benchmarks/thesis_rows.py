@@ -56,7 +56,6 @@ class Judged:
     seeds: str = ""  # in how many of the roughness seeds it holds
 
 
-SAID = {True: "agrees", False: "disagrees too", None: "cannot be judged"}  # of an experiment
 VERDICTS = ("agree", "disagree", "cannot be judged", "not run")
 
 
@@ -77,15 +76,18 @@ def judge(claim: Claim, book: Book, numerics: str) -> Judged:
 
 
 def _causes(claim: Claim, get: Get) -> Iterator[str]:
-    """What the experiments say, those that make the claim hold first."""
+    """What the experiments say: numbers of those that make the claim hold, names of the others."""
     tried = [(entry, found) for entry in claim.experiments if (found := _tried(entry, claim, get))]
-    tried.sort(key=lambda pair: not pair[1].holds)
     for entry, found in tried:
-        yield f"{entry.text}: {found.text} ({SAID[found.holds]})"
+        if found.holds:
+            yield f"agrees with *{entry.text}*: {found.text}"
+    idle = [entry.text for entry, found in tried if not found.holds]
+    if idle:
+        yield f"not by {', '.join(f'*{text}*' for text in idle)}"
     if len(tried) < len(claim.experiments):
         yield f"experiments not run yet: {len(claim.experiments) - len(tried)}"
-    elif tried and not any(found.holds for _, found in tried):
-        yield "no experiment here shows the cause"
+    elif tried and len(idle) == len(tried):
+        yield "cause not found by these experiments"
 
 
 def _tried(experiment: Experiment, claim: Claim, get: Get) -> Finding | None:

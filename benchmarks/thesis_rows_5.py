@@ -35,7 +35,7 @@ def in_the_track(get: Get) -> Finding:
 
 def _coverage_grows(get: Get) -> Finding:
     covers = [[get("A").at(f"coverage_{i}", minute) for minute in SNAPSHOTS] for i in (1, 2)]
-    text = f"disc {values(covers[1], 1.0, 2)}; ball {values(covers[0], 1.0, 2)}"
+    text = f"disc {values(covers[1], 1.0)}; ball {values(covers[0], 1.0)}"
     return Finding(text, rising(covers[1]))
 
 
@@ -174,8 +174,8 @@ def _no_overshoot(get: Get) -> Finding:
 
 
 def _at(celsius: float) -> Measure:
-    law = Scene.from_toml("mtm_zddp").tribofilm
-    return cannot(law.refusal(celsius + 273.15) or f"not run at {celsius:g} °C")
+    said = Scene.from_toml("mtm_zddp").tribofilm.refusal(celsius + 273.15)
+    return cannot(f"refused: {said.split('. ')[0]}" if said else "—")
 
 
 CLAIMS = (
