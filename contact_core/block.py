@@ -5,8 +5,8 @@ from block to block. In near rolling the bodies would meet the same asperities o
 one jumps under the march (an additive golden-ratio sequence, of low discrepancy); the oil, which follows the rougher
 one, stays where it is. Dry contact has no memory: a few instants at offsets of both bodies, again of low discrepancy, sample it.
 
-Dry pressures stand for mixed ones where the solids carry more than `control.dry_above` of the load: weighted by that share,
-which a mixed march measures anew every few blocks.
+Where the solids carry more than `control.dry_above` of the load, a dry contact stands for the mixed one: its solids carry
+the same share, under oil that carries the rest like smooth bodies. A mixed march measures that share anew every few blocks.
 """
 
 import math
@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .contact import Transient, solve
-from .evolution import rates, roughness_now, speeds_of, stable_time, track_length
+from .evolution import roughness_now, speeds_of, stable_time, track_length, track_rows, wear_rate
+from .laws.tribofilm import thickness
 from .patches import on_patch, patch_nodes, widened
 from .scene import OperatingPoint, Scene
 from .state import Body, ContactState, RangeFlag
@@ -26,13 +27,13 @@ Array = NDArray[np.float64]
 
 _SETTLING = 80  # transient steps after a new start before the march is sampled: about one passage of the oil
 _ITERATIONS = 40  # at most, of one transient step; a warm one needs about 16
-_DRY_BLOCKS = 10  # driven dry before the mixed share is measured again
+_DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
 _DRY_PASS = 8  # dry instants that stand for one pass of a surface point through the contact
 _GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy in the plane
 _MANY = 0.1  # share of unconverged solutions that raises a flag
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
 _SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under the film with every instant
-_CALMING = 16  # transient steps after a jump of a rougher one before the march is sampled
+_CALMING = 24  # transient steps after a jump of a rougher one, or from a dry contact of the right share
 _SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most
 _LONGER = 2.0  # a block may be so much longer than the one before
 _EDGE = 3  # rows at the edge into which the scar may not come
@@ -49,7 +50,7 @@ def solve_block(scene: Scene, op: OperatingPoint, state: ContactState) -> Contac
     """Solve the contact for one block; time stands still. Store what the surfaces feel and what the contact gives."""
     same = state.solved_for is not None and not _has_moved(scene, op, state.solved_for)
     if not same:
-        state = replace(state, dry_blocks_left=0, trends=state.trends.restarted(), held=0.0)
+        state = replace(state, dry_blocks_left=0, share=1.0, trends=state.trends.restarted(), held=0.0)
     state = _wide_enough(scene, state)
     sweep = Sweep.before(state)
     if op.load == 0.0:
@@ -57,16 +58,14 @@ def solve_block(scene: Scene, op: OperatingPoint, state: ContactState) -> Contac
         return _stored(scene, op, replace(state, film=None, share=1.0), sweep)
     driver = scene.control.driver
     if op.entrainment_speed == 0.0 or driver == "dry":
-        state = replace(state, share=1.0, fluid_friction=0.0)
+        state = replace(state, share=1.0)
     elif driver == "mixed" or state.dry_blocks_left == 0:
-        state = _mixed_sweep(scene, op, state, sweep, same and state.film is not None)
-        means = sweep.means()
-        share = means["contact_load_ratio"]
-        if driver == "mixed" or share <= scene.control.dry_above:
-            return _stored(scene, op, state, sweep)
-        state = replace(
-            state, share=share, fluid_friction=means["friction_of_fluid"], dry_blocks_left=_DRY_BLOCKS, film=None
-        )
+        state = _mixed_sweep(scene, op, state, sweep, same)
+        found = sweep.means()["contact_load_ratio"]
+        if driver == "mixed" or found <= scene.control.dry_above:
+            return _stored(scene, op, replace(state, share=1.0), sweep)
+        share = found if state.share == 1.0 else 0.5 * (found + state.share)  # one measurement scatters
+        state = replace(state, share=share, dry_blocks_left=_DRY_BLOCKS, film=None)
         sweep = Sweep.before(state)
     return _stored(scene, op, _dry_sweep(scene, op, state, sweep), sweep)
 
@@ -102,7 +101,7 @@ def _dry_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Swe
     jumps = _dry_jumps(scene, op)
     for _ in range(scene.control.dry_instants):
         state = _moved(scene, state, jumps)
-        fields = solve(scene, op, state, dry=True)
+        fields = solve(scene, op, state, dry=True, solid_share=state.share)
         sweep.add(scene, op, state, fields, (1.0 / _DRY_PASS, 1.0 / _DRY_PASS))
         state = _yielded(scene, replace(state, film=None), fields.overlap)
     return state
@@ -121,7 +120,7 @@ def _dry_jumps(scene: Scene, op: OperatingPoint) -> list[float]:
     return [jump * (speed != 0.0) for jump, speed in zip((first, second), speeds_of(op), strict=True)]
 
 
-def _mixed_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, warm: bool) -> ContactState:
+def _mixed_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, same: bool) -> ContactState:
     columns = scene.film.points - 1
     dt = scene.film.spacing / max(abs(speed) for speed in speeds_of(op))
     steps = [speed * dt for speed in speeds_of(op)]
@@ -130,10 +129,11 @@ def _mixed_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: S
     jumps = _jumps(scene, op, 1 - rougher)
     unsampled = _SETTLING
     if state.film is None:
-        state = replace(state, film=solve(scene, op, state, dry=True).film)
-    elif warm and any(jumps):
+        state = replace(state, film=solve(scene, op, state, dry=True, solid_share=state.share).film)
+        unsampled = _SETTLING if state.share == 1.0 else _CALMING
+    elif same and any(jumps):
         unsampled = 0
-    elif warm:
+    elif same:
         state, unsampled = _moved(scene, state, _jumps(scene, op, 1 - rougher, most=1.0)), _CALMING
     for k in range(-unsampled, scene.control.mixed_instants):
         before = patch_nodes(scene, state.bodies[rougher])
@@ -171,7 +171,7 @@ def _yielded(scene: Scene, state: ContactState, overlap: Array) -> ContactState:
     return replace(state, bodies=(first, second))
 
 
-def _feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, i: int, share: float) -> Body:
+def _feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, i: int) -> Body:
     """A body with what the block makes it feel: mean pressure over its track, and exposure per test time by the dose
     that the constants of the tribofilm law were fitted with.
     """
@@ -187,8 +187,19 @@ def _feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep
         exposure = exposure * reach
     if op.sliding_speed == 0.0 or op.load == 0.0:  # nothing rubs in pure rolling, at rest or apart
         exposure = np.zeros_like(exposure)
-    pressure = sweep.pressures[i] / sweep.count * (reach * share)
+    pressure = sweep.pressures[i] / sweep.count * reach
     return replace(body, pressure=pressure, exposure=exposure, since=sweep.since[i])
+
+
+def _lag(scene: Scene, op: OperatingPoint, driver: str) -> float:
+    """By how many blocks what the surfaces feel is late, on average: half a block by Euler's steps, and half a pass where
+    the dose is that of a whole pass.
+    """
+    if scene.tribofilm.dose != "clock":
+        return 0.5
+    if driver == "dry":
+        return 0.5 + 0.5 * _DRY_PASS / scene.control.dry_instants
+    return 0.5 + 0.5 * (scene.film.points - 1) / scene.control.mixed_instants
 
 
 def _longest(scene: Scene, op: OperatingPoint, state: ContactState, before: float) -> float:
@@ -207,25 +218,22 @@ def _longest(scene: Scene, op: OperatingPoint, state: ContactState, before: floa
 def _stored(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep) -> ContactState:
     """The state with a block's results: exposure of the surfaces, outputs, and what decides about the next block."""
     driver = "fallback" if 2 * sweep.fallbacks > sweep.count else "mixed" if sweep.mixed else "dry"
-    share = state.share if driver == "dry" else 1.0
     slow, fast = sorted(abs(speed) for speed in speeds_of(op))
     if op.load > 0.0 and 0.0 < slow < 0.9 * fast and driver != "dry":
         sweep.flags |= RangeFlag.SLOW_BODY
-    bodies = (_feeling(scene, op, state, sweep, 0, share), _feeling(scene, op, state, sweep, 1, share))
+    bodies = (_feeling(scene, op, state, sweep, 0), _feeling(scene, op, state, sweep, 1))
     seen, spread = sweep.means(), sweep.spread(apart=driver == "dry")
-    if driver == "dry":
-        seen["friction_force"] = share * seen["friction_force"] + state.fluid_friction
-        seen["contact_load_ratio"] *= share
-        seen["contact_load_ratio_disc"] *= share
     state = replace(state, bodies=bodies)
     for i, body in enumerate(bodies):
-        now = rates(scene, op, body, i)
-        seen |= {f"{name}_{i + 1}_rate": value for name, value in now.items()}
-        seen[f"roughness_{i + 1}"] = roughness_now(scene, op, body, i)
+        seen[f"wear_depth_{i + 1}_rate"] = wear_rate(scene, op, body, i)
+        film = thickness(body.growth, body.removal)[track_rows(scene, op, state.rows)]
+        seen |= {f"roughness_{i + 1}": roughness_now(scene, op, body, i), f"tribofilm_{i + 1}": float(film.mean())}
     unconverged = sweep.missed / sweep.count
     if unconverged > _MANY:
         sweep.flags |= RangeFlag.NOT_CONVERGED
-    trends = state.trends.followed(seen, spread, _MEMORY["dry" if driver == "dry" else "mixed"])
+    trends = state.trends.followed(
+        seen, spread, _MEMORY["dry" if driver == "dry" else "mixed"], _lag(scene, op, driver)
+    )
     smooth, blocks = trends.values(), f"blocks_{driver}"
     outputs = replace(
         state.outputs,

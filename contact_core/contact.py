@@ -58,11 +58,18 @@ class ContactFields:
 
 
 def solve(
-    scene: Scene, op: OperatingPoint, state: ContactState, transient: Transient | None = None, *, dry: bool = False
+    scene: Scene,
+    op: OperatingPoint,
+    state: ContactState,
+    transient: Transient | None = None,
+    *,
+    dry: bool = False,
+    solid_share: float = 1.0,
 ) -> ContactFields:
     """Solve the contact at one instant; time and state stand still.
 
-    Without `transient` the film is steady. `dry` leaves the fluid out. Raises OperatingPointError for values that
+    Without `transient` the film is steady. `dry` leaves the film out: the solids carry
+    `solid_share` of the load, oil spread as in Hertz's contact the rest. Raises OperatingPointError for values that
     cannot be used and ConvergenceError if no solution exists. A film solution that did not converge says so; if it
     cannot be used, the dry one stands in (`route`).
     """
@@ -98,6 +105,7 @@ def solve(
             limit=limit,
             hardness=scene.plasticity.hardness,
             dry=dry,
+            solid_share=solid_share,
         )
         follows = (transient.dt, transient.moved) if transient and state.film else None
         film = scene.film.solve(

@@ -60,14 +60,10 @@ def track_rows(scene: Scene, op: OperatingPoint, rows: int, share: float = 1.0) 
     return inside
 
 
-def rates(scene: Scene, op: OperatingPoint, body: Body, i: int) -> dict[str, float]:
-    """Mean speeds [m/s] at which wear depth and tribofilm of the track change now."""
-    track = track_rows(scene, op, body.wear.shape[0])
-    film = thickness(body.growth, body.removal)
-    moment = 1e-3
-    later = scene.tribofilm.evolve(body.growth, body.removal, body.exposure * moment, op.temperature)
-    growing = (thickness(*later) - film)[track].mean() / moment
-    return {"wear_depth": float(wear_speed(scene, op, body, i, film)[track].mean()), "tribofilm": float(growing)}
+def wear_rate(scene: Scene, op: OperatingPoint, body: Body, i: int) -> float:
+    """Mean speed [m/s] at which the track wears now."""
+    speed = wear_speed(scene, op, body, i, thickness(body.growth, body.removal))
+    return float(speed[track_rows(scene, op, body.wear.shape[0])].mean())
 
 
 def roughness_now(scene: Scene, op: OperatingPoint, body: Body, i: int) -> float:

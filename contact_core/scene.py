@@ -79,11 +79,11 @@ class Control:
         choices=("auto", "mixed", "dry"),
         default="auto",
     )
-    dry_instants: int = parameter("", "instants of a block driven dry", least=1, most=1000, default=4)
+    dry_instants: int = parameter("", "instants of a block driven dry", least=1, most=1000, default=3)
     mixed_instants: int = parameter(
         "", "instants of a block driven by mixed lubrication", least=1, most=1000, default=16
     )
-    longest: float = parameter("s", "longest block", above=0.0, most=1e9, default=180.0)
+    longest: float = parameter("s", "longest block", above=0.0, most=1e9, default=120.0)
 
 
 @dataclass(frozen=True)

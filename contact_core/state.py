@@ -139,8 +139,7 @@ class ContactState:
     held: float  # time since the last block [s]
     hold: float  # longest time until the next block [s]
     dry_blocks_left: int  # blocks until the share of the solids is measured again
-    share: float  # of the load on solids: weight of dry pressures
-    fluid_friction: float  # friction force of the oil beside them [N]
+    share: float  # of the load on the solids of a dry contact
     trends: Trends
     outputs: Outputs
 
@@ -229,7 +228,6 @@ def _unpack_state(tree: dict[str, Any], arrays: Any) -> ContactState:
         hold=float.fromhex(tree["hold"]),
         dry_blocks_left=tree["dry_blocks_left"],
         share=float.fromhex(tree["share"]),
-        fluid_friction=float.fromhex(tree["fluid_friction"]),
         trends=record(Trends, tree["trends"]),
         outputs=Outputs(**numbers(tree["outputs"])),
     )
@@ -240,6 +238,4 @@ def initial_state(scene: Scene) -> ContactState:
     shape = (scene.film.points, scene.film.points - 1)
     zeros = np.zeros(shape)
     body = Body(zeros, zeros, zeros, zeros, zeros, zeros, np.full(shape, np.inf), 0.0, 0.0, 0.0)
-    return ContactState(
-        scene.digest(), 0.0, (body, body), None, None, 0.0, 0.0, 0.0, 0, 1.0, 0.0, Trends.fresh(), Outputs()
-    )
+    return ContactState(scene.digest(), 0.0, (body, body), None, None, 0.0, 0.0, 0.0, 0, 1.0, Trends.fresh(), Outputs())

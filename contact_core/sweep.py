@@ -89,12 +89,10 @@ def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[s
         hertz = scene.hertz(op.load)
         inside = disc(grid, hertz)
         carried = fields.pressure[inside].sum()
-        fluid = float(fields.fluid_shear.sum()) * cell
         slope = np.gradient(fields.fluid_pressure, scene.film.spacing, axis=1)
         seen |= film_outputs(grid, fields.film, fields.gap, op.load, hertz)
         seen |= {
-            "friction_force": -fluid - float(fields.solid_shear.sum()) * cell,
-            "friction_of_fluid": -fluid,
+            "friction_force": -float((fields.fluid_shear + fields.solid_shear).sum()) * cell,
             "rolling_resistance": float((0.5 * fields.gap * slope).sum()) * cell,
             "contact_area_ratio_disc": float((fields.solid_pressure[inside] > 0.0).mean()),
             "contact_load_ratio_disc": float(fields.solid_pressure[inside].sum() / carried) if carried > 0.0 else 0.0,
@@ -103,8 +101,8 @@ def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[s
         formula = _formula_film(scene, op)
     else:
         seen |= open_outputs(grid, fields.film, fields.gap)
-        names = ("friction_force", "friction_of_fluid", "rolling_resistance")
-        seen |= dict.fromkeys((*names, "contact_area_ratio_disc", "contact_load_ratio_disc"), 0.0)
+        none = ("friction_force", "rolling_resistance", "contact_area_ratio_disc", "contact_load_ratio_disc")
+        seen |= dict.fromkeys(none, 0.0)
     for name, film in (("lambda_ratio", seen["h_c"]), ("lambda_conventional", formula)):
         seen[name] = min(film / sigma, _LAMBDA_CAP) if sigma > 0.0 else _LAMBDA_CAP
     return seen

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-RATES = ("wear_depth_1", "wear_depth_2", "tribofilm_1", "tribofilm_2")  # followed as rates [m/s], reported as depths
+RATES = ("wear_depth_1", "wear_depth_2")  # followed as rates [m/s], reported as depths
 SMOOTHED = (
     "friction_force",
     "rolling_resistance",
@@ -30,7 +30,12 @@ SMOOTHED = (
     "pressure_max",
     "approach",
 )
-SHAPES = ("roughness_1", "roughness_2")  # followed for their slope; they need no smoothing
+SHAPES = (
+    "roughness_1",
+    "roughness_2",
+    "tribofilm_1",
+    "tribofilm_2",
+)  # followed for their slope; they need no smoothing
 NAMES = (*SMOOTHED, *SHAPES, *(f"{name}_rate" for name in RATES))
 _SIGNED = ("friction_force", "rolling_resistance", "approach")
 _LEAST = np.array([0.0 if name in SMOOTHED and name not in _SIGNED else -np.inf for name in NAMES])
@@ -45,6 +50,7 @@ class Trends:
     slope: Array  # per block
     variance: Array  # of one block's mean
     gain: float  # share of the last block in the level
+    lag: float  # by how many blocks the quantities are late
     blocks: int  # since the filter began
     time_error: Array  # [RATES] of the depth so far, by time steps [m], signed
     sampling: Array  # [RATES] variance of the depth so far by sampling [m2]
@@ -57,15 +63,15 @@ class Trends:
     def fresh() -> "Trends":
         """Nothing seen yet."""
         n, rates = len(NAMES), np.zeros(len(RATES))
-        return Trends(np.zeros(n), np.zeros(n), np.zeros(n), 1.0, 0, rates, rates)
+        return Trends(np.zeros(n), np.zeros(n), np.zeros(n), 1.0, 0.5, 0, rates, rates)
 
     def restarted(self) -> "Trends":
         """Forget levels and slopes: the contact works at another point now. Errors made stay made."""
         return replace(Trends.fresh(), time_error=self.time_error, sampling=self.sampling)
 
-    def followed(self, seen: Mapping[str, float], spread: Mapping[str, float], memory: float) -> "Trends":
+    def followed(self, seen: Mapping[str, float], spread: Mapping[str, float], memory: float, lag: float) -> "Trends":
         """The filter after one more block's means; `spread` is their standard deviation as the block itself shows it,
-        `memory` (0 to 1) how slowly the filter forgets.
+        `memory` (0 to 1) how slowly the filter forgets, `lag` by how many blocks what is seen is late.
 
         Gains as in Morrison, Introduction to Sequential Smoothing and Prediction, McGraw-Hill 1969: least squares
         over all blocks at first, fading memory later.
@@ -74,7 +80,7 @@ class Trends:
         n = self.blocks
         if n == 0:
             own = np.array([spread.get(name, 0.0) for name in NAMES])
-            return replace(self, level=x, slope=np.zeros_like(x), variance=own**2, gain=1.0, blocks=1)
+            return replace(self, level=x, slope=np.zeros_like(x), variance=own**2, gain=1.0, lag=lag, blocks=1)
         first = max(1.0 - memory**2, 2.0 * (2 * n + 1) / ((n + 1) * (n + 2)))
         second = max((1.0 - memory) ** 2, 6.0 / ((n + 1) * (n + 2)))
         missed = x - self.level - self.slope
@@ -83,18 +89,19 @@ class Trends:
         if n >= 2:  # before that the line goes through all there is
             learn = max(_MEMORY_OF_SPREAD, 1.0 / n)
             variance = variance + learn * (missed**2 * (1.0 - first) - variance)
-        return replace(self, level=np.maximum(level, _LEAST), slope=slope, variance=variance, gain=first, blocks=n + 1)
+        return replace(
+            self, level=np.maximum(level, _LEAST), slope=slope, variance=variance, gain=first, lag=lag, blocks=n + 1
+        )
 
     def over(self, step: float, block: float) -> "Trends":
         """With the errors that a step [s] of a block that is `block` [s] old makes, if rates stand still in it.
 
-        The rate at the end of a block has moved by the slope: half of it, over the time, is what Euler's step lacks.
-        The rate's own scatter adds up within a block and at random between blocks.
+        What is late by some blocks is wrong by the slope times these. The rate's own scatter adds up within a block and at random between blocks.
         """
         n = len(NAMES) - len(RATES)
         return replace(
             self,
-            time_error=self.time_error + 0.5 * self.slope[n:] * step,
+            time_error=self.time_error + self.lag * self.slope[n:] * step,
             sampling=self.sampling + self.variance[n:] * ((block + step) ** 2 - block**2),
         )
 
@@ -109,7 +116,10 @@ class Trends:
     def half_widths(self) -> dict[str, tuple[float, float]]:
         """Errors by time steps and by sampling, as half widths (two sigma), of `SMOOTHED`, `SHAPES` and `RATES`."""
         sampling = 2.0 * np.sqrt(self.gain * self.variance)
-        found = {name: (abs(float(self.slope[k])), float(sampling[k])) for k, name in enumerate((*SMOOTHED, *SHAPES))}
+        found = {
+            name: (self.lag * abs(float(self.slope[k])), float(sampling[k]))
+            for k, name in enumerate((*SMOOTHED, *SHAPES))
+        }
         for k, name in enumerate(RATES):
             found[name] = abs(float(self.time_error[k])), 2.0 * float(np.sqrt(self.sampling[k]))
         return found

@@ -59,7 +59,8 @@ class Instant:
     heights: Array  # of both bodies together, positive into the gap
     limit: Array  # largest pressure
     hardness: float  # no limit is above it
-    dry: bool = False  # leave the fluid out
+    dry: bool = False  # leave the film out
+    solid_share: float = 1.0  # of the load of such a contact; the rest lies on oil, spread as in Hertz's contact
 
     def mirrored(self) -> "Instant":
         """The instant seen from the other side: entrained the other way."""

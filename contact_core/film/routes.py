@@ -93,7 +93,7 @@ def solve_film(
         return solve_film(now.mirrored(), grid.mirrored(), settings, start and start.mirrored(), back).mirrored()
     scaled = Scaled(now, grid, settings)
     if now.dry or now.entrainment_speed == 0.0:
-        return scaled.dry("dry")
+        return scaled.dry("dry", now.solid_share)
     regime = next(row for row in REGIMES if row.holds(scaled))
     tries = (("hybrid", "before"), *regime.algorithms) if follows else regime.algorithms
     solver, used, spent, least = _Solver(scaled, start, follows), "", 0, math.inf

@@ -121,8 +121,7 @@ class Scaled:
 
     def dry_start(self) -> Iterate:
         """The dry contact, its fluid still to come."""
-        pressure, rigid, _, _ = self._dry_pressure(_DRY_TOLERANCE)
-        return Iterate(pressure, np.zeros_like(pressure), pressure > 0.0, rigid + self.floor)
+        return self._shared(1.0, _DRY_TOLERANCE)[0]
 
     def lifted_start(self) -> Iterate:
         """A Hertz-like pressure under the film of smooth bodies and the highest asperities."""
@@ -132,30 +131,35 @@ class Scaled:
         return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid)
 
     def shared_start(self) -> Iterate:
-        """Solids that carry most of the load in dry contact, above oil that carries the rest like smooth bodies.
+        """Solids that carry most of the load, above oil that carries the rest.
 
         Filled valleys drain faster than dry ones fill: from a dry contact, the oil has to break every seal. The
         contact then settles to a share of its own, which is far lower.
         """
-        fluid = np.minimum(self.smooth * ((1.0 - _SOLID_SHARE) * self.load / self.smooth.sum()), 0.5 * self.cap)
-        left, gap = self.load - float(fluid.sum()), self.undeformed + self.half_space.deform(fluid)
+        return self._shared(_SOLID_SHARE, _START_TOLERANCE)[0]
+
+    def _shared(self, share: float, tolerance: float) -> tuple[Iterate, bool, int]:
+        """Solids that carry `share` of the load in dry contact, above oil that carries the rest like smooth bodies;
+        whether they converged, and iterations.
+        """
+        fluid = np.minimum(self.smooth * ((1.0 - share) * self.load / self.smooth.sum()), 0.5 * self.cap)
+        left, gap = self.load - float(fluid.sum()), self.undeformed
+        if share < 1.0:
+            gap = gap + self.half_space.deform(fluid)
         room = self.cap - fluid
-        solid, rigid, _, _ = solve_dry(self.half_space, gap, room, left, self.smooth, _START_TOLERANCE, _DRY_ITERATIONS)
-        return Iterate(solid + fluid, fluid, solid > 0.0, rigid + self.floor)
-
-    def _dry_pressure(self, tolerance: float) -> tuple[Array, float, bool, int]:
-        return solve_dry(
-            self.half_space, self.undeformed, self.cap, self.load, self.smooth, tolerance, _DRY_ITERATIONS
+        solid, rigid, converged, iterations = solve_dry(
+            self.half_space, gap, room, left, self.smooth, tolerance, _DRY_ITERATIONS
         )
+        return Iterate(solid + fluid, fluid, solid > 0.0, rigid + self.floor), converged, iterations
 
-    def dry(self, route: str) -> FilmSolution:
-        """The contact without fluid pressure: its gap is the floor where solids touch."""
+    def dry(self, route: str, share: float = 1.0) -> FilmSolution:
+        """The contact without a film: its gap is the floor where solids touch. They carry `share` of the load, oil under
+        a pressure like Hertz's the rest.
+        """
         tolerance = 0.1 * self.settings.tolerance  # conjugate gradients are cheap, and nothing corrects them
-        pressure, rigid, converged, iterations = self._dry_pressure(tolerance)
-        rigid += self.floor
-        gap = rigid + self.undeformed + self.half_space.deform(pressure)
-        iterate = Iterate(pressure, np.zeros_like(pressure), pressure > 0.0, rigid)
-        load_error = float(pressure.sum()) / self.load - 1.0
+        iterate, converged, iterations = self._shared(share, tolerance)
+        gap = iterate.rigid + self.undeformed + self.half_space.deform(iterate.pressure)
+        load_error = float(iterate.pressure.sum()) / self.load - 1.0
         mass = np.maximum(gap, self.floor)
         why = "" if converged else f"dry contact short of {tolerance:g} after {iterations} iterations"
         found = Solution(iterate, gap, mass, converged, iterations, tolerance, load_error, 0.0, 0.0, why)

@@ -51,8 +51,7 @@ def used(scene: Scene) -> ContactState:
         hold=np.inf,
         dry_blocks_left=4,
         share=6.0 / 7.0,
-        fluid_friction=-0.1 / 3.0,
-        trends=replace(Trends.fresh().followed(dict.fromkeys(NAMES, 1.0 / 3.0), {}, 0.5), gain=2.0 / 3.0),
+        trends=replace(Trends.fresh().followed(dict.fromkeys(NAMES, 1.0 / 3.0), {}, 0.5, 2.5), gain=2.0 / 3.0),
         outputs=Outputs(**outputs),
     )
 
