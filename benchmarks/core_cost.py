@@ -7,7 +7,6 @@ from core_common import MoesCase, Report, domain_of, scaled_of, timed, unit_of
 from matplotlib.figure import Figure
 
 from contact_core import Scene
-from contact_core.patches import bare_heights, contact_grid
 from contact_core.film.fitted import fitted_grid
 from contact_core.film.instant import FilmState, Instant, Settings
 from contact_core.film.outputs import at_centre
@@ -16,6 +15,7 @@ from contact_core.film.scaled import Scaled
 from contact_core.kernels.direct import solve_direct
 from contact_core.kernels.mixed import Iterate, Problem, Solution, advected, solve_mixed
 from contact_core.kernels.multigrid import extrapolated, solve_smooth
+from contact_core.patches import bare_heights, contact_grid
 from contact_core.point_contact import point_contact
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
 

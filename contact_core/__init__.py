@@ -24,8 +24,9 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     data/        named oils, solids and tribofilms, and the shipped scenes
     errors       what can go wrong, each message with a way out
 
-Imports run one way: kernels <- laws <- film <- patches <- evolution <- contact <- sweep <- block <- advance. Everything inside is SI; heights are
-metres above a body's mean plane, positive toward the other body; arrays are [ny, nx], x along entrainment.
+Imports run one way: kernels <- laws <- film <- patches <- evolution <- contact <- sweep <- block <- advance.
+Everything inside is SI; heights are metres above a body's mean plane, positive toward the other body; arrays are
+[ny, nx], x along entrainment.
 """
 
 from .advance import advance, uncertainty

@@ -25,6 +25,7 @@ Array = NDArray[np.float64]
 _COVERED = 1e-9  # a thinner tribofilm does not count as coverage [m]
 _UPPER = 0.8  # of the thickest tribofilm: nodes of the mean of the thick film
 _THIN = 3  # every third node along x and y is enough to tell the change of geometry
+_GROOVE = 0.2  # weight of a groove's depth among changes of geometry
 _NO_TIME = 1e-9  # s: shorter than any block
 
 
@@ -75,12 +76,12 @@ def _longest_step(scene: Scene, op: OperatingPoint, state: ContactState, left: f
     step = min(left, rest)
     samples = [_thinned(scene, op, body) for body in state.bodies]
     flash = state.outputs.flash_temperature_rise
-    while True:
+    while True:  # the film's growth slows down: this ends within few rounds
         after = [evolved(scene, op, body, i, step, flash) for i, body in enumerate(samples)]
         change = max(_distance(*pair) for pair in zip(samples, after, strict=True))
         if change <= 1.01 * budget:
             return step, change if change < 0.9 * budget else budget  # near enough: the block is used up
-        step *= min(max(budget / change, 0.05), 0.95)  # the film's growth slows down: this ends within few rounds
+        step *= min(max(budget / change, 0.05), 0.95)
 
 
 def _thinned(scene: Scene, op: OperatingPoint, body: Body) -> Body:
@@ -90,9 +91,13 @@ def _thinned(scene: Scene, op: OperatingPoint, body: Body) -> Body:
 
 
 def _distance(before: Body, after: Body) -> float:
-    """Rms change [m] of the heights by tribofilm and wear."""
+    """Rms change [m] of the heights by tribofilm and wear. Wear that is the same all along a row deepens the groove;
+    the contact notices that far less than what happens to its asperities.
+    """
     film = thickness(after.growth, after.removal) - thickness(before.growth, before.removal)
-    return float(np.sqrt(np.mean((film - after.wear + before.wear) ** 2)))
+    worn = after.wear - before.wear
+    groove = worn.mean(axis=1, keepdims=True)
+    return float(np.sqrt(np.mean((film - worn + (1.0 - _GROOVE) * groove) ** 2)))
 
 
 def _wear_rate_now(scene: Scene, op: OperatingPoint, body: Body, i: int) -> float:
@@ -143,11 +148,16 @@ def uncertainty(state: ContactState) -> dict[str, tuple[float, float]]:
     found = state.trends.half_widths()
     force = abs(state.outputs.friction_force)
     scale = state.outputs.friction_coefficient / force if force > 0.0 else 0.0
+    for i, body in enumerate(state.bodies):
+        name = f"roughness_{i + 1}"
+        roughness = getattr(state.outputs, name)
+        if roughness > 0.0:  # the noise of wear adds to its square
+            found[name] = found[name][0], min(0.5 * body.noise / roughness, roughness)
     time, sampling = found["friction_force"]
     return found | {"friction_coefficient": (time * scale, sampling * scale)}
 
 
-def _errors(state: ContactState, values: dict[str, float]) -> dict[str, float]:
+def _errors(state: ContactState, values: dict[str, Any]) -> dict[str, Any]:
     """Both errors together, relative to the outputs they belong to."""
     found = uncertainty(state)
 

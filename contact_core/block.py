@@ -1,12 +1,14 @@
 """One block: the moving surfaces are solved at a few instants; between blocks the geometry changes a little.
 
-Who drives it is `control.driver`. Mixed lubrication has a memory, so its instants are a march, a node apart, that goes on
-from block to block. In near rolling the bodies would meet the same asperities of each other all the way, so the smoother
-one jumps under the march (an additive golden-ratio sequence, of low discrepancy); the oil, which follows the rougher
-one, stays where it is. Dry contact has no memory: a few instants at offsets of both bodies, again of low discrepancy, sample it.
+Who drives it is `control.driver`. Mixed lubrication has a memory, so its instants are a march, a node apart, that goes
+on from block to block. In near rolling the bodies would meet the same asperities of each other all the way, so the
+smoother one jumps under the march (an additive golden-ratio sequence, of low discrepancy); the oil, which follows the
+rougher one, stays where it is. Dry contact has no memory: a few instants at offsets of both bodies, again of low
+discrepancy, sample it.
 
-Where the solids carry more than `control.dry_above` of the load, a dry contact stands for the mixed one: its solids carry
-the same share, under oil that carries the rest like smooth bodies. A mixed march measures that share anew every few blocks.
+Where the solids carry more than `control.dry_above` of the load, a dry contact stands for the mixed one: its solids
+carry the same share, under oil that carries the rest like smooth bodies. A mixed march measures that share anew every
+few blocks.
 """
 
 import math
@@ -16,11 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .contact import Transient, solve
-from .evolution import roughness_now, speeds_of, stable_time, track_length, track_rows, wear_rate
+from .evolution import roughness_now, speeds_of, stable_time, track_length, track_rows, wear_rate, wear_speed
 from .laws.tribofilm import thickness
 from .patches import on_patch, patch_nodes, widened
 from .scene import OperatingPoint, Scene
 from .state import Body, ContactState, RangeFlag
+from .surfaces import groove_free
 from .sweep import Sweep
 
 Array = NDArray[np.float64]
@@ -32,6 +35,8 @@ _DRY_PASS = 8  # dry instants that stand for one pass of a surface point through
 _GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy in the plane
 _MANY = 0.1  # share of unconverged solutions that raises a flag
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
+# how far the noise of blocks cancels, against that of independent ones: measured by benchmarks/evolution.py
+_ALIKE = {"dry": 0.1, "mixed": 0.5}
 _SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under the film with every instant
 _CALMING = 24  # transient steps after a jump of a rougher one, or from a dry contact of the right share
 _SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most
@@ -110,8 +115,8 @@ def _dry_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Swe
 def _dry_jumps(scene: Scene, op: OperatingPoint) -> list[float]:
     """How far [m] the moving bodies jump from instant to instant.
 
-    The first one by a golden ratio of the patch. What the other one is behind, in whole nodes, shares no factor with the
-    patch's: after as many instants as the patch has nodes, each point has met every other once.
+    The first one by a golden ratio of the patch. What the other one is behind, in whole nodes, shares no factor with
+    the patch's: after as many instants as the patch has nodes, each point has met every other once.
     """
     columns = scene.film.points - 1
     behind = next(k for k in range(round(0.382 * columns), columns + 1) if math.gcd(k, columns) == 1)
@@ -171,7 +176,7 @@ def _yielded(scene: Scene, state: ContactState, overlap: Array) -> ContactState:
     return replace(state, bodies=(first, second))
 
 
-def _feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, i: int) -> Body:
+def _feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, i: int, alike: float) -> Body:
     """A body with what the block makes it feel: mean pressure over its track, and exposure per test time by the dose
     that the constants of the tribofilm law were fitted with.
     """
@@ -188,12 +193,18 @@ def _feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep
     if op.sliding_speed == 0.0 or op.load == 0.0:  # nothing rubs in pure rolling, at rest or apart
         exposure = np.zeros_like(exposure)
     pressure = sweep.pressures[i] / sweep.count * reach
-    return replace(body, pressure=pressure, exposure=exposure, since=sweep.since[i])
+    after = replace(body, pressure=pressure, exposure=exposure, since=sweep.since[i])
+    # two blocks that sample the same wear differ by their noise
+    track = track_rows(scene, op, state.rows, 2.0 / 3.0)
+    films = thickness(body.growth, body.removal)
+    change = wear_speed(scene, op, after, i, films)[track] - wear_speed(scene, op, body, i, films)[track]
+    noise = alike * 0.5 * float(np.var(groove_free(change))) * state.held**2
+    return replace(after, noise=body.noise + noise)
 
 
 def _lag(scene: Scene, op: OperatingPoint, driver: str) -> float:
-    """By how many blocks what the surfaces feel is late, on average: half a block by Euler's steps, and half a pass where
-    the dose is that of a whole pass.
+    """By how many blocks what the surfaces feel is late, on average: half a block by Euler's steps, and half a pass
+    where the dose is that of a whole pass.
     """
     if scene.tribofilm.dose != "clock":
         return 0.5
@@ -221,7 +232,8 @@ def _stored(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep)
     slow, fast = sorted(abs(speed) for speed in speeds_of(op))
     if op.load > 0.0 and 0.0 < slow < 0.9 * fast and driver != "dry":
         sweep.flags |= RangeFlag.SLOW_BODY
-    bodies = (_feeling(scene, op, state, sweep, 0), _feeling(scene, op, state, sweep, 1))
+    alike = _ALIKE["dry" if driver == "dry" else "mixed"]
+    bodies = (_feeling(scene, op, state, sweep, 0, alike), _feeling(scene, op, state, sweep, 1, alike))
     seen, spread = sweep.means(), sweep.spread(apart=driver == "dry")
     state = replace(state, bodies=bodies)
     for i, body in enumerate(bodies):

@@ -77,18 +77,18 @@ def stable_time(scene: Scene, op: OperatingPoint, body: Body, i: int) -> float:
     """Longest time [s] between two solutions for which wear smooths the shortest waves instead of making new ones.
 
     A wave of wear of amplitude w and wave number q changes the pressure by E* q w / 2 while it is in contact, so it
-    decays at the rate K |v| d E* q / (2 H), d being the share of time a point is in contact. Euler's steps follow that
-    decay if they are shorter than its time.
+    decays at the rate K |v| d E* q / (2 H), d being the share of time a point is in contact. Euler's steps are stable
+    below twice the time of that decay.
     """
     if scene.wear.name == "none":
         return math.inf
     track = track_rows(scene, op, body.wear.shape[0])
-    cover = float(thickness(body.growth, body.removal)[track].mean()) / scene.tribofilm.full_thickness
+    cover = thickness(body.growth, body.removal)[track].mean(keepdims=True) / scene.tribofilm.full_thickness
     width = 2.0 * scene.hertz(op.load).a
     duty = min(width / track_length(scene, i), 1.0) if speeds_of(op)[i] != 0.0 else 1.0
     shortest = math.sqrt(2.0) * math.pi / scene.film.spacing
     stiffness = 0.25 * scene.solids.reduced_modulus * shortest
     slide = scene.wear.slide(speeds_of(op), i)
-    decay = scene.wear.coefficient(cover) * slide * duty * stiffness / scene.plasticity.hardness
+    decay = float(scene.wear.coefficient(cover).max()) * slide * duty * stiffness / scene.plasticity.hardness
     # a point that a block sees in only part of its passes gets the more in those
-    return 1.0 / decay / max(1.0, scene.film.domain / width) if decay > 0.0 else math.inf
+    return 2.0 / decay / max(1.0, scene.film.domain / width) if decay > 0.0 else math.inf

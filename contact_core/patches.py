@@ -1,7 +1,7 @@
 """Body-fixed patches: what a surface is now, and where it lies under the contact.
 
-A patch [rows, nx - 1] repeats along x and shares its rows with the grid of the contact [rows, nx]. All bodies start with as
-many rows as the scene has points; a scar that reaches the edge makes them more.
+A patch [rows, nx - 1] repeats along x and shares its rows with the grid of the contact [rows, nx]. All bodies start
+with as many rows as the scene has points; a scar that reaches the edge makes them more.
 """
 
 from dataclasses import replace
@@ -73,4 +73,5 @@ def widened(body: Body, more: int) -> Body:
     def fresh(name: str) -> Array:
         return np.pad(getattr(body, name), ((more, more), (0, 0)), constant_values=np.inf if name == "since" else 0.0)
 
-    return replace(body, **{name: fresh(name) for name in Body.ARRAYS})
+    arrays: dict[str, Any] = {name: fresh(name) for name in Body.ARRAYS}
+    return replace(body, **arrays)

@@ -118,6 +118,7 @@ class Body:
     offset: float  # how far the patch has moved along x in the solved steps [m], within one patch length
     cycles: float  # passes through the contact
     worn: float  # wear volume of the whole track [m3]
+    noise: float  # variance of the wear depth from node to node that sampling has made [m2]
 
     ARRAYS: ClassVar[tuple[str, ...]] = ("growth", "removal", "wear", "plastic", "pressure", "exposure", "since")
 
@@ -237,5 +238,5 @@ def initial_state(scene: Scene) -> ContactState:
     """Fresh surfaces: no film, no wear, nothing solved."""
     shape = (scene.film.points, scene.film.points - 1)
     zeros = np.zeros(shape)
-    body = Body(zeros, zeros, zeros, zeros, zeros, zeros, np.full(shape, np.inf), 0.0, 0.0, 0.0)
+    body = Body(zeros, zeros, zeros, zeros, zeros, zeros, np.full(shape, np.inf), 0.0, 0.0, 0.0, 0.0)
     return ContactState(scene.digest(), 0.0, (body, body), None, None, 0.0, 0.0, 0.0, 0, 1.0, Trends.fresh(), Outputs())

@@ -52,7 +52,7 @@ class Sweep:
         fields: ContactFields,
         passes: tuple[float, float] = (0.0, 0.0),
     ) -> None:
-        """Count one instant in. `passes`: the part of a pass through the contact that each body makes until the next."""
+        """Count one instant in. `passes`: the part of a pass through the contact each body makes until the next."""
         shear = np.abs(fields.fluid_shear + fields.solid_shear)
         exposure = scene.tribofilm.exposure(fields.solid_pressure, shear, op.sliding_speed)
         for i, body in enumerate(state.bodies):

@@ -96,7 +96,8 @@ class Trends:
     def over(self, step: float, block: float) -> "Trends":
         """With the errors that a step [s] of a block that is `block` [s] old makes, if rates stand still in it.
 
-        What is late by some blocks is wrong by the slope times these. The rate's own scatter adds up within a block and at random between blocks.
+        What is late by some blocks is wrong by the slope times these. The rate's own
+        scatter adds up within a block and at random between blocks.
         """
         n = len(NAMES) - len(RATES)
         return replace(

@@ -54,7 +54,7 @@ class Deterministic:
         follows: tuple[float, int] | None = None,
         iterations: int | None = None,
     ) -> FilmSolution:
-        """Solve one instant on a grid of this spacing, as `routes.solve_film`; `iterations`: fewer than the scene allows."""
+        """Solve one instant as `routes.solve_film`; `iterations`: fewer than the scene allows."""
         most = min(iterations or self.iterations, self.iterations)
         settings = Settings(self.floor, self.tolerance, most, self.fft, self.criterion == "lumped")
         return solve_film(now, grid, settings, start, follows)

@@ -142,10 +142,11 @@ class Scaled:
         """Solids that carry `share` of the load in dry contact, above oil that carries the rest like smooth bodies;
         whether they converged, and iterations.
         """
-        fluid = np.minimum(self.smooth * ((1.0 - share) * self.load / self.smooth.sum()), 0.5 * self.cap)
-        left, gap = self.load - float(fluid.sum()), self.undeformed
+        fluid, gap = np.zeros_like(self.cap), self.undeformed
         if share < 1.0:
+            fluid = np.minimum(self.smooth * ((1.0 - share) * self.load / self.smooth.sum()), 0.5 * self.cap)
             gap = gap + self.half_space.deform(fluid)
+        left = self.load - float(fluid.sum())
         room = self.cap - fluid
         solid, rigid, converged, iterations = solve_dry(
             self.half_space, gap, room, left, self.smooth, tolerance, _DRY_ITERATIONS
@@ -153,8 +154,8 @@ class Scaled:
         return Iterate(solid + fluid, fluid, solid > 0.0, rigid + self.floor), converged, iterations
 
     def dry(self, route: str, share: float = 1.0) -> FilmSolution:
-        """The contact without a film: its gap is the floor where solids touch. They carry `share` of the load, oil under
-        a pressure like Hertz's the rest.
+        """The contact without a film: its gap is the floor where solids touch. They carry `share` of the load, oil
+        under a pressure like Hertz's the rest.
         """
         tolerance = 0.1 * self.settings.tolerance  # conjugate gradients are cheap, and nothing corrects them
         iterate, converged, iterations = self._shared(share, tolerance)

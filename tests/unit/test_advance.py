@@ -197,7 +197,7 @@ def test_two_hours_of_case_a_are_28361_and_7419_load_cycles():
 
 
 def test_friction_opposes_sliding_and_is_odd():
-    scene, state, op = cheap()
+    scene, state, op = cheap(control__mixed_instants="64")
     ahead = advance(scene, replace(op, speed_1=0.26, speed_2=0.24), state, 0.0)[1]
     back = advance(scene, replace(op, speed_1=0.24, speed_2=0.26), state, 0.0)[1]
     assert ahead.friction_force < 0.0 < back.friction_force
