@@ -40,6 +40,8 @@ THIN_A = {"lubricant.viscosity.viscosity": "0.65 mPa s"}
 THIN_B = {"lubricant.viscosity.viscosity": "1.7 mPa s"}
 NEAR_WHITE = {"surface_1.correlation_length": "4 um", "surface_2.correlation_length": "4 um"}
 
+OURS = ("ours",)  # numerics of experiments, scatter and costly cases
+
 Array = np.ndarray
 
 
@@ -116,33 +118,47 @@ def _cases() -> list[Case]:
         Case("B_bare", b, "set B without additive", BARE),
     ]
     found += [
-        Case(srr_name(srr, "A_own_speed"), a, f"set A, SRR {srr:+g} %, wear by own speed", BY_OWN_SPEED, srr)
+        Case(
+            srr_name(srr, "A_own_speed"),
+            a,
+            f"set A, SRR {srr:+g} %, wear by own speed",
+            BY_OWN_SPEED,
+            srr,
+            numerics=OURS,
+        )
         for srr in SURFACE_SRR
     ]
     # experiments that look for the cause of a difference
     no_removal = {"tribofilm.removal_thickness": "0 nm"}
     found += [
-        Case("B_own_speed", b, "set B, wear by own speed", BY_OWN_SPEED),
-        Case("B_bare_own_speed", b, "set B without additive, wear by own speed", BARE | BY_OWN_SPEED),
-        Case("A_no_removal", a, "set A, SRR +2 %, film without removal", no_removal, 2.0),
-        Case("A_andersson", a, "set A, SRR +2 %, Andersson's law", {"tribofilm.set": "andersson_90c"}, 2.0),
-        Case("A_length", a, "set A, dose by contact length", {"tribofilm.dose": "contact_length"}),
-        Case("A_white", a, "set A, correlation length of one node", NEAR_WHITE),
-        Case("B_white", b, "set B, correlation length of one node", NEAR_WHITE),
-        Case("B_bare_white", b, "set B without additive, correlation length of one node", BARE | NEAR_WHITE),
-        Case("A_mixed", a, "set A, all blocks driven by mixed lubrication", MIXED, numerics=("ours",)),
-        Case("B_mixed", b, "set B, all blocks driven by mixed lubrication", MIXED, numerics=("ours",)),
-        Case("A_thin", a, "set A, viscosity for λ = 0.04", THIN_A),
-        Case("B_thin", b, "set B, viscosity for λ = 0.04", THIN_B),
-        Case("B_bare_thin", b, "set B without additive, viscosity for λ = 0.04", BARE | THIN_B),
+        Case("B_own_speed", b, "set B, wear by own speed", BY_OWN_SPEED, numerics=OURS),
+        Case("B_bare_own_speed", b, "set B without additive, wear by own speed", BARE | BY_OWN_SPEED, numerics=OURS),
+        Case("A_no_removal", a, "set A, SRR +2 %, film without removal", no_removal, 2.0, numerics=OURS),
+        Case(
+            "A_andersson", a, "set A, SRR +2 %, Andersson's law", {"tribofilm.set": "andersson_90c"}, 2.0, numerics=OURS
+        ),
+        Case("A_length", a, "set A, dose by contact length", {"tribofilm.dose": "contact_length"}, numerics=OURS),
+        Case("A_white", a, "set A, correlation length of one node", NEAR_WHITE, numerics=OURS),
+        Case("B_white", b, "set B, correlation length of one node", NEAR_WHITE, numerics=OURS),
+        Case(
+            "B_bare_white",
+            b,
+            "set B without additive, correlation length of one node",
+            BARE | NEAR_WHITE,
+            numerics=OURS,
+        ),
+        Case("A_mixed", a, "set A, all blocks driven by mixed lubrication", MIXED, numerics=OURS),
+        Case("B_mixed", b, "set B, all blocks driven by mixed lubrication", MIXED, numerics=OURS),
+        Case("A_thin", a, "set A, viscosity for λ = 0.04", THIN_A, numerics=OURS),
+        Case("B_thin", b, "set B, viscosity for λ = 0.04", THIN_B, numerics=OURS),
+        Case("B_bare_thin", b, "set B without additive, viscosity for λ = 0.04", BARE | THIN_B, numerics=OURS),
         Case("A_smooth", a, "set A, smooth bodies, first instant", SMOOTH, rubs=False),
         Case("B_smooth", b, "set B, smooth bodies, first instant", SMOOTH, rubs=False),
     ]
     for k in SEEDS[1:]:
         seeds = {"surface_1.seed": str(2 * k - 1), "surface_2.seed": str(2 * k)}
         for name, scene, changes in (("A", a, {}), ("B", b, {}), ("B_bare", b, BARE)):
-            both = ("ours",) if name == "B_bare" else ("ours", "thesis")
-            found.append(Case(f"{name}_seed{k}", scene, f"{name}, roughness {k}", {**changes, **seeds}, numerics=both))
+            found.append(Case(f"{name}_seed{k}", scene, f"{name}, roughness {k}", {**changes, **seeds}, numerics=OURS))
     return found
 
 

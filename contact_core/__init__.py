@@ -20,6 +20,7 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     evolution    tribofilm and wear between two solutions, in closed form
     trends       outputs without their noise, errors of time steps and of sampling
     advance      advance: the evolution over time; uncertainty: how sure its outputs are
+    tracks       the rubbed surfaces as they are, for profiles and pictures
     reference    closed forms
     data/        named oils, solids and tribofilms, and the shipped scenes
     errors       what can go wrong, each message with a way out
@@ -37,6 +38,7 @@ from .point_contact import PointContact, point_contact
 from .reading import shipped_scenes
 from .scene import OperatingPoint, Scene
 from .state import ContactState, Outputs, RangeFlag, initial_state
+from .tracks import Track, track_of
 
 __version__ = "0.1.0"
 
@@ -54,6 +56,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "StateError",
+    "Track",
     "Transient",
     "advance",
     "dry_contact",
@@ -61,5 +64,6 @@ __all__ = [
     "point_contact",
     "shipped_scenes",
     "solve",
+    "track_of",
     "uncertainty",
 ]

@@ -65,14 +65,14 @@ def solve_block(scene: Scene, op: OperatingPoint, state: ContactState) -> Contac
     if op.entrainment_speed == 0.0 or driver == "dry":
         state = replace(state, share=1.0)
     elif driver == "mixed" or state.dry_blocks_left == 0:
-        state = _mixed_sweep(scene, op, state, sweep, same)
+        state = sweep_mixed(scene, op, state, sweep, same)
         found = sweep.means()["contact_load_ratio"]
         if driver == "mixed" or found <= scene.control.dry_above:
             return _stored(scene, op, replace(state, share=1.0), sweep)
         share = found if state.share == 1.0 else 0.5 * (found + state.share)  # one measurement scatters
         state = replace(state, share=share, dry_blocks_left=_DRY_BLOCKS, film=None)
         sweep = Sweep.before(state)
-    return _stored(scene, op, _dry_sweep(scene, op, state, sweep), sweep)
+    return _stored(scene, op, sweep_dry(scene, op, state, sweep), sweep)
 
 
 def _has_moved(scene: Scene, op: OperatingPoint, old: OperatingPoint) -> bool:
@@ -102,7 +102,7 @@ def _wide_enough(scene: Scene, state: ContactState) -> ContactState:
     return replace(state, bodies=(first, second), film=None)
 
 
-def _dry_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep) -> ContactState:
+def sweep_dry(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep) -> ContactState:
     jumps = _dry_jumps(scene, op)
     for _ in range(scene.control.dry_instants):
         state = _moved(scene, state, jumps)
@@ -125,7 +125,7 @@ def _dry_jumps(scene: Scene, op: OperatingPoint) -> list[float]:
     return [jump * (speed != 0.0) for jump, speed in zip((first, second), speeds_of(op), strict=True)]
 
 
-def _mixed_sweep(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, same: bool) -> ContactState:
+def sweep_mixed(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, same: bool) -> ContactState:
     columns = scene.film.points - 1
     dt = scene.film.spacing / max(abs(speed) for speed in speeds_of(op))
     steps = [speed * dt for speed in speeds_of(op)]

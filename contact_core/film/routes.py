@@ -95,7 +95,9 @@ def solve_film(
     if now.dry or now.entrainment_speed == 0.0:
         return scaled.dry("dry", now.solid_share)
     regime = next(row for row in REGIMES if row.holds(scaled))
-    tries = (("hybrid", "before"), *regime.algorithms) if follows else regime.algorithms
+    tries = regime.algorithms
+    if follows:  # one pressure for fluid and solids hardly ever settles: a second try would not, either
+        tries = (("hybrid", "before"), *(() if settings.lumped else regime.algorithms))
     solver, used, spent, least = _Solver(scaled, start, follows), "", 0, math.inf
     for method, begin in tries:
         if settings.lumped and method != "hybrid":  # the others know the split criterion alone

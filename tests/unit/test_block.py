@@ -1,0 +1,138 @@
+"""At which instants a block solves the contact, and what stands for mixed lubrication."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from contact_core import ContactState, RangeFlag, Scene, advance, initial_state, solve
+from contact_core.block import sweep_dry, sweep_mixed
+from contact_core.patches import patch_nodes
+from contact_core.sweep import Sweep
+
+CHEAP = {
+    "film.points": "33",
+    "surface_1.correlation_length": "16 um",
+    "surface_2.correlation_length": "16 um",
+    "film.tolerance": "1e-2",
+    "film.iterations": "60",
+}
+DRY = CHEAP | {"control.driver": "dry"}
+
+
+def cheap(changes=CHEAP, **more):
+    scene = Scene.from_toml(
+        "azam_case_a", changes | {key.replace("__", "."): str(value) for key, value in more.items()}
+    )
+    return scene, initial_state(scene), scene.operation.point
+
+
+@pytest.mark.parametrize("points", [33, 36, 65])
+def test_dry_instants_let_every_two_points_meet_once_before_any_meet_again(points):
+    scene, state, op = cheap(film__points=points, surface_1__rq="0 nm", surface_2__rq="0 nm", control__dry_instants=1)
+    met, first = [], []
+    for _ in range(points - 1):
+        state = sweep_dry(scene, op, state, Sweep.before(state))
+        one, two = (patch_nodes(scene, body) for body in state.bodies)
+        met.append((one - two) % (points - 1))
+        first.append(one)
+    assert sorted(met) == list(range(points - 1))
+    assert len(set(first)) > 0.6 * (points - 1)  # and at many places of the contact
+
+
+def test_the_march_moves_the_rougher_body_a_node_at_a_time_and_lets_the_other_jump():
+    scene, state, op = cheap(control__mixed_instants=6)
+    state = sweep_mixed(scene, op, state, Sweep.before(state), False)
+    places = []
+    for _ in range(3):
+        before = [patch_nodes(scene, body) for body in state.bodies]
+        state = sweep_mixed(scene, replace(op), state, Sweep.before(state), True)
+        places.append([(patch_nodes(scene, b) - k) % 32 for b, k in zip(state.bodies, before, strict=True)])
+    assert all(disc == 6 for _, disc in places)
+    assert all(ball != 6 for ball, _ in places)
+
+
+def test_bodies_of_like_roughness_do_not_jump_while_the_film_is_sampled():
+    scene, state, op = cheap(surface_1__rq="100 nm", control__mixed_instants=4)
+    state = sweep_mixed(scene, op, state, Sweep.before(state), False)
+    sweep = Sweep.before(state)
+    after = sweep_mixed(scene, op, state, sweep, True)
+    moved = (patch_nodes(scene, after.bodies[1]) - patch_nodes(scene, state.bodies[1])) % 32
+    assert sweep.count == 4
+    assert moved == (24 + 4) % 32  # it calmed down after one jump of the other before it was sampled
+
+
+@pytest.mark.parametrize("share", [1.0, 0.8, 0.4])
+def test_solids_of_a_dry_contact_under_oil_carry_their_share(share):
+    scene, state, op = cheap()
+    fields = solve(scene, op, state, dry=True, solid_share=share)
+    cell = scene.film.spacing**2
+    assert fields.solid_pressure.sum() * cell == pytest.approx(share * op.load, rel=1e-9)
+    assert fields.pressure.sum() * cell == pytest.approx(op.load, rel=1e-9)
+    assert fields.gap.min() >= scene.film.floor * (1.0 - 1e-9)
+    assert fields.converged
+
+
+def test_dry_contact_under_oil_is_far_nearer_to_the_mixed_one_than_dry_contact():
+    """The claim on which blocks above control.dry_above rest; the numbers are in docs/evolution.md."""
+    scene, state, op = cheap(film__points=65, control__mixed_instants=64, control__dry_instants=16)
+    slow = replace(op, speed_1=SLOW * op.speed_1, speed_2=SLOW * op.speed_2)
+    mixed = Sweep.before(state)
+    sweep_mixed(scene, slow, state, mixed, False)
+    means = mixed.means()
+    print(means)
+    assert 0.3 < means["contact_load_ratio"] < 0.95
+    found = {}
+    for share in (1.0, means["contact_load_ratio"]):
+        sweep = Sweep.before(state)
+        sweep_dry(scene, slow, replace(state, share=share), sweep)
+        found[share] = sweep.means()
+    dry, oiled = found.values()
+    for name in ("contact_area_ratio", "h_c", "friction_force"):
+        assert abs(oiled[name] - means[name]) < 0.6 * abs(dry[name] - means[name]), name
+
+
+def test_the_patches_grow_when_the_scar_reaches_their_edge():
+    scene, state, op = cheap(DRY | {"tribofilm.model": "none"}, wear__sliding="surface_speed", wear__bare="2e-4")
+    volume = 0.0
+    for _ in range(40):
+        state, outputs = advance(scene, op, state, 30.0)
+        volume += 30.0 * outputs.wear_rate_1
+        if state.rows > 33:
+            break
+    assert state.rows > 33
+    assert state.bodies[0].wear[[0, -1]].max() == 0.0  # the new rows are fresh
+    assert np.array_equal(state.bodies[0].wear.shape, state.bodies[1].since.shape)
+    assert not RangeFlag(outputs.range_flags) & RangeFlag.DOMAIN_EDGE
+    assert outputs.wear_volume_1 == pytest.approx(volume, rel=1e-12)
+    restored = ContactState.from_bytes(state.to_bytes(), scene)
+    assert advance(scene, op, restored, 30.0)[0].to_bytes() == advance(scene, op, state, 30.0)[0].to_bytes()
+
+
+def test_own_surface_speed_wears_by_the_cycle_and_not_by_sliding():
+    """Wear per cycle is the same at any slide-to-roll ratio; by |u1 - u2| it is in proportion to it."""
+    depths = {}
+    for sliding in ("difference", "surface_speed"):
+        for srr in (0.02, 0.08):
+            scene, state, op = cheap(DRY | {"tribofilm.model": "none"}, wear__sliding=sliding, wear__bare="1e-7")
+            point = replace(op, speed_1=0.25 * (1 + srr / 2), speed_2=0.25 * (1 - srr / 2))
+            outputs = advance(scene, point, state, 30.0)[1]
+            depths[sliding, srr] = outputs.wear_depth_1 / outputs.load_cycles_1
+    assert depths["surface_speed", 0.08] == pytest.approx(depths["surface_speed", 0.02], rel=0.02)
+    assert depths["difference", 0.08] == pytest.approx(4.0 * depths["difference", 0.02], rel=0.04)
+
+
+def test_blocks_are_shorter_than_the_stable_time_of_wear():
+    scene, state, op = cheap(DRY, wear__sliding="surface_speed", control__change="1 um")
+    state, outputs = advance(scene, op, state, 0.0)
+    assert outputs.suggested_step < 60.0
+    slow, still, _ = cheap(DRY, control__change="1 um")
+    assert advance(slow, op, still, 0.0)[1].suggested_step == slow.control.longest
+
+
+def test_the_sequence_of_instants_goes_on_after_a_restart():
+    scene, state, op = cheap(control__dry_above="0")
+    state, _ = advance(scene, op, state, 12.0)
+    assert state.dry_blocks_left > 0 and 0.0 < state.share < 1.0
+    restored = ContactState.from_bytes(state.to_bytes(), scene)
+    assert advance(scene, op, restored, 60.0)[0].to_bytes() == advance(scene, op, state, 60.0)[0].to_bytes()
