@@ -19,7 +19,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from work_unit import work_unit
 
-from contact_core import OperatingPoint, Scene, advance, initial_state, solve, uncertainty
+from contact_core import OperatingPoint, Scene, advance, block, initial_state, solve, uncertainty
 from contact_core.block import sweep_dry, sweep_mixed
 from contact_core.sweep import Sweep
 
@@ -288,7 +288,7 @@ def driver() -> list[str]:
 
 def memory() -> list[str]:
     """The Reynolds time scale in a block: steady snapshots against the march."""
-    rows = []
+    rows, smoother = [], block._SMOOTHER
     for case in (CASE, "mtm_zddp"):
         for changes in ({}, {f"surface_{i}.correlation_length": "16 um" for i in (1, 2)}):
             scene = scene_of({"control.driver": "mixed", "control.mixed_instants": "128"} | changes, case)
@@ -303,13 +303,17 @@ def memory() -> list[str]:
                     first, second = (replace(body, offset=o) for body, o in zip(state.bodies, offsets, strict=True))
                     moved = replace(state, bodies=(first, second))
                     steady.add(scene, op, moved, solve(scene, op, moved))
-                for name, sweep in (("march", march), ("steady", steady)):
+                still, block._SMOOTHER = Sweep.before(state), 0.0
+                sweep_mixed(scene, op, state, still, True)
+                block._SMOOTHER = smoother
+                for name, sweep in (("march", march), ("march without jumps", still), ("steady", steady)):
                     m = sweep.means()
                     rows.append([case, f"{scene.surface_2.correlation_length * 1e6:.0f} um", f"{minutes}", name, f"{sweep.missed} of {sweep.count}",
                                  *(f"{m[n]:.3f}" for n in ("contact_load_ratio", "contact_area_ratio")), f"{m['h_c'] * 1e9:.1f}", f"{abs(m['friction_force']) / op.load:.4f}"])  # fmt: skip
     return [
         "One block, the same surfaces: a march of the moving roughness over one pass, and 8 steady films at offsets of low discrepancy.",
-        "In near rolling the pattern of the film moves with the roughness, which a steady film cannot know.",
+        "In near rolling the pattern of the film moves with the roughness, which a steady film cannot know. Without jumps the two",
+        "bodies meet the same points of each other all the way.",
         "",
         *table(["case", "correlation length", "min", "film", "not converged", "W_c", "A_c", "h_c [nm]", "mu"], rows),
     ]

@@ -103,6 +103,7 @@ def _wide_enough(scene: Scene, state: ContactState) -> ContactState:
 
 
 def sweep_dry(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep) -> ContactState:
+    """Add the instants of a dry block to `sweep`; return the state after them."""
     jumps = _dry_jumps(scene, op)
     for _ in range(scene.control.dry_instants):
         state = _moved(scene, state, jumps)
@@ -126,6 +127,9 @@ def _dry_jumps(scene: Scene, op: OperatingPoint) -> list[float]:
 
 
 def sweep_mixed(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, same: bool) -> ContactState:
+    """Add the instants of a mixed block to `sweep`; return the state after them. `same`: the march goes on, at the same
+    operating point.
+    """
     columns = scene.film.points - 1
     dt = scene.film.spacing / max(abs(speed) for speed in speeds_of(op))
     steps = [speed * dt for speed in speeds_of(op)]
@@ -230,7 +234,8 @@ def _stored(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep)
     """The state with a block's results: exposure of the surfaces, outputs, and what decides about the next block."""
     driver = "fallback" if 2 * sweep.fallbacks > sweep.count else "mixed" if sweep.mixed else "dry"
     slow, fast = sorted(abs(speed) for speed in speeds_of(op))
-    if op.load > 0.0 and 0.0 < slow < 0.9 * fast and driver != "dry":
+    jumping = any(any(_jumps(scene, op, k)) and abs(speeds_of(op)[k]) == slow for k in (0, 1))
+    if op.load > 0.0 and 0.0 < slow < 0.9 * fast and driver != "dry" and not jumping:
         sweep.flags |= RangeFlag.SLOW_BODY
     alike = _ALIKE["dry" if driver == "dry" else "mixed"]
     bodies = (_feeling(scene, op, state, sweep, 0, alike), _feeling(scene, op, state, sweep, 1, alike))

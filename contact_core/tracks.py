@@ -50,7 +50,7 @@ def track_of(scene: Scene, state: ContactState, body: int, length: float | None 
         return field[:, np.arange(nodes) % field.shape[1]]
 
     return Track(
-        x=np.arange(nodes) * scene.film.spacing,
+        x=np.arange(nodes, dtype=np.float64) * scene.film.spacing,
         y=contact_grid(scene, state.rows).y,
         new=laid(bare),
         heights=laid(heights_of(bare, part)),

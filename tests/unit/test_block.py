@@ -73,23 +73,20 @@ def test_solids_of_a_dry_contact_under_oil_carry_their_share(share):
     assert fields.converged
 
 
-def test_dry_contact_under_oil_is_far_nearer_to_the_mixed_one_than_dry_contact():
-    """The claim on which blocks above control.dry_above rest; the numbers are in docs/evolution.md."""
+def test_dry_contact_under_oil_touches_and_rubs_like_the_mixed_one_and_not_like_the_dry_one():
+    """The claim on which blocks above control.dry_above rest; docs/evolution.md has it for the shipped scenes."""
     scene, state, op = cheap(film__points=65, control__mixed_instants=64, control__dry_instants=16)
-    slow = replace(op, speed_1=SLOW * op.speed_1, speed_2=SLOW * op.speed_2)
+    slow = replace(op, speed_1=0.006 * op.speed_1, speed_2=0.006 * op.speed_2)
     mixed = Sweep.before(state)
     sweep_mixed(scene, slow, state, mixed, False)
     means = mixed.means()
-    print(means)
-    assert 0.3 < means["contact_load_ratio"] < 0.95
-    found = {}
-    for share in (1.0, means["contact_load_ratio"]):
-        sweep = Sweep.before(state)
-        sweep_dry(scene, slow, replace(state, share=share), sweep)
-        found[share] = sweep.means()
-    dry, oiled = found.values()
-    for name in ("contact_area_ratio", "h_c", "friction_force"):
-        assert abs(oiled[name] - means[name]) < 0.6 * abs(dry[name] - means[name]), name
+    assert 0.8 < means["contact_load_ratio"] < 0.95
+    dry, oiled = Sweep.before(state), Sweep.before(state)
+    sweep_dry(scene, slow, replace(state, share=1.0), dry)
+    sweep_dry(scene, slow, replace(state, share=means["contact_load_ratio"]), oiled)
+    for name in ("contact_area_ratio", "friction_force"):
+        assert abs(oiled.means()[name] - means[name]) < 0.4 * abs(dry.means()[name] - means[name]), name
+    assert oiled.means()["h_c"] == pytest.approx(means["h_c"], rel=0.2)
 
 
 def test_the_patches_grow_when_the_scar_reaches_their_edge():

@@ -202,7 +202,8 @@ HOT = {"operation.temperature": "100 degC"}
 
 
 def test_a_temperature_far_from_that_of_the_film_constants_is_refused_with_the_way_out():
-    with pytest.raises(SceneError, match=r"operation\.temperature = 373\.15 K is outside 348\.15 K to 358\.15 K") as error:
+    told = r"operation\.temperature = 373\.15 K is outside 348\.15 K to 358\.15 K"
+    with pytest.raises(SceneError, match=told) as error:
         Scene.from_toml("mtm_zddp", HOT)
     assert "tribofilm.beyond_fit = 'extrapolate'" in str(error.value)
 
