@@ -332,11 +332,9 @@ def main() -> None:
     if unknown:
         raise SystemExit(f"{', '.join(unknown)}: no such part. There are {', '.join(PARTS)}.")
     again = args.again
-    store = RESULTS / "parts.json"
-    texts = json.loads(store.read_text()) if store.exists() else {}
+    RESULTS.mkdir(parents=True, exist_ok=True)
     for name in args.parts or PARTS:
-        texts[name] = PARTS[name]()
-        store.write_text(json.dumps(texts))
+        (RESULTS / f"{name}.md").write_text("\n".join(PARTS[name]()) + "\n")
     page = [
         f"# Two hours of rubbing: cost, error and what it depends on ({CASE})",
         "",
@@ -344,8 +342,9 @@ def main() -> None:
         "deformation convolution on the same grid. Outputs are explained in `contact_core/quantities.py`.",
     ]
     for name, part in PARTS.items():
-        if name in texts:
-            page += ["", f"## {part.__doc__.splitlines()[0].rstrip('.')} (`{name}`)", "", *texts[name]]
+        text = RESULTS / f"{name}.md"
+        if text.exists():
+            page += ["", f"## {part.__doc__.splitlines()[0].rstrip('.')} (`{name}`)", "", *text.read_text().splitlines()]
     (DOCS / "evolution.md").write_text("\n".join(page) + "\n")
 
 
