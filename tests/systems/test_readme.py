@@ -1,6 +1,7 @@
 import re
 import tomllib
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -17,10 +18,14 @@ def block(language: str, start: str) -> str:
 
 
 def test_the_python_example_runs(capsys: pytest.CaptureFixture[str]) -> None:
-    names: dict[str, object] = {}
+    names: dict[str, Any] = {}
     exec(block("python", "from contact_core import Scene"), names)
     assert [line.split()[0] for line in capsys.readouterr().out.splitlines()] == ["1", "2", "3"]
     assert isinstance(names["memory"], bytes)
+    exec(block("python", "from contact_core import track_of"), names)
+    assert 0.0 < names["time_error"] < names["out"].wear_depth_1
+    assert 0.0 < names["sampling_error"] < names["out"].wear_depth_1
+    assert names["profile"].shape == (65,)
 
 
 def test_the_example_of_one_call_runs(capsys: pytest.CaptureFixture[str]) -> None:
