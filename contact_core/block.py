@@ -40,6 +40,7 @@ _ALIKE = {"dry": 0.1, "mixed": 0.5}
 _SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under the film with every instant
 _CALMING = 24  # transient steps after a jump of a rougher one, or from a dry contact of the right share
 _SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most
+_OF_FILM = RangeFlag.FALLBACK | RangeFlag.INLET_UNRESOLVED
 _LONGER = 2.0  # a block may be so much longer than the one before
 _EDGE = 3  # rows at the edge into which the scar may not come
 _WIDEST = 4  # times the scene's rows
@@ -71,7 +72,10 @@ def solve_block(scene: Scene, op: OperatingPoint, state: ContactState) -> Contac
             return _stored(scene, op, replace(state, share=1.0), sweep)
         share = found if state.share == 1.0 else 0.5 * (found + state.share)  # one measurement scatters
         state = replace(state, share=share, dry_blocks_left=_DRY_BLOCKS, film=None)
-        sweep = Sweep.before(state)
+        sweep, measured = Sweep.before(state), sweep
+        sweep.flags = measured.flags & _OF_FILM
+    else:  # what made the share less sure still does
+        sweep.flags = RangeFlag(state.outputs.range_flags) & _OF_FILM
     return _stored(scene, op, sweep_dry(scene, op, state, sweep), sweep)
 
 
