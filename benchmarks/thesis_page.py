@@ -35,8 +35,8 @@ roughness; conventional λ: with Hamrock and Dowson's film. A_c: real contact ar
 Mean films and depths: over the track |y| < a; covered: nodes with more than 1 nm. Roughness: over |y| < 2a/3, free of the
 groove's shape unless said. Start: the fresh surfaces; end: after 2 h.
 
-With `control.driver = auto`, as shipped, dry pressures drive the blocks while W_c is above `control.dry_above`; h_c, λ and
-p_max are then those of the dry contact and jump where the driver changes. A peak at such a place is not judged.
+With `control.driver = auto`, as shipped, a dry contact under oil drives the blocks while W_c is above `control.dry_above`; h_c, λ and
+p_max are then that contact's and may step by some per cent where the driver changes. A peak at such a place is not judged.
 """
 
 BOOKS = """\

@@ -148,7 +148,7 @@ def sweep_mixed(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sw
         unsampled = 0
     elif same:
         state, unsampled = _moved(scene, state, _jumps(scene, op, 1 - rougher, most=1.0)), _CALMING
-    for k in range(-unsampled, scene.control.mixed_instants):
+    for k in range(-unsampled, _mixed_instants(scene)):
         before = patch_nodes(scene, state.bodies[rougher])
         state = _moved(scene, state, [step + jump for step, jump in zip(steps, jumps, strict=True)])
         moved = (patch_nodes(scene, state.bodies[rougher]) - before + columns // 2) % columns - columns // 2
@@ -157,6 +157,11 @@ def sweep_mixed(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sw
             sweep.add(scene, op, state, fields, passes)
         state = _yielded(scene, replace(state, film=fields.film), fields.overlap)
     return state
+
+
+def _mixed_instants(scene: Scene) -> int:
+    """Sampled instants of a mixed block: by default an eighth of a pass, whatever the grid."""
+    return scene.control.mixed_instants or math.ceil((scene.film.points - 1) / 8)
 
 
 def _jumps(scene: Scene, op: OperatingPoint, i: int, most: float = _SMOOTHER) -> list[float]:
@@ -218,7 +223,7 @@ def _lag(scene: Scene, op: OperatingPoint, driver: str) -> float:
         return 0.5
     if driver == "dry":
         return 0.5 + 0.5 * _DRY_PASS / scene.control.dry_instants
-    return 0.5 + 0.5 * (scene.film.points - 1) / scene.control.mixed_instants
+    return 0.5 + 0.5 * (scene.film.points - 1) / _mixed_instants(scene)
 
 
 def _longest(scene: Scene, op: OperatingPoint, state: ContactState, before: float) -> float:

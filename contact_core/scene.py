@@ -81,7 +81,11 @@ class Control:
     )
     dry_instants: int = parameter("", "instants of a block driven dry", least=1, most=1000, default=3)
     mixed_instants: int = parameter(
-        "", "instants of a block driven by mixed lubrication", least=1, most=1000, default=16
+        "",
+        "instants of a block driven by mixed lubrication; 0: as many as an eighth of a pass takes",
+        least=0,
+        most=1000,
+        default=0,
     )
     longest: float = parameter("s", "longest block", above=0.0, most=1e9, default=120.0)
 
