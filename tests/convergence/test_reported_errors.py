@@ -1,0 +1,66 @@
+"""What a run says about its own errors, against a run with ten times finer blocks."""
+
+import pytest
+
+from contact_core import Scene, advance, initial_state, uncertainty
+
+CHEAP = {
+    "film.points": "33",
+    "surface_1.correlation_length": "16 um",
+    "surface_2.correlation_length": "16 um",
+    "film.tolerance": "1e-2",
+    "control.driver": "dry",
+}
+NAMES = (
+    "friction_coefficient", "h_c", "lambda_ratio", "contact_area_ratio", "tribofilm_1", "tribofilm_2",
+    "wear_depth_1", "wear_depth_2", "roughness_1", "roughness_2",
+)  # fmt: skip
+# few asperities carry the gap of so coarse a grid, and the ball's roughness is sampling noise: the half widths say so
+NOISY = ("h_c", "lambda_ratio", "roughness_1")
+MINUTES = (5, 10, 20, 30, 45, 60)
+
+
+def course(changes):
+    scene = Scene.from_toml("azam_case_a", CHEAP | changes)
+    state, found, last = initial_state(scene), [], 0
+    for minute in MINUTES:
+        state, out = advance(scene, scene.operation.point, state, 60.0 * (minute - last))
+        last = minute
+        found.append((out, uncertainty(state)))
+    return found
+
+
+@pytest.fixture(scope="module")
+def runs():
+    return course({}), course({"control.change": "0.3 nm", "control.longest": "12 s"})
+
+
+def test_films_wear_and_contact_are_within_three_per_cent_of_the_finer_run(runs):
+    mine, fine = runs
+    for name in NAMES:
+        if name in NOISY:
+            continue
+        errors = [getattr(a, name) / getattr(b, name) - 1.0 for (a, _), (b, _) in zip(mine, fine, strict=True)]
+        assert (sum(e * e for e in errors) / len(errors)) ** 0.5 < 0.03, name
+
+
+def test_most_differences_to_the_finer_run_are_within_the_reported_half_widths(runs):
+    mine, fine = runs
+    inside = {
+        name: [
+            abs(getattr(a, name) - getattr(b, name)) <= sum(width[name])
+            for (a, width), (b, _) in zip(mine, fine, strict=True)
+        ]
+        for name in NAMES
+    }
+    flat = [ok for row in inside.values() for ok in row]
+    assert sum(flat) >= 0.85 * len(flat), inside
+
+
+def test_half_widths_are_not_so_wide_that_they_say_nothing(runs):
+    mine, _ = runs
+    for name in NAMES:
+        if name in NOISY:
+            continue
+        out, width = mine[-1]
+        assert sum(width[name]) < 0.1 * abs(getattr(out, name)), name
