@@ -1,7 +1,7 @@
 """Which algorithm solves which contact: a table, and the little that carries it out.
 
 A steady film goes to the first row of REGIMES that it fits; the algorithms of that row are tried in turn until one
-meets the stopping rule (`kernels.mixed.shortfall`). An instant that follows from another one is marched from it first.
+meets the stopping rule (`kernels.mixed.shortfall`). An instant that follows from another one is marched from it, and that film serves if it can be used at all.
 """
 
 import math
@@ -95,9 +95,7 @@ def solve_film(
     if now.dry or now.entrainment_speed == 0.0:
         return scaled.dry("dry", now.solid_share)
     regime = next(row for row in REGIMES if row.holds(scaled))
-    tries = regime.algorithms
-    if follows:  # one pressure for fluid and solids hardly ever settles: a second try would not, either
-        tries = (("hybrid", "before"), *(() if settings.lumped else regime.algorithms))
+    tries = (("hybrid", "before"), *regime.algorithms) if follows else regime.algorithms
     solver, used, spent, least = _Solver(scaled, start, follows), "", 0, math.inf
     for method, begin in tries:
         if settings.lumped and method != "hybrid":  # the others know the split criterion alone
@@ -109,7 +107,7 @@ def solve_film(
         worst = excess(found, settings.tolerance, follows is not None)
         if _usable(found) and (found.converged or worst < least):
             solver.best, used, least = found, f"{regime.name}: {method} from {begin}", worst
-        if found.converged:
+        if found.converged or (follows and solver.best is found):  # the next instant pays the debt of this one
             break
     best = solver.best
     if best is not None and 1.0 - float(best.iterate.pressure.sum()) / scaled.load < _MOST_BEYOND:
