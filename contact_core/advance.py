@@ -86,7 +86,7 @@ def _longest_step(scene: Scene, op: OperatingPoint, state: ContactState, left: f
 
 def _thinned(scene: Scene, op: OperatingPoint, body: Body) -> Body:
     """A body of every third node of its track."""
-    rows = np.flatnonzero(track_rows(scene, op, body.wear.shape[0]))[::_THIN]
+    rows = np.flatnonzero(track_rows(scene, body.wear.shape[0]))[::_THIN]
     return replace(body, **{name: getattr(body, name)[rows, ::_THIN] for name in Body.ARRAYS})
 
 
@@ -109,7 +109,7 @@ def _wear_rate_now(scene: Scene, op: OperatingPoint, body: Body, i: int) -> floa
 def _with_surfaces(scene: Scene, op: OperatingPoint, state: ContactState) -> Outputs:
     """The last block's contact outputs with what the surfaces are now."""
     rows = state.rows
-    track, middle = track_rows(scene, op, rows), track_rows(scene, op, rows, 2.0 / 3.0)
+    track, middle = track_rows(scene, rows), track_rows(scene, rows, 2.0 / 3.0)
     values: dict[str, Any] = {}
     for i, (bare, body) in enumerate(zip(bare_heights(scene, rows), state.bodies, strict=True)):
         film, heights = thickness(body.growth, body.removal), heights_of(bare, body)

@@ -33,14 +33,15 @@ _ITERATIONS = 40  # at most, of one transient step; a warm one needs about 16
 _DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
 _DRY_PASS = 8  # dry instants that stand for one pass of a surface point through the contact
 _GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy in the plane
-_MANY = 0.1  # share of unconverged solutions that raises a flag
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
 # how far the noise of blocks cancels, against that of independent ones: measured by benchmarks/evolution.py
 _ALIKE = {"dry": 0.1, "mixed": 0.5}
 _SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under the film with every instant
+_CREEP = 0.01  # below this share of the other's speed a body does not show a block its track in any way
 _CALMING = 24  # transient steps after a jump of a rougher one, or from a dry contact of the right share
 _SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most
-_OF_FILM = RangeFlag.FALLBACK | RangeFlag.INLET_UNRESOLVED
+_OF_FILM = RangeFlag.INLET_UNRESOLVED | RangeFlag.NOT_CONVERGED
+_SHORTEST = 0.05  # of control.longest: no block need be shorter to keep wear stable; a flag says where it should
 _LONGER = 2.0  # a block may be so much longer than the one before
 _EDGE = 3  # rows at the edge into which the scar may not come
 _WIDEST = 4  # times the scene's rows
@@ -49,7 +50,8 @@ _WIDEST = 4  # times the scene's rows
 def is_due(scene: Scene, op: OperatingPoint, state: ContactState) -> bool:
     """Whether geometry or inputs have moved so far that the contact has to be solved again."""
     used_up = state.change >= 0.999 * scene.control.change or state.held >= state.hold
-    return state.solved_for is None or used_up or _has_moved(scene, op, state.solved_for)
+    other_law = state.law != _law(scene)
+    return state.solved_for is None or used_up or other_law or _has_moved(scene, op, state.solved_for)
 
 
 def solve_block(scene: Scene, op: OperatingPoint, state: ContactState) -> ContactState:
@@ -68,15 +70,20 @@ def solve_block(scene: Scene, op: OperatingPoint, state: ContactState) -> Contac
     elif driver == "mixed" or state.dry_blocks_left == 0:
         state = sweep_mixed(scene, op, state, sweep, same)
         found = sweep.means()["contact_load_ratio"]
-        if driver == "mixed" or found <= scene.control.dry_above:
+        if driver == "mixed" or found <= scene.control.dry_above or sweep.fallbacks:
             return _stored(scene, op, replace(state, share=1.0), sweep)
         share = found if state.share == 1.0 else 0.5 * (found + state.share)  # one measurement scatters
         state = replace(state, share=share, dry_blocks_left=_DRY_BLOCKS, film=None)
         sweep, measured = Sweep.before(state), sweep
-        sweep.flags = measured.flags & _OF_FILM
+        sweep.flags, sweep.iterations = measured.all_flags & _OF_FILM, measured.iterations
     else:  # what made the share less sure still does
         sweep.flags = RangeFlag(state.outputs.range_flags) & _OF_FILM
     return _stored(scene, op, sweep_dry(scene, op, state, sweep), sweep)
+
+
+def _law(scene: Scene) -> str:
+    """What the stored exposure means."""
+    return f"{scene.tribofilm.name}, {scene.tribofilm.dose}"
 
 
 def _has_moved(scene: Scene, op: OperatingPoint, old: OperatingPoint) -> bool:
@@ -90,20 +97,25 @@ def _has_moved(scene: Scene, op: OperatingPoint, old: OperatingPoint) -> bool:
         (op.sliding_speed, old.sliding_speed, max(abs(op.sliding_speed), abs(old.sliding_speed))),
         (eta, eta_old, max(eta, eta_old)),
     )
-    if (op.load == 0.0) != (old.load == 0.0) or (op.entrainment_speed == 0.0) != (old.entrainment_speed == 0.0):
-        return True
+    for name in ("load", "speed_1", "speed_2", "entrainment_speed", "sliding_speed"):
+        if (getattr(op, name) == 0.0) != (getattr(old, name) == 0.0):
+            return True
     return any(abs(now - then) > scene.control.input_change * scale for now, then, scale in now_then_scale)
 
 
 def _wide_enough(scene: Scene, state: ContactState) -> ContactState:
     """The state with more rows if the scar has reached the edge of the patches."""
     rows = state.rows
-    edge = [body.wear[[*range(_EDGE), *range(-_EDGE, 0)]].max() > 1e-3 * body.wear.max() for body in state.bodies]
-    if not any(edge) or rows >= _WIDEST * scene.film.points:
+    if not _worn_at_the_edge(state) or rows >= _WIDEST * scene.film.points:
         return state
     more = 8 * math.ceil(rows / 64)  # an eighth on either side
     first, second = (widened(body, more) for body in state.bodies)
     return replace(state, bodies=(first, second), film=None)
+
+
+def _worn_at_the_edge(state: ContactState) -> bool:
+    rows = [*range(_EDGE), *range(-_EDGE, 0)]
+    return any(body.wear[rows].max() > 1e-3 * body.wear.max() for body in state.bodies)
 
 
 def sweep_dry(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep) -> ContactState:
@@ -130,24 +142,27 @@ def _dry_jumps(scene: Scene, op: OperatingPoint) -> list[float]:
     return [jump * (speed != 0.0) for jump, speed in zip((first, second), speeds_of(op), strict=True)]
 
 
-def sweep_mixed(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, same: bool) -> ContactState:
-    """Add the instants of a mixed block to `sweep`; return the state after them. `same`: the march goes on, at the same
-    operating point.
+def sweep_mixed(
+    scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, same: bool, *, jumping: bool = True
+) -> ContactState:
+    """Add the instants of a mixed block to `sweep`; return the state after them.
+
+    `same`: the march goes on, at the same operating point. `jumping` False: all bodies roll on as they are.
     """
     columns = scene.film.points - 1
     dt = scene.film.spacing / max(abs(speed) for speed in speeds_of(op))
     steps = [speed * dt for speed in speeds_of(op)]
     passes = (abs(steps[0]) / scene.film.domain, abs(steps[1]) / scene.film.domain)
     rougher = 0 if scene.surface_1.rq > scene.surface_2.rq else 1
-    jumps = _jumps(scene, op, 1 - rougher)
+    jumps = _jumps(scene, op, 1 - rougher, _SMOOTHER if jumping else -1.0)
     unsampled = _SETTLING
     if state.film is None:
         state = replace(state, film=solve(scene, op, state, dry=True, solid_share=state.share).film)
         unsampled = _SETTLING if state.share == 1.0 else _CALMING
-    elif same and any(jumps):
+    elif same and (any(jumps) or not jumping):
         unsampled = 0
     elif same:
-        state, unsampled = _moved(scene, state, _jumps(scene, op, 1 - rougher, most=1.0)), _CALMING
+        state, unsampled = _moved(scene, state, _jumps(scene, op, 1 - rougher, 1.0)), _CALMING
     for k in range(-unsampled, _mixed_instants(scene)):
         before = patch_nodes(scene, state.bodies[rougher])
         state = _moved(scene, state, [step + jump for step, jump in zip(steps, jumps, strict=True)])
@@ -155,6 +170,8 @@ def sweep_mixed(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sw
         fields = solve(scene, op, state, Transient(dt, moved, _ITERATIONS))
         if k >= 0:
             sweep.add(scene, op, state, fields, passes)
+        elif 2 * k >= -unsampled:  # settled enough to tell which points are touched
+            sweep.touch(scene, op, state, fields, passes)
         state = _yielded(scene, replace(state, film=fields.film), fields.overlap)
     return state
 
@@ -164,7 +181,7 @@ def _mixed_instants(scene: Scene) -> int:
     return scene.control.mixed_instants or math.ceil((scene.film.points - 1) / 8)
 
 
-def _jumps(scene: Scene, op: OperatingPoint, i: int, most: float = _SMOOTHER) -> list[float]:
+def _jumps(scene: Scene, op: OperatingPoint, i: int, most: float) -> list[float]:
     """How far [m] the bodies jump: body `i`, if it moves and its roughness is at most `most` times the other's."""
     rq = (scene.surface_1.rq, scene.surface_2.rq)
     jumping = speeds_of(op)[i] != 0.0 and rq[i] <= most * rq[1 - i]
@@ -197,7 +214,7 @@ def _feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep
     # a moving point spends patch / track of its time in reach of the contact, a resting one all of it
     reach = scene.film.domain / track_length(scene, i) if speeds_of(op)[i] != 0.0 else 1.0
     exposure = sweep.exposures[i] / sweep.count
-    if law.dose == "clock":
+    if law.dose == "clock" and speeds_of(op)[i] != 0.0:
         exposure = (sweep.since[i] < 1.0).astype(np.float64)
     elif law.dose == "contact_length" and op.load > 0.0:
         exposure = exposure * scene.film.domain / (2.0 * scene.hertz(op.load).a)
@@ -208,7 +225,7 @@ def _feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep
     pressure = sweep.pressures[i] / sweep.count * reach
     after = replace(body, pressure=pressure, exposure=exposure, since=sweep.since[i])
     # two blocks that sample the same wear differ by their noise
-    track = track_rows(scene, op, state.rows, 2.0 / 3.0)
+    track = track_rows(scene, state.rows, 2.0 / 3.0)
     films = thickness(body.growth, body.removal)
     change = wear_speed(scene, op, after, i, films)[track] - wear_speed(scene, op, body, i, films)[track]
     noise = alike * 0.5 * float(np.var(groove_free(change))) * state.held**2
@@ -226,37 +243,54 @@ def _lag(scene: Scene, op: OperatingPoint, driver: str) -> float:
     return 0.5 + 0.5 * (scene.film.points - 1) / _mixed_instants(scene)
 
 
+def _stable_time(scene: Scene, op: OperatingPoint, state: ContactState) -> float:
+    return min(stable_time(scene, op, body, i) for i, body in enumerate(state.bodies))
+
+
 def _longest(scene: Scene, op: OperatingPoint, state: ContactState, before: float) -> float:
     """Longest time [s] until the next block, whatever its change: wear stays stable, the regime and the block's length
     (`before`: of the last one [s]) change little by little.
     """
     limits = [scene.control.longest]
     if op.load > 0.0:
-        limits += [stable_time(scene, op, body, i) for i, body in enumerate(state.bodies)]
+        limits += [max(_stable_time(scene, op, state), _SHORTEST * scene.control.longest)]
         if before > 0.0:
             step = abs(state.trends.slope_of("contact_load_ratio"))
             limits += [before * min(_LONGER, _SHARE_STEP / max(step, 1e-6))]
     return min(limits)
 
 
+def _flags_of_motion(scene: Scene, op: OperatingPoint, state: ContactState, driver: str) -> RangeFlag:
+    """What the speeds and the scar make less sure."""
+    flags = RangeFlag(0)
+    slow, fast = sorted(abs(speed) for speed in speeds_of(op))
+    jumping = driver == "dry" or any(
+        any(_jumps(scene, op, k, _SMOOTHER)) and abs(speeds_of(op)[k]) == slow for k in (0, 1)
+    )
+    if op.load > 0.0 and 0.0 < slow < (_CREEP if jumping else 0.9) * fast:
+        flags |= RangeFlag.SLOW_BODY
+    if op.load > 0.0 and _stable_time(scene, op, state) < _SHORTEST * scene.control.longest:
+        flags |= RangeFlag.STIFF_WEAR
+    if _worn_at_the_edge(state):
+        flags |= RangeFlag.DOMAIN_EDGE
+    return flags
+
+
 def _stored(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep) -> ContactState:
     """The state with a block's results: exposure of the surfaces, outputs, and what decides about the next block."""
     driver = "fallback" if 2 * sweep.fallbacks > sweep.count else "mixed" if sweep.mixed else "dry"
-    slow, fast = sorted(abs(speed) for speed in speeds_of(op))
-    jumping = any(any(_jumps(scene, op, k)) and abs(speeds_of(op)[k]) == slow for k in (0, 1))
-    if op.load > 0.0 and 0.0 < slow < 0.9 * fast and driver != "dry" and not jumping:
-        sweep.flags |= RangeFlag.SLOW_BODY
+    sweep.flags = sweep.all_flags | _flags_of_motion(scene, op, state, driver)
     alike = _ALIKE["dry" if driver == "dry" else "mixed"]
     bodies = (_feeling(scene, op, state, sweep, 0, alike), _feeling(scene, op, state, sweep, 1, alike))
     seen, spread = sweep.means(), sweep.spread(apart=driver == "dry")
     state = replace(state, bodies=bodies)
+    share = seen["contact_load_ratio"]
+    scatter = spread["contact_load_ratio"] / share if share > 0.0 else 0.0  # wear is in proportion to it
     for i, body in enumerate(bodies):
         seen[f"wear_depth_{i + 1}_rate"] = wear_rate(scene, op, body, i)
-        film = thickness(body.growth, body.removal)[track_rows(scene, op, state.rows)]
+        spread[f"wear_depth_{i + 1}_rate"] = seen[f"wear_depth_{i + 1}_rate"] * scatter
+        film = thickness(body.growth, body.removal)[track_rows(scene, state.rows)]
         seen |= {f"roughness_{i + 1}": roughness_now(scene, op, body, i), f"tribofilm_{i + 1}": float(film.mean())}
-    unconverged = sweep.missed / sweep.count
-    if unconverged > _MANY:
-        sweep.flags |= RangeFlag.NOT_CONVERGED
     trends = state.trends.followed(
         seen, spread, _MEMORY["dry" if driver == "dry" else "mixed"], _lag(scene, op, driver)
     )
@@ -268,8 +302,10 @@ def _stored(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep)
         friction_coefficient=abs(smooth["friction_force"]) / op.load if op.load > 0.0 else 0.0,
         range_flags=int(sweep.flags),
         iterations=sweep.iterations,
-        unconverged=unconverged,
+        unconverged=sweep.missed / sweep.count,
     )
     left = max(state.dry_blocks_left - 1, 0) if driver == "dry" else 0
-    state = replace(state, solved_for=op, change=0.0, dry_blocks_left=left, outputs=outputs, trends=trends)
+    state = replace(
+        state, law=_law(scene), solved_for=op, change=0.0, dry_blocks_left=left, outputs=outputs, trends=trends
+    )
     return replace(state, hold=_longest(scene, op, state, state.held), held=0.0)

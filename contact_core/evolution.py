@@ -52,9 +52,11 @@ def area_of_node(scene: Scene, op: OperatingPoint, i: int) -> float:
     return scene.film.spacing**2 * (track_length(scene, i) / scene.film.domain if moving else 1.0)
 
 
-def track_rows(scene: Scene, op: OperatingPoint, rows: int, share: float = 1.0) -> NDArray[np.bool_]:
-    """Which of the patches' rows have |y| < share * b, at least the middle one."""
-    b = scene.hertz(op.load if op.load > 0.0 else scene.operation.load).b
+def track_rows(scene: Scene, rows: int, share: float = 1.0) -> NDArray[np.bool_]:
+    """Which of the patches' rows have |y| < share * b, at least the middle one. b is that of the reference load,
+    whatever the load is now: a mean over the track does not jump with it.
+    """
+    b = scene.hertz(scene.operation.load).b
     y = contact_grid(scene, rows).y
     inside: NDArray[np.bool_] = np.abs(y) < max(share * b, 0.51 * scene.film.spacing)
     return inside
@@ -63,14 +65,14 @@ def track_rows(scene: Scene, op: OperatingPoint, rows: int, share: float = 1.0) 
 def wear_rate(scene: Scene, op: OperatingPoint, body: Body, i: int) -> float:
     """Mean speed [m/s] at which the track wears now."""
     speed = wear_speed(scene, op, body, i, thickness(body.growth, body.removal))
-    return float(speed[track_rows(scene, op, body.wear.shape[0])].mean())
+    return float(speed[track_rows(scene, body.wear.shape[0])].mean())
 
 
 def roughness_now(scene: Scene, op: OperatingPoint, body: Body, i: int) -> float:
     """Rms roughness [m] of a body over |y| < 2b/3, free of the groove's shape."""
     rows = body.wear.shape[0]
     bare = bare_heights(scene, rows)[i]
-    return rms_roughness(roughness_of(bare, heights_of(bare, body)), track_rows(scene, op, rows, 2.0 / 3.0))
+    return rms_roughness(roughness_of(bare, heights_of(bare, body)), track_rows(scene, rows, 2.0 / 3.0))
 
 
 def stable_time(scene: Scene, op: OperatingPoint, body: Body, i: int) -> float:
@@ -82,7 +84,7 @@ def stable_time(scene: Scene, op: OperatingPoint, body: Body, i: int) -> float:
     """
     if scene.wear.name == "none":
         return math.inf
-    track = track_rows(scene, op, body.wear.shape[0])
+    track = track_rows(scene, body.wear.shape[0])
     cover = thickness(body.growth, body.removal)[track].mean(keepdims=True) / scene.tribofilm.full_thickness
     width = 2.0 * scene.hertz(op.load).a
     duty = min(width / track_length(scene, i), 1.0) if speeds_of(op)[i] != 0.0 else 1.0

@@ -233,6 +233,13 @@ class Scene:
                 f"The Hertz pressure at {load:g} N is {hertz.pressure_max:.3g} Pa, above plasticity.hardness = "
                 f"{plasticity.hardness:g} Pa. Lower the load or raise the hardness.",
             )
+        for name in ("track_length_1", "track_length_2"):
+            if getattr(self.geometry, name) < self.film.domain:
+                yield (
+                    "track",
+                    f"geometry.{name} = {getattr(self.geometry, name):g} m is shorter than film.domain = "
+                    f"{self.film.domain:g} m: a point would be in the contact twice at once. Use a longer track.",
+                )
         if plasticity.film_hardness > plasticity.hardness:
             yield (
                 "hardness",

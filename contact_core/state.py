@@ -43,6 +43,7 @@ class RangeFlag(IntFlag):
     DOMAIN_EDGE = 32, "the contact or the wear scar reaches the edge of the grid"
     FEW_NODES = 64, "fewer than 8 nodes across the Hertz contact at this load"
     SLOW_BODY = 128, "the slower body shows a block only part of its track: its film and wear are uneven along it"
+    STIFF_WEAR = 256, "blocks are longer than wear stays stable for: fine roughness and A_c are less sure"
 
 
 @dataclass(frozen=True)
@@ -135,6 +136,7 @@ class ContactState:
     time: float  # [s]
     bodies: tuple[Body, Body]
     film: FilmState | None  # the last film solution: warm start and history of the squeeze term; None: start dry
+    law: str  # what `exposure` of the bodies means
     solved_for: OperatingPoint | None  # of the last block; None: nothing solved yet
     change: float  # geometry change since the last block [m]
     held: float  # time since the last block [s]
@@ -223,6 +225,7 @@ def _unpack_state(tree: dict[str, Any], arrays: Any) -> ContactState:
         time=float.fromhex(tree["time"]),
         bodies=bodies,
         film=None if tree["film"] is None else record(FilmState, tree["film"]),
+        law=tree["law"],
         solved_for=None if tree["solved_for"] is None else OperatingPoint(**numbers(tree["solved_for"])),
         change=float.fromhex(tree["change"]),
         held=float.fromhex(tree["held"]),
@@ -239,4 +242,6 @@ def initial_state(scene: Scene) -> ContactState:
     shape = (scene.film.points, scene.film.points - 1)
     zeros = np.zeros(shape)
     body = Body(zeros, zeros, zeros, zeros, zeros, zeros, np.full(shape, np.inf), 0.0, 0.0, 0.0, 0.0)
-    return ContactState(scene.digest(), 0.0, (body, body), None, None, 0.0, 0.0, 0.0, 0, 1.0, Trends.fresh(), Outputs())
+    return ContactState(
+        scene.digest(), 0.0, (body, body), None, "", None, 0.0, 0.0, 0.0, 0, 1.0, Trends.fresh(), Outputs()
+    )

@@ -16,6 +16,7 @@ from .state import ContactState, RangeFlag
 Array = NDArray[np.float64]
 
 _LAMBDA_CAP = 1e3
+_MANY = 0.1  # share of unconverged solutions that raises a flag
 
 
 @dataclass
@@ -40,6 +41,12 @@ class Sweep:
         return Sweep((zeros[0], zeros[1]), (zeros[2], zeros[3]), (first, second))
 
     @property
+    def all_flags(self) -> RangeFlag:
+        """The instants' flags, and one if many of them are not converged."""
+        many = self.count > 0 and self.missed > _MANY * self.count
+        return self.flags | (RangeFlag.NOT_CONVERGED if many else RangeFlag(0))
+
+    @property
     def count(self) -> int:
         """Instants so far."""
         return len(self.outputs)
@@ -53,21 +60,33 @@ class Sweep:
         passes: tuple[float, float] = (0.0, 0.0),
     ) -> None:
         """Count one instant in. `passes`: the part of a pass through the contact each body makes until the next."""
-        shear = np.abs(fields.fluid_shear + fields.solid_shear)
-        exposure = scene.tribofilm.exposure(fields.solid_pressure, shear, op.sliding_speed)
+        exposures = self.touch(scene, op, state, fields, passes)
         for i, body in enumerate(state.bodies):
-            nodes = patch_nodes(scene, body)
-            exposed = on_patch(exposure, nodes)
-            self.pressures[i][:] += on_patch(fields.solid_pressure, nodes)
-            self.exposures[i][:] += exposed
-            self.since[i][:] += passes[i]
-            self.since[i][exposed > 0.0] = 0.0
+            self.pressures[i][:] += on_patch(fields.solid_pressure, patch_nodes(scene, body))
+            self.exposures[i][:] += exposures[i]
         self.outputs.append(_observed(scene, op, fields))
         self.iterations += fields.iterations
         self.mixed += fields.route == "mixed"
         self.missed += not fields.converged
         self.fallbacks += fields.route == "fallback"
         self.flags |= _flags(scene, op, fields)
+
+    def touch(
+        self,
+        scene: Scene,
+        op: OperatingPoint,
+        state: ContactState,
+        fields: ContactFields,
+        passes: tuple[float, float],
+    ) -> list[Array]:
+        """Note which points are exposed in an instant; return the exposure on both patches."""
+        shear = np.abs(fields.fluid_shear + fields.solid_shear)
+        exposure = scene.tribofilm.exposure(fields.solid_pressure, shear, op.sliding_speed)
+        found = [on_patch(exposure, patch_nodes(scene, body)) for body in state.bodies]
+        for since, exposed, part in zip(self.since, found, passes, strict=True):
+            since += part
+            since[exposed > 0.0] = 0.0
+        return found
 
     def means(self) -> dict[str, float]:
         """Mean outputs of the instants."""

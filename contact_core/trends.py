@@ -40,6 +40,7 @@ NAMES = (*SMOOTHED, *SHAPES, *(f"{name}_rate" for name in RATES))
 _SIGNED = ("friction_force", "rolling_resistance", "approach")
 _LEAST = np.array([0.0 if name in SMOOTHED and name not in _SIGNED else -np.inf for name in NAMES])
 _MEMORY_OF_SPREAD = 0.1
+_UNKNOWN = 0.05  # error of time steps, relative, while fewer than two blocks say nothing of a drift
 
 
 @dataclass(frozen=True)
@@ -48,7 +49,7 @@ class Trends:
 
     level: Array  # [NAMES]
     slope: Array  # per block
-    variance: Array  # of one block's mean
+    variance: Array  # of one block's mean; before the first block, relative to the level squared
     gain: float  # share of the last block in the level
     lag: float  # by how many blocks the quantities are late
     blocks: int  # since the filter began
@@ -67,7 +68,8 @@ class Trends:
 
     def restarted(self) -> "Trends":
         """Forget levels and slopes: the contact works at another point now. Errors made stay made."""
-        return replace(Trends.fresh(), time_error=self.time_error, sampling=self.sampling)
+        known = np.divide(self.variance, self.level**2, out=np.zeros_like(self.level), where=self.level != 0.0)
+        return replace(Trends.fresh(), variance=known, time_error=self.time_error, sampling=self.sampling)
 
     def followed(self, seen: Mapping[str, float], spread: Mapping[str, float], memory: float, lag: float) -> "Trends":
         """The filter after one more block's means; `spread` is their standard deviation as the block itself shows it,
@@ -80,7 +82,8 @@ class Trends:
         n = self.blocks
         if n == 0:
             own = np.array([spread.get(name, 0.0) for name in NAMES])
-            return replace(self, level=x, slope=np.zeros_like(x), variance=own**2, gain=1.0, lag=lag, blocks=1)
+            variance = np.maximum(own**2, self.variance * x**2)  # as far as known from another operating point
+            return replace(self, level=x, slope=np.zeros_like(x), variance=variance, gain=1.0, lag=lag, blocks=1)
         first = max(1.0 - memory**2, 2.0 * (2 * n + 1) / ((n + 1) * (n + 2)))
         second = max((1.0 - memory) ** 2, 6.0 / ((n + 1) * (n + 2)))
         missed = x - self.level - self.slope
@@ -102,7 +105,7 @@ class Trends:
         n = len(NAMES) - len(RATES)
         return replace(
             self,
-            time_error=self.time_error + self.lag * self.slope[n:] * step,
+            time_error=self.time_error + self._late()[n:] * step,
             sampling=self.sampling + self.variance[n:] * ((block + step) ** 2 - block**2),
         )
 
@@ -114,13 +117,16 @@ class Trends:
         """The smoothed outputs."""
         return {name: float(value) for name, value in zip(SMOOTHED, self.level, strict=False)}
 
+    def _late(self) -> Array:
+        """What is missing to the present of what is seen, [NAMES]."""
+        late: Array = self.lag * self.slope if self.blocks > 1 else _UNKNOWN * self.level
+        return late
+
     def half_widths(self) -> dict[str, tuple[float, float]]:
         """Errors by time steps and by sampling, as half widths (two sigma), of `SMOOTHED`, `SHAPES` and `RATES`."""
         sampling = 2.0 * np.sqrt(self.gain * self.variance)
-        found = {
-            name: (self.lag * abs(float(self.slope[k])), float(sampling[k]))
-            for k, name in enumerate((*SMOOTHED, *SHAPES))
-        }
+        late = np.abs(self._late())
+        found = {name: (float(late[k]), float(sampling[k])) for k, name in enumerate((*SMOOTHED, *SHAPES))}
         for k, name in enumerate(RATES):
             found[name] = abs(float(self.time_error[k])), 2.0 * float(np.sqrt(self.sampling[k]))
         return found

@@ -1,7 +1,8 @@
 """Which algorithm solves which contact: a table, and the little that carries it out.
 
 A steady film goes to the first row of REGIMES that it fits; the algorithms of that row are tried in turn until one
-meets the stopping rule (`kernels.mixed.shortfall`). An instant that follows from another one is marched from it, and that film serves if it can be used at all.
+meets the stopping rule (`kernels.mixed.shortfall`). An instant that follows from another one is marched from it, and
+that film serves if it can be used at all.
 """
 
 import math

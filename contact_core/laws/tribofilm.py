@@ -3,7 +3,8 @@
 In each solved instant a law says how strongly every node is exposed (`exposure`). Its `dose` says how the instants of a
 pass become the mean exposure per test time:
 
-    clock            the largest exposure in the last pass, for the whole time
+    clock            the largest exposure of any instant of the last pass, for the whole time; the pass stands for the
+                     many real ones of a block, so a smooth body, which meets ever other asperities, is all exposed
     contact_length   the mean over the crossing of the contact's length 2a
     residence        the mean over the whole track
 

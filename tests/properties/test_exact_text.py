@@ -36,7 +36,7 @@ FREE = (
     "wear.bare",
     "lubricant.rheology.eyring_stress",
     "heat.diffusivity_1",
-    "geometry.track_length_2",
+    "boundary_friction.slip_speed",
     "surface_1.rq",
 )
 

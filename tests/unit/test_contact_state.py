@@ -45,6 +45,7 @@ def used(scene: Scene) -> ContactState:
         time=7200.0 / 7.0,
         bodies=(filled(Body, (n, n - 1)), filled(Body, (n + 2, n - 1))),
         film=filled(FilmState, (n, n)),
+        law="none, clock",
         solved_for=scene.operation.point,
         change=1e-9 / 3.0,
         held=1.0 / 3.0,

@@ -19,6 +19,18 @@ def test_what_does_not_change_is_kept_to_the_last_bit():
     assert trends.half_widths()["h_c"] == (0.0, 0.0)
 
 
+def test_before_a_drift_can_be_known_an_error_is_reported_all_the_same():
+    trends = follow([2.0])
+    assert trends.half_widths()["h_c"][0] == pytest.approx(0.1)
+    assert trends.over(10.0, 0.0).time_error == pytest.approx([1.0, 1.0])
+
+
+def test_scatter_known_from_another_operating_point_is_kept_in_proportion():
+    trends = follow(10.0 + np.random.Generator(np.random.Philox(7)).normal(size=60)).restarted()
+    again = follow([1000.0], trends=trends)
+    assert again.half_widths()["h_c"][1] == pytest.approx(200.0, rel=0.5)
+
+
 @pytest.mark.parametrize("memory", [0.5, 0.75])
 def test_a_straight_line_is_followed_without_lag(memory):
     trends = follow([1.0 + 0.25 * k for k in range(40)], memory)
