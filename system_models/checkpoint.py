@@ -11,8 +11,10 @@ import logging
 import math
 import os
 import struct
+import sys
 import zlib
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
@@ -39,6 +41,30 @@ def identity(scene: Scene, duty: Duty) -> dict[str, Any]:
     """Everything that decides the result of a run, as JSON has it."""
     parts = {"version": contact_core.__version__, "duty": duty.fingerprint(), **scene.to_dict()}
     return dict(json.loads(json.dumps(parts)))
+
+
+@contextmanager
+def alone(folder: Path) -> Iterator[None]:
+    """Hold a folder for one run, where the system has locks; a kill lets go of it.
+
+    Raises StateError if another run is at work in it.
+    """
+    if sys.platform == "win32":
+        yield
+        return
+    import fcntl
+
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise StateError(f"Another run is at work in '{folder}'. Wait for it, or use another --out.") from None
+        except OSError:  # a file system without locks
+            pass
+        yield
+    finally:
+        os.close(handle)
 
 
 @dataclass(frozen=True)

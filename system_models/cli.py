@@ -79,6 +79,7 @@ def _list(arguments: argparse.Namespace) -> int:
 
 
 def _run(arguments: argparse.Namespace) -> int:
+    from .checkpoint import alone
     from .duty import Duty
 
     scene = Scene.from_toml(arguments.scene, _overrides(arguments))
@@ -87,8 +88,13 @@ def _run(arguments: argparse.Namespace) -> int:
     folder = _output_folder(arguments)
     for warning in scene.warnings():
         print(f"tribofmu: warning: {warning}", file=sys.stderr)
-    checkpoint = _checkpoint(folder, scene, duty, arguments.resume)
-    if arguments.resume and not checkpoint.saved and (code := _finished(folder, scene, duty)) is not None:
+    with alone(folder):
+        return _run_in(folder, scene, duty, arguments.resume)
+
+
+def _run_in(folder: Path, scene: Scene, duty: "Duty", resume: bool) -> int:
+    checkpoint = _checkpoint(folder, scene, duty, resume)
+    if resume and not checkpoint.saved and (code := _finished(folder, scene, duty)) is not None:
         return code
     try:
         code = _report(_simulate(scene, duty, checkpoint), scene, duty, folder)

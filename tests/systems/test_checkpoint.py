@@ -241,3 +241,11 @@ def test_a_disk_that_refuses_is_warned_about_once_and_tried_again(
     assert Checkpoint.resume(tmp_path, RUN).count == 1
     checkpoint.save(0.4, state(4), rows(checkpoint.count, 4))
     assert count(Checkpoint.resume(tmp_path, RUN)) == ALL
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no locks of folders")
+def test_a_folder_serves_one_run_at_a_time(tmp_path: Path) -> None:
+    with module.alone(tmp_path), pytest.raises(StateError, match="Another run is at work"), module.alone(tmp_path):
+        pass
+    with module.alone(tmp_path):
+        assert list(tmp_path.iterdir()) == []
