@@ -56,6 +56,7 @@ class Judged:
     seeds: str = ""  # in how many of the roughness seeds it holds
 
 
+_TORN = 0.2  # a share of the surfaces so near to one half bears a claim neither out nor down
 VERDICTS = ("agree", "disagree", "cannot be judged", "not run")
 
 
@@ -72,7 +73,11 @@ def judge(claim: Claim, book: Book, numerics: str) -> Judged:
     except Missing as missing:
         return Judged("not run", str(missing))
     causes = () if finding.holds else tuple(_causes(claim, get))
-    return Judged(verdict_of(finding), finding.text, causes, _over_seeds(claim, book, numerics, finding))
+    held, seen = _over_seeds(claim, book, numerics, finding)
+    seeds = f"{held}/{seen}" if seen > 1 else ""
+    if seen > 1 and abs(held / seen - 0.5) < _TORN:
+        return Judged("cannot be judged", finding.text, (*causes, f"holds for {held} of {seen} rough surfaces"), seeds)
+    return Judged(verdict_of(finding), finding.text, causes, seeds)
 
 
 def _causes(claim: Claim, get: Get) -> Iterator[str]:
@@ -100,17 +105,17 @@ def _tried(experiment: Experiment, claim: Claim, get: Get) -> Finding | None:
         return None
 
 
-def _over_seeds(claim: Claim, book: Book, numerics: str, first: Finding) -> str:
-    """How often a claim holds; empty where it needs runs that were made with one seed only."""
+def _over_seeds(claim: Claim, book: Book, numerics: str, first: Finding) -> tuple[int, int]:
+    """For how many surfaces of how many a claim holds; of one where it needs runs that were made with one seed only."""
     if first.holds is None:
-        return ""
+        return 0, 0
     held = [first.holds]
     for seed in SEEDS[1:]:
         try:
             held.append(bool(claim.measure(book.getter(numerics, seed)).holds))
         except Missing:
             continue
-    return f"{sum(held)}/{len(held)}" if len(held) > 1 else ""
+    return sum(held), len(held)
 
 
 # what measures are made of
