@@ -36,7 +36,7 @@ _GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy 
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
 # how far the noise of blocks cancels, against that of independent ones: measured by benchmarks/evolution.py
 _ALIKE = {"dry": 0.1, "mixed": 0.5}
-_SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under the film with every instant
+_SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under the sampled film
 _CREEP = 0.01  # below this share of the other's speed a body does not show a block its track in any way
 _CALMING = 24  # transient steps after a jump of a rougher one, or from a dry contact of the right share
 _SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most
@@ -163,9 +163,12 @@ def sweep_mixed(
         unsampled = 0
     elif same:
         state, unsampled = _moved(scene, state, _jumps(scene, op, 1 - rougher, 1.0)), _CALMING
+    length = (scene.surface_1, scene.surface_2)[rougher].correlation_length / scene.film.spacing
+    stride = max(1, round((0.5 * length) ** 2))  # instants in which oil between asperities gets used to a jump
     for k in range(-unsampled, _mixed_instants(scene)):
         before = patch_nodes(scene, state.bodies[rougher])
-        state = _moved(scene, state, [step + jump for step, jump in zip(steps, jumps, strict=True)])
+        jump_now = k % stride == 0
+        state = _moved(scene, state, [step + jump * jump_now for step, jump in zip(steps, jumps, strict=True)])
         moved = (patch_nodes(scene, state.bodies[rougher]) - before + columns // 2) % columns - columns // 2
         fields = solve(scene, op, state, Transient(dt, moved, _ITERATIONS))
         if k >= 0:
