@@ -7,6 +7,7 @@ from core_common import MoesCase, Report, domain_of, scaled_of, timed, unit_of
 from matplotlib.figure import Figure
 
 from contact_core import Scene
+from contact_core.contact import instant_of
 from contact_core.film.fitted import fitted_grid
 from contact_core.film.instant import FilmState, Instant, Settings
 from contact_core.film.outputs import at_centre
@@ -139,19 +140,7 @@ def march(scene: Scene) -> Iterator[tuple[Instant, float]]:
         rolled = sum(np.roll(z, shift, axis=1) for z, shift in zip((first, second), shifts, strict=True))
         heights = np.concatenate([rolled, rolled[:, :1]], axis=1)
         yield (
-            Instant(
-                load=op.load,
-                entrainment_speed=op.entrainment_speed,
-                temperature=op.temperature,
-                radius_x=scene.geometry.radius_x,
-                radius_y=scene.geometry.radius_y,
-                reduced_modulus=scene.solids.reduced_modulus,
-                viscosity=scene.lubricant.viscosity,
-                density=scene.lubricant.density,
-                heights=heights,
-                limit=np.full(heights.shape, scene.plasticity.hardness),
-                hardness=scene.plasticity.hardness,
-            ),
+            instant_of(scene, op, heights, np.full(heights.shape, scene.plasticity.hardness)),
             step,
         )
 

@@ -6,6 +6,7 @@ import numpy as np
 from core_common import Report, timed
 
 from contact_core import Scene
+from contact_core.contact import instant_of
 from contact_core.film.instant import FilmSolution, Instant, Settings
 from contact_core.film.outputs import film_outputs
 from contact_core.film.routes import solve_film
@@ -25,19 +26,10 @@ def instant(scene: Scene, speed: float, rough: bool = True) -> Instant:
     heights = sum(bare_heights(scene, scene.film.points))
     heights = np.concatenate([heights, heights[:, :1]], axis=1)
     op = scene.operation.point
-    return Instant(
-        load=op.load,
-        entrainment_speed=speed,
-        temperature=op.temperature,
-        radius_x=scene.geometry.radius_x,
-        radius_y=scene.geometry.radius_y,
-        reduced_modulus=scene.solids.reduced_modulus,
-        viscosity=scene.lubricant.viscosity,
-        density=scene.lubricant.density,
-        heights=heights if rough else np.zeros_like(heights),
-        limit=np.full(heights.shape, scene.plasticity.hardness),
-        hardness=scene.plasticity.hardness,
-    )
+    if not rough:
+        heights = np.zeros_like(heights)
+    limit = np.full(heights.shape, scene.plasticity.hardness)
+    return replace(instant_of(scene, op, heights, limit), entrainment_speed=speed)
 
 
 def marched(half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int) -> Solution:

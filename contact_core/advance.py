@@ -74,7 +74,7 @@ def _longest_step(scene: Scene, op: OperatingPoint, state: ContactState, left: f
     budget = scene.control.change - state.change
     rest = max(state.hold - state.held, _NO_TIME)
     step = min(left, rest)
-    samples = [_thinned(scene, op, body) for body in state.bodies]
+    samples = [_thinned(scene, body) for body in state.bodies]
     flash = state.outputs.flash_temperature_rise
     while True:  # the film's growth slows down: this ends within few rounds
         after = [evolved(scene, op, body, i, step, flash) for i, body in enumerate(samples)]
@@ -84,7 +84,7 @@ def _longest_step(scene: Scene, op: OperatingPoint, state: ContactState, left: f
         step *= min(max(budget / change, 0.05), 0.95)
 
 
-def _thinned(scene: Scene, op: OperatingPoint, body: Body) -> Body:
+def _thinned(scene: Scene, body: Body) -> Body:
     """A body of every third node of its track."""
     rows = np.flatnonzero(track_rows(scene, body.wear.shape[0]))[::_THIN]
     return replace(body, **{name: getattr(body, name)[rows, ::_THIN] for name in Body.ARRAYS})

@@ -34,12 +34,14 @@ _DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
 _DRY_PASS = 8  # dry instants that stand for one pass of a surface point through the contact
 _GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy in the plane
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
-# how far the noise of blocks cancels, against that of independent ones: measured by benchmarks/evolution.py
+# how far the noise of blocks cancels, against that of independent ones: fitted to the roughness of case A's ball, which
+# `benchmarks/evolution.py control` judges
 _ALIKE = {"dry": 0.1, "mixed": 0.5}
 _SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under the sampled film
 _CREEP = 0.01  # below this share of the other's speed a body does not show a block its track in any way
 _CALMING = 24  # transient steps after a jump of a rougher one, or from a dry contact of the right share
 _SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most
+# what a march tells stays true of the dry contact that takes its share
 _OF_FILM = RangeFlag.INLET_UNRESOLVED | RangeFlag.NOT_CONVERGED
 _SHORTEST = 0.05  # of control.longest: no block need be shorter to keep wear stable; a flag says where it should
 _LONGER = 2.0  # a block may be so much longer than the one before
@@ -235,7 +237,7 @@ def _feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep
     return replace(after, noise=body.noise + noise)
 
 
-def _lag(scene: Scene, op: OperatingPoint, driver: str) -> float:
+def _lag(scene: Scene, driver: str) -> float:
     """By how many blocks what the surfaces feel is late, on average: half a block by Euler's steps, and half a pass
     where the dose is that of a whole pass.
     """
@@ -293,10 +295,8 @@ def _stored(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep)
         seen[f"wear_depth_{i + 1}_rate"] = wear_rate(scene, op, body, i)
         spread[f"wear_depth_{i + 1}_rate"] = seen[f"wear_depth_{i + 1}_rate"] * scatter
         film = thickness(body.growth, body.removal)[track_rows(scene, state.rows)]
-        seen |= {f"roughness_{i + 1}": roughness_now(scene, op, body, i), f"tribofilm_{i + 1}": float(film.mean())}
-    trends = state.trends.followed(
-        seen, spread, _MEMORY["dry" if driver == "dry" else "mixed"], _lag(scene, op, driver)
-    )
+        seen |= {f"roughness_{i + 1}": roughness_now(scene, body, i), f"tribofilm_{i + 1}": float(film.mean())}
+    trends = state.trends.followed(seen, spread, _MEMORY["dry" if driver == "dry" else "mixed"], _lag(scene, driver))
     smooth, blocks = trends.values(), f"blocks_{driver}"
     outputs = replace(
         state.outputs,

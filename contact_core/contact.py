@@ -1,6 +1,6 @@
 """One instant of a scene in a state: geometry, film, friction and flash temperature, node by node."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,26 +92,29 @@ def solve(
     if op.load == 0.0:
         film = _open(scene, grid, heights)
     else:
-        now = Instant(
-            load=op.load,
-            entrainment_speed=op.entrainment_speed,
-            temperature=op.temperature,
-            radius_x=scene.geometry.radius_x,
-            radius_y=scene.geometry.radius_y,
-            reduced_modulus=scene.solids.reduced_modulus,
-            viscosity=scene.lubricant.viscosity,
-            density=scene.lubricant.density,
-            heights=heights,
-            limit=limit,
-            hardness=scene.plasticity.hardness,
-            dry=dry,
-            solid_share=solid_share,
-        )
+        now = replace(instant_of(scene, op, heights, limit), dry=dry, solid_share=solid_share)
         follows = (transient.dt, transient.moved) if transient and state.film else None
         film = scene.film.solve(
             now, grid, state.film if transient else None, follows, transient.iterations if transient else None
         )
     return _with_friction(scene, op, grid, film, heights, rough, cover_1, cover_2)
+
+
+def instant_of(scene: Scene, op: OperatingPoint, heights: Array, limit: Array) -> Instant:
+    """An instant of a scene with heights and largest pressures as given, [ny, nx]."""
+    return Instant(
+        load=op.load,
+        entrainment_speed=op.entrainment_speed,
+        temperature=op.temperature,
+        radius_x=scene.geometry.radius_x,
+        radius_y=scene.geometry.radius_y,
+        reduced_modulus=scene.solids.reduced_modulus,
+        viscosity=scene.lubricant.viscosity,
+        density=scene.lubricant.density,
+        heights=heights,
+        limit=limit,
+        hardness=scene.plasticity.hardness,
+    )
 
 
 def _open(scene: Scene, grid: Grid, heights: Array) -> FilmSolution:

@@ -68,7 +68,7 @@ def wear_rate(scene: Scene, op: OperatingPoint, body: Body, i: int) -> float:
     return float(speed[track_rows(scene, body.wear.shape[0])].mean())
 
 
-def roughness_now(scene: Scene, op: OperatingPoint, body: Body, i: int) -> float:
+def roughness_now(scene: Scene, body: Body, i: int) -> float:
     """Rms roughness [m] of a body over |y| < 2b/3, free of the groove's shape."""
     rows = body.wear.shape[0]
     bare = bare_heights(scene, rows)[i]

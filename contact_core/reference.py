@@ -1,5 +1,6 @@
 """Closed forms, as library code: what solvers are tested against and what engineers compare with."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,6 +63,21 @@ class SmoothContact:
     radius_x: float  # of combined curvature, along x [m]
     radius_y: float  # along y [m]
     reduced_modulus: float  # E' = 2 / sum (1 - v^2)/E [Pa]
+
+    @staticmethod
+    def of(
+        load: float,
+        entrainment_speed: float,
+        viscosity: Callable[[NDArray[np.float64], float], NDArray[np.float64]],
+        temperature: float,
+        radius_x: float,
+        radius_y: float,
+        reduced_modulus: float,
+    ) -> "SmoothContact":
+        """The contact with an oil whose `viscosity` [Pa s] is a law of pressures [Pa] and a temperature [K]."""
+        low, high = viscosity(np.array([0.0, 1e6]), temperature)
+        rise = max(float(np.log(high / low)) * 1e-6, 1e-12)
+        return SmoothContact(load, abs(entrainment_speed), float(low), rise, radius_x, radius_y, reduced_modulus)
 
     @property
     def moes_parameters(self) -> tuple[float, float]:

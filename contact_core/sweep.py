@@ -129,14 +129,11 @@ def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[s
 
 def _formula_film(scene: Scene, op: OperatingPoint) -> float:
     """Hamrock & Dowson's central film [m] of the smooth bodies; zero without entrainment."""
-    speed = abs(op.entrainment_speed)
-    if speed == 0.0:
+    if op.entrainment_speed == 0.0:
         return 0.0
-    low, high = scene.lubricant.viscosity(np.array([0.0, 1e6]), op.temperature)
-    rise = max(float(np.log(high / low)) * 1e-6, 1e-12)
-    shape = scene.geometry
-    contact = SmoothContact(
-        op.load, speed, float(low), rise, shape.radius_x, shape.radius_y, scene.solids.reduced_modulus
+    oil, shape = (scene.lubricant.viscosity, op.temperature), scene.geometry
+    contact = SmoothContact.of(
+        op.load, op.entrainment_speed, *oil, shape.radius_x, shape.radius_y, scene.solids.reduced_modulus
     )
     return hamrock_dowson(contact)[0]
 

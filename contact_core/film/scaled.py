@@ -59,10 +59,8 @@ class Scaled:
     def contact(self) -> SmoothContact:
         """The smooth contact in the terms of film formulas."""
         now = self.now
-        eta = now.viscosity(np.array([0.0, 1e6]), now.temperature)
-        rise = max(float(np.log(eta[1] / eta[0])) * 1e-6, 1e-12)
-        speed = abs(now.entrainment_speed)
-        return SmoothContact(now.load, speed, float(eta[0]), rise, now.radius_x, now.radius_y, now.reduced_modulus)
+        oil = (now.viscosity, now.temperature)
+        return SmoothContact.of(now.load, now.entrainment_speed, *oil, now.radius_x, now.radius_y, now.reduced_modulus)
 
     @cached_property
     def smooth_film(self) -> float:

@@ -5,6 +5,7 @@ from dataclasses import asdict, fields, is_dataclass, replace
 
 import numpy as np
 import pytest
+from cheap_scene import CHEAP, cheap
 
 from contact_core import (
     ContactState,
@@ -12,27 +13,11 @@ from contact_core import (
     OperatingPoint,
     OperatingPointError,
     RangeFlag,
-    Scene,
     advance,
-    initial_state,
     solve,
 )
 
-CHEAP = {
-    "film.points": "33",
-    "surface_1.correlation_length": "16 um",
-    "surface_2.correlation_length": "16 um",
-    "film.tolerance": "1e-2",
-    "film.iterations": "60",
-}
 BARE = CHEAP | {"tribofilm.model": "none"}
-
-
-def cheap(changes=CHEAP, **more):
-    scene = Scene.from_toml(
-        "azam_case_a", changes | {key.replace("__", "."): str(value) for key, value in more.items()}
-    )
-    return scene, initial_state(scene), scene.operation.point
 
 
 def run(scene, op, state, steps):

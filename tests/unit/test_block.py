@@ -4,27 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from cheap_scene import CHEAP, cheap
 
-from contact_core import ContactState, RangeFlag, Scene, advance, initial_state, solve
+from contact_core import ContactState, RangeFlag, advance, solve
 from contact_core.block import sweep_dry, sweep_mixed
 from contact_core.patches import patch_nodes
 from contact_core.sweep import Sweep
 
-CHEAP = {
-    "film.points": "33",
-    "surface_1.correlation_length": "16 um",
-    "surface_2.correlation_length": "16 um",
-    "film.tolerance": "1e-2",
-    "film.iterations": "60",
-}
 DRY = CHEAP | {"control.driver": "dry"}
-
-
-def cheap(changes=CHEAP, **more):
-    scene = Scene.from_toml(
-        "azam_case_a", changes | {key.replace("__", "."): str(value) for key, value in more.items()}
-    )
-    return scene, initial_state(scene), scene.operation.point
 
 
 @pytest.mark.parametrize("points", [33, 36, 65])
