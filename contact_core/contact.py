@@ -154,7 +154,7 @@ def _with_friction(
     fluid = film.state.fluid
     solid = np.where(film.state.solid, film.state.pressure - fluid, 0.0)
     sliding, oil = op.sliding_speed, scene.lubricant
-    fluid_shear = oil.rheology(oil.viscosity(fluid, op.temperature), sliding / film.gap, fluid)
+    fluid_shear = oil.rheology(oil.viscosity(fluid, op.temperature) * sliding / film.gap, fluid)
     solid_shear = scene.boundary_friction(solid, 0.5 * (cover_1 + cover_2), sliding)
     rise = _flash_rise(scene, film.state.solid, fluid_shear + solid_shear, sliding)
     return ContactFields(

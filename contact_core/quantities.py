@@ -40,7 +40,10 @@ INPUTS: tuple[Quantity, ...] = (
     Quantity("load", "W", "N", "normal load", "input", 50.0, 0.0, 1e5),
     Quantity("speed_1", "u_1", "m/s", "surface speed of body 1 along x, relative to the contact", "input", 1.0, -100, 100),
     Quantity("speed_2", "u_2", "m/s", "surface speed of body 2 along x, relative to the contact", "input", 1.0, -100, 100),
-    Quantity("temperature", "T", "K", "oil temperature; both bodies are at it", "input", 350.0, 230.0, 500.0, "degC"),
+    Quantity("temperature", "T", "K", "oil temperature", "input", 350.0, 230.0, 500.0, "degC"),
+    Quantity("spin", "omega", "rad/s", "angular velocity of body 1 relative to body 2 about the axis from x to y", "input", 100.0, -1e5, 1e5),
+    *_pair("body_temperature", "T_b", "K", "bulk temperature, used where heat.bulk is 'inputs'", role="input",
+           nominal=350.0, minimum=230.0, maximum=900.0, display="degC"),
 )
 
 OUTPUTS: tuple[Quantity, ...] = (
@@ -48,7 +51,13 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("friction_coefficient", "mu", "1", "|friction_force| / load, 0 at zero load", nominal=0.1, minimum=0.0),
     Quantity("rolling_resistance", "F_r", "N",
              "integral of (h/2) dp/dx over the fluid film; each surface feels the opposite along +x; not in power_loss", nominal=0.1),
-    Quantity("power_loss", "P", "W", "-friction_force (speed_1 - speed_2)", nominal=1.0, minimum=0.0),
+    Quantity("friction_solid", "F_s", "N", "part of friction_force where solids touch", nominal=1.0),
+    Quantity("friction_fluid", "F_f", "N", "part of friction_force in the oil film", nominal=1.0),
+    Quantity("spin_torque", "M_s", "N m", "friction torque on body 1 about the axis from x to y", nominal=1e-3),
+    Quantity("power_loss", "P", "W", "-friction_force (speed_1 - speed_2) - spin_torque spin", nominal=1.0, minimum=0.0),
+    *(Quantity(f"dfriction_d{name}", f"dF/d{symbol}", unit, f"derivative of friction_force by {name}", nominal=nominal)
+      for name, symbol, unit, nominal in (("speed_1", "u_1", "N.s/m", 1.0), ("speed_2", "u_2", "N.s/m", 1.0),
+                                          ("load", "W", "1", 0.1), ("temperature", "T", "N/K", 0.01))),
     *_pair("wear_rate", "dV/dt", "m3/s", "wear volume of the step divided by the step", nominal=1e-17, minimum=0.0, display="um3/s"),
     *_pair("wear_volume", "V", "m3", "wear volume of the whole track", nominal=1e-14, minimum=0.0, display="um3"),
     *_pair("wear_depth", "w", "m", "mean wear depth over the track |y| < b", nominal=1e-8, minimum=0.0, display="nm"),
@@ -63,7 +72,8 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("contact_load_ratio", "W_c", "1", "load carried by the solids / load", minimum=0.0, maximum=1.0),
     Quantity("pressure_max", "p_max", "Pa", "largest pressure", nominal=1e9, minimum=0.0, display="GPa"),
     Quantity("flash_temperature_rise", "dT_f", "K", "mean flash temperature rise over the real contact", minimum=0.0, relative=True),
-    *_pair("temperature", "T", "K", "bulk temperature: that of the oil", nominal=350.0, minimum=0.0, display="degC"),
+    *_pair("temperature", "T", "K", "bulk temperature", nominal=350.0, minimum=0.0, display="degC"),
+    *_pair("heat_flow", "Q", "W", "heat that the contact puts into the body", nominal=1.0),
     Quantity("approach", "delta", "m", "approach of the bodies from first touching of the undeformed, smooth shapes", nominal=1e-6, display="um"),
     Quantity("valid", "", "", "false: the last input could not be used; state and outputs stand as they were", kind="Boolean"),
     Quantity("range_flags", "", "", "sum of the RangeFlag values raised (see RangeFlag)", kind="Integer", minimum=0),

@@ -16,7 +16,7 @@ from .laws.boundary_friction import FilmBlend
 from .laws.density import DowsonHigginson, Incompressible
 from .laws.heat import FlashTemperature, NoHeat
 from .laws.plasticity import ElasticPerfectlyPlastic
-from .laws.rheology import EyringLimited
+from .laws.rheology import Carreau, Eyring, Newtonian
 from .laws.tribofilm import Andersson, Ghanbarzadeh, NoTribofilm
 from .laws.viscosity import Barus, Roelands
 from .laws.wear import Archard, NoWear
@@ -59,7 +59,8 @@ class Lubricant:
 
     viscosity: Roelands | Barus
     density: DowsonHigginson | Incompressible
-    rheology: EyringLimited
+    rheology: Newtonian | Eyring | Carreau
+    conductivity: float = parameter("W/(m K)", "thermal conductivity of the oil", above=0.0, most=10.0, default=0.14)
 
 
 @dataclass(frozen=True)
@@ -98,6 +99,9 @@ class OperatingPoint:
     speed_1: float = input_parameter("speed_1")
     speed_2: float = input_parameter("speed_2")
     temperature: float = input_parameter("temperature")
+    spin: float = input_parameter("spin", default=0.0)
+    body_temperature_1: float | None = input_parameter("body_temperature_1", default=None)  # None: the oil's
+    body_temperature_2: float | None = input_parameter("body_temperature_2", default=None)
 
     @property
     def entrainment_speed(self) -> float:
@@ -125,6 +129,9 @@ class Step:
     speed_1: float | None = input_parameter("speed_1", default=None)
     speed_2: float | None = input_parameter("speed_2", default=None)
     temperature: float | None = input_parameter("temperature", default=None)
+    spin: float | None = input_parameter("spin", default=None)
+    body_temperature_1: float | None = input_parameter("body_temperature_1", default=None)
+    body_temperature_2: float | None = input_parameter("body_temperature_2", default=None)
 
 
 @dataclass(frozen=True)
@@ -142,11 +149,14 @@ class Operation:
     )
     steps: tuple[Step, ...] = parameter("", "changes of the duty, in the order of time", default=())
     file: str = parameter("", "CSV of the duty, instead of steps", default="")
+    spin: float = input_parameter("spin", default=0.0)
+    body_temperature_1: float | None = input_parameter("body_temperature_1", default=None)
+    body_temperature_2: float | None = input_parameter("body_temperature_2", default=None)
 
     @property
     def point(self) -> OperatingPoint:
         """The operating point of reference."""
-        return OperatingPoint(self.load, self.speed_1, self.speed_2, self.temperature)
+        return OperatingPoint(**{f.name: getattr(self, f.name) for f in fields(OperatingPoint)})
 
 
 @dataclass(frozen=True)

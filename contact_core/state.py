@@ -21,7 +21,7 @@ from .scene import OperatingPoint, Scene
 from .trends import Trends
 
 Array = NDArray[np.float64]
-_MAGIC, _SCHEMA = b"tribofmu", 2
+_MAGIC, _SCHEMA = b"tribofmu", 3
 
 
 class RangeFlag(IntFlag):
@@ -53,6 +53,13 @@ class Outputs:
     friction_force: float = 0.0
     friction_coefficient: float = 0.0
     rolling_resistance: float = 0.0
+    friction_solid: float = 0.0
+    friction_fluid: float = 0.0
+    spin_torque: float = 0.0
+    dfriction_dspeed_1: float = 0.0
+    dfriction_dspeed_2: float = 0.0
+    dfriction_dload: float = 0.0
+    dfriction_dtemperature: float = 0.0
     power_loss: float = 0.0
     wear_rate_1: float = 0.0
     wear_rate_2: float = 0.0
@@ -76,6 +83,8 @@ class Outputs:
     flash_temperature_rise: float = 0.0
     temperature_1: float = 0.0
     temperature_2: float = 0.0
+    heat_flow_1: float = 0.0
+    heat_flow_2: float = 0.0
     approach: float = 0.0
     range_flags: int = 0
     iterations: int = 0

@@ -113,8 +113,7 @@ class ContactSlave(Fmi2Slave):
         broken = [name for name, value in results.items() if not math.isfinite(value)]
         if broken:
             raise ConvergenceError(
-                f"No finite {', '.join(broken)} came out at {point}. "
-                "Change the inputs, or go back to an earlier state."
+                f"No finite {', '.join(broken)} came out at {point}. Change the inputs, or go back to an earlier state."
             )
         self._state = state
         for name, value in results.items():
@@ -170,9 +169,7 @@ class ContactSlave(Fmi2Slave):
         if causality == "output":
             raise ContactError(f"{name} is an output and cannot be set.")
         if causality == "parameter" and self._phase is Phase.STEPPING:
-            raise ContactError(
-                f"{name} is a parameter: set it before initialisation ends, or reset the FMU first."
-            )
+            raise ContactError(f"{name} is a parameter: set it before initialisation ends, or reset the FMU first.")
         self._values[reference] = value
         if self._phase is Phase.SETTLED:
             self._phase = Phase.UNSETTLED
@@ -223,9 +220,7 @@ class ContactSlave(Fmi2Slave):
     def _restore(self, handle: Snapshot | bytes) -> None:
         snapshot = Snapshot.from_bytes(handle, self._rebuilt) if isinstance(handle, bytes) else handle
         if snapshot.module != self._module:
-            raise StateError(
-                "The FMU state belongs to another FMU. Use one that an FMU of the same scene has given."
-            )
+            raise StateError("The FMU state belongs to another FMU. Use one that an FMU of the same scene has given.")
         self._values = list(snapshot.values)
         self._scene, self._state = snapshot.scene, snapshot.state
         self._phase, self._fault = snapshot.phase, snapshot.fault

@@ -53,9 +53,7 @@ class Snapshot:
         """
         start = len(_MAGIC) + 4
         if data[: len(_MAGIC)] != _MAGIC:
-            raise StateError(
-                "The stored FMU state is not one of tribofmu's. Give one that this FMU has serialised."
-            )
+            raise StateError("The stored FMU state is not one of tribofmu's. Give one that this FMU has serialised.")
         try:
             length = struct.unpack("<I", data[len(_MAGIC) : start])[0]
             header = json.loads(data[start : start + length])

@@ -35,7 +35,7 @@ class Variable:
 def variables(scene: Scene) -> tuple[Variable, ...]:
     """Inputs, parameters and outputs of a scene's FMU. Index + 1 is the index of the model description."""
     return (
-        *(_quantity(q, "input", float(getattr(scene.operation, q.name))) for q in INPUTS),
+        *(_quantity(q, "input", _start(scene, q.name)) for q in INPUTS),
         *(_parameter(name, value, field) for name, (value, field) in tunables(scene).items()),
         Variable(
             INITIAL_STATE,
@@ -46,6 +46,12 @@ def variables(scene: Scene) -> tuple[Variable, ...]:
         ),
         *(_quantity(q, "output", ZERO[q.kind]) for q in OUTPUTS),
     )
+
+
+def _start(scene: Scene, name: str) -> float:
+    """Start value of an input; a body's temperature is the oil's if the scene says nothing else."""
+    value = getattr(scene.operation, name)
+    return float(scene.operation.temperature if value is None else value)
 
 
 def _quantity(q: Quantity, causality: Causality, start: Value) -> Variable:

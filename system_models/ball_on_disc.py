@@ -9,6 +9,7 @@ import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from ctypes import byref
+from dataclasses import fields
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,7 @@ from fmpy.model_description import ModelDescription, ModelVariable
 from numpy.typing import NDArray
 
 from contact_core.errors import ContactError, StateError
+from contact_core.scene import OperatingPoint
 
 from .checkpoint import Checkpoint, Saved
 from .duty import Duty
@@ -30,7 +32,7 @@ from .results import to_dataset
 
 log = logging.getLogger(__name__)
 
-_INPUTS = ("load", "speed_1", "speed_2", "temperature")
+_INPUTS = tuple(f.name for f in fields(OperatingPoint))
 _MOST_STEPS = 1_000_000
 _BINARY = {"Real": "<f8", "Integer": "<i4", "Boolean": "?"}  # of a value in a checkpoint
 _LEVELS = (logging.INFO, logging.WARNING, logging.WARNING, logging.ERROR, logging.CRITICAL)  # by FMI status
@@ -60,8 +62,7 @@ def run(
     with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder:
         if "%" in Path(folder).as_uri().replace("%20", ""):
             raise ContactError(
-                f"The FMU cannot be loaded from '{folder}'. "
-                "Set TMPDIR to a folder named in plain letters and digits."
+                f"The FMU cannot be loaded from '{folder}'. Set TMPDIR to a folder named in plain letters and digits."
             )
         fmpy.extract(fmu_path, folder)
         recorder = _Recorder(fmpy.read_model_description(folder))
@@ -173,7 +174,8 @@ class _Recorder:
     def set_inputs(self, slave: FMU2Slave, duty: Duty, time: float) -> None:
         """Set the operating point that holds from `time` on."""
         point = duty.at(time)
-        self.held = [getattr(point, v.name) for v in self.inputs]
+        values = [getattr(point, v.name) for v in self.inputs]
+        self.held = [point.temperature if value is None else value for value in values]  # a body not said to be warmer
         slave.setReal([v.valueReference for v in self.inputs], self.held)
 
     def record(self, slave: FMU2Slave) -> None:
@@ -205,7 +207,9 @@ class _Recorder:
         if invalid:
             log.warning(
                 "%d of %d rows are invalid, the first at %g s: the outputs stand as they were before.",
-                len(invalid), len(points), invalid[0],
+                len(invalid),
+                len(points),
+                invalid[0],
             )
         return to_dataset(points, self.rows, self.units, self.texts)
 

@@ -49,7 +49,8 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("scene", metavar="SCENE", help="a shipped scene's name, or the path of a .toml file")
     run.add_argument("--out", metavar="DIR", help="folder of the results (default: results/SCENE)")
     run.add_argument(
-        "--resume", action="store_true",
+        "--resume",
+        action="store_true",
         help="go on from the checkpoint that a killed, interrupted or failed run has left in DIR, to the same result, "
         "bit for bit; start from the beginning if there is none (without --resume always, and replace it)",
     )
@@ -57,8 +58,14 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--grid", metavar="N", help="nodes along x and y, instead of film.points")
     run.add_argument("--duty", metavar="FILE.csv", help="CSV of the duty, instead of operation.file")
     run.add_argument(
-        "--set", dest="settings", metavar="KEY=VALUE", nargs="+", action="extend", default=[],
-        type=_assignment, help="change values of the scene, e.g. tribofilm.model=none surface_2.rq='50 nm'",
+        "--set",
+        dest="settings",
+        metavar="KEY=VALUE",
+        nargs="+",
+        action="extend",
+        default=[],
+        type=_assignment,
+        help="change values of the scene, e.g. tribofilm.model=none surface_2.rq='50 nm'",
     )
     return parser
 
@@ -184,9 +191,7 @@ def _output_folder(arguments: argparse.Namespace) -> Path:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise ContactError(
-            f"The folder '{folder}' cannot be made: {error.strerror}. Use another --out."
-        ) from None
+        raise ContactError(f"The folder '{folder}' cannot be made: {error.strerror}. Use another --out.") from None
     if not os.access(folder, os.W_OK):
         raise ContactError(f"The folder '{folder}' cannot be written to. Use another --out.")
     return folder

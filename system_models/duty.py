@@ -7,8 +7,7 @@ A duty holds each operating point from its time to the next one's. It is constan
     0,53.7,80
     30,53.7,100
 
-`time` is needed, starts at 0 and increases; of `load`, `speed_1`, `speed_2` and `temperature`, those
-without a column keep the scene's value.
+`time` is needed, starts at 0 and increases; an input of the contact without a column keeps the scene's value.
 """
 
 import bisect
@@ -41,9 +40,7 @@ class Duty:
     def __post_init__(self) -> None:
         increasing = all(early < late for early, late in pairwise(self.times))
         if len(self.times) != len(self.points) or self.times[:1] != (0.0,) or not increasing:
-            raise SceneError(
-                f"The duty's times {self.times} must start at 0, increase, and be as many as its points."
-            )
+            raise SceneError(f"The duty's times {self.times} must start at 0, increase, and be as many as its points.")
 
     @staticmethod
     def from_steps(point: OperatingPoint, steps: Sequence[Step] = ()) -> "Duty":
@@ -75,7 +72,8 @@ class Duty:
 
     def fingerprint(self) -> str:
         """A text that is the same for the same duty, bit for bit, and for no other."""
-        points = [tuple(float(getattr(point, f.name)).hex() for f in fields(point)) for point in self.points]
+        values = [[getattr(point, f.name) for f in fields(point)] for point in self.points]
+        points = [tuple(None if value is None else float(value).hex() for value in row) for row in values]
         digest = hashlib.sha256(repr([[float(time).hex() for time in self.times], points]).encode()).hexdigest()
         return f"{len(self.times)} rows, fingerprint {digest[:16]}"
 
@@ -104,9 +102,7 @@ def _read(path: Path, reference: OperatingPoint) -> Duty:
     except (UnicodeDecodeError, csv.Error) as error:
         raise SceneError(f"The duty file '{path}' is not a CSV file in UTF-8: {error}.") from None
     if len(rows) < 2:
-        raise SceneError(
-            f"The duty file '{path}' needs a header such as 'time [s],load [N]' and a row below it."
-        )
+        raise SceneError(f"The duty file '{path}' needs a header such as 'time [s],load [N]' and a row below it.")
     (line, header), *body = rows
     columns = _columns(header, f"{path}, line {line}")
     times: list[float] = []

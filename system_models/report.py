@@ -45,10 +45,14 @@ _PANELS: tuple[tuple[str, float, tuple[_Line, ...]], ...] = (
     ("mean wear depth [nm]", 1e9, _bodies("wear_depth")),
     (r"film ratio $\lambda$", 1.0, (("lambda_ratio", "", _BLACK),)),
     ("roughness Rq [nm]", 1e9, _bodies("roughness")),
-    ("share of the solids", 1.0, (
-        ("contact_area_ratio", "area $A_c$", _BLUE),
-        ("contact_load_ratio", "load $W_c$", _RED),
-    )),
+    (
+        "share of the solids",
+        1.0,
+        (
+            ("contact_area_ratio", "area $A_c$", _BLUE),
+            ("contact_load_ratio", "load $W_c$", _RED),
+        ),
+    ),
     ("largest pressure [GPa]", 1e-9, (("pressure_max", "", _BLACK),)),
 )
 
@@ -77,8 +81,7 @@ def closing_lines(dataset: xr.Dataset) -> list[str]:
     share = {name: f"{100.0 * count / max(total, 1):.1f} %" for name, count in blocks.items()}
     return [
         f"Load cycles: ball {ball}, disc {disc}.",
-        f"Blocks: {total} solved; driven dry {share['dry']}, mixed {share['mixed']}, "
-        f"by fallback {share['fallback']}.",
+        f"Blocks: {total} solved; driven dry {share['dry']}, mixed {share['mixed']}, by fallback {share['fallback']}.",
         _validity(dataset),
         *_range(dataset),
     ]

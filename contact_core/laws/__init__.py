@@ -3,7 +3,7 @@
 A slot's table in a scene says `model = "<name>"`. A new law is one class and one entry in its module's LAWS.
 """
 
-from . import boundary_friction, density, heat, plasticity, rheology, tribofilm, viscosity, wear
+from . import boundary_friction, density, heat, load_sharing, plasticity, rheology, tribofilm, viscosity, wear
 
 SLOTS: dict[str, tuple[type, ...]] = {
     "viscosity": viscosity.LAWS,
@@ -14,4 +14,5 @@ SLOTS: dict[str, tuple[type, ...]] = {
     "heat": heat.LAWS,
     "tribofilm": tribofilm.LAWS,
     "wear": wear.LAWS,
+    "sharing": load_sharing.LAWS,
 }

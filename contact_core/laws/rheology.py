@@ -1,32 +1,119 @@
-"""Shear stress of the film between the surfaces."""
+"""Shear stress of the film between the surfaces.
+
+A law maps the stress that a Newtonian oil would have, viscosity times shear rate, to the stress of this one. No film
+carries more than `limiting_coefficient` times its pressure.
+"""
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..quantities import parameter
 
+Array = NDArray[np.float64]
+
+
+def _limiting_coefficient() -> Any:
+    return parameter("", "limiting shear stress / pressure; 0: no limit", least=0.0, most=1.0, default=0.0)
+
+
+class _Limited:
+    """What all laws share: odd in the shear, cut at the limiting stress (Bair & Winer, J. Lubr. Technol. 101 (1979)
+    258). A law gives `_thinned`: its stress [Pa] and the slope of that, of a Newtonian stress >= 0.
+    """
+
+    limiting_coefficient: float
+
+    def _thinned(self, newtonian: Array) -> tuple[Array, Array]:
+        raise NotImplementedError
+
+    def __call__(self, newtonian: Array, pressure: Array) -> Array:
+        """Shear stress [Pa] with the sign of `newtonian` = viscosity times shear rate [Pa], under a pressure [Pa]."""
+        stress = self._thinned(np.abs(newtonian))[0]
+        if self.limiting_coefficient > 0.0:
+            stress = np.minimum(stress, self.limiting_coefficient * pressure)
+        return np.sign(newtonian) * stress
+
+    def slopes(self, newtonian: Array, pressure: Array) -> tuple[Array, Array]:
+        """Derivatives of the stress by `newtonian` and by pressure (at fixed `newtonian`)."""
+        stress, slope = self._thinned(np.abs(newtonian))
+        if self.limiting_coefficient == 0.0:
+            return slope, np.zeros_like(slope)
+        limited = stress > self.limiting_coefficient * pressure
+        return np.where(limited, 0.0, slope), np.where(limited, np.sign(newtonian) * self.limiting_coefficient, 0.0)
+
 
 @dataclass(frozen=True)
-class EyringLimited:
-    """tau = min( tau_E asinh(eta |rate| / tau_E), Lambda p ), with the sign of the shear rate."""
+class Newtonian(_Limited):
+    """tau = eta rate."""
 
-    name: ClassVar[str] = "eyring_limited"
-    source: ClassVar[str] = (
-        "Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129; Bair & Winer, J. Lubr. Technol. 101 (1979) 258"
+    name: ClassVar[str] = "newtonian"
+    source: ClassVar[str] = "limit: Bair & Winer, J. Lubr. Technol. 101 (1979) 258, doi:10.1115/1.3453342"
+    thins: ClassVar[bool] = False
+
+    limiting_coefficient: float = _limiting_coefficient()
+
+    def _thinned(self, newtonian: Array) -> tuple[Array, Array]:
+        return newtonian, np.ones_like(newtonian)
+
+    def ease(self, stress: Array) -> Array:
+        """How many times easier than a Newtonian one the oil shears at a stress [Pa]: 1."""
+        return np.ones_like(stress)
+
+
+@dataclass(frozen=True)
+class Eyring(_Limited):
+    """tau = tau_E asinh(eta rate / tau_E)."""
+
+    name: ClassVar[str] = "eyring"
+    source: ClassVar[str] = "Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129"
+    thins: ClassVar[bool] = True
+
+    eyring_stress: float = parameter("Pa", "shear stress at which the fluid begins to thin", above=0.0, most=1e12)
+    limiting_coefficient: float = _limiting_coefficient()
+
+    def _thinned(self, newtonian: Array) -> tuple[Array, Array]:
+        x = newtonian / self.eyring_stress
+        return self.eyring_stress * np.arcsinh(x), 1.0 / np.hypot(1.0, x)
+
+    def ease(self, stress: Array) -> Array:
+        """How many times easier than a Newtonian one the oil shears at a stress [Pa]."""
+        x = np.minimum(np.abs(stress) / self.eyring_stress, 500.0)
+        return np.where(x > 1e-4, np.sinh(x) / np.maximum(x, 1e-300), 1.0 + x * x / 6.0)
+
+
+@dataclass(frozen=True)
+class Carreau(_Limited):
+    """tau = eta rate [1 + (eta rate / G)^2]^((n - 1) / 2)."""
+
+    name: ClassVar[str] = "carreau"
+    source: ClassVar[str] = "Carreau 1972, doi:10.1122/1.549276; in elastohydrodynamics Bair 2007, ISBN 9780444528803"
+    thins: ClassVar[bool] = True
+
+    critical_stress: float = parameter(
+        "Pa", "G, Newtonian stress at which the fluid begins to thin", above=0.0, most=1e12
     )
+    exponent: float = parameter("", "n, power of the shear rate in a thin fluid", above=0.0, most=1.0)
+    limiting_coefficient: float = _limiting_coefficient()
 
-    eyring_stress: float = parameter("Pa", "shear stress at which the fluid begins to thin", above=0.0, most=1e9)
-    limiting_coefficient: float = parameter("", "limiting shear stress / pressure", above=0.0, most=1.0)
+    def _thinned(self, newtonian: Array) -> tuple[Array, Array]:
+        x2 = (newtonian / self.critical_stress) ** 2
+        factor = (1.0 + x2) ** (0.5 * (self.exponent - 1.0))
+        return newtonian * factor, factor * (1.0 + self.exponent * x2) / (1.0 + x2)
 
-    def __call__(
-        self, viscosity: NDArray[np.float64], rate: NDArray[np.float64], pressure: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
-        """Shear stress [Pa] for viscosity [Pa s], shear rate [1/s] and pressure [Pa] of one shape."""
-        stress = self.eyring_stress * np.arcsinh(viscosity * np.abs(rate) / self.eyring_stress)
-        return np.sign(rate) * np.minimum(stress, self.limiting_coefficient * pressure)
+    def ease(self, stress: Array) -> Array:
+        """How many times easier than a Newtonian one the oil shears at a stress [Pa]."""
+        target = np.abs(stress) / self.critical_stress
+        x = np.maximum(target, target ** (1.0 / self.exponent))  # above the root, where Newton's method goes down to it
+        for _ in range(60):
+            factor = (1.0 + x * x) ** (0.5 * (self.exponent - 1.0))
+            step = (x * factor - target) / (factor * (1.0 + self.exponent * x * x) / (1.0 + x * x))
+            x = np.maximum(x - step, 0.0)
+            if np.all(np.abs(step) <= 1e-14 * (1.0 + x)):
+                break
+        return np.where(target > 1e-8, x / np.maximum(target, 1e-300), 1.0)
 
 
-LAWS = (EyringLimited,)
+LAWS = (Newtonian, Eyring, Carreau)
