@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .block import is_due, solve_block
+from .block import has_moved, is_due, solve_block
 from .errors import OperatingPointError
 from .evolution import area_of_node, evolved, track_rows, wear_speed
 from .laws.tribofilm import thickness
@@ -43,8 +43,9 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
     if not (math.isfinite(dt) and dt >= 0.0):
         raise OperatingPointError(f"The step dt = {dt!r} s must be finite and not negative.")
     before = [body.worn for body in state.bodies]
-    left = dt
+    given, left = op, dt
     while True:
+        op = _with_bodies(scene, given, state)
         if is_due(scene, op, state):
             state = solve_block(scene, op, state)
         if left <= 0.0:
@@ -60,6 +61,7 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
             change=state.change + change,
             held=state.held + step,
             trends=state.trends.over(step, state.held),
+            temperatures=_temperatures_after(scene, op, state, step),
         )
     if dt > 0.0:
         rates = [(body.worn - worn) / dt for body, worn in zip(state.bodies, before, strict=True)]
@@ -69,11 +71,34 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
     return replace(state, outputs=outputs), outputs
 
 
+def _with_bodies(scene: Scene, op: OperatingPoint, state: ContactState) -> OperatingPoint:
+    """The operating point with the bulk temperatures that the scene's law gives the bodies."""
+    inputs = (op.body_temperature_1, op.body_temperature_2)
+    first, second = scene.heat.bulk.bodies(op.temperature, inputs, state.temperatures)
+    return replace(op, body_temperature_1=first, body_temperature_2=second)
+
+
+def _temperatures_after(
+    scene: Scene, op: OperatingPoint, state: ContactState, step: float
+) -> tuple[float, float] | None:
+    """Bulk temperatures [K] after `step` [s] of the present flow of heat; None where the scene stores none."""
+    return scene.heat.bulk.after(op.bodies, _heat_flows(op, state.outputs), op.temperature, step)
+
+
+def _power_loss(op: OperatingPoint, outputs: Outputs) -> float:
+    return max(0.0, -outputs.friction_force * op.sliding_speed - outputs.spin_torque * op.spin)
+
+
+def _heat_flows(op: OperatingPoint, outputs: Outputs) -> tuple[float, float]:
+    """What the contact puts into the bodies [W]: all of the power, together."""
+    return outputs.heat_flow_1, _power_loss(op, outputs) - outputs.heat_flow_1
+
+
 def _longest_step(scene: Scene, op: OperatingPoint, state: ContactState, left: float) -> tuple[float, float]:
     """Time [s] in which the block is used up, at most `left`, and the change of geometry [m] in it."""
     budget = scene.control.change - state.change
     rest = max(state.hold - state.held, _NO_TIME)
-    step = min(left, rest)
+    step = min(left, rest, _cool_time(scene, op, state, left))
     samples = [_thinned(scene, body) for body in state.bodies]
     flash = state.outputs.flash_temperature_rise
     while True:  # the film's growth slows down: this ends within few rounds
@@ -82,6 +107,19 @@ def _longest_step(scene: Scene, op: OperatingPoint, state: ContactState, left: f
         if change <= 1.01 * budget:
             return step, change if change < 0.9 * budget else budget  # near enough: the block is used up
         step *= min(max(budget / change, 0.05), 0.95)
+
+
+def _cool_time(scene: Scene, op: OperatingPoint, state: ContactState, left: float) -> float:
+    """A time [s] in which the bodies' own temperatures change the oil too little to ask for a new solution."""
+    step = left
+    while step > _NO_TIME:
+        after = _temperatures_after(scene, op, state, step)
+        if after is None or not has_moved(
+            scene, replace(op, body_temperature_1=after[0], body_temperature_2=after[1]), op
+        ):
+            break
+        step *= 0.5
+    return step
 
 
 def _thinned(scene: Scene, body: Body) -> Body:
@@ -128,16 +166,24 @@ def _with_surfaces(scene: Scene, op: OperatingPoint, state: ContactState) -> Out
             "roughness_raw": rms_roughness(heights, middle),
             "coverage": float(covered.mean()),
             "load_cycles": body.cycles,
-            "temperature": op.temperature,
+            "temperature": op.bodies[i],
         }
         values |= {f"{name}_{i + 1}": value for name, value in found.items()}
     flags = RangeFlag(state.outputs.range_flags) & ~RangeFlag.TRIBOFILM_TEMPERATURE
-    if not scene.tribofilm.covers(op.temperature):
+    if not all(scene.tribofilm.covers(temperature) for temperature in op.bodies):
         flags |= RangeFlag.TRIBOFILM_TEMPERATURE
-    power = max(0.0, -state.outputs.friction_force * op.sliding_speed)
+    out = state.outputs
+    power, heat = _power_loss(op, out), _heat_flows(op, out)
     step, _ = _longest_step(scene, op, state, 10.0 * scene.operation.duration)
     return replace(
-        state.outputs, **values, **_errors(state, values), range_flags=int(flags), power_loss=power, suggested_step=step
+        out,
+        **values,
+        **_errors(state, values),
+        range_flags=int(flags),
+        friction_fluid=out.friction_force - out.friction_solid,
+        heat_flow_2=heat[1],
+        power_loss=power,
+        suggested_step=step,
     )
 
 

@@ -53,12 +53,12 @@ def is_due(scene: Scene, op: OperatingPoint, state: ContactState) -> bool:
     """Whether geometry or inputs have moved so far that the contact has to be solved again."""
     used_up = state.change >= 0.999 * scene.control.change or state.held >= state.hold
     other_law = state.law != _law(scene)
-    return state.solved_for is None or used_up or other_law or _has_moved(scene, op, state.solved_for)
+    return state.solved_for is None or used_up or other_law or has_moved(scene, op, state.solved_for)
 
 
 def solve_block(scene: Scene, op: OperatingPoint, state: ContactState) -> ContactState:
     """Solve the contact for one block; time stands still. Store what the surfaces feel and what the contact gives."""
-    same = state.solved_for is not None and not _has_moved(scene, op, state.solved_for)
+    same = state.solved_for is not None and not has_moved(scene, op, state.solved_for)
     if not same:
         state = replace(state, dry_blocks_left=0, share=1.0, trends=state.trends.restarted(), held=0.0)
     state = _wide_enough(scene, state)
@@ -88,18 +88,21 @@ def _law(scene: Scene) -> str:
     return f"{scene.tribofilm.name}, {scene.tribofilm.dose}"
 
 
-def _has_moved(scene: Scene, op: OperatingPoint, old: OperatingPoint) -> bool:
+def has_moved(scene: Scene, op: OperatingPoint, old: OperatingPoint) -> bool:
     """Whether an input is further from the solved one than the scene tolerates; temperature counts by its viscosity."""
+    if op == old:
+        return False
     viscosity = scene.lubricant.viscosity
-    eta, eta_old = (float(viscosity(np.zeros(1), t)[0]) for t in (op.temperature, old.temperature))
+    eta, eta_old = (float(viscosity(np.zeros(1), t)[0]) for t in (op.inlet_temperature, old.inlet_temperature))
     fastest = max(abs(op.speed_1), abs(op.speed_2), abs(old.speed_1), abs(old.speed_2))
     now_then_scale = (
         (op.load, old.load, max(op.load, old.load)),
         (op.entrainment_speed, old.entrainment_speed, fastest),
         (op.sliding_speed, old.sliding_speed, max(abs(op.sliding_speed), abs(old.sliding_speed))),
+        (op.spin, old.spin, max(abs(op.spin), abs(old.spin))),
         (eta, eta_old, max(eta, eta_old)),
     )
-    for name in ("load", "speed_1", "speed_2", "entrainment_speed", "sliding_speed"):
+    for name in ("load", "speed_1", "speed_2", "entrainment_speed", "sliding_speed", "spin"):
         if (getattr(op, name) == 0.0) != (getattr(old, name) == 0.0):
             return True
     return any(abs(now - then) > scene.control.input_change * scale for now, then, scale in now_then_scale)
@@ -225,7 +228,7 @@ def _feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep
         exposure = exposure * scene.film.domain / (2.0 * scene.hertz(op.load).a)
     elif law.dose == "residence":
         exposure = exposure * reach
-    if op.sliding_speed == 0.0 or op.load == 0.0:  # nothing rubs in pure rolling, at rest or apart
+    if not op.slides or op.load == 0.0:  # nothing rubs in pure rolling, at rest or apart
         exposure = np.zeros_like(exposure)
     pressure = sweep.pressures[i] / sweep.count * reach
     after = replace(body, pressure=pressure, exposure=exposure, since=sweep.since[i])
@@ -302,6 +305,7 @@ def _stored(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep)
         state.outputs,
         **smooth,
         **{blocks: getattr(state.outputs, blocks) + 1.0},
+        **sweep.slopes(scene, op),
         friction_coefficient=abs(smooth["friction_force"]) / op.load if op.load > 0.0 else 0.0,
         range_flags=int(sweep.flags),
         iterations=sweep.iterations,

@@ -4,15 +4,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from .film.instant import FilmSolution, FilmState, Grid, Instant
+from .friction import Film, Friction, Shear, friction, shear
+from .laws.heat import Temperatures
 from .laws.tribofilm import thickness
 from .patches import bare_heights, contact_grid, heights_of, on_grid, patch_nodes, roughness_of
 from .scene import OperatingPoint, Scene
 from .state import ContactState
 
 Array = NDArray[np.float64]
+
+_WARMINGS = 30  # rounds of shear and temperature of a steady film, at most
+_WARMING = 0.7  # share of a change of temperature that is taken over, lest the rounds swing
+_WARM_ENOUGH = 1e-3  # change of temperature that ends them, of the highest rise
 
 
 @dataclass(frozen=True)
@@ -41,7 +46,10 @@ class ContactFields:
     overlap: Array  # what yields plastically in this instant
     fluid_shear: Array  # on body 2 along +x
     solid_shear: Array
-    flash_rise: float  # mean over the real contact [K]
+    shear: Array  # of solids and oil together, in the direction of the local sliding
+    friction: Friction
+    sheared: Film  # what that friction is of
+    temperatures: Temperatures
     film: FilmState
     converged: bool
     shortfall: str  # why it is not converged, empty if it is
@@ -87,7 +95,7 @@ def solve(
     if law.indentation == "total":
         pressed += sum(on_grid(body.plastic, n) for body, n in zip(state.bodies, nodes, strict=True))
     limit = law.limit(film_1, film_2, pressed, full)
-    cover_1, cover_2 = film_1 / full, film_2 / full
+    covers = film_1 / full, film_2 / full
     grid = contact_grid(scene, state.rows)
     if op.load == 0.0:
         film = _open(scene, grid, heights)
@@ -97,7 +105,8 @@ def solve(
         film = scene.film.solve(
             now, grid, state.film if transient else None, follows, transient.iterations if transient else None
         )
-    return _with_friction(scene, op, grid, film, heights, rough, cover_1, cover_2)
+    before = state.film.warmth if transient and state.film else None
+    return _with_friction(scene, op, grid, film, heights, rough, covers, before)
 
 
 def instant_of(scene: Scene, op: OperatingPoint, heights: Array, limit: Array) -> Instant:
@@ -105,7 +114,7 @@ def instant_of(scene: Scene, op: OperatingPoint, heights: Array, limit: Array) -
     return Instant(
         load=op.load,
         entrainment_speed=op.entrainment_speed,
-        temperature=op.temperature,
+        temperature=op.inlet_temperature,
         radius_x=scene.geometry.radius_x,
         radius_y=scene.geometry.radius_y,
         reduced_modulus=scene.solids.reduced_modulus,
@@ -145,54 +154,79 @@ def _with_friction(
     scene: Scene,
     op: OperatingPoint,
     grid: Grid,
-    film: FilmSolution,
+    found: FilmSolution,
     heights: Array,
     rough: Array,
-    cover_1: Array,
-    cover_2: Array,
+    covers: tuple[Array, Array],
+    before: Array | None,
 ) -> ContactFields:
-    fluid = film.state.fluid
-    solid = np.where(film.state.solid, film.state.pressure - fluid, 0.0)
-    sliding, oil = op.sliding_speed, scene.lubricant
-    fluid_shear = oil.rheology(oil.viscosity(fluid, op.temperature) * sliding / film.gap, fluid)
-    solid_shear = scene.boundary_friction(solid, 0.5 * (cover_1 + cover_2), sliding)
-    rise = _flash_rise(scene, film.state.solid, fluid_shear + solid_shear, sliding)
+    state = found.state
+    solid = np.where(state.solid, state.pressure - state.fluid, 0.0)
+    cover = 0.5 * (covers[0] + covers[1])
+    film = Film(grid, state.fluid, solid, found.gap, cover, op.inlet_temperature)
+    film, stress, warm, shortfall = _warmed(scene, op, film, before)
     return ContactFields(
         x=grid.x,
         y=grid.y,
-        pressure=film.state.pressure,
-        fluid_pressure=fluid,
+        pressure=state.pressure,
+        fluid_pressure=state.fluid,
         solid_pressure=solid,
-        gap=film.gap,
+        gap=found.gap,
         heights=heights,
         roughness=rough,
-        cover_1=cover_1,
-        cover_2=cover_2,
-        overlap=film.overlap,
-        fluid_shear=fluid_shear,
-        solid_shear=solid_shear,
-        flash_rise=rise,
-        film=film.state,
-        converged=film.converged,
-        shortfall=film.shortfall,
-        route=film.route,
-        algorithm=film.algorithm,
-        iterations=film.iterations,
-        pressure_change=film.change,
-        load_error=film.load_error,
-        load_beyond=film.load_beyond,
-        complementarity=film.complementarity,
-        imbalance=film.imbalance,
-        inlet_nodes=film.inlet_nodes,
+        cover_1=covers[0],
+        cover_2=covers[1],
+        overlap=found.overlap,
+        fluid_shear=stress.fluid * stress.along_x,
+        solid_shear=stress.solid * stress.along_x,
+        shear=stress.total,
+        friction=friction(stress, grid),
+        sheared=film,
+        temperatures=warm,
+        film=replace(state, warmth=np.atleast_2d(film.temperature - op.inlet_temperature)),
+        converged=found.converged and not shortfall,
+        shortfall="; ".join(said for said in (found.shortfall, shortfall) if said),
+        route=found.route,
+        algorithm=found.algorithm,
+        iterations=found.iterations,
+        pressure_change=found.change,
+        load_error=found.load_error,
+        load_beyond=found.load_beyond,
+        complementarity=found.complementarity,
+        imbalance=found.imbalance,
+        inlet_nodes=found.inlet_nodes,
     )
 
 
-def _flash_rise(scene: Scene, solid: NDArray[np.bool_], shear: Array, sliding: float) -> float:
-    """Mean over the contact nodes of their spot's rise; a spot is a connected set of contact nodes."""
-    if scene.heat.name == "none" or sliding == 0.0 or not solid.any():
-        return 0.0
-    spots, count = ndimage.label(solid)
-    nodes = np.bincount(spots.ravel(), minlength=count + 1)[1:]
-    mean_shear = np.bincount(spots.ravel(), np.abs(shear).ravel(), count + 1)[1:] / nodes
-    radius = np.sqrt(nodes * scene.film.spacing**2 / np.pi)
-    return float((scene.heat.rise(radius, mean_shear, sliding) * nodes).sum() / nodes.sum())
+def _warmed(
+    scene: Scene, op: OperatingPoint, film: Film, before: Array | None
+) -> tuple[Film, Shear, Temperatures, str]:
+    """The film at its temperature, its shear, the temperatures, and why they do not belong together if so.
+
+    Warm oil shears more easily and so warms less. A march goes on from the warmth of the instant before (`before`, above
+    the inlet); a steady film repeats until its temperature stands still.
+    """
+    law, inlet = scene.heat, op.inlet_temperature
+    if law.warms_film and before is not None:
+        film = replace(film, temperature=inlet + before)
+    change = 0.0
+    for _ in range(_WARMINGS):
+        stress = shear(scene, op, film)
+        warm = law.temperatures(
+            stress.dissipation,
+            film.gap,
+            film.solid > 0.0,
+            film.fluid + film.solid > 0.0,
+            film.grid.spacing,
+            (op.speed_1, op.speed_2),
+            op.sliding_speed,
+            op.bodies,
+            scene.lubricant.conductivity,
+        )
+        if not law.warms_film:
+            return film, stress, warm, ""
+        change = float(np.abs(warm.film - film.temperature).max())
+        film = replace(film, temperature=film.temperature + _WARMING * (warm.film - film.temperature))
+        if before is not None or change <= _WARM_ENOUGH * (1.0 + float(np.abs(warm.film - inlet).max())):
+            return film, stress, warm, "" if warm.solved else "the partition of heat was not solved"
+    return film, stress, warm, f"the film's temperature still changes by {change:.2g} K"

@@ -26,8 +26,8 @@ def track_length(scene: Scene, i: int) -> float:
 
 
 def evolved(scene: Scene, op: OperatingPoint, body: Body, i: int, step: float, flash: float) -> Body:
-    """A body after `step` [s] of what its last solution makes it feel; `flash` [K] above the oil's temperature."""
-    growth, removal = scene.tribofilm.evolve(body.growth, body.removal, body.exposure * step, op.temperature + flash)
+    """A body after `step` [s] of what its last solution makes it feel; `flash` [K] above its bulk temperature."""
+    growth, removal = scene.tribofilm.evolve(body.growth, body.removal, body.exposure * step, op.bodies[i] + flash)
     film = 0.5 * (thickness(growth, removal) + thickness(body.growth, body.removal))
     worn = step * wear_speed(scene, op, body, i, film)
     return replace(
@@ -43,7 +43,18 @@ def evolved(scene: Scene, op: OperatingPoint, body: Body, i: int, step: float, f
 def wear_speed(scene: Scene, op: OperatingPoint, body: Body, i: int, film: Array) -> Array:
     """Wear depth per second [m/s] of a patch under a tribofilm [m]."""
     cover = film / scene.tribofilm.full_thickness
-    return scene.wear.rate(body.pressure, cover, speeds_of(op), i, scene.plasticity.hardness)
+    speeds: tuple[float | Array, float] = speeds_of(op)
+    if op.spin != 0.0 and op.load > 0.0 and scene.wear.slide(speeds_of(op), i) == abs(op.sliding_speed):
+        speeds = _turning(scene, op, contact_grid(scene, film.shape[0]).y)[:, None], 0.0
+    return scene.wear.rate(body.pressure, cover, speeds, i, scene.plasticity.hardness)
+
+
+def _turning(scene: Scene, op: OperatingPoint, y: Array) -> Array:
+    """Sliding speed [m/s] of rows at `y` [m] in a contact that spins, as a mean over their part of it."""
+    hertz = scene.hertz(op.load)
+    # mean |x| over a row under Hertz's pressure is 3/8 of its length on either side
+    along = 0.375 * hertz.a * np.sqrt(np.maximum(1.0 - (y / hertz.b) ** 2, 0.0))
+    return np.hypot(op.sliding_speed - op.spin * y, op.spin * along)
 
 
 def area_of_node(scene: Scene, op: OperatingPoint, i: int) -> float:

@@ -113,6 +113,23 @@ class OperatingPoint:
         """u_s = u1 - u2 [m/s]."""
         return self.speed_1 - self.speed_2
 
+    @property
+    def slides(self) -> bool:
+        """Whether the bodies slide anywhere in the contact."""
+        return self.speed_1 != self.speed_2 or self.spin != 0.0
+
+    @property
+    def bodies(self) -> tuple[float, float]:
+        """Bulk temperatures [K]; the oil's where nothing else is said."""
+        one, two = self.body_temperature_1, self.body_temperature_2
+        return self.temperature if one is None else one, self.temperature if two is None else two
+
+    @property
+    def inlet_temperature(self) -> float:
+        """Temperature [K] of the oil that the bodies draw in: the mean of their own."""
+        one, two = self.bodies
+        return 0.5 * (one + two)
+
     def check(self) -> None:
         """Raise OperatingPointError with one sentence for each value that cannot be used."""
         sentences = list(out_of_range(self, ""))

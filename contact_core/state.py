@@ -153,6 +153,7 @@ class ContactState:
     dry_blocks_left: int  # blocks until the share of the solids is measured again
     share: float  # of the load on the solids of a dry contact
     trends: Trends
+    temperatures: tuple[float, float] | None  # of the bodies, where the scene stores them; None: as the oil [K]
     outputs: Outputs
 
     @property
@@ -242,6 +243,9 @@ def _unpack_state(tree: dict[str, Any], arrays: Any) -> ContactState:
         dry_blocks_left=tree["dry_blocks_left"],
         share=float.fromhex(tree["share"]),
         trends=record(Trends, tree["trends"]),
+        temperatures=None
+        if tree["temperatures"] is None
+        else (number(tree["temperatures"][0]), number(tree["temperatures"][1])),
         outputs=Outputs(**numbers(tree["outputs"])),
     )
 
@@ -252,5 +256,5 @@ def initial_state(scene: Scene) -> ContactState:
     zeros = np.zeros(shape)
     body = Body(zeros, zeros, zeros, zeros, zeros, zeros, np.full(shape, np.inf), 0.0, 0.0, 0.0, 0.0)
     return ContactState(
-        scene.digest(), 0.0, (body, body), None, "", None, 0.0, 0.0, 0.0, 0, 1.0, Trends.fresh(), Outputs()
+        scene.digest(), 0.0, (body, body), None, "", None, 0.0, 0.0, 0.0, 0, 1.0, Trends.fresh(), None, Outputs()
     )

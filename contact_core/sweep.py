@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from .contact import ContactFields
 from .film.instant import Grid
 from .film.outputs import disc, film_outputs, open_outputs
+from .friction import Film, derivatives
 from .patches import on_patch, patch_nodes
 from .reference import SmoothContact, hamrock_dowson
 from .scene import OperatingPoint, Scene
@@ -32,6 +33,7 @@ class Sweep:
     missed: int = 0  # solutions that stayed short of the tolerance
     fallbacks: int = 0
     flags: RangeFlag = field(default_factory=lambda: RangeFlag(0))
+    sheared: Film | None = None  # the last instant's
 
     @staticmethod
     def before(state: ContactState) -> "Sweep":
@@ -65,6 +67,7 @@ class Sweep:
             self.pressures[i][:] += on_patch(fields.solid_pressure, patch_nodes(scene, body))
             self.exposures[i][:] += exposures[i]
         self.outputs.append(_observed(scene, op, fields))
+        self.sheared = fields.sheared
         self.iterations += fields.iterations
         self.mixed += fields.route == "mixed"
         self.missed += not fields.converged
@@ -80,13 +83,16 @@ class Sweep:
         passes: tuple[float, float],
     ) -> list[Array]:
         """Note which points are exposed in an instant; return the exposure on both patches."""
-        shear = np.abs(fields.fluid_shear + fields.solid_shear)
-        exposure = scene.tribofilm.exposure(fields.solid_pressure, shear, op.sliding_speed)
+        exposure = scene.tribofilm.exposure(fields.solid_pressure, fields.shear, float(op.slides))
         found = [on_patch(exposure, patch_nodes(scene, body)) for body in state.bodies]
         for since, exposed, part in zip(self.since, found, passes, strict=True):
             since += part
             since[exposed > 0.0] = 0.0
         return found
+
+    def slopes(self, scene: Scene, op: OperatingPoint) -> dict[str, float]:
+        """Derivatives of the friction in the last instant."""
+        return derivatives(scene, op, self.sheared) if self.sheared else {}
 
     def means(self) -> dict[str, float]:
         """Mean outputs of the instants."""
@@ -101,7 +107,14 @@ class Sweep:
 def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[str, float]:
     """The outputs of one instant."""
     cell = scene.film.spacing**2
-    seen = {"flash_temperature_rise": fields.flash_rise}
+    found, warm = fields.friction, fields.temperatures
+    seen = {
+        "friction_force": found.force_solid + found.force_fluid,
+        "friction_solid": found.force_solid,
+        "spin_torque": found.spin_torque,
+        "flash_temperature_rise": warm.flash_rise,
+        "heat_flow_1": warm.into_1,
+    }
     grid = Grid(fields.x, fields.y)
     formula, sigma = 0.0, 0.0
     if op.load > 0.0:
@@ -111,7 +124,6 @@ def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[s
         slope = np.gradient(fields.fluid_pressure, scene.film.spacing, axis=1)
         seen |= film_outputs(grid, fields.film, fields.gap, op.load, hertz)
         seen |= {
-            "friction_force": -float((fields.fluid_shear + fields.solid_shear).sum()) * cell,
             "rolling_resistance": float((0.5 * fields.gap * slope).sum()) * cell,
             "contact_area_ratio_disc": float((fields.solid_pressure[inside] > 0.0).mean()),
             "contact_load_ratio_disc": float(fields.solid_pressure[inside].sum() / carried) if carried > 0.0 else 0.0,
@@ -120,7 +132,7 @@ def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[s
         formula = _formula_film(scene, op)
     else:
         seen |= open_outputs(grid, fields.film, fields.gap)
-        none = ("friction_force", "rolling_resistance", "contact_area_ratio_disc", "contact_load_ratio_disc")
+        none = ("rolling_resistance", "contact_area_ratio_disc", "contact_load_ratio_disc")
         seen |= dict.fromkeys(none, 0.0)
     for name, film in (("lambda_ratio", seen["h_c"]), ("lambda_conventional", formula)):
         seen[name] = min(film / sigma, _LAMBDA_CAP) if sigma > 0.0 else _LAMBDA_CAP

@@ -1,7 +1,7 @@
 """What a film has to be solved for and what comes of it, in SI. Arrays [ny, nx], x along entrainment."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,15 +88,19 @@ class FilmState:
     solid: Mask
     mass: Array  # density ratio times film thickness
     rigid_gap: float  # gap of the undeformed, smooth bodies at the centre
+    # temperature of the film above the inlet's [K]; [1, 1] if it is the same everywhere
+    warmth: Array = field(default_factory=lambda: np.zeros((1, 1)))
 
     def __post_init__(self) -> None:
-        for array in (self.pressure, self.fluid, self.solid, self.mass):
+        for array in (self.pressure, self.fluid, self.solid, self.mass, self.warmth):
             array.setflags(write=False)
 
     def mirrored(self) -> "FilmState":
         """The state seen from the other side."""
-        pressure, fluid, mass = (np.ascontiguousarray(f[:, ::-1]) for f in (self.pressure, self.fluid, self.mass))
-        return FilmState(pressure, fluid, np.ascontiguousarray(self.solid[:, ::-1]), mass, self.rigid_gap)
+        pressure, fluid, mass, warmth = (
+            np.ascontiguousarray(f[:, ::-1]) for f in (self.pressure, self.fluid, self.mass, self.warmth)
+        )
+        return FilmState(pressure, fluid, np.ascontiguousarray(self.solid[:, ::-1]), mass, self.rigid_gap, warmth)
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """Temperature rise of the real contacts above the bulk."""
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +10,35 @@ from ..quantities import parameter
 
 
 @dataclass(frozen=True)
-class NoHeat:
+class Temperatures:
+    surface_1: Any
+    surface_2: Any
+    film: Any
+    into_1: float
+    into_2: float
+    flash_rise: float
+    solved: bool = True
+
+
+class OilBulk:
+    def bodies(self, oil, inputs, stored):
+        return oil, oil
+
+    def after(self, temperatures, heat, oil, dt):
+        return None
+
+
+class _S:
+    bulk = OilBulk()
+    warms_film = False
+
+    def temperatures(self, q, gap, solid, inside, spacing, speeds, us, bodies, k):
+        p = float(q.sum()) * spacing**2
+        return Temperatures(bodies[0], bodies[1], sum(bodies) / 2, p / 2, p / 2, 0.0)
+
+
+@dataclass(frozen=True)
+class NoHeat(_S):
     """The contacts are as warm as the oil."""
 
     name: ClassVar[str] = "none"
@@ -24,7 +52,7 @@ class NoHeat:
 
 
 @dataclass(frozen=True)
-class FlashTemperature:
+class FlashTemperature(_S):
     """Average rise over a circular spot that moves at the sliding speed over both bodies.
 
     Azam's equation (5-7), the Tian-Kennedy average for a uniform source:

@@ -1,7 +1,7 @@
 """Removal of the solids."""
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ..quantities import parameter
 
 Array = NDArray[np.float64]
-Speeds = tuple[float, float]
+Speeds = tuple[float | Array, float]
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class Archard:
         """Dimensionless wear coefficient K under a tribofilm of `cover` (0 to 1) of its full thickness."""
         return self.bare + (self.film - self.bare) * cover
 
-    def slide(self, speeds: Speeds, body: int) -> float:
+    def slide(self, speeds: Speeds, body: int) -> Any:
         """Speed [m/s] that wears body 1 (`body` = 0) or 2 (1) at the surface speeds (u1, u2) [m/s]."""
         return abs(speeds[body]) if self.sliding == "surface_speed" else abs(speeds[0] - speeds[1])
 

@@ -232,7 +232,7 @@ def test_sliding_without_entrainment_is_dry_and_rubs():
     assert not fields.fluid_pressure.any()
     friction = fields.solid_shear.sum() * scene.film.spacing**2
     assert friction == pytest.approx(scene.boundary_friction.bare * 77.85, rel=1e-6)
-    assert fields.flash_rise > 0.0
+    assert fields.temperatures.flash_rise > 0.0
 
 
 def test_pure_rolling_makes_neither_shear_nor_flash():
@@ -241,7 +241,7 @@ def test_pure_rolling_makes_neither_shear_nor_flash():
     assert solid_share(fields) > 0.0
     assert not fields.fluid_shear.any()
     assert not fields.solid_shear.any()
-    assert fields.flash_rise == 0.0
+    assert fields.temperatures.flash_rise == 0.0
 
 
 def test_shear_is_odd_in_sliding():
@@ -261,7 +261,7 @@ def test_without_load_the_bodies_just_touch_and_nothing_presses():
     for name in ("pressure", "fluid_pressure", "solid_pressure", "fluid_shear", "solid_shear", "overlap"):
         assert not getattr(fields, name).any(), name
     assert fields.gap.min() == pytest.approx(scene.film.floor, rel=1e-6)
-    assert fields.flash_rise == 0.0
+    assert fields.temperatures.flash_rise == 0.0
 
 
 def test_pressures_stay_below_the_hardness_of_film_and_solid():

@@ -1,0 +1,111 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from cheap_scene import cheap
+from contact_core.film.instant import Grid
+from contact_core.friction import Film, derivatives, friction, shear, sliding
+
+SCENE, _, POINT = cheap()
+GRID = Grid.centred(161, 161, 2e-6)
+RADIUS = 150e-6
+INSIDE = np.sqrt(np.maximum(1.0 - GRID.radius_2 / RADIUS**2, 0.0))
+HERTZ = 1e9 * INSIDE
+LOAD = float(HERTZ.sum()) * GRID.spacing**2
+NOTHING = np.zeros_like(HERTZ)
+
+
+def dry(**more):
+    return Film(GRID, NOTHING, HERTZ, np.full_like(HERTZ, 1e-9), NOTHING, POINT.temperature)
+
+
+def wet(share=0.3):
+    gap = 40e-9 + 20e-9 * np.cos(GRID.x[None, :] / 1e-5) * np.cos(GRID.y[:, None] / 1.3e-5)
+    return Film(GRID, (1.0 - share) * HERTZ, share * HERTZ, gap, 0.4 * INSIDE, POINT.temperature)
+
+
+def at(**values):
+    return replace(POINT, load=LOAD, **values)
+
+
+def force(op, film):
+    found = friction(shear(SCENE, op, film), film.grid)
+    return found.force_solid + found.force_fluid
+
+
+def test_solids_alone_rub_with_the_coefficient_of_the_boundary_law():
+    found = friction(shear(SCENE, at(speed_1=0.2, speed_2=0.1), dry()), GRID)
+    assert found.force_solid == pytest.approx(-SCENE.boundary_friction.bare * LOAD, rel=1e-12)
+    assert found.force_fluid == found.spin_torque == 0.0
+
+
+def test_friction_is_odd_in_sliding_and_zero_without():
+    film = wet()
+    assert force(at(speed_1=0.2, speed_2=0.1), film) == -force(at(speed_1=0.1, speed_2=0.2), film)
+    assert force(at(speed_1=0.1, speed_2=0.1), film) == 0.0
+
+
+def test_a_ball_that_only_spins_feels_the_torque_of_hertzs_pressure():
+    found = friction(shear(SCENE, at(speed_1=0.1, speed_2=0.1, spin=200.0), dry()), GRID)
+    assert found.spin_torque == pytest.approx(-3.0 * np.pi / 16.0 * SCENE.boundary_friction.bare * LOAD * RADIUS, rel=2e-3)
+    assert found.force_solid == pytest.approx(0.0, abs=1e-12 * LOAD)
+
+
+@pytest.mark.parametrize("spin", [0.0, 300.0, -5e3])
+def test_the_power_is_what_force_and_torque_take_from_the_motion(spin):
+    op = at(speed_1=0.26, speed_2=0.24, spin=spin)
+    found = friction(shear(SCENE, op, wet()), GRID)
+    lost = -(found.force_solid + found.force_fluid) * op.sliding_speed - found.spin_torque * spin
+    assert found.power == pytest.approx(lost, rel=1e-12)
+    assert found.power > 0.0
+
+
+def test_much_spin_turns_friction_away_from_the_sliding():
+    forces = [abs(force(at(speed_1=0.26, speed_2=0.24, spin=spin), dry())) for spin in (0.0, 1e2, 1e3, 1e4)]
+    assert forces == sorted(forces, reverse=True)
+    assert forces[-1] < 0.05 * forces[0]
+
+
+def test_spin_has_no_direction_of_its_own():
+    left, right = (friction(shear(SCENE, at(spin=spin), wet()), GRID) for spin in (500.0, -500.0))
+    assert left.power == pytest.approx(right.power, rel=1e-12)
+    assert left.spin_torque == pytest.approx(-right.spin_torque, rel=1e-12)
+    speed, along_x, along_y = sliding(at(speed_1=0.1, speed_2=0.1, spin=100.0), GRID)
+    assert speed[80, 80] == 0.0
+    assert (along_x[80, 80], along_y[80, 80]) == (1.0, 0.0)
+    assert speed[80, 160] == pytest.approx(100.0 * GRID.x[160], rel=1e-14)
+    assert along_y[80, 160] == 1.0  # where x > 0 a body that turns from x to y moves along +y
+
+
+NAMES = ("speed_1", "speed_2", "load", "temperature")
+
+
+@pytest.mark.parametrize("spin", [0.0, 400.0])
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(("speed_1", "speed_2"), [(0.2, 0.1), (0.1, 0.4), (0.2000005, 0.2)])
+def test_derivatives_are_those_of_a_held_film(name, spin, speed_1, speed_2):
+    op, film = at(speed_1=speed_1, speed_2=speed_2, spin=spin), wet()
+
+    def moved(by):
+        value = getattr(op, name) + by
+        if name == "load":
+            scale = value / LOAD
+            return force(replace(op, load=value), replace(film, fluid=film.fluid * scale, solid=film.solid * scale))
+        if name == "temperature":
+            return force(op, replace(film, temperature=value))
+        return force(replace(op, **{name: value}), film)
+
+    step = {"load": 1e-4 * LOAD, "temperature": 0.01}.get(name, 1e-9 if spin == 0.0 else 1e-7)
+    expected = (moved(step) - moved(-step)) / (2.0 * step)
+    assert derivatives(SCENE, op, film)[f"dfriction_d{name}"] == pytest.approx(expected, rel=1e-3)
+    assert abs(expected) > 0.0
+
+
+def test_solids_and_oil_share_the_friction():
+    op = at(speed_1=0.2, speed_2=0.1)
+    both = friction(shear(SCENE, op, wet(0.3)), GRID)
+    cover = 0.4 * INSIDE
+    law = SCENE.boundary_friction
+    solid = float(((law.bare + (law.film - law.bare) * cover) * 0.3 * HERTZ).sum()) * GRID.spacing**2
+    assert both.force_solid == pytest.approx(-solid, rel=1e-12)
+    assert both.force_fluid < 0.0
