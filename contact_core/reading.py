@@ -147,10 +147,13 @@ def _with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
 
 
 def _merged(base: Mapping[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
+    """Both tables, `over` on top; another `model` in it leaves nothing of the law below."""
     merged = dict(base)
     for key, value in over.items():
-        both = isinstance(value, Mapping) and isinstance(merged.get(key), Mapping)
-        merged[key] = _merged(merged[key], value) if both else value
+        below = merged.get(key)
+        both = isinstance(value, Mapping) and isinstance(below, Mapping)
+        same_law = both and value.get("model", below.get("model")) == below.get("model")
+        merged[key] = _merged(below, value) if same_law else value
     return merged
 
 
