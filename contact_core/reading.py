@@ -111,8 +111,10 @@ def _value(hint: Any, raw: Any, full: str, f: "Field[Any]") -> Any:
 
 
 def _build_law(models: tuple[type, ...], raw: Any, path: str) -> Any:
+    if isinstance(raw, str):
+        raw = {"model": raw}
     if not isinstance(raw, Mapping):
-        raise SceneError(f"[{path}] must be a table with a 'model'.")
+        raise SceneError(f"[{path}] must be a table with a 'model', or the model's name.")
     table, names = _with_named_set(dict(raw), path), {m.name: m for m in models}  # type: ignore[attr-defined]
     model = table.pop("model", None)
     if model not in names:

@@ -14,7 +14,7 @@ from .errors import OperatingPointError, SceneError
 from .film import Deterministic
 from .laws.boundary_friction import FilmBlend
 from .laws.density import DowsonHigginson, Incompressible
-from .laws.heat import FlashTemperature, NoHeat
+from .laws.heat import FlashTemperature, NoHeat, TemperatureField
 from .laws.plasticity import ElasticPerfectlyPlastic
 from .laws.rheology import Carreau, Eyring, Newtonian
 from .laws.tribofilm import Andersson, Ghanbarzadeh, NoTribofilm
@@ -189,7 +189,7 @@ class Scene:
     lubricant: Lubricant
     plasticity: ElasticPerfectlyPlastic
     boundary_friction: FilmBlend
-    heat: NoHeat | FlashTemperature
+    heat: NoHeat | FlashTemperature | TemperatureField
     tribofilm: NoTribofilm | Ghanbarzadeh | Andersson
     wear: NoWear | Archard
     film: Deterministic

@@ -1,9 +1,10 @@
 """Physics in slots: each law is a frozen dataclass with a `name`, its `source`, its parameters and array functions.
 
-A slot's table in a scene says `model = "<name>"`. A new law is one class and one entry in its module's LAWS.
+A slot's table in a scene says `model = "<name>"`; for a law without parameters the name alone will do. A new law is one
+class and one entry in its module's LAWS.
 """
 
-from . import boundary_friction, density, heat, load_sharing, plasticity, rheology, tribofilm, viscosity, wear
+from . import boundary_friction, bulk, density, heat, load_sharing, plasticity, rheology, tribofilm, viscosity, wear
 
 SLOTS: dict[str, tuple[type, ...]] = {
     "viscosity": viscosity.LAWS,
@@ -12,6 +13,7 @@ SLOTS: dict[str, tuple[type, ...]] = {
     "plasticity": plasticity.LAWS,
     "boundary_friction": boundary_friction.LAWS,
     "heat": heat.LAWS,
+    "bulk": bulk.LAWS,
     "tribofilm": tribofilm.LAWS,
     "wear": wear.LAWS,
     "sharing": load_sharing.LAWS,

@@ -1,80 +1,212 @@
-"""Temperature rise of the real contacts above the bulk."""
+"""Temperatures of the surfaces and of the film between them, and where the heat of friction goes.
+
+All laws answer to `temperatures`. Its arguments: `dissipation` [W/m2], heat of friction per area; `gap` [m]; `solid`,
+nodes where solids touch; `inside`, nodes under pressure; `spacing` [m] of the grid; `speeds` (u_1, u_2) [m/s] of the
+surfaces along x, relative to the contact; `sliding_speed` u_1 - u_2; `bodies` (T_1, T_2), their bulk temperatures [K];
+`oil_conductivity` [W/(m K)]. Arrays are [ny, nx].
+"""
 
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import ndimage
 
+from ..kernels.moving_source import MovingSurface, partition
 from ..quantities import parameter
+from .bulk import InputBulk, LumpedBulk, OilBulk
+
+Array = NDArray[np.float64]
+Nodes = NDArray[np.bool_]
+Pair = tuple[float, float]
+
+_AS_THE_OIL = OilBulk()
+_MATCHED = 1e-6  # mismatch up to which temperatures count as solved; the solver aims at 1e-8
 
 
 @dataclass(frozen=True)
 class Temperatures:
-    surface_1: Any
-    surface_2: Any
-    film: Any
-    into_1: float
+    """Temperatures [K], one number or [ny, nx], and the heat [W] that leaves the contact through each body."""
+
+    surface_1: float | Array
+    surface_2: float | Array
+    film: float | Array  # mean over its thickness
+    into_1: float  # into_1 + into_2: all that is dissipated
     into_2: float
-    flash_rise: float
-    solved: bool = True
+    flash_rise: float  # of the surfaces above the bulk, mean over the real contact and both bodies
+    solved: bool
 
 
-class OilBulk:
-    def bodies(self, oil, inputs, stored):
-        return oil, oil
-
-    def after(self, temperatures, heat, oil, dt):
-        return None
+def _flat(bodies: Pair, into_1: float, into_2: float) -> Temperatures:
+    """Surfaces as warm as their bodies."""
+    return Temperatures(*bodies, 0.5 * (bodies[0] + bodies[1]), into_1, into_2, 0.0, True)
 
 
-class _S:
-    bulk = OilBulk()
-    warms_film = False
+def _conductivity(body: int) -> Any:
+    return parameter("W/(m K)", f"thermal conductivity of body {body}", above=0.0, most=1e4)
 
-    def temperatures(self, q, gap, solid, inside, spacing, speeds, us, bodies, k):
-        p = float(q.sum()) * spacing**2
-        return Temperatures(bodies[0], bodies[1], sum(bodies) / 2, p / 2, p / 2, 0.0)
+
+def _diffusivity(body: int) -> Any:
+    return parameter("m2/s", f"thermal diffusivity of body {body}", above=0.0, most=1.0)
+
+
+def _inlet_shear() -> Any:
+    text = "thinning of the film by shear heating in the inlet"
+    return parameter("", text, choices=("none", "gupta"), default="none")
 
 
 @dataclass(frozen=True)
-class NoHeat(_S):
-    """The contacts are as warm as the oil."""
+class NoHeat:
+    """The surfaces are as warm as their bodies, and these share the heat in halves."""
 
     name: ClassVar[str] = "none"
     source: ClassVar[str] = ""
+    inlet_shear: ClassVar[str] = "none"
+    warms_film: ClassVar[bool] = False  # whether the oil in the contact is at another temperature than in the inlet
 
-    def rise(
-        self, radius: NDArray[np.float64], shear: NDArray[np.float64], sliding_speed: float
-    ) -> NDArray[np.float64]:
-        """Zeros in the shape of `radius`."""
-        return np.zeros_like(radius)
+    bulk: OilBulk | InputBulk | LumpedBulk = _AS_THE_OIL
+
+    def temperatures(
+        self,
+        dissipation: Array,
+        gap: Array,
+        solid: Nodes,
+        inside: Nodes,
+        spacing: float,
+        speeds: Pair,
+        sliding_speed: float,
+        bodies: Pair,
+        oil_conductivity: float,
+    ) -> Temperatures:
+        """Temperatures and heat; arguments as in the module's docstring. Makes no array."""
+        half = 0.5 * float(dissipation.sum()) * spacing**2
+        return _flat(bodies, half, half)
 
 
 @dataclass(frozen=True)
-class FlashTemperature(_S):
-    """Average rise over a circular spot that moves at the sliding speed over both bodies.
+class FlashTemperature:
+    """Average rise over circular spots that move at the sliding speed over both bodies.
 
     Azam's equation (5-7), the Tian-Kennedy average for a uniform source:
-    dT = 1.22 r tau u_s / { sqrt(pi) [ K1 sqrt(0.6575 + u_s r/(2 k1)) + K2 sqrt(0.6575 + u_s r/(2 k2)) ] }.
+    dT = 1.22 r q / { sqrt(pi) [ K1 sqrt(0.6575 + u_s r/(2 k1)) + K2 sqrt(0.6575 + u_s r/(2 k2)) ] }, q = tau u_s.
+    The equation takes u_s for both bodies; `TemperatureField` takes each body's own speed. A spot is a connected set of
+    contact nodes, r the radius of the circle of its area. The two terms in brackets also say how the bodies share its
+    heat; the heat of the oil goes to them in halves, and the film is as warm as the bodies are in the mean.
     """
 
     name: ClassVar[str] = "flash"
     source: ClassVar[str] = "Tian & Kennedy 1994, doi:10.1115/1.2927035"
+    warms_film: ClassVar[bool] = False
 
-    conductivity_1: float = parameter("W/(m K)", "thermal conductivity of body 1", above=0.0, most=1e4)
-    conductivity_2: float = parameter("W/(m K)", "thermal conductivity of body 2", above=0.0, most=1e4)
-    diffusivity_1: float = parameter("m2/s", "thermal diffusivity of body 1", above=0.0, most=1.0)
-    diffusivity_2: float = parameter("m2/s", "thermal diffusivity of body 2", above=0.0, most=1.0)
+    conductivity_1: float = _conductivity(1)
+    conductivity_2: float = _conductivity(2)
+    diffusivity_1: float = _diffusivity(1)
+    diffusivity_2: float = _diffusivity(2)
+    inlet_shear: str = _inlet_shear()
+    bulk: OilBulk | InputBulk | LumpedBulk = _AS_THE_OIL
 
-    def rise(
-        self, radius: NDArray[np.float64], shear: NDArray[np.float64], sliding_speed: float
-    ) -> NDArray[np.float64]:
+    def rise(self, radius: Array, shear: Array, sliding_speed: float) -> Array:
         """Temperature rise [K] of spots of `radius` [m] under a mean |shear stress| [Pa]."""
-        speed = abs(sliding_speed)
+        into_1, into_2 = self._conduction(radius, sliding_speed)
+        return np.abs(shear * sliding_speed) / (into_1 + into_2)
+
+    def temperatures(
+        self,
+        dissipation: Array,
+        gap: Array,
+        solid: Nodes,
+        inside: Nodes,
+        spacing: float,
+        speeds: Pair,
+        sliding_speed: float,
+        bodies: Pair,
+        oil_conductivity: float,
+    ) -> Temperatures:
+        """Temperatures and heat; arguments as in the module's docstring."""
+        total = float(dissipation.sum()) * spacing**2
+        if total == 0.0 or not solid.any():
+            return _flat(bodies, 0.5 * total, 0.5 * total)
+        spots, count = ndimage.label(solid)
+        nodes = np.bincount(spots.ravel(), minlength=count + 1)[1:]
+        heat = np.bincount(spots.ravel(), dissipation.ravel(), count + 1)[1:]
+        into_1, into_2 = self._conduction(np.sqrt(nodes * spacing**2 / np.pi), sliding_speed)
+        rise = heat / nodes / (into_1 + into_2)
+        beyond = float((heat * (into_1 / (into_1 + into_2) - 0.5)).sum()) * spacing**2
+        on_nodes = np.append(0.0, rise)[spots]
+        return Temperatures(
+            surface_1=bodies[0] + on_nodes,
+            surface_2=bodies[1] + on_nodes,
+            film=0.5 * (bodies[0] + bodies[1]),
+            into_1=0.5 * total + beyond,
+            into_2=0.5 * total - beyond,
+            flash_rise=float((rise * nodes).sum() / nodes.sum()),
+            solved=True,
+        )
+
+    def _conduction(self, radius: Array, sliding_speed: float) -> tuple[Array, Array]:
+        """Heat flux per mean rise of a spot [W/(m2 K)] into each body."""
+        speed, scale = abs(sliding_speed), np.sqrt(np.pi) / (1.22 * radius)
         into_1 = self.conductivity_1 * np.sqrt(0.6575 + speed * radius / (2.0 * self.diffusivity_1))
         into_2 = self.conductivity_2 * np.sqrt(0.6575 + speed * radius / (2.0 * self.diffusivity_2))
-        return 1.22 * radius * np.abs(shear) * speed / (np.sqrt(np.pi) * (into_1 + into_2))
+        return scale * into_1, scale * into_2
 
 
-LAWS = (NoHeat, FlashTemperature)
+@dataclass(frozen=True)
+class TemperatureField:
+    """Temperature of both surfaces node by node, each moving at its own speed through the heat it takes up, steady.
+
+    The film dissipates evenly over its thickness and conducts across it, so the surfaces' temperatures fit its own at
+    every node: where solids touch the gap is the film's floor, which conducts so well that both are equal. Only nodes
+    under pressure conduct. Around them the gap is not sure to be full of oil, and what bodies of different temperature
+    exchange there is no matter of the contact: it depends on where the grid ends. Such nodes give the heat of their oil
+    to the bodies in halves.
+    """
+
+    name: ClassVar[str] = "field"
+    source: ClassVar[str] = "Jaeger, Proc. R. Soc. N. S. W. 76 (1942) 203; Carslaw & Jaeger 1959, section 10.7"
+    warms_film: ClassVar[bool] = True
+
+    conductivity_1: float = _conductivity(1)
+    conductivity_2: float = _conductivity(2)
+    diffusivity_1: float = _diffusivity(1)
+    diffusivity_2: float = _diffusivity(2)
+    inlet_shear: str = _inlet_shear()
+    bulk: OilBulk | InputBulk | LumpedBulk = _AS_THE_OIL
+
+    def temperatures(
+        self,
+        dissipation: Array,
+        gap: Array,
+        solid: Nodes,
+        inside: Nodes,
+        spacing: float,
+        speeds: Pair,
+        sliding_speed: float,
+        bodies: Pair,
+        oil_conductivity: float,
+    ) -> Temperatures:
+        """Temperatures and heat; arguments as in the module's docstring."""
+        difference = bodies[1] - bodies[0]
+        if not dissipation.any() and (difference == 0.0 or not inside.any()):
+            return _flat(bodies, 0.0, 0.0)
+        shape = (gap.shape[0], gap.shape[1])
+        surfaces = (
+            MovingSurface(shape, spacing, self.conductivity_1, self.diffusivity_1, speeds[0]),
+            MovingSurface(shape, spacing, self.conductivity_2, self.diffusivity_2, speeds[1]),
+        )
+        found = partition(dissipation, gap / oil_conductivity, inside, difference, surfaces)
+        surface_1, surface_2 = bodies[0] + found.rise_1, bodies[1] + found.rise_2
+        rise = 0.5 * (found.rise_1 + found.rise_2)
+        return Temperatures(
+            surface_1=surface_1,
+            surface_2=surface_2,
+            film=0.5 * (surface_1 + surface_2) + dissipation * gap / (12.0 * oil_conductivity),
+            into_1=float(found.into_1.sum()) * spacing**2,
+            into_2=float(found.into_2.sum()) * spacing**2,
+            flash_rise=float(rise[solid].mean()) if solid.any() else 0.0,
+            solved=found.mismatch <= _MATCHED,
+        )
+
+
+LAWS = (NoHeat, FlashTemperature, TemperatureField)

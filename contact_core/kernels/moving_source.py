@@ -1,0 +1,185 @@
+"""Surface temperature of a half space that moves through heat, constant on square cells, steady; and of two of them
+with oil between.
+
+Sources: Jaeger, Proc. R. Soc. N. S. W. 76 (1942) 203; Carslaw & Jaeger, Conduction of Heat in Solids, 1959, section
+10.7. A point that takes up heat at the rate Q warms the surface by Q exp[-u (r - x) / (2 k)] / (2 pi K r), x along the
+motion of the material: K conductivity [W/(m K)], k diffusivity [m2/s], u speed [m/s].
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+import scipy.fft
+from numpy.typing import NDArray
+from scipy.sparse.linalg import LinearOperator, bicgstab
+from scipy.special import erf
+
+from .half_space import influence
+
+Array = NDArray[np.float64]
+Spectrum = NDArray[np.complex128]
+
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
+_BATCH = 64  # panels at once, which bounds the memory
+_FAR = 1e16  # cells; heat that has spread over so many no longer counts
+_DEEP = 6.0  # erfc(6) = 2e-17
+
+
+def moving_influence(ny: int, nx: int, peclet: float) -> Array:
+    """Coefficients [ny, 2 nx - 1] of unit square cells: rows at the distances 0 ... ny - 1 across the motion, columns
+    at the distances -(nx - 1) ... nx - 1 along x.
+
+    They are the integrals of exp[-peclet (r - x)] / r over the cell, peclet = u spacing / (2 k); the rise is
+    spacing / (2 pi K) times their sum with the flux. Heat taken up a time t ago has moved by u t and spread to a
+    Gaussian, so the integral over a cell is one over s = 2 sqrt(k t) / spacing of a product of differences of error
+    functions along and across: one quadrature for all distances, without the singularity.
+    """
+    if peclet == 0.0:
+        half = influence(ny, nx)
+        return np.hstack((half[:, :0:-1], half))
+    if peclet < 0.0:
+        return moving_influence(ny, nx, -peclet)[:, ::-1]
+    along, across = np.arange(-nx, nx) + 0.5, np.arange(-1, ny) + 0.5
+    coefficients = np.zeros((ny, 2 * nx - 1))
+    for s, weights in _quadrature(nx, peclet):
+        in_x = np.diff(erf(along / s - 0.5 * peclet * s), axis=1)
+        in_y = np.diff(erf(across / s), axis=1)
+        coefficients += (in_y * weights).T @ in_x
+    return 0.5 * np.sqrt(np.pi) * coefficients
+
+
+def _quadrature(nx: int, peclet: float) -> Iterator[tuple[Array, Array]]:
+    """Gauss nodes and weights [n, 1] in panels of s: the error functions change over s itself or over 1 / peclet."""
+    end = min((_DEEP + np.sqrt(_DEEP**2 + 2.0 * peclet * nx)) / peclet, _FAR)
+    widest = 4.0 / peclet
+    edges = [0.0, min(0.1, widest)]
+    while edges[-1] < end:
+        edges.append(edges[-1] + min(0.5 * edges[-1], widest))
+    for first in range(0, len(edges) - 1, _BATCH):
+        batch = np.array(edges[first : first + _BATCH + 1])[:, None]
+        half = 0.5 * np.diff(batch, axis=0)
+        yield (batch[:-1] + half * (1.0 + _NODES)).reshape(-1, 1), (half * _WEIGHTS).reshape(-1, 1)
+
+
+@lru_cache(maxsize=16)
+def _spectrum(ny: int, nx: int, peclet: float) -> Spectrum:
+    """Transform of the coefficients on a plane padded by zeros [even in y, long enough for all distances along x]."""
+    my, mx = scipy.fft.next_fast_len(2 * ny - 1), _row_length(nx)
+    kernel = np.zeros((my, mx))
+    coefficients = moving_influence(ny, nx, peclet)
+    kernel[:ny, :nx] = coefficients[:, nx - 1 :]
+    kernel[:ny, mx - nx + 1 :] = coefficients[:, : nx - 1]
+    kernel[my - ny + 1 :] = kernel[ny - 1 : 0 : -1]
+    spectrum = scipy.fft.rfft2(kernel)
+    spectrum.setflags(write=False)
+    return spectrum
+
+
+@dataclass(frozen=True)
+class MovingSurface:
+    """Surface of one body on a grid [ny, nx], moving along +x; linear and without memory."""
+
+    shape: tuple[int, int]
+    spacing: float  # [m]
+    conductivity: float  # [W/(m K)]
+    diffusivity: float  # [m2/s]
+    speed: float  # [m/s], of either sign
+
+    @property
+    def spectrum(self) -> Spectrum:
+        """Transform of the rise per flux [K m2/W] on the padded plane."""
+        return self._scale * _spectrum(*self.shape, self._peclet)
+
+    @property
+    def rise_of_cell(self) -> float:
+        """Rise of a cell per flux into itself alone [K m2/W]."""
+        return self._scale * float(moving_influence(1, 1, self._peclet)[0, 0])
+
+    @property
+    def _scale(self) -> float:
+        return self.spacing / (2.0 * np.pi * self.conductivity)
+
+    @property
+    def _peclet(self) -> float:
+        return 0.5 * self.speed * self.spacing / self.diffusivity
+
+    def rise(self, flux: Array) -> Array:
+        """Steady temperature rise [K] under a heat flux [W/m2], both [ny, nx]."""
+        return _filtered(flux, self.spectrum)
+
+
+def _filtered(field: Array, spectrum: Spectrum) -> Array:
+    """Zero-padded convolution of a field [ny, nx]; rows of zeros are not transformed."""
+    ny, nx = field.shape
+    my, mx = spectrum.shape[0], _row_length(nx)
+    rows = scipy.fft.fft(scipy.fft.rfft(field, mx, axis=1), my, axis=0, overwrite_x=True)
+    rows *= spectrum
+    rows = scipy.fft.ifft(rows, axis=0, overwrite_x=True)[:ny]
+    return np.asarray(scipy.fft.irfft(rows, mx, axis=1)[:, :nx])
+
+
+def _row_length(nx: int) -> int:
+    return scipy.fft.next_fast_len(2 * nx - 1, real=True)
+
+
+@dataclass(frozen=True)
+class Partition:
+    """How two surfaces share the heat of the film between them. Arrays [ny, nx]."""
+
+    into_1: Array  # heat flux into each body [W/m2]
+    into_2: Array
+    rise_1: Array  # of the surface above the body [K]
+    rise_2: Array
+    mismatch: float  # what the film's drop of temperature misses, rms over the rises' rms
+    convolutions: int
+
+
+def partition(
+    dissipation: Array,
+    resistance: Array,
+    inside: NDArray[np.bool_],
+    difference: float,
+    surfaces: tuple[MovingSurface, MovingSurface],
+    tolerance: float = 1e-8,
+    iterations: int = 200,
+) -> Partition:
+    """Share the heat that a film evenly over its thickness h dissipates [W/m2], so that both surfaces fit it.
+
+    `resistance` is h / (conductivity of the film) [m2 K/W], `difference` that of the bodies, T_2 - T_1 [K]. Body 1
+    takes up q_1 = q/2 + d and body 2 q_2 = q/2 - d with d = (T_2 - T_1) / resistance of the surfaces where `inside`,
+    else 0; so [resistance + G_1 + G_2] d = (G_2 - G_1) q/2 + difference, G_i being what `MovingSurface.rise` does.
+    Whatever d, no heat is lost. Stops when the mismatch is below `tolerance`, or at the latest after `iterations`.
+    """
+    one, two = surfaces
+    half = 0.5 * dissipation
+    rise_1, rise_2 = one.rise(half), two.rise(half)
+    wanted = (rise_2 - rise_1)[inside] + difference
+    if not wanted.any():
+        return Partition(half, half, rise_1, rise_2, 0.0, 2)
+    scale = float(np.linalg.norm((rise_1 + rise_2)[inside] + abs(difference)))
+    both, film = one.spectrum + two.spectrum, resistance[inside]
+    conducted, calls = np.zeros_like(half), 0
+
+    def drop(flux: Array) -> Array:
+        nonlocal calls
+        calls += 1
+        conducted[inside] = flux
+        return film * flux + _filtered(conducted, both)[inside]
+
+    diagonal = film + one.rise_of_cell + two.rise_of_cell
+    size = (wanted.size, wanted.size)
+    conducted[inside], _ = bicgstab(
+        LinearOperator(size, drop, dtype=np.float64),
+        wanted,
+        rtol=0.0,
+        atol=tolerance * scale,
+        maxiter=iterations,
+        M=LinearOperator(size, lambda flux: flux / diagonal, dtype=np.float64),
+    )
+    into_1 = half + conducted
+    into_2 = dissipation - into_1
+    rise_1, rise_2 = one.rise(into_1), two.rise(into_2)
+    missed = film * conducted[inside] - (rise_2 - rise_1)[inside] - difference
+    return Partition(into_1, into_2, rise_1, rise_2, float(np.linalg.norm(missed)) / scale, calls + 4)

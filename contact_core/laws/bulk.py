@@ -1,0 +1,79 @@
+"""Bulk temperature of the two bodies: what the heat of the contact comes on top of."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ..quantities import parameter
+
+Pair = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class OilBulk:
+    """Both bodies are as warm as the oil."""
+
+    name: ClassVar[str] = "oil"
+    source: ClassVar[str] = "assumed: bodies in thermal equilibrium with the oil"
+
+    def bodies(self, oil: float, inputs: tuple[float | None, float | None], stored: Pair | None) -> Pair:
+        """Bulk temperatures (T_1, T_2) [K] at an oil temperature [K]."""
+        return oil, oil
+
+    def after(self, temperatures: Pair, heat: Pair, oil: float, dt: float) -> Pair:
+        """Bulk temperatures [K] at the end of a step: the oil's."""
+        return oil, oil
+
+
+@dataclass(frozen=True)
+class InputBulk:
+    """The inputs body_temperature_1 and _2; a body without one is as warm as the oil."""
+
+    name: ClassVar[str] = "inputs"
+    source: ClassVar[str] = "given by the inputs"
+
+    def bodies(self, oil: float, inputs: tuple[float | None, float | None], stored: Pair | None) -> Pair:
+        """Bulk temperatures (T_1, T_2) [K] at an oil temperature and inputs [K]."""
+        first, second = inputs
+        return oil if first is None else first, oil if second is None else second
+
+    def after(self, temperatures: Pair, heat: Pair, oil: float, dt: float) -> Pair:
+        """Bulk temperatures [K] at the end of a step: as they were given."""
+        return temperatures
+
+
+@dataclass(frozen=True)
+class LumpedBulk:
+    """Each body is one heat capacity C that takes up the contact's heat Q and passes it on to the oil:
+    C dT/dt = Q - G (T - T_oil). Both bodies start as warm as the oil.
+    """
+
+    name: ClassVar[str] = "lumped"
+    source: ClassVar[str] = "Incropera & DeWitt, Fundamentals of Heat and Mass Transfer, ISBN 9780471457282, chapter 5"
+
+    heat_capacity_1: float = parameter("J/K", "C, heat capacity of body 1", above=0.0, most=1e9)
+    heat_capacity_2: float = parameter("J/K", "C, heat capacity of body 2", above=0.0, most=1e9)
+    conductance_1: float = parameter("W/K", "G, thermal conductance from body 1 to the oil", least=0.0, most=1e6)
+    conductance_2: float = parameter("W/K", "G, thermal conductance from body 2 to the oil", least=0.0, most=1e6)
+
+    def bodies(self, oil: float, inputs: tuple[float | None, float | None], stored: Pair | None) -> Pair:
+        """Bulk temperatures (T_1, T_2) [K]: those stored, or the oil's if there are none yet."""
+        return (oil, oil) if stored is None else stored
+
+    def after(self, temperatures: Pair, heat: Pair, oil: float, dt: float) -> Pair:
+        """Bulk temperatures [K] after `dt` [s] under constant heat [W] and oil temperature [K]; exact for any `dt`."""
+        first, second = temperatures
+        return (
+            _warmed(first, heat[0], self.heat_capacity_1, self.conductance_1, oil, dt),
+            _warmed(second, heat[1], self.heat_capacity_2, self.conductance_2, oil, dt),
+        )
+
+
+def _warmed(temperature: float, heat: float, capacity: float, conductance: float, oil: float, dt: float) -> float:
+    decay = conductance * dt / capacity
+    mean = -float(np.expm1(-decay)) / decay if decay > 0.0 else 1.0  # of exp(-decay) over the step
+    return temperature + (heat - conductance * (temperature - oil)) * dt / capacity * mean
+
+
+LAWS = (OilBulk, InputBulk, LumpedBulk)

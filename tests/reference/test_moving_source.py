@@ -1,0 +1,165 @@
+"""Moving heat sources against quadratures of Jaeger's integral that share nothing with the kernel."""
+
+import numpy as np
+import pytest
+from scipy.integrate import dblquad, quad
+from scipy.special import k0
+
+from contact_core.kernels.half_space import influence
+from contact_core.kernels.moving_source import MovingSurface, moving_influence
+from contact_core.reference import jaeger_band, jaeger_circle, tian_kennedy_circle
+
+CONDUCTIVITY, DIFFUSIVITY = 46.0, 1.25e-5
+
+
+def kernel(y: float, x: float, peclet: float) -> float:
+    """exp[-P (r - x)] / r; downstream r - x is y^2 / (r + x), which keeps its digits."""
+    r = float(np.hypot(x, y))
+    return float(np.exp(-peclet * (y * y / (r + x) if x > 0.0 else r - x)) / r)
+
+
+def cell(j: int, i: int, peclet: float) -> float:
+    """The kernel over the unit cell at the distance (j, i), not its own."""
+    low, weight = (0.0, 2.0) if j == 0 else (j - 0.5, 1.0)  # symmetric across
+    args = {"args": (peclet,), "epsabs": 1e-13, "epsrel": 1e-9}
+    return weight * dblquad(kernel, i - 0.5, i + 0.5, low, j + 0.5, **args)[0]
+
+
+def own_cell(peclet: float) -> float:
+    """The kernel over the cell around the point, in polar coordinates: exact along the radius."""
+
+    def part(angle: float) -> float:
+        reach = 0.5 / max(abs(np.cos(angle)), abs(np.sin(angle)))
+        rate = 2.0 * peclet * np.sin(0.5 * angle) ** 2
+        return float(-np.expm1(-rate * reach) / rate if rate * reach > 1e-14 else reach)
+
+    corners = [np.pi / 4, np.pi / 2, 3 * np.pi / 4, min(4.0 / np.sqrt(1.0 + peclet), 3.0)]
+    return 2.0 * quad(part, 0.0, np.pi, points=corners, limit=400, epsabs=0.0, epsrel=1e-12)[0]
+
+
+PECLETS = (1e-6, 0.03, 1.0, 30.0, 1e3)
+
+
+@pytest.mark.parametrize("peclet", PECLETS)
+def test_coefficients_are_integrals_of_jaegers_source_over_cells(peclet):
+    n = 41
+    found = moving_influence(n, n, peclet)
+    largest = found[0, n - 1]
+    assert largest == pytest.approx(own_cell(peclet), rel=1e-11)
+    errors = [
+        abs(found[j, n - 1 + i] - cell(j, i, peclet)) / largest
+        for j, i in ((0, 1), (0, -1), (1, 0), (1, 1), (2, -2), (0, 5), (1, 40), (40, 3), (0, -40))
+    ]
+    print(f"cell Peclet number {peclet:g}: largest error {max(errors):.1e} of the coefficient of the cell itself")
+    assert max(errors) < 1e-9
+
+
+def test_a_source_at_rest_has_loves_coefficients():
+    half = influence(7, 9)
+    found = moving_influence(7, 9, 0.0)
+    assert np.array_equal(found[:, 8:], half)
+    assert np.array_equal(found[:, 8::-1], half)
+    assert moving_influence(7, 9, 1e-12) == pytest.approx(found, rel=1e-9)
+
+
+@pytest.mark.parametrize("peclet", PECLETS)
+def test_a_reversed_motion_has_mirrored_coefficients_and_its_wake_downstream(peclet):
+    found = moving_influence(6, 8, peclet)
+    assert np.array_equal(moving_influence(6, 8, -peclet), found[:, ::-1])
+    assert np.all(found[:, 8:] >= found[:, 6::-1])
+    assert np.all(found[0, 8:] > found[0, 6::-1])
+
+
+@pytest.mark.parametrize("speed", [0.0, 0.7, -0.7])
+def test_a_rise_is_the_sum_over_all_cells(speed):
+    ny, nx, spacing = 7, 10, 3e-6
+    flux = np.random.default_rng(3).random((ny, nx)) * 1e9
+    table = moving_influence(ny, nx, speed * spacing / (2.0 * DIFFUSIVITY))
+    expected = np.zeros((ny, nx))
+    for j in range(ny):
+        for i in range(nx):
+            for m in range(ny):
+                expected[j, i] += table[abs(j - m), nx - 1 + i : i - 1 if i else None : -1] @ flux[m]
+    expected *= spacing / (2.0 * np.pi * CONDUCTIVITY)
+    found = MovingSurface((ny, nx), spacing, CONDUCTIVITY, DIFFUSIVITY, speed).rise(flux)
+    assert found == pytest.approx(expected, rel=1e-12)
+
+
+def circle(cells: int) -> np.ndarray:
+    """Share of each cell in a circle of a radius of so many cells; cells that the circle cuts by 32 x 32 points."""
+    n, fine = 2 * cells + 3, 32
+    at = (np.arange(n * fine) + 0.5) / fine - 0.5 * n
+    inside = (at[:, None] ** 2 + at[None, :] ** 2 < cells**2).reshape(n, fine, n, fine)
+    return inside.mean(axis=(1, 3))
+
+
+def resolved(peclet: float, cells: int) -> tuple[float, float]:
+    """Largest and mean rise under a circle of so many cells' radius, in q r / K."""
+    share = circle(cells)
+    spacing = 1e-5 / cells
+    speed = peclet * 2.0 * DIFFUSIVITY / 1e-5
+    rise = MovingSurface(share.shape, spacing, CONDUCTIVITY, DIFFUSIVITY, speed).rise(share)
+    unit = 1e-5 / CONDUCTIVITY
+    return float(rise.max() / unit), float((rise * share).sum() / share.sum() / unit)
+
+
+def test_jaegers_circle_at_rest_has_its_closed_form():
+    assert jaeger_circle(0.0) == pytest.approx((1.0, 8.0 / (3.0 * np.pi)), rel=1e-8)
+
+
+def test_jaegers_circle_at_high_speed_is_conduction_straight_into_the_body():
+    """2 q sqrt(k t / (pi K^2)) of the time under the source: largest at the end of the longest chord."""
+    largest, mean = jaeger_circle(1e6)
+    assert largest == pytest.approx(2.0 / np.sqrt(np.pi * 1e6), rel=1e-3)
+    assert mean == pytest.approx(1.2204 / np.sqrt(np.pi * 1e6), rel=1e-4)
+
+
+def test_a_static_circle_reaches_both_limits():
+    largest, mean = resolved(0.0, 40)
+    print(f"static circle, 40 cells: largest {largest:.5f} q r/K (1), mean {mean:.5f} q r/K (0.84883)")
+    assert largest == pytest.approx(1.0, rel=1e-3)
+    assert mean == pytest.approx(8.0 / (3.0 * np.pi), rel=1e-3)
+
+
+@pytest.mark.parametrize("peclet", [0.1, 1.0, 10.0, 100.0])
+def test_a_moving_circle_follows_jaegers_integral(peclet):
+    found, exact, formula = resolved(peclet, 40), jaeger_circle(peclet), tian_kennedy_circle(peclet)
+    for name, one, right, other in zip(("largest", "mean"), found, exact, formula, strict=True):
+        print(
+            f"Peclet number {peclet:g}, {name}: {one:.5f} q r/K, "
+            f"off Jaeger's integral {100 * (one / right - 1):+.3f} %; "
+            f"Tian and Kennedy's formula {100 * (other / right - 1):+.2f} %"
+        )
+    assert found == pytest.approx(exact, rel=3e-3)
+    # the formulas themselves are up to 2.2 % (largest) and 3.7 % (mean) off between their two exact limits
+    assert found == pytest.approx(formula, rel=0.01 if peclet >= 10.0 else 0.045)
+
+
+def test_a_long_strip_across_the_motion_is_jaegers_band():
+    half, across, peclet = 6, 90, 2.0  # half width and half length in cells
+    flux = np.zeros((2 * across + 1, 61))
+    flux[:, 30 - half : 31 + half] = 1.0
+    width = half + 0.5
+    speed = peclet * 2.0 * DIFFUSIVITY / (width * 1e-6)
+    rise = MovingSurface(flux.shape, 1e-6, CONDUCTIVITY, DIFFUSIVITY, speed).rise(flux)[across]
+    x = (np.arange(61) - 30) / width
+    exact = np.array([jaeger_band(float(at), peclet) for at in x]) * width * 1e-6 / CONDUCTIVITY
+    assert np.abs(rise - exact).max() < 2e-3 * exact.max()
+    assert rise.argmax() > 30
+
+
+def test_jaegers_band_is_the_integral_of_its_line_source():
+    for peclet, x in ((0.1, 3.0), (1.0, 0.3), (5.0, -1.05), (5.0, 1.0)):
+        line = lambda w: np.exp(w) * k0(abs(w)) if w else 0.0  # noqa: E731
+        ends = peclet * (x - 1.0), peclet * (x + 1.0)
+        middle = [0.0] if ends[0] < 0.0 < ends[1] else None
+        exact = quad(line, *ends, points=middle, limit=200)[0] / (np.pi * peclet)
+        assert jaeger_band(x, peclet) == pytest.approx(exact, rel=1e-8)
+
+
+def test_heat_at_rest_spreads_alike_in_all_directions():
+    source = np.zeros((9, 9))
+    source[4, 4] = 1e9
+    rise = MovingSurface((9, 9), 1e-6, CONDUCTIVITY, DIFFUSIVITY, 0.0).rise(source)
+    assert rise == pytest.approx(rise.T, rel=1e-12)
+    assert rise == pytest.approx(rise[::-1, ::-1], rel=1e-12)
