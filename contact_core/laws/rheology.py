@@ -9,10 +9,13 @@ from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import expit
 
 from ..quantities import parameter
 
 Array = NDArray[np.float64]
+
+_EASIEST = 500.0  # at e^500 times the Newtonian shear rate a film slips: no need to overflow
 
 
 def _limiting_coefficient() -> Any:
@@ -80,7 +83,7 @@ class Eyring(_Limited):
 
     def ease(self, stress: Array) -> Array:
         """How many times easier than a Newtonian one the oil shears at a stress [Pa]."""
-        x = np.minimum(np.abs(stress) / self.eyring_stress, 500.0)
+        x = np.minimum(np.abs(stress) / self.eyring_stress, _EASIEST)
         return np.where(x > 1e-4, np.sinh(x) / np.maximum(x, 1e-300), 1.0 + x * x / 6.0)
 
 
@@ -99,21 +102,27 @@ class Carreau(_Limited):
     limiting_coefficient: float = _limiting_coefficient()
 
     def _thinned(self, newtonian: Array) -> tuple[Array, Array]:
-        x2 = (newtonian / self.critical_stress) ** 2
-        factor = (1.0 + x2) ** (0.5 * (self.exponent - 1.0))
-        return newtonian * factor, factor * (1.0 + self.exponent * x2) / (1.0 + x2)
+        x = newtonian / self.critical_stress
+        root = np.hypot(1.0, x)
+        factor = root ** (self.exponent - 1.0)
+        return newtonian * factor, factor * (self.exponent + (1.0 - self.exponent) / root / root)
 
     def ease(self, stress: Array) -> Array:
-        """How many times easier than a Newtonian one the oil shears at a stress [Pa]."""
-        target = np.abs(stress) / self.critical_stress
-        x = np.maximum(target, target ** (1.0 / self.exponent))  # above the root, where Newton's method goes down to it
-        for _ in range(60):
-            factor = (1.0 + x * x) ** (0.5 * (self.exponent - 1.0))
-            step = (x * factor - target) / (factor * (1.0 + self.exponent * x * x) / (1.0 + x * x))
-            x = np.maximum(x - step, 0.0)
-            if np.all(np.abs(step) <= 1e-14 * (1.0 + x)):
+        """How many times easier than a Newtonian one the oil shears at a stress [Pa].
+
+        With y = x (1 + x^2)^((n - 1) / 2), v = ln(x / y) solves v = (1 - n) / 2 ln(1 + x^2), x = y e^v. The slope of
+        ln y by ln x falls from 1 to n as x rises, so that Newton's method from v = 0 rises to the root of any y.
+        """
+        target = np.log(np.maximum(np.abs(stress) / self.critical_stress, 1e-9))  # below that it is Newtonian
+        v = np.zeros_like(target)
+        for _ in range(100):
+            u = target + v
+            missing = 0.5 * (1.0 - self.exponent) * np.logaddexp(0.0, 2.0 * u) - v
+            slope = self.exponent + (1.0 - self.exponent) * expit(-2.0 * u)
+            v = np.minimum(v + missing / np.maximum(slope, 1e-12), _EASIEST)
+            if np.all((missing <= 1e-15 * (4.0 + np.abs(u))) | (v == _EASIEST)):
                 break
-        return np.where(target > 1e-8, x / np.maximum(target, 1e-300), 1.0)
+        return np.exp(v)
 
 
 LAWS = (Newtonian, Eyring, Carreau)

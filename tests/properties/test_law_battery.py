@@ -39,6 +39,7 @@ PLAUSIBLE = {
     "diffusivity_1": (1e-7, 1e-4),
     "diffusivity_2": (1e-7, 1e-4),
     "eyring_stress": (1e5, 1e8),
+    "critical_stress": (1e3, 1e9),
     "hardness": (1e9, 2e10),
     "film_hardness": (1e8, 1e9),
     "slip_speed": (1e-9, 1.0),
@@ -107,16 +108,39 @@ def test_a_density_starts_at_one_and_rises_with_pressure(law, pressure):
     assert np.all((found >= 1.0) & (found < 2.0))
 
 
-@given(
-    laws_of("rheology"), arrays(float, SHAPE, elements=st.floats(1e-3, 1e12)),
-    arrays(float, SHAPE, elements=st.floats(-1e10, 1e10)), pressures,
-)  # fmt: skip
-def test_a_shear_stress_follows_the_shear_rate_and_dissipates(law, viscosity, rate, pressure):
-    found = law(viscosity, rate, pressure)
+newtonian_stresses = arrays(float, SHAPE, elements=st.floats(-1e22, 1e22))
+
+
+@given(laws_of("rheology"), newtonian_stresses, pressures)
+def test_a_shear_stress_follows_the_shear_rate_and_dissipates(law, newtonian, pressure):
+    found = law(newtonian, pressure)
     assert is_field(found)
-    assert np.array_equal(law(viscosity, -rate, pressure), -found)
-    assert np.all(found * np.sign(rate) >= 0.0)
-    assert np.all(np.abs(found) <= viscosity * np.abs(rate) * (1.0 + 1e-12) + 1e-300)  # never above Newton's
+    assert np.array_equal(law(-newtonian, pressure), -found)
+    assert np.all(found * np.sign(newtonian) >= 0.0)
+    assert np.all(np.abs(found) <= np.abs(newtonian) * (1.0 + 1e-12) + 1e-300)  # never above Newton's
+    if law.limiting_coefficient > 0.0:
+        assert np.all(np.abs(found) <= law.limiting_coefficient * pressure)
+
+
+@given(laws_of("rheology"), newtonian_stresses, pressures)
+def test_a_shear_stress_never_falls_with_shear_or_pressure(law, newtonian, pressure):
+    by_newtonian, by_pressure = law.slopes(newtonian, pressure)
+    assert is_field(by_newtonian)
+    assert is_field(by_pressure)
+    assert np.all((by_newtonian >= 0.0) & (by_newtonian <= 1.0 + 1e-12))
+    assert np.all(by_pressure * np.sign(newtonian) >= 0.0)
+    more = 1.5 * newtonian
+    assert np.all(np.abs(law(more, pressure)) >= np.abs(law(newtonian, pressure)) * (1.0 - 1e-12))
+
+
+@given(laws_of("rheology"), arrays(float, SHAPE, elements=st.floats(0.0, 1e10)))
+def test_an_oil_shears_at_least_as_easily_as_a_newtonian_one(law, stress):
+    found = law.ease(stress)
+    assert is_field(found)
+    assert np.all(found >= 1.0 - 1e-12)
+    assert np.array_equal(law.ease(-stress), found)
+    if not law.thins:
+        assert np.all(found == 1.0)
 
 
 FULL = 100e-9
