@@ -61,11 +61,13 @@ class Instant:
     hardness: float  # no limit is above it
     dry: bool = False  # leave the film out
     solid_share: float = 1.0  # of the load of such a contact; the rest lies on oil, spread as in Hertz's contact
+    ease: Array | None = None  # how many times easier oil flows at a node than `viscosity` says; None: as it says
 
     def mirrored(self) -> "Instant":
         """The instant seen from the other side: entrained the other way."""
         heights, limit = np.ascontiguousarray(self.heights[:, ::-1]), np.ascontiguousarray(self.limit[:, ::-1])
-        return replace(self, entrainment_speed=-self.entrainment_speed, heights=heights, limit=limit)
+        ease = None if self.ease is None else np.ascontiguousarray(self.ease[:, ::-1])
+        return replace(self, entrainment_speed=-self.entrainment_speed, heights=heights, limit=limit, ease=ease)
 
 
 @dataclass(frozen=True)
@@ -88,19 +90,18 @@ class FilmState:
     solid: Mask
     mass: Array  # density ratio times film thickness
     rigid_gap: float  # gap of the undeformed, smooth bodies at the centre
-    # temperature of the film above the inlet's [K]; [1, 1] if it is the same everywhere
-    warmth: Array = field(default_factory=lambda: np.zeros((1, 1)))
+    ease: Array = field(default_factory=lambda: np.ones((1, 1)))  # `Instant.ease` of the next; [1, 1]: everywhere
+    warmth: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of the film above the inlet [K]; [1, 1] as well
 
     def __post_init__(self) -> None:
-        for array in (self.pressure, self.fluid, self.solid, self.mass, self.warmth):
+        for array in (self.pressure, self.fluid, self.solid, self.mass, self.ease, self.warmth):
             array.setflags(write=False)
 
     def mirrored(self) -> "FilmState":
         """The state seen from the other side."""
-        pressure, fluid, mass, warmth = (
-            np.ascontiguousarray(f[:, ::-1]) for f in (self.pressure, self.fluid, self.mass, self.warmth)
-        )
-        return FilmState(pressure, fluid, np.ascontiguousarray(self.solid[:, ::-1]), mass, self.rigid_gap, warmth)
+        fields = (self.pressure, self.fluid, self.solid, self.mass, self.ease, self.warmth)
+        pressure, fluid, solid, mass, ease, warmth = (np.ascontiguousarray(f[:, ::-1]) for f in fields)
+        return FilmState(pressure, fluid, solid, mass, self.rigid_gap, ease, warmth)
 
 
 @dataclass(frozen=True)

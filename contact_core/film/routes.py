@@ -168,7 +168,8 @@ class _Solver:
 
 def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:
     """The same instant on a grid of half the nodes."""
-    instant = replace(now, heights=restrict(now.heights), limit=restrict(now.limit))
+    ease = None if now.ease is None else restrict(now.ease)
+    instant = replace(now, heights=restrict(now.heights), limit=restrict(now.limit), ease=ease)
     return instant, Grid(restrict(grid.x), restrict(grid.y))
 
 
@@ -176,7 +177,8 @@ def prolonged(state: FilmState, shape: tuple[int, int]) -> FilmState:
     """A film state of the coarser grid on one of `shape` nodes [ny, nx]."""
     pressure, fluid, mass = (prolong(field, shape) for field in (state.pressure, state.fluid, state.mass))
     solid = prolong(state.solid.astype(np.float64), shape) > 0.5
-    return FilmState(pressure, fluid, solid, mass, state.rigid_gap)
+    ease = state.ease if state.ease.size == 1 else prolong(state.ease, shape)
+    return FilmState(pressure, fluid, solid, mass, state.rigid_gap, ease)
 
 
 def _usable(solution: Solution) -> bool:

@@ -2,6 +2,7 @@
 
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -23,6 +24,7 @@ _DRY_TOLERANCE = 1e-6
 _DRY_ITERATIONS = 1000
 _START_TOLERANCE = 1e-2
 _SOLID_SHARE = 0.85  # of the load in `shared_start`: the best of 0.03 to 0.95 from light contact to nearly dry
+_LEAST_EASE = 1e-6  # of the oil in film formulas
 _FAR_FIELD_BELOW = 30.0  # Moes' M: above, what lies beyond a film-sized grid changes the film by less than 1 %
 
 
@@ -60,7 +62,18 @@ class Scaled:
         """The smooth contact in the terms of film formulas."""
         now = self.now
         oil = (now.viscosity, now.temperature)
-        return SmoothContact.of(now.load, now.entrainment_speed, *oil, now.radius_x, now.radius_y, now.reduced_modulus)
+        smooth = SmoothContact.of(
+            now.load, now.entrainment_speed, *oil, now.radius_x, now.radius_y, now.reduced_modulus
+        )
+        if now.ease is None:
+            return smooth
+        return replace(smooth, viscosity=smooth.viscosity / self._inlet_ease(now.ease, smooth))
+
+    def _inlet_ease(self, ease: Array, smooth: SmoothContact) -> float:
+        """The ease where the film builds up: at an inlet length before Hertz's contact."""
+        before = self.a + inlet_length(self.a, self.now.radius_x, nijenbanning_venner_moes(smooth))
+        j, i = np.abs(self.grid.y).argmin(), np.abs(self.grid.x + before).argmin()
+        return max(float(ease[j, i]), _LEAST_EASE)
 
     @cached_property
     def smooth_film(self) -> float:
@@ -91,7 +104,7 @@ class Scaled:
             floor=self.floor,
             spacing=self.dx,
             load=self.load,
-            mobility=mobility,
+            mobility=np.full(self.cap.shape, mobility) if now.ease is None else mobility * now.ease,
             per_dt=per_dt,
             mass_old=np.zeros_like(self.cap) if mass is None else mass,
             fluidity=fluidity,
@@ -173,6 +186,7 @@ class Scaled:
             it.solid,
             found.mass * self.h_unit,
             it.rigid * self.h_unit,
+            *(() if self.now.ease is None else (self.now.ease,)),
         )
         capped = it.solid & (it.pressure >= self.cap)
         overlap = np.where(capped, np.maximum(self.floor - found.gap, 0.0), 0.0) * self.h_unit

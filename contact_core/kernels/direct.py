@@ -39,7 +39,7 @@ def _response(f, solid, h, floor, mobility, fluidity, density, step, mass_old, p
                 flow = floor if solid[j, i] else max(h[j, i] + way * gap, floor)
                 rho = reynolds.interpolate(density, step, f[j, i])
                 mass[way, j, i] = rho * flow
-                e[way, j, i] = mobility * rho * flow**3 * reynolds.interpolate(fluidity, step, f[j, i])
+                e[way, j, i] = mobility[j, i] * rho * flow**3 * reynolds.interpolate(fluidity, step, f[j, i])
         reynolds.residual(f, solid, mass[way], mass_old, e[way], per_dt, dx, r[way])
     for j in range(ny):
         for i in range(nx):

@@ -57,13 +57,14 @@ class Level:
         self._wedge, self._wedge_soft = relaxation.line_kernels(self._transforms.near * self.scale, self.dx)
         shape = (self.rows, self.nx)
         self.p, self.h, self.mass, self.e, self.rho, self.soft, self.f = (np.zeros(shape) for _ in range(7))
-        self.undeformed, self.base, self.edge, self.weight = (np.zeros(shape) for _ in range(4))
+        self.undeformed, self.base, self.edge, self.weight, self.mobility = (np.zeros(shape) for _ in range(5))
         self.offset, self.before, self.work = (np.zeros(shape) for _ in range(3))
         self.target, self.rigid, self.rigid_before = 0.0, 0.0, 0.0
 
-    def set_bodies(self, undeformed: Array, edge: Array, weight: Array) -> None:
+    def set_bodies(self, undeformed: Array, mobility: Array, edge: Array, weight: Array) -> None:
         """Take over arrays [ny, nx]."""
-        self.undeformed[:], self.edge[:], self.weight[:] = (f[: self.rows] for f in (undeformed, edge, weight))
+        fields = (undeformed, mobility, edge, weight)
+        self.undeformed[:], self.mobility[:], self.edge[:], self.weight[:] = (f[: self.rows] for f in fields)
         if self.mirror:
             self.weight[:-1] *= 2.0  # each row but the last stands for two
 
@@ -83,7 +84,7 @@ class Level:
     def _film(self, deformation: Array) -> None:
         oil = self._problem
         relaxation.film_pass(
-            self.p, self.base, deformation, self.scale, self.rigid, oil.mobility, oil.fluidity, oil.density, oil.step,
+            self.p, self.base, deformation, self.scale, self.rigid, self.mobility, oil.fluidity, oil.density, oil.step,
             self.h, self.mass, self.e, self.rho, self.soft,
         )  # fmt: skip
 

@@ -48,7 +48,7 @@ class Problem:
     floor: float
     spacing: float
     load: float  # sum of weight * p over the nodes
-    mobility: float
+    mobility: Array  # pressure flow of a unit's gap, gradient and fluidity
     per_dt: float  # 1 / time step, 0: steady
     mass_old: Array  # mass of the previous instant
     fluidity: Array  # table of 1 / viscosity

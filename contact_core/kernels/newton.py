@@ -57,8 +57,8 @@ def _linearise(f, solid, h, m, e, floor, mobility, fluidity, density, step, dx, 
             lift = 0.0 if solid[j, i] or h[j, i] <= floor else 1.0
             flow = floor if solid[j, i] else max(h[j, i], floor)
             slope[0, j, i], slope[1, j, i] = d_rho * flow, rho * lift
-            slope[2, j, i] = mobility * flow**3 * (d_rho * phi + rho * d_phi)
-            slope[3, j, i] = 3.0 * mobility * rho * flow**2 * phi * lift
+            slope[2, j, i] = mobility[j, i] * flow**3 * (d_rho * phi + rho * d_phi)
+            slope[3, j, i] = 3.0 * mobility[j, i] * rho * flow**2 * phi * lift
     half = 0.5 / (dx * dx)
     by_f[:], by_h[:] = 0.0, 0.0
     for j in range(1, ny - 1):

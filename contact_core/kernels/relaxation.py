@@ -68,7 +68,7 @@ def film_pass(p, base, deformation, scale, rigid, mobility, fluidity, density, s
             mass[j, i] = dense * gap
             rho[j, i] = dense
             soft[j, i] = open_gap * slope / step
-            e[j, i] = mobility * dense * open_gap * open_gap * open_gap * ease + 1e-300
+            e[j, i] = mobility[j, i] * dense * open_gap * open_gap * open_gap * ease + 1e-300
 
 
 @_jit

@@ -67,7 +67,7 @@ def film_pass(  # type: ignore[no-untyped-def]
             flow = floor if touches else max(gap, floor)
             rho, fluid = _properties(f[j, i], per_step, density, fluidity)
             mass[j, i] = rho * flow
-            e[j, i] = mobility * rho * fluid * (flow * flow * flow) + 1e-300
+            e[j, i] = mobility[j, i] * rho * fluid * (flow * flow * flow) + 1e-300
 
 
 @_jit
@@ -109,6 +109,7 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
                 c[n, 4] = -transport(mass, mass_old, per_dt, dx, j, i) * part / half
                 n += 1
     pp, ff, hh, ee, mm, ss = p.ravel(), f.ravel(), h.ravel(), e.ravel(), mass.ravel(), solid.ravel()
+    ease = mobility.ravel()
     for sweep in range(sweeps):
         last = sweep == sweeps - 1
         for m in range(count):
@@ -119,14 +120,14 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
             if last and value > pp[k] and hh[k] > _DEEP * floor:
                 ss[k] = False
             ff[k] = min(max(value, 0.0), pp[k])
-    cube, per_step = mobility * (floor * floor * floor), 1.0 / step
+    cube, per_step = floor * floor * floor, 1.0 / step
     for n in range(count):
         k = at[n]
         if not ss[k]:
             ff[k] = pp[k]
         rho, fluid = _properties(ff[k], per_step, density, fluidity)
         mm[k] = rho * floor
-        ee[k] = cube * rho * fluid + 1e-300
+        ee[k] = ease[k] * cube * rho * fluid + 1e-300
 
 
 @_jit

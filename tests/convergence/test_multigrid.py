@@ -51,7 +51,7 @@ class Case:
             floor=1e-9,
             spacing=dx,
             load=2.0 * np.pi / 3.0 / dx**2,
-            mobility=s * mobility,
+            mobility=np.full_like(undeformed, s * mobility),
             per_dt=0.0,
             mass_old=np.zeros_like(undeformed),
             fluidity=np.exp(-np.minimum(exponent, 500.0)),

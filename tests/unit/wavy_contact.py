@@ -12,7 +12,7 @@ def axis(n, side=2.4):
     return (np.arange(n) - 0.5 * (n - 1)) * side / (n - 1)
 
 
-def problem(ny, nx, wave=0.0, length=0.3, library="scipy", **changes):
+def problem(ny, nx, wave=0.0, length=0.3, library="scipy", mobility=20.0, **changes):
     """A contact of sinusoidal waviness, its smooth pressure and its half space. `changes`: other fields."""
     x, y = axis(nx), axis(ny)
     dx = x[1] - x[0]
@@ -26,7 +26,7 @@ def problem(ny, nx, wave=0.0, length=0.3, library="scipy", **changes):
         floor=1e-3,
         spacing=dx,
         load=2.0 * np.pi / 3.0 / dx**2,
-        mobility=20.0,
+        mobility=np.full((ny, nx), mobility),
         per_dt=0.0,
         mass_old=zeros,
         fluidity=np.exp(-BARUS * table),
