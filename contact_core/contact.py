@@ -6,18 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .film.instant import FilmSolution, FilmState, Grid, Instant
-from .friction import Film, Friction, Shear, friction, shear
+from .friction import Film, Friction, friction
 from .laws.heat import Temperatures
 from .laws.tribofilm import thickness
+from .oil import next_ease, sheared, solve_flow, warmed
 from .patches import bare_heights, contact_grid, heights_of, on_grid, patch_nodes, roughness_of
 from .scene import OperatingPoint, Scene
 from .state import ContactState
 
 Array = NDArray[np.float64]
-
-_WARMINGS = 30  # rounds of shear and temperature of a steady film, at most
-_WARMING = 0.7  # share of a change of temperature that is taken over, lest the rounds swing
-_WARM_ENOUGH = 1e-3  # change of temperature that ends them, of the highest rise
 
 
 @dataclass(frozen=True)
@@ -97,16 +94,55 @@ def solve(
     limit = law.limit(film_1, film_2, pressed, full)
     covers = film_1 / full, film_2 / full
     grid = contact_grid(scene, state.rows)
+    cover = 0.5 * (covers[0] + covers[1])
+    before = state.film if transient else None
     if op.load == 0.0:
         film = _open(scene, grid, heights)
     else:
-        now = replace(instant_of(scene, op, heights, limit), dry=dry, solid_share=solid_share)
-        follows = (transient.dt, transient.moved) if transient and state.film else None
-        film = scene.film.solve(
-            now, grid, state.film if transient else None, follows, transient.iterations if transient else None
+        follows = (transient.dt, transient.moved) if transient and before else None
+        most = transient.iterations if transient else None
+        film = solve_flow(
+            scene,
+            op,
+            grid,
+            cover,
+            replace(instant_of(scene, op, heights, limit), dry=dry, solid_share=solid_share),
+            before,
+            lambda now, start: scene.film.solve(now, grid, start, follows, most),
         )
-    before = state.film.warmth if transient and state.film else None
-    return _with_friction(scene, op, grid, film, heights, rough, covers, before)
+    found, stress, warm, shortfall = warmed(scene, op, sheared(grid, film, cover, op.inlet_temperature), before)
+    ease = film.state.ease if op.load == 0.0 or dry else next_ease(scene, op, found, film.state.ease)
+    return ContactFields(
+        x=grid.x,
+        y=grid.y,
+        pressure=film.state.pressure,
+        fluid_pressure=film.state.fluid,
+        solid_pressure=found.solid,
+        gap=film.gap,
+        heights=heights,
+        roughness=rough,
+        cover_1=covers[0],
+        cover_2=covers[1],
+        overlap=film.overlap,
+        fluid_shear=stress.fluid * stress.along_x,
+        solid_shear=stress.solid * stress.along_x,
+        shear=stress.total,
+        friction=friction(stress, grid),
+        sheared=found,
+        temperatures=warm,
+        film=replace(film.state, ease=ease, warmth=np.atleast_2d(found.temperature - op.inlet_temperature)),
+        converged=film.converged and not shortfall,
+        shortfall="; ".join(said for said in (film.shortfall, shortfall) if said),
+        route=film.route,
+        algorithm=film.algorithm,
+        iterations=film.iterations,
+        pressure_change=film.change,
+        load_error=film.load_error,
+        load_beyond=film.load_beyond,
+        complementarity=film.complementarity,
+        imbalance=film.imbalance,
+        inlet_nodes=film.inlet_nodes,
+    )
 
 
 def instant_of(scene: Scene, op: OperatingPoint, heights: Array, limit: Array) -> Instant:
@@ -148,85 +184,3 @@ def _open(scene: Scene, grid: Grid, heights: Array) -> FilmSolution:
         imbalance=0.0,
         inlet_nodes=np.inf,
     )
-
-
-def _with_friction(
-    scene: Scene,
-    op: OperatingPoint,
-    grid: Grid,
-    found: FilmSolution,
-    heights: Array,
-    rough: Array,
-    covers: tuple[Array, Array],
-    before: Array | None,
-) -> ContactFields:
-    state = found.state
-    solid = np.where(state.solid, state.pressure - state.fluid, 0.0)
-    cover = 0.5 * (covers[0] + covers[1])
-    film = Film(grid, state.fluid, solid, found.gap, cover, op.inlet_temperature)
-    film, stress, warm, shortfall = _warmed(scene, op, film, before)
-    return ContactFields(
-        x=grid.x,
-        y=grid.y,
-        pressure=state.pressure,
-        fluid_pressure=state.fluid,
-        solid_pressure=solid,
-        gap=found.gap,
-        heights=heights,
-        roughness=rough,
-        cover_1=covers[0],
-        cover_2=covers[1],
-        overlap=found.overlap,
-        fluid_shear=stress.fluid * stress.along_x,
-        solid_shear=stress.solid * stress.along_x,
-        shear=stress.total,
-        friction=friction(stress, grid),
-        sheared=film,
-        temperatures=warm,
-        film=replace(state, warmth=np.atleast_2d(film.temperature - op.inlet_temperature)),
-        converged=found.converged and not shortfall,
-        shortfall="; ".join(said for said in (found.shortfall, shortfall) if said),
-        route=found.route,
-        algorithm=found.algorithm,
-        iterations=found.iterations,
-        pressure_change=found.change,
-        load_error=found.load_error,
-        load_beyond=found.load_beyond,
-        complementarity=found.complementarity,
-        imbalance=found.imbalance,
-        inlet_nodes=found.inlet_nodes,
-    )
-
-
-def _warmed(
-    scene: Scene, op: OperatingPoint, film: Film, before: Array | None
-) -> tuple[Film, Shear, Temperatures, str]:
-    """The film at its temperature, its shear, the temperatures, and why they do not belong together if so.
-
-    Warm oil shears more easily and so warms less. A march goes on from the warmth of the instant before (`before`, above
-    the inlet); a steady film repeats until its temperature stands still.
-    """
-    law, inlet = scene.heat, op.inlet_temperature
-    if law.warms_film and before is not None:
-        film = replace(film, temperature=inlet + before)
-    change = 0.0
-    for _ in range(_WARMINGS):
-        stress = shear(scene, op, film)
-        warm = law.temperatures(
-            stress.dissipation,
-            film.gap,
-            film.solid > 0.0,
-            film.fluid + film.solid > 0.0,
-            film.grid.spacing,
-            (op.speed_1, op.speed_2),
-            op.sliding_speed,
-            op.bodies,
-            scene.lubricant.conductivity,
-        )
-        if not law.warms_film:
-            return film, stress, warm, ""
-        change = float(np.abs(warm.film - film.temperature).max())
-        film = replace(film, temperature=film.temperature + _WARMING * (warm.film - film.temperature))
-        if before is not None or change <= _WARM_ENOUGH * (1.0 + float(np.abs(warm.film - inlet).max())):
-            return film, stress, warm, "" if warm.solved else "the partition of heat was not solved"
-    return film, stress, warm, f"the film's temperature still changes by {change:.2g} K"

@@ -14,7 +14,7 @@ from .errors import OperatingPointError, SceneError
 from .film import Deterministic
 from .laws.boundary_friction import FilmBlend
 from .laws.density import DowsonHigginson, Incompressible
-from .laws.heat import FlashTemperature, NoHeat, TemperatureField
+from .laws.heat import FlashTemperature, NoHeat, TemperatureField, TemperatureField
 from .laws.plasticity import ElasticPerfectlyPlastic
 from .laws.rheology import Carreau, Eyring, Newtonian
 from .laws.tribofilm import Andersson, Ghanbarzadeh, NoTribofilm
@@ -61,6 +61,13 @@ class Lubricant:
     density: DowsonHigginson | Incompressible
     rheology: Newtonian | Eyring | Carreau
     conductivity: float = parameter("W/(m K)", "thermal conductivity of the oil", above=0.0, most=10.0, default=0.14)
+    flow: str = parameter(
+        "",
+        "what Reynolds' equation sees: newtonian, the viscosity at the inlet's temperature; local, that of the local "
+        "temperature, thinned by the local shear",
+        choices=("newtonian", "local"),
+        default="newtonian",
+    )
 
 
 @dataclass(frozen=True)
