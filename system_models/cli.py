@@ -1,4 +1,4 @@
-"""The command `tribofmu`: list the shipped scenes, run one.
+"""The command `tribofmu`: list the shipped scenes, run one, sweep its Stribeck curves.
 
 Exit codes: 0 done; 1 some rows of the result are invalid; 2 refused or failed, with a sentence on stderr; 130
 interrupted.
@@ -7,12 +7,15 @@ interrupted.
 import argparse
 import logging
 import os
+import re
 import sys
 import tempfile
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from contact_core import units
 from contact_core.errors import ContactError, StateError
 from contact_core.reading import shipped_scenes
 from contact_core.scene import Scene
@@ -22,6 +25,7 @@ if TYPE_CHECKING:
 
     from .checkpoint import Checkpoint
     from .duty import Duty
+    from .stribeck import Curves
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -46,8 +50,7 @@ def _parser() -> argparse.ArgumentParser:
     listing.set_defaults(command=_list)
     run = commands.add_parser("run", help="build the FMU of a scene and drive it through its duty")
     run.set_defaults(command=_run)
-    run.add_argument("scene", metavar="SCENE", help="a shipped scene's name, or the path of a .toml file")
-    run.add_argument("--out", metavar="DIR", help="folder of the results (default: results/SCENE)")
+    _add_scene(run)
     run.add_argument(
         "--resume",
         action="store_true",
@@ -55,9 +58,34 @@ def _parser() -> argparse.ArgumentParser:
         "bit for bit; start from the beginning if there is none (without --resume always, and replace it)",
     )
     run.add_argument("--hours", metavar="H", help="duration of the test, instead of operation.duration")
-    run.add_argument("--grid", metavar="N", help="nodes along x and y, instead of film.points")
     run.add_argument("--duty", metavar="FILE.csv", help="CSV of the duty, instead of operation.file")
-    run.add_argument(
+    stribeck = commands.add_parser("stribeck", help="rub a scene's contact and sweep its Stribeck curves")
+    stribeck.set_defaults(command=_stribeck)
+    _add_scene(stribeck)
+    stribeck.add_argument(
+        "--times",
+        metavar="MIN",
+        nargs="+",
+        default=["0,5,15,30,60,120"],
+        help="rubbing times in minutes, after which speeds are swept (default: %(default)s)",
+    )
+    stribeck.add_argument(
+        "--fastest", metavar="U", default="10", help="entrainment speed in m/s (default: %(default)s)"
+    )
+    stribeck.add_argument("--slowest", metavar="U", default="0.003", help="the other end (default: %(default)s)")
+    stribeck.add_argument(
+        "--points", metavar="N", type=int, default=12, help="speeds of a sweep (default: %(default)s)"
+    )
+    stribeck.add_argument("--srr", metavar="R", help="slide-to-roll ratio (u1 - u2) / u_e, instead of the scene's own")
+    return parser
+
+
+def _add_scene(command: argparse.ArgumentParser) -> None:
+    """What says which contact it is and where the results go."""
+    command.add_argument("scene", metavar="SCENE", help="a shipped scene's name, or the path of a .toml file")
+    command.add_argument("--out", metavar="DIR", help="folder of the results (default: results/SCENE)")
+    command.add_argument("--grid", metavar="N", help="nodes along x and y, instead of film.points")
+    command.add_argument(
         "--set",
         dest="settings",
         metavar="KEY=VALUE",
@@ -67,7 +95,6 @@ def _parser() -> argparse.ArgumentParser:
         type=_assignment,
         help="change values of the scene, e.g. tribofilm.model=none surface_2.rq='50 nm'",
     )
-    return parser
 
 
 def _assignment(text: str) -> tuple[str, str]:
@@ -87,16 +114,26 @@ def _list(arguments: argparse.Namespace) -> int:
 
 def _run(arguments: argparse.Namespace) -> int:
     from .checkpoint import alone
+
+    scene, duty = _contact(arguments)
+    folder = _output_folder(arguments)
+    _warn(scene)
+    with alone(folder):
+        return _run_in(folder, scene, duty, arguments.resume)
+
+
+def _contact(arguments: argparse.Namespace) -> "tuple[Scene, Duty]":
+    """The scene, large enough for its duty, and the duty."""
     from .duty import Duty
 
     scene = Scene.from_toml(arguments.scene, _overrides(arguments))
     duty = Duty.of_scene(scene, _folder_of_duty(arguments))
-    scene = duty.sized(scene)
-    folder = _output_folder(arguments)
+    return duty.sized(scene), duty
+
+
+def _warn(scene: Scene) -> None:
     for warning in scene.warnings():
         print(f"tribofmu: warning: {warning}", file=sys.stderr)
-    with alone(folder):
-        return _run_in(folder, scene, duty, arguments.resume)
 
 
 def _run_in(folder: Path, scene: Scene, duty: "Duty", resume: bool) -> int:
@@ -166,21 +203,21 @@ def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path) -> 
 
 def _overrides(arguments: argparse.Namespace) -> dict[str, str]:
     for option in ("hours", "grid", "duty", "out"):
-        if getattr(arguments, option) == "":
+        if getattr(arguments, option, None) == "":
             raise ContactError(f"--{option} is empty. Give a value, or leave --{option} out.")
     settings = dict(arguments.settings)
-    if arguments.hours:
+    if getattr(arguments, "hours", None):
         settings["operation.duration"] = f"{arguments.hours} h"
     if arguments.grid:
         settings["film.points"] = arguments.grid
-    if arguments.duty:
+    if getattr(arguments, "duty", None):
         settings["operation.file"] = arguments.duty
     return settings
 
 
 def _folder_of_duty(arguments: argparse.Namespace) -> Path:
     """A path on the command line starts at the working folder, one in a scene's file at that file."""
-    if arguments.duty or not arguments.scene.endswith(".toml"):
+    if getattr(arguments, "duty", None) or not arguments.scene.endswith(".toml"):
         return Path()
     return Path(arguments.scene).parent
 
@@ -223,6 +260,92 @@ def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint") -> "xr.Datas
             lambda time: bar.update(time / 60.0 - bar.n),
             checkpoint,
         )
+
+
+def _stribeck(arguments: argparse.Namespace) -> int:
+    from .checkpoint import alone
+    from .stribeck import Curves, Plan
+
+    scene, duty = _contact(arguments)
+    plan = Plan.of(
+        duty,
+        _rubbing_times(arguments.times),
+        _plain_or_with_unit("--fastest", arguments.fastest, "m/s"),
+        _plain_or_with_unit("--slowest", arguments.slowest, "m/s"),
+        arguments.points,
+        None if arguments.srr is None else _plain_or_with_unit("--srr", arguments.srr, ""),
+    )
+    folder = _output_folder(arguments)
+    _warn(scene)
+    curves = Curves(plan)
+    with alone(folder):
+        try:
+            _sweep(scene, duty, curves)
+        except KeyboardInterrupt:
+            raise KeyboardInterrupt(_kept(scene, duty, curves, folder)) from None
+        except ContactError as error:
+            raise ContactError(f"{error} {_kept(scene, duty, curves, folder)}".rstrip()) from error
+        return _report_curves(scene, duty, curves, folder)
+
+
+def _rubbing_times(words: Sequence[str]) -> list[float]:
+    """Minutes, apart from each other by commas or spaces, in seconds."""
+    try:
+        return [60.0 * float(word) for word in re.split(r"[,\s]+", " ".join(words)) if word]
+    except ValueError:
+        raise ContactError(f"--times = '{' '.join(words)}' must be numbers of minutes, such as 0,5,30.") from None
+
+
+def _plain_or_with_unit(option: str, text: str, unit: str) -> float:
+    with suppress(ValueError):
+        text = f"{float(text)!r} {unit}"
+    return units.parse(text, unit, option)
+
+
+def _sweep(scene: Scene, duty: "Duty", curves: "Curves") -> None:
+    """Measure the curves, with a progress bar in points."""
+    from tqdm import tqdm
+    from tqdm.contrib.logging import logging_redirect_tqdm
+
+    from .stribeck import measure
+
+    logging.basicConfig(format="%(message)s")
+    bar = tqdm(
+        total=len(curves.plan.times) * len(curves.plan.speeds),
+        desc=scene.name,
+        bar_format="{desc} {percentage:3.0f} %|{bar}| {n}/{total} points [{elapsed}<{remaining}]",
+    )
+
+    def show(stage: str, count: int) -> None:
+        bar.set_description_str(f"{scene.name}, {stage}", refresh=False)
+        bar.update(count - bar.n)
+        bar.refresh()
+
+    with bar, logging_redirect_tqdm():
+        measure(scene, duty, curves, show)
+
+
+def _kept(scene: Scene, duty: "Duty", curves: "Curves", folder: Path) -> str:
+    """Write what there is of curves that are not finished, and say so."""
+    if not curves.count:
+        return ""
+    from .results import write
+
+    netcdf, _ = write(curves.dataset(scene, duty), folder, "stribeck")
+    return f"The {curves.count} points measured so far are in '{netcdf}'."
+
+
+def _report_curves(scene: Scene, duty: "Duty", curves: "Curves", folder: Path) -> int:
+    """Print and write the curves; return the exit code."""
+    from . import results, stribeck_report
+
+    dataset = curves.dataset(scene, duty)
+    print(scene.description, stribeck_report.table(dataset), sep="\n")
+    print(*stribeck_report.shift_lines(dataset), *stribeck_report.closing_lines(dataset), sep="\n")
+    written = results.write(dataset, folder, "stribeck")
+    written.append(stribeck_report.write_figure(dataset, folder / "stribeck.png"))
+    print(f"Written: {', '.join(map(str, written))}")
+    return 1 if stribeck_report.invalid_points(dataset) else 0
 
 
 if __name__ == "__main__":

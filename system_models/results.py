@@ -1,4 +1,4 @@
-"""The run as data: an xarray Dataset along `time` in seconds, a netCDF file and a CSV file."""
+"""Results as data: an xarray Dataset, of a run along `time` in seconds, as a netCDF file and a CSV file."""
 
 import csv
 import json
@@ -55,13 +55,16 @@ def find(folder: Path, scene: Scene, duty: Duty) -> xr.Dataset | None:
         return None
 
 
-def write(dataset: xr.Dataset, folder: Path) -> list[Path]:
-    """Write `result.nc` and `result.csv` into an existing folder and return their paths."""
-    netcdf, table = folder / "result.nc", folder / "result.csv"
+def write(dataset: xr.Dataset, folder: Path, name: str = "result") -> list[Path]:
+    """Write `name`.nc and `name`.csv into an existing folder and return their paths.
+
+    The CSV has a row for each point of the dataset's dimensions; what does not vary along one of them is repeated.
+    """
+    netcdf, table = folder / f"{name}.nc", folder / f"{name}.csv"
     dataset.to_netcdf(netcdf, engine="h5netcdf")
-    names = ["time", *map(str, dataset.data_vars)]
+    columns = xr.broadcast(*(dataset[column] for column in (*dataset.dims, *dataset.data_vars)))
     with table.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
-        writer.writerow(f"{name} [{dataset[name].attrs['units']}]" for name in names)
-        writer.writerows(zip(*(dataset[name].values.tolist() for name in names), strict=True))
+        writer.writerow(f"{column.name} [{column.attrs['units']}]" for column in columns)
+        writer.writerows(zip(*(column.values.ravel().tolist() for column in columns), strict=True))
     return [netcdf, table]

@@ -1,0 +1,136 @@
+"""What a Stribeck measurement says: a table of friction, the shift of the curves, and one picture."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+
+from contact_core.state import RangeFlag
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_SOURCE = "Dawczyk et al. 2019, 10.1007/s11249-019-1148-9"
+_ROUGH = ("tribofilm_roughness_1", "tribofilm_roughness_2", "composite_roughness")
+_PANELS = (
+    ("friction_coefficient", "friction coefficient", None),
+    ("lambda_ratio", r"film ratio $\lambda$", None),
+    ("contact_load_ratio", "share of the solids in the load, $W_c$", 0.5),
+    ("contact_area_ratio", "real contact area / Hertz area, $A_c$", None),
+)
+
+
+def minutes(dataset: xr.Dataset) -> list[str]:
+    """The rubbing times [min] as text."""
+    return [f"{time / 60.0:g}" for time in dataset["rubbing_time"].values]
+
+
+def table(dataset: xr.Dataset) -> str:
+    """Friction coefficients, a row for each speed and a column for each rubbing time."""
+    head = [["speed", *("friction" for _ in minutes(dataset))], ["m/s", *(f"{time} min" for time in minutes(dataset))]]
+    rows = [
+        [f"{speed:.4g}", *(f"{mu:.4f}" for mu in row)]
+        for speed, row in zip(
+            dataset["entrainment_speed"].values, dataset["friction_coefficient"].values.T.tolist(), strict=True
+        )
+    ]
+    columns = list(zip(*head, *rows, strict=True))
+    widths = [max(map(len, column)) for column in columns]
+    return "\n".join(
+        "  ".join(cell.rjust(width) for cell, width in zip(row, widths, strict=True)) for row in (*head, *rows)
+    )
+
+
+def shift_lines(dataset: xr.Dataset) -> list[str]:
+    """Where each curve has its transition and how rough the surfaces are then; how far it moves in all."""
+    level = dataset.attrs["friction_midway"]
+    lines = []
+    for text, row in zip(minutes(dataset), _rows(dataset), strict=True):
+        ball, disc, both = (1e9 * float(row[name]) for name in _ROUGH)
+        lines.append(
+            f"After {text} min: W_c = 0.5 at {_speed(row['transition_speed'])}, friction {level:.3f} at "
+            f"{_speed(row['transition_speed_friction'])}; roughness of the tribofilm {ball:.1f} nm (ball), "
+            f"{disc:.1f} nm (disc), of both surfaces together {both:.1f} nm."
+        )
+    return [*lines, *_verdict(dataset)]
+
+
+def _rows(dataset: xr.Dataset) -> list[xr.Dataset]:
+    return [dataset.isel(rubbing_time=i) for i in range(dataset.sizes["rubbing_time"])]
+
+
+def _speed(value: xr.DataArray) -> str:
+    return f"{float(value):.3g} m/s" if np.isfinite(value) else "no speed of the sweep"
+
+
+def _verdict(dataset: xr.Dataset) -> list[str]:
+    """The shift from the first to the last curve, beside that of the composite roughness."""
+    first, last = _rows(dataset)[0], _rows(dataset)[-1]
+    speed, rough = (float(last[name] / first[name]) for name in ("transition_speed", "composite_roughness"))
+    if dataset.sizes["rubbing_time"] < 2 or not np.isfinite(speed * rough):
+        return []
+    where = "higher" if speed > 1.0 else "lower"
+    return [
+        f"From {minutes(dataset)[0]} to {minutes(dataset)[-1]} min the transition goes to {where} speed, by a factor "
+        f"of {speed:.2f}, while the roughness of both surfaces together changes by a factor of {rough:.2f}. "
+        f"Measured Stribeck curves shift to higher speed as the tribofilm roughens ({_SOURCE})."
+    ]
+
+
+def closing_lines(dataset: xr.Dataset) -> list[str]:
+    """Validity and range, in sentences."""
+    invalid, total = invalid_points(dataset), dataset["valid"].size
+    lines = [f"Validity: all {total} points are valid."]
+    if invalid:
+        lines = [f"Validity: {invalid} of {total} points are INVALID.", *dataset.attrs["failures"].splitlines()]
+    flags = dataset["range_flags"].values
+    counts = {flag: int(((flags & flag) > 0).sum()) for flag in RangeFlag}
+    return lines + [f"Range, at {n} of {total} points: {flag.text}." for flag, n in counts.items() if n]
+
+
+def invalid_points(dataset: xr.Dataset) -> int:
+    """Number of points without an answer."""
+    return int((~dataset["valid"].values).sum())
+
+
+def write_figure(dataset: xr.Dataset, path: Path) -> Path:
+    """Draw the curves into a PNG file and return its path."""
+    figure(dataset).savefig(path, dpi=150)
+    return path
+
+
+def figure(dataset: xr.Dataset, title: str = "") -> "Figure":
+    """Friction, film ratio, load and area of the solids against speed, a line for each rubbing time."""
+    from matplotlib import colormaps
+    from matplotlib.figure import Figure
+
+    shown = dataset.where(dataset["lambda_ratio"] < 1e3)  # at its cap it says nothing
+    figure = Figure(figsize=(9.0, 7.0), layout="constrained")
+    axes = figure.subplots(2, 2, sharex=True)
+    colours = colormaps["viridis"](np.linspace(0.0, 0.9, dataset.sizes["rubbing_time"]))
+    for axis, (name, label, level) in zip(axes.flat, _PANELS, strict=True):
+        values = shown[name] if name == "lambda_ratio" else dataset[name]
+        for text, colour, row in zip(minutes(dataset), colours, values.values, strict=True):
+            axis.plot(
+                dataset["entrainment_speed"].values, row, "o-", color=colour, markersize=3.5, linewidth=1.4, label=text
+            )
+        if level is not None:
+            axis.axhline(level, color="0.7", linewidth=0.8, linestyle="--", zorder=0)
+        axis.set_xscale("log")
+        axis.set_ylabel(label)
+        axis.set_ylim(bottom=0.0)
+        axis.spines[["top", "right"]].set_visible(False)
+    for axis in axes[-1]:
+        axis.set_xlabel("entrainment speed [m/s]")
+    axes[0, 0].legend(title="rubbed [min]", frameon=False)
+    figure.align_ylabels()
+    figure.suptitle(title or _title(dataset), fontsize="medium")
+    return figure
+
+
+def _title(dataset: xr.Dataset) -> str:
+    return (
+        f"{dataset.attrs['scene']}: {float(dataset['load']):.4g} N, {float(dataset['temperature']) - 273.15:.4g} °C, "
+        f"slide-to-roll ratio {100.0 * float(dataset['slide_roll_ratio']):.3g} %, film {dataset.attrs['film']}"
+    )
