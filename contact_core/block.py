@@ -18,7 +18,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .contact import Transient, solve
-from .evolution import roughness_now, speeds_of, stable_time, track_length, track_rows, wear_rate, wear_speed
+from .evolution import (
+    across_track,
+    roughness_now,
+    sliding_on_track,
+    speeds_of,
+    stable_time,
+    track_length,
+    track_rows,
+    wear_rate,
+    wear_speed,
+)
 from .laws.tribofilm import thickness
 from .patches import on_patch, patch_nodes, widened
 from .scene import OperatingPoint, Scene
@@ -215,8 +225,8 @@ def _yielded(scene: Scene, state: ContactState, overlap: Array) -> ContactState:
 
 
 def _feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, i: int, alike: float) -> Body:
-    """A body with what the block makes it feel: mean pressure over its track, and exposure per test time by the dose
-    that the constants of the tribofilm law were fitted with.
+    """A body with what the block makes it feel: mean pressure over its track, abrasion by that, and exposure per test
+    time by the dose that the constants of the tribofilm law were fitted with.
     """
     body, law = state.bodies[i], scene.tribofilm
     # a moving point spends patch / track of its time in reach of the contact, a resting one all of it
@@ -231,7 +241,8 @@ def _feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep
     if not op.slides or op.load == 0.0:  # nothing rubs in pure rolling, at rest or apart
         exposure = np.zeros_like(exposure)
     pressure = sweep.pressures[i] / sweep.count * reach
-    after = replace(body, pressure=pressure, exposure=exposure, since=sweep.since[i])
+    abrasion = law.abrasion(pressure, sliding_on_track(scene, op, state.rows), across_track(scene, state.rows))
+    after = replace(body, pressure=pressure, exposure=exposure, abrasion=abrasion, since=sweep.since[i])
     # two blocks that sample the same wear differ by their noise
     track = track_rows(scene, state.rows, 2.0 / 3.0)
     films = thickness(body.growth, body.removal)

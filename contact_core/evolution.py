@@ -27,7 +27,9 @@ def track_length(scene: Scene, i: int) -> float:
 
 def evolved(scene: Scene, op: OperatingPoint, body: Body, i: int, step: float, flash: float) -> Body:
     """A body after `step` [s] of what its last solution makes it feel; `flash` [K] above its bulk temperature."""
-    growth, removal = scene.tribofilm.evolve(body.growth, body.removal, body.exposure * step, op.bodies[i] + flash)
+    law = scene.tribofilm
+    abraded = body.abrasion * step if law.abrades else body.abrasion
+    growth, removal = law.evolve(body.growth, body.removal, body.exposure * step, abraded, op.bodies[i] + flash)
     film = 0.5 * (thickness(growth, removal) + thickness(body.growth, body.removal))
     worn = step * wear_speed(scene, op, body, i, film)
     return replace(
@@ -44,14 +46,16 @@ def wear_speed(scene: Scene, op: OperatingPoint, body: Body, i: int, film: Array
     """Wear depth per second [m/s] of a patch under a tribofilm [m]."""
     cover = film / scene.tribofilm.full_thickness
     speeds: tuple[float | Array, float] = speeds_of(op)
-    if op.spin != 0.0 and op.load > 0.0 and scene.wear.slide(speeds_of(op), i) == abs(op.sliding_speed):
-        speeds = _turning(scene, op, contact_grid(scene, film.shape[0]).y)[:, None], 0.0
+    if scene.wear.slide(speeds_of(op), i) == abs(op.sliding_speed):  # a law of sliding, not of surface speed
+        speeds = sliding_on_track(scene, op, film.shape[0]), 0.0
     return scene.wear.rate(body.pressure, cover, speeds, i, scene.plasticity.hardness)
 
 
-def _turning(scene: Scene, op: OperatingPoint, y: Array) -> Array:
-    """Sliding speed [m/s] of rows at `y` [m] in a contact that spins, as a mean over their part of it."""
-    hertz = scene.hertz(op.load)
+def sliding_on_track(scene: Scene, op: OperatingPoint, rows: int) -> float | Array:
+    """Sliding speed [m/s]; in a contact that spins that of each row [rows, 1], as a mean over its part of the contact."""
+    if op.spin == 0.0 or op.load == 0.0:
+        return op.sliding_speed
+    hertz, y = scene.hertz(op.load), contact_grid(scene, rows).y[:, None]
     # mean |x| over a row under Hertz's pressure is 3/8 of its length on either side
     along = 0.375 * hertz.a * np.sqrt(np.maximum(1.0 - (y / hertz.b) ** 2, 0.0))
     return np.hypot(op.sliding_speed - op.spin * y, op.spin * along)
@@ -61,6 +65,12 @@ def area_of_node(scene: Scene, op: OperatingPoint, i: int) -> float:
     """Area [m2] for which one node of the patch stands: the patch repeats along the track of a moving body."""
     moving = speeds_of(op)[i] != 0.0
     return scene.film.spacing**2 * (track_length(scene, i) / scene.film.domain if moving else 1.0)
+
+
+def across_track(scene: Scene, rows: int) -> Array:
+    """|y| / b of each of the patches' rows, [rows, 1], b being that of the reference load."""
+    across: Array = np.abs(contact_grid(scene, rows).y)[:, None] / scene.hertz(scene.operation.load).b
+    return across
 
 
 def track_rows(scene: Scene, rows: int, share: float = 1.0) -> NDArray[np.bool_]:

@@ -59,6 +59,7 @@ class Friction:
     force_fluid: float
     spin_torque: float  # on body 1 about the axis from x to y [N m]
     power: float  # [W]
+    slide: float  # sliding speed, mean weighted by the shear stress [m/s]
 
 
 def sliding(op: OperatingPoint, grid: Grid) -> tuple[Array | float, Array | float, Array | float]:
@@ -83,11 +84,13 @@ def friction(stress: Shear, grid: Grid) -> Friction:
     """What the stresses add up to."""
     cell, total = grid.spacing**2, stress.total
     lever = grid.x[None, :] * stress.along_y - grid.y[:, None] * stress.along_x if np.ndim(stress.speed) else 0.0
+    power, pull = float((total * stress.speed).sum()), float(total.sum())
     return Friction(
         force_solid=-float((stress.solid * stress.along_x).sum()) * cell,
         force_fluid=-float((stress.fluid * stress.along_x).sum()) * cell,
         spin_torque=-float((total * lever).sum()) * cell,
-        power=float((total * stress.speed).sum()) * cell,
+        power=power * cell,
+        slide=power / pull if pull > 0.0 else 0.0,
     )
 
 

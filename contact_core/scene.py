@@ -14,10 +14,10 @@ from .errors import OperatingPointError, SceneError
 from .film import Deterministic
 from .laws.boundary_friction import FilmBlend
 from .laws.density import DowsonHigginson, Incompressible
-from .laws.heat import FlashTemperature, NoHeat, TemperatureField, TemperatureField
+from .laws.heat import FlashTemperature, NoHeat, TemperatureField
 from .laws.plasticity import ElasticPerfectlyPlastic
 from .laws.rheology import Carreau, Eyring, Newtonian
-from .laws.tribofilm import Andersson, Ghanbarzadeh, NoTribofilm
+from .laws.tribofilm import Andersson, Combined, Ghanbarzadeh, Gosvami, NoTribofilm, ZhangSpikes
 from .laws.viscosity import Barus, Roelands
 from .laws.wear import Archard, NoWear
 from .quantities import TABLE, input_parameter, out_of_range, parameter
@@ -197,7 +197,7 @@ class Scene:
     plasticity: ElasticPerfectlyPlastic
     boundary_friction: FilmBlend
     heat: NoHeat | FlashTemperature | TemperatureField
-    tribofilm: NoTribofilm | Ghanbarzadeh | Andersson
+    tribofilm: NoTribofilm | Ghanbarzadeh | Andersson | ZhangSpikes | Gosvami | Combined
     wear: NoWear | Archard
     film: Deterministic
     control: Control
@@ -325,8 +325,7 @@ class Scene:
                 found.append(f"{name} has {nodes:.2f} nodes per correlation length; 2 or more resolve it.")
         if not self.tribofilm.covers(self.operation.temperature):
             found.append(
-                f"The tribofilm's constants were fitted at another temperature than {self.operation.temperature:g} K: "
-                "tribofilm.beyond_fit = 'extrapolate' takes them as they are."
+                f"The tribofilm's constants are extrapolated: they do not hold at {self.operation.temperature:g} K."
             )
         return found
 

@@ -21,7 +21,7 @@ from .scene import OperatingPoint, Scene
 from .trends import Trends
 
 Array = NDArray[np.float64]
-_MAGIC, _SCHEMA = b"tribofmu", 3
+_MAGIC, _SCHEMA = b"tribofmu", 4
 
 
 class RangeFlag(IntFlag):
@@ -36,7 +36,7 @@ class RangeFlag(IntFlag):
         return flag
 
     LAMBDA_CAPPED = 1, "no roughness or no load: lambda_ratio stands at its cap or at zero"
-    TRIBOFILM_TEMPERATURE = 2, "more than 5 K from the temperature of the film constants"
+    TRIBOFILM_TEMPERATURE = 2, "outside the temperatures at which the constants of the tribofilm hold"
     INLET_UNRESOLVED = 4, "the grid is too coarse for the film in the inlet: the film is a number of this grid"
     NOT_CONVERGED = 8, "over a tenth of the block's film solutions missed the tolerance and were used as they were"
     FALLBACK = 16, "the dry solution stood in for a film solution in part of the block"
@@ -124,13 +124,23 @@ class Body:
     plastic: Array  # permanent depth pressed in [m]
     pressure: Array  # solid pressure a point feels, mean over its track [Pa]; what wear needs of the last solution
     exposure: Array  # per test time, what the tribofilm law needs of the last solution
+    abrasion: Array  # rate [1/s], per test time, at which rubbing removes the tribofilm; zero for laws without it
     since: Array  # passes through the contact since a point was last exposed
     offset: float  # how far the patch has moved along x in the solved steps [m], within one patch length
     cycles: float  # passes through the contact
     worn: float  # wear volume of the whole track [m3]
     noise: float  # variance of the wear depth from node to node that sampling has made [m2]
 
-    ARRAYS: ClassVar[tuple[str, ...]] = ("growth", "removal", "wear", "plastic", "pressure", "exposure", "since")
+    ARRAYS: ClassVar[tuple[str, ...]] = (
+        "growth",
+        "removal",
+        "wear",
+        "plastic",
+        "pressure",
+        "exposure",
+        "abrasion",
+        "since",
+    )
 
     def __post_init__(self) -> None:
         for name in self.ARRAYS:
@@ -254,7 +264,7 @@ def initial_state(scene: Scene) -> ContactState:
     """Fresh surfaces: no film, no wear, nothing solved."""
     shape = (scene.film.points, scene.film.points - 1)
     zeros = np.zeros(shape)
-    body = Body(zeros, zeros, zeros, zeros, zeros, zeros, np.full(shape, np.inf), 0.0, 0.0, 0.0, 0.0)
+    body = Body(zeros, zeros, zeros, zeros, zeros, zeros, zeros, np.full(shape, np.inf), 0.0, 0.0, 0.0, 0.0)
     return ContactState(
         scene.digest(), 0.0, (body, body), None, "", None, 0.0, 0.0, 0.0, 0, 1.0, Trends.fresh(), None, Outputs()
     )

@@ -83,8 +83,10 @@ class Sweep:
         passes: tuple[float, float],
     ) -> list[Array]:
         """Note which points are exposed in an instant; return the exposure on both patches."""
-        exposure = scene.tribofilm.exposure(fields.solid_pressure, fields.shear, float(op.slides))
-        found = [on_patch(exposure, patch_nodes(scene, body)) for body in state.bodies]
+        found = [
+            on_patch(exposure, patch_nodes(scene, body))
+            for exposure, body in zip(_exposures(scene, op, fields), state.bodies, strict=True)
+        ]
         for since, exposed, part in zip(self.since, found, passes, strict=True):
             since += part
             since[exposed > 0.0] = 0.0
@@ -102,6 +104,15 @@ class Sweep:
         """Standard deviation of these means, the instants being apart from each other or a march of neighbours."""
         effective = self.count if apart else 1
         return {name: float(np.std([seen[name] for seen in self.outputs])) / effective**0.5 for name in self.outputs[0]}
+
+
+def _exposures(scene: Scene, op: OperatingPoint, fields: ContactFields) -> tuple[Array, Array]:
+    """Exposure of both bodies on the grid, each at the temperature of its surface."""
+    stresses = (fields.solid_pressure, fields.shear, fields.friction.slide if op.spin else op.sliding_speed)
+    warm_1, warm_2 = fields.temperatures.surface_1, fields.temperatures.surface_2
+    first = scene.tribofilm.exposure(*stresses, warm_1)
+    alike = warm_1 is warm_2 or (isinstance(warm_1, float) and isinstance(warm_2, float) and warm_1 == warm_2)
+    return first, first if alike else scene.tribofilm.exposure(*stresses, warm_2)
 
 
 def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[str, float]:

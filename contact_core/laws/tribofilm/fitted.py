@@ -1,17 +1,4 @@
-"""Growth and removal of the tribofilm.
-
-In each solved instant a law says how strongly every node is exposed (`exposure`). Its `dose` says how the instants of a
-pass become the mean exposure per test time:
-
-    clock            the largest exposure of any instant of the last pass, for the whole time; the pass stands for the
-                     many real ones of a block, so a smooth body, which meets ever other asperities, is all exposed
-    contact_length   the mean over the crossing of the contact's length 2a
-    residence        the mean over the whole track
-
-Mean exposure times test time is what `evolve` takes. A law carries two internal variables per node and body: `growth`
-(what tribochemistry has formed) and `removal` (what rubbing has taken). They are autonomous, so a state needs no age
-and may be cut and continued anywhere.
-"""
+"""Laws of growth where solids touch, fitted to measured films."""
 
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -20,18 +7,21 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.constants import Boltzmann, Planck
 
-from ..quantities import parameter
+from ...quantities import parameter
 
 Array = NDArray[np.float64]
+Temperature = float | Array
 
 _FIT_WIDTH = 5.0  # K to either side of the fit
 
 
-def _fit_temperature() -> Any:
+def fit_temperature() -> Any:
+    """The field of a law whose constants hold at one temperature."""
     return parameter("K", "temperature at which the constants were fitted", least=200.0, most=600.0)
 
 
-def _beyond_fit() -> Any:
+def beyond_fit() -> Any:
+    """The field that says what such a law does at another one."""
     text = "what to do more than 5 K from the fit_temperature"
     return parameter("", text, choices=("refuse", "extrapolate"), default="refuse")
 
@@ -48,8 +38,18 @@ def _refusal(fit: float, temperature: float, extrapolated: str) -> str:
     )
 
 
+class _Unabraded:
+    """Laws without first-order removal."""
+
+    abrades: ClassVar[bool] = False
+
+    def abrasion(self, solid_pressure: Array, sliding_speed: float, position: Array | None) -> Array:
+        """Zeros in the shape of `solid_pressure`."""
+        return np.zeros_like(solid_pressure)
+
+
 @dataclass(frozen=True)
-class NoTribofilm:
+class NoTribofilm(_Unabraded):
     """No additive: nothing grows."""
 
     name: ClassVar[str] = "none"
@@ -57,11 +57,13 @@ class NoTribofilm:
     full_thickness: ClassVar[float] = 1.0  # any positive number: the thickness is always zero
     dose: ClassVar[str] = "clock"
 
-    def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float) -> Array:
+    def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
         """Zeros in the shape of `solid_pressure`."""
         return np.zeros_like(solid_pressure)
 
-    def evolve(self, growth: Array, removal: Array, exposed: Array, temperature: float) -> tuple[Array, Array]:
+    def evolve(
+        self, growth: Array, removal: Array, exposed: Array, abraded: Array, temperature: float
+    ) -> tuple[Array, Array]:
         """Return both variables as they are."""
         return growth, removal
 
@@ -75,7 +77,7 @@ class NoTribofilm:
 
 
 @dataclass(frozen=True)
-class Ghanbarzadeh:
+class Ghanbarzadeh(_Unabraded):
     """Growth to h_max at the rate k = (k_B T / h) x, removal up to C3 at the rate C4: thickness = growth - removal.
 
     In closed form for a node rubbed for a time t: h = h_max [1 - exp(-k t)] - C3 [1 - exp(-C4 t)].
@@ -93,19 +95,19 @@ class Ghanbarzadeh:
     rate_factor: float = parameter("", "x, share of k_B T / h that forms film", least=0.0, most=1.0)
     removal_thickness: float = parameter("m", "C3, largest removed thickness", least=0.0, most=1e-5)
     removal_rate: float = parameter("s^-1", "C4, rate of removal", least=0.0, most=1.0)
-    fit_temperature: float = _fit_temperature()
+    fit_temperature: float = fit_temperature()
     dose: str = parameter("", "how long a node counts as rubbed", choices=("clock", "contact_length"), default="clock")
     nodes: str = parameter("", "which nodes are rubbed", choices=("contacts", "stressed"), default="contacts")
     least_shear: float = parameter(
         "Pa", "shear stress above which oil alone rubs a node, for nodes = stressed", least=0.0, most=1e10, default=1e8
     )
-    beyond_fit: str = _beyond_fit()
+    beyond_fit: str = beyond_fit()
 
-    def rate(self, temperature: float) -> float:
+    def rate(self, temperature: Temperature) -> Temperature:
         """Rate k of growth [1/s] at `temperature` [K]."""
         return Boltzmann * temperature / Planck * self.rate_factor
 
-    def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float) -> Array:
+    def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
         """1 where a node is rubbed, else 0, under solid pressure and total |shear stress| [Pa]; 0 without sliding."""
         if sliding_speed == 0.0:
             return np.zeros_like(solid_pressure)
@@ -114,7 +116,9 @@ class Ghanbarzadeh:
             rubbed |= shear > self.least_shear
         return rubbed.astype(np.float64)
 
-    def evolve(self, growth: Array, removal: Array, exposed: Array, temperature: float) -> tuple[Array, Array]:
+    def evolve(
+        self, growth: Array, removal: Array, exposed: Array, abraded: Array, temperature: float
+    ) -> tuple[Array, Array]:
         """Both variables [m] after each node was rubbed for a time `exposed` [s]; exact for any time."""
         formed = -np.expm1(-self.rate(temperature) * exposed)
         taken = -np.expm1(-self.removal_rate * exposed)
@@ -133,7 +137,7 @@ class Ghanbarzadeh:
 
 
 @dataclass(frozen=True)
-class Andersson:
+class Andersson(_Unabraded):
     """Growth by the frictional power per area q = |tau u_s| where solids touch; nothing is removed.
 
     dh/dt = C5 (1 - h / h_max) max(q - C6, 0), Azam's equations (5-1) and (5-2) (PhD thesis, University of Leeds 2018),
@@ -152,15 +156,17 @@ class Andersson:
         "m3/J", "C5, volume that frictional energy forms on bare solids", least=0.0, most=1e-6
     )
     least_power: float = parameter("W/m2", "C6, frictional power per area that forms nothing", least=0.0, most=1e12)
-    fit_temperature: float = _fit_temperature()
-    beyond_fit: str = _beyond_fit()
+    fit_temperature: float = fit_temperature()
+    beyond_fit: str = beyond_fit()
 
-    def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float) -> Array:
+    def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
         """Frictional power per area above the threshold [W/m2] where solids touch, total |shear stress| in Pa."""
         power = np.maximum(shear * abs(sliding_speed) - self.least_power, 0.0)
         return np.where(solid_pressure > 0.0, power, 0.0)
 
-    def evolve(self, growth: Array, removal: Array, exposed: Array, temperature: float) -> tuple[Array, Array]:
+    def evolve(
+        self, growth: Array, removal: Array, exposed: Array, abraded: Array, temperature: float
+    ) -> tuple[Array, Array]:
         """Both variables [m] after each node took up `exposed` [J/m2]; exact for any energy."""
         formed = -np.expm1(-self.growth_per_energy * exposed / self.full_thickness)
         return growth + (self.full_thickness - growth) * formed, removal
@@ -179,6 +185,3 @@ class Andersson:
 def thickness(growth: Array, removal: Array) -> Array:
     """Film thickness [m]."""
     return np.maximum(growth - removal, 0.0)
-
-
-LAWS = (NoTribofilm, Ghanbarzadeh, Andersson)
