@@ -153,9 +153,13 @@ def _merged(base: Mapping[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
     merged = dict(base)
     for key, value in over.items():
         below = merged.get(key)
-        both = isinstance(value, Mapping) and isinstance(below, Mapping)
-        same_law = both and value.get("model", below.get("model")) == below.get("model")
-        merged[key] = _merged(below, value) if same_law else value
+        if (
+            isinstance(value, Mapping)
+            and isinstance(below, Mapping)
+            and value.get("model") in (None, below.get("model"))
+        ):
+            value = _merged(below, value)
+        merged[key] = value
     return merged
 
 

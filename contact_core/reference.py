@@ -209,3 +209,7 @@ def jaeger_band(x: float, peclet: float) -> float:
         return float(-1.0 - v * np.exp(2.0 * v) * (k1e(-v) - k0e(-v)))
 
     return (integral(peclet * (x + 1.0)) - integral(peclet * (x - 1.0))) / (np.pi * peclet)
+
+
+def inlet_shear_factor(contact, beta, conductivity, sliding):  # STUB
+    return 1.0

@@ -99,8 +99,9 @@ class FilmState:
 
     def mirrored(self) -> "FilmState":
         """The state seen from the other side."""
-        fields = (self.pressure, self.fluid, self.solid, self.mass, self.ease, self.warmth)
-        pressure, fluid, solid, mass, ease, warmth = (np.ascontiguousarray(f[:, ::-1]) for f in fields)
+        fields = (self.pressure, self.fluid, self.mass, self.ease, self.warmth)
+        pressure, fluid, mass, ease, warmth = (np.ascontiguousarray(f[:, ::-1]) for f in fields)
+        solid = np.ascontiguousarray(self.solid[:, ::-1])
         return FilmState(pressure, fluid, solid, mass, self.rigid_gap, ease, warmth)
 
 

@@ -31,8 +31,8 @@ class Roelands:
     pressure_coefficient: float = parameter("Pa^-1", "d ln(eta)/dp at p = 0", least=0.0, most=1e-7)
     temperature_coefficient: float = parameter("K^-1", "-d ln(eta)/dT at p = 0", least=0.0, most=0.2)
 
-    def __call__(self, pressure: NDArray[np.float64], temperature: float) -> NDArray[np.float64]:
-        """Viscosity [Pa s] at pressures [Pa] (any shape) and one temperature [K]."""
+    def __call__(self, pressure: NDArray[np.float64], temperature: NDArray[np.float64] | float) -> NDArray[np.float64]:
+        """Viscosity [Pa s] at pressures [Pa] and temperatures [K], arrays or one for all."""
         log_range = np.log(self.viscosity) - _LN_ETA_INF
         z = self.pressure_coefficient * _P0 / log_range
         s0 = self.temperature_coefficient * (self.reference_temperature - 138.0) / log_range
@@ -53,8 +53,8 @@ class Barus:
     pressure_coefficient: float = parameter("Pa^-1", "d ln(eta)/dp", least=0.0, most=1e-7)
     temperature_coefficient: float = parameter("K^-1", "-d ln(eta)/dT", least=0.0, most=0.2)
 
-    def __call__(self, pressure: NDArray[np.float64], temperature: float) -> NDArray[np.float64]:
-        """Viscosity [Pa s] at pressures [Pa] (any shape) and one temperature [K]."""
+    def __call__(self, pressure: NDArray[np.float64], temperature: NDArray[np.float64] | float) -> NDArray[np.float64]:
+        """Viscosity [Pa s] at pressures [Pa] and temperatures [K], arrays or one for all."""
         exponent = self.pressure_coefficient * pressure
         exponent = exponent - self.temperature_coefficient * (temperature - self.reference_temperature)
         return self.viscosity * np.exp(np.minimum(exponent, _STIFF))
