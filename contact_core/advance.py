@@ -15,6 +15,7 @@ from .block import has_moved, is_due, solve_block
 from .errors import OperatingPointError
 from .evolution import area_of_node, evolved, track_rows, wear_speed
 from .laws.tribofilm import thickness
+from .means import advance_means, folded
 from .patches import bare_heights, heights_of, roughness_of
 from .scene import OperatingPoint, Scene
 from .state import Body, ContactState, Outputs, RangeFlag
@@ -42,6 +43,9 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
         raise OperatingPointError(refusal)
     if not (math.isfinite(dt) and dt >= 0.0):
         raise OperatingPointError(f"The step dt = {dt!r} s must be finite and not negative.")
+    if scene.film.name == "regression":
+        return advance_means(scene, op, state, dt)
+    state = folded(scene, state)
     before = [body.worn for body in state.bodies]
     given, left = op, dt
     while True:

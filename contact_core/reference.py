@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +10,8 @@ from scipy.constants import Boltzmann, Planck
 from scipy.integrate import quad
 from scipy.optimize import brentq, minimize_scalar
 from scipy.special import elliprd, elliprf, elliprg, i0e, k0e, k1e
+
+Real = TypeVar("Real", float, NDArray[np.float64])
 
 
 @dataclass(frozen=True)
@@ -114,8 +117,8 @@ def nijenbanning_venner_moes(contact: SmoothContact) -> float:
     return float(film * np.sqrt(speed) * contact.radius_x)
 
 
-def moes_film(load: float, lubricant: float, ratio: float = 1.0) -> float:
-    """Central film thickness in Moes' units, (h / radius_x) U^-0.5, of Moes' M, L and radius_x / radius_y.
+def moes_film(load: Real, lubricant: Real, ratio: float = 1.0) -> Real:
+    """Central film thickness in Moes' units, (h / radius_x) U^-0.5, of Moes' M, L (arrays or not), radius_x / radius_y.
 
     Source: as `nijenbanning_venner_moes`.
     """
@@ -127,7 +130,7 @@ def moes_film(load: float, lubricant: float, ratio: float = 1.0) -> float:
     unloaded = 1.8 / ratio
     s = 1.5 * (1.0 + np.exp(-1.2 * elastic_iso / rigid_iso))
     iso = (rigid_iso**1.5 + (elastic_iso**-4 + unloaded**-4) ** (-3 / 8)) ** (2 * s / 3)
-    return float((iso + (rigid_piezo**-8 + elastic_piezo**-8) ** (-s / 8)) ** (1.0 / s))
+    return (iso + (rigid_piezo**-8 + elastic_piezo**-8) ** (-s / 8)) ** (1.0 / s)
 
 
 def ghanbarzadeh_thickness(

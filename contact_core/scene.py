@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from .errors import OperatingPointError, SceneError
-from .film import Deterministic
+from .film import FILMS, Deterministic, Regression
 from .laws.boundary_friction import FilmBlend
 from .laws.density import DowsonHigginson, Incompressible
 from .laws.heat import FlashTemperature, NoHeat, TemperatureField
@@ -199,7 +199,7 @@ class Scene:
     heat: NoHeat | FlashTemperature | TemperatureField
     tribofilm: NoTribofilm | Ghanbarzadeh | Andersson | ZhangSpikes | Gosvami | Combined
     wear: NoWear | Archard
-    film: Deterministic
+    film: Deterministic | Regression
     control: Control
     operation: Operation
 
@@ -226,6 +226,21 @@ class Scene:
     def to_dict(self) -> dict[str, Any]:
         """Nested tables, from which `from_dict` makes an equal scene, bit for bit."""
         return unbuild(self)
+
+    def at_level(self, level: str) -> "Scene":
+        """The scene with `film.model` = `level`, on the same grid: a state of the one is a state of the other.
+
+        What only the film of the other level knows has its default. Raises SceneError for an unknown level.
+        """
+        films = {film.name: film for film in FILMS}  # type: ignore[attr-defined]
+        if level not in films:
+            raise SceneError(
+                f"There is no level '{level}'.{did_you_mean(level, list(films))} Known are {', '.join(films)}."
+            )
+        shared = {f.name for f in fields(films[level])} & {f.name for f in fields(self.film)}
+        if level == self.film.name:
+            return self
+        return replace(self, film=films[level](**{name: getattr(self.film, name) for name in shared}))
 
     def hertz(self, load: float) -> Hertz:
         """Hertz's contact of the smooth, dry bodies at a load [N] above zero."""

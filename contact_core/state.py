@@ -44,6 +44,7 @@ class RangeFlag(IntFlag):
     FEW_NODES = 64, "fewer than 8 nodes across the Hertz contact at this load"
     SLOW_BODY = 128, "the slower body shows a block only part of its track: its film and wear are uneven along it"
     STIFF_WEAR = 256, "blocks are longer than wear stays stable for: fine roughness and A_c are less sure"
+    OUTSIDE_FIT = 512, "outside the range in which the curves of load sharing were fitted"
 
 
 @dataclass(frozen=True)
@@ -148,6 +149,19 @@ class Body:
 
 
 @dataclass(frozen=True)
+class Mean:
+    """What the fast level knows of a body: means over its track |y| < b, b at the scene's reference load."""
+
+    growth: float  # tribofilm formed [m]; all of it lies on the covered part
+    removal: float  # tribofilm removed [m]
+    coverage: float  # share of the track that has been rubbed and may carry a tribofilm
+    wear: float  # depth worn [m]
+    roughness: float  # rms roughness of the solid under its tribofilm [m]
+    worn: float  # wear volume of the whole track [m3]
+    cycles: float  # passes through the contact
+
+
+@dataclass(frozen=True)
 class ContactState:
     """A contact's whole memory."""
 
@@ -165,6 +179,7 @@ class ContactState:
     trends: Trends
     temperatures: tuple[float, float] | None  # of the bodies, where the scene stores them; None: as the oil [K]
     outputs: Outputs
+    means: tuple[Mean, Mean] | None = None  # of the fast level, newer than the patches; None: the patches are current
 
     @property
     def rows(self) -> int:
@@ -203,7 +218,7 @@ def _pack(value: Any, arrays: list[NDArray[Any]]) -> Any:
         return [_pack(item, arrays) for item in value]
     if isinstance(value, (Outputs, OperatingPoint)):
         return {name: float(x).hex() if isinstance(x, float) else x for name, x in asdict(value).items()}
-    if isinstance(value, (ContactState, Body, FilmState, Trends)):
+    if isinstance(value, (ContactState, Body, Mean, FilmState, Trends)):
         return {f.name: _pack(getattr(value, f.name), arrays) for f in fields(value)}
     return value.hex() if isinstance(value, float) else value
 
@@ -257,6 +272,7 @@ def _unpack_state(tree: dict[str, Any], arrays: Any) -> ContactState:
         if tree["temperatures"] is None
         else (number(tree["temperatures"][0]), number(tree["temperatures"][1])),
         outputs=Outputs(**numbers(tree["outputs"])),
+        means=None if tree["means"] is None else (record(Mean, tree["means"][0]), record(Mean, tree["means"][1])),
     )
 
 

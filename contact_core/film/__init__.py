@@ -1,7 +1,8 @@
-"""The fidelities of the film, behind one method `solve`."""
+"""The fidelities of the film: which object sits in `scene.film`."""
 
 from .deterministic import Deterministic
+from .regression import Regression
 
-FILMS: tuple[type, ...] = (Deterministic,)
+FILMS: tuple[type, ...] = (Deterministic, Regression)
 
-__all__ = ["FILMS", "Deterministic"]
+__all__ = ["FILMS", "Deterministic", "Regression"]

@@ -28,10 +28,14 @@ class Deterministic:
         "m", "gap at which solids touch: thickness of the adsorbed boundary layer", above=1e-11, most=1e-7
     )
     tolerance: float = parameter(
-        "", "pressure change at which a solution counts as converged, relative", above=0.0, most=0.1
+        "", "pressure change at which a solution counts as converged, relative", above=0.0, most=0.1, default=3e-3
     )
     iterations: int = parameter(
-        "", "most iterations of one steady solution; an instant of a block gets at most 40", least=1, most=100_000
+        "",
+        "most iterations of one steady solution; an instant of a block gets at most 40",
+        least=1,
+        most=100_000,
+        default=2000,
     )
     fft: str = parameter("", "library of the Fourier transforms", choices=("pyfftw", "scipy"), default="pyfftw")
     criterion: str = parameter(

@@ -1,0 +1,48 @@
+"""The fast level: film formulas and curves of load sharing for the means of rough surfaces."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ..laws.load_sharing import FittedSharing
+from ..quantities import parameter
+
+
+@dataclass(frozen=True)
+class Regression:
+    """One mean film and one mean real contact instead of fields: microseconds per step.
+
+    The grid is that of the patches in the state, on which nothing is solved at this level: with the same grid, a run
+    changes between this level and the deterministic one at any step.
+    """
+
+    name: ClassVar[str] = "regression"
+    source: ClassVar[str] = (
+        "film: Nijenbanning, Venner & Moes 1994, doi:10.1016/0043-1648(94)90150-3; sharing: see its source; "
+        "meetings and smoothing: assumed"
+    )
+
+    points: int = parameter(
+        "", "nodes of the state's patches along x and along y", least=17, most=4097, default=129, shapes_arrays=True
+    )
+    domain: float = parameter(
+        "m", "side of the state's patches", above=0.0, most=1.0, default=0.5e-3, shapes_arrays=True
+    )
+    floor: float = parameter(
+        "m", "gap at which solids touch: thickness of the adsorbed boundary layer", above=1e-11, most=1e-7, default=1e-9
+    )
+    sharing: FittedSharing = FittedSharing()
+    meetings: float = parameter(
+        "",
+        "highest point of the other body that a point meets, over that body's rms roughness",
+        least=0.0,
+        most=6.0,
+        default=2.5,
+    )
+    smoothing: float = parameter(
+        "", "mean height of what touches, over composite roughness: wear takes it away", least=0.0, most=5.0, default=1.2
+    )
+
+    @property
+    def spacing(self) -> float:
+        """Distance between nodes [m]."""
+        return self.domain / (self.points - 1)

@@ -1,0 +1,573 @@
+"""The fast level, `film.model = "regression"`: one mean film, one mean real contact, and the means of both surfaces.
+
+A step solves nothing: the film is a formula's, curves fitted to the deterministic level share the load, and what the
+surfaces have become is a handful of numbers per body. The patches of the state wait meanwhile; `folded` brings them up
+to date when a run goes back to the deterministic level.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import ndtri
+
+from .evolution import track_length, track_rows
+from .film import Regression
+from .film.instant import Grid
+from .patches import bare_heights, roughness_of
+from .reference import Hertz, hertz_point, moes_film
+from .scene import OperatingPoint, Scene
+from .state import Body, ContactState, Mean, Outputs, RangeFlag
+from .surfaces import rms_roughness
+
+Array = NDArray[np.float64]
+Means = tuple[Mean, Mean]
+Law = Callable[..., Array]  # laws take an array where they name a float, if it broadcasts
+
+_LAMBDA_CAP = 1e3
+_SAME = 1e-4  # a contact evaluated before the surfaces changed by less, relative, is the contact after it
+_LONGEST = 10.0  # times the duty: no step need be shorter than that
+_TRIAL = 1.0  # s: step that tells how fast the surfaces change
+
+# quadrature over the Hertz ellipse: with the distance sqrt(1 - t^2) from its centre, p is in proportion to t, dA to t dt
+_T = 0.5 + 0.5 * np.polynomial.legendre.leggauss(16)[0]
+_WEIGHTS = _T * np.polynomial.legendre.leggauss(16)[1]  # of the mean over the ellipse
+
+# rows of operating points: as it is, then up and down by entrainment, sliding, load, temperature
+_D = 1e-4  # relative; of the temperature 100 K
+_UP_DOWN = np.kron(np.eye(4), np.array([1.0, -1.0]))  # [4, 8]
+_ENTRAINMENT, _SLIDING, _LOAD, _TEMPERATURE = _D * np.concatenate([np.zeros((4, 1)), _UP_DOWN], axis=1)
+_TEMPERATURE *= 100.0
+_PROBE = np.array([[0.0], [1e6]])  # Pa: pressures that tell viscosity and its pressure coefficient
+_REST = 1e-30  # m/s: entrainment that makes no film, and no division by zero
+
+
+@dataclass(frozen=True, slots=True)
+class _Contact:
+    """The contact of an operating point and of the surfaces as they were."""
+
+    sigma: float  # composite rms roughness [m]
+    cover: float  # mean cover of both bodies where they touch
+    lam: float  # smooth film / sigma
+    gap: float  # mean, of the oil [m]
+    load_ratio: float
+    area_ratio: float
+    solid: float  # friction of the solids on body 1 along +x [N]
+    fluid: float
+    derivatives: tuple[float, float, float, float]  # of the sum, by speed_1, speed_2, load, temperature
+    solid_pressure: float  # mean over the real contact [Pa]
+    solid_shear: float  # mean over it, absolute
+    fluid_shear: float  # mean over the rest of the Hertz ellipse
+    rise: float  # flash temperature over the bulk [K]
+
+
+def advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
+    """`advance` at this level, for inputs that have been checked."""
+    before = state.means or means_of(scene, state)
+    means, left = before, dt
+    contact = _evaluate(scene, op, means)
+    speed = 0.0  # at which the surfaces change [m/s]
+    while left > 0.0:
+        step, means, speed = _stepped(scene, op, contact, means, left)
+        left -= step
+        if _has_changed(scene, contact, means):
+            contact = _evaluate(scene, op, means)
+    if dt == 0.0:
+        speed = _distance(means, _evolved(scene, op, contact, means, _TRIAL)) / _TRIAL
+    if dt > 0.0:
+        rates = [(now.worn - then.worn) / dt for now, then in zip(means, before, strict=True)]
+    else:
+        rates = [_wear_rate(scene, op, contact, i, _covered_film(means[i])) for i in (0, 1)]
+    outputs = _outputs(scene, op, state, contact, means, rates, speed)
+    state = replace(state, time=state.time + dt, means=means, outputs=outputs, solved_for=None)
+    return state, outputs
+
+
+# the contact
+
+
+def _evaluate(scene: Scene, op: OperatingPoint, means: Means) -> _Contact:
+    """Film, load sharing and friction at the operating point, and at eight beside it for the derivatives."""
+    sigma = math.hypot(*(_roughness(mean) for mean in means))
+    full = scene.tribofilm.full_thickness
+    cover = min(0.5 * (_covered_film(means[0]) + _covered_film(means[1])) / full, 1.0)
+    if op.load == 0.0:
+        return _apart(scene, sigma, cover)
+    entrained, sliding = abs(op.entrainment_speed), op.sliding_speed
+    slip = max(abs(sliding), scene.boundary_friction.slip_speed)
+    speeds = np.maximum(entrained * (1.0 + _ENTRAINMENT), _REST)
+    slides = sliding + slip * _SLIDING
+    loads = op.load * (1.0 + _LOAD)
+    temperatures = film_temperature(op) + _TEMPERATURE
+    hertz = _unit_hertz(scene.geometry.radius_x, scene.geometry.radius_y, scene.solids.reduced_modulus)
+    scale = np.cbrt(loads)
+    areas = hertz.area * scale * scale
+    lam, gaps, solid_share, area_share = _shared(scene, sigma, _smooth_film(scene, speeds, loads, temperatures))
+    pressures = loads / areas
+    # no solid contact is smaller than the hardness allows
+    touching = np.maximum(area_share, solid_share * pressures / scene.plasticity.hardness)
+    solid_pressures = solid_share * pressures / np.maximum(touching, 1e-300)
+    boundary: Law = scene.boundary_friction
+    solid_shears = boundary(solid_pressures, np.array([cover]), slides)
+    open_share = np.maximum(1.0 - touching, 1e-6)
+    oil_pressures = (1.0 - solid_share) / open_share * (hertz.pressure_max * scale)
+    fluid_shears = _oil_shear(scene, oil_pressures, slides / gaps, temperatures)
+    solid, fluid = -areas * touching * solid_shears, -areas * open_share * fluid_shears
+    forces = (solid + fluid).tolist()
+    by_entrainment = _slope(forces, 1, _D * entrained) * math.copysign(1.0, op.entrainment_speed)
+    by_sliding = _slope(forces, 3, _D * slip)
+    pressure, shear = float(solid_pressures[0]), abs(float(solid_shears[0]))
+    return _Contact(
+        sigma,
+        cover,
+        lam,
+        float(gaps[0]),
+        float(solid_share[0]),
+        float(touching[0]),
+        float(solid[0]),
+        float(fluid[0]),
+        (
+            0.5 * by_entrainment + by_sliding,
+            0.5 * by_entrainment - by_sliding,
+            _slope(forces, 5, _D * op.load),
+            _slope(forces, 7, 100.0 * _D),
+        ),
+        pressure,
+        shear,
+        abs(float(fluid_shears[0])),
+        _flash_rise(scene, shear, sliding),
+    )
+
+
+def _apart(scene: Scene, sigma: float, cover: float) -> _Contact:
+    """Without load the bodies just touch and nothing presses."""
+    gap = max(scene_film(scene).sharing.film_dry * sigma, scene.film.floor)
+    return _Contact(sigma, cover, math.inf, gap, 0.0, 0.0, 0.0, 0.0, (0.0, 0.0, 0.0, 0.0), 0.0, 0.0, 0.0, 0.0)
+
+
+def _slope(forces: list[float], row: int, step: float) -> float:
+    """Central difference of two rows; zero if they are the same point."""
+    return (forces[row] - forces[row + 1]) / (2.0 * step) if step > 0.0 else 0.0
+
+
+def scene_film(scene: Scene) -> Regression:
+    """The scene's film, which is of this level."""
+    assert isinstance(scene.film, Regression)
+    return scene.film
+
+
+def film_temperature(op: OperatingPoint) -> float:
+    """Temperature [K] of the oil in the contact and in its inlet."""
+    return op.temperature
+
+
+def body_temperatures(op: OperatingPoint) -> tuple[float, float]:
+    """Bulk temperatures [K] of both bodies."""
+    return op.temperature, op.temperature
+
+
+@lru_cache(maxsize=64)
+def _unit_hertz(radius_x: float, radius_y: float, reduced_modulus: float) -> Hertz:
+    """Hertz's contact at 1 N: its lengths and its pressure grow with the cube root of the load."""
+    return hertz_point(1.0, radius_x, radius_y, reduced_modulus)
+
+
+def _smooth_film(scene: Scene, speeds: Array, loads: Array, temperatures: Array) -> Array:
+    """Nijenbanning, Venner & Moes' central film [m] of the smooth bodies, at entrainment speeds above zero."""
+    viscosity: Law = scene.lubricant.viscosity
+    low, high = viscosity(_PROBE, temperatures)
+    radius, modulus = scene.geometry.radius_x, scene.solids.reduced_modulus
+    coefficient = np.maximum(np.log(high / low) * 1e-6, 1e-12)
+    root = np.sqrt(2.0 * low * speeds / (modulus * radius))
+    quarter = np.sqrt(root)
+    m = loads / (modulus * radius * radius * root * quarter)
+    film = moes_film(m, coefficient * modulus * quarter, radius / scene.geometry.radius_y)
+    return film * root * radius
+
+
+def _shared(scene: Scene, sigma: float, film: Array) -> tuple[float, Array, Array, Array]:
+    """Lambda, mean gaps [m], and contact_load_ratio and contact_area_ratio of rough bodies, for films of smooth ones."""
+    floor, sharing = scene.film.floor, scene_film(scene).sharing
+    if sigma == 0.0:
+        touching = (film <= floor).astype(np.float64)
+        return math.inf, np.maximum(film, floor), touching, touching
+    clearance = film / sigma
+    share = sharing.load_ratio(clearance)
+    gaps = np.maximum(sigma * sharing.gap(clearance), floor)
+    return float(clearance[0]), gaps, share, sharing.area_ratio(share)
+
+
+def _oil_shear(scene: Scene, pressures: Array, rates: Array, temperatures: Array) -> Array:
+    """Mean shear stress [Pa] of oil under Hertz's semi-ellipsoids of largest `pressures`, one for each row."""
+    local = pressures[:, None] * _T
+    viscosity: Law = scene.lubricant.viscosity
+    newtonian = viscosity(local, temperatures[:, None]) * rates[:, None]
+    return scene.lubricant.rheology(newtonian, local) @ _WEIGHTS
+
+
+def _flash_rise(scene: Scene, shear: float, sliding: float) -> float:
+    """Flash temperature rise [K] of a spot as wide as the rougher body's correlation length."""
+    if scene.heat.name == "none" or shear == 0.0:
+        return 0.0
+    rougher = scene.surface_1 if scene.surface_1.rq > scene.surface_2.rq else scene.surface_2
+    return float(scene.heat.rise(np.array([0.5 * rougher.correlation_length]), np.array([shear]), sliding)[0])
+
+
+# the surfaces
+
+
+def _covered_film(mean: Mean) -> float:
+    """Mean tribofilm [m] where there is one."""
+    return max(mean.growth - mean.removal, 0.0) / mean.coverage if mean.coverage > 0.0 else 0.0
+
+
+def _film_roughness(mean: Mean) -> float:
+    """Rms deviation [m] of a tribofilm that covers part of a track evenly."""
+    return math.sqrt(mean.coverage * (1.0 - mean.coverage)) * _covered_film(mean)
+
+
+def _roughness(mean: Mean) -> float:
+    """Rms roughness [m] of solid and tribofilm, taken as independent of each other (assumed)."""
+    return math.hypot(mean.roughness, _film_roughness(mean))
+
+
+def _stepped(
+    scene: Scene, op: OperatingPoint, contact: _Contact, means: Means, left: float
+) -> tuple[float, Means, float]:
+    """Time [s], at most `left`, in which the surfaces change by control.change; they after it; and their speed [m/s]."""
+    step, budget = left, scene.control.change
+    while True:
+        after = _evolved(scene, op, contact, means, step)
+        change = _distance(means, after)
+        if change <= 1.01 * budget:
+            return step, after, change / step
+        step *= min(max(budget / change, 0.05), 0.95)
+
+
+def _distance(before: Means, after: Means) -> float:
+    """Largest change [m] of a body's tribofilm, as rms over the track, or of its solid's roughness."""
+    return max(
+        abs((now.growth - now.removal) - (then.growth - then.removal)) / math.sqrt(max(now.coverage, 1e-3))
+        + abs(now.roughness - then.roughness)
+        for now, then in zip(after, before, strict=True)
+    )
+
+
+def _has_changed(scene: Scene, contact: _Contact, means: Means) -> bool:
+    """Whether the surfaces are others than those that the contact was evaluated for."""
+    sigma = math.hypot(*(_roughness(mean) for mean in means))
+    cover = 0.5 * (_covered_film(means[0]) + _covered_film(means[1])) / scene.tribofilm.full_thickness
+    return abs(sigma - contact.sigma) > _SAME * contact.sigma or abs(min(cover, 1.0) - contact.cover) > _SAME
+
+
+def _evolved(scene: Scene, op: OperatingPoint, contact: _Contact, means: Means, step: float) -> Means:
+    """Both bodies after `step` [s] of what the contact does to them."""
+    coverage, doses = _doses(scene, op, contact, means)
+    growth = np.array([mean.growth / c if c > 0.0 else 0.0 for mean, c in zip(means, coverage, strict=True)])
+    removal = np.array([mean.removal / c if c > 0.0 else 0.0 for mean, c in zip(means, coverage, strict=True)])
+    exposed = np.array([dose * step for dose in doses])
+    grown, removed = scene.tribofilm.evolve(growth, removal, exposed, op.temperature + contact.rise)
+    first, second = (
+        _body_after(
+            scene, op, contact, i, means[i], step, coverage[i], grown[i] * coverage[i], removed[i] * coverage[i]
+        )
+        for i in (0, 1)
+    )
+    return first, second
+
+
+def _body_after(
+    scene: Scene,
+    op: OperatingPoint,
+    contact: _Contact,
+    i: int,
+    mean: Mean,
+    step: float,
+    coverage: float,
+    growth: float,
+    removal: float,
+) -> Mean:
+    """A body with its new tribofilm, worn under the mean of the old and the new one.
+
+    Wear takes heights that stand out of the composite roughness by `smoothing` of it. A body's share in such a height
+    is that of its variance, so its roughness falls by smoothing Rq_i / sigma for each depth worn (assumed).
+    """
+    after = Mean(float(growth), float(removal), coverage, mean.wear, mean.roughness, mean.worn, mean.cycles)
+    film = 0.5 * (_covered_film(mean) + _covered_film(after))
+    volume = step * _wear_rate(scene, op, contact, i, film)
+    moving = (op.speed_1, op.speed_2)[i]
+    depth = volume / _track_area(scene, i, moving != 0.0)
+    smoother = math.exp(-scene_film(scene).smoothing * depth / contact.sigma) if contact.sigma > 0.0 else 1.0
+    return Mean(
+        after.growth,
+        after.removal,
+        coverage,
+        mean.wear + depth,
+        mean.roughness * smoother,
+        mean.worn + volume,
+        mean.cycles + abs(moving) * step / track_length(scene, i),
+    )
+
+
+def _wear_rate(scene: Scene, op: OperatingPoint, contact: _Contact, i: int, film: float) -> float:
+    """Volume [m3/s] that a body loses under a tribofilm [m]: the law's depth rate, for force in place of pressure."""
+    force, cover = contact.load_ratio * op.load, min(film / scene.tribofilm.full_thickness, 1.0)
+    if force == 0.0:
+        return 0.0
+    speeds = (op.speed_1, op.speed_2)
+    return float(scene.wear.rate(np.array([force]), np.array([cover]), speeds, i, scene.plasticity.hardness)[0])
+
+
+def _track_area(scene: Scene, i: int, moving: bool) -> float:
+    """Area [m2] of a body's track |y| < b; at rest, of the patch's part of it."""
+    b = scene.operation.load ** (1 / 3) * (
+        _unit_hertz(scene.geometry.radius_x, scene.geometry.radius_y, scene.solids.reduced_modulus).b
+    )
+    width = _rows_inside(scene.film.points, scene.film.spacing, b) * scene.film.spacing
+    return width * (track_length(scene, i) if moving else scene.film.domain)
+
+
+@lru_cache(maxsize=64)
+def _rows_inside(points: int, spacing: float, b: float) -> int:
+    """Rows of a patch with |y| < b, at least the middle one."""
+    return int((np.abs(Grid.centred(points, points, spacing).y) < max(b, 0.51 * spacing)).sum())
+
+
+def _doses(
+    scene: Scene, op: OperatingPoint, contact: _Contact, means: Means
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Share of each track that has been rubbed, and exposure of that share per test time."""
+    law, old = scene.tribofilm, (means[0].coverage, means[1].coverage)
+    if op.sliding_speed == 0.0 or op.load == 0.0:
+        return old, (0.0, 0.0)
+    pressures, shears = (contact.solid_pressure, 0.0), (contact.solid_shear, contact.fluid_shear)
+    touching, oiled = law.exposure(np.array(pressures), np.array(shears), op.sliding_speed).tolist()
+    found = [_dose(scene, op, contact, i, means, touching, oiled) for i in (0, 1)]
+    return (found[0][0], found[1][0]), (found[0][1], found[1][1])
+
+
+def _dose(
+    scene: Scene, op: OperatingPoint, contact: _Contact, i: int, means: Means, touching: float, oiled: float
+) -> tuple[float, float]:
+    """`_doses` of one body, for the exposures of a point that touches and of one under oil."""
+    share = exposed_share(
+        contact.area_ratio, _roughness(means[i]), _roughness(means[1 - i]), scene_film(scene).meetings
+    )
+    coverage = max(means[i].coverage, 1.0 if oiled > 0.0 else share if touching > 0.0 else 0.0)
+    if coverage == 0.0:
+        return 0.0, 0.0
+    moving = (op.speed_1, op.speed_2)[i] != 0.0
+    if scene.tribofilm.dose == "clock" and moving:
+        return coverage, (share * touching + (1.0 - share) * oiled) / coverage
+    mean = contact.area_ratio * touching + (1.0 - contact.area_ratio) * oiled
+    return coverage, mean * _time_share(scene, op, i, moving) / coverage
+
+
+def _time_share(scene: Scene, op: OperatingPoint, i: int, moving: bool) -> float:
+    """Share of the time that a point of the track counts as under the Hertz ellipse, by the law's dose."""
+    if scene.tribofilm.dose == "contact_length":
+        return 0.25 * math.pi  # a mean chord over 2a
+    a = _unit_hertz(scene.geometry.radius_x, scene.geometry.radius_y, scene.solids.reduced_modulus).a
+    way = track_length(scene, i) if moving else scene.film.domain
+    return 0.5 * math.pi * a * op.load ** (1 / 3) / way
+
+
+def exposed_share(area_ratio: float, own: float, other: float, meetings: float) -> float:
+    """Share of a body's track that touches in some pass, if `area_ratio` of it touches at any moment.
+
+    Gaussian heights touch above a level that stands t composite roughnesses up, 1 - Phi(t) = area_ratio. In many passes
+    a point meets heights of the other body up to `meetings` of its rms roughness, so it touches if its own height, of
+    rms `own`, makes up for the rest (assumed). A smooth body is all exposed, a body under a smooth one by area_ratio.
+    """
+    if area_ratio <= 0.0:
+        return 0.0
+    missing = -float(ndtri(min(area_ratio, 1.0))) * math.hypot(own, other) - meetings * other
+    if own == 0.0:
+        return 1.0 if missing <= 0.0 else 0.0
+    return max(min(area_ratio, 1.0), 0.5 * math.erfc(missing / own / math.sqrt(2.0)))
+
+
+# the outputs
+
+
+def _outputs(
+    scene: Scene,
+    op: OperatingPoint,
+    state: ContactState,
+    contact: _Contact,
+    means: Means,
+    rates: list[float],
+    speed: float,
+) -> Outputs:
+    """What this level can tell; the rest stays zero. Counters of solved blocks go on."""
+    force = contact.solid + contact.fluid
+    power = max(-force * op.sliding_speed, 0.0)
+    scale = op.load ** (1 / 3)
+    hertz = _unit_hertz(scene.geometry.radius_x, scene.geometry.radius_y, scene.solids.reduced_modulus)
+    hot_1, hot_2 = body_temperatures(op)
+    first, second = means
+    longest = _LONGEST * scene.operation.duration
+    return Outputs(
+        friction_force=force,
+        friction_coefficient=abs(force) / op.load if op.load > 0.0 else 0.0,
+        friction_solid=contact.solid,
+        friction_fluid=contact.fluid,
+        dfriction_dspeed_1=contact.derivatives[0],
+        dfriction_dspeed_2=contact.derivatives[1],
+        dfriction_dload=contact.derivatives[2],
+        dfriction_dtemperature=contact.derivatives[3],
+        power_loss=power,
+        wear_rate_1=rates[0],
+        wear_rate_2=rates[1],
+        wear_volume_1=first.worn,
+        wear_volume_2=second.worn,
+        wear_depth_1=first.wear,
+        wear_depth_2=second.wear,
+        h_c=contact.gap,
+        h_central=contact.gap,
+        lambda_ratio=_lambda_ratio(op, contact),
+        tribofilm_1=max(first.growth - first.removal, 0.0),
+        tribofilm_2=max(second.growth - second.removal, 0.0),
+        tribofilm_roughness_1=_film_roughness(first),
+        tribofilm_roughness_2=_film_roughness(second),
+        roughness_1=_roughness(first),
+        roughness_2=_roughness(second),
+        contact_area_ratio=contact.area_ratio,
+        contact_load_ratio=contact.load_ratio,
+        flash_temperature_rise=contact.rise,
+        temperature_1=hot_1,
+        temperature_2=hot_2,
+        heat_flow_1=0.5 * power,
+        heat_flow_2=0.5 * power,
+        approach=hertz.approach * scale * scale - contact.gap,
+        range_flags=int(_flags(scene, op, contact)),
+        suggested_step=min(scene.control.change / speed, longest) if speed > 0.0 else longest,
+        load_cycles_1=first.cycles,
+        load_cycles_2=second.cycles,
+        coverage_1=first.coverage,
+        coverage_2=second.coverage,
+        blocks_dry=state.outputs.blocks_dry,
+        blocks_mixed=state.outputs.blocks_mixed,
+        blocks_fallback=state.outputs.blocks_fallback,
+        **_errors(scene, op, contact),
+    )
+
+
+def _lambda_ratio(op: OperatingPoint, contact: _Contact) -> float:
+    if contact.sigma == 0.0 or op.load == 0.0:
+        return _LAMBDA_CAP
+    return min(contact.gap / contact.sigma, _LAMBDA_CAP)
+
+
+def _flags(scene: Scene, op: OperatingPoint, contact: _Contact) -> RangeFlag:
+    flags = RangeFlag(0)
+    if contact.sigma == 0.0 or op.load == 0.0:
+        flags |= RangeFlag.LAMBDA_CAPPED
+    elif not scene_film(scene).sharing.covers(contact.lam):
+        flags |= RangeFlag.OUTSIDE_FIT
+    if not scene.tribofilm.covers(op.temperature):
+        flags |= RangeFlag.TRIBOFILM_TEMPERATURE
+    return flags
+
+
+def _errors(scene: Scene, op: OperatingPoint, contact: _Contact) -> dict[str, float]:
+    """Relative half widths of the errors by the fit. Friction is wrong where load counts for solids and is oil's."""
+    sharing = scene_film(scene).sharing
+    force, share = abs(contact.solid + contact.fluid), contact.load_ratio
+    error = min(sharing.error_load, max(share, 1.0 - share)) if 0.0 < share < 1.0 else 0.0
+    solid = abs(contact.solid) / (share * op.load) if share > 0.0 else 0.0
+    fluid = abs(contact.fluid) / ((1.0 - share) * op.load) if op.load > 0.0 and share < 1.0 else 0.0
+    return {
+        "error_friction": abs(solid - fluid) * error * op.load / force if force > 0.0 else 0.0,
+        "error_film": sharing.error_film if op.load > 0.0 and contact.sigma > 0.0 else 0.0,
+        "error_tribofilm": sharing.error_area if share > 0.0 else 0.0,
+        "error_wear": min(error / share, 1.0) if share > 0.0 else 0.0,
+    }
+
+
+# from patches to means and back
+
+
+def means_of(scene: Scene, state: ContactState) -> Means:
+    """Means of the patches over the track."""
+    first, second = (_mean_of(scene, state, i) for i in (0, 1))
+    return first, second
+
+
+def _mean_of(scene: Scene, state: ContactState, i: int) -> Mean:
+    body, rows = state.bodies[i], state.rows
+    track = track_rows(scene, rows)
+    bare = bare_heights(scene, rows)[i]
+    solid = roughness_of(bare, bare - body.wear - body.plastic)
+    return Mean(
+        growth=float(body.growth[track].mean()),
+        removal=float(body.removal[track].mean()),
+        coverage=float((body.growth[track] > 0.0).mean()),
+        wear=float(body.wear[track].mean()),
+        roughness=rms_roughness(solid, track_rows(scene, rows, 2.0 / 3.0)),
+        worn=body.worn,
+        cycles=body.cycles,
+    )
+
+
+def folded(scene: Scene, state: ContactState) -> ContactState:
+    """The state with its patches brought up to date: the change of the means added to them.
+
+    Tribofilm goes on where there is some and on the highest points that had none, wear in proportion to the pressure
+    that the points felt last. Means that have not changed change nothing.
+    """
+    if state.means is None:
+        return state
+    old = means_of(scene, state)
+    first, second = (
+        body if now == then else _folded(scene, state.rows, i, body, then, now)
+        for i, (body, then, now) in enumerate(zip(state.bodies, old, state.means, strict=True))
+    )
+    return replace(state, bodies=(first, second), means=None, solved_for=None)
+
+
+def _folded(scene: Scene, rows: int, i: int, body: Body, then: Mean, now: Mean) -> Body:
+    """A body whose track has gone from one mean to another."""
+    track = track_rows(scene, rows)
+    bare = bare_heights(scene, rows)[i]
+    heights = (bare - body.wear - body.plastic)[track]
+    felt = body.pressure[track]
+    felt = felt / felt.mean() if felt.any() else np.ones_like(felt)
+    covered = _covered(heights, body.growth[track] > 0.0, now.coverage)
+    full = scene.tribofilm.full_thickness
+    changed: dict[str, Any] = {
+        "growth": _raised(body.growth[track], covered, then.growth, now.growth, full),
+        "removal": _raised(body.removal[track], covered, then.removal, now.removal, full),
+        "wear": body.wear[track] + (now.wear - then.wear) * felt,
+    }
+    arrays = {name: getattr(body, name).copy() for name in changed}
+    for name, array in arrays.items():
+        array[track] = changed[name]
+    return replace(body, **arrays, worn=now.worn, cycles=now.cycles)
+
+
+def _covered(heights: Array, before: NDArray[np.bool_], coverage: float) -> NDArray[np.bool_]:
+    """Nodes that are to carry a tribofilm: those that did, and as many of the highest as make up the coverage."""
+    more = round(coverage * heights.size) - int(before.sum())
+    if more <= 0:
+        return before
+    order = np.argsort(np.where(before, -np.inf, heights), axis=None, kind="stable")
+    after = before.copy()
+    after.flat[order[-more:]] = True
+    return after
+
+
+def _raised(field: Array, covered: NDArray[np.bool_], then: float, now: float, most: float) -> Array:
+    """A field [m] whose mean goes from `then` to `now`: up, by the same part of what is missing to `most` everywhere
+    that is covered; down, by the same part of what is there.
+    """
+    if now <= then or not covered.any():
+        return field * (now / then) if then > 0.0 else field
+    room = np.where(covered, np.maximum(most - field, 0.0), 0.0)
+    return field + room * ((now - then) / float(room.mean()))
+
+
