@@ -269,8 +269,8 @@ def _evolved(scene: Scene, op: OperatingPoint, contact: _Contact, means: Means, 
     coverage, doses = _doses(scene, op, contact, means)
     growth = np.array([mean.growth / c if c > 0.0 else 0.0 for mean, c in zip(means, coverage, strict=True)])
     removal = np.array([mean.removal / c if c > 0.0 else 0.0 for mean, c in zip(means, coverage, strict=True)])
-    exposed = np.array([dose * step for dose in doses])
-    grown, removed = scene.tribofilm.evolve(growth, removal, exposed, op.temperature + contact.rise)
+    exposed, abraded = np.array(doses) * step, _abrasion(scene, op, contact, coverage) * step
+    grown, removed = scene.tribofilm.evolve(growth, removal, exposed, abraded, op.inlet_temperature + contact.rise)
     first, second = (
         _body_after(
             scene, op, contact, i, means[i], step, coverage[i], grown[i] * coverage[i], removed[i] * coverage[i]
@@ -345,7 +345,8 @@ def _doses(
     if op.sliding_speed == 0.0 or op.load == 0.0:
         return old, (0.0, 0.0)
     pressures, shears = (contact.solid_pressure, 0.0), (contact.solid_shear, contact.fluid_shear)
-    touching, oiled = law.exposure(np.array(pressures), np.array(shears), op.sliding_speed).tolist()
+    warm = op.inlet_temperature + contact.rise
+    touching, oiled = law.exposure(np.array(pressures), np.array(shears), op.sliding_speed, warm).tolist()
     found = [_dose(scene, op, contact, i, means, touching, oiled) for i in (0, 1)]
     return (found[0][0], found[1][0]), (found[0][1], found[1][1])
 
@@ -365,6 +366,14 @@ def _dose(
         return coverage, (share * touching + (1.0 - share) * oiled) / coverage
     mean = contact.area_ratio * touching + (1.0 - contact.area_ratio) * oiled
     return coverage, mean * _time_share(scene, op, i, moving) / coverage
+
+
+def _abrasion(scene: Scene, op: OperatingPoint, contact: _Contact, coverage: tuple[float, float]) -> Array:
+    """Rate [1/s] at which rubbing takes tribofilm from the covered part of each track, mean over it."""
+    pressure = contact.solid_pressure * contact.area_ratio
+    moving = (op.speed_1 != 0.0, op.speed_2 != 0.0)
+    felt = [pressure * _time_share(scene, op, i, moving[i]) / (coverage[i] or 1.0) for i in (0, 1)]
+    return scene.tribofilm.abrasion(np.array(felt), op.sliding_speed, None)
 
 
 def _time_share(scene: Scene, op: OperatingPoint, i: int, moving: bool) -> float:
