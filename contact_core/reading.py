@@ -133,18 +133,16 @@ _SET_FILES = {
 
 
 def _with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
-    """Replace `set = "name"` by the named values of data/*.toml; keys written beside it win."""
-    name = table.pop("set", None)
-    if name is None:
+    """Replace `set = "name"` (in capitals or not) by the named values of data/*.toml; keys written beside it win."""
+    if "set" not in table:
         return table
+    name = str(table.pop("set")).lower()
     if path not in _SET_FILES:
         raise SceneError(f"[{path}] has no named sets. Known are sets for {', '.join(_SET_FILES)}.")
     data = tomllib.loads((files(__package__) / "data" / f"{_SET_FILES[path]}.toml").read_text("utf-8"))
     sets = {key: value[path] for key, value in data.items() if isinstance(value.get(path), dict)}
     if name not in sets:
-        raise SceneError(
-            f"[{path}] has no set '{name}'.{did_you_mean(str(name), list(sets))} Known are {', '.join(sets)}."
-        )
+        raise SceneError(f"[{path}] has no set '{name}'.{did_you_mean(name, list(sets))} Known are {', '.join(sets)}.")
     return _merged(sets[name], table)
 
 

@@ -18,7 +18,7 @@ from .laws.heat import FlashTemperature, NoHeat, TemperatureField
 from .laws.plasticity import ElasticPerfectlyPlastic
 from .laws.rheology import Carreau, Eyring, Newtonian
 from .laws.tribofilm import Andersson, Combined, Ghanbarzadeh, Gosvami, NoTribofilm, ZhangSpikes
-from .laws.viscosity import Barus, Roelands
+from .laws.viscosity import AstmD341, Barus, Modulus, Roelands
 from .laws.wear import Archard, NoWear
 from .quantities import TABLE, input_parameter, out_of_range, parameter
 from .reading import build, did_you_mean, override, read_table, unbuild
@@ -57,7 +57,7 @@ class Surface:
 class Lubricant:
     """The oil."""
 
-    viscosity: Roelands | Barus
+    viscosity: Roelands | Barus | Modulus | AstmD341
     density: DowsonHigginson | Incompressible
     rheology: Newtonian | Eyring | Carreau
     conductivity: float = parameter("W/(m K)", "thermal conductivity of the oil", above=0.0, most=10.0, default=0.14)
@@ -264,7 +264,9 @@ class Scene:
         ranges = [("range", sentence) for sentence in out_of_range(self, "")]
         if not re.fullmatch(r"[\w-]+", self.name):  # files are named after it
             ranges.append(("name", f"name = {self.name!r} must be letters, digits, '_' and '-' only."))
-        return ranges or [*self._shape_errors(), *self._roughness_errors(), *self._duty_errors()]
+        return ranges or [
+            *self._shape_errors(), *self._roughness_errors(), *self._oil_errors(), *self._duty_errors()
+        ]  # fmt: skip
 
     def _shape_errors(self) -> Iterator[tuple[str, str]]:
         load, plasticity = self.largest_load, self.plasticity
@@ -313,6 +315,15 @@ class Scene:
                     f"at least 1 is needed. Use film.points = {1 + math.ceil(self.film.domain / length)} or more, "
                     "or a longer correlation length.",
                 )
+
+    def _oil_errors(self) -> Iterator[tuple[str, str]]:
+        oil = self.lubricant.viscosity
+        if isinstance(oil, AstmD341) and oil.viscosity_100 >= oil.viscosity_40:
+            yield (
+                "viscosity",
+                f"lubricant.viscosity.viscosity_100 = {oil.viscosity_100:g} m2/s must be below viscosity_40 = "
+                f"{oil.viscosity_40:g} m2/s: oils thin when they warm. Exchange the two if they were mixed up.",
+            )
 
     def _duty_errors(self) -> Iterator[tuple[str, str]]:
         times = [step.time for step in self.operation.steps]

@@ -26,11 +26,12 @@ _BASE: dict[str, tuple[float, Dimension]] = {
     "P": (0.1, (-1, 1, -1, 0)),
     "eV": (1.602176634e-19, (2, 1, -2, 0)),
     "mol": (6.02214076e23, (0, 0, 0, 0)),  # a number: kJ/mol are energies per molecule
+    "St": (1e-4, (2, 0, -1, 0)),
     "%": (1e-2, (0, 0, 0, 0)),
     "1": (1.0, (0, 0, 0, 0)),
 }
 _PREFIX = {"n": 1e-9, "u": 1e-6, "µ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6, "G": 1e9}
-_PREFIXABLE = {"m", "g", "s", "K", "N", "Pa", "J", "W", "P"}
+_PREFIXABLE = {"m", "g", "s", "K", "N", "Pa", "J", "W", "P", "St"}
 _TOKEN = re.compile(r"([A-Za-zµ%]+|1)(?:\^?(-?\d+))?$")
 _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?inf|nan)\s*(.*)$")
 

@@ -1,5 +1,9 @@
-"""Viscosity as a function of pressure and temperature."""
+"""Viscosity as a function of pressure and temperature.
 
+A law takes pressures [Pa] of any shape and one temperature [K] or an array of them that broadcasts with the pressures.
+"""
+
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -8,9 +12,12 @@ from numpy.typing import NDArray
 
 from ..quantities import parameter
 
+Array = NDArray[np.float64]
+
 _P0 = 1.0 / 5.1e-9  # Pa
 _LN_ETA_INF = -9.67  # ln(6.31e-5 Pa s)
 _STIFF = 500.0  # an oil e^500 times stiffer than at p = 0 does not flow: no need to overflow
+_STIFFEST_DOUBLE_LOG = 2.3  # log10 log10 of e^459 mm2/s, for the same reason
 
 
 @dataclass(frozen=True)
@@ -31,8 +38,8 @@ class Roelands:
     pressure_coefficient: float = parameter("Pa^-1", "d ln(eta)/dp at p = 0", least=0.0, most=1e-7)
     temperature_coefficient: float = parameter("K^-1", "-d ln(eta)/dT at p = 0", least=0.0, most=0.2)
 
-    def __call__(self, pressure: NDArray[np.float64], temperature: NDArray[np.float64] | float) -> NDArray[np.float64]:
-        """Viscosity [Pa s] at pressures [Pa] and temperatures [K], arrays or one for all."""
+    def __call__(self, pressure: Array, temperature: float | Array) -> Array:
+        """Viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
         log_range = np.log(self.viscosity) - _LN_ETA_INF
         z = self.pressure_coefficient * _P0 / log_range
         s0 = self.temperature_coefficient * (self.reference_temperature - 138.0) / log_range
@@ -53,11 +60,86 @@ class Barus:
     pressure_coefficient: float = parameter("Pa^-1", "d ln(eta)/dp", least=0.0, most=1e-7)
     temperature_coefficient: float = parameter("K^-1", "-d ln(eta)/dT", least=0.0, most=0.2)
 
-    def __call__(self, pressure: NDArray[np.float64], temperature: NDArray[np.float64] | float) -> NDArray[np.float64]:
-        """Viscosity [Pa s] at pressures [Pa] and temperatures [K], arrays or one for all."""
+    def __call__(self, pressure: Array, temperature: float | Array) -> Array:
+        """Viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
         exponent = self.pressure_coefficient * pressure
         exponent = exponent - self.temperature_coefficient * (temperature - self.reference_temperature)
         return self.viscosity * np.exp(np.minimum(exponent, _STIFF))
 
 
-LAWS = (Roelands, Barus)
+@dataclass(frozen=True)
+class Modulus:
+    """The modulus equation: eta = K exp[C / (D + T)] exp{p / [a1 + a2 T + (b1 + b2 T) p]}.
+
+    Vogel's law at p = 0; a1 + a2 T is the inverse of the pressure coefficient, and b1 + b2 T bends ln(eta) downward
+    where it is positive. Where the denominator, with or without pressure, is zero or less, beyond any pressure and
+    temperature the constants were fitted at, the oil counts as too stiff to flow.
+    """
+
+    name: ClassVar[str] = "modulus"
+    source: ClassVar[str] = (
+        "Gold et al., J. Synth. Lubr. 18 (2001) 51; as in Arana, Larranaga & Ulacia 2019, doi:10.1177/1350650118778655"
+    )
+
+    vogel_viscosity: float = parameter("Pa s", "K, viscosity of the hot oil", above=0.0, most=1.0)
+    vogel_slope: float = parameter("K", "C, fall of ln(viscosity) by 1 / (D + T)", least=0.0, most=1e4)
+    vogel_offset: float = parameter("K", "D, minus the temperature of solidification", least=-225.0, most=273.15)
+    modulus: float = parameter("Pa", "a1, inverse of the pressure coefficient, at T = 0 K", least=-1e9, most=1e9)
+    modulus_slope: float = parameter("Pa/K", "a2, rise of that with temperature", least=0.0, most=1e7)
+    bend: float = parameter("", "b1, rise of the modulus with pressure, at T = 0 K", least=-1.0, most=1.0)
+    bend_slope: float = parameter("K^-1", "b2, rise of that with temperature", least=-1e-2, most=1e-2)
+
+    def __call__(self, pressure: Array, temperature: float | Array) -> Array:
+        """Viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
+        modulus = self.modulus + self.modulus_slope * temperature
+        bent = modulus + (self.bend + self.bend_slope * temperature) * pressure
+        modulus = np.where(modulus > 0.0, bent, 0.0)
+        exponent = pressure / np.maximum(modulus, pressure / _STIFF + 1.0)  # 1 Pa: no 0 / 0 without pressure
+        exponent = exponent + self.vogel_slope / (self.vogel_offset + temperature)
+        return self.vogel_viscosity * np.exp(np.minimum(exponent, _STIFF))
+
+
+@dataclass(frozen=True)
+class AstmD341:
+    """An oil from its data sheet: kinematic viscosities at 40 and 100 degC, density, one pressure coefficient.
+
+    log10 log10(nu + 0.7) = A - B log10 T, nu in mm2/s, for nu above 2 mm2/s; the density falls linearly with
+    temperature. Under pressure Roelands' law with an exponent z that no temperature changes:
+    eta = eta_inf (eta(0, T) / eta_inf)^[(1 + p/p0)^z], eta_inf = 63.1 uPa s, p0 = 196 MPa.
+    """
+
+    name: ClassVar[str] = "astm_d341"
+    source: ClassVar[str] = (
+        "ASTM D341, Standard Practice for Viscosity-Temperature Charts for Liquid Petroleum Products; under pressure "
+        "Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of oils, TU Delft 1966"
+    )
+
+    viscosity_40: float = parameter("m2/s", "kinematic viscosity at 40 degC, p = 0", least=2e-6, most=0.1)
+    viscosity_100: float = parameter("m2/s", "kinematic viscosity at 100 degC, p = 0", least=1e-6, most=0.1)
+    density: float = parameter("kg/m3", "density at 15 degC, p = 0", least=600.0, most=2500.0)
+    pressure_coefficient: float = parameter(
+        "Pa^-1", "d ln(viscosity)/dp at p = 0 and the reference temperature", least=0.0, most=1e-7
+    )
+    reference_temperature: float = parameter("K", "temperature of the pressure coefficient", least=230.0, most=500.0)
+    expansion: float = parameter(
+        "K^-1", "thermal expansion, relative to the density at 15 degC; assumed 7e-4 if not given",
+        least=0.0, most=1e-3, default=7e-4,
+    )  # fmt: skip
+
+    def _log_viscosity(self, temperature: float | Array) -> Array:
+        """ln(viscosity / eta_inf) at p = 0."""
+        low, high = (math.log10(math.log10(1e6 * nu + 0.7)) for nu in (self.viscosity_40, self.viscosity_100))
+        slope = (low - high) / math.log10(373.15 / 313.15)
+        double_log = np.minimum(low - slope * np.log10(np.asarray(temperature) / 313.15), _STIFFEST_DOUBLE_LOG)
+        kinematic = 1e-6 * (10.0 ** (10.0**double_log) - 0.7)
+        density = self.density * (1.0 - self.expansion * (np.asarray(temperature) - 288.15))
+        return np.log(kinematic * density) - _LN_ETA_INF
+
+    def __call__(self, pressure: Array, temperature: float | Array) -> Array:
+        """Viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
+        z = self.pressure_coefficient * _P0 / self._log_viscosity(self.reference_temperature)
+        exponent = self._log_viscosity(temperature) * (1.0 + pressure / _P0) ** z
+        return np.exp(np.minimum(_LN_ETA_INF + exponent, _STIFF))
+
+
+LAWS = (Roelands, Barus, Modulus, AstmD341)

@@ -29,6 +29,16 @@ PLAUSIBLE = {
     "fit_temperature": (273.0, 450.0),
     "pressure_coefficient": (5e-9, 30e-9),
     "temperature_coefficient": (0.005, 0.06),
+    "vogel_viscosity": (1e-5, 2e-4),
+    "vogel_slope": (500.0, 2000.0),
+    "vogel_offset": (-210.0, -100.0),
+    "modulus": (-4e7, -2e7),
+    "modulus_slope": (2e5, 4e5),
+    "bend": (-0.07, 0.01),
+    "bend_slope": (-2e-5, 3e-4),
+    "viscosity_40": (2e-5, 1e-3),
+    "viscosity_100": (2e-6, 1.5e-5),
+    "density": (800.0, 1100.0),
     "full_thickness": (1e-9, 1e-6),
     "removal_thickness": (0.0, 1e-6),
     "rate_factor": (0.0, 1e-14),
@@ -86,12 +96,20 @@ def test_plausible_parameters_of_a_law_are_in_its_range(law, data):
     assert list(out_of_range(data.draw(law_strategy(law)), "law")) == []
 
 
-@given(laws_of("viscosity"), pressures, temperatures)
+@given(laws_of("viscosity"), arrays(float, SHAPE, elements=st.floats(0.0, 2e10)), st.floats(230.0, 900.0))
 def test_a_viscosity_is_positive_finite_and_rises_with_pressure(law, pressure, temperature):
     found = law(pressure, temperature)
     assert is_field(found)
     assert np.all(found > 0.0)
     assert np.all(law(pressure + 1e7, temperature) >= found)
+
+
+@given(laws_of("viscosity"), pressures, arrays(float, SHAPE, elements=st.floats(230.0, 900.0)))
+def test_a_viscosity_takes_a_field_of_temperatures(law, pressure, temperature):
+    found = law(pressure, temperature)
+    assert is_field(found)
+    one_by_one = [law(np.array([p]), float(t))[0] for p, t in zip(pressure.flat, temperature.flat, strict=True)]
+    assert found.ravel() == pytest.approx(one_by_one, rel=1e-11, abs=0.0)
 
 
 @given(laws_of("viscosity"), pressures, st.floats(230.0, 490.0))

@@ -9,7 +9,7 @@ from contact_core.laws.heat import FlashTemperature, NoHeat
 from contact_core.laws.plasticity import ElasticPerfectlyPlastic
 from contact_core.laws.rheology import Eyring
 from contact_core.laws.tribofilm import Andersson, Ghanbarzadeh, NoTribofilm, thickness
-from contact_core.laws.viscosity import Barus, Roelands
+from contact_core.laws.viscosity import AstmD341, Barus, Modulus, Roelands
 from contact_core.laws.wear import Archard, NoWear
 
 PRESSURE = np.linspace(0.0, 6e9, 40).reshape(5, 8)
@@ -30,6 +30,74 @@ def test_barus_is_an_exponential_that_does_not_overflow():
     oil = Barus(0.004, 363.15, 20e-9, 0.03)
     assert oil(np.array([0.5e9]), 353.15)[0] == pytest.approx(0.004 * np.exp(10.0 + 0.3), rel=1e-14)
     assert np.all(np.isfinite(oil(np.array([1e11, 1e12]), 230.0)))
+
+
+CURVED = Modulus(86.86e-6, 890.0, -182.0, -2.28e7, 2.26e5, -68.2e-3, 27.68e-5)
+
+
+def test_the_modulus_equation_is_vogels_law_times_an_exponential_of_pressure():
+    temperature, pressure = 350.0, np.array([0.0, 0.1e9, 1e9])
+    vogel = 86.86e-6 * np.exp(890.0 / 168.0)
+    modulus = -2.28e7 + 2.26e5 * 350.0 + (-68.2e-3 + 27.68e-5 * 350.0) * pressure
+    assert CURVED(pressure, temperature) == pytest.approx(vogel * np.exp(pressure / modulus), rel=1e-7)
+
+
+@pytest.mark.parametrize("bend", [-0.3, -0.0682, 0.0, 0.1])
+@pytest.mark.parametrize("modulus", [-5e8, -2.28e7, 0.0])
+def test_beyond_its_pole_the_modulus_equation_is_stiff_and_never_turns_back(bend, modulus):
+    oil = replace(CURVED, bend=bend, bend_slope=0.0, modulus=modulus)
+    pressure = np.concatenate([[0.0], np.logspace(-3, np.log10(2e10), 200)])[:, None]
+    found = oil(pressure, np.linspace(230.0, 900.0, 68))
+    assert found.shape == (201, 68)
+    assert np.all(np.isfinite(found))
+    assert np.all(np.diff(found, axis=0) >= 0.0)
+    assert np.all(np.diff(found, axis=1) <= 0.0)
+    assert found[0] == pytest.approx(oil(np.zeros(1), np.linspace(230.0, 900.0, 68)), rel=1e-14)
+    if bend < 0.0:
+        assert found[-1, 0] == 86.86e-6 * np.exp(500.0)
+
+
+SHEET = AstmD341(99.4e-6, 10.99e-6, 900.0, 18.8e-9, 333.15, 6e-4)
+
+
+def test_an_oil_has_the_kinematic_viscosities_and_the_density_of_its_data_sheet():
+    temperature = np.array([313.15, 373.15])
+    density = 900.0 * (1.0 - 6e-4 * np.array([25.0, 85.0]))
+    found = SHEET(np.zeros(2), temperature)
+    assert found == pytest.approx(density * np.array([99.4e-6, 10.99e-6]), rel=1e-12)
+
+
+def test_between_the_two_viscosities_the_double_logarithm_is_straight_in_the_logarithm_of_temperature():
+    temperature = np.array([283.15, 313.15, 343.15, 373.15, 423.15])
+    kinematic = SHEET(np.zeros(5), temperature) / (900.0 * (1.0 - 6e-4 * (temperature - 288.15)))
+    double_log = np.log10(np.log10(1e6 * kinematic + 0.7))
+    slope = np.diff(double_log) / np.diff(np.log10(temperature))
+    assert slope == pytest.approx(np.full(4, slope[0]), rel=1e-9)
+
+
+def test_an_oil_has_its_pressure_coefficient_where_it_was_measured_and_one_roelands_exponent_everywhere():
+    temperature, step = np.array([313.15, 333.15, 373.15]), 1e5
+    low, high = SHEET(np.array([[0.0], [step]]), temperature)
+    coefficient = np.log(high / low) / step
+    assert coefficient[1] == pytest.approx(18.8e-9, rel=1e-3)
+    exponent = coefficient / (5.1e-9 * (np.log(low) + 9.67))
+    assert exponent == pytest.approx(np.full(3, exponent[0]), rel=1e-12)
+
+
+def test_at_one_temperature_an_oil_of_a_data_sheet_is_roelands_oil():
+    pressure = np.linspace(0.0, 2e9, 9)
+    viscosity = SHEET(np.zeros(1), 333.15)[0]
+    expected = Roelands(viscosity, 333.15, 18.8e-9, 0.03)(pressure, 333.15)
+    assert SHEET(pressure, 333.15) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("oil", [SHEET, AstmD341(0.1, 1e-6, 2500.0, 1e-7, 500.0, 1e-3)], ids=["usual", "extreme"])
+def test_an_oil_of_a_data_sheet_does_not_overflow(oil):
+    pressure = np.concatenate([[0.0], np.logspace(3, np.log10(2e10), 100)])[:, None]
+    found = oil(pressure, np.linspace(230.0, 900.0, 68))
+    assert np.all(np.isfinite(found) & (found > 0.0))
+    assert np.all(np.diff(found, axis=0) >= 0.0)
+    assert np.all(np.diff(found, axis=1) <= 0.0)
 
 
 def test_density_rises_from_one_to_no_more_than_a_third_above():

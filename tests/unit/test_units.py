@@ -19,6 +19,7 @@ from contact_core.errors import SceneError
         ("30 min^-1", "s^-1", 0.5),
         ("46 W/(m K)", "W/(m K)", 46.0),
         ("12.5 mm2/s", "m2/s", 1.25e-5),
+        ("46 cSt", "m2/s", 46e-6),
         ("3 um^3/s", "m3/s", 3e-18),
         ("7800 kg/m3", "kg/m3", 7800.0),
         ("1 J", "N m", 1.0),

@@ -1,0 +1,151 @@
+"""The named oils against what their sources print."""
+
+import tomllib
+from importlib.resources import files
+
+import numpy as np
+import pytest
+
+from contact_core import Scene, SceneError
+from contact_core.reading import build, read_table
+from contact_core.scene import Lubricant
+
+TEXT = (files("contact_core") / "data" / "lubricants.toml").read_text("utf-8")
+NAMES = list(tomllib.loads(TEXT))
+CELSIUS = 273.15
+WARM = np.array([40.0, 80.0, 100.0]) + CELSIUS
+
+# kinematic viscosity at 40 and 100 degC [mm2/s] and density at 15.6 degC: Arana et al. 2019, Table 2
+ISO_VG_100 = {"m100": (96.0, 10.6, 882.0), "pao100": (94.1, 14.0, 840.0), "n100": (97.9, 8.61, 900.0)}
+# ASTM D341 A, B; s, t of the pressure coefficient s nu^t 1e-8 [Pa^-1]
+CONSTANTS = {
+    "fva3": (9.2384, 3.5810, 0.9904, 0.1390), "minr": (9.0658, 3.4730, 0.9904, 0.1390),
+    "paor": (7.3514, 2.7865, 0.7382, 0.1335), "pagd": (5.7597, 2.1512, 0.5489, 0.1485),
+}  # fmt: skip
+LIMITS = {"m100": 0.047, "pao100": 0.035, "n100": 0.053, "fva3": 0.047, "minr": 0.047, "paor": 0.035, "pagd": 0.044}
+
+
+def lubricant(name: str) -> Lubricant:
+    return build(Lubricant, {"set": name}, "lubricant")
+
+
+def kinematic(name: str, temperature):
+    a, b, *_ = CONSTANTS[name]
+    return 10.0 ** (10.0 ** (a - b * np.log10(temperature))) - 0.7  # mm2/s
+
+
+def pressure_coefficient(name: str, temperature):
+    low, high = lubricant(name).viscosity(np.array([[0.0], [1e4]]), np.asarray(temperature))
+    return np.log(high / low) / 1e4
+
+
+def test_every_named_oil_is_tested_here():
+    assert {"azam_oil", *LIMITS} == set(NAMES)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_named_oil_has_a_source_and_says_what_is_assumed(name):
+    table = tomllib.loads(TEXT)[name]
+    assert len(table["source"]) > 40
+    assert "ssumed" in table["source"]
+
+
+@pytest.mark.parametrize("name", [*NAMES, "FVA3", "Pao100"])
+def test_a_scene_takes_a_named_oil_in_any_case(name):
+    table = read_table("azam_case_a")
+    table["lubricant"] = {"set": name, "conductivity": "0.13 W/(m K)"}
+    oil = Scene.from_dict(table).lubricant
+    assert oil.conductivity == 0.13
+    assert oil.viscosity == lubricant(name.lower()).viscosity
+
+
+@pytest.mark.parametrize(("name", "cold", "hot"), [("m100", -8, 4), ("pao100", 7, -4), ("n100", -20, 8)])
+def test_fitted_constants_are_as_far_from_the_data_sheet_as_their_source_says(name, cold, hot):
+    nu_40, nu_100, density = ISO_VG_100[name]
+    temperature = np.array([40.0, 100.0]) + CELSIUS
+    expected = np.array([nu_40, nu_100]) * 1e-6 * density * (1.0 - 7e-4 * (temperature - 15.6 - CELSIUS))
+    found = 100.0 * (lubricant(name).viscosity(np.zeros(2), temperature) / expected - 1.0)
+    print(f"{name}: {found[0]:+.1f} % at 40 degC, {found[1]:+.1f} % at 100 degC")
+    assert found == pytest.approx([cold, hot], abs=0.5)
+    said = tomllib.loads(TEXT)[name]["source"]
+    for percent in (cold, hot):
+        assert f"{abs(percent)} % {'above' if percent > 0 else 'below'}" in said
+
+
+def test_modulus_oils_have_the_viscosities_computed_from_the_printed_constants():
+    assert lubricant("m100").viscosity(np.zeros(2), WARM[[0, 2]]) == pytest.approx([76.9e-3, 9.14e-3], rel=1e-3)
+    assert lubricant("pao100").viscosity(np.zeros(1), WARM[:1]) == pytest.approx([83.5e-3], rel=1e-3)
+    assert lubricant("n100").viscosity(np.zeros(1), WARM[:1]) == pytest.approx([69.7e-3], rel=1e-3)
+
+
+@pytest.mark.parametrize("name", CONSTANTS)
+def test_oils_of_a_chart_have_its_kinematic_viscosities_and_the_coefficient_of_their_family(name):
+    oil = lubricant(name).viscosity
+    found = np.array([oil.viscosity_40, oil.viscosity_100]) * 1e6
+    assert found == pytest.approx(kinematic(name, WARM[[0, 2]]), rel=5e-5)
+    between = oil(np.zeros(1), WARM[1:2]) / (oil.density * (1.0 - oil.expansion * 65.0)) * 1e6
+    assert between == pytest.approx(kinematic(name, WARM[1:2]), rel=2e-4)
+    *_, s, t = CONSTANTS[name]
+    assert oil.reference_temperature == WARM[0]
+    assert oil.pressure_coefficient * 1e8 == pytest.approx(s * kinematic(name, WARM[0]) ** t, rel=1e-3)
+
+
+@pytest.mark.parametrize("name", CONSTANTS)
+def test_a_constant_roelands_exponent_follows_the_familys_coefficient_to_seven_percent_up_to_100_degrees(name):
+    *_, s, t = CONSTANTS[name]
+    deviation = pressure_coefficient(name, WARM) * 1e8 / (s * kinematic(name, WARM) ** t) - 1.0
+    print(
+        name, "".join(f"{100.0 * d:+.1f} % at {w - CELSIUS:.0f} degC  " for d, w in zip(deviation, WARM, strict=True))
+    )
+    assert deviation == pytest.approx(np.zeros(3), abs=0.07)
+
+
+@pytest.mark.parametrize("name", LIMITS)
+def test_pressure_coefficients_and_shear_stresses_are_those_of_oils(name):
+    coefficient = pressure_coefficient(name, WARM)
+    assert np.all((coefficient > 9e-9) & (coefficient < 28e-9))  # polyglycols lowest, naphthenic oils highest
+    rheology = lubricant(name).rheology
+    assert rheology.limiting_coefficient == LIMITS[name]
+    assert rheology.eyring_stress == pytest.approx(2.0 * LIMITS[name] / coefficient[1], rel=0.015)
+
+
+def example() -> dict:
+    """The oil written down in the head of the file."""
+    lines = [line[6:] for line in TEXT.splitlines() if line.startswith("#     ")]
+    start = next(i for i, line in enumerate(lines) if line.startswith("viscosity.model"))
+    return tomllib.loads("\n".join(["[lubricant]", *lines[start:]]))["lubricant"]
+
+
+def test_the_example_of_an_oil_of_ones_own_is_one_table_that_a_scene_takes():
+    table = read_table("azam_case_a") | {"lubricant": example()}
+    scene = Scene.from_dict(table)
+    oil = scene.lubricant.viscosity
+    assert (oil.viscosity_40, oil.viscosity_100) == pytest.approx((46e-6, 6.8e-6), rel=1e-12)
+    assert oil(np.zeros(1), 313.15)[0] == pytest.approx(46e-6 * 870.0 * (1.0 - 7e-4 * 25.0), rel=1e-9)
+    assert Scene.from_dict(scene.to_dict()) == scene
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "said"),
+    [
+        ("viscosity_100", "60 mm2/s", ["viscosity_100 = 6e-05 m2/s", "viscosity_40 = 4.6e-05 m2/s", "Exchange"]),
+        ("viscosity_40", "46 mm2", ["viscosity_40 = '46 mm2'", "wrong unit", "m2/s"]),
+        ("viscosity_40", "46", ["no unit", "m2/s"]),
+        ("density", "0.87 kg/m3", ["lubricant.viscosity.density = 0.87 kg/m3", "at least 600"]),
+        ("pressure_coefficient", "20 Pa^-1", ["pressure_coefficient = 20 Pa^-1", "at most 1e-07"]),
+    ],
+)
+def test_an_oil_that_cannot_be_is_refused_with_what_would_be_right(key, value, said):
+    oil = example()
+    oil["viscosity"][key] = value
+    with pytest.raises(SceneError) as refused:
+        Scene.from_dict(read_table("azam_case_a") | {"lubricant": oil})
+    for part in said:
+        assert part in str(refused.value)
+
+
+def test_a_pole_of_the_modulus_equation_in_temperature_is_out_of_range():
+    table = read_table("azam_case_a")
+    table["lubricant"] = {"set": "m100", "viscosity": {"vogel_offset": "-240 K"}}
+    with pytest.raises(SceneError, match=r"vogel_offset = -240 K .* at least -225"):
+        Scene.from_dict(table)
