@@ -157,10 +157,10 @@ class TemperatureField:
     """Temperature of both surfaces node by node, each moving at its own speed through the heat it takes up, steady.
 
     The film dissipates evenly over its thickness and conducts across it, so the surfaces' temperatures fit its own at
-    every node: where solids touch the gap is the film's floor, which conducts so well that both are equal. Only nodes
-    under pressure conduct. Around them the gap is not sure to be full of oil, and what bodies of different temperature
-    exchange there is no matter of the contact: it depends on where the grid ends. Such nodes give the heat of their oil
-    to the bodies in halves.
+    every node; where solids touch the gap is the film's floor, which conducts so well that they are nearly equal. Only
+    nodes under pressure conduct. Around them the gap is not sure to be full of oil, and what bodies of different
+    temperature exchange there would depend on where the grid ends. Such nodes give the heat of their oil to the bodies
+    in halves. Steady means that the heat stands still in the contact while the surfaces pass.
     """
 
     name: ClassVar[str] = "field"

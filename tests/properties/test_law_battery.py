@@ -59,7 +59,9 @@ PLAUSIBLE = {
 def law_strategy(law: type) -> st.SearchStrategy[Any]:
     values = {}
     for f in fields(law):
-        if f.metadata["choices"]:
+        if not f.metadata:  # a slot in a law
+            values[f.name] = laws_of(f.name)
+        elif f.metadata["choices"]:
             values[f.name] = st.sampled_from(f.metadata["choices"])
         else:
             assert get_type_hints(law)[f.name] is float
@@ -217,12 +219,53 @@ def test_boundary_friction_opposes_sliding_and_vanishes_without_contact(law, pre
     assert not law(np.zeros(SHAPE), cover, speed).any()
 
 
-@given(laws_of("heat"), arrays(float, SHAPE, elements=st.floats(0.0, 1e-3)), pressures, speeds)
-def test_friction_only_warms(law, radius, shear, speed):
-    found = law.rise(radius, shear, speed)
-    assert is_field(found)
-    assert np.all(found >= 0.0)
-    assert not law.rise(radius, shear, 0.0).any()
+masks = arrays(bool, SHAPE)
+dissipations = arrays(float, SHAPE, elements=st.just(0.0) | st.floats(1.0, 1e12))
+gaps = arrays(float, SHAPE, elements=st.floats(1e-9, 1e-6))
+
+
+@given(laws_of("heat"), dissipations, gaps, masks, masks, speeds, speeds, temperatures, temperatures)
+def test_all_heat_goes_into_the_bodies(law, heat, gap, solid, pressed, speed_1, speed_2, first, second):
+    speed, inside = (speed_1, speed_2), solid | pressed
+    found = law.temperatures(heat, gap, solid, inside, 4e-6, speed, speed_1 - speed_2, (first, second), 0.14)
+    assert found.solved
+    total = heat.sum() * 4e-6**2
+    assert found.into_1 + found.into_2 == pytest.approx(total, rel=1e-12, abs=1e-12 * abs(found.into_1))
+    for surface in (found.surface_1, found.surface_2, found.film):
+        assert np.shape(surface) in ((), SHAPE)
+        assert np.all(np.isfinite(surface))
+
+
+@given(laws_of("heat"), dissipations, gaps, masks, masks, speeds, speeds, temperatures)
+def test_friction_only_warms(law, heat, gap, solid, pressed, speed_1, speed_2, bulk):
+    sides = gap, solid, solid | pressed, 4e-6, (speed_1, speed_2), speed_1 - speed_2, (bulk, bulk), 0.14
+    found, nothing = law.temperatures(heat, *sides), law.temperatures(np.zeros(SHAPE), *sides)
+    rounding = 1e-6 * np.ptp(found.film) + 1e-12 * bulk
+    for surface in (found.surface_1, found.surface_2, found.film):
+        assert np.all(surface >= bulk - rounding)
+    assert found.flash_rise >= 0.0
+    assert (nothing.surface_1, nothing.surface_2, nothing.film) == (bulk, bulk, bulk)
+    assert (nothing.into_1, nothing.into_2, nothing.flash_rise) == (0.0, 0.0, 0.0)
+
+
+heats = st.tuples(st.floats(-1e3, 1e3), st.floats(-1e3, 1e3))
+pairs = st.tuples(temperatures, temperatures)
+steps = st.floats(1e-3, 1e5)
+
+
+@given(laws_of("bulk"), pairs, heats, temperatures, steps, steps)
+def test_bulk_temperatures_after_two_steps_are_those_after_their_sum(law, bodies, heat, oil, first, second):
+    stored = law.bodies(oil, bodies, bodies)
+    by_steps = law.after(law.after(stored, heat, oil, first), heat, oil, second)
+    at_once = law.after(stored, heat, oil, first + second)
+    assert np.all(np.isfinite(at_once))
+    assert by_steps == pytest.approx(at_once, rel=1e-12)
+
+
+@given(laws_of("bulk"), temperatures)
+def test_bodies_without_heat_stay_as_warm_as_the_oil(law, oil):
+    assert law.bodies(oil, (None, None), None) == (oil, oil)
+    assert law.after((oil, oil), (0.0, 0.0), oil, 1e3) == (oil, oil)
 
 
 @given(laws_of("wear"), pressures, covers, speeds, speeds, st.sampled_from((0, 1)))

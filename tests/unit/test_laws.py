@@ -5,7 +5,6 @@ import pytest
 
 from contact_core.laws.boundary_friction import FilmBlend
 from contact_core.laws.density import DowsonHigginson, Incompressible
-from contact_core.laws.heat import FlashTemperature, NoHeat
 from contact_core.laws.plasticity import ElasticPerfectlyPlastic
 from contact_core.laws.rheology import Eyring
 from contact_core.laws.tribofilm import Andersson, Ghanbarzadeh, NoTribofilm, thickness
@@ -244,7 +243,6 @@ def test_what_is_switched_off_gives_zeros():
     assert not NoWear().rate(PRESSURE, PRESSURE, (1.0, 0.0), 0, 6e9).any()
     assert not NoWear().coefficient(PRESSURE).any()
     assert NoWear().slide((1.0, 0.0), 0) == 0.0
-    assert not NoHeat().rise(PRESSURE, PRESSURE, 1.0).any()
     growth, removal = NoTribofilm().evolve(np.zeros((2, 3)), np.zeros((2, 3)), np.full((2, 3), 1e4), 363.15)
     assert not thickness(growth, removal).any()
     assert not NoTribofilm().exposure(PRESSURE, PRESSURE, 1.0).any()
@@ -337,38 +335,3 @@ def test_a_border_of_five_kelvin_survives_rounding(degrees):
 def test_extrapolation_changes_the_rate_by_six_percent_between_sixty_and_a_hundred_degrees():
     rates = np.array([FILM.rate(t) for t in (333.15, 373.15)]) / FILM.rate(353.15)
     assert rates == pytest.approx([0.943, 1.057], abs=1e-3)
-
-
-STEEL = FlashTemperature(46.0, 46.0, 1.25e-5, 1.25e-5)
-
-
-def rise(law: FlashTemperature, radius: float, heat: float, speed: float) -> float:
-    """Temperature rise for a heat flux tau |u_s| [W/m2]."""
-    return float(law.rise(np.array([radius]), np.array([heat / speed]), speed)[0])
-
-
-def test_a_slow_spot_of_two_equal_bodies_sends_half_its_heat_into_each():
-    average = 8.0 / (3.0 * np.pi) * 0.5 * 1e9 * 10e-6 / 46.0  # of a uniform, static circular source
-    assert rise(STEEL, 10e-6, 1e9, 1e-9) == pytest.approx(average, rel=1e-4)
-
-
-def test_a_slow_spot_against_an_insulator_sends_all_its_heat_into_the_conductor():
-    law = FlashTemperature(46.0, 46e-12, 1.25e-5, 1.25e-5)
-    assert rise(law, 10e-6, 1e9, 1e-9) == pytest.approx(8.0 / (3.0 * np.pi) * 1e9 * 10e-6 / 46.0, rel=1e-4)
-
-
-def test_a_fast_spot_warms_with_the_inverse_root_of_its_speed():
-    assert rise(STEEL, 10e-6, 1e9, 4e6) / rise(STEEL, 10e-6, 1e9, 1e6) == pytest.approx(0.5, rel=1e-5)
-
-
-def test_the_flash_temperature_is_blind_to_the_direction_of_sliding():
-    radius, shear = np.array([1e-6, 1e-5]), np.array([1e8, -2e8])
-    assert np.array_equal(STEEL.rise(radius, shear, 0.3), STEEL.rise(radius, -shear, -0.3))
-    assert not STEEL.rise(radius, shear, 0.0).any()
-
-
-def test_flash_temperatures_of_the_shipped_cases_are_below_one_kelvin():
-    radius, shear = np.array([1e-6, 20e-6]), np.array([0.2e9, 0.6e9])
-    found = STEEL.rise(radius, shear, 0.005)
-    assert np.all(found > 0.005)
-    assert np.all(found < 0.7)

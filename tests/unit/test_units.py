@@ -18,6 +18,8 @@ from contact_core.errors import SceneError
         ("6.799e-4 s^-1", "s^-1", 6.799e-4),
         ("30 min^-1", "s^-1", 0.5),
         ("46 W/(m K)", "W/(m K)", 46.0),
+        ("0.5 kJ/K", "J/K", 500.0),
+        ("20 mW/K", "W/K", 0.02),
         ("12.5 mm2/s", "m2/s", 1.25e-5),
         ("46 cSt", "m2/s", 46e-6),
         ("3 um^3/s", "m3/s", 3e-18),
