@@ -44,6 +44,14 @@ PLAUSIBLE = {
     "rate_factor": (0.0, 1e-14),
     "growth_per_energy": (0.0, 1e-9),
     "least_power": (0.0, 1e9),
+    "prefactor": (0.0, 1e6),
+    "activation_energy": (0.5e-19, 2e-19),
+    "activation_volume": (0.0, 0.5e-27),
+    "least_shear": (1e5, 1e9),
+    "removal_coefficient": (0.0, 1e-6),
+    "edge_weight": (0.0, 10.0),
+    "contact_weight": (0.0, 2.0),
+    "stress_weight": (0.0, 2.0),
     "conductivity_1": (0.1, 500.0),
     "conductivity_2": (0.1, 500.0),
     "diffusivity_1": (1e-7, 1e-4),
@@ -292,16 +300,43 @@ def test_a_wear_rate_is_that_of_its_coefficient_and_its_sliding(law, pressure, c
 shears = arrays(float, SHAPE, elements=st.floats(0.0, 1e9))
 
 
-@given(laws_of("tribofilm"), pressures, shears, speeds)
-def test_a_tribofilm_is_exposed_by_sliding_alone_and_wherever_more_stress_does_so_too(law, pressure, shear, speed):
-    found = law.exposure(pressure, shear, speed)
+@given(laws_of("tribofilm"), pressures, shears, speeds, temperatures)
+def test_a_tribofilm_is_exposed_by_sliding_alone_and_more_so_by_more_stress_or_heat(law, pressure, shear, speed, warm):
+    found = law.exposure(pressure, shear, speed, warm)
     assert is_field(found)
     assert np.all(found >= 0.0)
-    assert np.array_equal(law.exposure(pressure, shear, -speed), found)
-    assert not law.exposure(pressure, shear, 0.0).any()
-    assert not law.exposure(np.zeros(SHAPE), np.zeros(SHAPE), speed).any()
-    assert np.all(law.exposure(pressure, 2.0 * shear, speed) >= found)
+    assert np.array_equal(law.exposure(pressure, shear, -speed, warm), found)
+    assert not law.exposure(pressure, shear, 0.0, warm).any()
+    assert not law.exposure(np.zeros(SHAPE), np.zeros(SHAPE), speed, warm).any()
+    assert np.all(law.exposure(pressure, 2.0 * shear, speed, warm) >= found)
+    assert np.all(law.exposure(2.0 * pressure, shear, speed, warm) >= found)
+    assert np.all(law.exposure(pressure, shear, speed, warm + 5.0) >= found)
     assert law.dose in ("clock", "contact_length", "residence")
+
+
+@given(laws_of("tribofilm"), pressures, shears, speeds, arrays(float, SHAPE, elements=temperatures))
+def test_a_field_of_temperatures_exposes_each_node_by_its_own(law, pressure, shear, speed, warm):
+    found = law.exposure(pressure, shear, speed, warm)
+    node = (1, 2)
+    alone = law.exposure(pressure, shear, speed, float(warm[node]))
+    assert found[node] == pytest.approx(alone[node], rel=1e-12, abs=0.0)
+
+
+positions = arrays(float, (SHAPE[0], 1), elements=st.floats(0.0, 2.0))
+
+
+@given(laws_of("tribofilm"), pressures, speeds, positions)
+def test_rubbing_removes_a_tribofilm_in_proportion_to_pressure_and_not_less_at_the_edges(
+    law, pressure, speed, position
+):
+    found, even = law.abrasion(pressure, speed, position), law.abrasion(pressure, speed, None)
+    assert is_field(found)
+    assert np.all(found >= even)
+    assert np.all(even >= 0.0)
+    assert np.array_equal(law.abrasion(pressure, speed, np.zeros_like(position)), even)
+    assert law.abrasion(2.0 * pressure, -speed, position) == pytest.approx(2.0 * found, rel=1e-12, abs=0.0)
+    assert not law.abrasion(pressure, 0.0, position).any()
+    assert law.abrades or not found.any()
 
 
 @given(laws_of("tribofilm"), temperatures)
@@ -311,21 +346,33 @@ def test_a_tribofilm_law_refuses_what_its_constants_do_not_cover_unless_told_to_
 
 
 times = arrays(float, SHAPE, elements=st.floats(0.0, 1e5))
+rates = arrays(float, SHAPE, elements=st.floats(0.0, 1.0))
 
 
-@given(laws_of("tribofilm"), times, times, temperatures)
-def test_a_tribofilm_after_two_times_is_that_after_their_sum(law, first, second, temperature):
-    zero = np.zeros(SHAPE)
-    step = law.evolve(*law.evolve(zero, zero, first, temperature), second, temperature)
-    whole = law.evolve(zero, zero, first + second, temperature)
+@given(laws_of("tribofilm"), rates, rates, times, times, temperatures)
+def test_a_tribofilm_after_two_times_is_that_after_their_sum(law, exposing, abrading, first, second, temperature):
+    def rub(film, time):
+        return law.evolve(*film, exposing * time, abrading * time, temperature)
+
+    bare = np.zeros(SHAPE), np.zeros(SHAPE)
+    step, whole = rub(rub(bare, first), second), rub(bare, first + second)
     for by_steps, at_once in zip(step, whole, strict=True):
         assert is_field(by_steps)
         assert np.allclose(by_steps, at_once, rtol=0.0, atol=1e-12 * 1e-6)
         assert np.all(by_steps >= 0.0)
 
 
-@given(laws_of("tribofilm"), times, temperatures)
-def test_a_tribofilm_stays_between_nothing_and_its_full_thickness(law, time, temperature):
+@given(laws_of("tribofilm"), times, times, temperatures)
+def test_a_tribofilm_stays_between_nothing_and_its_full_thickness(law, exposed, abraded, temperature):
     zero = np.zeros(SHAPE)
-    film = thickness(*law.evolve(zero, zero, time, temperature))
+    film = thickness(*law.evolve(zero, zero, exposed, abraded, temperature))
     assert np.all((film >= 0.0) & (film <= law.full_thickness))
+
+
+@given(laws_of("tribofilm"), times, times, temperatures)
+def test_what_is_rubbed_off_leaves_a_thinner_tribofilm(law, exposed, abraded, temperature):
+    zero = np.zeros(SHAPE)
+    kept = thickness(*law.evolve(zero, zero, exposed, zero, temperature))
+    left = thickness(*law.evolve(zero, zero, exposed, abraded, temperature))
+    assert np.all(left <= kept * (1.0 + 1e-12))
+    assert law.abrades or np.array_equal(left, kept)
