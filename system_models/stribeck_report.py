@@ -65,16 +65,20 @@ def _speed(value: xr.DataArray) -> str:
 
 
 def _verdict(dataset: xr.Dataset) -> list[str]:
-    """The shift from the first to the last curve, beside that of the composite roughness."""
-    first, last = _rows(dataset)[0], _rows(dataset)[-1]
-    speed, rough = (float(last[name] / first[name]) for name in ("transition_speed", "composite_roughness"))
-    if dataset.sizes["rubbing_time"] < 2 or not np.isfinite(speed * rough):
+    """How far the transition moves from that of the first curve, beside what the roughness does."""
+    speeds, rough = (dataset[name].values for name in ("transition_speed", "composite_roughness"))
+    moved = [
+        f"{text} min by {speed / speeds[0]:.2f}, roughness by {both / rough[0]:.2f}"
+        for text, speed, both in zip(minutes(dataset)[1:], speeds[1:], rough[1:], strict=True)
+        if np.isfinite(speed / speeds[0])
+    ]
+    if not moved:
         return []
-    where = "higher" if speed > 1.0 else "lower"
+    fastest, roughest = (minutes(dataset)[int(np.nanargmax(values))] for values in (speeds, rough))
     return [
-        f"From {minutes(dataset)[0]} to {minutes(dataset)[-1]} min the transition goes to {where} speed, by a factor "
-        f"of {speed:.2f}, while the roughness of both surfaces together changes by a factor of {rough:.2f}. "
-        f"Measured Stribeck curves shift to higher speed as the tribofilm roughens ({_SOURCE})."
+        f"Shift of W_c = 0.5 from the first curve, as a factor: after {'; '.join(moved)}. The transition is at the "
+        f"highest speed after {fastest} min, the surfaces are roughest after {roughest} min. "
+        f"Measured curves shift to higher speed as the tribofilm roughens ({_SOURCE})."
     ]
 
 
@@ -132,5 +136,6 @@ def figure(dataset: xr.Dataset, title: str = "") -> "Figure":
 def _title(dataset: xr.Dataset) -> str:
     return (
         f"{dataset.attrs['scene']}: {float(dataset['load']):.4g} N, {float(dataset['temperature']) - 273.15:.4g} °C, "
-        f"slide-to-roll ratio {100.0 * float(dataset['slide_roll_ratio']):.3g} %, film {dataset.attrs['film']}"
+        f"slide-to-roll ratio {100.0 * float(dataset['slide_roll_ratio']):.3g} %, "
+        f"film.model = {dataset.attrs['film']}"
     )

@@ -1,0 +1,358 @@
+import csv
+import math
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from contact_core import ContactState, ConvergenceError, OperatingPoint, Outputs, Scene, advance
+from contact_core.errors import ContactError
+from contact_core.quantities import TABLE
+from system_models import stribeck, stribeck_report
+from system_models.cli import main
+from system_models.duty import Duty
+from system_models.stribeck import Curves, Plan, measure, rubbing, transition_speed
+
+FAST, SLOW = 8.0, 0.008
+DRY = ["--set", "control.driver=dry"]  # costs next to nothing
+
+
+def curves_of(scene: Scene, duty: Duty, plan: Plan) -> Curves:
+    curves = Curves(plan)
+    measure(scene, duty, curves)
+    return curves
+
+
+@pytest.fixture(scope="module")
+def plan(duty: Duty) -> Plan:
+    return Plan.of(duty, [0.0, 72.0], FAST, SLOW, 3)
+
+
+@pytest.fixture(scope="module")
+def swept(scene: Scene, duty: Duty, plan: Plan) -> xr.Dataset:
+    return curves_of(scene, duty, plan).dataset(scene, duty)
+
+
+def refusing(monkeypatch: pytest.MonkeyPatch, error: BaseException, after: int) -> None:
+    """Let one advance without rubbing end with an error, `after` as many that went well."""
+    count = 0
+
+    def advanced(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
+        nonlocal count
+        if dt == 0.0 and state.solved_for is not None:
+            count += 1
+            if count == after + 1:
+                raise error
+        return advance(scene, op, state, dt)
+
+    monkeypatch.setattr(stribeck, "advance", advanced)
+
+
+@pytest.mark.parametrize("level", [0.5, 0.3])
+def test_the_transition_of_a_straight_line_in_log_speed_is_exact(level: float) -> None:
+    speeds = np.geomspace(0.01, 10.0, 7)
+    shares = 0.4 - 0.25 * np.log10(speeds)
+    assert transition_speed(speeds, shares, level) == pytest.approx(10.0 ** ((0.4 - level) / 0.25), rel=1e-12)
+
+
+def test_the_transition_does_not_depend_on_the_order_of_the_speeds() -> None:
+    speeds, shares = np.geomspace(10.0, 0.01, 6), np.array([0.01, 0.2, 0.4, 0.7, 0.9, 0.95])
+    assert speeds[3] < transition_speed(speeds, shares) < speeds[2]
+    assert transition_speed(speeds[::-1], shares[::-1]) == transition_speed(speeds, shares)
+
+
+def test_a_speed_right_at_the_level_is_the_transition() -> None:
+    assert transition_speed([0.1, 1.0, 10.0], [0.9, 0.5, 0.1]) == pytest.approx(1.0, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "shares", [[0.9, 0.8, 0.6], [0.4, 0.2, 0.1], [0.1, 0.5, 0.9], [math.nan] * 3, [math.nan, 0.9, 0.8]]
+)
+def test_a_level_that_is_not_bracketed_has_no_transition(shares: list[float]) -> None:
+    assert math.isnan(transition_speed([0.1, 1.0, 10.0], shares))
+
+
+def test_points_without_a_solution_are_passed_over() -> None:
+    assert transition_speed([0.1, 1.0, 10.0], [0.75, math.nan, 0.25]) == pytest.approx(1.0, rel=1e-12)
+
+
+def test_of_several_crossings_the_fastest_is_the_transition() -> None:
+    assert 10.0 < transition_speed([0.1, 1.0, 10.0, 100.0], [0.9, 0.4, 0.6, 0.1]) < 100.0
+
+
+def test_speeds_are_evenly_spaced_in_their_logarithm_and_fall(duty: Duty) -> None:
+    plan = Plan.of(duty, [60.0, 0.0, 60.0], 10.0, 0.01, 4)
+    assert plan.speeds == pytest.approx((10.0, 1.0, 0.1, 0.01), rel=1e-12)
+    assert plan.times == (0.0, 60.0)
+
+
+def test_the_slide_to_roll_ratio_is_the_dutys_unless_given(duty: Duty, scene: Scene) -> None:
+    own = Plan.of(duty, [0.0], 10.0, 0.01, 4).point(2.0)
+    assert (own.speed_1, own.speed_2) == pytest.approx((2.05, 1.95), rel=1e-12)
+    given = Plan.of(duty, [0.0], 10.0, 0.01, 4, srr=-0.5).point(2.0)
+    assert (given.speed_1, given.speed_2) == (1.5, 2.5)
+    assert replace(given, speed_1=own.speed_1, speed_2=own.speed_2) == own
+    assert own.load == scene.operation.load
+
+
+def test_a_contact_entrained_the_other_way_is_swept_the_other_way(scene: Scene) -> None:
+    point = replace(scene.operation.point, speed_1=-0.3, speed_2=-0.1)
+    swept = Plan.of(Duty.from_steps(point), [0.0], 10.0, 0.01, 4).point(2.0)
+    assert (swept.speed_1, swept.speed_2) == pytest.approx((-3.0, -1.0), rel=1e-12)
+
+
+def test_a_duty_without_entrainment_needs_a_slide_to_roll_ratio(scene: Scene) -> None:
+    duty = Duty.from_steps(replace(scene.operation.point, speed_1=0.1, speed_2=-0.1))
+    with pytest.raises(ContactError, match="Give one with --srr"):
+        Plan.of(duty, [0.0], 10.0, 0.01, 4)
+    assert Plan.of(duty, [0.0], 10.0, 0.01, 4, srr=0.1).slide_roll_ratio == 0.1
+
+
+def test_variables_lie_along_both_dimensions_with_units_and_texts_of_the_quantity_table(swept: xr.Dataset) -> None:
+    for name in (
+        "friction_coefficient",
+        "lambda_ratio",
+        "contact_load_ratio",
+        "contact_area_ratio",
+        "h_c",
+        "range_flags",
+    ):
+        assert swept[name].dims == ("rubbing_time", "entrainment_speed")
+        assert swept[name].attrs == {"units": TABLE[name].unit or "1", "long_name": TABLE[name].text}
+    assert swept.sizes == {"rubbing_time": 2, "entrainment_speed": 3}
+    assert all({"units", "long_name"} <= set(swept[name].attrs) for name in swept.variables)
+    assert swept["valid"].values.all()
+    assert swept.attrs["failures"] == ""
+
+
+def test_from_fast_to_slow_the_film_gets_thinner_and_the_solids_take_over(swept: xr.Dataset) -> None:
+    for curve in (swept.isel(rubbing_time=i) for i in (0, 1)):
+        assert (np.diff(curve["lambda_ratio"]) < 0.0).all()
+        assert (np.diff(curve["contact_load_ratio"]) > 0.0).all()
+        assert (np.diff(curve["friction_coefficient"]) > 0.0).all()
+        assert curve["contact_load_ratio"][0] < 0.2
+        assert curve["contact_load_ratio"][-1] > 0.5
+
+
+def test_each_point_is_the_contact_at_that_speed_with_the_surfaces_of_that_time(
+    scene: Scene, duty: Duty, plan: Plan, swept: xr.Dataset
+) -> None:
+    *_, (state, _) = rubbing(scene, duty, plan.times)
+    before = state.to_bytes()
+    _, outputs = advance(scene, plan.point(plan.speeds[1]), state, 0.0)
+    assert state.to_bytes() == before
+    for name in ("friction_coefficient", "contact_load_ratio", "h_c", "range_flags"):
+        assert float(swept[name][1, 1]) == getattr(outputs, name)
+    assert float(swept["tribofilm_2"][1]) == outputs.tribofilm_2 > 0.0
+
+
+def test_a_sweep_does_not_depend_on_its_other_speeds(scene: Scene, duty: Duty, plan: Plan, swept: xr.Dataset) -> None:
+    ends = curves_of(scene, duty, replace(plan, times=(0.0,), speeds=(SLOW, FAST))).dataset(scene, duty)
+    assert ends["friction_coefficient"].values[0].tolist() == swept["friction_coefficient"].values[0, [-1, 0]].tolist()
+
+
+def test_a_speed_within_the_scenes_tolerance_of_the_duty_is_solved_for_itself(scene: Scene, duty: Duty) -> None:
+    tolerant = replace(scene, control=replace(scene.control, input_change=1.0))
+    near = Plan.of(duty, [0.0], 0.11, 0.1095, 2)
+    found = curves_of(tolerant, duty, near).dataset(tolerant, duty)["h_c"].values[0]
+    ((state, outputs),) = rubbing(tolerant, duty, near.times)
+    assert advance(tolerant, near.point(near.speeds[0]), state, 0.0)[1].h_c == outputs.h_c
+    assert len({*found.tolist(), outputs.h_c}) == 3
+
+
+def test_rubbing_is_that_of_a_run_bit_for_bit(scene: Scene, duty: Duty, dataset: xr.Dataset) -> None:
+    (_, first), (_, last) = rubbing(scene, duty, (0.0, 72.0))
+    for name in ("friction_coefficient", "tribofilm_1", "wear_depth_2", "roughness_2"):
+        assert getattr(first, name) == float(dataset[name][0])
+        assert getattr(last, name) == float(dataset[name][-1])
+
+
+def test_rubbing_stops_between_the_steps_of_a_run(scene: Scene, duty: Duty) -> None:
+    assert [state.time for state, _ in rubbing(scene, duty, (10.0, 35.0))] == pytest.approx([10.0, 35.0], rel=1e-12)
+
+
+def test_a_rougher_disc_needs_more_speed() -> None:
+    found = []
+    for rq in ("60 nm", "120 nm"):
+        scene = Scene.from_toml(
+            "mtm_zddp",
+            {
+                "film.points": "33",
+                "surface_1.correlation_length": "16 um",
+                "surface_2.correlation_length": "16 um",
+                "surface_2.rq": rq,
+            },
+        )
+        duty = Duty.of_scene(scene)
+        curves = curves_of(scene, duty, Plan.of(duty, [0.0], 5.0, 0.005, 4)).dataset(scene, duty)
+        found.append(float(curves["transition_speed"][0]))
+    assert found[1] > 1.5 * found[0] > 0.0
+
+
+def test_composite_roughness_is_that_of_both_surfaces(swept: xr.Dataset) -> None:
+    both = swept["composite_roughness"]
+    np.testing.assert_allclose(both**2, swept["roughness_1"] ** 2 + swept["roughness_2"] ** 2, rtol=1e-12)
+    assert both.attrs["units"] == "m"
+
+
+def test_the_transitions_are_those_of_the_curves(swept: xr.Dataset) -> None:
+    level = swept.attrs["friction_midway"]
+    friction = swept["friction_coefficient"]
+    assert level == pytest.approx(0.5 * float(friction.min() + friction.max()), rel=1e-12)
+    for i in (0, 1):
+        speeds = swept["entrainment_speed"]
+        assert float(swept["transition_speed"][i]) == transition_speed(speeds, swept["contact_load_ratio"][i])
+        assert float(swept["transition_speed_friction"][i]) == transition_speed(speeds, friction[i], level)
+
+
+def test_a_point_without_a_solution_is_nan_and_says_why(
+    scene: Scene, duty: Duty, plan: Plan, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    dry = replace(scene, control=replace(scene.control, driver="dry"))
+    whole = curves_of(dry, duty, plan).dataset(dry, duty)
+    refusing(monkeypatch, ConvergenceError("No solution was found. Use a finer grid."), after=4)
+    found = curves_of(dry, duty, plan).dataset(dry, duty)
+    assert np.argwhere(~found["valid"].values).tolist() == [[1, 1]]
+    assert np.argwhere(np.isnan(found["friction_coefficient"].values)).tolist() == [[1, 1]]
+    assert found.attrs["failures"] == "After 1.2 min at 0.253 m/s: No solution was found. Use a finer grid."
+    assert found.attrs["failures"] in caplog.text
+    rest = found["valid"].values
+    assert found["h_c"].values[rest].tolist() == whole["h_c"].values[rest].tolist()
+    assert stribeck_report.closing_lines(found)[:2] == ["Validity: 1 of 6 points are INVALID.", found.attrs["failures"]]
+
+
+def test_the_table_has_a_row_for_each_speed_and_a_column_for_each_time(swept: xr.Dataset) -> None:
+    head, units, *rows = (line.split() for line in stribeck_report.table(swept).splitlines())
+    assert head == ["speed", "friction", "friction"]
+    assert units == ["m/s", "0", "min", "1.2", "min"]
+    assert [float(row[0]) for row in rows] == pytest.approx([8.0, 0.253, 0.008])
+    printed = np.array([[float(cell) for cell in row[1:]] for row in rows])
+    np.testing.assert_allclose(printed, swept["friction_coefficient"].values.T, atol=5.1e-5)
+
+
+def test_the_shift_is_told_for_each_time_and_in_all(swept: xr.Dataset) -> None:
+    speeds = swept["transition_speed"].copy(data=[0.1, 0.25])
+    films = swept["tribofilm_roughness_2"].copy(data=[0.0, 30e-9])
+    rough = swept["composite_roughness"].copy(data=[100e-9, 150e-9])
+    changed = swept.assign(transition_speed=speeds, tribofilm_roughness_2=films, composite_roughness=rough)
+    first, second, verdict = stribeck_report.shift_lines(changed)
+    assert first.startswith("After 0 min: W_c = 0.5 at 0.1 m/s")
+    assert second.startswith("After 1.2 min: W_c = 0.5 at 0.25 m/s")
+    assert "30.0 nm (disc), of both surfaces together 150.0 nm" in second
+    assert "after 1.2 min by 2.50, roughness by 1.50." in verdict
+    assert "highest speed after 1.2 min, the surfaces are roughest after 1.2 min" in verdict
+    assert "10.1007/s11249-019-1148-9" in verdict
+
+
+def test_a_curve_without_a_transition_says_so(swept: xr.Dataset) -> None:
+    changed = swept.assign(transition_speed=swept["transition_speed"].copy(data=[0.1, math.nan]))
+    lines = stribeck_report.shift_lines(changed)
+    assert len(lines) == 2
+    assert "W_c = 0.5 at no speed of the sweep" in lines[1]
+
+
+def test_the_picture_has_four_panels_with_a_line_for_each_time(swept: xr.Dataset) -> None:
+    axes = stribeck_report.figure(swept).axes
+    assert len({axis.get_ylabel() for axis in axes}) == 4
+    for axis, name in zip(
+        axes, ("friction_coefficient", "lambda_ratio", "contact_load_ratio", "contact_area_ratio"), strict=True
+    ):
+        assert axis.get_xscale() == "log"
+        for line, values in zip(axis.lines[:2], swept[name].values, strict=True):
+            np.testing.assert_array_equal(line.get_xdata(), swept["entrainment_speed"])
+            np.testing.assert_array_equal(line.get_ydata(), values)
+    assert [text.get_text() for text in axes[0].get_legend().get_texts()] == ["0", "1.2"]
+
+
+def test_the_command_prints_a_table_and_writes_three_files(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    options = ["--times", "0", "0.5,1", "--points", "2", "--fastest", "2", "--slowest", "5 mm/s", "--srr", "50 %"]
+    assert main(["stribeck", "mtm_zddp", *coarse, *DRY, *options]) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith("Azam's case B")
+    assert "After 0.5 min: W_c = 0.5 at" in out
+    assert "6/6 points" in err
+    folder = tmp_path / "results" / "mtm_zddp"
+    assert {path.name for path in folder.iterdir()} == {"stribeck.nc", "stribeck.csv", "stribeck.png"}
+    assert all(str(Path("results/mtm_zddp") / path.name) in out for path in folder.iterdir())
+    with xr.open_dataset(folder / "stribeck.nc", engine="h5netcdf") as dataset:
+        assert dataset["rubbing_time"].values.tolist() == [0.0, 30.0, 60.0]
+        assert dataset["entrainment_speed"].values.tolist() == pytest.approx([2.0, 0.005])
+        assert float(dataset["slide_roll_ratio"]) == 0.5
+        assert dataset.attrs["scene"] == "mtm_zddp"
+        expected = dataset["friction_coefficient"].values.ravel().tolist()
+    with (folder / "stribeck.csv").open(newline="") as file:
+        header, *rows = csv.reader(file)
+    assert header[:3] == ["rubbing_time [s]", "entrainment_speed [m/s]", "friction_coefficient [1]"]
+    assert [float(row[0]) for row in rows] == [0.0, 0.0, 30.0, 30.0, 60.0, 60.0]
+    assert [float(row[2]) for row in rows] == expected
+
+
+def test_an_interrupt_keeps_what_was_measured(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
+) -> None:
+    refusing(monkeypatch, KeyboardInterrupt(), after=3)
+    command = ["stribeck", "mtm_zddp", *coarse, *DRY, "--times", "0,1", "--points", "2", "--out", str(tmp_path)]
+    assert main(command) == 130
+    assert f"tribofmu: Interrupted. The 3 points measured so far are in '{tmp_path}" in capsys.readouterr().err
+    with xr.open_dataset(tmp_path / "stribeck.nc", engine="h5netcdf") as dataset:
+        assert dataset["valid"].values.tolist() == [[True, True], [True, False]]
+        assert np.isfinite(dataset["friction_coefficient"].values).tolist() == [[True, True], [True, False]]
+        assert dataset.attrs["failures"] == "1 points were not reached."
+
+
+def test_an_interrupt_before_the_first_point_leaves_an_older_result(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
+) -> None:
+    (tmp_path / "stribeck.nc").write_text("older")
+    refusing(monkeypatch, KeyboardInterrupt(), after=0)
+    assert main(["stribeck", "mtm_zddp", *coarse, *DRY, "--points", "2", "--out", str(tmp_path)]) == 130
+    assert (tmp_path / "stribeck.nc").read_text() == "older"
+
+
+def test_a_point_without_a_solution_gives_code_1(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
+) -> None:
+    refusing(monkeypatch, ConvergenceError("None was found. Refine."), after=1)
+    options = ["--times", "0", "--points", "2", "--out", str(tmp_path)]
+    assert main(["stribeck", "mtm_zddp", *coarse, *DRY, *options]) == 1
+    assert "After 0 min at 0.003 m/s: None was found. Refine." in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--times", "soon"], "--times = 'soon' must be numbers of minutes, such as 0,5,30."),
+        (["--times=-5,0"], "The rubbing times must be"),
+        (["--times", "nan"], "The rubbing times must be"),
+        (["--times", ""], "The rubbing times must be"),
+        (["--fastest", "0.001"], "The speeds of a sweep, 0.001 m/s down to 0.003 m/s, must be above 0 and fall."),
+        (["--slowest", "0"], "The speeds of a sweep, 10 m/s down to 0 m/s"),
+        (["--slowest", "quick"], "--slowest = 'quick' does not start with a number"),
+        (["--fastest", "1 kg"], "--fastest = '1 kg' has the wrong unit"),
+        (["--fastest", "1000"], "speed_1 = 1025 m/s"),
+        (["--points", "1"], "A sweep of 1 speeds is no curve."),
+        (["--srr", "much"], "--srr = 'much"),
+        (["--grid", "40"], "surface_1.correlation_length = 8e-06 m is 0.62 nodes of the grid"),
+        (["--out", ""], "--out is empty."),
+    ],
+)
+def test_bad_input_is_refused_before_anything_is_computed(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], said: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+
+    def never(*_: Any) -> None:
+        raise AssertionError("computed")
+
+    monkeypatch.setattr(stribeck, "advance", never)
+    assert main(["stribeck", "mtm_zddp", *arguments]) == 2
+    out, err = capsys.readouterr()
+    assert not out
+    assert err.startswith(f"tribofmu: {said}")
+    assert not list(tmp_path.iterdir())
