@@ -19,13 +19,15 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     block        when and at which instants the contact is solved, and by which driver
     evolution    tribofilm and wear between two solutions, in closed form
     trends       outputs without their noise, errors of time steps and of sampling
+    means        the fast level: film formulas and fitted curves for the means of both surfaces
     advance      advance: the evolution over time; uncertainty: how sure its outputs are
     tracks       the rubbed surfaces as they are, for profiles and pictures
     reference    closed forms
     data/        named oils, solids and tribofilms, and the shipped scenes
     errors       what can go wrong, each message with a way out
 
-Imports run one way: kernels <- laws <- film <- patches <- evolution <- contact <- sweep <- block <- advance.
+Imports run one way: kernels <- laws <- film <- patches <- evolution <- contact <- sweep <- block <- advance;
+means stands beside block.
 Everything inside is SI; heights are metres above a body's mean plane, positive toward the other body; arrays are
 [ny, nx], x along entrainment.
 """

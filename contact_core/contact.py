@@ -5,6 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from .errors import SceneError
+from .film import Deterministic
 from .film.instant import FilmSolution, FilmState, Grid, Instant
 from .friction import Film, Friction, friction
 from .laws.heat import Temperatures
@@ -76,8 +78,13 @@ def solve(
     Without `transient` the film is steady. `dry` leaves the film out: the solids carry
     `solid_share` of the load, oil spread as in Hertz's contact the rest. Raises OperatingPointError for values that
     cannot be used and ConvergenceError if no solution exists. A film solution that did not converge says so; if it
-    cannot be used, the dry one stands in (`route`).
+    cannot be used, the dry one stands in (`route`). A scene of another level than the deterministic one is refused
+    with SceneError.
     """
+    if not isinstance(scene.film, Deterministic):
+        raise SceneError(
+            f"film.model = '{scene.film.name}' knows means only, no fields. Solve scene.at_level('deterministic')."
+        )
     op.check()
     bare, law = bare_heights(scene, state.rows), scene.plasticity
     nodes = [patch_nodes(scene, body) for body in state.bodies]

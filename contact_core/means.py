@@ -7,9 +7,9 @@ to date when a run goes back to the deterministic level.
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,37 +19,52 @@ from .evolution import track_length, track_rows
 from .film import Regression
 from .film.instant import Grid
 from .patches import bare_heights, roughness_of
-from .reference import Hertz, hertz_point, moes_film
+from .reference import moes_film
 from .scene import OperatingPoint, Scene
 from .state import Body, ContactState, Mean, Outputs, RangeFlag
 from .surfaces import rms_roughness
 
 Array = NDArray[np.float64]
 Means = tuple[Mean, Mean]
-Law = Callable[..., Array]  # laws take an array where they name a float, if it broadcasts
+# laws take anything that broadcasts: plain floats, which are faster than arrays of one, and arrays of temperatures
+Law = Callable[..., Any]
 
 _LAMBDA_CAP = 1e3
 _SAME = 1e-4  # a contact evaluated before the surfaces changed by less, relative, is the contact after it
 _LONGEST = 10.0  # times the duty: no step need be shorter than that
 _TRIAL = 1.0  # s: step that tells how fast the surfaces change
 
-# quadrature over the Hertz ellipse: with the distance sqrt(1 - t^2) from its centre, p is in proportion to t, dA to t dt
+# quadrature over the Hertz ellipse: at the distance sqrt(1 - t^2) from its centre p is in proportion to t, dA to t dt
 _T = 0.5 + 0.5 * np.polynomial.legendre.leggauss(16)[0]
 _WEIGHTS = _T * np.polynomial.legendre.leggauss(16)[1]  # of the mean over the ellipse
 
-# rows of operating points: as it is, then up and down by entrainment, sliding, load, temperature
-_D = 1e-4  # relative; of the temperature 100 K
-_UP_DOWN = np.kron(np.eye(4), np.array([1.0, -1.0]))  # [4, 8]
-_ENTRAINMENT, _SLIDING, _LOAD, _TEMPERATURE = _D * np.concatenate([np.zeros((4, 1)), _UP_DOWN], axis=1)
-_TEMPERATURE *= 100.0
+# nine operating points: as it is, then up and down by sliding, entrainment, load, temperature
+_D, _KELVIN = 1e-4, 1e-2  # how far, relative, and in temperature
+_SLIDING, _, _LOAD, _TEMPERATURE = np.concatenate([np.zeros((4, 1)), np.kron(np.eye(4), [1.0, -1.0])], axis=1)
+_SLIDING, _TEMPERATURE = _D * _SLIDING, _KELVIN * _TEMPERATURE
+_ROOT = np.cbrt(1.0 + _D * _LOAD)  # lengths and pressures of Hertz's contact at these points, relative
+_LAMBDA_CAPPED, _OUTSIDE_FIT = int(RangeFlag.LAMBDA_CAPPED), int(RangeFlag.OUTSIDE_FIT)
+_TRIBOFILM_TEMPERATURE = int(RangeFlag.TRIBOFILM_TEMPERATURE)  # numbers are faster to add up
 _PROBE = np.array([[0.0], [1e6]])  # Pa: pressures that tell viscosity and its pressure coefficient
-_REST = 1e-30  # m/s: entrainment that makes no film, and no division by zero
+_WARMTHS = np.array([0.0, _KELVIN, -_KELVIN])
+_SLOWEST, _LIGHTEST = 1e-30, 1e-9  # m/s, N: less makes no other film, and would divide by zero
 
 
-@dataclass(frozen=True, slots=True)
-class _Contact:
+class Film(NamedTuple):
+    """What the tribofilm makes of a body."""
+
+    thickness: float  # mean where there is one [m]
+    roughness: float  # rms deviation of its thickness over the track [m]
+    both: float  # rms roughness of solid and tribofilm [m]
+
+
+Films = tuple[Film, Film]
+
+
+class _Contact(NamedTuple):
     """The contact of an operating point and of the surfaces as they were."""
 
+    films: Films
     sigma: float  # composite rms roughness [m]
     cover: float  # mean cover of both bodies where they touch
     lam: float  # smooth film / sigma
@@ -68,73 +83,68 @@ class _Contact:
 def advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
     """`advance` at this level, for inputs that have been checked."""
     before = state.means or means_of(scene, state)
-    means, left = before, dt
-    contact = _evaluate(scene, op, means)
+    means, films, left = before, films_of(before), dt
+    contact = _evaluate(scene, op, films)
     speed = 0.0  # at which the surfaces change [m/s]
     while left > 0.0:
-        step, means, speed = _stepped(scene, op, contact, means, left)
+        step, means, films, speed = _stepped(scene, op, contact, means, left)
         left -= step
-        if _has_changed(scene, contact, means):
-            contact = _evaluate(scene, op, means)
-    if dt == 0.0:
-        speed = _distance(means, _evolved(scene, op, contact, means, _TRIAL)) / _TRIAL
+        if _has_changed(scene, contact, films):
+            contact = _evaluate(scene, op, films)
     if dt > 0.0:
         rates = [(now.worn - then.worn) / dt for now, then in zip(means, before, strict=True)]
     else:
-        rates = [_wear_rate(scene, op, contact, i, _covered_film(means[i])) for i in (0, 1)]
-    outputs = _outputs(scene, op, state, contact, means, rates, speed)
-    state = replace(state, time=state.time + dt, means=means, outputs=outputs, solved_for=None)
-    return state, outputs
+        speed = _stepped(scene, op, contact, means, _TRIAL)[3]
+        rates = [_wear_rate(scene, op, contact, i, films[i].thickness) for i in (0, 1)]
+    outputs = _outputs(scene, op, state.outputs, contact, means, films, rates, speed)
+    return replace(state, time=state.time + dt, means=means, outputs=outputs, solved_for=None), outputs
 
 
 # the contact
 
 
-def _evaluate(scene: Scene, op: OperatingPoint, means: Means) -> _Contact:
+def _evaluate(scene: Scene, op: OperatingPoint, films: Films) -> _Contact:
     """Film, load sharing and friction at the operating point, and at eight beside it for the derivatives."""
-    sigma = math.hypot(*(_roughness(mean) for mean in means))
-    full = scene.tribofilm.full_thickness
-    cover = min(0.5 * (_covered_film(means[0]) + _covered_film(means[1])) / full, 1.0)
+    sigma, cover = _sigma(films), _cover(scene, films)
     if op.load == 0.0:
-        return _apart(scene, sigma, cover)
-    entrained, sliding = abs(op.entrainment_speed), op.sliding_speed
+        return _apart(scene, films, sigma, cover)
+    entrained, sliding, temperature = abs(op.entrainment_speed), op.sliding_speed, film_temperature(op)
     slip = max(abs(sliding), scene.boundary_friction.slip_speed)
-    speeds = np.maximum(entrained * (1.0 + _ENTRAINMENT), _REST)
     slides = sliding + slip * _SLIDING
-    loads = op.load * (1.0 + _LOAD)
-    temperatures = film_temperature(op) + _TEMPERATURE
-    hertz = _unit_hertz(scene.geometry.radius_x, scene.geometry.radius_y, scene.solids.reduced_modulus)
-    scale = np.cbrt(loads)
-    areas = hertz.area * scale * scale
-    lam, gaps, solid_share, area_share = _shared(scene, sigma, _smooth_film(scene, speeds, loads, temperatures))
-    pressures = loads / areas
+    hertz, scale = scene.unit_hertz, op.load ** (1 / 3)
+    pressures = (hertz.pressure_max * scale) * _ROOT
+    areas = (hertz.area * scale * scale) * _ROOT**2
+    lam, gaps, solid_share, area_share = _shared(scene, sigma, _smooth_films(scene, entrained, op.load, temperature))
+    carried = solid_share * pressures
+    carried *= 2.0 / 3.0  # mean over the Hertz area
     # no solid contact is smaller than the hardness allows
-    touching = np.maximum(area_share, solid_share * pressures / scene.plasticity.hardness)
-    solid_pressures = solid_share * pressures / np.maximum(touching, 1e-300)
+    touching = np.maximum(area_share, carried / scene.plasticity.hardness)
+    solid_pressures = carried / np.maximum(touching, 1e-300)
     boundary: Law = scene.boundary_friction
-    solid_shears = boundary(solid_pressures, np.array([cover]), slides)
+    solid_shears = boundary(solid_pressures, cover, slides)
     open_share = np.maximum(1.0 - touching, 1e-6)
-    oil_pressures = (1.0 - solid_share) / open_share * (hertz.pressure_max * scale)
-    fluid_shears = _oil_shear(scene, oil_pressures, slides / gaps, temperatures)
-    solid, fluid = -areas * touching * solid_shears, -areas * open_share * fluid_shears
-    forces = (solid + fluid).tolist()
-    by_entrainment = _slope(forces, 1, _D * entrained) * math.copysign(1.0, op.entrainment_speed)
-    by_sliding = _slope(forces, 3, _D * slip)
+    oil_pressures = (1.0 - solid_share) / open_share * pressures
+    fluid_shears = _oil_shear(scene, oil_pressures, slides / gaps, temperature + _TEMPERATURE)
+    solid, fluid = areas * touching * solid_shears, areas * open_share * fluid_shears
+    forces = (solid + fluid).tolist()  # on body 2
+    by_sliding = -_slope(forces, 1, _D * slip)
+    by_entrainment = -_slope(forces, 3, _D * entrained) * math.copysign(1.0, op.entrainment_speed)
     pressure, shear = float(solid_pressures[0]), abs(float(solid_shears[0]))
     return _Contact(
+        films,
         sigma,
         cover,
         lam,
         float(gaps[0]),
         float(solid_share[0]),
         float(touching[0]),
-        float(solid[0]),
-        float(fluid[0]),
+        -float(solid[0]),
+        -float(fluid[0]),
         (
             0.5 * by_entrainment + by_sliding,
             0.5 * by_entrainment - by_sliding,
-            _slope(forces, 5, _D * op.load),
-            _slope(forces, 7, 100.0 * _D),
+            -_slope(forces, 5, _D * op.load),
+            -_slope(forces, 7, _KELVIN),
         ),
         pressure,
         shear,
@@ -143,10 +153,10 @@ def _evaluate(scene: Scene, op: OperatingPoint, means: Means) -> _Contact:
     )
 
 
-def _apart(scene: Scene, sigma: float, cover: float) -> _Contact:
+def _apart(scene: Scene, films: Films, sigma: float, cover: float) -> _Contact:
     """Without load the bodies just touch and nothing presses."""
     gap = max(scene_film(scene).sharing.film_dry * sigma, scene.film.floor)
-    return _Contact(sigma, cover, math.inf, gap, 0.0, 0.0, 0.0, 0.0, (0.0, 0.0, 0.0, 0.0), 0.0, 0.0, 0.0, 0.0)
+    return _Contact(films, sigma, cover, math.inf, gap, 0.0, 0.0, 0.0, 0.0, (0.0, 0.0, 0.0, 0.0), 0.0, 0.0, 0.0, 0.0)
 
 
 def _slope(forces: list[float], row: int, step: float) -> float:
@@ -170,27 +180,34 @@ def body_temperatures(op: OperatingPoint) -> tuple[float, float]:
     return op.temperature, op.temperature
 
 
-@lru_cache(maxsize=64)
-def _unit_hertz(radius_x: float, radius_y: float, reduced_modulus: float) -> Hertz:
-    """Hertz's contact at 1 N: its lengths and its pressure grow with the cube root of the load."""
-    return hertz_point(1.0, radius_x, radius_y, reduced_modulus)
-
-
-def _smooth_film(scene: Scene, speeds: Array, loads: Array, temperatures: Array) -> Array:
-    """Nijenbanning, Venner & Moes' central film [m] of the smooth bodies, at entrainment speeds above zero."""
+def _smooth_films(scene: Scene, speed: float, load: float, temperature: float) -> Array:
+    """Nijenbanning, Venner & Moes' central film [m] of the smooth bodies, at the nine operating points."""
     viscosity: Law = scene.lubricant.viscosity
-    low, high = viscosity(_PROBE, temperatures)
-    radius, modulus = scene.geometry.radius_x, scene.solids.reduced_modulus
-    coefficient = np.maximum(np.log(high / low) * 1e-6, 1e-12)
-    root = np.sqrt(2.0 * low * speeds / (modulus * radius))
-    quarter = np.sqrt(root)
-    m = loads / (modulus * radius * radius * root * quarter)
-    film = moes_film(m, coefficient * modulus * quarter, radius / scene.geometry.radius_y)
-    return film * root * radius
+    (low, less, more), high = viscosity(_PROBE, temperature + _WARMTHS).tolist()
+    shape, modulus = scene.geometry, scene.solids.reduced_modulus
+    u, w, radius = max(speed, _SLOWEST), max(load, _LIGHTEST), shape.radius_x
+
+    def film(u: float, w: float, eta: float, stiffer: float) -> float:
+        contact = max(math.log(stiffer / eta) * 1e-6, 1e-12) * modulus
+        root = math.sqrt(2.0 * eta * u / (modulus * radius))
+        quarter = math.sqrt(root)
+        m = w / (modulus * radius * radius * root * quarter)
+        return moes_film(m, contact * quarter, radius / shape.radius_y) * root * radius
+
+    now = film(u, w, low, high[0])
+    beside = (
+        film(u * (1.0 + _D), w, low, high[0]),
+        film(u * (1.0 - _D), w, low, high[0]),
+        film(u, w * (1.0 + _D), low, high[0]),
+        film(u, w * (1.0 - _D), low, high[0]),
+        film(u, w, less, high[1]),
+        film(u, w, more, high[2]),
+    )
+    return np.array([now, now, now, *beside])
 
 
 def _shared(scene: Scene, sigma: float, film: Array) -> tuple[float, Array, Array, Array]:
-    """Lambda, mean gaps [m], and contact_load_ratio and contact_area_ratio of rough bodies, for films of smooth ones."""
+    """Lambda, mean gaps [m], contact_load_ratio and contact_area_ratio of rough bodies, for films of smooth ones."""
     floor, sharing = scene.film.floor, scene_film(scene).sharing
     if sigma == 0.0:
         touching = (film <= floor).astype(np.float64)
@@ -214,70 +231,68 @@ def _flash_rise(scene: Scene, shear: float, sliding: float) -> float:
     if scene.heat.name == "none" or shear == 0.0:
         return 0.0
     rougher = scene.surface_1 if scene.surface_1.rq > scene.surface_2.rq else scene.surface_2
-    return float(scene.heat.rise(np.array([0.5 * rougher.correlation_length]), np.array([shear]), sliding)[0])
+    rise: Law = scene.heat.rise
+    return float(rise(0.5 * rougher.correlation_length, shear, sliding))
 
 
 # the surfaces
 
 
-def _covered_film(mean: Mean) -> float:
-    """Mean tribofilm [m] where there is one."""
-    return max(mean.growth - mean.removal, 0.0) / mean.coverage if mean.coverage > 0.0 else 0.0
+def films_of(means: Means) -> Films:
+    """The tribofilms of both bodies."""
+    first, second = means
+    return _film_of(first), _film_of(second)
 
 
-def _film_roughness(mean: Mean) -> float:
-    """Rms deviation [m] of a tribofilm that covers part of a track evenly."""
-    return math.sqrt(mean.coverage * (1.0 - mean.coverage)) * _covered_film(mean)
+def _film_of(mean: Mean) -> Film:
+    """A tribofilm that covers part of a track evenly, independent of the solid's heights (assumed)."""
+    share = mean.coverage
+    if share == 0.0:
+        return Film(0.0, 0.0, mean.roughness)
+    thickness = max(mean.growth - mean.removal, 0.0) / share
+    roughness = math.sqrt(share * (1.0 - share)) * thickness
+    return Film(thickness, roughness, math.hypot(mean.roughness, roughness))
 
 
-def _roughness(mean: Mean) -> float:
-    """Rms roughness [m] of solid and tribofilm, taken as independent of each other (assumed)."""
-    return math.hypot(mean.roughness, _film_roughness(mean))
+def _sigma(films: Films) -> float:
+    """Composite rms roughness [m]."""
+    return math.hypot(films[0].both, films[1].both)
+
+
+def _cover(scene: Scene, films: Films) -> float:
+    """Mean cover of both bodies where they touch."""
+    return min(0.5 * (films[0].thickness + films[1].thickness) / scene.tribofilm.full_thickness, 1.0)
 
 
 def _stepped(
     scene: Scene, op: OperatingPoint, contact: _Contact, means: Means, left: float
-) -> tuple[float, Means, float]:
-    """Time [s], at most `left`, in which the surfaces change by control.change; they after it; and their speed [m/s]."""
+) -> tuple[float, Means, Films, float]:
+    """Time [s], at most `left`, in which the surfaces change by control.change; they after it; their speed [m/s]."""
     step, budget = left, scene.control.change
     while True:
         after = _evolved(scene, op, contact, means, step)
-        change = _distance(means, after)
+        change = max(_distance(means[0], after[0]), _distance(means[1], after[1]))
         if change <= 1.01 * budget:
-            return step, after, change / step
+            return step, after, films_of(after), change / step
         step *= min(max(budget / change, 0.05), 0.95)
 
 
-def _distance(before: Means, after: Means) -> float:
-    """Largest change [m] of a body's tribofilm, as rms over the track, or of its solid's roughness."""
-    return max(
-        abs((now.growth - now.removal) - (then.growth - then.removal)) / math.sqrt(max(now.coverage, 1e-3))
-        + abs(now.roughness - then.roughness)
-        for now, then in zip(after, before, strict=True)
-    )
+def _distance(then: Mean, now: Mean) -> float:
+    """Change [m] of a body's tribofilm, as rms over the track, and of its solid's roughness."""
+    film = abs((now.growth - now.removal) - (then.growth - then.removal))
+    return film / math.sqrt(max(now.coverage, 1e-3)) + abs(now.roughness - then.roughness)
 
 
-def _has_changed(scene: Scene, contact: _Contact, means: Means) -> bool:
+def _has_changed(scene: Scene, contact: _Contact, films: Films) -> bool:
     """Whether the surfaces are others than those that the contact was evaluated for."""
-    sigma = math.hypot(*(_roughness(mean) for mean in means))
-    cover = 0.5 * (_covered_film(means[0]) + _covered_film(means[1])) / scene.tribofilm.full_thickness
-    return abs(sigma - contact.sigma) > _SAME * contact.sigma or abs(min(cover, 1.0) - contact.cover) > _SAME
+    return (
+        abs(_sigma(films) - contact.sigma) > _SAME * contact.sigma or abs(_cover(scene, films) - contact.cover) > _SAME
+    )
 
 
 def _evolved(scene: Scene, op: OperatingPoint, contact: _Contact, means: Means, step: float) -> Means:
     """Both bodies after `step` [s] of what the contact does to them."""
-    coverage, doses = _doses(scene, op, contact, means)
-    growth = np.array([mean.growth / c if c > 0.0 else 0.0 for mean, c in zip(means, coverage, strict=True)])
-    removal = np.array([mean.removal / c if c > 0.0 else 0.0 for mean, c in zip(means, coverage, strict=True)])
-    exposed, abraded = np.array(doses) * step, _abrasion(scene, op, contact, coverage) * step
-    grown, removed = scene.tribofilm.evolve(growth, removal, exposed, abraded, op.inlet_temperature + contact.rise)
-    first, second = (
-        _body_after(
-            scene, op, contact, i, means[i], step, coverage[i], grown[i] * coverage[i], removed[i] * coverage[i]
-        )
-        for i in (0, 1)
-    )
-    return first, second
+    (first    )
 
 
 def _body_after(
@@ -296,20 +311,19 @@ def _body_after(
     Wear takes heights that stand out of the composite roughness by `smoothing` of it. A body's share in such a height
     is that of its variance, so its roughness falls by smoothing Rq_i / sigma for each depth worn (assumed).
     """
-    after = Mean(float(growth), float(removal), coverage, mean.wear, mean.roughness, mean.worn, mean.cycles)
-    film = 0.5 * (_covered_film(mean) + _covered_film(after))
-    volume = step * _wear_rate(scene, op, contact, i, film)
-    moving = (op.speed_1, op.speed_2)[i]
-    depth = volume / _track_area(scene, i, moving != 0.0)
+    new = max(growth - removal, 0.0) / coverage if coverage > 0.0 else 0.0
+    volume = step * _wear_rate(scene, op, contact, i, 0.5 * (contact.films[i].thickness + new))
+    speed = (op.speed_1, op.speed_2)[i]
+    depth = volume / _track_area(scene, i, speed != 0.0)
     smoother = math.exp(-scene_film(scene).smoothing * depth / contact.sigma) if contact.sigma > 0.0 else 1.0
     return Mean(
-        after.growth,
-        after.removal,
+        growth,
+        removal,
         coverage,
         mean.wear + depth,
         mean.roughness * smoother,
         mean.worn + volume,
-        mean.cycles + abs(moving) * step / track_length(scene, i),
+        mean.cycles + abs(speed) * step / track_length(scene, i),
     )
 
 
@@ -319,22 +333,23 @@ def _wear_rate(scene: Scene, op: OperatingPoint, contact: _Contact, i: int, film
     if force == 0.0:
         return 0.0
     speeds = (op.speed_1, op.speed_2)
-    return float(scene.wear.rate(np.array([force]), np.array([cover]), speeds, i, scene.plasticity.hardness)[0])
+    rate: Law = scene.wear.rate
+    return float(rate(force, cover, speeds, i, scene.plasticity.hardness))
 
 
 def _track_area(scene: Scene, i: int, moving: bool) -> float:
     """Area [m2] of a body's track |y| < b; at rest, of the patch's part of it."""
-    b = scene.operation.load ** (1 / 3) * (
-        _unit_hertz(scene.geometry.radius_x, scene.geometry.radius_y, scene.solids.reduced_modulus).b
+    b = scene.operation.load ** (1 / 3) * scene.unit_hertz.b
+    return _track_width(scene.film.points, scene.film.domain, b) * (
+        track_length(scene, i) if moving else scene.film.domain
     )
-    width = _rows_inside(scene.film.points, scene.film.spacing, b) * scene.film.spacing
-    return width * (track_length(scene, i) if moving else scene.film.domain)
 
 
 @lru_cache(maxsize=64)
-def _rows_inside(points: int, spacing: float, b: float) -> int:
-    """Rows of a patch with |y| < b, at least the middle one."""
-    return int((np.abs(Grid.centred(points, points, spacing).y) < max(b, 0.51 * spacing)).sum())
+def _track_width(points: int, domain: float, b: float) -> float:
+    """Width [m] of a patch's rows with |y| < b, at least the middle one."""
+    grid = Grid.centred(points, points, domain / (points - 1))
+    return grid.spacing * int((np.abs(grid.y) < max(b, 0.51 * grid.spacing)).sum())
 
 
 def _doses(
@@ -355,9 +370,8 @@ def _dose(
     scene: Scene, op: OperatingPoint, contact: _Contact, i: int, means: Means, touching: float, oiled: float
 ) -> tuple[float, float]:
     """`_doses` of one body, for the exposures of a point that touches and of one under oil."""
-    share = exposed_share(
-        contact.area_ratio, _roughness(means[i]), _roughness(means[1 - i]), scene_film(scene).meetings
-    )
+    own, other = contact.films[i].both, contact.films[1 - i].both
+    share = exposed_share(contact.area_ratio, own, other, scene_film(scene).meetings)
     coverage = max(means[i].coverage, 1.0 if oiled > 0.0 else share if touching > 0.0 else 0.0)
     if coverage == 0.0:
         return 0.0, 0.0
@@ -368,19 +382,21 @@ def _dose(
     return coverage, mean * _time_share(scene, op, i, moving) / coverage
 
 
-def _abrasion(scene: Scene, op: OperatingPoint, contact: _Contact, coverage: tuple[float, float]) -> Array:
+def _abrasion(scene: Scene, op: OperatingPoint, contact: _Contact, covers: Array) -> Array:
     """Rate [1/s] at which rubbing takes tribofilm from the covered part of each track, mean over it."""
-    pressure = contact.solid_pressure * contact.area_ratio
+    law, pressure = scene.tribofilm, contact.solid_pressure * contact.area_ratio
+    if not law.abrades:
+        return np.zeros(2)
     moving = (op.speed_1 != 0.0, op.speed_2 != 0.0)
-    felt = [pressure * _time_share(scene, op, i, moving[i]) / (coverage[i] or 1.0) for i in (0, 1)]
-    return scene.tribofilm.abrasion(np.array(felt), op.sliding_speed, None)
+    felt = pressure * np.array([_time_share(scene, op, i, moving[i]) for i in (0, 1)]) / covers
+    return law.abrasion(felt, op.sliding_speed, None)
 
 
 def _time_share(scene: Scene, op: OperatingPoint, i: int, moving: bool) -> float:
     """Share of the time that a point of the track counts as under the Hertz ellipse, by the law's dose."""
     if scene.tribofilm.dose == "contact_length":
         return 0.25 * math.pi  # a mean chord over 2a
-    a = _unit_hertz(scene.geometry.radius_x, scene.geometry.radius_y, scene.solids.reduced_modulus).a
+    a = scene.unit_hertz.a
     way = track_length(scene, i) if moving else scene.film.domain
     return 0.5 * math.pi * a * op.load ** (1 / 3) / way
 
@@ -406,9 +422,10 @@ def exposed_share(area_ratio: float, own: float, other: float, meetings: float) 
 def _outputs(
     scene: Scene,
     op: OperatingPoint,
-    state: ContactState,
+    before: Outputs,
     contact: _Contact,
     means: Means,
+    films: Films,
     rates: list[float],
     speed: float,
 ) -> Outputs:
@@ -416,7 +433,7 @@ def _outputs(
     force = contact.solid + contact.fluid
     power = max(-force * op.sliding_speed, 0.0)
     scale = op.load ** (1 / 3)
-    hertz = _unit_hertz(scene.geometry.radius_x, scene.geometry.radius_y, scene.solids.reduced_modulus)
+    hertz = scene.unit_hertz
     hot_1, hot_2 = body_temperatures(op)
     first, second = means
     longest = _LONGEST * scene.operation.duration
@@ -441,10 +458,10 @@ def _outputs(
         lambda_ratio=_lambda_ratio(op, contact),
         tribofilm_1=max(first.growth - first.removal, 0.0),
         tribofilm_2=max(second.growth - second.removal, 0.0),
-        tribofilm_roughness_1=_film_roughness(first),
-        tribofilm_roughness_2=_film_roughness(second),
-        roughness_1=_roughness(first),
-        roughness_2=_roughness(second),
+        tribofilm_roughness_1=films[0].roughness,
+        tribofilm_roughness_2=films[1].roughness,
+        roughness_1=films[0].both,
+        roughness_2=films[1].both,
         contact_area_ratio=contact.area_ratio,
         contact_load_ratio=contact.load_ratio,
         flash_temperature_rise=contact.rise,
@@ -453,15 +470,15 @@ def _outputs(
         heat_flow_1=0.5 * power,
         heat_flow_2=0.5 * power,
         approach=hertz.approach * scale * scale - contact.gap,
-        range_flags=int(_flags(scene, op, contact)),
+        range_flags=_flags(scene, op, contact),
         suggested_step=min(scene.control.change / speed, longest) if speed > 0.0 else longest,
         load_cycles_1=first.cycles,
         load_cycles_2=second.cycles,
         coverage_1=first.coverage,
         coverage_2=second.coverage,
-        blocks_dry=state.outputs.blocks_dry,
-        blocks_mixed=state.outputs.blocks_mixed,
-        blocks_fallback=state.outputs.blocks_fallback,
+        blocks_dry=before.blocks_dry,
+        blocks_mixed=before.blocks_mixed,
+        blocks_fallback=before.blocks_fallback,
         **_errors(scene, op, contact),
     )
 
@@ -472,18 +489,18 @@ def _lambda_ratio(op: OperatingPoint, contact: _Contact) -> float:
     return min(contact.gap / contact.sigma, _LAMBDA_CAP)
 
 
-def _flags(scene: Scene, op: OperatingPoint, contact: _Contact) -> RangeFlag:
-    flags = RangeFlag(0)
+def _flags(scene: Scene, op: OperatingPoint, contact: _Contact) -> int:
+    flags = 0
     if contact.sigma == 0.0 or op.load == 0.0:
-        flags |= RangeFlag.LAMBDA_CAPPED
+        flags |= _LAMBDA_CAPPED
     elif not scene_film(scene).sharing.covers(contact.lam):
-        flags |= RangeFlag.OUTSIDE_FIT
+        flags |= _OUTSIDE_FIT
     if not scene.tribofilm.covers(op.temperature):
-        flags |= RangeFlag.TRIBOFILM_TEMPERATURE
+        flags |= _TRIBOFILM_TEMPERATURE
     return flags
 
 
-def _errors(scene: Scene, op: OperatingPoint, contact: _Contact) -> dict[str, float]:
+def _errors(scene: Scene, op: OperatingPoint, contact: _Contact) -> dict[str, Any]:
     """Relative half widths of the errors by the fit. Friction is wrong where load counts for solids and is oil's."""
     sharing = scene_film(scene).sharing
     force, share = abs(contact.solid + contact.fluid), contact.load_ratio
@@ -578,5 +595,3 @@ def _raised(field: Array, covered: NDArray[np.bool_], then: float, now: float, m
         return field * (now / then) if then > 0.0 else field
     room = np.where(covered, np.maximum(most - field, 0.0), 0.0)
     return field + room * ((now - then) / float(room.mean()))
-
-

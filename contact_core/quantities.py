@@ -28,12 +28,15 @@ class Quantity:
     display: str = ""  # the unit people read, convertible to `unit`
     kind: Kind = "Real"
     relative: bool = False  # a temperature difference, not a temperature
+    levels: tuple[str, ...] = ("deterministic", "regression")  # film models that can tell it; others leave it zero
 
 
 def _pair(name: str, symbol: str, unit: str, text: str, **rest: Any) -> tuple[Quantity, Quantity]:
     first, second = (Quantity(f"{name}_{i}", f"{symbol}_{i}", unit, f"{text}, body {i}", **rest) for i in (1, 2))
     return first, second
 
+
+_FIELDS = ("deterministic",)  # what only fields can tell
 
 # fmt: off
 INPUTS: tuple[Quantity, ...] = (
@@ -50,10 +53,10 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("friction_force", "F", "N", "friction force on body 1 along +x", nominal=1.0),
     Quantity("friction_coefficient", "mu", "1", "|friction_force| / load, 0 at zero load", nominal=0.1, minimum=0.0),
     Quantity("rolling_resistance", "F_r", "N",
-             "integral of (h/2) dp/dx over the fluid film; each surface feels the opposite along +x; not in power_loss", nominal=0.1),
+             "integral of (h/2) dp/dx over the fluid film; each surface feels the opposite along +x; not in power_loss", nominal=0.1, levels=_FIELDS),
     Quantity("friction_solid", "F_s", "N", "part of friction_force where solids touch", nominal=1.0),
     Quantity("friction_fluid", "F_f", "N", "part of friction_force in the oil film", nominal=1.0),
-    Quantity("spin_torque", "M_s", "N m", "friction torque on body 1 about the axis from x to y", nominal=1e-3),
+    Quantity("spin_torque", "M_s", "N m", "friction torque on body 1 about the axis from x to y", nominal=1e-3, levels=_FIELDS),
     Quantity("power_loss", "P", "W", "-friction_force (speed_1 - speed_2) - spin_torque spin", nominal=1.0, minimum=0.0),
     *(Quantity(f"dfriction_d{name}", f"dF/d{symbol}", unit, f"derivative of friction_force by {name}", nominal=nominal)
       for name, symbol, unit, nominal in (("speed_1", "u_1", "N.s/m", 1.0), ("speed_2", "u_2", "N.s/m", 1.0),
@@ -63,40 +66,40 @@ OUTPUTS: tuple[Quantity, ...] = (
     *_pair("wear_depth", "w", "m", "mean wear depth over the track |y| < b", nominal=1e-8, minimum=0.0, display="nm"),
     Quantity("h_c", "h_c", "m", "mean gap over the disc r < 2a/3", nominal=1e-8, minimum=0.0, display="nm"),
     Quantity("h_central", "h_central", "m", "gap at the centre of the contact", nominal=1e-8, minimum=0.0, display="nm"),
-    Quantity("h_min", "h_min", "m", "smallest gap", nominal=1e-9, minimum=0.0, display="nm"),
+    Quantity("h_min", "h_min", "m", "smallest gap", nominal=1e-9, minimum=0.0, display="nm", levels=_FIELDS),
     Quantity("lambda_ratio", "lambda", "1", "h_c / composite rms roughness over the same disc, at most 1000", minimum=0.0),
     *_pair("tribofilm", "h_t", "m", "mean tribofilm thickness over the track |y| < b, all nodes", nominal=1e-8, minimum=0.0, display="nm"),
     *_pair("tribofilm_roughness", "Rq_t", "m", "rms deviation of the tribofilm thickness over |y| < 2b/3", nominal=1e-8, minimum=0.0, display="nm"),
     *_pair("roughness", "Rq", "m", "rms roughness over |y| < 2b/3, free of the groove's shape", nominal=1e-8, minimum=0.0, display="nm"),
     Quantity("contact_area_ratio", "A_c", "1", "real contact area / Hertz area", minimum=0.0),
     Quantity("contact_load_ratio", "W_c", "1", "load carried by the solids / load", minimum=0.0, maximum=1.0),
-    Quantity("pressure_max", "p_max", "Pa", "largest pressure", nominal=1e9, minimum=0.0, display="GPa"),
+    Quantity("pressure_max", "p_max", "Pa", "largest pressure", nominal=1e9, minimum=0.0, display="GPa", levels=_FIELDS),
     Quantity("flash_temperature_rise", "dT_f", "K", "mean flash temperature rise over the real contact", minimum=0.0, relative=True),
     *_pair("temperature", "T", "K", "bulk temperature", nominal=350.0, minimum=0.0, display="degC"),
     *_pair("heat_flow", "Q", "W", "heat that the contact puts into the body", nominal=1.0),
     Quantity("approach", "delta", "m", "approach of the bodies from first touching of the undeformed, smooth shapes", nominal=1e-6, display="um"),
     Quantity("valid", "", "", "false: the last input could not be used; state and outputs stand as they were", kind="Boolean"),
     Quantity("range_flags", "", "", "sum of the RangeFlag values raised (see RangeFlag)", kind="Integer", minimum=0),
-    Quantity("iterations", "", "", "film iterations in the last step", kind="Integer", minimum=0),
+    Quantity("iterations", "", "", "film iterations in the last step", kind="Integer", minimum=0, levels=_FIELDS),
     Quantity("suggested_step", "dt", "s", "time until the stored contact is due to be solved again", nominal=60.0, minimum=0.0),
     *_pair("load_cycles", "N", "1", "passes of a surface point through the contact", role="diagnostic", nominal=1e4, minimum=0.0),
     Quantity("lambda_conventional", "lambda_HD", "1",
-             "Hamrock and Dowson's central film of the smooth bodies / composite rms roughness, at most 1000", role="diagnostic", minimum=0.0),
-    Quantity("contact_area_ratio_disc", "A_c_disc", "1", "share of the disc r < 2a/3 in solid contact", role="diagnostic", minimum=0.0, maximum=1.0),
-    Quantity("contact_load_ratio_disc", "W_c_disc", "1", "share of the load on the disc r < 2a/3 that solids carry", role="diagnostic", minimum=0.0, maximum=1.0),
-    *_pair("tribofilm_covered", "h_t_cov", "m", "mean tribofilm thickness over the track's nodes with more than 1 nm", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm"),
-    *_pair("tribofilm_upper", "h_t_up", "m", "mean tribofilm thickness over the track's nodes above 80 % of the thickest", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm"),
-    *_pair("roughness_ra", "Ra", "m", "arithmetic mean roughness over |y| < 2b/3, free of the groove's shape", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm"),
+             "Hamrock and Dowson's central film of the smooth bodies / composite rms roughness, at most 1000", role="diagnostic", minimum=0.0, levels=_FIELDS),
+    Quantity("contact_area_ratio_disc", "A_c_disc", "1", "share of the disc r < 2a/3 in solid contact", role="diagnostic", minimum=0.0, maximum=1.0, levels=_FIELDS),
+    Quantity("contact_load_ratio_disc", "W_c_disc", "1", "share of the load on the disc r < 2a/3 that solids carry", role="diagnostic", minimum=0.0, maximum=1.0, levels=_FIELDS),
+    *_pair("tribofilm_covered", "h_t_cov", "m", "mean tribofilm thickness over the track's nodes with more than 1 nm", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm", levels=_FIELDS),
+    *_pair("tribofilm_upper", "h_t_up", "m", "mean tribofilm thickness over the track's nodes above 80 % of the thickest", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm", levels=_FIELDS),
+    *_pair("roughness_ra", "Ra", "m", "arithmetic mean roughness over |y| < 2b/3, free of the groove's shape", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm", levels=_FIELDS),
     *_pair("coverage", "C", "1", "share of the track |y| < b with a tribofilm above 1 nm", role="diagnostic", minimum=0.0, maximum=1.0),
-    *_pair("roughness_raw", "Rq_raw", "m", "rms roughness over |y| < 2b/3, groove included", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm"),
-    Quantity("error_friction", "", "1", "half width of friction_coefficient's error by time steps and sampling, relative", role="diagnostic", minimum=0.0),
-    Quantity("error_film", "", "1", "half width of h_c's error by time steps and sampling, relative", role="diagnostic", minimum=0.0),
-    Quantity("error_tribofilm", "", "1", "half width of the mean tribofilms' error by time steps and sampling, relative, the larger one", role="diagnostic", minimum=0.0),
-    Quantity("error_wear", "", "1", "half width of the wear depths' error by time steps and sampling, relative, the larger one", role="diagnostic", minimum=0.0),
-    Quantity("unconverged", "", "1", "share of the last block's film solutions that missed the tolerance", role="diagnostic", minimum=0.0, maximum=1.0),
-    Quantity("blocks_dry", "", "1", "solved blocks so far that dry contact pressures drove", role="diagnostic", minimum=0.0),
-    Quantity("blocks_mixed", "", "1", "solved blocks so far that mixed lubrication pressures drove", role="diagnostic", minimum=0.0),
-    Quantity("blocks_fallback", "", "1", "solved blocks so far in which the dry solution had to stand in for a mixed one", role="diagnostic", minimum=0.0),
+    *_pair("roughness_raw", "Rq_raw", "m", "rms roughness over |y| < 2b/3, groove included", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm", levels=_FIELDS),
+    Quantity("error_friction", "", "1", "half width of friction_coefficient's error, relative: by time steps and sampling, or by the fit of the level", role="diagnostic", minimum=0.0),
+    Quantity("error_film", "", "1", "half width of h_c's error, relative: by time steps and sampling, or by the fit of the level", role="diagnostic", minimum=0.0),
+    Quantity("error_tribofilm", "", "1", "half width of the mean tribofilms' error, relative, the larger one: by time steps and sampling, or by the fit of the level", role="diagnostic", minimum=0.0),
+    Quantity("error_wear", "", "1", "half width of the wear depths' error, relative, the larger one: by time steps and sampling, or by the fit of the level", role="diagnostic", minimum=0.0),
+    Quantity("unconverged", "", "1", "share of the last block's film solutions that missed the tolerance", role="diagnostic", minimum=0.0, maximum=1.0, levels=_FIELDS),
+    Quantity("blocks_dry", "", "1", "solved blocks so far that dry contact pressures drove", role="diagnostic", minimum=0.0, levels=_FIELDS),
+    Quantity("blocks_mixed", "", "1", "solved blocks so far that mixed lubrication pressures drove", role="diagnostic", minimum=0.0, levels=_FIELDS),
+    Quantity("blocks_fallback", "", "1", "solved blocks so far in which the dry solution had to stand in for a mixed one", role="diagnostic", minimum=0.0, levels=_FIELDS),
 )
 
 # fmt: on

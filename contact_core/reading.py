@@ -50,7 +50,7 @@ def did_you_mean(word: str, choices: list[str]) -> str:
 
 
 def override(table: dict[str, Any], key: str, value: str) -> None:
-    """Set a dotted key; a new `model` drops the parameters of the old one."""
+    """Set a dotted key; a new `model` keeps what it has in common with the old one and drops the rest."""
     *path, last = key.split(".")
     where = ".".join(path)
     for part in path:
@@ -58,9 +58,14 @@ def override(table: dict[str, Any], key: str, value: str) -> None:
         if not isinstance(table, dict):
             raise SceneError(f"'{key}' cannot be set: '{part}' is a value, not a table.")
     if last == "model":
-        if _with_named_set(dict(table), where).get("model") == value:
+        full = _with_named_set(dict(table), where)
+        if full.get("model") == value:
             return
+        models = FILMS if where == "film" else SLOTS.get(path[-1], ()) if path else ()
+        shared = {f.name for model in models if model.name == value for f in fields(model)}  # type: ignore[attr-defined]
+        kept = {name: item for name, item in full.items() if name in shared}
         table.clear()
+        table |= kept
     table[last] = value
 
 

@@ -1,8 +1,9 @@
 """Closed forms, as library code: what solvers are tested against and what engineers compare with."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeVar
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +11,6 @@ from scipy.constants import Boltzmann, Planck
 from scipy.integrate import quad
 from scipy.optimize import brentq, minimize_scalar
 from scipy.special import elliprd, elliprf, elliprg, i0e, k0e, k1e
-
-Real = TypeVar("Real", float, NDArray[np.float64])
 
 
 @dataclass(frozen=True)
@@ -117,20 +116,32 @@ def nijenbanning_venner_moes(contact: SmoothContact) -> float:
     return float(film * np.sqrt(speed) * contact.radius_x)
 
 
-def moes_film(load: Real, lubricant: Real, ratio: float = 1.0) -> Real:
-    """Central film thickness in Moes' units, (h / radius_x) U^-0.5, of Moes' M, L (arrays or not), radius_x / radius_y.
+def moes_film(load: float, lubricant: float, ratio: float = 1.0) -> float:
+    """Central film thickness in Moes' units, (h / radius_x) U^-0.5, of Moes' M, L and radius_x / radius_y.
 
     Source: as `nijenbanning_venner_moes`.
     """
-    shape = 1.0 + 0.006 * np.log(ratio) + 0.63 * ratio ** (4 / 7)
-    rigid_iso = 145.0 * (1.0 + 0.796 * ratio ** (14 / 15)) ** (-15 / 7) / (ratio * load**2)
-    elastic_iso = 3.18 * shape ** (-14 / 25) * ratio ** (-1 / 15) * load ** (-2 / 15)
-    rigid_piezo = 1.29 * (1.0 + 0.691 * ratio) ** (-2 / 3) * lubricant ** (2 / 3)
-    elastic_piezo = 1.48 * shape ** (-7 / 20) * ratio ** (-1 / 24) * load ** (-1 / 12) * lubricant**0.75
-    unloaded = 1.8 / ratio
-    s = 1.5 * (1.0 + np.exp(-1.2 * elastic_iso / rigid_iso))
+    rigid_iso, elastic_iso, rigid_piezo, elastic_piezo, unloaded = _moes_factors(ratio)
+    rigid_iso /= load**2
+    elastic_iso *= load ** (-2 / 15)
+    rigid_piezo *= lubricant ** (2 / 3)
+    elastic_piezo *= load ** (-1 / 12) * lubricant**0.75
+    s = 1.5 * (1.0 + math.exp(-1.2 * elastic_iso / rigid_iso))
     iso = (rigid_iso**1.5 + (elastic_iso**-4 + unloaded**-4) ** (-3 / 8)) ** (2 * s / 3)
     return (iso + (rigid_piezo**-8 + elastic_piezo**-8) ** (-s / 8)) ** (1.0 / s)
+
+
+@lru_cache(maxsize=64)
+def _moes_factors(ratio: float) -> tuple[float, float, float, float, float]:
+    """Films of the rigid and of the elastic, isoviscous and piezoviscous contact at M = L = 1, and of one unloaded."""
+    shape = 1.0 + 0.006 * math.log(ratio) + 0.63 * ratio ** (4 / 7)
+    return (
+        145.0 * (1.0 + 0.796 * ratio ** (14 / 15)) ** (-15 / 7) / ratio,
+        3.18 * shape ** (-14 / 25) * ratio ** (-1 / 15),
+        1.29 * (1.0 + 0.691 * ratio) ** (-2 / 3),
+        1.48 * shape ** (-7 / 20) * ratio ** (-1 / 24),
+        1.8 / ratio,
+    )
 
 
 @dataclass(frozen=True)
@@ -307,7 +318,3 @@ def jaeger_band(x: float, peclet: float) -> float:
         return float(-1.0 - v * np.exp(2.0 * v) * (k1e(-v) - k0e(-v)))
 
     return (integral(peclet * (x + 1.0)) - integral(peclet * (x - 1.0))) / (np.pi * peclet)
-
-
-def inlet_shear_factor(contact, beta, conductivity, sliding):  # STUB
-    return 1.0

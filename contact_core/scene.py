@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import Field, dataclass, fields, is_dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -139,9 +140,15 @@ class OperatingPoint:
 
     def check(self) -> None:
         """Raise OperatingPointError with one sentence for each value that cannot be used."""
+        values = vars(self)
+        if all(values[name] is None or least <= values[name] <= most for name, least, most in _RANGES):
+            return  # the common case, at a fraction of the cost
         sentences = list(out_of_range(self, ""))
         if sentences:
             raise OperatingPointError(" ".join(sentences))
+
+
+_RANGES = tuple((f.name, f.metadata["least"], f.metadata["most"]) for f in fields(OperatingPoint))
 
 
 @dataclass(frozen=True)
@@ -245,6 +252,11 @@ class Scene:
     def hertz(self, load: float) -> Hertz:
         """Hertz's contact of the smooth, dry bodies at a load [N] above zero."""
         return hertz_point(load, self.geometry.radius_x, self.geometry.radius_y, self.solids.reduced_modulus)
+
+    @cached_property
+    def unit_hertz(self) -> Hertz:
+        """Hertz's contact at 1 N: lengths and pressure grow with the cube root of the load, the approach its square."""
+        return self.hertz(1.0)
 
     @property
     def largest_load(self) -> float:

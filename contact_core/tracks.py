@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from .errors import StateError
 from .evolution import track_length
 from .laws.tribofilm import thickness
+from .means import folded
 from .patches import bare_heights, contact_grid, heights_of
 from .scene import Scene
 from .state import ContactState
@@ -43,6 +44,7 @@ def track_of(scene: Scene, state: ContactState, body: int, length: float | None 
     if not 0.0 < length <= max(whole, patch):
         raise StateError(f"length = {length!r} m must be above 0 and at most the track of body {body}, {whole:g} m.")
     nodes = max(1, round(length / scene.film.spacing))
+    state = folded(scene, state)
     part = state.bodies[body - 1]
     bare = bare_heights(scene, state.rows)[body - 1]
 

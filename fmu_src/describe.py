@@ -8,6 +8,7 @@ import pythonfmu
 
 import contact_core
 from contact_core import units
+from contact_core.film import Deterministic
 from contact_core.scene import Scene
 
 from .resources import MODEL, guid
@@ -51,16 +52,10 @@ def model_description(scene: Scene) -> bytes:
     categories = ET.SubElement(root, "LogCategories")
     for name, text in pythonfmu.Fmi2Slave.log_categories.items():
         ET.SubElement(categories, "Category", {"name": name, "description": text})
-    ET.SubElement(
-        root,
-        "DefaultExperiment",
-        {
-            "startTime": "0.0",
-            "stopTime": _text(scene.operation.duration),
-            "tolerance": _text(scene.film.tolerance),
-            "stepSize": _text(scene.operation.interval),
-        },
-    )
+    experiment = {"startTime": 0.0, "stopTime": scene.operation.duration, "stepSize": scene.operation.interval}
+    if isinstance(scene.film, Deterministic):
+        experiment["tolerance"] = scene.film.tolerance
+    ET.SubElement(root, "DefaultExperiment", {name: _text(value) for name, value in experiment.items()})
     listed = ET.SubElement(root, "ModelVariables")
     for reference, variable in enumerate(table):
         listed.append(_scalar_variable(reference, variable))

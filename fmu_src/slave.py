@@ -109,7 +109,7 @@ class ContactSlave(Fmi2Slave):
             raise ContactError(f"The contact is not set up: {self._fault}")
         point = OperatingPoint(**self._named("input", self._values))
         state, outputs = advance(self._scene, point, self._state, step_size)
-        results: dict[str, float] = asdict(outputs)
+        results: dict[str, float] = {name: x for name, x in asdict(outputs).items() if name in self._references}
         broken = [name for name, value in results.items() if not math.isfinite(value)]
         if broken:
             raise ConvergenceError(

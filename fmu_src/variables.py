@@ -33,7 +33,10 @@ class Variable:
 
 
 def variables(scene: Scene) -> tuple[Variable, ...]:
-    """Inputs, parameters and outputs of a scene's FMU. Index + 1 is the index of the model description."""
+    """Inputs, parameters and outputs of a scene's FMU. Index + 1 is the index of the model description.
+
+    What the scene's level cannot tell is absent.
+    """
     return (
         *(_quantity(q, "input", _start(scene, q.name)) for q in INPUTS),
         *(_parameter(name, value, field) for name, (value, field) in tunables(scene).items()),
@@ -44,7 +47,7 @@ def variables(scene: Scene) -> tuple[Variable, ...]:
             "parameter",
             "",
         ),
-        *(_quantity(q, "output", ZERO[q.kind]) for q in OUTPUTS),
+        *(_quantity(q, "output", ZERO[q.kind]) for q in OUTPUTS if scene.film.name in q.levels),
     )
 
 

@@ -1,6 +1,6 @@
 """The fast level: film formulas and curves of load sharing for the means of rough surfaces."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 from ..laws.load_sharing import FittedSharing
@@ -30,7 +30,7 @@ class Regression:
     floor: float = parameter(
         "m", "gap at which solids touch: thickness of the adsorbed boundary layer", above=1e-11, most=1e-7, default=1e-9
     )
-    sharing: FittedSharing = FittedSharing()
+    sharing: FittedSharing = field(default=FittedSharing())
     meetings: float = parameter(
         "",
         "highest point of the other body that a point meets, over that body's rms roughness",
@@ -39,7 +39,11 @@ class Regression:
         default=2.5,
     )
     smoothing: float = parameter(
-        "", "mean height of what touches, over composite roughness: wear takes it away", least=0.0, most=5.0, default=1.2
+        "",
+        "mean height of what touches, over composite roughness: wear takes it away",
+        least=0.0,
+        most=5.0,
+        default=1.2,
     )
 
     @property

@@ -6,7 +6,7 @@ import pytest
 
 from contact_core import ContactState, Outputs, RangeFlag, Scene, StateError, initial_state
 from contact_core.film.instant import FilmState
-from contact_core.state import Body
+from contact_core.state import Body, Mean
 from contact_core.trends import NAMES, Trends
 
 SMALL = {"film.points": "33", "surface_1.rq": "0 nm", "surface_2.correlation_length": "16 um"}
@@ -55,6 +55,7 @@ def used(scene: Scene) -> ContactState:
         trends=replace(Trends.fresh().followed(dict.fromkeys(NAMES, 1.0 / 3.0), {}, 0.5, 2.5), gain=2.0 / 3.0),
         temperatures=(1000.0 / 3.0, 1001.0 / 3.0),
         outputs=Outputs(**outputs),
+        means=(filled(Mean, (0, 0)), filled(Mean, (0, 0))),
     )
 
 
