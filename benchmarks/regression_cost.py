@@ -1,0 +1,69 @@
+"""Cost of a step of the fast level, film.model = "regression".
+
+    python benchmarks/regression_cost.py [scene ...]
+
+Prints the median and the 90 % range of the time of `advance` over 10 000 steps of 1 ms with inputs that all change from
+step to step, and what an array operation of nine numbers costs at the same moment on the same machine.
+"""
+
+import sys
+import time
+from dataclasses import replace
+
+import numpy as np
+
+from contact_core import OperatingPoint, Scene, advance, initial_state
+
+STEPS, STEP = 10_000, 1e-3  # s
+
+
+def duty(op: OperatingPoint, seed: int = 1) -> list[OperatingPoint]:
+    """Operating points about one of reference, each other than the one before."""
+    random = np.random.Generator(np.random.Philox(seed))
+    rows = (1.0 + 0.1 * random.uniform(-1.0, 1.0, (STEPS, 3))).tolist()
+    warmer = random.uniform(-2.0, 2.0, STEPS).tolist()
+    return [
+        replace(
+            op,
+            load=op.load * load,
+            speed_1=op.speed_1 * first,
+            speed_2=op.speed_2 * second,
+            temperature=op.temperature + more,
+        )
+        for (load, first, second), more in zip(rows, warmer, strict=True)
+    ]
+
+
+def times(name: str) -> list[float]:
+    """Microseconds of each step of a scene at the fast level."""
+    scene = Scene.from_toml(name).at_level("regression")
+    points = duty(scene.operation.point)
+    state, found = advance(scene, points[0], initial_state(scene), 60.0)[0], []
+    for op in points:
+        start = time.perf_counter()
+        state, _ = advance(scene, op, state, STEP)
+        found.append(1e6 * (time.perf_counter() - start))
+    return found
+
+
+def unit() -> float:
+    """Microseconds of one exponential of nine numbers."""
+    array, found = np.full(9, 0.3), []
+    for _ in range(STEPS):
+        start = time.perf_counter()
+        np.exp(array)
+        found.append(1e6 * (time.perf_counter() - start))
+    return float(np.median(found))
+
+
+def main(names: list[str]) -> None:
+    print("| scene | median [us] | 5 % [us] | 95 % [us] | np.exp of nine numbers [us] |")
+    print("|---|---|---|---|---|")
+    for name in names:
+        found = times(name)
+        low, middle, high = np.percentile(found, [5, 50, 95])
+        print(f"| {name} | {middle:.1f} | {low:.1f} | {high:.1f} | {unit():.2f} |")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:] or ["azam_case_a", "mtm_zddp"])

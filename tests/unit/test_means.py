@@ -1,0 +1,359 @@
+"""The fast level: friction without jumps, derivatives that are its own, means that patches give and take."""
+
+import math
+from dataclasses import asdict, fields, replace
+
+import numpy as np
+import pytest
+from cheap_scene import CHEAP, cheap
+
+from contact_core import (
+    ContactState,
+    OperatingPoint,
+    OperatingPointError,
+    RangeFlag,
+    Scene,
+    SceneError,
+    advance,
+    initial_state,
+    solve,
+    track_of,
+)
+from contact_core.laws.load_sharing import FittedSharing
+from contact_core.laws.rheology import Eyring, Newtonian
+from contact_core.means import exposed_share, folded, means_of
+from contact_core.quantities import OUTPUTS
+from contact_core.reference import SmoothContact, nijenbanning_venner_moes
+
+FAST = CHEAP | {"film.model": "regression"}
+FAST = {key: value for key, value in FAST.items() if key not in ("film.tolerance", "film.iterations")}
+SMOOTH = FAST | {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm"}
+DERIVATIVES = {"speed_1": 1e-6, "speed_2": 1e-6, "load": 1e-5, "temperature": 1e-5}  # step of the test, relative
+
+
+def fast(changes=FAST, **more):
+    return cheap(changes, **more)
+
+
+def point(op, entrainment, sliding, **changes):
+    return replace(op, speed_1=entrainment + 0.5 * sliding, speed_2=entrainment - 0.5 * sliding, **changes)
+
+
+def with_oil(scene, rheology):
+    return replace(scene, lubricant=replace(scene.lubricant, rheology=rheology))
+
+
+def now(scene, op, state):
+    return advance(scene, op, state, 0.0)[1]
+
+
+@pytest.fixture(scope="module")
+def grown():
+    """A scene, a state with half an hour's tribofilm and wear, and its operating point."""
+    scene, state, op = fast()
+    return scene, advance(scene, op, state, 1800.0)[0], op
+
+
+@pytest.mark.parametrize("srr", [0.02, -0.5, 2.0])
+def test_friction_has_no_jump_over_six_decades_of_speed(grown, srr):
+    scene, state, op = grown
+
+    def friction(count):
+        speeds = np.geomspace(1e-5, 10.0, count)
+        return np.array([now(scene, point(op, u, srr * u), state).friction_coefficient for u in speeds])
+
+    coarse, fine = (np.abs(np.diff(friction(count))).max() for count in (501, 2001))
+    assert 0.0 < coarse < 1e-2
+    assert fine < 0.3 * coarse  # a jump would stay as it is, a slope becomes a quarter
+
+
+@pytest.mark.parametrize("entrainment", [0.0, 1e-4, 0.25, 5.0])
+def test_friction_goes_through_zero_sliding_without_a_jump_and_is_odd(grown, entrainment):
+    scene, state, op = grown
+    slides = np.linspace(-3e-6, 3e-6, 601)
+    force = np.array([now(scene, point(op, entrainment, u), state).friction_force for u in slides])
+    assert force[300] == 0.0
+    assert force == pytest.approx(-force[::-1], rel=1e-12)
+    assert np.all(np.diff(force) < 0.0)
+    assert np.abs(np.diff(force)).max() < 0.02 * force[0]
+
+
+@pytest.mark.parametrize("sliding", [5e-3, 1.0])
+def test_friction_goes_through_reversed_entrainment_without_a_jump_and_is_even(grown, sliding):
+    scene, state, op = grown
+    speeds = np.concatenate([-np.geomspace(1e-2, 1e-12, 800), [0.0], np.geomspace(1e-12, 1e-2, 800)])
+    force = np.array([now(scene, point(op, u, sliding), state).friction_force for u in speeds])
+    assert force == pytest.approx(force[::-1], rel=1e-12)
+    assert np.abs(np.diff(force)).max() < 2e-3 * abs(force[800])
+    assert abs(force[0]) < 0.99 * abs(force[800])
+
+
+@pytest.mark.parametrize("entrainment", [1e-4, 0.02, 0.25, 1.0, -3.0])
+@pytest.mark.parametrize("sliding", [1e-7, -5e-3, 0.4])
+@pytest.mark.parametrize("rheology", [Newtonian(), Eyring(5e6, 0.047)], ids=lambda law: law.name)
+def test_derivatives_are_total(grown, entrainment, sliding, rheology):
+    scene, state, op = grown
+    scene = with_oil(scene, rheology)
+    op = point(op, entrainment, sliding, load=60.0)
+    found = now(scene, op, state)
+    for name, relative in DERIVATIVES.items():
+        scale = min(abs(entrainment), abs(sliding)) if name.startswith("speed") else getattr(op, name)
+        step = relative * scale
+        up, down = (
+            now(scene, replace(op, **{name: getattr(op, name) + sign * step}), state).friction_force
+            for sign in (1.0, -1.0)
+        )
+        expected = (up - down) / (2.0 * step)
+        size = max(
+            abs(expected), 1e-3 * abs(found.friction_force) / getattr(op, name) if name == "temperature" else 0.0
+        )
+        assert getattr(found, f"dfriction_d{name}") == pytest.approx(expected, abs=1e-3 * size), name
+
+
+def test_at_rest_the_solids_carry_all_and_friction_is_the_boundary_laws():
+    scene, state, op = fast()
+    found = now(scene, point(op, 0.0, 0.01), state)
+    assert found.contact_load_ratio == pytest.approx(1.0, abs=1e-9)
+    assert found.friction_coefficient == pytest.approx(scene.boundary_friction.bare, rel=1e-3)
+    assert found.friction_force < 0.0  # body 1 is the faster one
+
+
+def test_a_thick_film_carries_all_and_its_friction_is_the_oils():
+    scene, state, op = fast(SMOOTH)
+    scene, op = with_oil(scene, Newtonian()), point(op, 5.0, 1e-9, load=2.0)
+    found = now(scene, op, state)
+    oil, hertz, shape = scene.lubricant, scene.hertz(op.load), scene.geometry
+    smooth = SmoothContact.of(
+        op.load, 5.0, oil.viscosity, op.temperature, shape.radius_x, shape.radius_y, scene.solids.reduced_modulus
+    )
+    film = nijenbanning_venner_moes(smooth)
+    r = (np.arange(20_000) + 0.5) / 20_000
+    shear = oil.viscosity(hertz.pressure_max * np.sqrt(1.0 - r**2), op.temperature) * 1e-9 / film
+    assert found.contact_load_ratio == 0.0
+    assert found.h_c == pytest.approx(film, rel=1e-9)
+    assert found.friction_force == pytest.approx(-hertz.area * float((2.0 * r * shear).mean()), rel=1e-6)
+
+
+def test_limited_oil_carries_its_coefficient_times_the_load_it_bears():
+    scene, state, op = fast(SMOOTH)
+    found = now(scene, point(op, 0.5, 5.0), state)
+    limit = scene.lubricant.rheology.limiting_coefficient
+    assert found.friction_coefficient == pytest.approx(limit, rel=1e-2)
+    assert found.friction_coefficient <= limit * (1.0 + 1e-3)
+
+
+def test_wear_is_archards_for_the_load_on_the_solids():
+    scene, state, op = fast(tribofilm__model="none")
+    state, found = advance(scene, op, state, 1e-3)
+    force = found.contact_load_ratio * op.load
+    expected = scene.wear.bare * force * abs(op.sliding_speed) / scene.plasticity.hardness
+    assert 0.0 < found.contact_load_ratio < 1.0
+    assert found.wear_rate_1 == pytest.approx(expected, rel=1e-9)
+    assert found.wear_volume_2 == pytest.approx(1e-3 * expected, rel=1e-9)
+
+
+def test_the_exposed_ball_grows_the_laws_film(grown):
+    scene, state, op = grown
+    law, ball, disc = scene.tribofilm, *state.means
+    seconds = np.array([state.time])
+    hot = op.temperature + state.outputs.flash_temperature_rise
+    growth, removal = law.evolve(np.zeros(1), np.zeros(1), seconds, hot)
+    assert ball.coverage == 1.0
+    assert ball.growth == pytest.approx(growth[0], rel=1e-4)
+    assert ball.removal == pytest.approx(removal[0], rel=1e-9)
+    assert 0.1 < disc.coverage < 0.6
+
+
+def test_time_may_be_cut_anywhere():
+    scene, state, op = fast()
+    whole, _ = advance(scene, op, state, 3600.0)
+    for _ in range(360):
+        state, _ = advance(scene, op, state, 10.0)
+    for once, often in zip(whole.means, state.means, strict=True):
+        assert asdict(often) == pytest.approx(asdict(once), rel=0.02)
+
+
+def test_a_smooth_body_is_all_exposed_and_a_body_under_a_smooth_one_by_what_touches():
+    assert exposed_share(0.2, 0.0, 1e-7, 2.5) == 1.0
+    assert exposed_share(0.2, 1e-7, 0.0, 2.5) == pytest.approx(0.2, rel=1e-12)
+    assert exposed_share(0.0, 1e-7, 1e-7, 2.5) == 0.0
+    shares = [exposed_share(0.2, 1e-7, rough, 2.5) for rough in (0.0, 1e-8, 1e-7, 1e-6)]
+    assert shares == sorted(shares)
+    assert shares[-1] == pytest.approx(1.0)
+
+
+def test_without_load_nothing_rubs_and_nothing_is_infinite(grown):
+    scene, state, op = grown
+    after, found = advance(scene, replace(op, load=0.0), state, 60.0)
+    assert all(math.isfinite(value) for value in asdict(found).values())
+    assert found.friction_force == found.contact_load_ratio == found.wear_rate_1 == 0.0
+    assert RangeFlag.LAMBDA_CAPPED in RangeFlag(found.range_flags)
+    assert [mean.growth for mean in after.means] == [mean.growth for mean in state.means]
+
+
+@pytest.mark.parametrize("load", [1e-12, 1e-3, 1e3])
+@pytest.mark.parametrize(("entrainment", "sliding"), [(0.0, 0.0), (0.0, 20.0), (99.0, 1e-3), (1e-9, 1e-9)])
+def test_extremes_stay_finite(grown, load, entrainment, sliding):
+    scene, state, op = grown
+    after, found = advance(scene, point(op, entrainment, sliding, load=load), state, 1.0)
+    assert all(math.isfinite(value) for value in asdict(found).values())
+    assert all(math.isfinite(value) for mean in after.means for value in asdict(mean).values())
+    assert 0.0 <= found.contact_load_ratio <= 1.0
+
+
+def test_an_input_that_cannot_be_used_is_refused(grown):
+    scene, state, op = grown
+    with pytest.raises(OperatingPointError, match="load"):
+        advance(scene, replace(op, load=-1.0), state, 1.0)
+    with pytest.raises(OperatingPointError, match="temperature"):
+        advance(scene, replace(op, temperature=420.0), state, 1.0)
+
+
+def test_beyond_the_fit_a_flag_is_raised(grown):
+    scene, state, op = grown
+    assert RangeFlag.OUTSIDE_FIT not in RangeFlag(now(scene, op, state).range_flags)
+    assert RangeFlag.OUTSIDE_FIT in RangeFlag(now(scene, point(op, 50.0, 0.1), state).range_flags)
+
+
+def test_only_what_the_level_can_tell_is_told(grown):
+    scene, state, op = grown
+    found = asdict(advance(scene, op, state, 1.0)[1])
+    assert all(found[q.name] == 0 for q in OUTPUTS if scene.film.name not in q.levels)
+    silent = {q.name for q in OUTPUTS if scene.film.name in q.levels and not found.get(q.name)}
+    assert silent == {"valid", "range_flags", "tribofilm_roughness_1"}  # the ball is covered all over
+
+
+# sharing
+
+
+def test_sharing_goes_from_dry_to_full_film():
+    sharing, lam = FittedSharing(), np.concatenate([[0.0], np.geomspace(1e-6, 1e6, 200)])
+    load, gap = sharing.load_ratio(lam), sharing.gap(lam)
+    area = sharing.area_ratio(load)
+    assert (load[0], area[0], gap[0]) == (1.0, sharing.area_dry, sharing.film_dry)
+    assert load[-1] == area[-1] == 0.0
+    assert gap[-1] == pytest.approx(sharing.film_factor * lam[-1])
+    assert np.all(np.diff(load) <= 0.0)
+    assert np.all(np.diff(area) <= 0.0)
+    assert np.all(np.diff(gap) >= 0.0)
+
+
+# levels
+
+
+def test_a_scene_changes_its_level_and_keeps_its_grid():
+    scene = Scene.from_toml("mtm_zddp", {"film.points": "101", "film.domain": "0.6 mm", "film.floor": "2 nm"})
+    quick = scene.at_level("regression")
+    assert (quick.film.name, quick.film.points, quick.film.domain, quick.film.floor) == ("regression", 101, 6e-4, 2e-9)
+    assert quick.digest() == scene.digest()
+    assert quick.at_level("deterministic") == scene
+    assert quick.at_level("regression") is quick
+    with pytest.raises(SceneError, match="Did you mean 'regression'"):
+        scene.at_level("regresion")
+
+
+def test_a_new_model_keeps_the_keys_it_has_in_common_with_the_old_one():
+    scene = Scene.from_toml("azam_case_a", {"film.model": "regression"})
+    assert scene == Scene.from_toml("azam_case_a").at_level("regression")
+    assert Scene.from_dict(scene.to_dict()) == scene
+    scene = Scene.from_toml("azam_case_a", {"film.points": "101", "film.model": "regression", "film.floor": "2 nm"})
+    assert (scene.film.points, scene.film.floor) == (101, 2e-9)
+
+
+def test_the_fields_of_this_level_are_refused(grown):
+    scene, state, op = grown
+    with pytest.raises(SceneError, match="at_level"):
+        solve(scene, op, state)
+
+
+@pytest.fixture(scope="module")
+def deterministic():
+    """A cheap scene and its state after a minute of the deterministic level."""
+    scene, state, op = cheap()
+    return scene, advance(scene, op, state, 60.0)[0], op
+
+
+def patches(state):
+    return {(i, name): getattr(body, name) for i, body in enumerate(state.bodies) for name in body.ARRAYS}
+
+
+def test_a_change_of_level_and_back_changes_nothing(deterministic):
+    scene, state, op = deterministic
+    quick, _ = advance(scene.at_level("regression"), op, state, 0.0)
+    assert quick.means == means_of(scene, state)
+    assert max(mean.growth for mean in quick.means) > 1e-9
+    back = folded(scene, quick)
+    assert back.means is None
+    assert back.bodies == state.bodies  # the very same
+    assert back == replace(state, solved_for=None, outputs=back.outputs)
+
+
+def test_patches_wait_while_means_run(deterministic):
+    scene, state, op = deterministic
+    quick, _ = advance(scene.at_level("regression"), op, state, 600.0)
+    assert quick.bodies is state.bodies
+    assert quick.means[0].worn > state.bodies[0].worn
+
+
+def test_patches_get_what_means_have_gained(deterministic):
+    scene, state, op = deterministic
+    quick, _ = advance(scene.at_level("regression"), op, state, 600.0)
+    back = folded(scene, quick)
+    for then, now_, mean, mean_then in zip(state.bodies, back.bodies, quick.means, means_of(scene, state), strict=True):
+        assert now_.worn == mean.worn
+        assert now_.cycles == mean.cycles
+        assert mean.wear > mean_then.wear
+        assert np.all(now_.wear >= then.wear)
+        gained = float((now_.wear - then.wear).sum()) * scene.film.spacing**2
+        length = scene.geometry.track_length_1 if now_ is back.bodies[0] else scene.geometry.track_length_2
+        assert gained * length / scene.film.domain == pytest.approx(mean.worn - then.worn, rel=1e-12)
+        assert 0.0 <= now_.growth.min() <= now_.growth.max() <= scene.tribofilm.full_thickness
+    found = means_of(scene, back)
+    for mean, again in zip(quick.means, found, strict=True):
+        for name in ("growth", "removal", "wear", "worn", "cycles"):
+            assert getattr(again, name) == pytest.approx(getattr(mean, name), rel=1e-12), name
+        assert again.coverage == pytest.approx(mean.coverage, abs=1e-3)
+
+
+def test_fresh_patches_get_their_film_on_the_highest_points():
+    scene, state, op = fast()
+    quick, _ = advance(scene, op, state, 600.0)
+    disc = track_of(scene, quick, 2)
+    assert (disc.tribofilm > 0.0).mean() > 0.01
+    inside = np.abs(disc.y) < scene.hertz(op.load).b
+    heights, film = disc.new[inside], disc.tribofilm[inside]
+    assert heights[film > 0.0].min() >= heights[film == 0.0].max()
+
+
+def test_a_run_goes_on_at_the_deterministic_level(deterministic):
+    scene, state, op = deterministic
+    quick, _ = advance(scene.at_level("regression"), op, state, 600.0)
+    onward, found = advance(scene, op, quick, 10.0)
+    assert onward.means is None
+    assert onward.time == pytest.approx(670.0)
+    assert found.wear_volume_1 > quick.outputs.wear_volume_1
+    assert found.blocks_dry + found.blocks_mixed > state.outputs.blocks_dry + state.outputs.blocks_mixed
+
+
+def test_a_saved_state_of_means_goes_on_bit_for_bit(grown):
+    scene, state, op = grown
+    data = state.to_bytes()
+    again = ContactState.from_bytes(data, scene)
+    assert again.to_bytes() == data
+    one, other = (advance(scene, replace(op, load=50.0), start, 30.0) for start in (state, again))
+    assert one[1] == other[1]
+    assert one[0].to_bytes() == other[0].to_bytes()
+    assert state.to_bytes() == data
+    assert {f.name for f in fields(OperatingPoint)} >= set(DERIVATIVES)
+
+
+def test_elliptical_contacts_have_the_formulas_film():
+    scene, state, op = fast(SMOOTH, geometry__radius_y="30 mm", film__domain="1 mm")
+    oil, shape = scene.lubricant, scene.geometry
+    smooth = SmoothContact.of(
+        op.load, op.entrainment_speed, oil.viscosity, op.temperature, 0.01, shape.radius_y, scene.solids.reduced_modulus
+    )
+    assert now(scene, op, initial_state(scene)).h_c == pytest.approx(nijenbanning_venner_moes(smooth), rel=1e-9)
+    assert now(scene, op, state).h_c != pytest.approx(
+        nijenbanning_venner_moes(replace(smooth, radius_y=0.01)), rel=0.01
+    )
