@@ -44,7 +44,7 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
     if not (math.isfinite(dt) and dt >= 0.0):
         raise OperatingPointError(f"The step dt = {dt!r} s must be finite and not negative.")
     if scene.film.name == "regression":
-        return advance_means(scene, op, state, dt)
+        return _advance_means(scene, op, state, dt)
     state = folded(scene, state)
     before = [body.worn for body in state.bodies]
     given, left = op, dt
@@ -72,6 +72,26 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
     else:
         rates = [_wear_rate_now(scene, op, state.bodies[i], i) for i in (0, 1)]
     outputs = replace(_with_surfaces(scene, op, state), wear_rate_1=rates[0], wear_rate_2=rates[1])
+    return replace(state, outputs=outputs), outputs
+
+
+def _advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
+    """`advance` at the fast level; where the bodies warm up, in steps in which the oil hardly changes."""
+    if scene.heat.bulk.name != "lumped" or dt == 0.0:
+        return advance_means(scene, _with_bodies(scene, op, state), state, dt)
+    before, left = [state.outputs.wear_volume_1, state.outputs.wear_volume_2], dt
+    while left > 0.0:
+        now = _with_bodies(scene, op, state)
+        state, _ = advance_means(scene, now, state, 0.0)
+        step = _cool_time(scene, now, state, left)
+        warm = _temperatures_after(scene, now, state, step)
+        state, outputs = advance_means(scene, now, state, step)
+        state, left = replace(state, temperatures=warm), left - step
+    rates = [(out - old) / dt for out, old in zip((outputs.wear_volume_1, outputs.wear_volume_2), before, strict=True)]
+    bodies = _with_bodies(scene, op, state).bodies
+    outputs = replace(
+        outputs, wear_rate_1=rates[0], wear_rate_2=rates[1], temperature_1=bodies[0], temperature_2=bodies[1]
+    )
     return replace(state, outputs=outputs), outputs
 
 

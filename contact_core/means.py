@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import ndtri
 
 from .evolution import track_length, track_rows
 from .film import Regression
@@ -47,6 +46,8 @@ _LAMBDA_CAPPED, _OUTSIDE_FIT = int(RangeFlag.LAMBDA_CAPPED), int(RangeFlag.OUTSI
 _TRIBOFILM_TEMPERATURE = int(RangeFlag.TRIBOFILM_TEMPERATURE)  # numbers are faster to add up
 _PROBE = np.array([[0.0], [1e6]])  # Pa: pressures that tell viscosity and its pressure coefficient
 _WARMTHS = np.array([0.0, _KELVIN, -_KELVIN])
+_SPIN = 3.0 * math.pi / 16.0  # mean lever of friction under Hertz's pressure, over a
+_ROUNDS, _SETTLED = 30, 1e-7  # of the oil's temperature: at most, and the change [K] that ends them
 _SLOWEST, _LIGHTEST = 1e-30, 1e-9  # m/s, N: less makes no other film, and would divide by zero
 
 
@@ -77,7 +78,57 @@ class _Contact(NamedTuple):
     solid_pressure: float  # mean over the real contact [Pa]
     solid_shear: float  # mean over it, absolute
     fluid_shear: float  # mean over the rest of the Hertz ellipse
-    rise: float  # flash temperature over the bulk [K]
+    rise: float  # of the surfaces' temperature over the bulk [K]
+    slide: float  # sliding speed, with spin [m/s]
+    power: float  # [W]
+    into_1: float  # part of it that goes into body 1 [W]
+    spin_torque: float  # on body 1 [N m]
+
+
+class _Heat(NamedTuple):
+    """Heat of friction that leaves through the Hertz ellipse, at the nine operating points; both surfaces as warm."""
+
+    conductance_1: Array  # of the bodies [W/(m2 K)]
+    conductance_2: Array
+    bodies: tuple[float, float]  # [K]
+    areas: Array  # [m2]
+    across: Array  # rise of the oil over the surfaces, per heat [m2 K/W]
+
+    @staticmethod
+    def of(scene: Scene, op: OperatingPoint, radius: Array, areas: Array, gaps: Array) -> "_Heat":
+        """Both bodies as half spaces under an even source on a circle of `radius` [m] that holds still."""
+        first, second = scene.heat.conductances(radius, (op.speed_1, op.speed_2))
+        return _Heat(first, second, op.bodies, areas, gaps / (12.0 * scene.lubricant.conductivity))
+
+    def _surfaces(self, power: Array) -> Array:
+        """Temperature [K] of the surfaces under a power [W]."""
+        one, two = self.conductance_1, self.conductance_2
+        return (power / self.areas + one * self.bodies[0] + two * self.bodies[1]) / (one + two)
+
+    def film(self, start: Array, power: Callable[[Array], Array]) -> Array:
+        """Temperature [K] of the oil with which its friction makes it that warm, by Steffensen's method."""
+
+        def warmed(film: Array) -> Array:
+            heat = power(film)
+            return self._surfaces(heat) + heat / self.areas * self.across
+
+        film = start
+        for _ in range(_ROUNDS):
+            first = warmed(film)
+            second = warmed(first)
+            bend = second - 2.0 * first + film
+            jump = np.divide((first - film) ** 2, bend, out=np.zeros_like(bend), where=np.abs(bend) > 1e-12)
+            film, change = np.where(np.abs(bend) > 1e-12, film - jump, second), np.abs(second - first).max()
+            film = np.clip(film, np.minimum(start, second), np.maximum(first, second) + np.abs(first - start))
+            if change < _SETTLED:
+                break
+        return film
+
+    def surface(self, power: float) -> tuple[float, float]:
+        """Rise [K] of the surfaces over the bodies' mean and heat [W] into body 1, at the first point."""
+        warm = float(self._surfaces(np.full_like(self.areas, power))[0])
+        into_1 = float(self.areas[0] * self.conductance_1[0]) * (warm - self.bodies[0])
+        return warm - 0.5 * (self.bodies[0] + self.bodies[1]), into_1
 
 
 def advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
@@ -106,30 +157,50 @@ def advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: flo
 def _evaluate(scene: Scene, op: OperatingPoint, films: Films) -> _Contact:
     """Film, load sharing and friction at the operating point, and at eight beside it for the derivatives."""
     sigma, cover = _sigma(films), _cover(scene, films)
+    flattening = _flattening(scene, films, op.load)
     if op.load == 0.0:
         return _apart(scene, films, sigma, cover)
-    entrained, sliding, temperature = abs(op.entrainment_speed), op.sliding_speed, film_temperature(op)
+    entrained, sliding, temperature = abs(op.entrainment_speed), op.sliding_speed, op.inlet_temperature
     slip = max(abs(sliding), scene.boundary_friction.slip_speed)
     slides = sliding + slip * _SLIDING
     hertz, scale = scene.unit_hertz, op.load ** (1 / 3)
     pressures = (hertz.pressure_max * scale) * _ROOT
     areas = (hertz.area * scale * scale) * _ROOT**2
-    lam, gaps, solid_share, area_share = _shared(scene, sigma, _smooth_films(scene, entrained, op.load, temperature))
+    lam, gaps, solid_share, area_share = _shared(
+        scene, sigma, flattening, _smooth_films(scene, entrained, op.load, temperature)
+    )
     carried = solid_share * pressures
     carried *= 2.0 / 3.0  # mean over the Hertz area
     # no solid contact is smaller than the hardness allows
     touching = np.maximum(area_share, carried / scene.plasticity.hardness)
     solid_pressures = carried / np.maximum(touching, 1e-300)
+    turning = _SPIN * op.spin * hertz.a * scale * _ROOT  # speed of the spin
+    rubbing = np.hypot(slides, turning) if op.spin else slides
     boundary: Law = scene.boundary_friction
-    solid_shears = boundary(solid_pressures, cover, slides)
+    solid_shears = boundary(solid_pressures, cover, rubbing)
     open_share = np.maximum(1.0 - touching, 1e-6)
     oil_pressures = (1.0 - solid_share) / open_share * pressures
-    fluid_shears = _oil_shear(scene, oil_pressures, slides / gaps, temperature + _TEMPERATURE)
-    solid, fluid = areas * touching * solid_shears, areas * open_share * fluid_shears
+    inlet = temperature + _TEMPERATURE
+    solid = areas * touching * solid_shears
+
+    def oil(warm: Array) -> Array:
+        return areas * open_share * _oil_shear(scene, oil_pressures, rubbing / gaps, warm)
+
+    fluid = oil(inlet)
+    pull = abs(float(solid[0] + fluid[0]))
+    pressure, shear = float(solid_pressures[0]), abs(float(solid_shears[0]))
+    rise, into_1 = _flash_rise(scene, shear, float(rubbing[0])), 0.5 * pull * abs(float(rubbing[0]))
+    if scene.heat.warms_film:
+        heat = _Heat.of(scene, op, math.sqrt(hertz.a * hertz.b) * scale * _ROOT, areas, gaps)
+        fluid = oil(heat.film(inlet, lambda warm: np.abs((solid + oil(warm)) * rubbing)))
+        pull = abs(float(solid[0] + fluid[0]))
+        rise, into_1 = heat.surface(pull * abs(float(rubbing[0])))
+    if op.spin:
+        along = slides / np.maximum(np.abs(rubbing), _SLOWEST)
+        solid, fluid = solid * along, fluid * along
     forces = (solid + fluid).tolist()  # on body 2
     by_sliding = -_slope(forces, 1, _D * slip)
     by_entrainment = -_slope(forces, 3, _D * entrained) * math.copysign(1.0, op.entrainment_speed)
-    pressure, shear = float(solid_pressures[0]), abs(float(solid_shears[0]))
     return _Contact(
         films,
         sigma,
@@ -148,15 +219,19 @@ def _evaluate(scene: Scene, op: OperatingPoint, films: Films) -> _Contact:
         ),
         pressure,
         shear,
-        abs(float(fluid_shears[0])),
-        _flash_rise(scene, shear, sliding),
+        abs(float(fluid[0])) / float(areas[0] * open_share[0]),
+        rise,
+        abs(float(rubbing[0])),
+        pull * abs(float(rubbing[0])),
+        into_1,
+        -_SPIN * hertz.a * scale * pull * float(turning[0]) / max(abs(float(rubbing[0])), _SLOWEST),
     )
 
 
 def _apart(scene: Scene, films: Films, sigma: float, cover: float) -> _Contact:
     """Without load the bodies just touch and nothing presses."""
     gap = max(scene_film(scene).sharing.film_dry * sigma, scene.film.floor)
-    return _Contact(films, sigma, cover, math.inf, gap, 0.0, 0.0, 0.0, 0.0, (0.0, 0.0, 0.0, 0.0), 0.0, 0.0, 0.0, 0.0)
+    return _Contact(films, sigma, cover, math.inf, gap, *(4 * (0.0,)), 4 * (0.0,), *(8 * (0.0,)))
 
 
 def _slope(forces: list[float], row: int, step: float) -> float:
@@ -168,16 +243,6 @@ def scene_film(scene: Scene) -> Regression:
     """The scene's film, which is of this level."""
     assert isinstance(scene.film, Regression)
     return scene.film
-
-
-def film_temperature(op: OperatingPoint) -> float:
-    """Temperature [K] of the oil in the contact and in its inlet."""
-    return op.temperature
-
-
-def body_temperatures(op: OperatingPoint) -> tuple[float, float]:
-    """Bulk temperatures [K] of both bodies."""
-    return op.temperature, op.temperature
 
 
 def _smooth_films(scene: Scene, speed: float, load: float, temperature: float) -> Array:
@@ -206,16 +271,30 @@ def _smooth_films(scene: Scene, speed: float, load: float, temperature: float) -
     return np.array([now, now, now, *beside])
 
 
-def _shared(scene: Scene, sigma: float, film: Array) -> tuple[float, Array, Array, Array]:
+def _shared(scene: Scene, sigma: float, flattening: float, film: Array) -> tuple[float, Array, Array, Array]:
     """Lambda, mean gaps [m], contact_load_ratio and contact_area_ratio of rough bodies, for films of smooth ones."""
     floor, sharing = scene.film.floor, scene_film(scene).sharing
     if sigma == 0.0:
         touching = (film <= floor).astype(np.float64)
         return math.inf, np.maximum(film, floor), touching, touching
-    clearance = film / sigma
-    share = sharing.load_ratio(clearance)
-    gaps = np.maximum(sigma * sharing.gap(clearance), floor)
-    return float(clearance[0]), gaps, share, sharing.area_ratio(share)
+    clearance, flat, fine = film / sigma, flattening * _ROOT, _resolution(scene)
+    share = sharing.load_ratio(clearance, flat, fine)
+    gaps = np.maximum(sigma * sharing.film_ratio(clearance, share, flat, fine), floor)
+    return float(clearance[0]), gaps, share, sharing.area_ratio(share, flat)
+
+
+def _flattening(scene: Scene, films: Films, load: float) -> float:
+    """Mean Hertz pressure over what would press the present roughness flat."""
+    lengths = scene.surface_1.correlation_length, scene.surface_2.correlation_length
+    slope = math.hypot(2.0 * films[0].both / lengths[0], 2.0 * films[1].both / lengths[1])  # as load_sharing.rms_slope
+    mean = 2.0 / 3.0 * scene.unit_hertz.pressure_max * load ** (1 / 3)
+    return mean / (0.5 * scene.solids.reduced_modulus * slope) if slope > 0.0 else math.inf
+
+
+def _resolution(scene: Scene) -> float:
+    """Correlation length of the rougher body over the distance of the grid's nodes."""
+    rougher = scene.surface_1 if scene.surface_1.rq > scene.surface_2.rq else scene.surface_2
+    return rougher.correlation_length / scene.film.spacing
 
 
 def _oil_shear(scene: Scene, pressures: Array, rates: Array, temperatures: Array) -> Array:
@@ -292,7 +371,18 @@ def _has_changed(scene: Scene, contact: _Contact, films: Films) -> bool:
 
 def _evolved(scene: Scene, op: OperatingPoint, contact: _Contact, means: Means, step: float) -> Means:
     """Both bodies after `step` [s] of what the contact does to them."""
-    (first    )
+    (first, second), doses = _doses(scene, op, contact, means)
+    covers = np.array([first or 1.0, second or 1.0])  # of nothing, anything may be the share
+    growth = np.array([means[0].growth, means[1].growth]) / covers
+    removal = np.array([means[0].removal, means[1].removal]) / covers
+    exposed, abraded = np.array(doses) * step, _abrasion(scene, op, contact, covers) * step
+    warm = op.inlet_temperature + contact.rise
+    growth, removal = scene.tribofilm.evolve(growth, removal, exposed, abraded, warm)
+    grown, removed = (growth * covers).tolist(), (removal * covers).tolist()
+    return (
+        _body_after(scene, op, contact, 0, means[0], step, first, grown[0], removed[0]),
+        _body_after(scene, op, contact, 1, means[1], step, second, grown[1], removed[1]),
+    )
 
 
 def _body_after(
@@ -333,6 +423,8 @@ def _wear_rate(scene: Scene, op: OperatingPoint, contact: _Contact, i: int, film
     if force == 0.0:
         return 0.0
     speeds = (op.speed_1, op.speed_2)
+    if op.spin and scene.wear.slide(speeds, i) == abs(op.sliding_speed):  # a law of sliding, not of surface speed
+        speeds = contact.slide, 0.0
     rate: Law = scene.wear.rate
     return float(rate(force, cover, speeds, i, scene.plasticity.hardness))
 
@@ -357,11 +449,11 @@ def _doses(
 ) -> tuple[tuple[float, float], tuple[float, float]]:
     """Share of each track that has been rubbed, and exposure of that share per test time."""
     law, old = scene.tribofilm, (means[0].coverage, means[1].coverage)
-    if op.sliding_speed == 0.0 or op.load == 0.0:
+    if not op.slides or op.load == 0.0:
         return old, (0.0, 0.0)
     pressures, shears = (contact.solid_pressure, 0.0), (contact.solid_shear, contact.fluid_shear)
     warm = op.inlet_temperature + contact.rise
-    touching, oiled = law.exposure(np.array(pressures), np.array(shears), op.sliding_speed, warm).tolist()
+    touching, oiled = law.exposure(np.array(pressures), np.array(shears), contact.slide, warm).tolist()
     found = [_dose(scene, op, contact, i, means, touching, oiled) for i in (0, 1)]
     return (found[0][0], found[1][0]), (found[0][1], found[1][1])
 
@@ -370,8 +462,9 @@ def _dose(
     scene: Scene, op: OperatingPoint, contact: _Contact, i: int, means: Means, touching: float, oiled: float
 ) -> tuple[float, float]:
     """`_doses` of one body, for the exposures of a point that touches and of one under oil."""
-    own, other = contact.films[i].both, contact.films[1 - i].both
-    share = exposed_share(contact.area_ratio, own, other, scene_film(scene).meetings)
+    rougher = contact.films[i].both > contact.films[1 - i].both
+    dry = contact.load_ratio > scene.control.dry_above
+    share = float(scene_film(scene).sharing.exposed(contact.area_ratio, rougher=rougher, dry=dry))
     coverage = max(means[i].coverage, 1.0 if oiled > 0.0 else share if touching > 0.0 else 0.0)
     if coverage == 0.0:
         return 0.0, 0.0
@@ -389,7 +482,7 @@ def _abrasion(scene: Scene, op: OperatingPoint, contact: _Contact, covers: Array
         return np.zeros(2)
     moving = (op.speed_1 != 0.0, op.speed_2 != 0.0)
     felt = pressure * np.array([_time_share(scene, op, i, moving[i]) for i in (0, 1)]) / covers
-    return law.abrasion(felt, op.sliding_speed, None)
+    return law.abrasion(felt, contact.slide, None)
 
 
 def _time_share(scene: Scene, op: OperatingPoint, i: int, moving: bool) -> float:
@@ -399,21 +492,6 @@ def _time_share(scene: Scene, op: OperatingPoint, i: int, moving: bool) -> float
     a = scene.unit_hertz.a
     way = track_length(scene, i) if moving else scene.film.domain
     return 0.5 * math.pi * a * op.load ** (1 / 3) / way
-
-
-def exposed_share(area_ratio: float, own: float, other: float, meetings: float) -> float:
-    """Share of a body's track that touches in some pass, if `area_ratio` of it touches at any moment.
-
-    Gaussian heights touch above a level that stands t composite roughnesses up, 1 - Phi(t) = area_ratio. In many passes
-    a point meets heights of the other body up to `meetings` of its rms roughness, so it touches if its own height, of
-    rms `own`, makes up for the rest (assumed). A smooth body is all exposed, a body under a smooth one by area_ratio.
-    """
-    if area_ratio <= 0.0:
-        return 0.0
-    missing = -float(ndtri(min(area_ratio, 1.0))) * math.hypot(own, other) - meetings * other
-    if own == 0.0:
-        return 1.0 if missing <= 0.0 else 0.0
-    return max(min(area_ratio, 1.0), 0.5 * math.erfc(missing / own / math.sqrt(2.0)))
 
 
 # the outputs
@@ -431,10 +509,9 @@ def _outputs(
 ) -> Outputs:
     """What this level can tell; the rest stays zero. Counters of solved blocks go on."""
     force = contact.solid + contact.fluid
-    power = max(-force * op.sliding_speed, 0.0)
     scale = op.load ** (1 / 3)
     hertz = scene.unit_hertz
-    hot_1, hot_2 = body_temperatures(op)
+    hot_1, hot_2 = op.bodies
     first, second = means
     longest = _LONGEST * scene.operation.duration
     return Outputs(
@@ -446,7 +523,7 @@ def _outputs(
         dfriction_dspeed_2=contact.derivatives[1],
         dfriction_dload=contact.derivatives[2],
         dfriction_dtemperature=contact.derivatives[3],
-        power_loss=power,
+        power_loss=contact.power,
         wear_rate_1=rates[0],
         wear_rate_2=rates[1],
         wear_volume_1=first.worn,
@@ -467,8 +544,9 @@ def _outputs(
         flash_temperature_rise=contact.rise,
         temperature_1=hot_1,
         temperature_2=hot_2,
-        heat_flow_1=0.5 * power,
-        heat_flow_2=0.5 * power,
+        heat_flow_1=contact.into_1,
+        heat_flow_2=contact.power - contact.into_1,
+        spin_torque=contact.spin_torque,
         approach=hertz.approach * scale * scale - contact.gap,
         range_flags=_flags(scene, op, contact),
         suggested_step=min(scene.control.change / speed, longest) if speed > 0.0 else longest,
@@ -493,9 +571,11 @@ def _flags(scene: Scene, op: OperatingPoint, contact: _Contact) -> int:
     flags = 0
     if contact.sigma == 0.0 or op.load == 0.0:
         flags |= _LAMBDA_CAPPED
-    elif not scene_film(scene).sharing.covers(contact.lam):
+    elif not scene_film(scene).sharing.covers(
+        contact.lam, _flattening(scene, contact.films, op.load), _resolution(scene)
+    ):
         flags |= _OUTSIDE_FIT
-    if not scene.tribofilm.covers(op.temperature):
+    if not all(scene.tribofilm.covers(temperature) for temperature in op.bodies):
         flags |= _TRIBOFILM_TEMPERATURE
     return flags
 
@@ -504,13 +584,13 @@ def _errors(scene: Scene, op: OperatingPoint, contact: _Contact) -> dict[str, An
     """Relative half widths of the errors by the fit. Friction is wrong where load counts for solids and is oil's."""
     sharing = scene_film(scene).sharing
     force, share = abs(contact.solid + contact.fluid), contact.load_ratio
-    error = min(sharing.error_load, max(share, 1.0 - share)) if 0.0 < share < 1.0 else 0.0
+    error = min(2.0 * sharing.load_scatter, max(share, 1.0 - share)) if 0.0 < share < 1.0 else 0.0
     solid = abs(contact.solid) / (share * op.load) if share > 0.0 else 0.0
     fluid = abs(contact.fluid) / ((1.0 - share) * op.load) if op.load > 0.0 and share < 1.0 else 0.0
     return {
         "error_friction": abs(solid - fluid) * error * op.load / force if force > 0.0 else 0.0,
-        "error_film": sharing.error_film if op.load > 0.0 and contact.sigma > 0.0 else 0.0,
-        "error_tribofilm": sharing.error_area if share > 0.0 else 0.0,
+        "error_film": 2.0 * sharing.film_scatter if op.load > 0.0 and contact.sigma > 0.0 else 0.0,
+        "error_tribofilm": 2.0 * sharing.exposure_scatter if share > 0.0 else 0.0,
         "error_wear": min(error / share, 1.0) if share > 0.0 else 0.0,
     }
 

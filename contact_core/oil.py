@@ -15,7 +15,7 @@ from .film.instant import FilmSolution, FilmState, Grid, Instant
 from .film.thinning import flow_ease, solve_thinning
 from .friction import Film, Shear, shear, sliding
 from .laws.heat import Temperatures
-from .reference import SmoothContact, inlet_shear_factor
+from .reference import inlet_shear_factor
 from .scene import OperatingPoint, Scene
 
 Array = NDArray[np.float64]
@@ -76,18 +76,18 @@ def inlet_ease(scene: Scene, op: OperatingPoint) -> float:
 
 def inlet_factor(scene: Scene, op: OperatingPoint) -> float:
     """Film with the heat of shear in the inlet over that without."""
-    oil, shape, inlet = scene.lubricant, scene.geometry, op.inlet_temperature
-    contact = SmoothContact.of(
-        op.load,
-        op.entrainment_speed,
-        oil.viscosity,
-        inlet,
-        shape.radius_x,
-        shape.radius_y,
+    oil, inlet = scene.lubricant, op.inlet_temperature
+    viscosity, warmer, colder = (float(oil.viscosity(np.zeros(1), inlet + step)[0]) for step in (0.0, 0.5, -0.5))
+    speed, pressure = abs(op.entrainment_speed), scene.hertz(op.load).pressure_max
+    return inlet_shear_factor(
+        viscosity,
+        float(np.log(colder / warmer)),
+        speed,
+        op.sliding_speed / speed,
+        oil.conductivity,
+        pressure,
         scene.solids.reduced_modulus,
     )
-    warmer, colder = (float(oil.viscosity(np.zeros(1), inlet + step)[0]) for step in (0.5, -0.5))
-    return inlet_shear_factor(contact, np.log(colder / warmer), oil.conductivity, op.sliding_speed)
 
 
 def solve_flow(

@@ -18,7 +18,7 @@ class Regression:
     name: ClassVar[str] = "regression"
     source: ClassVar[str] = (
         "film: Nijenbanning, Venner & Moes 1994, doi:10.1016/0043-1648(94)90150-3; sharing: see its source; "
-        "meetings and smoothing: assumed"
+        "smoothing: assumed"
     )
 
     points: int = parameter(
@@ -31,13 +31,6 @@ class Regression:
         "m", "gap at which solids touch: thickness of the adsorbed boundary layer", above=1e-11, most=1e-7, default=1e-9
     )
     sharing: FittedSharing = field(default=FittedSharing())
-    meetings: float = parameter(
-        "",
-        "highest point of the other body that a point meets, over that body's rms roughness",
-        least=0.0,
-        most=6.0,
-        default=2.5,
-    )
     smoothing: float = parameter(
         "",
         "mean height of what touches, over composite roughness: wear takes it away",

@@ -43,6 +43,15 @@ def _flat(bodies: Pair, into_1: float, into_2: float) -> Temperatures:
     return Temperatures(*bodies, 0.5 * (bodies[0] + bodies[1]), into_1, into_2, 0.0, True)
 
 
+def _conductance(radius: Array, speed: float, conductivity: float, diffusivity: float) -> Array:
+    """Heat flux per mean rise [W/(m2 K)] under an even source on a circle of `radius` [m] that moves at `speed`.
+
+    Source: Tian & Kennedy 1994, doi:10.1115/1.2927035.
+    """
+    moving = np.sqrt(0.6575 + abs(speed) * radius / (2.0 * diffusivity))
+    return np.sqrt(np.pi) / (1.22 * radius) * conductivity * moving
+
+
 def _conductivity(body: int) -> Any:
     return parameter("W/(m K)", f"thermal conductivity of body {body}", above=0.0, most=1e4)
 
@@ -146,10 +155,8 @@ class FlashTemperature:
 
     def _conduction(self, radius: Array, sliding_speed: float) -> tuple[Array, Array]:
         """Heat flux per mean rise of a spot [W/(m2 K)] into each body."""
-        speed, scale = abs(sliding_speed), np.sqrt(np.pi) / (1.22 * radius)
-        into_1 = self.conductivity_1 * np.sqrt(0.6575 + speed * radius / (2.0 * self.diffusivity_1))
-        into_2 = self.conductivity_2 * np.sqrt(0.6575 + speed * radius / (2.0 * self.diffusivity_2))
-        return scale * into_1, scale * into_2
+        first = _conductance(radius, sliding_speed, self.conductivity_1, self.diffusivity_1)
+        return first, _conductance(radius, sliding_speed, self.conductivity_2, self.diffusivity_2)
 
 
 @dataclass(frozen=True)
@@ -173,6 +180,11 @@ class TemperatureField:
     diffusivity_2: float = _diffusivity(2)
     inlet_shear: str = _inlet_shear()
     bulk: OilBulk | InputBulk | LumpedBulk = _AS_THE_OIL
+
+    def conductances(self, radius: Array, speeds: Pair) -> tuple[Array, Array]:
+        """Heat flux per mean rise [W/(m2 K)] into each body, under an even source on a circle of `radius` [m]."""
+        first = _conductance(radius, speeds[0], self.conductivity_1, self.diffusivity_1)
+        return first, _conductance(radius, speeds[1], self.conductivity_2, self.diffusivity_2)
 
     def temperatures(
         self,

@@ -1,0 +1,93 @@
+"""The fast level's curves of load sharing: the sweep they are fitted to, the fit, and the fast level against the full one.
+
+    python benchmarks/regression.py sweep                         # solve the sweep: 6 min
+    python benchmarks/regression.py fit                           # fit the curves: the page without the fast level
+    python benchmarks/regression.py check [--deterministic-only]  # both levels on 100 random points of each scene: 8 min
+
+Solved points stay in results/regression. `fit` and `check` write docs/regression.md, docs/regression.png and
+tests/golden/load_sharing.csv.
+"""
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+from regression_check import curves_page, deterministic, level_page
+from regression_fit import Fit, Table, constants_page, draw
+from regression_points import (
+    SCENES,
+    Columns,
+    dry_points,
+    end_points,
+    joined,
+    observe_dry,
+    pass_points,
+    run,
+    sweep_points,
+)
+
+from contact_core.laws.load_sharing import FittedSharing
+
+ROOT = Path(__file__).parent.parent
+WHOLE_PASS = {"control.mixed_instants": "128", "control.dry_instants": "8"}
+GOLDEN = 9  # every ninth point of the sweep goes into the tests
+
+
+def sweep() -> dict[str, Columns]:
+    """The tables the curves are fitted to: dry contacts, first blocks, and blocks of a whole pass."""
+    return {
+        "dry": joined(run(f"dry_{name}", dry_points(name), {}, observe_dry) for name in SCENES),
+        "sweep": joined(
+            run(f"{part}_{name}", points(name), {})
+            for part, points in (("sweep", sweep_points), ("ends", end_points))
+            for name in SCENES
+        ),
+        "pass": joined(run(f"pass_{name}", pass_points(name), WHOLE_PASS) for name in SCENES),
+    }
+
+
+def write_golden(table: Table) -> None:
+    """A few points of the sweep for the tests."""
+    named = ("clearance", "flattening", "resolution", "load_ratio", "area_ratio", "film_ratio")
+    rows = np.column_stack([getattr(table, name) for name in named])[::GOLDEN]
+    file = ROOT / "tests" / "golden" / "load_sharing.csv"
+    file.parent.mkdir(exist_ok=True)
+    np.savetxt(file, rows, "%.5g", ",", header=",".join(named), comments="")
+
+
+def write_page(*, fast: bool) -> None:
+    """Fit, compare, and write what came out."""
+    fit, solved = Fit(sweep()), deterministic()
+    draw(fit).savefig(ROOT / "docs" / "regression.png", dpi=130)
+    lines = [
+        "# The fast level: load-sharing curves and their errors",
+        "",
+        f"Written by `python benchmarks/regression.py {'check' if fast else 'fit'}`.",
+        "",
+        *(level_page(solved) if fast else []),
+        *constants_page(fit),
+        *curves_page(FittedSharing(), solved),
+        "",
+        "![load ratio over reduced and plain lambda, mean gap and area against their curves](regression.png)",
+    ]
+    page = "\n".join(lines)
+    (ROOT / "docs" / "regression.md").write_text(page.replace("\n\n\n", "\n\n") + "\n")
+    print(page)
+    write_golden(fit.sweep)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("part", choices=("sweep", "fit", "check"))
+    parser.add_argument("--deterministic-only", action="store_true", help="solve the check's points, compare nothing")
+    args = parser.parse_args()
+    if args.part == "sweep":
+        sweep()
+    elif args.deterministic_only:
+        deterministic()
+    else:
+        write_page(fast=args.part == "check")
+
+
+if __name__ == "__main__":
+    main()
