@@ -81,7 +81,8 @@ def solve(
     cannot be used, the dry one stands in (`route`). A scene of another level than the deterministic one is refused
     with SceneError.
     """
-    if not isinstance(scene.film, Deterministic):
+    level = scene.film
+    if not isinstance(level, Deterministic):
         raise SceneError(
             f"film.model = '{scene.film.name}' knows means only, no fields. Solve scene.at_level('deterministic')."
         )
@@ -115,7 +116,8 @@ def solve(
             cover,
             replace(instant_of(scene, op, heights, limit), dry=dry, solid_share=solid_share),
             before,
-            lambda now, start: scene.film.solve(now, grid, start, follows, most),
+            lambda now, start: level.solve(now, grid, start, follows, most),
+            level.tolerance,
         )
     found, stress, warm, shortfall = warmed(scene, op, sheared(grid, film, cover, op.inlet_temperature), before)
     ease = film.state.ease if op.load == 0.0 or dry else next_ease(scene, op, found, film.state.ease)

@@ -52,7 +52,7 @@ def wear_speed(scene: Scene, op: OperatingPoint, body: Body, i: int, film: Array
 
 
 def sliding_on_track(scene: Scene, op: OperatingPoint, rows: int) -> float | Array:
-    """Sliding speed [m/s]; in a contact that spins that of each row [rows, 1], as a mean over its part of the contact."""
+    """Sliding speed [m/s]; with spin that of each row [rows, 1], as a mean over its part of the contact."""
     if op.spin == 0.0 or op.load == 0.0:
         return op.sliding_speed
     hertz, y = scene.hertz(op.load), contact_grid(scene, rows).y[:, None]

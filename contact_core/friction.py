@@ -106,7 +106,7 @@ def derivatives(scene: Scene, op: OperatingPoint, film: Film) -> dict[str, float
     by_newtonian, by_pressure = oil.rheology.slopes(newtonian, film.fluid)
     more, less = (oil.viscosity(film.fluid * (1.0 + sign * _STEP), film.temperature) for sign in (1.0, -1.0))
     stiffening = (more - less) / (2.0 * _STEP)  # d viscosity / d ln p
-    step = _STEP * np.mean(film.temperature)
+    step = _STEP * float(np.mean(film.temperature))
     warmer, colder = (oil.viscosity(film.fluid, film.temperature + sign * step) for sign in (1.0, -1.0))
     solid, solid_by_speed = (
         scene.boundary_friction(film.solid, film.cover, speed),

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from .evolution import track_length, track_rows
 from .film import Regression
 from .film.instant import Grid
+from .laws.heat import FlashTemperature, TemperatureField
 from .patches import bare_heights, roughness_of
 from .reference import moes_film
 from .scene import OperatingPoint, Scene
@@ -95,10 +96,12 @@ class _Heat(NamedTuple):
     across: Array  # rise of the oil over the surfaces, per heat [m2 K/W]
 
     @staticmethod
-    def of(scene: Scene, op: OperatingPoint, radius: Array, areas: Array, gaps: Array) -> "_Heat":
+    def of(
+        law: TemperatureField, op: OperatingPoint, radius: Array, areas: Array, gaps: Array, oil_conductivity: float
+    ) -> "_Heat":
         """Both bodies as half spaces under an even source on a circle of `radius` [m] that holds still."""
-        first, second = scene.heat.conductances(radius, (op.speed_1, op.speed_2))
-        return _Heat(first, second, op.bodies, areas, gaps / (12.0 * scene.lubricant.conductivity))
+        first, second = law.conductances(radius, (op.speed_1, op.speed_2))
+        return _Heat(first, second, op.bodies, areas, gaps / (12.0 * oil_conductivity))
 
     def _surfaces(self, power: Array) -> Array:
         """Temperature [K] of the surfaces under a power [W]."""
@@ -190,8 +193,9 @@ def _evaluate(scene: Scene, op: OperatingPoint, films: Films) -> _Contact:
     pull = abs(float(solid[0] + fluid[0]))
     pressure, shear = float(solid_pressures[0]), abs(float(solid_shears[0]))
     rise, into_1 = _flash_rise(scene, shear, float(rubbing[0])), 0.5 * pull * abs(float(rubbing[0]))
-    if scene.heat.warms_film:
-        heat = _Heat.of(scene, op, math.sqrt(hertz.a * hertz.b) * scale * _ROOT, areas, gaps)
+    if isinstance(scene.heat, TemperatureField):
+        circle = math.sqrt(hertz.a * hertz.b) * scale * _ROOT
+        heat = _Heat.of(scene.heat, op, circle, areas, gaps, scene.lubricant.conductivity)
         fluid = oil(heat.film(inlet, lambda warm: np.abs((solid + oil(warm)) * rubbing)))
         pull = abs(float(solid[0] + fluid[0]))
         rise, into_1 = heat.surface(pull * abs(float(rubbing[0])))
@@ -307,7 +311,7 @@ def _oil_shear(scene: Scene, pressures: Array, rates: Array, temperatures: Array
 
 def _flash_rise(scene: Scene, shear: float, sliding: float) -> float:
     """Flash temperature rise [K] of a spot as wide as the rougher body's correlation length."""
-    if scene.heat.name == "none" or shear == 0.0:
+    if not isinstance(scene.heat, FlashTemperature) or shear == 0.0:
         return 0.0
     rougher = scene.surface_1 if scene.surface_1.rq > scene.surface_2.rq else scene.surface_2
     rise: Law = scene.heat.rise

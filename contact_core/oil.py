@@ -98,6 +98,7 @@ def solve_flow(
     now: Instant,
     before: FilmState | None,
     solve: Callable[[Instant, FilmState | None], FilmSolution],
+    tolerance: float,
 ) -> FilmSolution:
     """The film of an instant with the flow that the scene asks for; `solve` is the solution under a given ease.
 
@@ -114,7 +115,7 @@ def solve_flow(
         film = warmed(scene, op, sheared(grid, found, cover, op.inlet_temperature), None)[0]
         return next_ease(scene, op, film, ease)
 
-    return solve_thinning(now, solve, ease_of, scene.film.tolerance)
+    return solve_thinning(now, solve, ease_of, tolerance)
 
 
 def next_ease(scene: Scene, op: OperatingPoint, film: Film, ease: Array | None) -> Array:

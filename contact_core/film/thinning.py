@@ -20,7 +20,7 @@ form); Yang & Wen, J. Tribol. 112 (1990) 631, doi:10.1115/1.2920308 (generalised
 from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -80,7 +80,7 @@ def flow_ease(
 
 
 @lru_cache(maxsize=8)
-def _log_ease(rheology: Rheology) -> Array:
+def _log_ease(rheology: Any) -> Array:
     return np.log(rheology.ease(np.exp(_LOG_STRESS)))
 
 

@@ -95,12 +95,12 @@ class _Activated:
         found: Array = self.prefactor / self.full_thickness * np.exp(-barrier / (Boltzmann * temperature))
         return found
 
-    def abrasion(self, solid_pressure: Array, sliding_speed: float, position: Array | None) -> Array:
+    def abrasion(self, solid_pressure: Array, sliding_speed: float | Array, position: Array | None) -> Array:
         """Rate of removal [1/s] under a solid pressure [Pa]; `position` is |y| / b, None: nowhere near an edge.
 
         Linear in the pressure: the mean pressure over a track gives the mean rate.
         """
-        rate = self.removal_coefficient * abs(sliding_speed) * solid_pressure
+        rate: Array = self.removal_coefficient * np.abs(sliding_speed) * solid_pressure
         if position is None or self.edge_weight == 0.0:
             return rate
         return rate * (1.0 + self.edge_weight * edge_tension(position))

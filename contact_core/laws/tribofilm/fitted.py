@@ -43,7 +43,7 @@ class _Unabraded:
 
     abrades: ClassVar[bool] = False
 
-    def abrasion(self, solid_pressure: Array, sliding_speed: float, position: Array | None) -> Array:
+    def abrasion(self, solid_pressure: Array, sliding_speed: float | Array, position: Array | None) -> Array:
         """Zeros in the shape of `solid_pressure`."""
         return np.zeros_like(solid_pressure)
 
