@@ -50,7 +50,9 @@ def did_you_mean(word: str, choices: list[str]) -> str:
 
 
 def override(table: dict[str, Any], key: str, value: str) -> None:
-    """Set a dotted key; a new `model` keeps what it has in common with the old one and drops the rest."""
+    """Set a dotted key; a new `model` keeps what it has in common with the old one and drops the rest, a new `set`
+    drops what stood beside the old.
+    """
     *path, last = key.split(".")
     where = ".".join(path)
     for part in path:
@@ -66,6 +68,8 @@ def override(table: dict[str, Any], key: str, value: str) -> None:
         kept = {name: item for name, item in full.items() if name in shared}
         table.clear()
         table |= kept
+    if last == "set" and str(table.get("set")).lower() != value.lower():
+        table.clear()
     table[last] = value
 
 
@@ -152,17 +156,13 @@ def _with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
 
 
 def _merged(base: Mapping[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
-    """Both tables, `over` on top; another `model` in it leaves nothing of the law below."""
+    """`base` with the keys of `over`, table by table; another `model` has other parameters and keeps none."""
+    if over.get("model", base.get("model")) != base.get("model"):
+        return dict(over)
     merged = dict(base)
     for key, value in over.items():
-        below = merged.get(key)
-        if (
-            isinstance(value, Mapping)
-            and isinstance(below, Mapping)
-            and value.get("model") in (None, below.get("model"))
-        ):
-            value = _merged(below, value)
-        merged[key] = value
+        both = isinstance(value, Mapping) and isinstance(merged.get(key), Mapping)
+        merged[key] = _merged(merged[key], value) if both else value
     return merged
 
 

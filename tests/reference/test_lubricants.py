@@ -1,12 +1,14 @@
 """The named oils against what their sources print."""
 
 import tomllib
+from dataclasses import replace
 from importlib.resources import files
 
 import numpy as np
 import pytest
 
 from contact_core import Scene, SceneError
+from contact_core.laws.rheology import Carreau
 from contact_core.reading import build, read_table
 from contact_core.scene import Lubricant
 
@@ -57,6 +59,25 @@ def test_a_scene_takes_a_named_oil_in_any_case(name):
     oil = Scene.from_dict(table).lubricant
     assert oil.conductivity == 0.13
     assert oil.viscosity == lubricant(name.lower()).viscosity
+
+
+@pytest.mark.parametrize("name", ["FVA3", "m100"])
+def test_another_oil_drops_what_a_scene_says_beside_its_own(name):
+    assert "viscosity" in read_table("mtm_zddp")["lubricant"]  # the temperature of the old oil's viscosity
+    assert Scene.from_toml("mtm_zddp", {"lubricant.set": name}).lubricant == lubricant(name)
+    kept = Scene.from_toml("mtm_zddp", {"lubricant.set": "Azam_Oil"})
+    assert kept.lubricant == Scene.from_toml("mtm_zddp").lubricant
+
+
+def test_a_law_of_ones_own_takes_the_place_of_the_named_oils():
+    carreau = {"rheology.model": "carreau", "rheology.critical_stress": "6 MPa", "rheology.exponent": "0.4"}
+    sheet = {f"viscosity.{key}": value for key, value in example()["viscosity"].items()}
+    oil = Scene.from_toml("azam_case_a", {f"lubricant.{k}": v for k, v in (carreau | sheet).items()}).lubricant
+    assert oil.rheology == Carreau(6e6, 0.4)
+    assert oil.viscosity == build(Lubricant, example(), "lubricant").viscosity
+    assert oil.density == lubricant("azam_oil").density
+    softer = Scene.from_toml("azam_case_a", {"lubricant.rheology.eyring_stress": "3 MPa"}).lubricant
+    assert softer.rheology == replace(lubricant("azam_oil").rheology, eyring_stress=3e6)
 
 
 @pytest.mark.parametrize(("name", "cold", "hot"), [("m100", -8, 4), ("pao100", 7, -4), ("n100", -20, 8)])
