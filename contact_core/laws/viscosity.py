@@ -128,9 +128,9 @@ class AstmD341:
 
     def _log_viscosity(self, temperature: float | Array) -> Array:
         """ln(viscosity / eta_inf) at p = 0."""
-        low, high = (math.log10(math.log10(1e6 * nu + 0.7)) for nu in (self.viscosity_40, self.viscosity_100))
-        slope = (low - high) / math.log10(373.15 / 313.15)
-        double_log = np.minimum(low - slope * np.log10(np.asarray(temperature) / 313.15), _STIFFEST_DOUBLE_LOG)
+        at_40, at_100 = (math.log10(math.log10(1e6 * nu + 0.7)) for nu in (self.viscosity_40, self.viscosity_100))
+        slope = (at_40 - at_100) / math.log10(373.15 / 313.15)
+        double_log = np.minimum(at_40 - slope * np.log10(np.asarray(temperature) / 313.15), _STIFFEST_DOUBLE_LOG)
         kinematic = 1e-6 * (10.0 ** (10.0**double_log) - 0.7)
         density = self.density * (1.0 - self.expansion * (np.asarray(temperature) - 288.15))
         return np.log(kinematic * density) - _LN_ETA_INF
