@@ -63,10 +63,13 @@ def _quadrature(nx: int, peclet: float) -> Iterator[tuple[Array, Array]]:
         yield (batch[:-1] + half * (1.0 + _NODES)).reshape(-1, 1), (half * _WEIGHTS).reshape(-1, 1)
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=8)
 def _spectrum(ny: int, nx: int, peclet: float) -> Spectrum:
-    """Transform of the coefficients on a plane padded by zeros [even in y, long enough for all distances along x]."""
-    my, mx = scipy.fft.next_fast_len(2 * ny - 1), _row_length(nx)
+    """Transform of the coefficients on a plane padded by zeros.
+
+    Across the motion they are even, so that 2 (ny - 1) rows keep all distances apart; along it that takes 2 nx - 1.
+    """
+    my, mx = scipy.fft.next_fast_len(max(2 * (ny - 1), 1)), _row_length(nx)
     kernel = np.zeros((my, mx))
     coefficients = moving_influence(ny, nx, peclet)
     kernel[:ny, :nx] = coefficients[:, nx - 1 :]
@@ -142,7 +145,7 @@ def partition(
     inside: NDArray[np.bool_],
     difference: float,
     surfaces: tuple[MovingSurface, MovingSurface],
-    tolerance: float = 1e-8,
+    tolerance: float = 1e-7,
     iterations: int = 200,
 ) -> Partition:
     """Share the heat that a film evenly over its thickness h dissipates [W/m2], so that both surfaces fit it.
@@ -153,33 +156,33 @@ def partition(
     Whatever d, no heat is lost. Stops when the mismatch is below `tolerance`, or at the latest after `iterations`.
     """
     one, two = surfaces
-    half = 0.5 * dissipation
+    half, mask = 0.5 * dissipation, inside.astype(np.float64)
     rise_1, rise_2 = one.rise(half), two.rise(half)
-    wanted = (rise_2 - rise_1)[inside] + difference
+    wanted = mask * (rise_2 - rise_1 + difference)
     if not wanted.any():
         return Partition(half, half, rise_1, rise_2, 0.0, 2)
-    scale = float(np.linalg.norm((rise_1 + rise_2)[inside] + abs(difference)))
-    both, film = one.spectrum + two.spectrum, resistance[inside]
-    conducted, calls = np.zeros_like(half), 0
+    scale = float(np.linalg.norm(mask * (rise_1 + rise_2 + abs(difference))))
+    both, calls = one.spectrum + two.spectrum, 0
 
     def drop(flux: Array) -> Array:
         nonlocal calls
         calls += 1
-        conducted[inside] = flux
-        return film * flux + _filtered(conducted, both)[inside]
+        field = flux.reshape(half.shape)
+        return (resistance * field + mask * _filtered(field, both)).ravel()
 
-    diagonal = film + one.rise_of_cell + two.rise_of_cell
-    size = (wanted.size, wanted.size)
-    conducted[inside], _ = bicgstab(
+    inverse = (mask / (resistance + one.rise_of_cell + two.rise_of_cell)).ravel()
+    size = (half.size, half.size)
+    through, _ = bicgstab(
         LinearOperator(size, drop, dtype=np.float64),
-        wanted,
+        wanted.ravel(),
         rtol=0.0,
         atol=tolerance * scale,
         maxiter=iterations,
-        M=LinearOperator(size, lambda flux: flux / diagonal, dtype=np.float64),
+        M=LinearOperator(size, lambda flux: flux * inverse, dtype=np.float64),
     )
+    conducted = through.reshape(half.shape)
     into_1 = half + conducted
     into_2 = dissipation - into_1
     rise_1, rise_2 = one.rise(into_1), two.rise(into_2)
-    missed = film * conducted[inside] - (rise_2 - rise_1)[inside] - difference
-    return Partition(into_1, into_2, rise_1, rise_2, float(np.linalg.norm(missed)) / scale, calls + 4)
+    missed = float(np.linalg.norm(mask * (resistance * conducted - (rise_2 - rise_1 + difference))))
+    return Partition(into_1, into_2, rise_1, rise_2, missed / scale, calls + 4)

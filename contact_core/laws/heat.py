@@ -22,7 +22,7 @@ Nodes = NDArray[np.bool_]
 Pair = tuple[float, float]
 
 _AS_THE_OIL = OilBulk()
-_MATCHED = 1e-6  # mismatch up to which temperatures count as solved; the solver aims at 1e-8
+_MATCHED = 1e-6  # mismatch up to which temperatures count as solved; the solver aims at 1e-7
 
 
 @dataclass(frozen=True)
