@@ -5,8 +5,9 @@
     checkpoint     the point a run has reached, on disk: a killed run goes on from there
     results        the run as an xarray Dataset, as netCDF and as CSV
     report         the printed table and the overview picture
+    stribeck       rubs a contact and sweeps the speed at given times; stribeck_report: its table and picture
     cli            the command line
 
-A system sees the contact only through its scene, the quantities and the FMU. In a ball-on-disc scene body 1
-is the ball and body 2 the disc.
+A system sees the contact only through its scene, the quantities and the FMU; the Stribeck curves, which go back to one
+state again and again, use the core itself. In a ball-on-disc scene body 1 is the ball and body 2 the disc.
 """

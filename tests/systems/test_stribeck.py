@@ -306,6 +306,25 @@ def test_an_interrupt_keeps_what_was_measured(
         assert dataset.attrs["failures"] == "1 points were not reached."
 
 
+def test_rubbing_that_cannot_go_on_keeps_what_was_measured(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
+) -> None:
+    def stuck(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
+        if dt > 0.0:
+            raise ConvergenceError("No solution was found. Use a finer grid.")
+        return advance(scene, op, state, dt)
+
+    monkeypatch.setattr(stribeck, "advance", stuck)
+    command = ["stribeck", "mtm_zddp", *coarse, *DRY, "--times", "0,1", "--points", "2", "--out", str(tmp_path)]
+    assert main(command) == 2
+    err = capsys.readouterr().err
+    assert "tribofmu: No solution was found. Use a finer grid. The 2 points measured so far are in" in err
+    with xr.open_dataset(tmp_path / "stribeck.nc", engine="h5netcdf") as dataset:
+        assert dataset["valid"].values.tolist() == [[True, True], [False, False]]
+        assert np.isnan(dataset["composite_roughness"].values).tolist() == [False, True]
+        assert dataset.attrs["failures"] == "2 points were not reached."
+
+
 def test_an_interrupt_before_the_first_point_leaves_an_older_result(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
 ) -> None:
