@@ -5,7 +5,7 @@
     python benchmarks/stribeck.py --times 0,30 --points 6 --set film.points=65 surface_1.correlation_length="16 um" \
 surface_2.correlation_length="16 um"              a quick look
 
-Writes docs/stribeck.md, docs/stribeck.png and docs/stribeck_SCENE.png. About four minutes for each scene and tribofilm, one
+Writes docs/stribeck.md, docs/stribeck.png and docs/stribeck_SCENE.png. About five minutes for each scene and tribofilm, one
 thread.
 """
 

@@ -128,34 +128,22 @@ class Curves:
         """Variables along rubbing time [s] and entrainment speed [m/s]; `failures` in the attributes says what is
         missing, line by line.
         """
-        swept = {name: (_DIMENSIONS, values.copy(), _attributes(name)) for name, values in self._swept.items()}
-        rubbed = {name: (_DIMENSIONS[:1], values.copy(), _attributes(name)) for name, values in self._rubbed.items()}
-        roughness = np.hypot(self._rubbed["roughness_1"], self._rubbed["roughness_2"])
         level = _midway(self._swept["friction_coefficient"])
-        found = xr.Dataset(
-            {
-                **swept,
-                "range_flags": (_DIMENSIONS, self._flags.copy(), _attributes("range_flags")),
-                "valid": (_DIMENSIONS, self._valid.copy(), _described("1", "false: not measured, or no solution")),
-                **rubbed,
-                "composite_roughness": (
-                    _DIMENSIONS[:1],
-                    roughness,
-                    _described("m", "root of the sum of both roughnesses' squares"),
-                ),
-                "transition_speed": (
-                    _DIMENSIONS[:1],
-                    self._transitions("contact_load_ratio", 0.5),
-                    _described("m/s", "entrainment speed at which the solids carry half of the load"),
-                ),
-                "transition_speed_friction": (
-                    _DIMENSIONS[:1],
-                    self._transitions("friction_coefficient", level),
-                    _described("m/s", "entrainment speed at which friction is midway between all curves' extremes"),
-                ),
-            },
-            self._coordinates(),
-        )
+        both = np.hypot(self._rubbed["roughness_1"], self._rubbed["roughness_2"])
+        half, midway = self._transitions("contact_load_ratio", 0.5), self._transitions("friction_coefficient", level)
+        at_half = "entrainment speed at which the solids carry half of the load"
+        at_midway = "entrainment speed at which friction is midway between all curves' extremes"
+        along_times, valid = _DIMENSIONS[:1], _described("1", "false: not measured, or no solution")
+        variables = {
+            **{name: (_DIMENSIONS, values.copy(), _attributes(name)) for name, values in self._swept.items()},
+            "range_flags": (_DIMENSIONS, self._flags.copy(), _attributes("range_flags")),
+            "valid": (_DIMENSIONS, self._valid.copy(), valid),
+            **{name: (along_times, values.copy(), _attributes(name)) for name, values in self._rubbed.items()},
+            "composite_roughness": (along_times, both, _described("m", "root of the sum of both roughnesses' squares")),
+            "transition_speed": (along_times, half, _described("m/s", at_half)),
+            "transition_speed_friction": (along_times, midway, _described("m/s", at_midway)),
+        }
+        found = xr.Dataset(variables, self._coordinates())
         missing = self._valid.size - self.count
         sentences = [*self._failures, *([f"{missing} points were not reached."] if missing else [])]
         return with_scene(found, scene, duty).assign_attrs(
