@@ -97,7 +97,12 @@ class Fit:
             whole = self.whole.of((self.whole.columns["blocks_dry"] > 0.0) == is_dry)
             for rougher, which in names.items():
                 self._fit(which, self._exposure_residual(whole, rougher, is_dry))
-        self.law = replace(self.law, load_scatter=self.load_scatter, film_scatter=self.film_scatter)
+        found = predicted(self.law, sweep)
+        self.scatter = {
+            "load_scatter": float(np.std(found["W_c"] - sweep.load_ratio)),
+            "area_scatter": float(np.std(found["A_c"] - sweep.area_ratio)),
+            "film_scatter": float(np.std(np.log(found["h_c"] / sweep.film_ratio))),
+        }
 
     def _fit(self, names: tuple[str, ...], residual: Callable[[FittedSharing], Array]) -> None:
         def of(x: Array) -> Array:
@@ -112,19 +117,6 @@ class Fit:
         seen = whole.columns["exposed_rougher" if rougher else "exposed_smoother"]
         within = covered(whole)
         return lambda law: within * law.exposed(whole.area_ratio, rougher=rougher, dry=dry) - seen
-
-    @property
-    def load_scatter(self) -> float:
-        """Of W_c about its curve, absolute."""
-        sweep = self.sweep
-        return float(
-            np.std(self.law.load_ratio(sweep.clearance, sweep.flattening, sweep.resolution) - sweep.load_ratio)
-        )
-
-    @property
-    def film_scatter(self) -> float:
-        """Of h_c about its curve with W_c from its own, relative."""
-        return float(np.std(np.log(predicted(self.law, self.sweep)["h_c"] / self.sweep.film_ratio)))
 
 
 def covered(table: Table) -> Array:
@@ -251,9 +243,12 @@ def constants_page(fit: Fit) -> list[str]:
         "",
         "Names as in `contact_core/laws/load_sharing.py`; half widths of 95 % intervals from the covariance, points taken as independent.",
         *table(("constant", "fitted", "half width", "shipped"), shown),
-        f"Scatter: W_c {fit.load_scatter:.3f} (absolute), h_c {fit.film_scatter:.3f} (relative, with W_c from its curve; "
-        f"{np.std(film_off):.3f} with the solved W_c), A_c {np.std(area_off):.3f} (absolute, with the solved W_c), "
-        f"dry A_c {np.std(dry_off):.3f} (relative, at most {np.abs(dry_off).max():.3f}).",
+        "Standard deviations about the curves, A_c and h_c with W_c from its own curve:",
+        *table(
+            ("name", "found", "shipped"), [(k, f"{v:.3f}", getattr(FittedSharing(), k)) for k, v in fit.scatter.items()]
+        ),
+        f"With the solved W_c: A_c {np.std(area_off):.3f}, h_c {np.std(film_off):.3f} (relative). "
+        f"Dry A_c: {np.std(dry_off):.3f} (relative, at most {np.abs(dry_off).max():.3f}).",
         "",
         "Exposed share of each body's track |y| < b in a whole pass:",
         *table(("body", "scatter", "largest error"), exposed),
@@ -293,7 +288,7 @@ def draw(fit: Fit) -> Figure:
     axes[0, 0].set(xscale="log", xlabel="lambda (s / 0.2)$^2$ (r / 2)", ylabel="W_c")
     axes[0, 1].plot(line, fit.law.load_ratio(line, 0.2, 2.0), "k-", lw=1, label="s = 0.2, r = 2")
     axes[0, 1].set(xscale="log", xlabel="lambda", ylabel="W_c", xlim=(2e-3, 10.0))
-    axes[1, 0].plot([0.05, 3.0], [0.05, 3.0], "k-", lw=1)
+    axes[1, 0].plot([0.05, 5.0], [0.05, 5.0], "k-", lw=1)
     axes[1, 0].set(xscale="log", yscale="log", xlabel="h_c / sigma by the curve", ylabel="h_c / sigma, solved")
     axes[1, 1].plot(dry.flattening, dry.area_ratio, color="0.4", marker="x", ls="none", ms=4, label="dry")
     flat = np.linspace(0.0, 0.75, 100)

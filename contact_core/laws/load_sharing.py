@@ -53,8 +53,8 @@ class FittedSharing:
     )
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
         "clearance": (0.003, 5.0),
-        "flattening": (0.137, 0.721),
-        "resolution": (2.05, 5.63),
+        "flattening": (0.13, 0.73),
+        "resolution": (2.0, 5.7),
     }
     HALF_WIDTHS: ClassVar[dict[str, float]] = {
         "load_factor": 0.19,
@@ -98,6 +98,9 @@ class FittedSharing:
     load_scatter: float = parameter(
         "", "standard deviation of W_c about its curve, absolute", least=0.0, most=1.0, default=0.063
     )
+    area_scatter: float = parameter(
+        "", "standard deviation of A_c about its curve, absolute", least=0.0, most=1.0, default=0.038
+    )
     film_scatter: float = parameter(
         "", "standard deviation of h_c about its curve, relative", least=0.0, most=10.0, default=0.114
     )
@@ -126,9 +129,15 @@ class FittedSharing:
         share, flat = np.asarray(load_ratio), np.asarray(flattening) / _FLATTENING
         dry = self.film_dry * flat**-1.5
         mixed = np.maximum(self.film_mixed * (flat * np.asarray(resolution) / _RESOLUTION) ** -0.75, dry)
-        n = self.film_exponent
-        oil = ((self.film_factor * np.asarray(clearance)) ** n + mixed**n) ** (1.0 / n)
-        return share * dry + (1.0 - share) * oil
+        film = self.film_factor * np.asarray(clearance)
+        larger = np.maximum(film, mixed)  # in front, because powers of large numbers overflow
+        ratio = np.minimum(film, mixed) / larger
+        return share * dry + (1.0 - share) * larger * (1.0 + ratio**self.film_exponent) ** (1.0 / self.film_exponent)
+
+    def covers(self, clearance: float, flattening: float, resolution: float) -> bool:
+        """Whether the point lies within those of the fit."""
+        given = {"clearance": clearance, "flattening": flattening, "resolution": resolution}
+        return all(low <= given[name] <= high for name, (low, high) in self.FITTED.items())
 
     def exposed(self, area_ratio: ArrayLike, *, rougher: bool, dry: ArrayLike = False) -> Array:
         """Share of a body's points within Hertz's width that touch the other body in a pass through the contact.

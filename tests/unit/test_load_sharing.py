@@ -56,6 +56,23 @@ def test_a_thick_film_is_in_proportion_to_that_of_smooth_bodies():
     assert LAW.film_ratio(1e3, 0.0, 0.2, 2.0) == pytest.approx(LAW.film_factor * 1e3, rel=1e-5)
 
 
+def test_the_largest_films_and_exponents_do_not_overflow():
+    steep = FittedSharing(film_exponent=20.0)
+    assert steep.film_ratio(1e30, 0.0, 0.2, 2.0) == pytest.approx(steep.film_factor * 1e30)
+    assert steep.film_ratio(0.0, 0.0, 0.2, 2.0) == pytest.approx(steep.film_mixed)
+
+
+def test_the_fit_covers_its_own_points_and_nothing_far_from_them(golden):
+    named = ("clearance", "flattening", "resolution")
+    inside = {name: (float(golden[name].min()), float(golden[name].max())) for name in named}
+    middle = {name: float(np.median(golden[name])) for name in named}
+    assert LAW.covers(**middle)
+    for name, (low, high) in inside.items():
+        assert LAW.covers(**middle | {name: high})
+        assert not LAW.covers(**middle | {name: 0.5 * low})
+        assert not LAW.covers(**middle | {name: 5.0 * high})
+
+
 @pytest.mark.parametrize("rougher", [True, False])
 @pytest.mark.parametrize("dry", [True, False])
 def test_exposure_grows_from_nothing_toward_all_with_the_area(rougher, dry):
