@@ -21,7 +21,7 @@ from .laws.heat import FlashTemperature, TemperatureField
 from .patches import bare_heights, roughness_of
 from .reference import moes_film
 from .scene import OperatingPoint, Scene
-from .state import Body, ContactState, Mean, Outputs, RangeFlag
+from .state import Body, ContactState, Mean, Outputs, RangeFlag, changed
 from .surfaces import rms_roughness
 
 Array = NDArray[np.float64]
@@ -45,6 +45,8 @@ _SLIDING, _TEMPERATURE = _D * _SLIDING, _KELVIN * _TEMPERATURE
 _ROOT = np.cbrt(1.0 + _D * _LOAD)  # lengths and pressures of Hertz's contact at these points, relative
 _LAMBDA_CAPPED, _OUTSIDE_FIT = int(RangeFlag.LAMBDA_CAPPED), int(RangeFlag.OUTSIDE_FIT)
 _TRIBOFILM_TEMPERATURE = int(RangeFlag.TRIBOFILM_TEMPERATURE)  # numbers are faster to add up
+_ROUNDED = 0.99
+_BLANK = Outputs()
 _PROBE = np.array([[0.0], [1e6]])  # Pa: pressures that tell viscosity and its pressure coefficient
 _WARMTHS = np.array([0.0, _KELVIN, -_KELVIN])
 _SPIN = 3.0 * math.pi / 16.0  # mean lever of friction under Hertz's pressure, over a
@@ -63,19 +65,30 @@ class Film(NamedTuple):
 Films = tuple[Film, Film]
 
 
+class _Fit(NamedTuple):
+    """Where a contact lies among the points of the fit; see `load_sharing.FittedSharing`."""
+
+    clearance: float
+    flattening: float
+    resolution: float
+
+
+_UNFITTED = _Fit(math.inf, 0.0, 0.0)  # smooth bodies, or no load
+
+
 class _Contact(NamedTuple):
     """The contact of an operating point and of the surfaces as they were."""
 
     films: Films
     sigma: float  # composite rms roughness [m]
     cover: float  # mean cover of both bodies where they touch
-    lam: float  # smooth film / sigma
+    fit: _Fit
     gap: float  # mean, of the oil [m]
     load_ratio: float
     area_ratio: float
     solid: float  # friction of the solids on body 1 along +x [N]
     fluid: float
-    derivatives: tuple[float, float, float, float]  # of the sum, by speed_1, speed_2, load, temperature
+    derivatives: tuple[float, ...]  # of the sum, by speed_1, speed_2, load, temperature
     solid_pressure: float  # mean over the real contact [Pa]
     solid_shear: float  # mean over it, absolute
     fluid_shear: float  # mean over the rest of the Hertz ellipse
@@ -151,7 +164,7 @@ def advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: flo
         speed = _stepped(scene, op, contact, means, _TRIAL)[3]
         rates = [_wear_rate(scene, op, contact, i, films[i].thickness) for i in (0, 1)]
     outputs = _outputs(scene, op, state.outputs, contact, means, films, rates, speed)
-    return replace(state, time=state.time + dt, means=means, outputs=outputs, solved_for=None), outputs
+    return changed(state, time=state.time + dt, means=means, outputs=outputs, solved_for=None), outputs
 
 
 # the contact
@@ -160,7 +173,6 @@ def advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: flo
 def _evaluate(scene: Scene, op: OperatingPoint, films: Films) -> _Contact:
     """Film, load sharing and friction at the operating point, and at eight beside it for the derivatives."""
     sigma, cover = _sigma(films), _cover(scene, films)
-    flattening = _flattening(scene, films, op.load)
     if op.load == 0.0:
         return _apart(scene, films, sigma, cover)
     entrained, sliding, temperature = abs(op.entrainment_speed), op.sliding_speed, op.inlet_temperature
@@ -169,9 +181,8 @@ def _evaluate(scene: Scene, op: OperatingPoint, films: Films) -> _Contact:
     hertz, scale = scene.unit_hertz, op.load ** (1 / 3)
     pressures = (hertz.pressure_max * scale) * _ROOT
     areas = (hertz.area * scale * scale) * _ROOT**2
-    lam, gaps, solid_share, area_share = _shared(
-        scene, sigma, flattening, _smooth_films(scene, entrained, op.load, temperature)
-    )
+    film = _smooth_films(scene, entrained, op.load, temperature)
+    fit, gaps, solid_share, area_share = _shared(scene, films, sigma, film, pressures)
     carried = solid_share * pressures
     carried *= 2.0 / 3.0  # mean over the Hertz area
     # no solid contact is smaller than the hardness allows
@@ -209,7 +220,7 @@ def _evaluate(scene: Scene, op: OperatingPoint, films: Films) -> _Contact:
         films,
         sigma,
         cover,
-        lam,
+        fit,
         float(gaps[0]),
         float(solid_share[0]),
         float(touching[0]),
@@ -234,8 +245,9 @@ def _evaluate(scene: Scene, op: OperatingPoint, films: Films) -> _Contact:
 
 def _apart(scene: Scene, films: Films, sigma: float, cover: float) -> _Contact:
     """Without load the bodies just touch and nothing presses."""
-    gap = max(scene_film(scene).sharing.film_dry * sigma, scene.film.floor)
-    return _Contact(films, sigma, cover, math.inf, gap, *(4 * (0.0,)), 4 * (0.0,), *(8 * (0.0,)))
+    return _Contact(
+        films, sigma, cover, _UNFITTED, max(sigma, scene.film.floor), 0.0, 0.0, 0.0, 0.0, (0.0,) * 4, *(0.0,) * 8
+    )
 
 
 def _slope(forces: list[float], row: int, step: float) -> float:
@@ -275,30 +287,27 @@ def _smooth_films(scene: Scene, speed: float, load: float, temperature: float) -
     return np.array([now, now, now, *beside])
 
 
-def _shared(scene: Scene, sigma: float, flattening: float, film: Array) -> tuple[float, Array, Array, Array]:
-    """Lambda, mean gaps [m], contact_load_ratio and contact_area_ratio of rough bodies, for films of smooth ones."""
+def _shared(
+    scene: Scene, films: Films, sigma: float, film: Array, pressures: Array
+) -> tuple[_Fit, Array, Array, Array]:
+    """Where the contact lies in the fit, mean gaps [m], contact_load_ratio and contact_area_ratio of rough bodies, for
+    films of smooth ones [m] and Hertz's largest pressures [Pa].
+    """
     floor, sharing = scene.film.floor, scene_film(scene).sharing
     if sigma == 0.0:
         touching = (film <= floor).astype(np.float64)
-        return math.inf, np.maximum(film, floor), touching, touching
-    clearance, flat, fine = film / sigma, flattening * _ROOT, _resolution(scene)
-    share = sharing.load_ratio(clearance, flat, fine)
-    gaps = np.maximum(sigma * sharing.film_ratio(clearance, share, flat, fine), floor)
-    return float(clearance[0]), gaps, share, sharing.area_ratio(share, flat)
-
-
-def _flattening(scene: Scene, films: Films, load: float) -> float:
-    """Mean Hertz pressure over what would press the present roughness flat."""
-    lengths = scene.surface_1.correlation_length, scene.surface_2.correlation_length
-    slope = math.hypot(2.0 * films[0].both / lengths[0], 2.0 * films[1].both / lengths[1])  # as load_sharing.rms_slope
-    mean = 2.0 / 3.0 * scene.unit_hertz.pressure_max * load ** (1 / 3)
-    return mean / (0.5 * scene.solids.reduced_modulus * slope) if slope > 0.0 else math.inf
-
-
-def _resolution(scene: Scene) -> float:
-    """Correlation length of the rougher body over the distance of the grid's nodes."""
-    rougher = scene.surface_1 if scene.surface_1.rq > scene.surface_2.rq else scene.surface_2
-    return rougher.correlation_length / scene.film.spacing
+        return _UNFITTED, np.maximum(film, floor), touching, touching
+    first, second = scene.surface_1, scene.surface_2
+    slope = 2.0 * math.hypot(films[0].both / first.correlation_length, films[1].both / second.correlation_length)
+    resolution = (first if first.rq > second.rq else second).correlation_length / scene.film.spacing
+    clearance, flattening = film / sigma, pressures * (4.0 / 3.0 / (scene.solids.reduced_modulus * slope))
+    fit = _Fit(float(clearance[0]), float(flattening[0]), resolution)
+    (flattest, fullest), (coarsest, finest) = sharing.FITTED["flattening"], sharing.FITTED["resolution"]
+    flattening = np.minimum(np.maximum(flattening, flattest), fullest)  # powers of it mean nothing far from the fit
+    resolution = min(max(resolution, coarsest), finest)
+    share = sharing.load_ratio(clearance, flattening, resolution)
+    gaps = np.maximum(sigma * sharing.film_ratio(clearance, share, flattening, resolution), floor)
+    return fit, gaps, share, sharing.area_ratio(share, flattening)
 
 
 def _oil_shear(scene: Scene, pressures: Array, rates: Array, temperatures: Array) -> Array:
@@ -376,16 +385,9 @@ def _has_changed(scene: Scene, contact: _Contact, films: Films) -> bool:
 def _evolved(scene: Scene, op: OperatingPoint, contact: _Contact, means: Means, step: float) -> Means:
     """Both bodies after `step` [s] of what the contact does to them."""
     (first, second), doses = _doses(scene, op, contact, means)
-    covers = np.array([first or 1.0, second or 1.0])  # of nothing, anything may be the share
-    growth = np.array([means[0].growth, means[1].growth]) / covers
-    removal = np.array([means[0].removal, means[1].removal]) / covers
-    exposed, abraded = np.array(doses) * step, _abrasion(scene, op, contact, covers) * step
-    warm = op.inlet_temperature + contact.rise
-    growth, removal = scene.tribofilm.evolve(growth, removal, exposed, abraded, warm)
-    grown, removed = (growth * covers).tolist(), (removal * covers).tolist()
     return (
-        _body_after(scene, op, contact, 0, means[0], step, first, grown[0], removed[0]),
-        _body_after(scene, op, contact, 1, means[1], step, second, grown[1], removed[1]),
+        _body_after(scene, op, contact, 0, means[0], step, first, doses[0] * step),
+        _body_after(scene, op, contact, 1, means[1], step, second, doses[1] * step),
     )
 
 
@@ -397,15 +399,20 @@ def _body_after(
     mean: Mean,
     step: float,
     coverage: float,
-    growth: float,
-    removal: float,
+    exposed: float,
 ) -> Mean:
-    """A body with its new tribofilm, worn under the mean of the old and the new one.
+    """A body whose covered part was `exposed` to the tribofilm law, worn under the mean of the old and the new film.
 
     Wear takes heights that stand out of the composite roughness by `smoothing` of it. A body's share in such a height
     is that of its variance, so its roughness falls by smoothing Rq_i / sigma for each depth worn (assumed).
     """
-    new = max(growth - removal, 0.0) / coverage if coverage > 0.0 else 0.0
+    growth, removal, new = mean.growth, mean.removal, 0.0
+    if coverage > 0.0:
+        evolve: Law = scene.tribofilm.evolve
+        abraded = _abrasion(scene, op, contact, i) * step / coverage
+        warm = op.bodies[i] + contact.rise
+        grown, removed = evolve(growth / coverage, removal / coverage, exposed, abraded, warm)
+        growth, removal, new = float(grown) * coverage, float(removed) * coverage, max(float(grown - removed), 0.0)
     volume = step * _wear_rate(scene, op, contact, i, 0.5 * (contact.films[i].thickness + new))
     speed = (op.speed_1, op.speed_2)[i]
     depth = volume / _track_area(scene, i, speed != 0.0)
@@ -466,7 +473,7 @@ def _dose(
     scene: Scene, op: OperatingPoint, contact: _Contact, i: int, means: Means, touching: float, oiled: float
 ) -> tuple[float, float]:
     """`_doses` of one body, for the exposures of a point that touches and of one under oil."""
-    rougher = contact.films[i].both > contact.films[1 - i].both
+    rougher = (scene.surface_1.rq > scene.surface_2.rq) == (i == 0)
     dry = contact.load_ratio > scene.control.dry_above
     share = float(scene_film(scene).sharing.exposed(contact.area_ratio, rougher=rougher, dry=dry))
     coverage = max(means[i].coverage, 1.0 if oiled > 0.0 else share if touching > 0.0 else 0.0)
@@ -479,14 +486,13 @@ def _dose(
     return coverage, mean * _time_share(scene, op, i, moving) / coverage
 
 
-def _abrasion(scene: Scene, op: OperatingPoint, contact: _Contact, covers: Array) -> Array:
-    """Rate [1/s] at which rubbing takes tribofilm from the covered part of each track, mean over it."""
-    law, pressure = scene.tribofilm, contact.solid_pressure * contact.area_ratio
+def _abrasion(scene: Scene, op: OperatingPoint, contact: _Contact, i: int) -> float:
+    """Rate [1/s] at which rubbing takes tribofilm from a track, mean over it; none is taken where there is none."""
+    law: Any = scene.tribofilm
     if not law.abrades:
-        return np.zeros(2)
-    moving = (op.speed_1 != 0.0, op.speed_2 != 0.0)
-    felt = pressure * np.array([_time_share(scene, op, i, moving[i]) for i in (0, 1)]) / covers
-    return law.abrasion(felt, contact.slide, None)
+        return 0.0
+    felt = contact.solid_pressure * contact.area_ratio * _time_share(scene, op, i, (op.speed_1, op.speed_2)[i] != 0.0)
+    return float(law.abrasion(felt, contact.slide, None))
 
 
 def _time_share(scene: Scene, op: OperatingPoint, i: int, moving: bool) -> float:
@@ -518,7 +524,8 @@ def _outputs(
     hot_1, hot_2 = op.bodies
     first, second = means
     longest = _LONGEST * scene.operation.duration
-    return Outputs(
+    return changed(
+        _BLANK,
         friction_force=force,
         friction_coefficient=abs(force) / op.load if op.load > 0.0 else 0.0,
         friction_solid=contact.solid,
@@ -575,26 +582,43 @@ def _flags(scene: Scene, op: OperatingPoint, contact: _Contact) -> int:
     flags = 0
     if contact.sigma == 0.0 or op.load == 0.0:
         flags |= _LAMBDA_CAPPED
-    elif not scene_film(scene).sharing.covers(
-        contact.lam, _flattening(scene, contact.films, op.load), _resolution(scene)
-    ):
+    elif not _within(scene_film(scene).sharing.FITTED, contact.fit):
         flags |= _OUTSIDE_FIT
     if not all(scene.tribofilm.covers(temperature) for temperature in op.bodies):
         flags |= _TRIBOFILM_TEMPERATURE
     return flags
 
 
+def _within(ranges: dict[str, tuple[float, float]], fit: _Fit) -> bool:
+    """Whether a contact lies within the ranges of the fit, which are rounded numbers."""
+    (low, high), (flattest, fullest), (coarsest, finest) = (
+        ranges["clearance"],
+        ranges["flattening"],
+        ranges["resolution"],
+    )
+    return (
+        low <= fit.clearance <= high
+        and _ROUNDED * flattest <= fit.flattening <= fullest / _ROUNDED
+        and _ROUNDED * coarsest <= fit.resolution <= finest / _ROUNDED
+    )
+
+
 def _errors(scene: Scene, op: OperatingPoint, contact: _Contact) -> dict[str, Any]:
-    """Relative half widths of the errors by the fit. Friction is wrong where load counts for solids and is oil's."""
-    sharing = scene_film(scene).sharing
+    """Half widths (two sigma) of the errors by the fit, relative. Friction is wrong where load counts for solids and is
+    oil's.
+    """
     force, share = abs(contact.solid + contact.fluid), contact.load_ratio
-    error = min(2.0 * sharing.load_scatter, max(share, 1.0 - share)) if 0.0 < share < 1.0 else 0.0
+    if force == 0.0 or contact.sigma == 0.0:
+        return {}
+    sharing = scene_film(scene).sharing
+    error = 2.0 * sharing.load_scatter
     solid = abs(contact.solid) / (share * op.load) if share > 0.0 else 0.0
-    fluid = abs(contact.fluid) / ((1.0 - share) * op.load) if op.load > 0.0 and share < 1.0 else 0.0
+    fluid = abs(contact.fluid) / ((1.0 - share) * op.load) if share < 1.0 else 0.0
     return {
-        "error_friction": abs(solid - fluid) * error * op.load / force if force > 0.0 else 0.0,
-        "error_film": 2.0 * sharing.film_scatter if op.load > 0.0 and contact.sigma > 0.0 else 0.0,
-        "error_tribofilm": 2.0 * sharing.exposure_scatter if share > 0.0 else 0.0,
+        "error_friction": min(abs(solid - fluid) * error * op.load / force, 1.0),
+        "error_film": 2.0 * sharing.film_scatter,
+        # no film is less sure than the share of the rougher body that is exposed
+        "error_tribofilm": sharing.HALF_WIDTHS["exposure_rougher"] / sharing.exposure_rougher,
         "error_wear": min(error / share, 1.0) if share > 0.0 else 0.0,
     }
 

@@ -10,7 +10,7 @@ import struct
 import zlib
 from dataclasses import asdict, dataclass, fields
 from enum import IntFlag
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,7 @@ from .scene import OperatingPoint, Scene
 from .trends import Trends
 
 Array = NDArray[np.float64]
+_Record = TypeVar("_Record", "ContactState", "Outputs")
 _MAGIC, _SCHEMA = b"tribofmu", 4
 
 
@@ -274,6 +275,14 @@ def _unpack_state(tree: dict[str, Any], arrays: Any) -> ContactState:
         outputs=Outputs(**numbers(tree["outputs"])),
         means=None if tree["means"] is None else (record(Mean, tree["means"][0]), record(Mean, tree["means"][1])),
     )
+
+
+def changed(record: _Record, **values: Any) -> _Record:
+    """`dataclasses.replace` at a fifth of its cost: the fields must exist, and nothing is looked at."""
+    copy = object.__new__(type(record))
+    copy.__dict__.update(record.__dict__)
+    copy.__dict__.update(values)
+    return copy
 
 
 def initial_state(scene: Scene) -> ContactState:

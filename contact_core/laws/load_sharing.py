@@ -104,14 +104,6 @@ class FittedSharing:
     film_scatter: float = parameter(
         "", "standard deviation of h_c about its curve, relative", least=0.0, most=10.0, default=0.114
     )
-    exposure_scatter: float = parameter(
-        "", "standard deviation of exposed shares about their curves, relative", least=0.0, most=10.0, default=0.1
-    )
-
-    def covers(self, clearance: float, flattening: float, resolution: float) -> bool:
-        """Whether a contact is within the ranges of the fit."""
-        numbers = {"clearance": clearance, "flattening": flattening, "resolution": resolution}
-        return all(low <= numbers[name] <= high for name, (low, high) in self.FITTED.items())
 
     def load_ratio(self, clearance: ArrayLike, flattening: ArrayLike, resolution: ArrayLike) -> Array:
         """contact_load_ratio at lambda = `clearance`."""

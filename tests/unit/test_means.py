@@ -5,7 +5,7 @@ from dataclasses import asdict, fields, replace
 
 import numpy as np
 import pytest
-from cheap_scene import CHEAP, cheap
+from cheap_scene import cheap
 
 from contact_core import (
     ContactState,
@@ -19,14 +19,12 @@ from contact_core import (
     solve,
     track_of,
 )
-from contact_core.laws.load_sharing import FittedSharing
 from contact_core.laws.rheology import Eyring, Newtonian
-from contact_core.means import exposed_share, folded, means_of
+from contact_core.means import folded, means_of
 from contact_core.quantities import OUTPUTS
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
 
-FAST = CHEAP | {"film.model": "regression"}
-FAST = {key: value for key, value in FAST.items() if key not in ("film.tolerance", "film.iterations")}
+FAST = {"film.model": "regression"}
 SMOOTH = FAST | {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm"}
 DERIVATIVES = {"speed_1": 1e-6, "speed_2": 1e-6, "load": 1e-5, "temperature": 1e-5}  # step of the test, relative
 
@@ -157,10 +155,10 @@ def test_the_exposed_ball_grows_the_laws_film(grown):
     law, ball, disc = scene.tribofilm, *state.means
     seconds = np.array([state.time])
     hot = op.temperature + state.outputs.flash_temperature_rise
-    growth, removal = law.evolve(np.zeros(1), np.zeros(1), seconds, hot)
-    assert ball.coverage == 1.0
-    assert ball.growth == pytest.approx(growth[0], rel=1e-4)
-    assert ball.removal == pytest.approx(removal[0], rel=1e-9)
+    growth, removal = law.evolve(np.zeros(1), np.zeros(1), seconds, np.zeros(1), hot)
+    assert ball.coverage == pytest.approx(1.0, abs=1e-3)
+    assert ball.growth == pytest.approx(growth[0], rel=1e-3)
+    assert ball.removal == pytest.approx(removal[0], rel=1e-3)
     assert 0.1 < disc.coverage < 0.6
 
 
@@ -171,15 +169,6 @@ def test_time_may_be_cut_anywhere():
         state, _ = advance(scene, op, state, 10.0)
     for once, often in zip(whole.means, state.means, strict=True):
         assert asdict(often) == pytest.approx(asdict(once), rel=0.02)
-
-
-def test_a_smooth_body_is_all_exposed_and_a_body_under_a_smooth_one_by_what_touches():
-    assert exposed_share(0.2, 0.0, 1e-7, 2.5) == 1.0
-    assert exposed_share(0.2, 1e-7, 0.0, 2.5) == pytest.approx(0.2, rel=1e-12)
-    assert exposed_share(0.0, 1e-7, 1e-7, 2.5) == 0.0
-    shares = [exposed_share(0.2, 1e-7, rough, 2.5) for rough in (0.0, 1e-8, 1e-7, 1e-6)]
-    assert shares == sorted(shares)
-    assert shares[-1] == pytest.approx(1.0)
 
 
 def test_without_load_nothing_rubs_and_nothing_is_infinite(grown):
@@ -220,22 +209,7 @@ def test_only_what_the_level_can_tell_is_told(grown):
     found = asdict(advance(scene, op, state, 1.0)[1])
     assert all(found[q.name] == 0 for q in OUTPUTS if scene.film.name not in q.levels)
     silent = {q.name for q in OUTPUTS if scene.film.name in q.levels and not found.get(q.name)}
-    assert silent == {"valid", "range_flags", "tribofilm_roughness_1"}  # the ball is covered all over
-
-
-# sharing
-
-
-def test_sharing_goes_from_dry_to_full_film():
-    sharing, lam = FittedSharing(), np.concatenate([[0.0], np.geomspace(1e-6, 1e6, 200)])
-    load, gap = sharing.load_ratio(lam), sharing.gap(lam)
-    area = sharing.area_ratio(load)
-    assert (load[0], area[0], gap[0]) == (1.0, sharing.area_dry, sharing.film_dry)
-    assert load[-1] == area[-1] == 0.0
-    assert gap[-1] == pytest.approx(sharing.film_factor * lam[-1])
-    assert np.all(np.diff(load) <= 0.0)
-    assert np.all(np.diff(area) <= 0.0)
-    assert np.all(np.diff(gap) >= 0.0)
+    assert silent == {"valid", "range_flags"}
 
 
 # levels
