@@ -65,7 +65,14 @@ def traction() -> tuple[list[str], dict[str, np.ndarray]]:
         hertzian = quad(stiff, 0.0, 1.0)[0] * hertz.a**2 / central * SPEED / LOAD
         limit = lubricant.rheology.limiting_coefficient
         rows.append(
-            [name, mu[0] / ratios[0], slope, hertzian, mu[-1], limit * float(fields.fluid_pressure.sum()) * scene.film.spacing**2 / LOAD or "-"]
+            [
+                name,
+                mu[0] / ratios[0],
+                slope,
+                hertzian,
+                mu[-1],
+                limit * float(fields.fluid_pressure.sum()) * scene.film.spacing**2 / LOAD or "-",
+            ]
         )
     lines = [
         "## Traction at full film",
@@ -83,8 +90,19 @@ def traction() -> tuple[list[str], dict[str, np.ndarray]]:
 
 def continuity() -> tuple[list[str], dict[str, np.ndarray]]:
     """The largest step of mu from one speed to the next, 24 a decade, on both levels."""
-    lines, curves = ["## Continuity", "", "Largest step of mu between neighbours of 24 speeds a decade, SRR of the scene; fresh surfaces.", ""], {}
-    lines += [cells(["scene", "level", "speeds m/s", "mu from", "to", "largest step of mu", "at m/s"]), cells(["---"] * 7)]
+    lines, curves = (
+        [
+            "## Continuity",
+            "",
+            "Largest step of mu between neighbours of 24 speeds a decade, SRR of the scene; fresh surfaces.",
+            "",
+        ],
+        {},
+    )
+    lines += [
+        cells(["scene", "level", "speeds m/s", "mu from", "to", "largest step of mu", "at m/s"]),
+        cells(["---"] * 7),
+    ]
     for name in ("azam_case_a", "mtm_zddp"):
         for level, per_decade in (("regression", 24), ("deterministic", 4)):
             scene = Scene.from_toml(name).at_level(level)
@@ -95,7 +113,19 @@ def continuity() -> tuple[list[str], dict[str, np.ndarray]]:
                 mu.append(advance(scene, at(scene, speed, ratio), state, 0.0)[1].friction_coefficient)
             steps = np.abs(np.diff(mu))
             where = int(steps.argmax())
-            lines.append(cells([name, f"{level}, {per_decade} a decade", "1e-5 to 10", mu[0], mu[-1], float(steps.max()), float(speeds[where])]))
+            lines.append(
+                cells(
+                    [
+                        name,
+                        f"{level}, {per_decade} a decade",
+                        "1e-5 to 10",
+                        mu[0],
+                        mu[-1],
+                        float(steps.max()),
+                        float(speeds[where]),
+                    ]
+                )
+            )
             print(lines[-1], flush=True)
             curves[f"{name}, {level}"] = np.array([speeds, mu])
     return lines, curves
@@ -138,11 +168,25 @@ def held_and_total() -> list[str]:
             held = advance(scene, op, initial_state(scene), 0.0)[1]
             total = advance(fast, op, initial_state(fast), 0.0)[1]
             for given, change in INPUTS.items():
-                more, less = (advance(scene, change(op, k), initial_state(scene), 0.0)[1].friction_force for k in (1.2, 0.8))
+                more, less = (
+                    advance(scene, change(op, k), initial_state(scene), 0.0)[1].friction_force for k in (1.2, 0.8)
+                )
                 width = 0.4 if given == "temperature" else np.log(1.2 / 0.8)
                 again = float(np.log(more / less)) / width
-                lines.append(cells([name, float(op.entrainment_speed), held.friction_coefficient, held.contact_load_ratio, given,
-                                    elasticity(held, op, given), elasticity(total, op, given), again]))
+                lines.append(
+                    cells(
+                        [
+                            name,
+                            float(op.entrainment_speed),
+                            held.friction_coefficient,
+                            held.contact_load_ratio,
+                            given,
+                            elasticity(held, op, given),
+                            elasticity(total, op, given),
+                            again,
+                        ]
+                    )
+                )
                 print(lines[-1], flush=True)
     return lines
 
@@ -157,7 +201,11 @@ def plot(curves: dict[str, np.ndarray], speeds: dict[str, np.ndarray]) -> None:
     for k, (name, (speed, mu)) in enumerate(speeds.items()):
         scene, level = name.split(", ")
         right.semilogx(speed, mu, "-" if level == "regression" else "o", color=f"C{k // 2}", ms=4, label=name)
-    right.set(xlabel="entrainment speed, m/s", ylabel="friction coefficient", title="from boundary to full film, fresh surfaces")
+    right.set(
+        xlabel="entrainment speed, m/s",
+        ylabel="friction coefficient",
+        title="from boundary to full film, fresh surfaces",
+    )
     for axes in (left, right):
         axes.grid(alpha=0.3)
         axes.legend(fontsize="x-small")

@@ -63,11 +63,8 @@ def override(table: dict[str, Any], key: str, value: str) -> None:
         full = _with_named_set(dict(table), where)
         if full.get("model") == value:
             return
-        models = FILMS if where == "film" else SLOTS.get(path[-1], ()) if path else ()
-        shared = {f.name for model in models if model.name == value for f in fields(model)}  # type: ignore[attr-defined]
-        kept = {name: item for name, item in full.items() if name in shared}
         table.clear()
-        table |= kept
+        table |= _for_model(full, where, value)
     if last == "set" and str(table.get("set")).lower() != value.lower():
         table.clear()
     table[last] = value
@@ -152,17 +149,24 @@ def _with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
     sets = {key: value[path] for key, value in data.items() if isinstance(value.get(path), dict)}
     if name not in sets:
         raise SceneError(f"[{path}] has no set '{name}'.{did_you_mean(name, list(sets))} Known are {', '.join(sets)}.")
-    return _merged(sets[name], table)
+    return _merged(sets[name], table, path)
 
 
-def _merged(base: Mapping[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
-    """`base` with the keys of `over`, table by table; another `model` has other parameters and keeps none."""
-    if over.get("model", base.get("model")) != base.get("model"):
-        return dict(over)
-    merged = dict(base)
+def _for_model(table: Mapping[str, Any], path: str, model: str) -> dict[str, Any]:
+    """The keys of a law's table that the law `model` in its place has, too."""
+    slot = path.rpartition(".")[2]
+    models = FILMS if path == "film" else SLOTS.get(slot, ())
+    shared = {f.name for law in models if law.name == model for f in fields(law)}  # type: ignore[attr-defined]
+    return {name: item for name, item in table.items() if name in shared}
+
+
+def _merged(base: Mapping[str, Any], over: Mapping[str, Any], path: str) -> dict[str, Any]:
+    """`base` with the keys of `over`, table by table; another `model` keeps what it has in common with the old one."""
+    model = over.get("model", base.get("model"))
+    merged = dict(base) if model == base.get("model") else _for_model(base, path, model)
     for key, value in over.items():
         both = isinstance(value, Mapping) and isinstance(merged.get(key), Mapping)
-        merged[key] = _merged(merged[key], value) if both else value
+        merged[key] = _merged(merged[key], value, f"{path}.{key}") if both else value
     return merged
 
 

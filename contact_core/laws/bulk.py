@@ -52,8 +52,8 @@ class LumpedBulk:
     name: ClassVar[str] = "lumped"
     source: ClassVar[str] = "Incropera & DeWitt, Fundamentals of Heat and Mass Transfer, ISBN 9780471457282, chapter 5"
 
-    heat_capacity_1: float = parameter("J/K", "C, heat capacity of body 1", above=0.0, most=1e9)
-    heat_capacity_2: float = parameter("J/K", "C, heat capacity of body 2", above=0.0, most=1e9)
+    heat_capacity_1: float = parameter("J/K", "C, heat capacity of body 1", least=1e-9, most=1e9)
+    heat_capacity_2: float = parameter("J/K", "C, heat capacity of body 2", least=1e-9, most=1e9)
     conductance_1: float = parameter("W/K", "G, thermal conductance from body 1 to the oil", least=0.0, most=1e6)
     conductance_2: float = parameter("W/K", "G, thermal conductance from body 2 to the oil", least=0.0, most=1e6)
 

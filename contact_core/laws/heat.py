@@ -143,9 +143,10 @@ class FlashTemperature:
         rise = heat / nodes / (into_1 + into_2)
         beyond = float((heat * (into_1 / (into_1 + into_2) - 0.5)).sum()) * spacing**2
         on_nodes = np.append(0.0, rise)[spots]
+        surface_1 = bodies[0] + on_nodes
         return Temperatures(
-            surface_1=bodies[0] + on_nodes,
-            surface_2=bodies[1] + on_nodes,
+            surface_1=surface_1,
+            surface_2=surface_1 if bodies[0] == bodies[1] else bodies[1] + on_nodes,
             film=0.5 * (bodies[0] + bodies[1]),
             into_1=0.5 * total + beyond,
             into_2=0.5 * total - beyond,

@@ -61,6 +61,10 @@ PLAUSIBLE = {
     "hardness": (1e9, 2e10),
     "film_hardness": (1e8, 1e9),
     "slip_speed": (1e-9, 1.0),
+    "heat_capacity_1": (1e-3, 1e6),
+    "heat_capacity_2": (1e-3, 1e6),
+    "conductance_1": (1e-6, 1e3),
+    "conductance_2": (1e-6, 1e3),
 }
 
 

@@ -47,7 +47,9 @@ def test_friction_is_odd_in_sliding_and_zero_without():
 
 def test_a_ball_that_only_spins_feels_the_torque_of_hertzs_pressure():
     found = friction(shear(SCENE, at(speed_1=0.1, speed_2=0.1, spin=200.0), dry()), GRID)
-    assert found.spin_torque == pytest.approx(-3.0 * np.pi / 16.0 * SCENE.boundary_friction.bare * LOAD * RADIUS, rel=2e-3)
+    assert found.spin_torque == pytest.approx(
+        -3.0 * np.pi / 16.0 * SCENE.boundary_friction.bare * LOAD * RADIUS, rel=2e-3
+    )
     assert found.force_solid == pytest.approx(0.0, abs=1e-12 * LOAD)
 
 

@@ -171,9 +171,10 @@ def test_each_body_is_exposed_at_the_temperature_of_its_own_surface():
     scene, state, op = cheap(CHEAP | {"tribofilm.set": "zhang_spikes_80c_ethylhexyl"})
     fields = solve(scene, op, state)
     hot = np.full(fields.gap.shape, op.temperature + 40.0)
-    warmed = replace(fields, temperature_1=op.temperature, temperature_2=hot)
+    cool = replace(fields.temperatures, surface_1=op.temperature, surface_2=op.temperature)
+    warmed = replace(fields, temperatures=replace(cool, surface_2=hot))
     first, second = Sweep.before(state).touch(scene, op, state, warmed, (0.0, 0.0))
-    alike = Sweep.before(state).touch(scene, op, state, replace(warmed, temperature_2=op.temperature), (0.0, 0.0))
+    alike = Sweep.before(state).touch(scene, op, state, replace(fields, temperatures=cool), (0.0, 0.0))
     assert np.array_equal(first, alike[0])
     rubbed = alike[1] > 0.0
     assert rubbed.any() and np.all(second[rubbed] >= alike[1][rubbed]) and second.max() > alike[1].max()
@@ -192,7 +193,8 @@ def test_a_law_is_asked_once_for_two_bodies_of_one_temperature(monkeypatch):
     fields = solve(scene, op, state)
     sweep.add(scene, op, state, fields)
     assert len(asked) == 1
-    sweep.add(scene, op, state, replace(fields, temperature_2=fields.temperature_1 + 1.0))
+    warmer = replace(fields.temperatures, surface_2=fields.temperatures.surface_1 + 1.0)
+    sweep.add(scene, op, state, replace(fields, temperatures=warmer))
     assert len(asked) == 3
 
 

@@ -243,7 +243,8 @@ def test_what_is_switched_off_gives_zeros():
     assert not NoWear().rate(PRESSURE, PRESSURE, (1.0, 0.0), 0, 6e9).any()
     assert not NoWear().coefficient(PRESSURE).any()
     assert NoWear().slide((1.0, 0.0), 0) == 0.0
-    growth    assert not thickness(growth, removal).any()
+    growth, removal = NoTribofilm().evolve(*np.zeros((2, 2, 3)), *np.full((2, 2, 3), 1e4), 363.15)
+    assert not thickness(growth, removal).any()
     assert not NoTribofilm().exposure(PRESSURE, PRESSURE, 1.0, 363.15).any()
     assert NoTribofilm().covers(230.0)
     assert NoTribofilm().refusal(230.0) == ""
