@@ -1,0 +1,192 @@
+"""Heat and shear in scenes: what they do to the film, and that nothing is paid for them where they are not asked for."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from cheap_scene import CHEAP, cheap
+
+from contact_core import Scene, Transient, advance, initial_state, solve
+from contact_core import oil as oil_module
+from contact_core.film import thinning
+from contact_core.kernels import moving_source
+from contact_core.oil import inlet_factor
+
+SMOOTH = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.model": "none", "film.tolerance": "1e-5"}
+FIELD = {"heat.model": "field"}
+LOCAL = {"lubricant.flow": "local"}
+CARREAU = {
+    "lubricant.rheology.model": "carreau",
+    "lubricant.rheology.critical_stress": "0.01 MPa",
+    "lubricant.rheology.exponent": "0.6",
+}
+LUMPED = {
+    "heat.bulk.model": "lumped",
+    "heat.bulk.heat_capacity_1": "2 J/K",
+    "heat.bulk.heat_capacity_2": "5 J/K",
+    "heat.bulk.conductance_1": "0.5 W/K",
+    "heat.bulk.conductance_2": "1 W/K",
+}
+
+
+def smooth(*more, points=65):
+    changes = {"film.points": str(points), "film.domain": "0.9 mm"} | SMOOTH
+    for part in more:
+        changes |= part
+    scene = Scene.from_toml("azam_case_a", changes)
+    return scene, initial_state(scene)
+
+
+def sliding(scene, speed, ratio, **more):
+    return replace(scene.operation.point, speed_1=speed * (1 + ratio / 2), speed_2=speed * (1 - ratio / 2), **more)
+
+
+def central(scene, state, op):
+    fields = solve(scene, op, state)
+    assert fields.converged, fields.shortfall
+    return float(fields.gap[fields.y.size // 2, fields.x.size // 2])
+
+
+def test_a_scene_without_heat_and_thinning_calls_nothing_of_them(monkeypatch):
+    def forbidden(*args, **kwargs):
+        raise AssertionError("paid for")
+
+    for module, name in (
+        (oil_module, "flow_ease"),
+        (oil_module, "solve_thinning"),
+        (thinning, "stress_of_flow"),
+        (moving_source, "moving_influence"),
+        (oil_module, "inlet_factor"),
+    ):
+        monkeypatch.setattr(module, name, forbidden)
+    scene, state, point = cheap(CHEAP | {"heat.model": "none"})
+    assert (scene.lubricant.flow, scene.heat.name, scene.heat.bulk.name) == ("newtonian", "none", "oil")
+    state, outputs = advance(scene, point, state, 60.0)
+    assert outputs.friction_coefficient > 0.0
+    assert state.film is None or state.film.ease.shape == state.film.warmth.shape == (1, 1)
+
+
+@pytest.mark.parametrize("name", ["moving_influence", "flow_ease"])
+def test_a_scene_that_asks_for_them_calls_them(name, monkeypatch):
+    module = moving_source if name == "moving_influence" else oil_module
+    calls, real = [], getattr(module, name)
+    monkeypatch.setattr(module, name, lambda *args, **kwargs: calls.append(1) or real(*args, **kwargs))
+    moving_source._spectra.cache_clear()
+    scene, state = smooth(FIELD, LOCAL, CARREAU, points=33)
+    solve(scene, sliding(scene, 1.0, 0.3), state)
+    assert calls
+
+
+@pytest.mark.parametrize("heat", [{"heat.model": "none"}, {}, FIELD])
+def test_all_power_leaves_as_heat_through_the_bodies(heat):
+    scene, state, _ = cheap(CHEAP | heat)
+    op = sliding(scene, 0.5, 0.8)
+    fields = solve(scene, op, state)
+    warm = fields.temperatures
+    assert warm.into_1 + warm.into_2 == pytest.approx(fields.friction.power, rel=1e-12)
+    _, outputs = advance(scene, op, state, 1.0)
+    assert outputs.heat_flow_1 + outputs.heat_flow_2 == pytest.approx(outputs.power_loss, rel=1e-14)
+    assert outputs.power_loss == pytest.approx(-outputs.friction_force * op.sliding_speed, rel=1e-12)
+    assert outputs.heat_flow_1 > 0.0 and outputs.heat_flow_2 > 0.0
+
+
+def test_the_faster_body_takes_more_heat():
+    scene, state, _ = cheap(CHEAP | FIELD)
+    _, outputs = advance(scene, sliding(scene, 1.0, 1.0), state, 0.0)
+    assert outputs.heat_flow_1 > 1.1 * outputs.heat_flow_2
+
+
+def test_warm_oil_rubs_less_and_a_march_finds_the_temperature_of_the_steady_film():
+    cold, state = smooth({"heat.model": "none"}, points=65)
+    hot, _ = smooth(FIELD, points=65)
+    op = sliding(cold, 3.0, 0.5)
+    isothermal, steady = solve(cold, op, state), solve(hot, op, state)
+    assert steady.converged, steady.shortfall
+    rise = steady.film.warmth
+    assert rise.max() > 10.0
+    assert abs(steady.friction.force_fluid) < 0.95 * abs(isothermal.friction.force_fluid)
+    marched = replace(state, film=replace(steady.film, warmth=np.zeros((1, 1))))
+    for _ in range(14):
+        fields = solve(hot, op, marched, Transient(1e-6, 0, 40))
+        marched = replace(marched, film=fields.film)
+    assert fields.film.warmth == pytest.approx(rise, abs=0.01 * rise.max())
+
+
+def test_local_flow_thins_the_film_and_a_march_finds_the_steady_one():
+    scene, state = smooth(CARREAU)
+    local, _ = smooth(CARREAU, LOCAL)
+    op = sliding(scene, 2.0, 0.2)
+    newtonian, thinned = central(scene, state, op), central(local, state, op)
+    assert 0.3 * newtonian < thinned < 0.9 * newtonian
+    marched = replace(state, film=solve(local, op, state).film)
+    for _ in range(6):
+        fields = solve(local, op, marched, Transient(1e-4, 0, 40))
+        marched = replace(marched, film=fields.film)
+    middle = fields.y.size // 2
+    assert fields.gap[middle, middle] == pytest.approx(thinned, rel=5e-3)
+
+
+def test_local_flow_of_a_newtonian_isothermal_oil_is_the_flow_of_the_viscosity():
+    newtonian = {"lubricant.rheology.model": "newtonian", "heat.model": "none"}
+    one, state = smooth(newtonian)
+    other, _ = smooth(newtonian, LOCAL)
+    op = sliding(one, 2.0, 0.2)
+    assert central(other, state, op) == pytest.approx(central(one, state, op), rel=1e-4)
+
+
+@pytest.mark.parametrize("flow", [{}, LOCAL])
+def test_shear_heat_in_the_inlet_thins_the_film_by_its_factor(flow):
+    oil = {"lubricant.rheology.model": "newtonian", "lubricant.viscosity.viscosity": "40 mPa s"}
+    cold, state = smooth(oil, flow)
+    hot, _ = smooth(oil, flow, {"heat.inlet_shear": "gupta"})
+    op = sliding(cold, 3.0, 0.3)
+    factor = inlet_factor(hot, op)
+    assert 0.3 < factor < 0.95
+    assert central(hot, state, op) / central(cold, state, op) == pytest.approx(factor, rel=0.02)
+
+
+def test_bodies_as_inputs_warm_the_oil_that_they_draw_in():
+    scene, state, point = cheap(CHEAP | {"heat.bulk": "inputs", "tribofilm.model": "none"})
+    warm = replace(point, body_temperature_1=point.temperature + 30.0, body_temperature_2=point.temperature + 10.0)
+    _, outputs = advance(scene, warm, state, 0.0)
+    _, same = advance(scene, replace(point, temperature=point.temperature + 20.0), state, 0.0)
+    assert (outputs.temperature_1, outputs.temperature_2) == (point.temperature + 30.0, point.temperature + 10.0)
+    assert outputs.h_c == pytest.approx(same.h_c, rel=1e-12)
+    _, unsaid = advance(scene, point, state, 0.0)
+    assert unsaid.temperature_1 == unsaid.temperature_2 == point.temperature
+
+
+def test_where_bodies_are_as_warm_as_the_oil_inputs_say_nothing():
+    scene, state, point = cheap()
+    _, one = advance(scene, point, state, 0.0)
+    _, other = advance(scene, replace(point, body_temperature_1=point.temperature + 50.0), state, 0.0)
+    assert one == other
+
+
+@pytest.mark.parametrize("level", ["deterministic", "regression"])
+def test_lumped_bodies_warm_up_to_where_they_pass_their_heat_on(level):
+    scene, state, _ = cheap(CHEAP | LUMPED | {"tribofilm.model": "none", "wear.model": "none"})
+    scene = scene.at_level(level)
+    op = sliding(scene, 0.25, 0.5)
+    outputs = None
+    for _ in range(8):
+        state, outputs = advance(scene, op, state, 10.0)
+    state, outputs = advance(scene, op, state, 0.0)
+    law = scene.heat.bulk
+    assert outputs.temperature_1 - op.temperature == pytest.approx(outputs.heat_flow_1 / law.conductance_1, rel=0.03)
+    assert outputs.temperature_2 - op.temperature == pytest.approx(outputs.heat_flow_2 / law.conductance_2, rel=0.03)
+    assert outputs.temperature_1 > op.temperature + 0.1
+    assert (outputs.temperature_1, outputs.temperature_2) == state.temperatures
+
+
+@pytest.mark.parametrize("level", ["deterministic", "regression"])
+def test_spin_wears_and_grows_film_without_sliding(level):
+    scene, state, point = cheap()
+    scene = scene.at_level(level)
+    rolling = replace(point, speed_1=point.speed_2)
+    _, still = advance(scene, rolling, state, 30.0)
+    _, spun = advance(scene, replace(rolling, spin=500.0), state, 30.0)
+    assert still.wear_volume_1 == still.tribofilm_1 == still.power_loss == 0.0
+    assert spun.wear_volume_1 > 0.0 and spun.wear_volume_2 > 0.0 and spun.tribofilm_1 > 0.0
+    assert spun.power_loss == pytest.approx(-spun.spin_torque * 500.0, rel=1e-9)
+    assert abs(spun.friction_force) < 0.02 * spun.friction_coefficient * point.load + 1e-3 * point.load
