@@ -105,20 +105,26 @@ def write_figure(dataset: xr.Dataset, path: Path) -> Path:
 
 
 def figure(dataset: xr.Dataset, title: str = "") -> "Figure":
-    """Friction, film ratio, load and area of the solids against speed, a line for each rubbing time."""
+    """Friction, film ratio, load and area of the solids against speed, a line for each rubbing time.
+
+    A hollow point stands for film solutions that have missed the tolerance, or a dry one in their place.
+    """
     from matplotlib import colormaps
     from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
 
     shown = dataset.where(dataset["lambda_ratio"] < 1e3)  # at its cap it says nothing
+    speeds = dataset["entrainment_speed"].values
+    unsure = (dataset["range_flags"].values & (RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK)) > 0
     figure = Figure(figsize=(9.0, 7.0), layout="constrained")
     axes = figure.subplots(2, 2, sharex=True)
     colours = colormaps["viridis"](np.linspace(0.0, 0.9, dataset.sizes["rubbing_time"]))
     for axis, (name, label, level) in zip(axes.flat, _PANELS, strict=True):
         values = shown[name] if name == "lambda_ratio" else dataset[name]
         for text, colour, row in zip(minutes(dataset), colours, values.values, strict=True):
-            axis.plot(
-                dataset["entrainment_speed"].values, row, "o-", color=colour, markersize=3.5, linewidth=1.4, label=text
-            )
+            axis.plot(speeds, row, "o-", color=colour, markersize=3.5, linewidth=1.4, label=text)
+        for colour, row, doubtful in zip(colours, values.values, unsure, strict=True):
+            axis.plot(speeds[doubtful], row[doubtful], "o", color=colour, markersize=3.5, markerfacecolor="white")
         if level is not None:
             axis.axhline(level, color="0.7", linewidth=0.8, linestyle="--", zorder=0)
         axis.set_xscale("log")
@@ -127,7 +133,13 @@ def figure(dataset: xr.Dataset, title: str = "") -> "Figure":
         axis.spines[["top", "right"]].set_visible(False)
     for axis in axes[-1]:
         axis.set_xlabel("entrainment speed [m/s]")
-    axes[0, 0].legend(title="rubbed [min]", frameon=False)
+    legend = [Line2D([], [], color=colour, label=text) for text, colour in zip(minutes(dataset), colours, strict=True)]
+    if unsure.any():
+        legend.append(
+            Line2D([], [], color="0.4", marker="o", markersize=3.5, markerfacecolor="white", linestyle="none")
+        )
+        legend[-1].set_label("not converged")
+    axes[0, 0].legend(handles=legend, title="rubbed [min]", frameon=False)
     figure.align_ylabels()
     figure.suptitle(title or _title(dataset), fontsize="medium")
     return figure

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contact_core import ContactState, ConvergenceError, OperatingPoint, Outputs, Scene, advance
+from contact_core import ContactState, ConvergenceError, OperatingPoint, Outputs, RangeFlag, Scene, advance
 from contact_core.errors import ContactError
 from contact_core.quantities import TABLE
 from system_models import stribeck, stribeck_report
@@ -264,7 +264,18 @@ def test_the_picture_has_four_panels_with_a_line_for_each_time(swept: xr.Dataset
         for line, values in zip(axis.lines[:2], swept[name].values, strict=True):
             np.testing.assert_array_equal(line.get_xdata(), swept["entrainment_speed"])
             np.testing.assert_array_equal(line.get_ydata(), values)
-    assert [text.get_text() for text in axes[0].get_legend().get_texts()] == ["0", "1.2"]
+    assert [text.get_text() for text in axes[0].get_legend().get_texts()][:2] == ["0", "1.2"]
+
+
+def test_points_that_are_not_converged_are_hollow(swept: xr.Dataset) -> None:
+    flags = np.zeros(swept["range_flags"].shape, int)
+    flags[1, 2] = int(RangeFlag.NOT_CONVERGED | RangeFlag.INLET_UNRESOLVED)
+    flags[0, 0] = int(RangeFlag.INLET_UNRESOLVED)
+    axis = stribeck_report.figure(swept.assign(range_flags=swept["range_flags"].copy(data=flags))).axes[0]
+    hollow = [line for line in axis.lines if str(line.get_markerfacecolor()) == "white"]
+    drawn = [(x, y) for line in hollow for x, y in zip(line.get_xdata(), line.get_ydata(), strict=True)]
+    assert drawn == [(swept["entrainment_speed"][2], swept["friction_coefficient"][1, 2])]
+    assert axis.get_legend().get_texts()[-1].get_text() == "not converged"
 
 
 def test_the_command_prints_a_table_and_writes_three_files(
