@@ -11,7 +11,7 @@ from .film.instant import FilmSolution, FilmState, Grid, Instant
 from .friction import Film, Friction, friction
 from .laws.heat import Temperatures
 from .laws.tribofilm import thickness
-from .oil import next_ease, sheared, solve_flow, warmed
+from .oil import left_behind, sheared, solve_flow, warmed
 from .patches import bare_heights, contact_grid, heights_of, on_grid, patch_nodes, roughness_of
 from .scene import OperatingPoint, Scene
 from .state import ContactState
@@ -103,6 +103,7 @@ def solve(
     covers = film_1 / full, film_2 / full
     grid = contact_grid(scene, state.rows)
     cover = 0.5 * (covers[0] + covers[1])
+    now = replace(instant_of(scene, op, heights, limit), dry=dry, solid_share=solid_share)
     before = state.film if transient else None
     if op.load == 0.0:
         film = _open(scene, grid, heights)
@@ -114,13 +115,12 @@ def solve(
             op,
             grid,
             cover,
-            replace(instant_of(scene, op, heights, limit), dry=dry, solid_share=solid_share),
+            now,
             before,
             lambda now, start: level.solve(now, grid, start, follows, most),
             level.tolerance,
         )
     found, stress, warm, shortfall = warmed(scene, op, sheared(grid, film, cover, op.inlet_temperature), before)
-    ease = film.state.ease if op.load == 0.0 or dry else next_ease(scene, op, found, film.state.ease)
     return ContactFields(
         x=grid.x,
         y=grid.y,
@@ -139,7 +139,7 @@ def solve(
         friction=friction(stress, grid),
         sheared=found,
         temperatures=warm,
-        film=replace(film.state, ease=ease, warmth=np.atleast_2d(found.temperature - op.inlet_temperature)),
+        film=left_behind(scene, op, now, film, found),
         converged=film.converged and not shortfall,
         shortfall="; ".join(said for said in (film.shortfall, shortfall) if said),
         route=film.route,

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .film.instant import FilmSolution, FilmState, Grid, Instant
-from .film.thinning import flow_ease, solve_thinning
+from .film.thinning import eased, solve_thinning
 from .friction import Film, Shear, shear, sliding
 from .laws.heat import Temperatures
 from .reference import inlet_shear_factor
@@ -100,38 +100,43 @@ def solve_flow(
     solve: Callable[[Instant, FilmState | None], FilmSolution],
     tolerance: float,
 ) -> FilmSolution:
-    """The film of an instant with the flow that the scene asks for; `solve` is the solution under a given ease.
+    """The film of an instant with the flow that the scene asks for; `solve` is the solution for one state of the oil.
 
-    A march takes the ease of the instant before, a steady film (`before` None) repeats until both fit.
+    A march takes the oil as the instant before has left it, a steady film (`before` None) repeats until both fit.
     """
     inlet = inlet_ease(scene, op)
-    now = replace(now, ease=np.full(grid.shape, inlet) if inlet != 1.0 else None)
+    if inlet != 1.0:
+        now = replace(now, ease=np.full(grid.shape, inlet))
     if scene.lubricant.flow == "newtonian" or now.dry or op.entrainment_speed == 0.0:
         return solve(now, before)
     if before is not None:
-        return solve(replace(now, ease=np.broadcast_to(before.ease, grid.shape).copy()), before)
+        ease, thinned = (field if field.size > 1 else None for field in (before.ease, before.thinned))
+        return solve(replace(now, ease=now.ease if ease is None else ease, thinned=thinned), before)
 
-    def ease_of(found: FilmSolution, ease: Array | None) -> Array:
+    def ease(now: Instant, found: FilmSolution) -> Instant:
         film = warmed(scene, op, sheared(grid, found, cover, op.inlet_temperature), None)[0]
-        return next_ease(scene, op, film, ease)
+        return _worked(scene, op, now, found, film)
 
-    return solve_thinning(now, solve, ease_of, tolerance)
+    return solve_thinning(now, solve, ease, tolerance)
 
 
-def next_ease(scene: Scene, op: OperatingPoint, film: Film, ease: Array | None) -> Array:
-    """`Instant.ease` of a film that was solved under another one."""
-    inlet = inlet_ease(scene, op)
-    if scene.lubricant.flow == "newtonian":
-        return np.full((1, 1), inlet)
-    viscosity = scene.lubricant.viscosity
-    found = flow_ease(
-        scene.lubricant.rheology,
-        sliding(op, film.grid)[0],
-        film.gap,
-        film.fluid,
-        film.grid.spacing,
-        viscosity(film.fluid, film.temperature),
-        viscosity(film.fluid, op.inlet_temperature),
-        None if ease is None else ease / inlet,
+def _worked(scene: Scene, op: OperatingPoint, now: Instant, found: FilmSolution, film: Film) -> Instant:
+    """An instant with the oil as a film `found` has left it."""
+    inlet, viscosity = inlet_ease(scene, op), None
+    if inlet != 1.0 or scene.heat.warms_film:
+        viscosity = scene.lubricant.viscosity(film.fluid, film.temperature) / inlet
+    speed = sliding(op, film.grid)[0]
+    return eased(now, found, scene.lubricant.rheology, speed, film.grid.spacing, viscosity)
+
+
+def left_behind(scene: Scene, op: OperatingPoint, now: Instant, found: FilmSolution, film: Film) -> FilmState:
+    """The state of a film with its oil as the next instant of a march takes it over."""
+    state = replace(found.state, warmth=np.atleast_2d(film.temperature - op.inlet_temperature))
+    if scene.lubricant.flow == "newtonian" or found.route != "mixed":
+        return state
+    then = _worked(scene, op, now, found, film)
+    return replace(
+        state,
+        ease=np.ones((1, 1)) if then.ease is None else then.ease,
+        thinned=np.zeros((1, 1)) if then.thinned is None else then.thinned,
     )
-    return inlet * found

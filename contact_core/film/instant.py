@@ -61,13 +61,15 @@ class Instant:
     hardness: float  # no limit is above it
     dry: bool = False  # leave the film out
     solid_share: float = 1.0  # of the load of such a contact; the rest lies on oil, spread as in Hertz's contact
-    ease: Array | None = None  # how many times easier oil flows at a node than `viscosity` says; None: as it says
+    ease: Array | None = None  # how many times easier oil flows at a node than `viscosity` says: by warmth
+    thinned: Array | None = None  # fluidity [1/(Pa s)] that shear adds to that at a node
 
     def mirrored(self) -> "Instant":
         """The instant seen from the other side: entrained the other way."""
         heights, limit = np.ascontiguousarray(self.heights[:, ::-1]), np.ascontiguousarray(self.limit[:, ::-1])
-        ease = None if self.ease is None else np.ascontiguousarray(self.ease[:, ::-1])
-        return replace(self, entrainment_speed=-self.entrainment_speed, heights=heights, limit=limit, ease=ease)
+        ease, thinned = (None if f is None else np.ascontiguousarray(f[:, ::-1]) for f in (self.ease, self.thinned))
+        back = replace(self, entrainment_speed=-self.entrainment_speed, heights=heights, limit=limit)
+        return replace(back, ease=ease, thinned=thinned)
 
 
 @dataclass(frozen=True)
@@ -90,19 +92,19 @@ class FilmState:
     solid: Mask
     mass: Array  # density ratio times film thickness
     rigid_gap: float  # gap of the undeformed, smooth bodies at the centre
-    ease: Array = field(default_factory=lambda: np.ones((1, 1)))  # `Instant.ease` of the next; [1, 1]: everywhere
-    warmth: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of the film above the inlet [K]; [1, 1] as well
+    ease: Array = field(default_factory=lambda: np.ones((1, 1)))  # of the next instant; [1, 1]: everywhere
+    thinned: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of the next instant
+    warmth: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of the film above the inlet [K]
 
     def __post_init__(self) -> None:
-        for array in (self.pressure, self.fluid, self.solid, self.mass, self.ease, self.warmth):
+        for array in (self.pressure, self.fluid, self.solid, self.mass, self.ease, self.thinned, self.warmth):
             array.setflags(write=False)
 
     def mirrored(self) -> "FilmState":
         """The state seen from the other side."""
-        fields = (self.pressure, self.fluid, self.mass, self.ease, self.warmth)
-        pressure, fluid, mass, ease, warmth = (np.ascontiguousarray(f[:, ::-1]) for f in fields)
-        solid = np.ascontiguousarray(self.solid[:, ::-1])
-        return FilmState(pressure, fluid, solid, mass, self.rigid_gap, ease, warmth)
+        fields = (self.pressure, self.fluid, self.mass, self.ease, self.thinned, self.warmth)
+        pressure, fluid, mass, *oil = (np.ascontiguousarray(f[:, ::-1]) for f in fields)
+        return FilmState(pressure, fluid, np.ascontiguousarray(self.solid[:, ::-1]), mass, self.rigid_gap, *oil)
 
 
 @dataclass(frozen=True)

@@ -168,8 +168,8 @@ class _Solver:
 
 def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:
     """The same instant on a grid of half the nodes."""
-    ease = None if now.ease is None else restrict(now.ease)
-    instant = replace(now, heights=restrict(now.heights), limit=restrict(now.limit), ease=ease)
+    ease, thinned = (None if field is None else restrict(field) for field in (now.ease, now.thinned))
+    instant = replace(now, heights=restrict(now.heights), limit=restrict(now.limit), ease=ease, thinned=thinned)
     return instant, Grid(restrict(grid.x), restrict(grid.y))
 
 
@@ -177,8 +177,8 @@ def prolonged(state: FilmState, shape: tuple[int, int]) -> FilmState:
     """A film state of the coarser grid on one of `shape` nodes [ny, nx]."""
     pressure, fluid, mass = (prolong(field, shape) for field in (state.pressure, state.fluid, state.mass))
     solid = prolong(state.solid.astype(np.float64), shape) > 0.5
-    ease = state.ease if state.ease.size == 1 else prolong(state.ease, shape)
-    return FilmState(pressure, fluid, solid, mass, state.rigid_gap, ease)
+    oil = (field if field.size == 1 else prolong(field, shape) for field in (state.ease, state.thinned))
+    return FilmState(pressure, fluid, solid, mass, state.rigid_gap, *oil)
 
 
 def _usable(solution: Solution) -> bool:

@@ -24,7 +24,7 @@ _DRY_TOLERANCE = 1e-6
 _DRY_ITERATIONS = 1000
 _START_TOLERANCE = 1e-2
 _SOLID_SHARE = 0.85  # of the load in `shared_start`: the best of 0.03 to 0.95 from light contact to nearly dry
-_LEAST_EASE = 1e-6  # of the oil in film formulas
+_LEAST_EASE = 1e-6  # what flows less does not flow
 _FAR_FIELD_BELOW = 30.0  # Moes' M: above, what lies beyond a film-sized grid changes the film by less than 1 %
 
 
@@ -65,15 +65,20 @@ class Scaled:
         smooth = SmoothContact.of(
             now.load, now.entrainment_speed, *oil, now.radius_x, now.radius_y, now.reduced_modulus
         )
-        if now.ease is None:
+        if now.ease is None and now.thinned is None:
             return smooth
-        return replace(smooth, viscosity=smooth.viscosity / self._inlet_ease(now.ease, smooth))
+        before = self.a + inlet_length(self.a, now.radius_x, nijenbanning_venner_moes(smooth))
+        at = np.abs(self.grid.y).argmin(), np.abs(self.grid.x + before).argmin()  # where the film builds up
+        ease, thinned = self._oil(smooth.viscosity)
+        return replace(smooth, viscosity=smooth.viscosity / float(ease[at] * (1.0 + thinned[at])))
 
-    def _inlet_ease(self, ease: Array, smooth: SmoothContact) -> float:
-        """The ease where the film builds up: at an inlet length before Hertz's contact."""
-        before = self.a + inlet_length(self.a, self.now.radius_x, nijenbanning_venner_moes(smooth))
-        j, i = np.abs(self.grid.y).argmin(), np.abs(self.grid.x + before).argmin()
-        return max(float(ease[j, i]), _LEAST_EASE)
+    def _oil(self, viscosity: float) -> tuple[Array, Array]:
+        """Ease of every node, at least a little, and what shear adds to the fluidity, relative to the eased one at p =
+        0, whose viscosity [Pa s] is given.
+        """
+        ease, thinned = self.now.ease, self.now.thinned
+        ease = np.ones(self.grid.shape) if ease is None else np.maximum(ease, _LEAST_EASE)
+        return ease, np.zeros(self.grid.shape) if thinned is None else thinned * viscosity / ease
 
     @cached_property
     def smooth_film(self) -> float:
@@ -98,13 +103,15 @@ class Scaled:
         fluidity, density, viscosity = _tables(now.viscosity, now.density, now.temperature, top)
         mobility = self.size**3 * self.p_unit / (12.0 * viscosity * now.entrainment_speed * now.radius_x**2)
         edge, weight = self._beyond
+        ease, thinned = self._oil(viscosity)
         return Problem(
             undeformed=self.undeformed,
             cap=self.cap,
             floor=self.floor,
             spacing=self.dx,
             load=self.load,
-            mobility=np.full(self.cap.shape, mobility) if now.ease is None else mobility * now.ease,
+            mobility=mobility * ease,
+            thinned=thinned,
             per_dt=per_dt,
             mass_old=np.zeros_like(self.cap) if mass is None else mass,
             fluidity=fluidity,
@@ -186,7 +193,8 @@ class Scaled:
             it.solid,
             found.mass * self.h_unit,
             it.rigid * self.h_unit,
-            *(() if self.now.ease is None else (self.now.ease,)),
+            np.ones((1, 1)) if self.now.ease is None else self.now.ease,
+            np.zeros((1, 1)) if self.now.thinned is None else self.now.thinned,
         )
         capped = it.solid & (it.pressure >= self.cap)
         overlap = np.where(capped, np.maximum(self.floor - found.gap, 0.0), 0.0) * self.h_unit

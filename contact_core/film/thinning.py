@@ -1,23 +1,26 @@
-"""How much more easily oil flows through a film than its Newtonian viscosity says: thinned by shear, or warmer.
+"""How oil flows through a film that thins it by shear, or warms it.
 
 A generalised Newtonian oil is sheared by sliding and by its pressure gradient together. Across a film of thickness h
 the stress is tau_m + z grad p, |z| < h/2, and the rate of shear E(|tau|) tau / eta. The sliding speed, integral of
-the rate, and the pressure flow, integral of -z times the rate, determine tau_m and grad p; the ease is that flow over
-what the same gradient would drive at constant viscosity, -(h^3 / 12 eta) grad p. It is taken at the pressure flow of
-the film at hand rather than at its gradient: continuity holds the flow, whatever the oil, so repeated solutions settle,
-and stresses stay finite where pressures jump. In a converged film both are the same.
+the rate, and the pressure flow, integral of -z times the rate, determine tau_m and grad p. The oil flows as if its
+fluidity were 1/eta times that flow over what the same gradient drives at constant viscosity, -(h^3 / 12 eta) grad p.
 
-One factor serves both directions: that of a gradient along the sliding speed, with the size of grad p. It is exact in
+Two choices let repeated solutions settle. The flow is that of the film at hand, not its gradient: continuity holds the
+flow, whatever the oil, and stresses stay finite where pressures jump. And what shear adds to the fluidity is kept, not
+its ratio to 1/eta: sheared hard, an oil flows nearly as if its pressure did not matter (Eyring's: tau_E h / sliding
+speed for its viscosity), so that the sum stays right where pressures change by the next solution.
+
+One fluidity serves both directions: that of a gradient along the sliding speed, with the size of grad p. It is exact in
 pure rolling, and along x. Across a fast sliding film it is too large: by the ratio of tangent to secant of the flow
-curve, at most 1/n for a power n.
+curve, 1/n at most for a power n.
 
 The limiting stress is left out: where it acts the oil does not flow under pressure but slips.
 
-Sources: Johnson & Greenwood, Wear 61 (1980) 353, doi:10.1016/0043-1648(80)90298-4 (the flow of an Eyring oil in closed
-form); Yang & Wen, J. Tribol. 112 (1990) 631, doi:10.1115/1.2920308 (generalised Reynolds equation).
+Sources: Johnson & Greenwood, Wear 61 (1980) 353, doi:10.1016/0043-1648(80)90298-4 (an Eyring oil in closed form); Yang
+& Wen, J. Tribol. 112 (1990) 631, doi:10.1115/1.2920308 (generalised Reynolds equation).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any, Protocol
@@ -31,9 +34,10 @@ _STIFFEST = 1e30  # Pa: no stress of a Newtonian oil above matters
 _LEAST = (1e-4, 1e-3)  # pressed stress: share of the sheared one, and Pa. Below, the oil yields as at a vanishing one
 _LOG_STRESS = np.linspace(np.log(1e-2), np.log(1e11), 8193)  # Pa
 _SOLUTIONS = 12  # of a steady film, at most
+_SLOW = 0.6  # of the change before, above which the oil goes only half the way from then on
 
 
-class Rheology(Protocol):
+class Rheology(Hashable, Protocol):
     """A law of `laws.rheology`."""
 
     @property
@@ -47,36 +51,72 @@ class Rheology(Protocol):
         """How many times easier than a Newtonian one the oil shears at a stress [Pa]."""
 
 
-def flow_ease(
+def thinned_fluidity(
     rheology: Rheology,
     sliding: float | Array,
     gap: Array,
     pressure: Array,
     spacing: float,
     viscosity: Array,
-    reference: Array,
-    before: Array | None = None,
+    flowing: Array | None = None,
 ) -> Array:
-    """`Instant.ease` of a film that was solved under the ease `before` (None: everywhere 1). Arrays [ny, nx].
+    """What shear adds to the fluidity of the oil at every node [1/(Pa s)]: `Instant.thinned`. Arrays [ny, nx].
 
     sliding [m/s]; gap [m]; fluid pressure [Pa]; spacing of the nodes [m]; Newtonian viscosity [Pa s] at the pressures
-    and temperatures of the film, and `reference` [Pa s], that at the pressures and the temperature of the instant.
+    and temperatures of the film; `flowing`: fluidity that the film was solved with, None for 1 / viscosity.
     """
-    warmer = reference / viscosity
     if not rheology.thins:
-        return warmer
-    along_y, along_x = np.gradient(pressure, spacing)
-    pressed = 0.5 * gap * np.hypot(along_x, along_y) / warmer
-    if before is not None:
-        pressed *= before
+        return np.zeros_like(gap)
+    pressed = 0.5 * gap * _steepness(pressure, spacing)
+    if flowing is not None:
+        pressed *= viscosity * flowing
     sheared = np.minimum(viscosity * np.abs(sliding) / gap, _STIFFEST)
     pressed = np.clip(pressed, np.maximum(_LEAST[0] * sheared, _LEAST[1]), _STIFFEST)
     unlimited = np.full_like(gap, np.inf)
     upper, lower = rheology(sheared + pressed, unlimited), rheology(sheared - pressed, unlimited)
     mean, half = 0.5 * (upper + lower), 0.5 * (upper - lower)
     table = (_LOG_STRESS[0], _LOG_STRESS[1] - _LOG_STRESS[0], _log_ease(rheology))
-    stress_of_flow(*(field.ravel() for field in (sheared, pressed, mean, half)), *table)
-    return warmer * pressed / half
+    stress_of_flow(sheared.ravel(), pressed.ravel(), mean.ravel(), half.ravel(), *table)
+    return np.maximum(pressed / half - 1.0, 0.0) / viscosity
+
+
+def eased(
+    now: Instant,
+    found: FilmSolution,
+    rheology: Rheology,
+    sliding: float | Array,
+    spacing: float,
+    viscosity: Array | None = None,
+) -> Instant:
+    """The instant with the ease and the thinning of a film `found` for it, or for one before.
+
+    sliding [m/s]; spacing of the nodes [m]; `viscosity`: of the Newtonian oil at the pressures of the film and its
+    temperatures [Pa s], None: at that of the instant. An oil that neither thins nor is warmer leaves the instant as it
+    is.
+    """
+    if viscosity is None and not rheology.thins:
+        return now
+    state = found.state
+    reference = now.viscosity(state.fluid, now.temperature)
+    ease = None if viscosity is None else reference / viscosity
+    thinned = None
+    if rheology.thins:
+        viscosity, flowing = reference if viscosity is None else viscosity, state.ease / reference + state.thinned
+        thinned = thinned_fluidity(rheology, sliding, found.gap, state.fluid, spacing, viscosity, flowing)
+    return replace(now, ease=ease, thinned=thinned)
+
+
+def _steepness(pressure: Array, spacing: float) -> Array:
+    """Size of the pressure gradient of every node [Pa/m], root mean square of the slopes to its neighbours: a central
+    difference would not see the flow between the node of a peak and its neighbours.
+    """
+    square = np.zeros_like(pressure)
+    for axis in range(2):
+        slope_2 = (np.diff(pressure, axis=axis) / spacing) ** 2
+        low, high = ((1, 0), (0, 1))
+        wide = [np.pad(slope_2, [side if k == axis else (0, 0) for k in range(2)], "edge") for side in (low, high)]
+        square += 0.5 * (wide[0] + wide[1])
+    return np.sqrt(square)
 
 
 @lru_cache(maxsize=8)
@@ -87,27 +127,41 @@ def _log_ease(rheology: Any) -> Array:
 def solve_thinning(
     now: Instant,
     solve: Callable[[Instant, FilmState | None], FilmSolution],
-    ease_of: Callable[[FilmSolution, Array | None], Array],
+    ease: Callable[[Instant, FilmSolution], Instant],
     tolerance: float,
 ) -> FilmSolution:
-    """Steady film whose ease fits it: solved anew under the ease of the film before until it stands still.
+    """Steady film whose ease and thinning fit it: solved anew with those of the film before until it stands still.
 
-    `solve` an instant from a film state or from nothing; `ease_of` a film and the ease that it was solved under;
-    `tolerance`: relative change of the film, weighted by pressure. What is returned holds the ease it was solved with,
-    and the iterations of all solutions. Without a film it is the first solution.
+    `solve` an instant from a film state, or from nothing; `ease`: the instant with what a film of it makes of the oil,
+    itself if nothing (`eased`); `tolerance`: relative change of the film, weighted by pressure. What is returned holds
+    what it was solved with, and the iterations of all solutions. Without a film it is the first solution.
     """
     found = solve(now, None)
-    spent, change = found.iterations, np.inf
+    spent, change, part = found.iterations, np.inf, 1.0
     for _ in range(_SOLUTIONS - 1):
-        if found.route != "mixed":
+        next_one = ease(now, found)
+        if found.route != "mixed" or next_one is now:
             return replace(found, iterations=spent)
-        now = replace(now, ease=ease_of(found, now.ease))
+        now = _between(now, next_one, part)
         before, found = found, solve(now, found.state)
-        spent, change = spent + found.iterations, _change(before, found)
-        if change < tolerance:
+        last, change = change, _change(before, found)
+        spent += found.iterations
+        if change < tolerance * part:
             return replace(found, iterations=spent)
-    why = f"the film changes with its ease by {change:.2g} in solution {_SOLUTIONS}, not below {tolerance:g}"
+        if change > _SLOW * last:
+            part *= 0.5
+    why = f"the film changes with its oil by {change:.2g} in solution {_SOLUTIONS}, not below {tolerance:g}"
     return replace(found, iterations=spent, converged=False, shortfall="; ".join(filter(None, (found.shortfall, why))))
+
+
+def _between(now: Instant, then: Instant, part: float) -> Instant:
+    """An instant a part of the way to the oil of another one."""
+    ease, thinned = then.ease, then.thinned
+    if now.ease is not None and ease is not None:
+        ease = now.ease + part * (ease - now.ease)
+    if now.thinned is not None and thinned is not None:
+        thinned = now.thinned + part * (thinned - now.thinned)
+    return replace(then, ease=ease, thinned=thinned)
 
 
 def _change(before: FilmSolution, found: FilmSolution) -> float:

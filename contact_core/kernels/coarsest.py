@@ -84,7 +84,7 @@ def condensed(matrix, edge, mirror):  # type: ignore[no-untyped-def]
 
 @_jit
 def assemble(  # type: ignore[no-untyped-def]
-    p, h, mass, e, rho, soft, f, edge, weight, missing, lift, dx, mirror, fluidity, step, jacobian, right
+    p, h, mass, e, rho, soft, f, edge, weight, missing, lift, dx, mirror, thinned, fluidity, step, jacobian, right
 ):
     """Jacobian and right side of the next change of pressures and rigid gap, each equation per its diagonal.
 
@@ -116,7 +116,8 @@ def assemble(  # type: ignore[no-untyped-def]
                 jacobian[at, n] -= by_gap / diagonal
                 place, thinner = int(p[row, column] / step), 0.0
                 if p[row, column] > 0.0 and place < fluidity.size - 1:
-                    thinner = (fluidity[place + 1] - fluidity[place]) / (step * max(fluidity[place], 1e-300))
+                    fluid = max(fluidity[place] + thinned[row, column], 1e-300)
+                    thinner = (fluidity[place + 1] - fluidity[place]) / (step * fluid)
                 directly = by_p[k] + by_mass[k] * soft[row, column] + by_e[k] * e[row, column] * thinner
                 m, ratio = _inner(row, column, edge, mirror)
                 jacobian[at, m] -= ratio * directly / diagonal

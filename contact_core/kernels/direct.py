@@ -29,7 +29,7 @@ _PROBE = 1e-6  # part of a film by which the rigid gap is moved to see what flow
 
 
 @_jit
-def _response(f, solid, h, floor, mobility, fluidity, density, step, mass_old, per_dt, dx, gap, out):  # type: ignore[no-untyped-def]
+def _response(f, solid, h, floor, mobility, thinned, fluidity, density, step, mass_old, per_dt, dx, gap, out):  # type: ignore[no-untyped-def]
     """Change of the net inflow of mass of every fluid node with the rigid gap; `gap` is the change that is tried."""
     ny, nx = f.shape
     mass, e, r = np.empty((2, ny, nx)), np.empty((2, ny, nx)), np.zeros((2, ny, nx))
@@ -39,7 +39,8 @@ def _response(f, solid, h, floor, mobility, fluidity, density, step, mass_old, p
                 flow = floor if solid[j, i] else max(h[j, i] + way * gap, floor)
                 rho = reynolds.interpolate(density, step, f[j, i])
                 mass[way, j, i] = rho * flow
-                e[way, j, i] = mobility[j, i] * rho * flow**3 * reynolds.interpolate(fluidity, step, f[j, i])
+                phi = reynolds.interpolate(fluidity, step, f[j, i]) + thinned[j, i]
+                e[way, j, i] = mobility[j, i] * rho * flow**3 * phi
         reynolds.residual(f, solid, mass[way], mass_old, e[way], per_dt, dx, r[way])
     for j in range(ny):
         for i in range(nx):
@@ -199,7 +200,7 @@ class _Direct(Iteration):
         """Steps of the free nodes into `base`, their change with the rigid gap into the lever."""
         q, p = self.problem, self.p
         scale = _PROBE * float(np.maximum(self.h, q.floor).min())
-        oil = (q.mobility, q.fluidity, q.density, q.step)
+        oil = (q.mobility, q.thinned, q.fluidity, q.density, q.step)
         in_time = (q.mass_old, q.per_dt, q.spacing)
         _response(self.f, self.solid, self.h, q.floor, *oil, *in_time, scale, self.response)
         film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.spacing)

@@ -57,16 +57,20 @@ class Level:
         self._wedge, self._wedge_soft = relaxation.line_kernels(self._transforms.near * self.scale, self.dx)
         shape = (self.rows, self.nx)
         self.p, self.h, self.mass, self.e, self.rho, self.soft, self.f = (np.zeros(shape) for _ in range(7))
-        self.undeformed, self.base, self.edge, self.weight, self.mobility = (np.zeros(shape) for _ in range(5))
+        self.undeformed, self.base, self.edge, self.weight = (np.zeros(shape) for _ in range(4))
+        self.mobility, self.thinned = np.zeros(shape), np.zeros(shape)
         self.offset, self.before, self.work = (np.zeros(shape) for _ in range(3))
         self.target, self.rigid, self.rigid_before = 0.0, 0.0, 0.0
 
-    def set_bodies(self, undeformed: Array, mobility: Array, edge: Array, weight: Array) -> None:
+    def set_bodies(self, undeformed: Array, edge: Array, weight: Array) -> None:
         """Take over arrays [ny, nx]."""
-        fields = (undeformed, mobility, edge, weight)
-        self.undeformed[:], self.mobility[:], self.edge[:], self.weight[:] = (f[: self.rows] for f in fields)
+        self.undeformed[:], self.edge[:], self.weight[:] = (f[: self.rows] for f in (undeformed, edge, weight))
         if self.mirror:
             self.weight[:-1] *= 2.0  # each row but the last stands for two
+
+    def set_oil(self, mobility: Array, thinned: Array) -> None:
+        """Take over arrays [ny, nx]."""
+        self.mobility[:], self.thinned[:] = mobility[: self.rows], thinned[: self.rows]
 
     def state_problem(self, load: float) -> None:
         """The problem itself, without corrections of a finer level. `load`: integral of the pressure."""
@@ -84,8 +88,8 @@ class Level:
     def _film(self, deformation: Array) -> None:
         oil = self._problem
         relaxation.film_pass(
-            self.p, self.base, deformation, self.scale, self.rigid, self.mobility, oil.fluidity, oil.density, oil.step,
-            self.h, self.mass, self.e, self.rho, self.soft,
+            self.p, self.base, deformation, self.scale, self.rigid, self.mobility, self.thinned,
+            oil.fluidity, oil.density, oil.step, self.h, self.mass, self.e, self.rho, self.soft,
         )  # fmt: skip
 
     def relax(self, single: float, spread: float) -> None:
@@ -137,7 +141,7 @@ class Level:
         missing = (self.target - self.load()) / self.dx**2
         coarsest.assemble(
             self.p, self.h, self.mass, self.e, self.rho, self.soft, self.f, self.edge, self.weight, missing, lift,
-            self.dx, self.mirror, self._problem.fluidity, self._problem.step, jacobian, change,
+            self.dx, self.mirror, self.thinned, self._problem.fluidity, self._problem.step, jacobian, change,
         )  # fmt: skip
         if coarsest.solve_dense(jacobian, change) and np.isfinite(change).all():  # else finer levels do without
             part = min(1.0, _LARGEST_STEP / max(float(np.abs(change[:-1]).max()), 1e-300))

@@ -49,6 +49,7 @@ class Problem:
     spacing: float
     load: float  # sum of weight * p over the nodes
     mobility: Array  # pressure flow of a unit's gap, gradient and fluidity
+    thinned: Array  # what shear adds to the fluidity
     per_dt: float  # 1 / time step, 0: steady
     mass_old: Array  # mass of the previous instant
     fluidity: Array  # table of 1 / viscosity
@@ -277,7 +278,7 @@ class Iteration:
     def _film(self) -> None:
         """Gap, contacts, fluid pressure under them, mass balance, and the change of the gap that mends it."""
         q, p, f, solid = self.problem, self.p, self.f, self.solid
-        oil = (q.floor, q.mobility, q.fluidity, q.density, q.step)
+        oil = (q.floor, q.mobility, q.thinned, q.fluidity, q.density, q.step)
         film = (self.h, self.mass, self.e)
         gap = (q.undeformed, self.half_space.deform_padded(p), self.rigid)
         reynolds.film_pass(p, f, solid, *gap, *oil, *film, q.lumped)

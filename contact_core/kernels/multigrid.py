@@ -140,7 +140,8 @@ class _Multigrid:
 
 def is_symmetric(problem: Problem) -> bool:
     """Whether one half of the contact is the image of the other."""
-    fields = (problem.undeformed, problem.mobility, problem.edge, problem.weight)
+    oil = (problem.mobility, problem.thinned)
+    fields = (problem.undeformed, problem.edge, problem.weight, *oil)
     return fields[0].shape[0] % 2 == 1 and all(
         float(np.abs(f - f[::-1]).max()) <= _SYMMETRY * float(np.abs(f).max()) for f in fields
     )
@@ -181,7 +182,8 @@ def _levels(problem: Problem, x: Array, y: Array, library: str, film: float) -> 
             shape = (yk.size, xk.size)
             edge, weight = far_field(xk, yk, film) if far else (np.zeros(shape), np.ones(shape))
         every = np.s_[:: 2**k, :: 2**k]
-        level.set_bodies(surface[every], problem.mobility[every], edge, weight)
+        level.set_bodies(surface[every], edge, weight)
+        level.set_oil(problem.mobility[every], problem.thinned[every])
         levels.insert(0, level)
     return levels
 

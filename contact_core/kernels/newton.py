@@ -44,7 +44,7 @@ _jit = njit(cache=True, nogil=True, error_model="numpy")
 
 
 @_jit
-def _linearise(f, solid, h, m, e, floor, mobility, fluidity, density, step, dx, rate, slope, by_f, by_h):  # type: ignore[no-untyped-def]
+def _linearise(f, solid, h, m, e, floor, mobility, thinned, fluidity, density, step, dx, rate, slope, by_f, by_h):  # type: ignore[no-untyped-def]
     """Derivatives of the net inflow by fluid pressure and by gap on the stencil: by_f, by_h [6, ny, nx]. `slope`
     [4, ny, nx] is scratch: dm/df, dm/dh, de/df, de/dh.
     """
@@ -52,7 +52,8 @@ def _linearise(f, solid, h, m, e, floor, mobility, fluidity, density, step, dx, 
     for j in range(ny):
         for i in range(nx):
             k = min(int(f[j, i] / step), density.size - 2)
-            rho, phi = reynolds.interpolate(density, step, f[j, i]), reynolds.interpolate(fluidity, step, f[j, i])
+            rho = reynolds.interpolate(density, step, f[j, i])
+            phi = reynolds.interpolate(fluidity, step, f[j, i]) + thinned[j, i]
             d_rho, d_phi = (density[k + 1] - density[k]) / step, (fluidity[k + 1] - fluidity[k]) / step
             lift = 0.0 if solid[j, i] or h[j, i] <= floor else 1.0
             flow = floor if solid[j, i] else max(h[j, i], floor)
@@ -257,7 +258,7 @@ class _Film:
 
     def _pass(self) -> None:
         q, p, f, solid = self.problem, self.p, self.f, self.solid
-        oil = (q.floor, q.mobility, q.fluidity, q.density, q.step)
+        oil = (q.floor, q.mobility, q.thinned, q.fluidity, q.density, q.step)
         deformation = self.half_space.deform(p)
         solid |= self.inner & (self.rigid + q.undeformed + deformation < _TOUCH * q.floor)
         reynolds.film_pass(p, f, solid, q.undeformed, deformation, self.rigid, *oil, self.h, self.mass, self.e)
@@ -270,7 +271,7 @@ class _Film:
     def correction(self) -> tuple[Array, Array, float] | None:
         """Newton's changes of pressure, gap [ny, nx] and rigid gap; None if there are none."""
         q, solid, near = self.problem, self.solid, self.half_space.near
-        oil = (q.floor, q.mobility, q.fluidity, q.density, q.step)
+        oil = (q.floor, q.mobility, q.thinned, q.fluidity, q.density, q.step)
         by_f, by_h, scale = self.by_f, self.by_h, self.scale
         _linearise(self.f, solid, self.h, self.mass, self.e, *oil, q.spacing, q.per_dt, self.slope, by_f, by_h)
         yields = solid & (self.p >= q.cap) & (self.h < q.floor)

@@ -1,6 +1,6 @@
 """Passes over one level of a multigrid solver for smooth, fully flooded films: film, mass balance, line relaxation.
 
-    div(e grad p) - d(m)/dx = f where p > 0,   p >= 0,   m = rho h,   e = mobility rho h^3 / eta(p)
+    div(e grad p) - d(m)/dx = f where p > 0,   p >= 0,   m = rho h,   e = mobility rho h^3 (1 / eta(p) + thinned)
 
 Discretised as in `reynolds`. Fields are [rows, nx]. With `mirror` they are one half of a contact that is symmetric
 about its last row: what lies beyond it is the image of the row before it. Where the film of a coarse grid is negative
@@ -45,7 +45,7 @@ def line_kernels(near, dx):  # type: ignore[no-untyped-def]
 
 
 @_jit
-def film_pass(p, base, deformation, scale, rigid, mobility, fluidity, density, step, h, mass, e, rho, soft):  # type: ignore[no-untyped-def]
+def film_pass(p, base, deformation, scale, rigid, mobility, thinned, fluidity, density, step, h, mass, e, rho, soft):  # type: ignore[no-untyped-def]
     """Gap, mass, mobility, density and h d(rho)/dp of every node from the pressure and the deformation it makes."""
     rows, nx = p.shape
     last = fluidity.size - 1
@@ -68,7 +68,7 @@ def film_pass(p, base, deformation, scale, rigid, mobility, fluidity, density, s
             mass[j, i] = dense * gap
             rho[j, i] = dense
             soft[j, i] = open_gap * slope / step
-            e[j, i] = mobility[j, i] * dense * open_gap * open_gap * open_gap * ease + 1e-300
+            e[j, i] = mobility[j, i] * dense * open_gap * open_gap * open_gap * (ease + thinned[j, i]) + 1e-300
 
 
 @_jit

@@ -1,6 +1,7 @@
 """Passes over the film, in the units of `mixed.Problem`.
 
-    div(e grad f) - d(m)/dx - d(m)/dt = 0,   m = rho max(h, floor),   e = mobility rho max(h, floor)^3 / eta(f)
+    div(e grad f) - d(m)/dx - d(m)/dt = 0,   m = rho max(h, floor),
+    e = mobility rho max(h, floor)^3 (1 / eta(f) + thinned)
 
 f is the fluid pressure, solved everywhere; entrainment is along +x. Second order: central in pressure, upwind (1.5, -2,
 0.5) in the wedge. On nodes in solid contact (solid[j, i]) the gap is the floor and the total pressure p is at least
@@ -42,7 +43,22 @@ def _properties(p, per_step, density, fluidity):  # type: ignore[no-untyped-def]
 
 @_jit
 def film_pass(  # type: ignore[no-untyped-def]
-    p, f, solid, undeformed, deformation, rigid, floor, mobility, fluidity, density, step, h, mass, e, lumped=False
+    p,
+    f,
+    solid,
+    undeformed,
+    deformation,
+    rigid,
+    floor,
+    mobility,
+    thinned,
+    fluidity,
+    density,
+    step,
+    h,
+    mass,
+    e,
+    lumped=False,
 ):
     """Gap, new solid contacts, mass and mobility of every node, from the pressure.
 
@@ -67,7 +83,7 @@ def film_pass(  # type: ignore[no-untyped-def]
             flow = floor if touches else max(gap, floor)
             rho, fluid = _properties(f[j, i], per_step, density, fluidity)
             mass[j, i] = rho * flow
-            e[j, i] = mobility[j, i] * rho * fluid * (flow * flow * flow) + 1e-300
+            e[j, i] = mobility[j, i] * rho * (fluid + thinned[j, i]) * (flow * flow * flow) + 1e-300
 
 
 @_jit
@@ -82,7 +98,7 @@ def transport(mass, mass_old, per_dt, dx, j, i):  # type: ignore[no-untyped-def]
 
 @_jit
 def fluid_under_contacts(  # type: ignore[no-untyped-def]
-    p, f, solid, h, mass, mass_old, e, per_dt, dx, sweeps, floor, mobility, fluidity, density, step
+    p, f, solid, h, mass, mass_old, e, per_dt, dx, sweeps, floor, mobility, thinned, fluidity, density, step
 ):
     """Gauss-Seidel for the fluid pressure on solid contacts; releases those the fluid alone carries."""
     ny, nx = p.shape
@@ -109,7 +125,7 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
                 c[n, 4] = -transport(mass, mass_old, per_dt, dx, j, i) * part / half
                 n += 1
     pp, ff, hh, ee, mm, ss = p.ravel(), f.ravel(), h.ravel(), e.ravel(), mass.ravel(), solid.ravel()
-    ease = mobility.ravel()
+    ease, more = mobility.ravel(), thinned.ravel()
     for sweep in range(sweeps):
         last = sweep == sweeps - 1
         for m in range(count):
@@ -127,7 +143,7 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
             ff[k] = pp[k]
         rho, fluid = _properties(ff[k], per_step, density, fluidity)
         mm[k] = rho * floor
-        ee[k] = ease[k] * cube * rho * fluid + 1e-300
+        ee[k] = ease[k] * cube * rho * (fluid + more[k]) + 1e-300
 
 
 @_jit

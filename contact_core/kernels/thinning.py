@@ -16,9 +16,9 @@ def stress_of_flow(sheared, pressed, mean, half, log_least, log_step, log_ease):
     """Shear stresses mean + s half, s = -1...1 across the film, that go with a sliding and a pressure flow.
 
     All fields are flat, stresses in Pa. sheared, pressed: what a Newtonian oil of the same viscosity would need for
-    the same sliding (uniform) and for the same pressure flow (at the walls). `mean` and `half` hold the first guess, the
-    stresses at which a sheared oil would have the rates of the Newtonian one at both walls, and are improved in place. `log_ease`: table over the logarithm of the stress, from `log_least` in steps `log_step`, of
-    that of rate times viscosity over stress.
+    the same sliding (uniform) and for the same pressure flow (at the walls). `mean` and `half` hold the first guess,
+    that the rates at the walls are those of the Newtonian oil, and are improved in place. `log_ease`: logarithm of rate
+    times viscosity over stress, a table over the logarithm of the stress from `log_least` in steps `log_step`.
 
     The two conditions are the gradient of a convex function of (mean, half), whose minimum Newton's method seeks.
     """

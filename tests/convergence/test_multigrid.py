@@ -52,6 +52,7 @@ class Case:
             spacing=dx,
             load=2.0 * np.pi / 3.0 / dx**2,
             mobility=np.full_like(undeformed, s * mobility),
+            thinned=np.zeros_like(undeformed),
             per_dt=0.0,
             mass_old=np.zeros_like(undeformed),
             fluidity=np.exp(-np.minimum(exponent, 500.0)),

@@ -53,6 +53,7 @@ def contact(load, oil, points=65, rough=0.0, floor=1e-3, cap=30.0, wide=1.0):
         spacing=dx,
         load=2.0 * np.pi / 3.0 / dx**2,
         mobility=np.full(shape, 1.0 / (np.pi * (128.0 / (3.0 * load**4)) ** (1.0 / 3.0)) / shrink),
+        thinned=np.zeros(shape),
         per_dt=0.0,
         mass_old=np.zeros(shape),
         fluidity=np.exp(-np.minimum(thickening * pressures, 200.0)),

@@ -12,7 +12,7 @@ from contact_core.film import thinning
 from contact_core.kernels import moving_source
 from contact_core.oil import inlet_factor
 
-SMOOTH = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.model": "none", "film.tolerance": "1e-5"}
+SMOOTH = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.model": "none", "film.tolerance": "1e-4"}
 FIELD = {"heat.model": "field"}
 LOCAL = {"lubricant.flow": "local"}
 CARREAU = {
@@ -52,7 +52,7 @@ def test_a_scene_without_heat_and_thinning_calls_nothing_of_them(monkeypatch):
         raise AssertionError("paid for")
 
     for module, name in (
-        (oil_module, "flow_ease"),
+        (oil_module, "eased"),
         (oil_module, "solve_thinning"),
         (thinning, "stress_of_flow"),
         (moving_source, "moving_influence"),
@@ -66,12 +66,12 @@ def test_a_scene_without_heat_and_thinning_calls_nothing_of_them(monkeypatch):
     assert state.film is None or state.film.ease.shape == state.film.warmth.shape == (1, 1)
 
 
-@pytest.mark.parametrize("name", ["moving_influence", "flow_ease"])
+@pytest.mark.parametrize("name", ["moving_influence", "eased"])
 def test_a_scene_that_asks_for_them_calls_them(name, monkeypatch):
     module = moving_source if name == "moving_influence" else oil_module
     calls, real = [], getattr(module, name)
     monkeypatch.setattr(module, name, lambda *args, **kwargs: calls.append(1) or real(*args, **kwargs))
-    moving_source._spectra.cache_clear()
+    moving_source._spectrum.cache_clear()
     scene, state = smooth(FIELD, LOCAL, CARREAU, points=33)
     solve(scene, sliding(scene, 1.0, 0.3), state)
     assert calls

@@ -27,6 +27,7 @@ def problem(ny, nx, wave=0.0, length=0.3, library="scipy", mobility=20.0, **chan
         spacing=dx,
         load=2.0 * np.pi / 3.0 / dx**2,
         mobility=np.full((ny, nx), mobility),
+        thinned=zeros,
         per_dt=0.0,
         mass_old=zeros,
         fluidity=np.exp(-BARUS * table),
