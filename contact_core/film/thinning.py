@@ -12,7 +12,7 @@ speed for its viscosity), so that the sum stays right where pressures change by 
 
 One fluidity serves both directions: that of a gradient along the sliding speed, with the size of grad p. It is exact in
 pure rolling, and along x. Across a fast sliding film it is too large: by the ratio of tangent to secant of the flow
-curve, 1/n at most for a power n.
+curve, which is 1/n for a power n and x coth x for an Eyring oil at x times its stress.
 
 The limiting stress is left out: where it acts the oil does not flow under pressure but slips.
 
@@ -33,8 +33,8 @@ from .instant import Array, FilmSolution, FilmState, Instant
 _STIFFEST = 1e30  # Pa: no stress of a Newtonian oil above matters
 _LEAST = (1e-4, 1e-3)  # pressed stress: share of the sheared one, and Pa. Below, the oil yields as at a vanishing one
 _LOG_STRESS = np.linspace(np.log(1e-2), np.log(1e11), 8193)  # Pa
-_SOLUTIONS = 12  # of a steady film, at most
-_SLOW = 0.6  # of the change before, above which the oil goes only half the way from then on
+_SOLUTIONS = 20  # of a steady film, at most
+_SLOW = 0.9  # of the change before, above which the oil goes only half the way from then on
 
 
 class Rheology(Hashable, Protocol):

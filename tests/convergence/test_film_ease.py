@@ -105,6 +105,31 @@ def test_factors_that_are_no_power_of_two_agree_to_round_off():
     assert eased.gap == pytest.approx(thinner.gap, rel=1e-9)
 
 
+class Slipping(Thinner):
+    """A law whose fluidity [1/(Pa s)] is higher by a constant."""
+
+    def __call__(self, pressure, temperature):
+        return 1.0 / (1.0 / self.law(pressure, temperature) + self.by)
+
+
+@pytest.mark.parametrize(("method", "start", "rq", "load"), [ROUTES[k] for k in (0, 1, 2, 3, 5, 6)])
+def test_what_shear_adds_to_the_fluidity_is_felt_as_that_of_another_oil(method, start, rq, load):
+    now, grid = contact(rq, load, speed=2.0)
+    more = 0.5 / now.viscosity.viscosity
+    thinned = replace(now, thinned=np.full(grid.shape, more))
+    instants = (thinned, replace(now, viscosity=Slipping(now.viscosity, more)), now)
+    mine, other, plain = (_Solver(Scaled(each, grid, SETTINGS), None, None).run(method, start) for each in instants)
+    films = [
+        found.gap * Scaled(each, grid, SETTINGS).h_unit
+        for found, each in zip((mine, other, plain), instants, strict=True)
+    ]
+    assert mine.converged
+    assert other.converged
+    centre = np.s_[24:40, 32:44]
+    assert films[0][centre].mean() == pytest.approx(films[1][centre].mean(), rel=1e-3)
+    assert abs(films[0][centre].mean() / films[2][centre].mean() - 1.0) > 0.02
+
+
 def easier_before_the_contact(grid, tilt=0.0):
     """An ease that rises threefold toward the inlet, and along y by `tilt`."""
     across = 1.0 + tilt * grid.y[:, None] / grid.y[-1]
@@ -142,7 +167,11 @@ def test_an_ease_that_differs_on_both_sides_is_solved_on_the_whole_grid():
 def test_the_mirror_and_the_coarser_grid_take_the_ease_along():
     now, grid = contact()
     now = replace(now, ease=easier_before_the_contact(grid, 0.3))
+    now = replace(now, thinned=now.ease**2)
     assert (now.mirrored().ease == now.ease[:, ::-1]).all()
+    assert (now.mirrored().thinned == now.thinned[:, ::-1]).all()
     assert (coarser(now, grid)[0].ease == now.ease[::2, ::2]).all()
+    assert (coarser(now, grid)[0].thinned == now.thinned[::2, ::2]).all()
     state = solve_film(now, grid, SETTINGS).state
     assert (state.mirrored().ease == now.ease[:, ::-1]).all()
+    assert (state.mirrored().thinned == now.thinned[:, ::-1]).all()
