@@ -110,8 +110,8 @@ def solve_flow(
     if scene.lubricant.flow == "newtonian" or now.dry or op.entrainment_speed == 0.0:
         return solve(now, before)
     if before is not None:
-        ease, thinned = (field if field.size > 1 else None for field in (before.ease, before.thinned))
-        return solve(replace(now, ease=now.ease if ease is None else ease, thinned=thinned), before)
+        warmer, thinned = (field if field.size > 1 else None for field in (before.ease, before.thinned))
+        return solve(replace(now, ease=now.ease if warmer is None else warmer, thinned=thinned), before)
 
     def ease(now: Instant, found: FilmSolution) -> Instant:
         film = warmed(scene, op, sheared(grid, found, cover, op.inlet_temperature), None)[0]
