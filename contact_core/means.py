@@ -19,7 +19,7 @@ from .film import Regression
 from .film.instant import Grid
 from .laws.heat import FlashTemperature, TemperatureField
 from .patches import bare_heights, roughness_of
-from .reference import moes_film
+from .reference import inlet_shear_factor, moes_film
 from .scene import OperatingPoint, Scene
 from .state import Body, ContactState, Mean, Outputs, RangeFlag, changed
 from .surfaces import rms_roughness
@@ -35,17 +35,19 @@ _LONGEST = 10.0  # times the duty: no step need be shorter than that
 _TRIAL = 1.0  # s: step that tells how fast the surfaces change
 
 # quadrature over the Hertz ellipse: at the distance sqrt(1 - t^2) from its centre p is in proportion to t, dA to t dt
-_T = 0.5 + 0.5 * np.polynomial.legendre.leggauss(16)[0]
-_WEIGHTS = _T * np.polynomial.legendre.leggauss(16)[1]  # of the mean over the ellipse
+_T = 0.5 + 0.5 * np.polynomial.legendre.leggauss(12)[0]
+_WEIGHTS = _T * np.polynomial.legendre.leggauss(12)[1]  # of the mean over the ellipse
 
 # nine operating points: as it is, then up and down by sliding, entrainment, load, temperature
 _D, _KELVIN = 1e-4, 1e-2  # how far, relative, and in temperature
-_SLIDING, _, _LOAD, _TEMPERATURE = np.concatenate([np.zeros((4, 1)), np.kron(np.eye(4), [1.0, -1.0])], axis=1)
-_SLIDING, _TEMPERATURE = _D * _SLIDING, _KELVIN * _TEMPERATURE
+_SLIDING, _ENTRAINMENT, _LOAD, _TEMPERATURE = np.concatenate([np.zeros((4, 1)), np.kron(np.eye(4), [1.0, -1.0])], axis=1)
+_SLIDING, _TEMPERATURE, _FASTER = _D * _SLIDING, _KELVIN * _TEMPERATURE, 1.0 + _D * _ENTRAINMENT
 _ROOT = np.cbrt(1.0 + _D * _LOAD)  # lengths and pressures of Hertz's contact at these points, relative
+_ROOT_2 = _ROOT * _ROOT
+_TINY = 1e-6  # relative step of a slope by one difference
 _LAMBDA_CAPPED, _OUTSIDE_FIT = int(RangeFlag.LAMBDA_CAPPED), int(RangeFlag.OUTSIDE_FIT)
 _TRIBOFILM_TEMPERATURE = int(RangeFlag.TRIBOFILM_TEMPERATURE)  # numbers are faster to add up
-_ROUNDED = 0.99
+_ALL = 1.0 + 1e-9  # more than solids ever cover
 _BLANK = Outputs()
 _PROBE = np.array([[0.0], [1e6]])  # Pa: pressures that tell viscosity and its pressure coefficient
 _WARMTHS = np.array([0.0, _KELVIN, -_KELVIN])
@@ -180,19 +182,21 @@ def _evaluate(scene: Scene, op: OperatingPoint, films: Films) -> _Contact:
     slides = sliding + slip * _SLIDING
     hertz, scale = scene.unit_hertz, op.load ** (1 / 3)
     pressures = (hertz.pressure_max * scale) * _ROOT
-    areas = (hertz.area * scale * scale) * _ROOT**2
+    areas = (hertz.area * scale * scale) * _ROOT_2
     film = _smooth_films(scene, entrained, op.load, temperature)
+    if scene.heat.inlet_shear != "none" and entrained > 0.0:
+        film = film * _inlet_factors(scene, entrained, slides, pressures, temperature)
     fit, gaps, solid_share, area_share = _shared(scene, films, sigma, film, pressures)
     carried = solid_share * pressures
     carried *= 2.0 / 3.0  # mean over the Hertz area
     # no solid contact is smaller than the hardness allows
     touching = np.maximum(area_share, carried / scene.plasticity.hardness)
-    solid_pressures = carried / np.maximum(touching, 1e-300)
+    solid_pressures = carried / (touching + 1e-300)
     turning = _SPIN * op.spin * hertz.a * scale * _ROOT  # speed of the spin
     rubbing = np.hypot(slides, turning) if op.spin else slides
     boundary: Law = scene.boundary_friction
     solid_shears = boundary(solid_pressures, cover, rubbing)
-    open_share = np.maximum(1.0 - touching, 1e-6)
+    open_share = _ALL - touching
     oil_pressures = (1.0 - solid_share) / open_share * pressures
     inlet = temperature + _TEMPERATURE
     solid = areas * touching * solid_shears
@@ -262,29 +266,46 @@ def scene_film(scene: Scene) -> Regression:
 
 
 def _smooth_films(scene: Scene, speed: float, load: float, temperature: float) -> Array:
-    """Nijenbanning, Venner & Moes' central film [m] of the smooth bodies, at the nine operating points."""
-    viscosity: Law = scene.lubricant.viscosity
-    (low, less, more), high = viscosity(_PROBE, temperature + _WARMTHS).tolist()
-    shape, modulus = scene.geometry, scene.solids.reduced_modulus
-    u, w, radius = max(speed, _SLOWEST), max(load, _LIGHTEST), shape.radius_x
+    """Nijenbanning, Venner & Moes' central film [m] of the smooth bodies, at the nine operating points.
 
-    def film(u: float, w: float, eta: float, stiffer: float) -> float:
-        contact = max(math.log(stiffer / eta) * 1e-6, 1e-12) * modulus
-        root = math.sqrt(2.0 * eta * u / (modulus * radius))
-        quarter = math.sqrt(root)
-        m = w / (modulus * radius * radius * root * quarter)
-        return moes_film(m, contact * quarter, radius / shape.radius_y) * root * radius
+    Beside the first one by its powers of viscosity times speed, load and pressure coefficient.
+    """
+    (eta, alpha), (thin, alpha_thin), (thick, alpha_thick) = _oil(scene.lubricant.viscosity, temperature)
+    radius, modulus = scene.geometry.radius_x, scene.solids.reduced_modulus
+    ratio = radius / scene.geometry.radius_y
+    root = math.sqrt(2.0 * eta * max(speed, _SLOWEST) / (modulus * radius))
+    quarter = math.sqrt(root)
+    m = max(load, _LIGHTEST) / (modulus * radius * radius * root * quarter)
+    oil = alpha * modulus * quarter
+    film = moes_film(m, oil, ratio)
+    by_load = (moes_film(m * (1.0 + _TINY), oil, ratio) / film - 1.0) / _TINY
+    by_alpha = (moes_film(m, oil * (1.0 + _TINY), ratio) / film - 1.0) / _TINY
+    by_speed = 0.5 - 0.75 * by_load + 0.25 * by_alpha
+    now = film * root * radius
+    warmer = by_speed * math.log(thin / eta) + by_alpha * math.log(alpha_thin / alpha)
+    cooler = by_speed * math.log(thick / eta) + by_alpha * math.log(alpha_thick / alpha)
+    faster, heavier = 1.0 + _D * by_speed, 1.0 + _D * by_load
+    beside = (faster, 2.0 - faster, heavier, 2.0 - heavier, 1.0 + warmer, 1.0 + cooler)
+    return now * np.array([1.0, 1.0, 1.0, *beside])
 
-    now = film(u, w, low, high[0])
-    beside = (
-        film(u * (1.0 + _D), w, low, high[0]),
-        film(u * (1.0 - _D), w, low, high[0]),
-        film(u, w * (1.0 + _D), low, high[0]),
-        film(u, w * (1.0 - _D), low, high[0]),
-        film(u, w, less, high[1]),
-        film(u, w, more, high[2]),
-    )
-    return np.array([now, now, now, *beside])
+
+def _inlet_factors(scene: Scene, speed: float, slides: Array, pressures: Array, temperature: float) -> Array:
+    """Films with the heat of shear in the inlet over those without, at the nine operating points."""
+    (eta, _), (thin, _), (thick, _) = _oil(scene.lubricant.viscosity, temperature)
+    beta = math.log(thick / thin) / (2.0 * _KELVIN)
+    viscosities = np.full(9, eta)
+    viscosities[7:] = thin, thick
+    solid = (scene.lubricant.conductivity, scene.solids.reduced_modulus)
+    points = zip(viscosities.tolist(), (speed * _FASTER).tolist(), slides.tolist(), pressures.tolist(), strict=True)
+    factors = [inlet_shear_factor(v, beta, u, slide / u, solid[0], p, solid[1]) for v, u, slide, p in points]
+    return np.array(factors)
+
+
+@lru_cache(maxsize=16)
+def _oil(viscosity: Law, temperature: float) -> list[tuple[float, float]]:
+    """Viscosity [Pa s] and pressure coefficient [1/Pa] at p = 0, at a temperature [K] and a little above and below."""
+    low, high = viscosity(_PROBE, temperature + _WARMTHS).tolist()
+    return [(eta, max(math.log(stiff / eta) * 1e-6, 1e-12)) for eta, stiff in zip(low, high, strict=True)]
 
 
 def _shared(
@@ -303,7 +324,8 @@ def _shared(
     clearance, flattening = film / sigma, pressures * (4.0 / 3.0 / (scene.solids.reduced_modulus * slope))
     fit = _Fit(float(clearance[0]), float(flattening[0]), resolution)
     (flattest, fullest), (coarsest, finest) = sharing.FITTED["flattening"], sharing.FITTED["resolution"]
-    flattening = np.minimum(np.maximum(flattening, flattest), fullest)  # powers of it mean nothing far from the fit
+    if not flattest <= fit.flattening <= fullest:  # powers of it mean nothing far from the fit
+        flattening = np.full_like(film, min(max(fit.flattening, flattest), fullest))
     resolution = min(max(resolution, coarsest), finest)
     share = sharing.load_ratio(clearance, flattening, resolution)
     gaps = np.maximum(sigma * sharing.film_ratio(clearance, share, flattening, resolution), floor)
@@ -475,7 +497,8 @@ def _dose(
     """`_doses` of one body, for the exposures of a point that touches and of one under oil."""
     rougher = (scene.surface_1.rq > scene.surface_2.rq) == (i == 0)
     dry = contact.load_ratio > scene.control.dry_above
-    share = float(scene_film(scene).sharing.exposed(contact.area_ratio, rougher=rougher, dry=dry))
+    k, m = scene_film(scene).sharing.exposure_constants(rougher=rougher, dry=dry)
+    share = -math.expm1(-k * contact.area_ratio**m)
     coverage = max(means[i].coverage, 1.0 if oiled > 0.0 else share if touching > 0.0 else 0.0)
     if coverage == 0.0:
         return 0.0, 0.0
@@ -582,25 +605,11 @@ def _flags(scene: Scene, op: OperatingPoint, contact: _Contact) -> int:
     flags = 0
     if contact.sigma == 0.0 or op.load == 0.0:
         flags |= _LAMBDA_CAPPED
-    elif not _within(scene_film(scene).sharing.FITTED, contact.fit):
+    elif not scene_film(scene).sharing.covers(*contact.fit):
         flags |= _OUTSIDE_FIT
     if not all(scene.tribofilm.covers(temperature) for temperature in op.bodies):
         flags |= _TRIBOFILM_TEMPERATURE
     return flags
-
-
-def _within(ranges: dict[str, tuple[float, float]], fit: _Fit) -> bool:
-    """Whether a contact lies within the ranges of the fit, which are rounded numbers."""
-    (low, high), (flattest, fullest), (coarsest, finest) = (
-        ranges["clearance"],
-        ranges["flattening"],
-        ranges["resolution"],
-    )
-    return (
-        low <= fit.clearance <= high
-        and _ROUNDED * flattest <= fit.flattening <= fullest / _ROUNDED
-        and _ROUNDED * coarsest <= fit.resolution <= finest / _ROUNDED
-    )
 
 
 def _errors(scene: Scene, op: OperatingPoint, contact: _Contact) -> dict[str, Any]:

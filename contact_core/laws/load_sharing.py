@@ -131,6 +131,12 @@ class FittedSharing:
         given = {"clearance": clearance, "flattening": flattening, "resolution": resolution}
         return all(low <= given[name] <= high for name, (low, high) in self.FITTED.items())
 
+    def exposure_constants(self, *, rougher: bool, dry: bool) -> tuple[float, float]:
+        """(k, m) of `exposed`, 1 - exp(-k A_c^m), for callers to whom an array costs too much."""
+        if dry:
+            return (self.exposure_dry_rougher if rougher else self.exposure_dry_smoother), 1.0
+        return (self.exposure_rougher, self.exposure_exponent) if rougher else (self.exposure_smoother, 1.0)
+
     def exposed(self, area_ratio: ArrayLike, *, rougher: bool, dry: ArrayLike = False) -> Array:
         """Share of a body's points within Hertz's width that touch the other body in a pass through the contact.
 
