@@ -76,14 +76,18 @@ def closing_lines(dataset: xr.Dataset) -> list[str]:
     """Load cycles, who drove the blocks, validity and range, in sentences."""
     last = dataset.isel(time=-1)
     ball, disc = (f"{int(last[f'load_cycles_{body}']):,}".replace(",", " ") for body in (1, 2))
+    return [f"Load cycles: ball {ball}, disc {disc}.", *_blocks(last), _validity(dataset), *_range(dataset)]
+
+
+def _blocks(last: xr.Dataset) -> list[str]:
+    """Who drove the blocks; the fast level has none."""
+    if "blocks_dry" not in last:
+        return []
     blocks = {name: int(last[f"blocks_{name}"]) for name in ("dry", "mixed", "fallback")}
     total = sum(blocks.values())
     share = {name: f"{100.0 * count / max(total, 1):.1f} %" for name, count in blocks.items()}
     return [
-        f"Load cycles: ball {ball}, disc {disc}.",
-        f"Blocks: {total} solved; driven dry {share['dry']}, mixed {share['mixed']}, by fallback {share['fallback']}.",
-        _validity(dataset),
-        *_range(dataset),
+        f"Blocks: {total} solved; driven dry {share['dry']}, mixed {share['mixed']}, by fallback {share['fallback']}."
     ]
 
 
@@ -125,8 +129,8 @@ def overview(dataset: xr.Dataset) -> "Figure":
     shown = dataset.assign(sigma=dataset["h_c"] / told)
     figure = Figure(figsize=(9.0, 10.0), layout="constrained")
     axes = figure.subplots(4, 2, sharex=True)
-    for axis, panel in zip(axes.flat, _PANELS, strict=True):
-        _draw(axis, shown, *panel)
+    for axis, (label, factor, lines) in zip(axes.flat, _PANELS, strict=True):
+        _draw(axis, shown, label, factor, tuple(line for line in lines if line[0] in shown))
     for axis in axes[-1]:
         axis.set_xlabel("time [min]")
     figure.align_ylabels()

@@ -48,6 +48,14 @@ def test_a_run_prints_a_table_and_writes_three_files(
         assert dataset.attrs["scene"] == "mtm_zddp"
 
 
+def test_a_run_of_the_fast_level_says_what_it_knows(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert main(["run", "azam_case_a", "--set", "film.model=regression", "--hours", "2", "--out", str(tmp_path)]) == 0
+    out = capsys.readouterr().out
+    assert "Load cycles: ball 28 361, disc 7 419." in out
+    assert "Blocks" not in out
+    assert (tmp_path / "overview.png").stat().st_size > 10_000
+
+
 def test_case_a_counts_the_load_cycles_of_two_hours(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, coarse: list[str]
 ) -> None:
