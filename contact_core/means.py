@@ -2,7 +2,7 @@
 
 A step solves nothing: the film is a formula's, curves fitted to the deterministic level share the load, and what the
 surfaces have become is a handful of numbers per body. The patches of the state wait meanwhile; `folded` brings them up
-to date when a run goes back to the deterministic level. Spin is left out.
+to date when a run goes back to the deterministic level.
 """
 
 import math
@@ -605,7 +605,7 @@ def _flags(scene: Scene, op: OperatingPoint, contact: _Contact) -> int:
     flags = 0
     if contact.sigma == 0.0 or op.load == 0.0:
         flags |= _LAMBDA_CAPPED
-    elif op.spin != 0.0 or not scene_film(scene).sharing.covers(*contact.fit):
+    elif not scene_film(scene).sharing.covers(*contact.fit):
         flags |= _OUTSIDE_FIT
     if not all(scene.tribofilm.covers(temperature) for temperature in op.bodies):
         flags |= _TRIBOFILM_TEMPERATURE

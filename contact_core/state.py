@@ -45,10 +45,7 @@ class RangeFlag(IntFlag):
     FEW_NODES = 64, "fewer than 8 nodes across the Hertz contact at this load"
     SLOW_BODY = 128, "the slower body shows a block only part of its track: its film and wear are uneven along it"
     STIFF_WEAR = 256, "blocks are longer than wear stays stable for: fine roughness and A_c are less sure"
-    OUTSIDE_FIT = (
-        512,
-        "outside the points to which the curves of the fast level were fitted, or spinning, which it leaves out",
-    )
+    OUTSIDE_FIT = 512, "outside the points to which the curves of the fast level were fitted"
 
 
 @dataclass(frozen=True)
