@@ -93,7 +93,7 @@ class _Contact(NamedTuple):
     derivatives: tuple[float, ...]  # of the sum, by speed_1, speed_2, load, temperature
     solid_pressure: float  # mean over the real contact [Pa]
     solid_shear: float  # mean over it, absolute
-    fluid_shear: float  # mean over the rest of the Hertz ellipse
+    fluid_shear: float  # mean over the oil that carries load
     rise: float  # of the surfaces' temperature over the bulk [K]
     slide: float  # sliding speed, with spin [m/s]
     power: float  # [W]
@@ -106,7 +106,8 @@ class _Heat(NamedTuple):
 
     conductance_1: Array  # of the bodies [W/(m2 K)]
     conductance_2: Array
-    bodies: tuple[float, float]  # [K]
+    body_1: Array  # bulk temperatures [K]
+    body_2: Array
     areas: Array  # [m2]
     across: Array  # rise of the oil over the surfaces, per heat [m2 K/W]
 
@@ -116,12 +117,14 @@ class _Heat(NamedTuple):
     ) -> "_Heat":
         """Both bodies as half spaces under an even source on a circle of `radius` [m] that holds still."""
         first, second = law.conductances(radius, (op.speed_1, op.speed_2))
-        return _Heat(first, second, op.bodies, areas, gaps / (12.0 * oil_conductivity))
+        one, two = op.bodies
+        across = gaps / (12.0 * oil_conductivity)
+        return _Heat(first, second, one + _TEMPERATURE, two + _TEMPERATURE, areas, across)
 
     def _surfaces(self, power: Array) -> Array:
         """Temperature [K] of the surfaces under a power [W]."""
         one, two = self.conductance_1, self.conductance_2
-        return (power / self.areas + one * self.bodies[0] + two * self.bodies[1]) / (one + two)
+        return (power / self.areas + one * self.body_1 + two * self.body_2) / (one + two)
 
     def film(self, start: Array, power: Callable[[Array], Array]) -> Array:
         """Temperature [K] of the oil with which its friction makes it that warm, by Steffensen's method."""
@@ -145,8 +148,8 @@ class _Heat(NamedTuple):
     def surface(self, power: float) -> tuple[float, float]:
         """Rise [K] of the surfaces over the bodies' mean and heat [W] into body 1, at the first point."""
         warm = float(self._surfaces(np.full_like(self.areas, power))[0])
-        into_1 = float(self.areas[0] * self.conductance_1[0]) * (warm - self.bodies[0])
-        return warm - 0.5 * (self.bodies[0] + self.bodies[1]), into_1
+        into_1 = float(self.areas[0] * self.conductance_1[0]) * (warm - float(self.body_1[0]))
+        return warm - 0.5 * float(self.body_1[0] + self.body_2[0]), into_1
 
 
 def advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
@@ -196,13 +199,14 @@ def _evaluate(scene: Scene, op: OperatingPoint, films: Films) -> _Contact:
     rubbing = np.hypot(slides, turning) if op.spin else slides
     boundary: Law = scene.boundary_friction
     solid_shears = boundary(solid_pressures, cover, rubbing)
-    open_share = _ALL - touching
-    oil_pressures = (1.0 - solid_share) / open_share * pressures
+    # asperities hold their share of the oil's pressure up in patches
+    oil_share = (_ALL - touching) / (1.0 + scene_film(scene).crowding * solid_share)
+    oil_pressures = (1.0 - solid_share) / oil_share * pressures
     inlet = temperature + _TEMPERATURE
     solid = areas * touching * solid_shears
 
     def oil(warm: Array) -> Array:
-        return areas * open_share * _oil_shear(scene, oil_pressures, rubbing / gaps, warm)
+        return areas * oil_share * oil_shear(scene, oil_pressures, rubbing / gaps, warm)
 
     fluid = oil(inlet)
     pull = abs(float(solid[0] + fluid[0]))
@@ -238,7 +242,7 @@ def _evaluate(scene: Scene, op: OperatingPoint, films: Films) -> _Contact:
         ),
         pressure,
         shear,
-        abs(float(fluid[0])) / float(areas[0] * open_share[0]),
+        abs(float(fluid[0])) / float(areas[0] * oil_share[0]),
         rise,
         abs(float(rubbing[0])),
         pull * abs(float(rubbing[0])),
@@ -332,7 +336,7 @@ def _shared(
     return fit, gaps, share, sharing.area_ratio(share, flattening)
 
 
-def _oil_shear(scene: Scene, pressures: Array, rates: Array, temperatures: Array) -> Array:
+def oil_shear(scene: Scene, pressures: Array, rates: Array, temperatures: Array) -> Array:
     """Mean shear stress [Pa] of oil under Hertz's semi-ellipsoids of largest `pressures`, one for each row."""
     local = pressures[:, None] * _T
     viscosity: Law = scene.lubricant.viscosity
