@@ -40,7 +40,9 @@ _WEIGHTS = _T * np.polynomial.legendre.leggauss(12)[1]  # of the mean over the e
 
 # nine operating points: as it is, then up and down by sliding, entrainment, load, temperature
 _D, _KELVIN = 1e-4, 1e-2  # how far, relative, and in temperature
-_SLIDING, _ENTRAINMENT, _LOAD, _TEMPERATURE = np.concatenate([np.zeros((4, 1)), np.kron(np.eye(4), [1.0, -1.0])], axis=1)
+_SLIDING, _ENTRAINMENT, _LOAD, _TEMPERATURE = np.concatenate(
+    [np.zeros((4, 1)), np.kron(np.eye(4), [1.0, -1.0])], axis=1
+)
 _SLIDING, _TEMPERATURE, _FASTER = _D * _SLIDING, _KELVIN * _TEMPERATURE, 1.0 + _D * _ENTRAINMENT
 _ROOT = np.cbrt(1.0 + _D * _LOAD)  # lengths and pressures of Hertz's contact at these points, relative
 _ROOT_2 = _ROOT * _ROOT

@@ -56,11 +56,14 @@ OUTPUTS: tuple[Quantity, ...] = (
              "integral of (h/2) dp/dx over the fluid film; each surface feels the opposite along +x; not in power_loss", nominal=0.1, levels=_FIELDS),
     Quantity("friction_solid", "F_s", "N", "part of friction_force where solids touch", nominal=1.0),
     Quantity("friction_fluid", "F_f", "N", "part of friction_force in the oil film", nominal=1.0),
-    Quantity("spin_torque", "M_s", "N m", "friction torque on body 1 about the axis from x to y", nominal=1e-3, levels=_FIELDS),
+    Quantity("spin_torque", "M_s", "N m", "friction torque on body 1 about the axis from x to y", nominal=1e-3),
     Quantity("power_loss", "P", "W", "-friction_force (speed_1 - speed_2) - spin_torque spin", nominal=1.0, minimum=0.0),
-    *(Quantity(f"dfriction_d{name}", f"dF/d{symbol}", unit, f"derivative of friction_force by {name}", nominal=nominal)
-      for name, symbol, unit, nominal in (("speed_1", "u_1", "N.s/m", 1.0), ("speed_2", "u_2", "N.s/m", 1.0),
-                                          ("load", "W", "1", 0.1), ("temperature", "T", "N/K", 0.01))),
+    *(Quantity(f"dfriction_d{name}", f"dF/d{symbol}", unit, f"derivative of friction_force by {text}; at a held film, or total where film.model is 'regression'", nominal=nominal)
+      for name, symbol, unit, nominal, text in (
+          ("speed_1", "u_1", "N.s/m", 1.0, "speed_1"),
+          ("speed_2", "u_2", "N.s/m", 1.0, "speed_2"),
+          ("load", "W", "1", 0.1, "load"),
+          ("temperature", "T", "N/K", 0.01, "the temperature of oil and bodies together"))),
     *_pair("wear_rate", "dV/dt", "m3/s", "wear volume of the step divided by the step", nominal=1e-17, minimum=0.0, display="um3/s"),
     *_pair("wear_volume", "V", "m3", "wear volume of the whole track", nominal=1e-14, minimum=0.0, display="um3"),
     *_pair("wear_depth", "w", "m", "mean wear depth over the track |y| < b", nominal=1e-8, minimum=0.0, display="nm"),
@@ -74,7 +77,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("contact_area_ratio", "A_c", "1", "real contact area / Hertz area", minimum=0.0),
     Quantity("contact_load_ratio", "W_c", "1", "load carried by the solids / load", minimum=0.0, maximum=1.0),
     Quantity("pressure_max", "p_max", "Pa", "largest pressure", nominal=1e9, minimum=0.0, display="GPa", levels=_FIELDS),
-    Quantity("flash_temperature_rise", "dT_f", "K", "mean flash temperature rise over the real contact", minimum=0.0, relative=True),
+    Quantity("flash_temperature_rise", "dT_f", "K", "mean rise of the surfaces over the bulk temperatures in the real contact", relative=True),
     *_pair("temperature", "T", "K", "bulk temperature", nominal=350.0, minimum=0.0, display="degC"),
     *_pair("heat_flow", "Q", "W", "heat that the contact puts into the body", nominal=1.0),
     Quantity("approach", "delta", "m", "approach of the bodies from first touching of the undeformed, smooth shapes", nominal=1e-6, display="um"),

@@ -40,7 +40,15 @@ SHAPES = (
     "tribofilm_2",
 )  # followed for their slope; they need no smoothing
 NAMES = (*SMOOTHED, *SHAPES, *(f"{name}_rate" for name in RATES))
-_SIGNED = ("friction_force", "friction_solid", "spin_torque", "rolling_resistance", "heat_flow_1", "approach")
+_SIGNED = (
+    "friction_force",
+    "friction_solid",
+    "spin_torque",
+    "rolling_resistance",
+    "flash_temperature_rise",
+    "heat_flow_1",
+    "approach",
+)
 _LEAST = np.array([0.0 if name in SMOOTHED and name not in _SIGNED else -np.inf for name in NAMES])
 _MEMORY_OF_SPREAD = 0.1
 _UNKNOWN = 0.05  # error of time steps, relative, while fewer than two blocks say nothing of a drift
