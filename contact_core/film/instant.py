@@ -92,9 +92,9 @@ class FilmState:
     solid: Mask
     mass: Array  # density ratio times film thickness
     rigid_gap: float  # gap of the undeformed, smooth bodies at the centre
-    ease: Array = field(default_factory=lambda: np.ones((1, 1)))  # of the next instant; [1, 1]: everywhere
-    thinned: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of the next instant
-    warmth: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of the film above the inlet [K]
+    ease: Array = field(default_factory=lambda: np.ones((1, 1)))  # `Instant.ease`, [1, 1] if there is none
+    thinned: Array = field(default_factory=lambda: np.zeros((1, 1)))  # `Instant.thinned`, as well
+    warmth: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of the film above the inlet [K], as well
 
     def __post_init__(self) -> None:
         for array in (self.pressure, self.fluid, self.solid, self.mass, self.ease, self.thinned, self.warmth):

@@ -60,24 +60,29 @@ def thinned_fluidity(
     viscosity: Array,
     flowing: Array | None = None,
 ) -> Array:
-    """What shear adds to the fluidity of the oil at every node [1/(Pa s)]: `Instant.thinned`. Arrays [ny, nx].
+    """What shear adds to the fluidity of the oil at every node [1/(Pa s)]: `Instant.thinned`. Arrays [ny, nx]. Zero
+    where no pressure drives a flow.
 
     sliding [m/s]; gap [m]; fluid pressure [Pa]; spacing of the nodes [m]; Newtonian viscosity [Pa s] at the pressures
     and temperatures of the film; `flowing`: fluidity that the film was solved with, None for 1 / viscosity.
     """
     if not rheology.thins:
         return np.zeros_like(gap)
-    pressed = 0.5 * gap * _steepness(pressure, spacing)
+    thinned, steepness = np.zeros_like(gap), _steepness(pressure, spacing)
+    driven = steepness > 0.0
+    newtonian = viscosity[driven]
+    sheared = np.minimum(newtonian * np.abs(np.broadcast_to(sliding, gap.shape)[driven]) / gap[driven], _STIFFEST)
+    pressed = 0.5 * gap[driven] * steepness[driven]
     if flowing is not None:
-        pressed *= viscosity * flowing
-    sheared = np.minimum(viscosity * np.abs(sliding) / gap, _STIFFEST)
+        pressed *= newtonian * flowing[driven]
     pressed = np.clip(pressed, np.maximum(_LEAST[0] * sheared, _LEAST[1]), _STIFFEST)
-    unlimited = np.full_like(gap, np.inf)
+    unlimited = np.full_like(pressed, np.inf)
     upper, lower = rheology(sheared + pressed, unlimited), rheology(sheared - pressed, unlimited)
     mean, half = 0.5 * (upper + lower), 0.5 * (upper - lower)
     table = (_LOG_STRESS[0], _LOG_STRESS[1] - _LOG_STRESS[0], _log_ease(rheology))
-    stress_of_flow(sheared.ravel(), pressed.ravel(), mean.ravel(), half.ravel(), *table)
-    return np.maximum(pressed / half - 1.0, 0.0) / viscosity
+    stress_of_flow(sheared, pressed, mean, half, *table)
+    thinned[driven] = np.maximum(pressed / half - 1.0, 0.0) / newtonian
+    return thinned
 
 
 def eased(
@@ -92,9 +97,9 @@ def eased(
 
     sliding [m/s]; spacing of the nodes [m]; `viscosity`: of the Newtonian oil at the pressures of the film and its
     temperatures [Pa s], None: at that of the instant. An oil that neither thins nor is warmer leaves the instant as it
-    is.
+    is, and so does a contact without a film.
     """
-    if viscosity is None and not rheology.thins:
+    if found.route != "mixed" or (viscosity is None and not rheology.thins):
         return now
     state = found.state
     reference = now.viscosity(state.fluid, now.temperature)
@@ -106,17 +111,31 @@ def eased(
     return replace(now, ease=ease, thinned=thinned)
 
 
+def remembering(found: FilmSolution, then: Instant) -> FilmSolution:
+    """A film whose state keeps the oil of the instant `then` that is to follow."""
+    ease = np.ones((1, 1)) if then.ease is None else then.ease
+    thinned = np.zeros((1, 1)) if then.thinned is None else then.thinned
+    return replace(found, state=replace(found.state, ease=ease, thinned=thinned))
+
+
+def recalled(now: Instant, state: FilmState) -> Instant:
+    """The instant with the oil that a film state keeps."""
+    ease, thinned = (field if field.size > 1 else None for field in (state.ease, state.thinned))
+    return replace(now, ease=ease, thinned=thinned)
+
+
 def _steepness(pressure: Array, spacing: float) -> Array:
     """Size of the pressure gradient of every node [Pa/m], root mean square of the slopes to its neighbours: a central
     difference would not see the flow between the node of a peak and its neighbours.
     """
     square = np.zeros_like(pressure)
     for axis in range(2):
-        slope_2 = (np.diff(pressure, axis=axis) / spacing) ** 2
-        low, high = ((1, 0), (0, 1))
-        wide = [np.pad(slope_2, [side if k == axis else (0, 0) for k in range(2)], "edge") for side in (low, high)]
-        square += 0.5 * (wide[0] + wide[1])
-    return np.sqrt(square)
+        slope_2 = np.moveaxis((np.diff(pressure, axis=axis) / spacing) ** 2, axis, 0)
+        sums = np.moveaxis(square, axis, 0)  # a view
+        sums[:-1] += slope_2
+        sums[1:] += slope_2
+        sums[[0, -1]] += slope_2[[0, -1]]  # a node of the edge has one neighbour
+    return np.sqrt(0.5 * square)
 
 
 @lru_cache(maxsize=8)
@@ -133,14 +152,14 @@ def solve_thinning(
     """Steady film whose ease and thinning fit it: solved anew with those of the film before until it stands still.
 
     `solve` an instant from a film state, or from nothing; `ease`: the instant with what a film of it makes of the oil,
-    itself if nothing (`eased`); `tolerance`: relative change of the film, weighted by pressure. What is returned holds
-    what it was solved with, and the iterations of all solutions. Without a film it is the first solution.
+    itself if nothing, as by `eased`; `tolerance`: relative change of the film, weighted by pressure. What is returned
+    holds what it was solved with, and the iterations of all solutions. Without a film it is the first solution.
     """
     found = solve(now, None)
     spent, change, part = found.iterations, np.inf, 1.0
     for _ in range(_SOLUTIONS - 1):
         next_one = ease(now, found)
-        if found.route != "mixed" or next_one is now:
+        if next_one is now:
             return replace(found, iterations=spent)
         now = _between(now, next_one, part)
         before, found = found, solve(now, found.state)

@@ -5,9 +5,9 @@ from numba import njit
 
 _jit = njit(cache=True, nogil=True, error_model="numpy")
 
-_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(8)
+_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(6)
 _STEPS = 50  # of Newton's method at most
-_PRECISION = 1e-8
+_PRECISION = 1e-6
 _TANGENT = 1e-2  # pressure flow over sliding flow below which the first guess is as good as the table
 
 

@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 from contact_core.film.fitted import fitted_grid
 from contact_core.film.instant import Instant, Settings
 from contact_core.film.routes import solve_film
-from contact_core.film.thinning import eased, solve_thinning, thinned_fluidity
+from contact_core.film.thinning import eased, recalled, remembering, solve_thinning, thinned_fluidity
 from contact_core.laws.density import Incompressible
 from contact_core.laws.rheology import Carreau, Eyring, Newtonian
 from contact_core.laws.viscosity import Barus
@@ -85,7 +85,7 @@ def test_a_hardly_pressed_eyring_film_yields_by_the_tangent_of_its_flow_curve():
     for sliding in (1e-4, 1e-2, 1.0):
         shear = eta * sliding / gap / oil.eyring_stress
         expected = (np.hypot(1.0, shear) - 1.0) / eta
-        assert one_node(oil, eta, sliding, gap, 0.0, 1.0 / eta) == pytest.approx(expected, rel=1e-6, abs=1e-9 / eta)
+        assert one_node(oil, eta, sliding, gap, 1.0, 1.0 / eta) == pytest.approx(expected, rel=1e-6, abs=1e-9 / eta)
 
 
 def test_the_flow_is_finite_where_the_oil_is_stiff_and_pressures_jump():
@@ -113,6 +113,18 @@ def test_a_newtonian_oil_at_one_temperature_leaves_the_instant_as_it_is():
     assert solve_thinning(now, solve, lambda i, film: eased(i, film, Newtonian(), 1.0, 1e-6), 1e-3).gap is found.gap
     assert len(solved) == 1
     assert (thinned_fluidity(Newtonian(0.05), 1.0, found.gap, found.gap, 1e-6, found.gap) == 0.0).all()
+
+
+def test_a_state_keeps_the_oil_for_the_next_instant():
+    now, grid = contact(33)
+    found = solve_film(now, grid, Settings(1e-9, 1e-3, 400, "pyfftw"))
+    assert recalled(now, found.state).thinned is None
+    then = replace(now, ease=1.0 + found.gap, thinned=found.gap)
+    kept = recalled(now, remembering(found, then).state.mirrored().mirrored())
+    assert (kept.ease == then.ease).all()
+    assert (kept.thinned == then.thinned).all()
+    dry = replace(found, route="dry")
+    assert eased(then, dry, Eyring(5e6), 1.0, grid.spacing) is then
 
 
 def test_a_warmer_film_is_that_of_a_thinner_oil():
@@ -205,12 +217,12 @@ def test_rough_sliding_films_march_in_time_as_newtonian_ones_do():
     shares = {}
     for oil in (Newtonian(), Eyring(5e6)):
         found = solve_film(now, grid, settings)
-        instant = now
+        found = remembering(found, eased(now, found, oil, 0.5, grid.spacing))
         solids, converged = [], 0
         for k in range(1, 25):
-            oiled = eased(instant, found, oil, 0.5, grid.spacing)
-            instant = replace(oiled, heights=np.roll(now.heights, k, axis=1))
+            instant = replace(recalled(now, found.state), heights=np.roll(now.heights, k, axis=1))
             found = solve_film(instant, grid, settings, found.state, (step, 1))
+            found = remembering(found, eased(instant, found, oil, 0.5, grid.spacing))
             converged += found.converged
             solids.append(1.0 - found.state.fluid.sum() / found.state.pressure.sum())
         assert converged >= 22
