@@ -16,8 +16,8 @@ curve, which is 1/n for a power n and x coth x for an Eyring oil at x times its 
 
 The limiting stress is left out: where it acts the oil does not flow under pressure but slips.
 
-Sources: Johnson & Greenwood, Wear 61 (1980) 353, doi:10.1016/0043-1648(80)90298-4 (an Eyring oil in closed form); Yang
-& Wen, J. Tribol. 112 (1990) 631, doi:10.1115/1.2920308 (generalised Reynolds equation).
+Sources: Yang & Wen, J. Tribol. 112 (1990) 631, doi:10.1115/1.2920308 (generalised Reynolds equation); Conry, Wang &
+Cusano, J. Tribol. 109 (1987) 648 (an Eyring oil, in closed form).
 """
 
 from collections.abc import Callable, Hashable

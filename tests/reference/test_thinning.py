@@ -142,7 +142,7 @@ def test_a_warmer_film_is_that_of_a_thinner_oil():
 
 
 def bair(slide_to_roll, film, stress, power):
-    """h_N / h of a Carreau oil: Bair, Proc. IMechE J 219 (2005) 69, doi:10.1243/135065005X9709."""
+    """h_N / h of a Carreau oil: Bair, Proc. IMechE J 219 (2005) 69."""
     shear = (1.0 + slide_to_roll) * SPEED * VISCOSITY / (film * stress)
     return (1.0 + 0.79 * shear ** (1.0 / (1.0 + 0.2 * slide_to_roll))) ** (3.6 * (1.0 - power) ** 1.7)
 
