@@ -90,6 +90,14 @@ class Fit:
                 law.film_ratio(sweep.clearance, sweep.load_ratio, sweep.flattening, sweep.resolution) / sweep.film_ratio
             ),
         )
+        oil = Traction(sweep)
+        self._fit(
+            ("oil_pressure_excess",),
+            lambda law: (
+                oil.friction(law.oil_pressure(sweep.clearance, sweep.flattening))
+                - sweep.columns["friction_coefficient"]
+            ),
+        )
         for is_dry, names in (
             (False, {True: ("exposure_rougher", "exposure_exponent"), False: ("exposure_smoother",)}),
             (True, {True: ("exposure_dry_rougher",), False: ("exposure_dry_smoother",)}),
@@ -117,6 +125,31 @@ class Fit:
         seen = whole.columns["exposed_rougher" if rougher else "exposed_smoother"]
         within = covered(whole)
         return lambda law: within * law.exposed(whole.area_ratio, rougher=rougher, dry=dry) - seen
+
+
+class Traction:
+    """Friction coefficient of solved points whose oil carries its load at some factor of Hertz's pressure."""
+
+    def __init__(self, table: Table) -> None:
+        self.table = table
+        self.scenes = {name: Scene.from_toml(name) for name in SCENES}
+        nodes, weights = np.polynomial.legendre.leggauss(16)
+        self.heights = 0.5 + 0.5 * nodes  # of Hertz's pressure, on rings of the ellipse
+        self.weights = self.heights * weights  # of the mean over it
+
+    def friction(self, factor: Array) -> Array:
+        """With the solved load ratio and film."""
+        c = self.table.columns
+        found = np.empty_like(factor)
+        for i, name in enumerate(c["scene"]):
+            scene, oil = self.scenes[name], self.scenes[name].lubricant
+            local = factor[i] * 1.5 * c["mean_pressure"][i] * self.heights
+            rate = abs(c["srr"][i]) * c["speed"][i] / c["h_c"][i]
+            stress = self.weights @ oil.rheology(oil.viscosity(local, float(c["temperature"][i])) * rate, local)
+            share = c["contact_load_ratio"][i]
+            traction = stress / (factor[i] * c["mean_pressure"][i])
+            found[i] = scene.boundary_friction.bare * share + traction * (1.0 - share)
+        return found
 
 
 def covered(table: Table) -> Array:
@@ -223,6 +256,9 @@ def constants_page(fit: Fit) -> list[str]:
     area_off = fit.law.area_ratio(sweep.load_ratio, sweep.flattening) - sweep.area_ratio
     film_off = fit.law.film_ratio(sweep.clearance, sweep.load_ratio, sweep.flattening, sweep.resolution)
     film_off = np.log(film_off / sweep.film_ratio)
+    oil, friction = Traction(sweep), sweep.columns["friction_coefficient"]
+    friction_off = oil.friction(fit.law.oil_pressure(sweep.clearance, sweep.flattening)) - friction
+    plain_off = oil.friction(np.ones_like(friction)) - friction
     m, q = free_exponents(sweep)
     exposed = []
     for rougher in (True, False):
@@ -248,6 +284,8 @@ def constants_page(fit: Fit) -> list[str]:
             ("name", "found", "shipped"), [(k, f"{v:.3f}", getattr(FittedSharing(), k)) for k, v in fit.scatter.items()]
         ),
         f"With the solved W_c: A_c {np.std(area_off):.3f}, h_c {np.std(film_off):.3f} (relative). "
+        f"Friction with the solved W_c and h_c, oil as shipped: {100 * friction_off.std():.2f} % of the load, "
+        f"{100 * plain_off.std():.2f} % if the oil had Hertz's pressure everywhere. "
         f"Dry A_c: {np.std(dry_off):.3f} (relative, at most {np.abs(dry_off).max():.3f}).",
         "",
         "Exposed share of each body's track |y| < b in a whole pass:",

@@ -65,6 +65,7 @@ class FittedSharing:
         "film_mixed": 0.025,
         "film_factor": 0.035,
         "film_exponent": 0.43,
+        "oil_pressure_excess": 0.12,
         "exposure_rougher": 0.19,
         "exposure_exponent": 0.082,
         "exposure_smoother": 14.0,
@@ -82,6 +83,9 @@ class FittedSharing:
     )
     film_factor: float = parameter("", "E, mean gap / film of smooth bodies", above=0.0, most=10.0, default=0.732)
     film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=2.19)
+    oil_pressure_excess: float = parameter(
+        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=1.32
+    )
     exposure_rougher: float = parameter(
         "", "k in exposed = 1 - exp(-k A_c^m) of the rougher body", above=0.0, most=1e3, default=1.34
     )
@@ -125,6 +129,15 @@ class FittedSharing:
         larger = np.maximum(film, mixed)  # in front, because powers of large numbers overflow
         ratio = np.minimum(film, mixed) / larger
         return share * dry + (1.0 - share) * larger * (1.0 + ratio**self.film_exponent) ** (1.0 / self.film_exponent)
+
+    def oil_pressure(self, clearance: ArrayLike, flattening: ArrayLike) -> Array:
+        """Pressure at which oil carries load / Hertz's: 1 + K (0.2 / s) exp(-lambda).
+
+        Between rough bodies the oil carries its load in spots, on the part (1 - W_c) / `oil_pressure` of Hertz's area.
+        At the pressure of a load spread over all that the solids leave, it would be too thin to shear.
+        """
+        excess = self.oil_pressure_excess * _FLATTENING / np.asarray(flattening)
+        return 1.0 + excess * np.exp(-np.asarray(clearance))
 
     def covers(self, clearance: float, flattening: float, resolution: float) -> bool:
         """Whether the point lies within those of the fit."""

@@ -52,6 +52,14 @@ def test_dry_contact_has_its_area_and_gap_whatever_the_speed():
     assert LAW.area_ratio(0.0, 0.2) == 0.0
 
 
+def test_oil_carries_at_the_pressure_of_hertz_under_thick_films_and_flat_roughness_and_above_it_elsewhere():
+    pressure = LAW.oil_pressure(RATIOS, 0.2)
+    assert pressure[0] == pytest.approx(1.0 + LAW.oil_pressure_excess, rel=1e-3)
+    assert (np.diff(pressure[RATIOS < 10.0]) < 0.0).all()
+    assert LAW.oil_pressure(50.0, 0.2) == pytest.approx(1.0, abs=1e-12)
+    assert LAW.oil_pressure(0.0, 1e6) == pytest.approx(1.0, abs=1e-5)
+
+
 def test_a_thick_film_is_in_proportion_to_that_of_smooth_bodies():
     assert LAW.film_ratio(1e3, 0.0, 0.2, 2.0) == pytest.approx(LAW.film_factor * 1e3, rel=1e-5)
 
