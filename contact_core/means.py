@@ -49,7 +49,6 @@ _ROOT_2 = _ROOT * _ROOT
 _TINY = 1e-6  # relative step of a slope by one difference
 _LAMBDA_CAPPED, _OUTSIDE_FIT = int(RangeFlag.LAMBDA_CAPPED), int(RangeFlag.OUTSIDE_FIT)
 _TRIBOFILM_TEMPERATURE = int(RangeFlag.TRIBOFILM_TEMPERATURE)  # numbers are faster to add up
-_ALL = 1.0 + 1e-9  # more than solids ever cover
 _BLANK = Outputs()
 _PROBE = np.array([[0.0], [1e6]])  # Pa: pressures that tell viscosity and its pressure coefficient
 _WARMTHS = np.array([0.0, _KELVIN, -_KELVIN])
@@ -191,7 +190,7 @@ def _evaluate(scene: Scene, op: OperatingPoint, films: Films) -> _Contact:
     film = _smooth_films(scene, entrained, op.load, temperature)
     if scene.heat.inlet_shear != "none" and entrained > 0.0:
         film = film * _inlet_factors(scene, entrained, slides, pressures, temperature)
-    fit, gaps, solid_share, area_share = _shared(scene, films, sigma, film, pressures)
+    fit, gaps, solid_share, area_share, raised = _shared(scene, films, sigma, film, pressures)
     carried = solid_share * pressures
     carried *= 2.0 / 3.0  # mean over the Hertz area
     # no solid contact is smaller than the hardness allows
@@ -201,27 +200,25 @@ def _evaluate(scene: Scene, op: OperatingPoint, films: Films) -> _Contact:
     rubbing = np.hypot(slides, turning) if op.spin else slides
     boundary: Law = scene.boundary_friction
     solid_shears = boundary(solid_pressures, cover, rubbing)
-    # asperities hold their share of the oil's pressure up in patches
-    oil_share = (_ALL - touching) / (1.0 + scene_film(scene).crowding * solid_share)
-    oil_pressures = (1.0 - solid_share) / oil_share * pressures
-    inlet = temperature + _TEMPERATURE
-    solid = areas * touching * solid_shears
+    solid, oily = areas * touching * solid_shears, areas * (1.0 - solid_share) / raised
 
     def oil(warm: Array) -> Array:
-        return areas * oil_share * oil_shear(scene, oil_pressures, rubbing / gaps, warm)
+        return oily * oil_shear(scene, raised * pressures, rubbing / gaps, warm)
 
-    fluid = oil(inlet)
-    pull = abs(float(solid[0] + fluid[0]))
-    pressure, shear = float(solid_pressures[0]), abs(float(solid_shears[0]))
-    rise, into_1 = _flash_rise(scene, shear, float(rubbing[0])), 0.5 * pull * abs(float(rubbing[0]))
+    fluid = oil(temperature + _TEMPERATURE)
     if isinstance(scene.heat, TemperatureField):
         circle = math.sqrt(hertz.a * hertz.b) * scale * _ROOT
         heat = _Heat.of(scene.heat, op, circle, areas, gaps, scene.lubricant.conductivity)
-        fluid = oil(heat.film(inlet, lambda warm: np.abs((solid + oil(warm)) * rubbing)))
-        pull = abs(float(solid[0] + fluid[0]))
-        rise, into_1 = heat.surface(pull * abs(float(rubbing[0])))
+        fluid = oil(heat.film(temperature + _TEMPERATURE, lambda warm: np.abs((solid + oil(warm)) * rubbing)))
+    slide, pull = abs(float(rubbing[0])), abs(float(solid[0] + fluid[0]))
+    pressure, shear = float(solid_pressures[0]), abs(float(solid_shears[0]))
+    if isinstance(scene.heat, TemperatureField):
+        rise, into_1 = heat.surface(pull * slide)
+    else:
+        rise, into_1 = _flash_rise(scene, shear, slide), 0.5 * pull * slide
+    oil_stress = abs(float(fluid[0])) / float(oily[0]) if oily[0] > 0.0 else 0.0
     if op.spin:
-        along = slides / np.maximum(np.abs(rubbing), _SLOWEST)
+        along = slides / np.maximum(rubbing, _SLOWEST)
         solid, fluid = solid * along, fluid * along
     forces = (solid + fluid).tolist()  # on body 2
     by_sliding = -_slope(forces, 1, _D * slip)
@@ -244,12 +241,12 @@ def _evaluate(scene: Scene, op: OperatingPoint, films: Films) -> _Contact:
         ),
         pressure,
         shear,
-        abs(float(fluid[0])) / float(areas[0] * oil_share[0]),
+        oil_stress,
         rise,
-        abs(float(rubbing[0])),
-        pull * abs(float(rubbing[0])),
+        slide,
+        pull * slide,
         into_1,
-        -_SPIN * hertz.a * scale * pull * float(turning[0]) / max(abs(float(rubbing[0])), _SLOWEST),
+        -_SPIN * hertz.a * scale * pull * float(turning[0]) / max(slide, _SLOWEST),
     )
 
 
@@ -316,14 +313,14 @@ def _oil(viscosity: Law, temperature: float) -> list[tuple[float, float]]:
 
 def _shared(
     scene: Scene, films: Films, sigma: float, film: Array, pressures: Array
-) -> tuple[_Fit, Array, Array, Array]:
-    """Where the contact lies in the fit, mean gaps [m], contact_load_ratio and contact_area_ratio of rough bodies, for
-    films of smooth ones [m] and Hertz's largest pressures [Pa].
+) -> tuple[_Fit, Array, Array, Array, Array]:
+    """Where the contact lies in the fit; mean gaps [m], contact_load_ratio, contact_area_ratio and pressure of the oil
+    over Hertz's, of rough bodies, for films of smooth ones [m] and Hertz's largest pressures [Pa].
     """
     floor, sharing = scene.film.floor, scene_film(scene).sharing
     if sigma == 0.0:
         touching = (film <= floor).astype(np.float64)
-        return _UNFITTED, np.maximum(film, floor), touching, touching
+        return _UNFITTED, np.maximum(film, floor), touching, touching, np.ones_like(film)
     first, second = scene.surface_1, scene.surface_2
     slope = 2.0 * math.hypot(films[0].both / first.correlation_length, films[1].both / second.correlation_length)
     resolution = (first if first.rq > second.rq else second).correlation_length / scene.film.spacing
@@ -335,7 +332,7 @@ def _shared(
     resolution = min(max(resolution, coarsest), finest)
     share = sharing.load_ratio(clearance, flattening, resolution)
     gaps = np.maximum(sigma * sharing.film_ratio(clearance, share, flattening, resolution), floor)
-    return fit, gaps, share, sharing.area_ratio(share, flattening)
+    return fit, gaps, share, sharing.area_ratio(share, flattening), sharing.oil_pressure(clearance, flattening)
 
 
 def oil_shear(scene: Scene, pressures: Array, rates: Array, temperatures: Array) -> Array:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .film.instant import FilmSolution, FilmState, Grid, Instant
-from .film.thinning import eased, solve_thinning
+from .film.thinning import eased, recalled, remembering, solve_thinning
 from .friction import Film, Shear, shear, sliding
 from .laws.heat import Temperatures
 from .reference import inlet_shear_factor
@@ -110,8 +110,7 @@ def solve_flow(
     if scene.lubricant.flow == "newtonian" or now.dry or op.entrainment_speed == 0.0:
         return solve(now, before)
     if before is not None:
-        warmer, thinned = (field if field.size > 1 else None for field in (before.ease, before.thinned))
-        return solve(replace(now, ease=now.ease if warmer is None else warmer, thinned=thinned), before)
+        return solve(recalled(now, before), before)
 
     def ease(now: Instant, found: FilmSolution) -> Instant:
         film = warmed(scene, op, sheared(grid, found, cover, op.inlet_temperature), None)[0]
@@ -131,12 +130,6 @@ def _worked(scene: Scene, op: OperatingPoint, now: Instant, found: FilmSolution,
 
 def left_behind(scene: Scene, op: OperatingPoint, now: Instant, found: FilmSolution, film: Film) -> FilmState:
     """The state of a film with its oil as the next instant of a march takes it over."""
-    state = replace(found.state, warmth=np.atleast_2d(film.temperature - op.inlet_temperature))
-    if scene.lubricant.flow == "newtonian" or found.route != "mixed":
-        return state
-    then = _worked(scene, op, now, found, film)
-    return replace(
-        state,
-        ease=np.ones((1, 1)) if then.ease is None else then.ease,
-        thinned=np.zeros((1, 1)) if then.thinned is None else then.thinned,
-    )
+    if scene.lubricant.flow == "local" and found.route == "mixed":
+        found = remembering(found, _worked(scene, op, now, found, film))
+    return replace(found.state, warmth=np.atleast_2d(film.temperature - op.inlet_temperature))

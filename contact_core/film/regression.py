@@ -18,7 +18,7 @@ class Regression:
     name: ClassVar[str] = "regression"
     source: ClassVar[str] = (
         "film: Nijenbanning, Venner & Moes 1994, doi:10.1016/0043-1648(94)90150-3; sharing: see its source; "
-        "crowding: fitted to the deterministic level's friction by benchmarks/regression_oil.py; smoothing: assumed"
+        "smoothing: assumed"
     )
 
     points: int = parameter(
@@ -31,13 +31,6 @@ class Regression:
         "m", "gap at which solids touch: thickness of the adsorbed boundary layer", above=1e-11, most=1e-7, default=1e-9
     )
     sharing: FittedSharing = field(default=FittedSharing())
-    crowding: float = parameter(
-        "",
-        "k: load-bearing oil covers 1 / (1 + k contact_load_ratio) of the area without solid contact",
-        least=0.0,
-        most=100.0,
-        default=3.5,
-    )
     smoothing: float = parameter(
         "",
         "mean height of what touches, over composite roughness: wear takes it away",

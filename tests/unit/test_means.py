@@ -140,6 +140,33 @@ def test_limited_oil_carries_its_coefficient_times_the_load_it_bears():
     assert found.friction_coefficient <= limit * (1.0 + 1e-3)
 
 
+def test_friction_lies_between_the_solids_and_the_solids_with_oil_at_its_limit(grown):
+    scene, state, op = grown
+    random = np.random.Generator(np.random.Philox(5))
+    limit = scene.lubricant.rheology.limiting_coefficient
+    shares = []
+    for u, srr, load in random.random((60, 3)).tolist():
+        at = point(op, 10.0 ** (4.0 * u - 3.0), 10.0 ** (4.0 * u - 3.0 - 2.0 * srr), load=20.0 + 60.0 * load)
+        found = now(scene, at, state)
+        oil = (1.0 - found.contact_load_ratio) * at.load * limit
+        assert 0.0 < -found.friction_fluid <= oil * (1.0 + 1e-2)
+        assert found.friction_force == found.friction_solid + found.friction_fluid
+        assert found.power_loss == pytest.approx(-found.friction_force * at.sliding_speed)
+        assert found.heat_flow_1 + found.heat_flow_2 == found.power_loss
+        shares.append(found.contact_load_ratio)
+    assert min(shares) < 0.1
+    assert max(shares) > 0.8
+
+
+def test_a_body_at_rest_wears_the_same_volume_on_a_short_track():
+    scene, state, op = fast(tribofilm__model="none")
+    state, found = advance(scene, replace(op, speed_1=0.2, speed_2=0.0), state, 1.0)
+    assert found.wear_volume_1 == pytest.approx(found.wear_volume_2, rel=1e-12)
+    assert found.load_cycles_2 == 0.0
+    longer = scene.geometry.track_length_1 / scene.film.domain
+    assert found.wear_depth_2 == pytest.approx(longer * found.wear_depth_1, rel=1e-12)
+
+
 def test_wear_is_archards_for_the_load_on_the_solids():
     scene, state, op = fast(tribofilm__model="none")
     state, found = advance(scene, op, state, 1e-3)

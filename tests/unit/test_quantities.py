@@ -4,6 +4,7 @@ from dataclasses import dataclass, fields
 import pytest
 
 from contact_core import OperatingPoint, Outputs, Scene, units
+from contact_core.film import FILMS
 from contact_core.quantities import INPUTS, OUTPUTS, TABLE, out_of_range, parameter
 from contact_core.scene import tunables
 
@@ -23,6 +24,12 @@ def test_the_core_fills_exactly_the_outputs_of_the_table():
 def test_the_outputs_have_the_kinds_of_the_table():
     kinds = {f.name: {float: "Real", int: "Integer"}[type(f.default)] for f in fields(Outputs)}
     assert kinds == {q.name: q.kind for q in OUTPUTS if q.name != "valid"}
+
+
+def test_every_quantity_is_told_by_a_level_there_is():
+    levels = {film.name for film in FILMS}
+    assert all(q.levels and set(q.levels) <= levels for q in QUANTITIES)
+    assert all("deterministic" in q.levels for q in QUANTITIES)
 
 
 def test_an_operating_point_has_exactly_the_inputs_of_the_table():
