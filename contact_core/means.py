@@ -196,8 +196,8 @@ def _evaluate(scene: Scene, op: OperatingPoint, films: Films) -> _Contact:
     # no solid contact is smaller than the hardness allows
     touching = np.maximum(area_share, carried / scene.plasticity.hardness)
     solid_pressures = carried / (touching + 1e-300)
-    turning = _SPIN * op.spin * hertz.a * scale * _ROOT  # speed of the spin
-    rubbing = np.hypot(slides, turning) if op.spin else slides
+    turning = _SPIN * op.spin * hertz.a * scale  # speed of the spin
+    rubbing = np.hypot(slides, turning * _ROOT) if op.spin else slides
     boundary: Law = scene.boundary_friction
     solid_shears = boundary(solid_pressures, cover, rubbing)
     solid, oily = areas * touching * solid_shears, areas * (1.0 - solid_share) / raised
@@ -246,7 +246,7 @@ def _evaluate(scene: Scene, op: OperatingPoint, films: Films) -> _Contact:
         slide,
         pull * slide,
         into_1,
-        -_SPIN * hertz.a * scale * pull * float(turning[0]) / max(slide, _SLOWEST),
+        -_SPIN * hertz.a * scale * pull * turning / max(slide, _SLOWEST),
     )
 
 

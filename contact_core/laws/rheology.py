@@ -24,27 +24,31 @@ def _limiting_coefficient() -> Any:
 
 class _Limited:
     """What all laws share: odd in the shear, cut at the limiting stress (Bair & Winer, J. Lubr. Technol. 101 (1979)
-    258). A law gives `_thinned`: its stress [Pa] and the slope of that, of a Newtonian stress >= 0.
+    258). A law gives its `_stress` [Pa] of a Newtonian stress >= 0 and the `_slope` of that.
     """
 
     limiting_coefficient: float
 
-    def _thinned(self, newtonian: Array) -> tuple[Array, Array]:
+    def _stress(self, newtonian: Array) -> Array:
+        raise NotImplementedError
+
+    def _slope(self, newtonian: Array) -> Array:
         raise NotImplementedError
 
     def __call__(self, newtonian: Array, pressure: Array) -> Array:
         """Shear stress [Pa] with the sign of `newtonian` = viscosity times shear rate [Pa], under a pressure [Pa]."""
-        stress = self._thinned(np.abs(newtonian))[0]
+        stress = self._stress(np.abs(newtonian))
         if self.limiting_coefficient > 0.0:
             stress = np.minimum(stress, self.limiting_coefficient * pressure)
-        return np.sign(newtonian) * stress
+        return np.copysign(stress, newtonian)
 
     def slopes(self, newtonian: Array, pressure: Array) -> tuple[Array, Array]:
         """Derivatives of the stress by `newtonian` and by pressure (at fixed `newtonian`)."""
-        stress, slope = self._thinned(np.abs(newtonian))
+        size = np.abs(newtonian)
+        slope = self._slope(size)
         if self.limiting_coefficient == 0.0:
             return slope, np.zeros_like(slope)
-        limited = stress > self.limiting_coefficient * pressure
+        limited = self._stress(size) > self.limiting_coefficient * pressure
         return np.where(limited, 0.0, slope), np.where(limited, np.sign(newtonian) * self.limiting_coefficient, 0.0)
 
 
@@ -58,8 +62,11 @@ class Newtonian(_Limited):
 
     limiting_coefficient: float = _limiting_coefficient()
 
-    def _thinned(self, newtonian: Array) -> tuple[Array, Array]:
-        return newtonian, np.ones_like(newtonian)
+    def _stress(self, newtonian: Array) -> Array:
+        return newtonian
+
+    def _slope(self, newtonian: Array) -> Array:
+        return np.ones_like(newtonian)
 
     def ease(self, stress: Array) -> Array:
         """How many times easier than a Newtonian one the oil shears at a stress [Pa]: 1."""
@@ -77,9 +84,11 @@ class Eyring(_Limited):
     eyring_stress: float = parameter("Pa", "shear stress at which the fluid begins to thin", above=0.0, most=1e12)
     limiting_coefficient: float = _limiting_coefficient()
 
-    def _thinned(self, newtonian: Array) -> tuple[Array, Array]:
-        x = newtonian / self.eyring_stress
-        return self.eyring_stress * np.arcsinh(x), 1.0 / np.hypot(1.0, x)
+    def _stress(self, newtonian: Array) -> Array:
+        return self.eyring_stress * np.arcsinh(newtonian / self.eyring_stress)
+
+    def _slope(self, newtonian: Array) -> Array:
+        return 1.0 / np.hypot(1.0, newtonian / self.eyring_stress)
 
     def ease(self, stress: Array) -> Array:
         """How many times easier than a Newtonian one the oil shears at a stress [Pa]."""
@@ -101,11 +110,12 @@ class Carreau(_Limited):
     exponent: float = parameter("", "n, power of the shear rate in a thin fluid", above=0.0, most=1.0)
     limiting_coefficient: float = _limiting_coefficient()
 
-    def _thinned(self, newtonian: Array) -> tuple[Array, Array]:
-        x = newtonian / self.critical_stress
-        root = np.hypot(1.0, x)
-        factor = root ** (self.exponent - 1.0)
-        return newtonian * factor, factor * (self.exponent + (1.0 - self.exponent) / root / root)
+    def _stress(self, newtonian: Array) -> Array:
+        return newtonian * np.hypot(1.0, newtonian / self.critical_stress) ** (self.exponent - 1.0)
+
+    def _slope(self, newtonian: Array) -> Array:
+        root = np.hypot(1.0, newtonian / self.critical_stress)
+        return root ** (self.exponent - 1.0) * (self.exponent + (1.0 - self.exponent) / root / root)
 
     def ease(self, stress: Array) -> Array:
         """How many times easier than a Newtonian one the oil shears at a stress [Pa].

@@ -5,6 +5,7 @@ A law takes pressures [Pa] of any shape and one temperature [K] or an array of t
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
@@ -40,12 +41,17 @@ class Roelands:
 
     def __call__(self, pressure: Array, temperature: float | Array) -> Array:
         """Viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
-        log_range = np.log(self.viscosity) - _LN_ETA_INF
-        z = self.pressure_coefficient * _P0 / log_range
-        s0 = self.temperature_coefficient * (self.reference_temperature - 138.0) / log_range
+        log_range, z, s0 = self._constants
         thermal = ((temperature - 138.0) / (self.reference_temperature - 138.0)) ** -s0
-        exponent = log_range * (-1.0 + (1.0 + pressure / _P0) ** z * thermal)
+        exponent = log_range * ((1.0 + pressure / _P0) ** z * thermal - 1.0)
         return self.viscosity * np.exp(np.minimum(exponent, _STIFF))
+
+    @cached_property
+    def _constants(self) -> tuple[float, float, float]:
+        """ln(eta0 / eta_inf), z and S0."""
+        log_range = math.log(self.viscosity) - _LN_ETA_INF
+        z = self.pressure_coefficient * _P0 / log_range
+        return log_range, z, self.temperature_coefficient * (self.reference_temperature - 138.0) / log_range
 
 
 @dataclass(frozen=True)

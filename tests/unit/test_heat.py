@@ -293,7 +293,10 @@ def test_numbers_of_a_lumped_body_are_tunable():
             LUMPED_TABLE | {"heat.bulk.conductance_1": "1 J/K"},
             r"heat\.bulk\.conductance_1 = '1 J/K' has the wrong unit",
         ),
-        (LUMPED_TABLE | {"heat.bulk.heat_capacity_1": "0 J/K"}, r"heat\.bulk\.heat_capacity_1 = 0 J/K .* at least 1e-09"),
+        (
+            LUMPED_TABLE | {"heat.bulk.heat_capacity_1": "0 J/K"},
+            r"heat\.bulk\.heat_capacity_1 = 0 J/K .* at least 1e-09",
+        ),
         ({"heat.inlet_shear": "gutpa"}, r"heat\.inlet_shear = 'gutpa' is not one of none, gupta"),
     ],
 )
