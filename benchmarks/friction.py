@@ -1,8 +1,8 @@
 """Friction: traction curves at full film, continuity in speed and through reversal, derivatives held and total.
 
-    python benchmarks/friction.py [traction] [speed] [derivatives]
+    python benchmarks/friction.py
 
-Writes docs/friction.md and docs/friction.png. Without a word, all parts.
+Writes docs/friction.md and docs/friction.png.
 """
 
 import argparse
@@ -17,7 +17,7 @@ from scipy.integrate import quad
 from contact_core import OperatingPoint, Scene, advance, initial_state, solve
 
 OILS = {
-    "Newtonian": {"lubricant.rheology.model": "newtonian"},
+    "Newtonian": {"lubricant.rheology.model": "newtonian", "lubricant.rheology.limiting_coefficient": "0"},
     "Newtonian, limit 0.047": {"lubricant.rheology.model": "newtonian", "lubricant.rheology.limiting_coefficient": "0.047"},
     "Eyring 5 MPa": {"lubricant.rheology.limiting_coefficient": "0"},
     "Eyring 5 MPa, limit 0.047": {},
@@ -25,6 +25,7 @@ OILS = {
         "lubricant.rheology.model": "carreau",
         "lubricant.rheology.critical_stress": "5 MPa",
         "lubricant.rheology.exponent": "0.5",
+        "lubricant.rheology.limiting_coefficient": "0",
     },
 }  # fmt: skip
 SMOOTH = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.model": "none", "heat.model": "none"}

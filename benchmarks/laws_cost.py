@@ -1,17 +1,23 @@
-"""What laws cost per contact solve: `python benchmarks/laws_cost.py heat` prints its rows of a Markdown table.
+"""What each law costs per contact solve, in milliseconds and work units.
 
-The contact is case A, cold and to a loose tolerance, with half the slide of its entrainment: there is heat to share.
+    python benchmarks/laws_cost.py [friction] [flow] [heat] [tribofilm]
+
+Writes docs/laws_cost.md (all parts). The contact is case A, cold and to a loose tolerance, with half the slide of its
+entrainment: there is heat to share.
 """
 
 import sys
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import numpy as np
-from core_common import cells, timed, unit_of
+from core_common import DOCS, cells, timed, unit_of
 
-from contact_core import ContactFields, Scene, initial_state, solve
+from contact_core import ContactFields, Scene, Transient, initial_state, solve
+from contact_core.friction import derivatives, shear
 from contact_core.kernels.moving_source import MovingSurface, partition
 from contact_core.laws.heat import LAWS
+from contact_core.laws.rheology import Carreau, Eyring, Newtonian
 
 CASE = {
     "operation.speed_1": "0.3125 m/s",
@@ -52,12 +58,105 @@ def heat(points: int) -> Iterator[Row]:
             yield f"heat: {law.name}", points, 1e3 * seconds, seconds / unit, calls, note
 
 
-PARTS: dict[str, Callable[[int], Iterator[Row]]] = {"heat": heat}
+RHEOLOGIES = (Newtonian(0.047), Eyring(5e6, 0.047), Carreau(5e6, 0.5, 0.047))
+OILS = ("azam_oil", "fva3", "m100")
 
 
-if __name__ == "__main__":
-    print(cells(HEADER), "|" + "---|" * len(HEADER), sep="\n")
+def friction(points: int) -> Iterator[Row]:
+    """Shear of oil and solids with every rheology and kind of viscosity; the derivatives."""
+    scene, found = contact(points)
+    point, unit = scene.operation.point, unit_of(points)
+    for name in OILS:
+        oil = Scene.from_toml("azam_case_a", {"lubricant.set": name}).lubricant
+        _, seconds = timed(lambda: oil.viscosity(found.fluid_pressure, point.temperature), 20)  # noqa: B023
+        yield f"viscosity: {oil.viscosity.name}", points, 1e3 * seconds, seconds / unit, 0, name
+    for law in RHEOLOGIES:
+        newtonian = 1e6 * np.exp(1e-8 * found.fluid_pressure)
+        _, seconds = timed(lambda: law(newtonian, found.fluid_pressure), 20)  # noqa: B023
+        yield f"rheology: {law.name}", points, 1e3 * seconds, seconds / unit, 0, ""
+    _, seconds = timed(lambda: shear(scene, point, found.sheared), 20)
+    yield "all shear of an instant", points, 1e3 * seconds, seconds / unit, 0, "as shipped"
+    spun = replace(point, spin=100.0)
+    _, seconds = timed(lambda: shear(scene, spun, found.sheared), 20)
+    yield "all shear of an instant", points, 1e3 * seconds, seconds / unit, 0, "with spin"
+    _, seconds = timed(lambda: derivatives(scene, point, found.sheared), 20)
+    yield "derivatives", points, 1e3 * seconds, seconds / unit, 0, "once a block"
+
+
+def flow(points: int) -> Iterator[Row]:
+    """What flow = "local" adds to an instant of a march, and the march itself."""
+    local = {"lubricant.flow": "local"}
+    for name, more in (
+        ("newtonian", {}),
+        ("local, eyring", local),
+        ("local, heat field", local | {"heat.model": "field"}),
+    ):
+        scene = Scene.from_toml("azam_case_a", CASE | {"film.points": str(points), "film.tolerance": "3e-3"} | more)
+        point, state = scene.operation.point, initial_state(scene)
+        fields = solve(scene, point, state, dry=True)
+        step = Transient(scene.film.spacing / 0.3125, 0, 40)
+        for _ in range(4):
+            fields = solve(scene, point, replace(state, film=fields.film), step)
+        warm = replace(state, film=fields.film)
+        found, seconds = timed(lambda: solve(scene, point, warm, step), 5)  # noqa: B023
+        unit = unit_of(points)
+        yield (
+            f"an instant of a march, flow: {name}",
+            points,
+            1e3 * seconds,
+            seconds / unit,
+            0,
+            f"{found.iterations} iterations",
+        )
+
+
+def tribofilm(points: int) -> Iterator[Row]:
+    """Exposure of an instant and an hour's growth of one body."""
+    scene, found = contact(points)
+    unit, temperature = unit_of(points), scene.operation.temperature
+    for name in ("none", "zddp_80c", "andersson_90c", "zhang_spikes_80c_ethylhexyl", "gosvami", "combined_80c"):
+        changes = (
+            {"tribofilm.model": "none"}
+            if name == "none"
+            else {"tribofilm.set": name, "operation.temperature": "80 degC"}
+        )
+        changes |= {"operation.temperature": "90 degC"} if name == "andersson_90c" else {}
+        law = Scene.from_toml("azam_case_a", changes if name != "none" else {"tribofilm.model": "none"}).tribofilm
+        args = (found.solid_pressure, found.shear, 0.1, temperature)
+        exposure, first = timed(lambda: law.exposure(*args), 20)  # noqa: B023
+        zeros = np.zeros_like(exposure)
+        _, second = timed(lambda: law.evolve(zeros, zeros, exposure, zeros, temperature), 20)  # noqa: B023
+        yield f"tribofilm: {law.name}, exposure", points, 1e3 * first, first / unit, 0, name
+        yield f"tribofilm: {law.name}, evolution", points, 1e3 * second, second / unit, 0, "a body, a step of time"
+
+
+PARTS: dict[str, Callable[[int], Iterator[Row]]] = {
+    "friction": friction,
+    "flow": flow,
+    "heat": heat,
+    "tribofilm": tribofilm,
+}
+
+
+def main() -> None:
+    lines = [
+        "# What laws cost",
+        "",
+        "Written by `python benchmarks/laws_cost.py`: case A on fresh surfaces, slide-to-roll ratio 50 %. A work unit is one",
+        'deformation convolution on the same grid. A law that is "none" is not called at all, but for its zeros.',
+        "",
+        cells(HEADER),
+        "|" + "---|" * len(HEADER),
+    ]
+    print(*lines[-2:], sep="\n")
     for part in sys.argv[1:] or PARTS:
         for nodes in (129, 257):
             for row in PARTS[part](nodes):
-                print(cells(row), flush=True)
+                lines.append(cells(row))
+                print(lines[-1], flush=True)
+    if not sys.argv[1:]:
+        (DOCS / "laws_cost.md").write_text("\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from contact_core import Scene
+from contact_core import Scene, advance, initial_state
 from contact_core.reading import read_table
 from system_models.duty import Duty
 
@@ -45,3 +45,28 @@ def test_the_duty_is_a_duty(tmp_path: Path, scene: Scene) -> None:
     path = tmp_path / "duty.csv"
     path.write_text(block("", "time [min]"))
     assert Duty.from_csv(path, scene.operation.point).times == (0.0, 1800.0, 3600.0)
+
+
+def test_the_example_of_friction_and_heat_runs() -> None:
+    changes = tomllib.loads(block("toml", "[lubricant]"))
+    table = read_table("mtm_zddp") | changes
+    scene = Scene.from_dict(table | {"film": table["film"] | {"points": 65}})
+    assert (scene.lubricant.flow, scene.heat.name, scene.heat.bulk.name) == ("local", "field", "lumped")
+    state, outputs = advance(scene, scene.operation.point, initial_state(scene), 0.02)
+    assert outputs.heat_flow_1 + outputs.heat_flow_2 == pytest.approx(outputs.power_loss, rel=1e-12)
+    assert state.temperatures is not None and state.temperatures[0] > scene.operation.temperature
+
+
+def test_the_example_of_the_fast_level_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    scene = Scene.from_toml("mtm_zddp", {"film.points": "65"})
+    names: dict[str, Any] = {
+        "scene": scene,
+        "state": initial_state(scene),
+        "point": scene.operation.point,
+        "advance": advance,
+    }
+    exec(block("python", "fast = scene.at_level"), names)
+    friction, slope, error = (float(word) for word in capsys.readouterr().out.split())
+    assert 0.01 < friction < 0.2
+    assert slope != 0.0
+    assert 0.0 < error < 1.0
