@@ -46,6 +46,17 @@ def friction_of(scene: Scene, op: OperatingPoint) -> float:
     return (fields.friction.force_solid + fields.friction.force_fluid) / op.load
 
 
+def hertz_stiffness(scene: Scene) -> float:
+    """Integral of the viscosity under Hertz's pressure [Pa s m2]."""
+    hertz, oil, temperature = scene.hertz(LOAD), scene.lubricant, scene.operation.temperature
+
+    def stiff(r: float) -> float:
+        pressure = hertz.pressure_max * np.sqrt(1.0 - r * r)
+        return float(oil.viscosity(np.array([pressure]), temperature)[0]) * 2.0 * np.pi * r
+
+    return quad(stiff, 0.0, 1.0)[0] * hertz.a**2
+
+
 def traction() -> tuple[list[str], dict[str, np.ndarray]]:
     ratios = np.geomspace(1e-9, 2.0, 40)
     curves, rows = {"ratio": ratios}, []
@@ -54,16 +65,11 @@ def traction() -> tuple[list[str], dict[str, np.ndarray]]:
         mu = np.array([-friction_of(scene, at(scene, SPEED, ratio)) for ratio in ratios])
         curves[name] = mu
         fields = solve(scene, at(scene, SPEED, 0.0), initial_state(scene))
-        hertz, lubricant = scene.hertz(LOAD), scene.lubricant
+        lubricant = scene.lubricant
         viscosity = lubricant.viscosity(fields.fluid_pressure, scene.operation.temperature)
         slope = float((viscosity / fields.gap).sum()) * scene.film.spacing**2 * SPEED / LOAD
         central = float(fields.gap[scene.film.points // 2, scene.film.points // 2])
-
-        def stiff(r: float) -> float:
-            pressure = hertz.pressure_max * np.sqrt(1.0 - r * r)
-            return float(lubricant.viscosity(np.array([pressure]), scene.operation.temperature)[0]) * 2.0 * np.pi * r
-
-        hertzian = quad(stiff, 0.0, 1.0)[0] * hertz.a**2 / central * SPEED / LOAD
+        hertzian = hertz_stiffness(scene) / central * SPEED / LOAD
         limit = lubricant.rheology.limiting_coefficient
         rows.append(
             [
@@ -109,9 +115,9 @@ def continuity() -> tuple[list[str], dict[str, np.ndarray]]:
             scene = Scene.from_toml(name).at_level(level)
             ratio = scene.operation.point.sliding_speed / scene.operation.point.entrainment_speed
             speeds = np.geomspace(1e-5, 10.0, 6 * per_decade + 1)
-            state, mu = initial_state(scene), []
-            for speed in speeds:
-                mu.append(advance(scene, at(scene, speed, ratio), state, 0.0)[1].friction_coefficient)
+            state = initial_state(scene)
+            points = [at(scene, speed, ratio) for speed in speeds]
+            mu = [advance(scene, op, state, 0.0)[1].friction_coefficient for op in points]
             steps = np.abs(np.diff(mu))
             where = int(steps.argmax())
             lines.append(
@@ -200,7 +206,7 @@ def plot(curves: dict[str, np.ndarray], speeds: dict[str, np.ndarray]) -> None:
             left.loglog(curves["ratio"], mu, label=name)
     left.set(xlabel="slide-to-roll ratio", ylabel="friction coefficient", title="traction at full film")
     for k, (name, (speed, mu)) in enumerate(speeds.items()):
-        scene, level = name.split(", ")
+        level = name.split(", ")[1]
         right.semilogx(speed, mu, "-" if level == "regression" else "o", color=f"C{k // 2}", ms=4, label=name)
     right.set(
         xlabel="entrainment speed, m/s",

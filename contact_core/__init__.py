@@ -9,10 +9,13 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     reading      TOML to records and back, with did-you-mean
     state        ContactState, Outputs, RangeFlag, serialisation
     surfaces     roughness: generation and statistics
-    laws/        viscosity, density, rheology, plasticity, boundary friction, heat, tribofilm, wear
+    laws/        viscosity, density, rheology, plasticity, boundary friction, heat, bulk temperature, tribofilm, wear,
+                 load sharing of the fast level
     film/        fluid and solid pressure of one instant: units, grids, the table of algorithms (routes), error estimate
     kernels/     numba and FFT: arrays in, arrays out
     point_contact, dry_contact   one call each, without a scene
+    friction     shear of solids and oil, forces, power, derivatives at a held film
+    oil          what heat and shear make of the oil, and how it then flows
     patches      body-fixed surfaces: what they are now, where they lie under the contact
     contact      solve: one instant of a scene in a state
     sweep        what a block's instants add up to
@@ -26,8 +29,8 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     data/        named oils, solids and tribofilms, and the shipped scenes
     errors       what can go wrong, each message with a way out
 
-Imports run one way: kernels <- laws <- film <- patches <- evolution <- contact <- sweep <- block <- advance;
-means stands beside block.
+Imports run one way: kernels <- laws <- film <- friction <- oil <- patches <- evolution <- contact <- sweep <- block
+<- advance; means stands beside block.
 Everything inside is SI; heights are metres above a body's mean plane, positive toward the other body; arrays are
 [ny, nx], x along entrainment.
 """

@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from cheap_scene import cheap
+
 from contact_core.film.instant import Grid
 from contact_core.friction import Film, derivatives, friction, shear, sliding
 

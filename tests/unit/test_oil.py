@@ -1,4 +1,4 @@
-"""Heat and shear in scenes: what they do to the film, and that nothing is paid for them where they are not asked for."""
+"""Heat and shear in scenes: what they do to the film, and that a scene without them pays nothing."""
 
 from dataclasses import replace
 
