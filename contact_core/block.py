@@ -185,10 +185,11 @@ def sweep_mixed(
         jump_now = k % stride == 0
         state = _moved(scene, state, [step + jump * jump_now for step, jump in zip(steps, jumps, strict=True)])
         moved = (patch_nodes(scene, state.bodies[rougher]) - before + columns // 2) % columns - columns // 2
-        fields = solve(scene, op, state, Transient(dt, moved, _ITERATIONS))
+        settled = 2 * k >= -unsampled  # enough to tell which points are touched, and how warm they are
+        fields = solve(scene, op, state, Transient(dt, moved, _ITERATIONS, heated=settled))
         if k >= 0:
             sweep.add(scene, op, state, fields, passes)
-        elif 2 * k >= -unsampled:  # settled enough to tell which points are touched
+        elif settled:
             sweep.touch(scene, op, state, fields, passes)
         state = _yielded(scene, replace(state, film=fields.film), fields.overlap)
     return state

@@ -26,6 +26,7 @@ class Transient:
     dt: float  # time since then [s]
     moved: int  # nodes by which the rougher surface has moved along +x since then
     iterations: int  # at most
+    heated: bool = True  # False: nobody asks for temperatures; the film stays as warm as it was
 
 
 @dataclass(frozen=True)
@@ -120,7 +121,9 @@ def solve(
             lambda now, start: level.solve(now, grid, start, follows, most),
             level.tolerance,
         )
-    found, stress, warm, shortfall = warmed(scene, op, sheared(grid, film, cover, op.inlet_temperature), before)
+    found, stress, warm, shortfall = warmed(
+        scene, op, sheared(grid, film, cover, op.inlet_temperature), before, heated=not transient or transient.heated
+    )
     return ContactFields(
         x=grid.x,
         y=grid.y,

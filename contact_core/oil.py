@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from .film.instant import FilmSolution, FilmState, Grid, Instant
 from .film.thinning import eased, recalled, remembering, solve_thinning
 from .friction import Film, Shear, shear, sliding
-from .laws.heat import Temperatures
+from .laws.heat import NoHeat, Temperatures
 from .reference import inlet_shear_factor
 from .scene import OperatingPoint, Scene
 
@@ -34,15 +34,16 @@ def sheared(grid: Grid, found: FilmSolution, cover: Array, temperature: float) -
 
 
 def warmed(
-    scene: Scene, op: OperatingPoint, film: Film, before: FilmState | None
+    scene: Scene, op: OperatingPoint, film: Film, before: FilmState | None, *, heated: bool = True
 ) -> tuple[Film, Shear, Temperatures, str]:
     """A film at its temperature, its shear, the temperatures, and why they do not belong together if so.
 
     A march goes on from the warmth of the instant before; a steady film (`before` None) repeats until its temperature
-    stands still.
+    stands still. Not `heated`, it stays at that warmth.
     """
-    law, inlet = scene.heat, op.inlet_temperature
-    if law.warms_film and before is not None:
+    inlet = op.inlet_temperature
+    law = scene.heat if heated else NoHeat()
+    if scene.heat.warms_film and before is not None:
         film = replace(film, temperature=inlet + before.warmth)
     change = 0.0
     for _ in range(_ROUNDS):
