@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from cheap_scene import cheap
 
+from contact_core import Scene, solve
 from contact_core.film.instant import Grid
 from contact_core.friction import Film, derivatives, friction, shear, sliding
 
@@ -112,3 +113,20 @@ def test_solids_and_oil_share_the_friction():
     solid = float(((law.bare + (law.film - law.bare) * cover) * 0.3 * HERTZ).sum()) * GRID.spacing**2
     assert both.force_solid == pytest.approx(-solid, rel=1e-12)
     assert both.force_fluid < 0.0
+
+
+@pytest.mark.parametrize("entrainment", [0.0, 1e-6, -1e-6])
+def test_at_rest_and_just_beside_it_the_contact_rubs_by_the_boundary_law(entrainment):
+    scene, state, point = cheap(tribofilm__model="none")
+    op = replace(point, speed_1=0.01 + entrainment, speed_2=-0.01 + entrainment)
+    fields = solve(scene, op, state)
+    assert fields.converged, fields.shortfall
+    assert fields.route == ("dry" if entrainment == 0.0 else "mixed")
+    found = abs(fields.friction.force_solid + fields.friction.force_fluid) / op.load
+    assert found == pytest.approx(scene.boundary_friction.bare, rel=1e-3)
+
+
+def test_the_boundary_limit_lies_where_additives_are_measured():
+    for name in ("azam_case_a", "mtm_zddp"):
+        law = Scene.from_toml(name).boundary_friction
+        assert all(0.09 <= law.coefficient(cover) <= 0.14 for cover in (0.0, 0.5, 1.0))
