@@ -16,7 +16,7 @@ from core_common import DOCS, cells, timed, unit_of
 from contact_core import ContactFields, Scene, Transient, initial_state, solve
 from contact_core.friction import derivatives, shear
 from contact_core.kernels.moving_source import MovingSurface, partition
-from contact_core.laws.heat import LAWS
+from contact_core.laws.heat import LAWS, Rubbing
 from contact_core.laws.rheology import Carreau, Eyring, Newtonian
 
 CASE = {
@@ -44,12 +44,12 @@ def heat(points: int) -> Iterator[Row]:
     speeds, bodies = (point.speed_1, point.speed_2), (point.temperature, point.temperature)
     warmth = np.abs(found.fluid_shear + found.solid_shear) * abs(point.sliding_speed)
     inside, oil = found.pressure > 0.0, scene.lubricant.conductivity
-    args = (warmth, found.gap, found.film.solid, inside, spacing, speeds, point.sliding_speed, bodies, oil)
+    rubbing = Rubbing(warmth, found.gap, found.film.solid, inside, spacing, speeds, bodies, oil)
     for law in LAWS:
         for name, pair in PAIRS.items() if law.name != "none" else [("all", ())]:
             made = law(*pair)
-            _, first = timed(lambda: made.temperatures(*args))  # noqa: B023
-            rise, seconds = timed(lambda: made.temperatures(*args), 20)  # noqa: B023
+            _, first = timed(lambda: made.temperatures(rubbing))  # noqa: B023
+            rise, seconds = timed(lambda: made.temperatures(rubbing), 20)  # noqa: B023
             calls, note = 0, f"{name}: mean flash rise {rise.flash_rise:.3g} K"
             if law.name == "field":
                 surfaces = [MovingSurface(warmth.shape, spacing, pair[i], pair[i + 2], speeds[i]) for i in range(2)]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from .film.instant import FilmSolution, FilmState, Grid, Instant
 from .film.thinning import eased, recalled, remembering, solve_thinning
 from .friction import Film, Shear, shear, sliding
-from .laws.heat import NoHeat, Temperatures
+from .laws.heat import NoHeat, Rubbing, Temperatures
 from .reference import inlet_shear_factor
 from .scene import OperatingPoint, Scene
 
@@ -48,17 +48,17 @@ def warmed(
     change = 0.0
     for _ in range(_ROUNDS):
         stress = shear(scene, op, film)
-        warm = law.temperatures(
-            stress.dissipation,
-            film.gap,
-            film.solid > 0.0,
-            film.fluid + film.solid > 0.0,
-            film.grid.spacing,
-            (op.speed_1, op.speed_2),
-            op.sliding_speed,
-            op.bodies,
-            scene.lubricant.conductivity,
+        rubbing = Rubbing(
+            dissipation=stress.dissipation,
+            gap=film.gap,
+            solid=film.solid > 0.0,
+            inside=film.fluid + film.solid > 0.0,
+            spacing=film.grid.spacing,
+            speeds=(op.speed_1, op.speed_2),
+            bodies=op.bodies,
+            oil_conductivity=scene.lubricant.conductivity,
         )
+        warm = law.temperatures(rubbing)
         if not law.warms_film:
             return film, stress, warm, ""
         change = float(np.abs(warm.film - film.temperature).max())

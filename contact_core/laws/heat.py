@@ -1,9 +1,6 @@
 """Temperatures of the surfaces and of the film between them, and where the heat of friction goes.
 
-All laws answer to `temperatures`. Its arguments: `dissipation` [W/m2], heat of friction per area; `gap` [m]; `solid`,
-nodes where solids touch; `inside`, nodes under pressure; `spacing` [m] of the grid; `speeds` (u_1, u_2) [m/s] of the
-surfaces along x, relative to the contact; `sliding_speed` u_1 - u_2; `bodies` (T_1, T_2), their bulk temperatures [K];
-`oil_conductivity` [W/(m K)]. Arrays are [ny, nx].
+All laws answer to `temperatures` of a `Rubbing`.
 """
 
 from dataclasses import dataclass
@@ -23,6 +20,25 @@ Pair = tuple[float, float]
 
 _AS_THE_OIL = OilBulk()
 _MATCHED = 1e-6  # mismatch up to which temperatures count as solved; the solver aims at 1e-7
+
+
+@dataclass(frozen=True)
+class Rubbing:
+    """What heats a contact, and what the heat meets. Arrays [ny, nx]."""
+
+    dissipation: Array  # heat of friction per area [W/m2]
+    gap: Array  # [m]
+    solid: Nodes  # where solids touch
+    inside: Nodes  # under pressure
+    spacing: float  # of the grid [m]
+    speeds: Pair  # of both surfaces along x, relative to the contact [m/s]
+    bodies: Pair  # bulk temperatures [K]
+    oil_conductivity: float  # [W/(m K)]
+
+    @property
+    def total(self) -> float:
+        """All heat [W]."""
+        return float(self.dissipation.sum()) * self.spacing**2
 
 
 @dataclass(frozen=True)
@@ -76,21 +92,10 @@ class NoHeat:
 
     bulk: OilBulk | InputBulk | LumpedBulk = _AS_THE_OIL
 
-    def temperatures(
-        self,
-        dissipation: Array,
-        gap: Array,
-        solid: Nodes,
-        inside: Nodes,
-        spacing: float,
-        speeds: Pair,
-        sliding_speed: float,
-        bodies: Pair,
-        oil_conductivity: float,
-    ) -> Temperatures:
-        """Temperatures and heat; arguments as in the module's docstring. Makes no array."""
-        half = 0.5 * float(dissipation.sum()) * spacing**2
-        return _flat(bodies, half, half)
+    def temperatures(self, rubbing: Rubbing) -> Temperatures:
+        """Temperatures and heat. Makes no array."""
+        half = 0.5 * rubbing.total
+        return _flat(rubbing.bodies, half, half)
 
 
 @dataclass(frozen=True)
@@ -120,28 +125,19 @@ class FlashTemperature:
         into_1, into_2 = self._conduction(radius, sliding_speed)
         return np.abs(shear * sliding_speed) / (into_1 + into_2)
 
-    def temperatures(
-        self,
-        dissipation: Array,
-        gap: Array,
-        solid: Nodes,
-        inside: Nodes,
-        spacing: float,
-        speeds: Pair,
-        sliding_speed: float,
-        bodies: Pair,
-        oil_conductivity: float,
-    ) -> Temperatures:
-        """Temperatures and heat; arguments as in the module's docstring."""
-        total = float(dissipation.sum()) * spacing**2
+    def temperatures(self, rubbing: Rubbing) -> Temperatures:
+        """Temperatures and heat."""
+        total, bodies, solid = rubbing.total, rubbing.bodies, rubbing.solid
         if total == 0.0 or not solid.any():
             return _flat(bodies, 0.5 * total, 0.5 * total)
         spots, count = ndimage.label(solid)
         nodes = np.bincount(spots.ravel(), minlength=count + 1)[1:]
-        heat = np.bincount(spots.ravel(), dissipation.ravel(), count + 1)[1:]
-        into_1, into_2 = self._conduction(np.sqrt(nodes * spacing**2 / np.pi), sliding_speed)
+        heat = np.bincount(spots.ravel(), rubbing.dissipation.ravel(), count + 1)[1:]
+        into_1, into_2 = self._conduction(
+            np.sqrt(nodes * rubbing.spacing**2 / np.pi), rubbing.speeds[0] - rubbing.speeds[1]
+        )
         rise = heat / nodes / (into_1 + into_2)
-        beyond = float((heat * (into_1 / (into_1 + into_2) - 0.5)).sum()) * spacing**2
+        beyond = float((heat * (into_1 / (into_1 + into_2) - 0.5)).sum()) * rubbing.spacing**2
         on_nodes = np.append(0.0, rise)[spots]
         surface_1 = bodies[0] + on_nodes
         return Temperatures(
@@ -187,34 +183,25 @@ class TemperatureField:
         first = _conductance(radius, speeds[0], self.conductivity_1, self.diffusivity_1)
         return first, _conductance(radius, speeds[1], self.conductivity_2, self.diffusivity_2)
 
-    def temperatures(
-        self,
-        dissipation: Array,
-        gap: Array,
-        solid: Nodes,
-        inside: Nodes,
-        spacing: float,
-        speeds: Pair,
-        sliding_speed: float,
-        bodies: Pair,
-        oil_conductivity: float,
-    ) -> Temperatures:
-        """Temperatures and heat; arguments as in the module's docstring."""
+    def temperatures(self, rubbing: Rubbing) -> Temperatures:
+        """Temperatures and heat."""
+        bodies, solid, spacing = rubbing.bodies, rubbing.solid, rubbing.spacing
         difference = bodies[1] - bodies[0]
-        if not dissipation.any() and (difference == 0.0 or not inside.any()):
+        if not rubbing.dissipation.any() and (difference == 0.0 or not rubbing.inside.any()):
             return _flat(bodies, 0.0, 0.0)
-        shape = (gap.shape[0], gap.shape[1])
+        shape = (rubbing.gap.shape[0], rubbing.gap.shape[1])
         surfaces = (
-            MovingSurface(shape, spacing, self.conductivity_1, self.diffusivity_1, speeds[0]),
-            MovingSurface(shape, spacing, self.conductivity_2, self.diffusivity_2, speeds[1]),
+            MovingSurface(shape, spacing, self.conductivity_1, self.diffusivity_1, rubbing.speeds[0]),
+            MovingSurface(shape, spacing, self.conductivity_2, self.diffusivity_2, rubbing.speeds[1]),
         )
-        found = partition(dissipation, gap / oil_conductivity, inside, difference, surfaces)
+        resistance = rubbing.gap / rubbing.oil_conductivity
+        found = partition(rubbing.dissipation, resistance, rubbing.inside, difference, surfaces)
         surface_1, surface_2 = bodies[0] + found.rise_1, bodies[1] + found.rise_2
         rise = 0.5 * (found.rise_1 + found.rise_2)
         return Temperatures(
             surface_1=surface_1,
             surface_2=surface_2,
-            film=0.5 * (surface_1 + surface_2) + dissipation * gap / (12.0 * oil_conductivity),
+            film=0.5 * (surface_1 + surface_2) + rubbing.dissipation * resistance / 12.0,
             into_1=float(found.into_1.sum()) * spacing**2,
             into_2=float(found.into_2.sum()) * spacing**2,
             flash_rise=float(rise[solid].mean()) if solid.any() else 0.0,

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from contact_core.laws import SLOTS
+from contact_core.laws.heat import Rubbing
 from contact_core.laws.tribofilm import thickness
 from contact_core.quantities import out_of_range
 
@@ -239,7 +240,7 @@ gaps = arrays(float, SHAPE, elements=st.floats(1e-9, 1e-6))
 @given(laws_of("heat"), dissipations, gaps, masks, masks, speeds, speeds, temperatures, temperatures)
 def test_all_heat_goes_into_the_bodies(law, heat, gap, solid, pressed, speed_1, speed_2, first, second):
     speed, inside = (speed_1, speed_2), solid | pressed
-    found = law.temperatures(heat, gap, solid, inside, 4e-6, speed, speed_1 - speed_2, (first, second), 0.14)
+    found = law.temperatures(Rubbing(heat, gap, solid, inside, 4e-6, speed, (first, second), 0.14))
     assert found.solved
     total = heat.sum() * 4e-6**2
     assert found.into_1 + found.into_2 == pytest.approx(total, rel=1e-12, abs=1e-12 * abs(found.into_1))
@@ -250,8 +251,8 @@ def test_all_heat_goes_into_the_bodies(law, heat, gap, solid, pressed, speed_1, 
 
 @given(laws_of("heat"), dissipations, gaps, masks, masks, speeds, speeds, temperatures)
 def test_friction_only_warms(law, heat, gap, solid, pressed, speed_1, speed_2, bulk):
-    sides = gap, solid, solid | pressed, 4e-6, (speed_1, speed_2), speed_1 - speed_2, (bulk, bulk), 0.14
-    found, nothing = law.temperatures(heat, *sides), law.temperatures(np.zeros(SHAPE), *sides)
+    sides = gap, solid, solid | pressed, 4e-6, (speed_1, speed_2), (bulk, bulk), 0.14
+    found, nothing = law.temperatures(Rubbing(heat, *sides)), law.temperatures(Rubbing(np.zeros(SHAPE), *sides))
     rounding = 1e-6 * np.ptp(found.film) + 1e-12 * bulk
     for surface in (found.surface_1, found.surface_2, found.film):
         assert np.all(surface >= bulk - rounding)

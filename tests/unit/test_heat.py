@@ -8,7 +8,7 @@ import contact_core.laws.heat
 from contact_core import Scene, SceneError
 from contact_core.kernels.moving_source import MovingSurface, partition
 from contact_core.laws.bulk import InputBulk, LumpedBulk, OilBulk
-from contact_core.laws.heat import FlashTemperature, NoHeat, TemperatureField, Temperatures
+from contact_core.laws.heat import FlashTemperature, NoHeat, Rubbing, TemperatureField, Temperatures
 from contact_core.scene import tunables, with_values
 
 SPACING, FLOOR, OIL = 4e-6, 1e-9, 0.14
@@ -30,7 +30,7 @@ def surfaces(one: tuple[float, float, float], two: tuple[float, float, float]) -
 
 def field(bodies=(350.0, 350.0), speeds=(1.0, 0.8), heat=HEAT, inside=INSIDE, one=STEEL, two=STEEL) -> Temperatures:
     law = TemperatureField(one[0], two[0], one[1], two[1])
-    return law.temperatures(heat, GAP, SOLID, inside, SPACING, speeds, speeds[0] - speeds[1], bodies, OIL)
+    return law.temperatures(Rubbing(heat, GAP, SOLID, inside, SPACING, speeds, bodies, OIL))
 
 
 def test_equal_bodies_at_equal_speed_share_the_heat_in_halves_at_every_node():
@@ -86,8 +86,7 @@ def test_the_heat_into_the_bodies_is_the_friction_power_to_round_off(law, speeds
         "flash": FlashTemperature(one[0], two[0], one[1], two[1]),
         "field": TemperatureField(one[0], two[0], one[1], two[1]),
     }[law]
-    sliding = speeds[0] - speeds[1]
-    found = chosen.temperatures(HEAT, GAP, SOLID, INSIDE, SPACING, speeds, sliding, (350.0, 360.0), OIL)
+    found = chosen.temperatures(Rubbing(HEAT, GAP, SOLID, INSIDE, SPACING, speeds, (350.0, 360.0), OIL))
     assert found.into_1 + found.into_2 == pytest.approx(TOTAL, rel=1e-13)
 
 
@@ -126,7 +125,7 @@ def test_a_reversed_contact_has_the_mirrored_temperatures():
     ways = []
     for cut, sign in ((np.s_[:, :], 1.0), (mirror, -1.0)):
         arrays = HEAT[cut], GAP[cut], SOLID[cut], INSIDE[cut]
-        found = law.temperatures(*arrays, SPACING, (3.0 * sign, 1.0 * sign), 2.0 * sign, (350.0, 360.0), OIL)
+        found = law.temperatures(Rubbing(*arrays, SPACING, (3.0 * sign, 1.0 * sign), (350.0, 360.0), OIL))
         ways.append([np.asarray(found.surface_1)[cut], np.asarray(found.surface_2)[cut], found.into_1])
     for one, other in zip(*ways, strict=True):
         assert one == pytest.approx(other, rel=1e-6)
@@ -143,9 +142,9 @@ def test_the_cheap_law_and_the_field_agree_on_one_slow_spot():
     """A circle at rest on equal bodies: half the heat each, 8/(3 pi) q r/K in the mean."""
     spot, gap = RADIUS <= 40e-6, np.full((N, N), FLOOR)
     heat = np.where(spot, 1e9, 0.0)
-    args = (heat, gap, spot, spot, SPACING, (1e-6, -1e-6), 2e-6, (350.0, 350.0), OIL)
-    flash = FlashTemperature(46.0, 46.0, 1.25e-5, 1.25e-5).temperatures(*args)
-    found = TemperatureField(46.0, 46.0, 1.25e-5, 1.25e-5).temperatures(*args)
+    args = (heat, gap, spot, spot, SPACING, (1e-6, -1e-6), (350.0, 350.0), OIL)
+    flash = FlashTemperature(46.0, 46.0, 1.25e-5, 1.25e-5).temperatures(Rubbing(*args))
+    found = TemperatureField(46.0, 46.0, 1.25e-5, 1.25e-5).temperatures(Rubbing(*args))
     assert found.flash_rise == pytest.approx(flash.flash_rise, rel=0.02)
     assert found.into_1 == pytest.approx(flash.into_1, rel=1e-6)
 
@@ -155,7 +154,7 @@ def one_spot(law: FlashTemperature, radius: float, heat: float, speed: float) ->
     solid = np.zeros((3, 3), np.bool_)
     solid[1, 1] = True
     spacing, gap = radius * np.sqrt(np.pi), np.full((3, 3), FLOOR)
-    return law.temperatures(heat * solid, gap, solid, solid, spacing, (speed, 0.0), speed, (350.0, 350.0), OIL)
+    return law.temperatures(Rubbing(heat * solid, gap, solid, solid, spacing, (speed, 0.0), (350.0, 350.0), OIL))
 
 
 FLASH = FlashTemperature(46.0, 46.0, 1.25e-5, 1.25e-5)
@@ -196,8 +195,8 @@ def test_each_spot_has_a_rise_of_its_own_size_and_heat_and_the_rest_stays_as_war
     solid[1:3, 1:3] = solid[4, 6] = True
     heat = np.where(solid, 1e9, 1e6)
     heat[4, 6] = 3e9
-    args = (np.full((6, 9), FLOOR), solid, solid, SPACING, (0.3, 0.0), 0.3, (350.0, 360.0), OIL)
-    found = FLASH.temperatures(heat, *args)
+    args = (np.full((6, 9), FLOOR), solid, solid, SPACING, (0.3, 0.0), (350.0, 360.0), OIL)
+    found = FLASH.temperatures(Rubbing(heat, *args))
     alone = [one_spot(FLASH, np.sqrt(n / np.pi) * SPACING, q, 0.3).flash_rise for n, q in ((4, 1e9), (1, 3e9))]
     assert found.surface_1[1:3, 1:3] == pytest.approx(350.0 + alone[0], rel=1e-12)
     assert found.surface_2[4, 6] == pytest.approx(360.0 + alone[1], rel=1e-12)
@@ -210,7 +209,7 @@ def test_heat_without_a_law_makes_no_array_and_asks_no_kernel(monkeypatch):
     calls = []
     for name in ("partition", "MovingSurface"):
         monkeypatch.setattr(contact_core.laws.heat, name, lambda *_, name=name: calls.append(name))
-    found = NoHeat().temperatures(HEAT, GAP, SOLID, INSIDE, SPACING, (1.0, 0.8), 0.2, (350.0, 360.0), OIL)
+    found = NoHeat().temperatures(Rubbing(HEAT, GAP, SOLID, INSIDE, SPACING, (1.0, 0.8), (350.0, 360.0), OIL))
     assert not calls
     assert (found.surface_1, found.surface_2, found.film, found.flash_rise) == (350.0, 360.0, 355.0, 0.0)
     assert found.into_1 == found.into_2 == pytest.approx(0.5 * TOTAL, rel=1e-13)
