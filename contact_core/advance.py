@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from .block import has_moved, is_due, solve_block
 from .errors import OperatingPointError
 from .evolution import area_of_node, evolved, track_rows, wear_speed
+from .folding import folded
 from .laws.tribofilm import thickness
-from .means import advance_means, folded
+from .means import advance_means
 from .patches import bare_heights, heights_of, roughness_of
 from .scene import OperatingPoint, Scene
 from .state import Body, ContactState, Outputs, RangeFlag

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from .errors import StateError
 from .evolution import track_length
+from .folding import folded
 from .laws.tribofilm import thickness
-from .means import folded
 from .patches import bare_heights, contact_grid, heights_of
 from .scene import Scene
 from .state import ContactState

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..quantities import parameter
+from .elementary import tanh
 
 Array = NDArray[np.float64]
 
@@ -32,11 +33,11 @@ class FilmBlend:
 
     def __call__(self, solid_pressure: Array, cover: Array, sliding_speed: Array | float) -> Array:
         """Shear stress [Pa], with the sign of the sliding speed [m/s], for cover 0 to 1 and solid pressure [Pa]."""
-        return self.coefficient(cover) * solid_pressure * np.tanh(sliding_speed / self.slip_speed)
+        return self.coefficient(cover) * solid_pressure * tanh(sliding_speed / self.slip_speed)
 
     def slope(self, solid_pressure: Array, cover: Array, sliding_speed: Array | float) -> Array:
         """Derivative of the shear stress by the sliding speed [Pa s/m]."""
-        rise = (1.0 - np.tanh(sliding_speed / self.slip_speed) ** 2) / self.slip_speed
+        rise = (1.0 - tanh(sliding_speed / self.slip_speed) ** 2) / self.slip_speed
         return self.coefficient(cover) * solid_pressure * rise
 
 

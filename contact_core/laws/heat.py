@@ -3,6 +3,7 @@
 All laws answer to `temperatures` of a `Rubbing`.
 """
 
+import math
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -13,6 +14,7 @@ from scipy import ndimage
 from ..kernels.moving_source import MovingSurface, partition
 from ..quantities import parameter
 from .bulk import InputBulk, LumpedBulk, OilBulk
+from .elementary import sqrt
 
 Array = NDArray[np.float64]
 Nodes = NDArray[np.bool_]
@@ -64,8 +66,8 @@ def _conductance(radius: Array, speed: float, conductivity: float, diffusivity: 
 
     Source: Tian & Kennedy 1994, doi:10.1115/1.2927035.
     """
-    moving = np.sqrt(0.6575 + abs(speed) * radius / (2.0 * diffusivity))
-    return np.sqrt(np.pi) / (1.22 * radius) * conductivity * moving
+    moving = sqrt(0.6575 + abs(speed) * radius / (2.0 * diffusivity))
+    return math.sqrt(math.pi) / (1.22 * radius) * conductivity * moving
 
 
 def _conductivity(body: int) -> Any:
@@ -123,7 +125,7 @@ class FlashTemperature:
     def rise(self, radius: Array, shear: Array, sliding_speed: float) -> Array:
         """Temperature rise [K] of spots of `radius` [m] under a mean |shear stress| [Pa]."""
         into_1, into_2 = self._conduction(radius, sliding_speed)
-        return np.abs(shear * sliding_speed) / (into_1 + into_2)
+        return abs(shear * sliding_speed) / (into_1 + into_2)
 
     def temperatures(self, rubbing: Rubbing) -> Temperatures:
         """Temperatures and heat."""

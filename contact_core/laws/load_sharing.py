@@ -1,15 +1,15 @@
 """How rough bodies share the load between solids and oil: curves fitted to deterministic solutions."""
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..quantities import parameter
+from .elementary import Numbers, exp, expm1, maximum, minimum
 
 Array = NDArray[np.float64]
-Numbers = Any  # floats or arrays that broadcast
 
 _FLATTENING = 0.2  # where the constants hold as they are: about that of the shipped scenes,
 _RESOLUTION = 2.0  # and theirs on their grids
@@ -110,34 +110,34 @@ class FittedSharing:
         "", "standard deviation of h_c about its curve, relative", least=0.0, most=10.0, default=0.114
     )
 
-    def load_ratio(self, clearance: Numbers, flattening: Numbers, resolution: Numbers) -> Array:
+    def load_ratio(self, clearance: Numbers, flattening: Numbers, resolution: Numbers) -> Numbers:
         """contact_load_ratio at lambda = `clearance`."""
         reduced = clearance * (flattening / _FLATTENING) ** 2
-        return np.exp(-self.load_factor * (reduced * resolution / _RESOLUTION) ** self.load_exponent)
+        return exp(-self.load_factor * (reduced * resolution / _RESOLUTION) ** self.load_exponent)
 
-    def area_ratio(self, load_ratio: Numbers, flattening: Numbers) -> Array:
+    def area_ratio(self, load_ratio: Numbers, flattening: Numbers) -> Numbers:
         """contact_area_ratio where the solids carry `load_ratio` of the load."""
-        return -np.expm1(-self.area_factor * flattening) * load_ratio**self.area_exponent
+        return -expm1(-self.area_factor * flattening) * load_ratio**self.area_exponent
 
-    def film_ratio(self, clearance: Numbers, load_ratio: Numbers, flattening: Numbers, resolution: Numbers) -> Array:
+    def film_ratio(self, clearance: Numbers, load_ratio: Numbers, flattening: Numbers, resolution: Numbers) -> Numbers:
         """h_c / sigma at lambda = `clearance` where the solids carry `load_ratio` of the load."""
         share, flat = load_ratio, flattening / _FLATTENING
         flat = flat**-0.75
         dry = self.film_dry * (flat * flat)
-        mixed = np.maximum(self.film_mixed * flat * (resolution / _RESOLUTION) ** -0.75, dry)
+        mixed = maximum(self.film_mixed * flat * (resolution / _RESOLUTION) ** -0.75, dry)
         film = self.film_factor * clearance
-        larger = np.maximum(film, mixed)  # in front, because powers of large numbers overflow
-        ratio = np.minimum(film, mixed) / larger
+        larger = maximum(film, mixed)  # in front, because powers of large numbers overflow
+        ratio = minimum(film, mixed) / larger
         return share * dry + (1.0 - share) * larger * (1.0 + ratio**self.film_exponent) ** (1.0 / self.film_exponent)
 
-    def oil_pressure(self, clearance: Numbers, flattening: Numbers) -> Array:
+    def oil_pressure(self, clearance: Numbers, flattening: Numbers) -> Numbers:
         """Pressure at which oil carries load / Hertz's: 1 + K (0.2 / s) exp(-lambda).
 
         Between rough bodies the oil carries its load in spots, on the part (1 - W_c) / `oil_pressure` of Hertz's area.
         At the pressure of a load spread over all that the solids leave, it would be too thin to shear.
         """
         excess = self.oil_pressure_excess * _FLATTENING / flattening
-        return 1.0 + excess * np.exp(-clearance)
+        return 1.0 + excess * exp(-clearance)
 
     def covers(self, clearance: float, flattening: float, resolution: float) -> bool:
         """Whether the point lies within those of the fit."""

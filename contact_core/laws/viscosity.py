@@ -1,6 +1,6 @@
 """Viscosity as a function of pressure and temperature.
 
-A law takes pressures [Pa] of any shape and one temperature [K] or an array of them that broadcasts with the pressures.
+A law takes pressures [Pa] and temperatures [K], numbers or arrays that broadcast.
 """
 
 import math
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..quantities import parameter
+from .elementary import Numbers, exp, log, log10, maximum, minimum
 
 Array = NDArray[np.float64]
 
@@ -39,12 +40,12 @@ class Roelands:
     pressure_coefficient: float = parameter("Pa^-1", "d ln(eta)/dp at p = 0", least=0.0, most=1e-7)
     temperature_coefficient: float = parameter("K^-1", "-d ln(eta)/dT at p = 0", least=0.0, most=0.2)
 
-    def __call__(self, pressure: Array, temperature: float | Array) -> Array:
+    def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
         """Viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
         log_range, z, s0 = self._constants
         thermal = ((temperature - 138.0) / (self.reference_temperature - 138.0)) ** -s0
         exponent = log_range * ((1.0 + pressure / _P0) ** z * thermal - 1.0)
-        return self.viscosity * np.exp(np.minimum(exponent, _STIFF))
+        return self.viscosity * exp(minimum(exponent, _STIFF))
 
     @cached_property
     def _constants(self) -> tuple[float, float, float]:
@@ -66,11 +67,11 @@ class Barus:
     pressure_coefficient: float = parameter("Pa^-1", "d ln(eta)/dp", least=0.0, most=1e-7)
     temperature_coefficient: float = parameter("K^-1", "-d ln(eta)/dT", least=0.0, most=0.2)
 
-    def __call__(self, pressure: Array, temperature: float | Array) -> Array:
+    def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
         """Viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
         exponent = self.pressure_coefficient * pressure
         exponent = exponent - self.temperature_coefficient * (temperature - self.reference_temperature)
-        return self.viscosity * np.exp(np.minimum(exponent, _STIFF))
+        return self.viscosity * exp(minimum(exponent, _STIFF))
 
 
 @dataclass(frozen=True)
@@ -95,14 +96,14 @@ class Modulus:
     bend: float = parameter("", "b1, rise of the modulus with pressure, at T = 0 K", least=-1.0, most=1.0)
     bend_slope: float = parameter("K^-1", "b2, rise of that with temperature", least=-1e-2, most=1e-2)
 
-    def __call__(self, pressure: Array, temperature: float | Array) -> Array:
+    def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
         """Viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
         modulus = self.modulus + self.modulus_slope * temperature
         bent = modulus + (self.bend + self.bend_slope * temperature) * pressure
         modulus = np.where(modulus > 0.0, bent, 0.0)
-        exponent = pressure / np.maximum(modulus, pressure / _STIFF + 1.0)  # 1 Pa: no 0 / 0 without pressure
+        exponent = pressure / maximum(modulus, pressure / _STIFF + 1.0)  # 1 Pa: no 0 / 0 without pressure
         exponent = exponent + self.vogel_slope / (self.vogel_offset + temperature)
-        return self.vogel_viscosity * np.exp(np.minimum(exponent, _STIFF))
+        return self.vogel_viscosity * exp(minimum(exponent, _STIFF))
 
 
 @dataclass(frozen=True)
@@ -132,20 +133,29 @@ class AstmD341:
         least=0.0, most=1e-3, default=7e-4,
     )  # fmt: skip
 
-    def _log_viscosity(self, temperature: float | Array) -> Array:
+    def _log_viscosity(self, temperature: Numbers) -> Numbers:
         """ln(viscosity / eta_inf) at p = 0."""
-        at_40, at_100 = (math.log10(math.log10(1e6 * nu + 0.7)) for nu in (self.viscosity_40, self.viscosity_100))
-        slope = (at_40 - at_100) / math.log10(373.15 / 313.15)
-        double_log = np.minimum(at_40 - slope * np.log10(np.asarray(temperature) / 313.15), _STIFFEST_DOUBLE_LOG)
+        at_40, slope = self._chart
+        double_log = minimum(at_40 - slope * log10(temperature / 313.15), _STIFFEST_DOUBLE_LOG)
         kinematic = 1e-6 * (10.0 ** (10.0**double_log) - 0.7)
-        density = self.density * (1.0 - self.expansion * (np.asarray(temperature) - 288.15))
-        return np.log(kinematic * density) - _LN_ETA_INF
+        density = self.density * (1.0 - self.expansion * (temperature - 288.15))
+        return log(kinematic * density) - _LN_ETA_INF
 
-    def __call__(self, pressure: Array, temperature: float | Array) -> Array:
+    @cached_property
+    def _chart(self) -> tuple[float, float]:
+        """A - B log10(313.15) and B of the straight line."""
+        at_40, at_100 = (math.log10(math.log10(1e6 * nu + 0.7)) for nu in (self.viscosity_40, self.viscosity_100))
+        return at_40, (at_40 - at_100) / math.log10(373.15 / 313.15)
+
+    @cached_property
+    def _z(self) -> float:
+        """Exponent of the pressure."""
+        return float(self.pressure_coefficient * _P0 / self._log_viscosity(self.reference_temperature))
+
+    def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
         """Viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
-        z = self.pressure_coefficient * _P0 / self._log_viscosity(self.reference_temperature)
-        exponent = self._log_viscosity(temperature) * (1.0 + pressure / _P0) ** z
-        return np.exp(np.minimum(_LN_ETA_INF + exponent, _STIFF))
+        exponent = self._log_viscosity(temperature) * (1.0 + pressure / _P0) ** self._z
+        return exp(minimum(_LN_ETA_INF + exponent, _STIFF))
 
 
 LAWS = (Roelands, Barus, Modulus, AstmD341)

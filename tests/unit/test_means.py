@@ -19,8 +19,8 @@ from contact_core import (
     solve,
     track_of,
 )
+from contact_core.folding import folded, means_of
 from contact_core.laws.rheology import Eyring, Newtonian
-from contact_core.means import folded, means_of
 from contact_core.quantities import OUTPUTS
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
 

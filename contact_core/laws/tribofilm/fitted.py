@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from scipy.constants import Boltzmann, Planck
 
 from ...quantities import parameter
+from ..elementary import expm1
 
 Array = NDArray[np.float64]
 Temperature = float | Array
@@ -120,8 +121,8 @@ class Ghanbarzadeh(_Unabraded):
         self, growth: Array, removal: Array, exposed: Array, abraded: Array, temperature: float
     ) -> tuple[Array, Array]:
         """Both variables [m] after each node was rubbed for a time `exposed` [s]; exact for any time."""
-        formed = -np.expm1(-self.rate(temperature) * exposed)
-        taken = -np.expm1(-self.removal_rate * exposed)
+        formed = -expm1(-self.rate(temperature) * exposed)
+        taken = -expm1(-self.removal_rate * exposed)
         return growth + (self.full_thickness - growth) * formed, removal + (self.removal_thickness - removal) * taken
 
     def covers(self, temperature: float) -> bool:
@@ -168,7 +169,7 @@ class Andersson(_Unabraded):
         self, growth: Array, removal: Array, exposed: Array, abraded: Array, temperature: float
     ) -> tuple[Array, Array]:
         """Both variables [m] after each node took up `exposed` [J/m2]; exact for any energy."""
-        formed = -np.expm1(-self.growth_per_energy * exposed / self.full_thickness)
+        formed = -expm1(-self.growth_per_energy * exposed / self.full_thickness)
         return growth + (self.full_thickness - growth) * formed, removal
 
     def covers(self, temperature: float) -> bool:

@@ -1,0 +1,298 @@
+"""One mean film, one mean real contact: film, load sharing, friction and heat of an operating point.
+
+The film is a formula's, curves fitted to the deterministic level share the load. The derivatives of friction are
+differences to four points beside the one that is asked for: a little more sliding, entrainment, load and temperature.
+"""
+
+import math
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .laws.heat import FlashTemperature, TemperatureField
+from .mean_oil import Law, MeanHeat, oil_shear
+from .mean_surfaces import Films, composite_roughness, mean_cover, scene_film
+from .reference import inlet_shear_factor, moes_film
+from .scene import OperatingPoint, Scene
+
+Array = NDArray[np.float64]
+
+_D, _KELVIN = 1e-6, 1e-4  # how far the points lie apart, relative and in temperature
+_WARMER = np.array([0.0, 0.0, 0.0, 0.0, _KELVIN])
+_ROOT = (1.0 + _D) ** (1 / 3)  # by which more load makes Hertz's contact larger
+_PROBE = 1e6  # Pa: pressure that tells the pressure coefficient
+_SPIN = 3.0 * math.pi / 16.0  # mean lever of friction under Hertz's pressure, over a
+_SLOWEST, _LIGHTEST = 1e-30, 1e-9  # m/s, N: less makes no other film, and would divide by zero
+
+
+class Fit(NamedTuple):
+    """Where a contact lies among the points of the fit; see `load_sharing.FittedSharing`."""
+
+    clearance: float
+    flattening: float
+    resolution: float
+
+
+_UNFITTED = Fit(math.inf, 0.0, 0.0)  # smooth bodies, or no load
+
+
+class MeanContact(NamedTuple):
+    """The contact of an operating point and of the surfaces as they were."""
+
+    films: Films
+    sigma: float  # composite rms roughness [m]
+    cover: float  # mean cover of both bodies where they touch
+    fit: Fit
+    gap: float  # mean, of the oil [m]
+    load_ratio: float
+    area_ratio: float
+    solid: float  # friction of the solids on body 1 along +x [N]
+    fluid: float
+    derivatives: tuple[float, float, float, float]  # of the sum, by speed_1, speed_2, load, temperature
+    solid_pressure: float  # mean over the real contact [Pa]
+    solid_shear: float  # mean over it, absolute
+    fluid_shear: float  # mean over the oil that carries load
+    rise: float  # of the surfaces' temperature over the bulk [K]
+    slide: float  # sliding speed, with spin [m/s]
+    power: float  # [W]
+    into_1: float  # part of it that goes into body 1 [W]
+    spin_torque: float  # on body 1 [N m]
+
+
+class _Surfaces(NamedTuple):
+    """What friction and the sharing of the load ask of the surfaces, at any operating point."""
+
+    sigma: float  # composite rms roughness [m]
+    cover: float
+    slope: float  # composite rms gradient
+    resolution: float  # correlation length of the rougher body over the distance of the nodes
+
+
+class _Shares(NamedTuple):
+    """How solids and oil share the load."""
+
+    fit: Fit
+    gap: float  # mean [m]
+    load: float  # contact_load_ratio
+    area: float  # contact_area_ratio of elastic solids
+    raised: float  # pressure of the oil over Hertz's
+
+
+class _Point(NamedTuple):
+    """The solids at an operating point, and what its oil is asked to do."""
+
+    shares: _Shares
+    rubbing: float  # sliding speed, with spin [m/s]
+    along: float  # share of it along x
+    touching: float  # contact_area_ratio
+    pressure: float  # of the solids, mean over the real contact [Pa]
+    shear: float  # of the solids [Pa], with the sign of `rubbing`
+    solid: float  # friction of the solids [N], likewise
+    area: float  # Hertz's [m2]
+    oily: float  # part of it on which the oil carries load [m2]
+    oil_pressure: float  # largest of the oil that carries load [Pa]
+    oil_rate: float  # of shear [1/s]
+
+
+def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
+    """The contact of an operating point and its derivatives; without load the bodies just touch."""
+    sigma, cover = composite_roughness(films), mean_cover(scene, films)
+    if op.load == 0.0:
+        gap = max(sigma, scene.film.floor)
+        return MeanContact(films, sigma, cover, _UNFITTED, gap, *(0.0,) * 4, (0.0,) * 4, *(0.0,) * 8)
+    further = _D * math.copysign(max(abs(op.sliding_speed), scene.boundary_friction.slip_speed), op.sliding_speed)
+    points = _points(scene, op, _surfaces(scene, films, sigma, cover), further)
+    fluid, heat = _oil_friction(scene, op, points)
+    now, slide, pull = points[0], abs(points[0].rubbing), abs(points[0].solid + fluid[0])
+    if heat is None:
+        rise, into_1 = _flash_rise(scene, abs(now.shear), slide), 0.5 * pull * slide
+    else:
+        rise, into_1 = heat.surface(pull * slide)
+    forces = [(point.solid + oil) * point.along for point, oil in zip(points, fluid, strict=True)]
+    lever = _SPIN * scene.unit_hertz.a * op.load ** (1 / 3)
+    return MeanContact(
+        films,
+        sigma,
+        cover,
+        now.shares.fit,
+        now.shares.gap,
+        now.shares.load,
+        now.touching,
+        -now.solid * now.along,
+        -fluid[0] * now.along,
+        _derivatives(op, forces, further),
+        now.pressure,
+        abs(now.shear),
+        abs(fluid[0]) / now.oily if now.oily > 0.0 else 0.0,
+        rise,
+        slide,
+        pull * slide,
+        into_1,
+        -lever * lever * op.spin * pull / max(slide, _SLOWEST),
+    )
+
+
+def _points(scene: Scene, op: OperatingPoint, surfaces: _Surfaces, further: float) -> list[_Point]:
+    """The operating point, and those with more sliding (by `further` [m/s]), entrainment, load and temperature."""
+    root, slide, largest = op.load ** (1 / 3), op.sliding_speed, scene.unit_hertz.pressure_max
+    roots = (root, root, root, root * _ROOT, root)
+    slides = (slide, slide + further, slide, slide, slide)
+    films = _smooth_films(scene, op)
+    if scene.heat.inlet_shear != "none" and op.entrainment_speed != 0.0:
+        films = _with_inlet_shear(scene, op, films, slides, roots)
+    points, last = [], math.nan
+    for film, size, speed in zip(films, roots, slides, strict=True):
+        if film != last or size != root:  # more sliding leaves the film as it is
+            shares, last = _shared(scene, surfaces, film, size * largest), film
+        points.append(_point(scene, surfaces.cover, shares, size, speed, op.spin))
+    return points
+
+
+def _derivatives(op: OperatingPoint, forces: list[float], further: float) -> tuple[float, float, float, float]:
+    """Of the friction on body 1 along +x by speed_1, speed_2, load and temperature, from `forces` on body 2 [N]."""
+    now, sliding, faster, heavier, warmer = forces
+    entrainment = op.entrainment_speed
+    by_sliding = (now - sliding) / further
+    by_speed = 0.5 * (now - faster) / (_D * entrainment) if entrainment != 0.0 else 0.0
+    return by_speed + by_sliding, by_speed - by_sliding, (now - heavier) / (_D * op.load), (now - warmer) / _KELVIN
+
+
+# the film of smooth bodies
+
+
+def _smooth_films(scene: Scene, op: OperatingPoint) -> list[float]:
+    """Nijenbanning, Venner & Moes' central films [m] of the smooth bodies at the five points."""
+    speed, load = abs(op.entrainment_speed), op.load
+    oil, warm = _oil(scene.lubricant.viscosity, op.inlet_temperature)
+    now = _smooth_film(scene, speed, load, *oil)
+    faster, heavier = speed * (1.0 + _D), load * (1.0 + _D)
+    return [
+        now,
+        now,
+        _smooth_film(scene, faster, load, *oil),
+        _smooth_film(scene, speed, heavier, *oil),
+        _smooth_film(scene, speed, load, *warm),
+    ]
+
+
+def _smooth_film(scene: Scene, speed: float, load: float, viscosity: float, pressure_coefficient: float) -> float:
+    """One of them, for the oil at p = 0; `reference.nijenbanning_venner_moes` without its arrays."""
+    geometry, modulus = scene.geometry, scene.solids.reduced_modulus
+    radius = geometry.radius_x
+    root = math.sqrt(2.0 * viscosity * max(speed, _SLOWEST) / (modulus * radius))
+    quarter = math.sqrt(root)
+    m = max(load, _LIGHTEST) / (modulus * radius * radius * root * quarter)
+    lubricant = pressure_coefficient * modulus * quarter
+    return moes_film(m, lubricant, radius / geometry.radius_y) * root * radius
+
+
+def _with_inlet_shear(
+    scene: Scene, op: OperatingPoint, films: list[float], slides: tuple[float, ...], roots: tuple[float, ...]
+) -> list[float]:
+    """The films of the five points with the heat of shear in the inlet."""
+    (eta, _), (thin, _) = _oil(scene.lubricant.viscosity, op.inlet_temperature)
+    beta, speed = math.log(eta / thin) / _KELVIN, abs(op.entrainment_speed)
+    speeds, viscosities = (speed, speed, speed * (1.0 + _D), speed, speed), (eta, eta, eta, eta, thin)
+    conductivity, modulus = scene.lubricant.conductivity, scene.solids.reduced_modulus
+    largest = scene.unit_hertz.pressure_max
+    return [
+        film * inlet_shear_factor(viscosity, beta, u, slide / u, conductivity, root * largest, modulus)
+        for film, viscosity, u, slide, root in zip(films, viscosities, speeds, slides, roots, strict=True)
+    ]
+
+
+@lru_cache(maxsize=16)
+def _oil(viscosity: Law, temperature: float) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Viscosity [Pa s] and pressure coefficient [1/Pa] at p = 0, at a temperature [K] and a little above."""
+    return _thin(viscosity, temperature), _thin(viscosity, temperature + _KELVIN)
+
+
+def _thin(viscosity: Law, temperature: float) -> tuple[float, float]:
+    eta = float(viscosity(0.0, temperature))
+    return eta, max(math.log(viscosity(_PROBE, temperature) / eta) / _PROBE, 1e-12)
+
+
+# how rough bodies share the load
+
+
+def _surfaces(scene: Scene, films: Films, sigma: float, cover: float) -> _Surfaces:
+    first, second = scene.surface_1, scene.surface_2
+    slope = 2.0 * math.hypot(films[0].both / first.correlation_length, films[1].both / second.correlation_length)
+    rougher = first if first.rq > second.rq else second
+    return _Surfaces(sigma, cover, slope, rougher.correlation_length / scene.film.spacing)
+
+
+def _shared(scene: Scene, surfaces: _Surfaces, film: float, pressure: float) -> _Shares:
+    """Of rough bodies, for a film of smooth ones [m] and Hertz's largest pressure [Pa]."""
+    floor, sharing, sigma = scene.film.floor, scene_film(scene).sharing, surfaces.sigma
+    if sigma == 0.0:
+        touching = 1.0 if film <= floor else 0.0
+        return _Shares(_UNFITTED, max(film, floor), touching, touching, 1.0)
+    flattening = 4.0 / 3.0 * pressure / (scene.solids.reduced_modulus * surfaces.slope)
+    fit = Fit(film / sigma, flattening, surfaces.resolution)
+    # powers of them mean nothing far from the fit
+    (flattest, fullest), (coarsest, finest) = sharing.FITTED["flattening"], sharing.FITTED["resolution"]
+    flat, resolution = min(max(flattening, flattest), fullest), min(max(surfaces.resolution, coarsest), finest)
+    share = sharing.load_ratio(fit.clearance, flat, resolution)
+    gap = max(sigma * sharing.film_ratio(fit.clearance, share, flat, resolution), floor)
+    return _Shares(fit, gap, share, sharing.area_ratio(share, flat), sharing.oil_pressure(fit.clearance, flat))
+
+
+# friction and heat
+
+
+def _point(scene: Scene, cover: float, shares: _Shares, root: float, slide: float, spin: float) -> _Point:
+    """What the solids do at a sliding speed [m/s], spin [rad/s] and load [N], whose cubic `root` is given."""
+    hertz = scene.unit_hertz
+    largest, area = hertz.pressure_max * root, math.pi * hertz.a * hertz.b * root * root
+    carried = 2.0 / 3.0 * shares.load * largest  # mean over the Hertz area
+    touching = max(shares.area, carried / scene.plasticity.hardness)  # the hardness allows no smaller contact
+    pressure = carried / (touching + 1e-300)
+    rubbing, along = slide, 1.0
+    if spin != 0.0:
+        rubbing = math.hypot(slide, _SPIN * spin * hertz.a * root)
+        along = slide / max(rubbing, _SLOWEST)
+    boundary: Law = scene.boundary_friction
+    shear = boundary(pressure, cover, rubbing)
+    oily = area * (1.0 - shares.load) / shares.raised
+    return _Point(
+        shares,
+        rubbing,
+        along,
+        touching,
+        pressure,
+        shear,
+        area * touching * shear,
+        area,
+        oily,
+        shares.raised * largest,
+        rubbing / shares.gap,
+    )
+
+
+def _oil_friction(scene: Scene, op: OperatingPoint, points: list[_Point]) -> tuple[list[float], MeanHeat | None]:
+    """Friction of the oil [N] at the five points, and the heat where it warms the film."""
+    oily, pressures, rates = np.array([point[-3:] for point in points]).T
+    start = op.inlet_temperature + _WARMER
+
+    def friction(warm: Array) -> Array:
+        return oily * oil_shear(scene, pressures, rates, warm)
+
+    if not isinstance(scene.heat, TemperatureField):
+        return friction(start).tolist(), None
+    solid, rubbing, areas, gaps = np.array([(p.solid, p.rubbing, p.area, p.shares.gap) for p in points]).T
+    circle = np.sqrt(areas / math.pi)
+    heat = MeanHeat.of(scene, scene.heat, op, _WARMER, circle, areas, gaps)
+    warm = heat.film(start, lambda film: np.abs((solid + friction(film)) * rubbing))
+    return friction(warm).tolist(), heat
+
+
+def _flash_rise(scene: Scene, shear: float, sliding: float) -> float:
+    """Flash temperature rise [K] of a spot as wide as the rougher body's correlation length."""
+    if not isinstance(scene.heat, FlashTemperature) or shear == 0.0:
+        return 0.0
+    rougher = scene.surface_1 if scene.surface_1.rq > scene.surface_2.rq else scene.surface_2
+    rise: Law = scene.heat.rise
+    return float(rise(0.5 * rougher.correlation_length, shear, sliding))
