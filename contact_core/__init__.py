@@ -22,7 +22,10 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     block        when and at which instants the contact is solved, and by which driver
     evolution    tribofilm and wear between two solutions, in closed form
     trends       outputs without their noise, errors of time steps and of sampling
-    means        the fast level: film formulas and fitted curves for the means of both surfaces
+    means        the fast level: the means of both surfaces over time
+    mean_contact   one instant of it: film from a formula, friction from fitted curves, derivatives
+    mean_oil, mean_surfaces, mean_outputs   its oil, what the means say of the surfaces, what it can tell
+    folding      from patches to means and back
     advance      advance: the evolution over time; uncertainty: how sure its outputs are
     tracks       the rubbed surfaces as they are, for profiles and pictures
     reference    closed forms
@@ -30,7 +33,7 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     errors       what can go wrong, each message with a way out
 
 Imports run one way: kernels <- laws <- film <- friction <- oil <- patches <- evolution <- contact <- sweep <- block
-<- advance; means stands beside block.
+<- advance; of the fast level, means stands beside block, mean_outputs beside sweep and mean_contact beside contact.
 Everything inside is SI; heights are metres above a body's mean plane, positive toward the other body; arrays are
 [ny, nx], x along entrainment.
 """

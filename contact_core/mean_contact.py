@@ -1,7 +1,8 @@
 """One mean film, one mean real contact: film, load sharing, friction and heat of an operating point.
 
-The film is a formula's, curves fitted to the deterministic level share the load. The derivatives of friction are
-differences to four points beside the one that is asked for: a little more sliding, entrainment, load and temperature.
+The film is a formula's, curves fitted to the deterministic level share the load. Friction is evaluated at the point
+that is asked for and at four beside it: with a little more sliding, film, load and temperature, the others held. Its
+derivatives are these differences, with those of the film by the chain rule.
 """
 
 import math
@@ -66,8 +67,18 @@ class _Surfaces(NamedTuple):
 
     sigma: float  # composite rms roughness [m]
     cover: float
-    slope: float  # composite rms gradient
+    flattening: float  # per Hertz's largest pressure [1/Pa]
     resolution: float  # correlation length of the rougher body over the distance of the nodes
+
+
+class _Smooth(NamedTuple):
+    """Film of the smooth bodies."""
+
+    film: float  # [m]
+    by_sliding: float  # relative change per sliding speed [s/m]
+    by_speed: float  # per entrainment speed [s/m]
+    by_load: float  # [1/N]
+    by_temperature: float  # [1/K]
 
 
 class _Shares(NamedTuple):
@@ -102,8 +113,10 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
     if op.load == 0.0:
         gap = max(sigma, scene.film.floor)
         return MeanContact(films, sigma, cover, _UNFITTED, gap, *(0.0,) * 4, (0.0,) * 4, *(0.0,) * 8)
-    further = _D * math.copysign(max(abs(op.sliding_speed), scene.boundary_friction.slip_speed), op.sliding_speed)
-    points = _points(scene, op, _surfaces(scene, films, sigma, cover), further)
+    sliding = op.sliding_speed
+    further = _D * math.copysign(max(abs(sliding), scene.boundary_friction.slip_speed), sliding)
+    smooth = _smooth(scene, op, further)
+    points = _points(scene, op, _surfaces(scene, films, sigma, cover), smooth.film, further)
     fluid, heat = _oil_friction(scene, op, points)
     now, slide, pull = points[0], abs(points[0].rubbing), abs(points[0].solid + fluid[0])
     if heat is None:
@@ -122,7 +135,7 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
         now.touching,
         -now.solid * now.along,
         -fluid[0] * now.along,
-        _derivatives(op, forces, further),
+        _derivatives(op, smooth, forces, further),
         now.pressure,
         abs(now.shear),
         abs(fluid[0]) / now.oily if now.oily > 0.0 else 0.0,
@@ -134,51 +147,66 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
     )
 
 
-def _points(scene: Scene, op: OperatingPoint, surfaces: _Surfaces, further: float) -> list[_Point]:
-    """The operating point, and those with more sliding (by `further` [m/s]), entrainment, load and temperature."""
-    root, slide, largest = op.load ** (1 / 3), op.sliding_speed, scene.unit_hertz.pressure_max
-    roots = (root, root, root, root * _ROOT, root)
-    slides = (slide, slide + further, slide, slide, slide)
-    films = _smooth_films(scene, op)
-    if scene.heat.inlet_shear != "none" and op.entrainment_speed != 0.0:
-        films = _with_inlet_shear(scene, op, films, slides, roots)
-    points, last = [], math.nan
-    for film, size, speed in zip(films, roots, slides, strict=True):
-        if film != last or size != root:  # more sliding leaves the film as it is
-            shares, last = _shared(scene, surfaces, film, size * largest), film
-        points.append(_point(scene, surfaces.cover, shares, size, speed, op.spin))
-    return points
+def _points(scene: Scene, op: OperatingPoint, surfaces: _Surfaces, film: float, further: float) -> list[_Point]:
+    """The operating point, and those with more sliding (by `further` [m/s]), film, load and temperature."""
+    root, slide, cover = op.load ** (1 / 3), op.sliding_speed, surfaces.cover
+    more, largest = root * _ROOT, scene.unit_hertz.pressure_max
+    shares = _shared(scene, surfaces, film, root * largest)
+    thicker = _shared(scene, surfaces, film * (1.0 + _D), root * largest)
+    heavier = _shared(scene, surfaces, film, more * largest)
+    now = _point(scene, cover, shares, root, slide, op.spin)
+    return [
+        now,
+        _point(scene, cover, shares, root, slide + further, op.spin),
+        _point(scene, cover, thicker, root, slide, op.spin),
+        _point(scene, cover, heavier, more, slide, op.spin),
+        now,
+    ]
 
 
-def _derivatives(op: OperatingPoint, forces: list[float], further: float) -> tuple[float, float, float, float]:
+def _derivatives(
+    op: OperatingPoint, smooth: _Smooth, forces: list[float], further: float
+) -> tuple[float, float, float, float]:
     """Of the friction on body 1 along +x by speed_1, speed_2, load and temperature, from `forces` on body 2 [N]."""
-    now, sliding, faster, heavier, warmer = forces
-    entrainment = op.entrainment_speed
-    by_sliding = (now - sliding) / further
-    by_speed = 0.5 * (now - faster) / (_D * entrainment) if entrainment != 0.0 else 0.0
-    return by_speed + by_sliding, by_speed - by_sliding, (now - heavier) / (_D * op.load), (now - warmer) / _KELVIN
+    now, sliding, thicker, heavier, warmer = forces
+    by_film = (now - thicker) / _D
+    by_sliding = (now - sliding) / further + by_film * smooth.by_sliding
+    by_speed = 0.5 * by_film * smooth.by_speed
+    by_load = (now - heavier) / (_D * op.load) + by_film * smooth.by_load
+    by_temperature = (now - warmer) / _KELVIN + by_film * smooth.by_temperature
+    return by_speed + by_sliding, by_speed - by_sliding, by_load, by_temperature
 
 
 # the film of smooth bodies
 
 
-def _smooth_films(scene: Scene, op: OperatingPoint) -> list[float]:
-    """Nijenbanning, Venner & Moes' central films [m] of the smooth bodies at the five points."""
-    speed, load = abs(op.entrainment_speed), op.load
+def _smooth(scene: Scene, op: OperatingPoint, further: float) -> _Smooth:
+    """Nijenbanning, Venner & Moes' central film of the smooth bodies, and what the inputs do to it."""
+    entrainment, load, slide = op.entrainment_speed, op.load, op.sliding_speed
+    speed = abs(entrainment)
     oil, warm = _oil(scene.lubricant.viscosity, op.inlet_temperature)
-    now = _smooth_film(scene, speed, load, *oil)
     faster, heavier = speed * (1.0 + _D), load * (1.0 + _D)
-    return [
-        now,
-        now,
-        _smooth_film(scene, faster, load, *oil),
-        _smooth_film(scene, speed, heavier, *oil),
-        _smooth_film(scene, speed, load, *warm),
-    ]
+    now = _smooth_film(scene, speed, load, *oil)
+    by_speed = _smooth_film(scene, faster, load, *oil) / now - 1.0
+    by_load = _smooth_film(scene, speed, heavier, *oil) / now - 1.0
+    by_temperature, by_sliding = _smooth_film(scene, speed, load, *warm) / now - 1.0, 0.0
+    if speed == 0.0:
+        return _Smooth(now, 0.0, 0.0, by_load / (_D * load), by_temperature / _KELVIN)
+    if scene.heat.inlet_shear != "none":
+        beta = math.log(oil[0] / warm[0]) / _KELVIN
+        factor = _inlet_factor(scene, speed, slide, load, oil[0], beta)
+        by_sliding = _inlet_factor(scene, speed, slide + further, load, oil[0], beta) / factor - 1.0
+        by_speed += _inlet_factor(scene, faster, slide, load, oil[0], beta) / factor - 1.0
+        by_load += _inlet_factor(scene, speed, slide, heavier, oil[0], beta) / factor - 1.0
+        by_temperature += _inlet_factor(scene, speed, slide, load, warm[0], beta) / factor - 1.0
+        now *= factor
+    return _Smooth(
+        now, by_sliding / further, by_speed / (_D * entrainment), by_load / (_D * load), by_temperature / _KELVIN
+    )
 
 
 def _smooth_film(scene: Scene, speed: float, load: float, viscosity: float, pressure_coefficient: float) -> float:
-    """One of them, for the oil at p = 0; `reference.nijenbanning_venner_moes` without its arrays."""
+    """The film [m] of an oil at p = 0; `reference.nijenbanning_venner_moes` without its arrays."""
     geometry, modulus = scene.geometry, scene.solids.reduced_modulus
     radius = geometry.radius_x
     root = math.sqrt(2.0 * viscosity * max(speed, _SLOWEST) / (modulus * radius))
@@ -188,19 +216,10 @@ def _smooth_film(scene: Scene, speed: float, load: float, viscosity: float, pres
     return moes_film(m, lubricant, radius / geometry.radius_y) * root * radius
 
 
-def _with_inlet_shear(
-    scene: Scene, op: OperatingPoint, films: list[float], slides: tuple[float, ...], roots: tuple[float, ...]
-) -> list[float]:
-    """The films of the five points with the heat of shear in the inlet."""
-    (eta, _), (thin, _) = _oil(scene.lubricant.viscosity, op.inlet_temperature)
-    beta, speed = math.log(eta / thin) / _KELVIN, abs(op.entrainment_speed)
-    speeds, viscosities = (speed, speed, speed * (1.0 + _D), speed, speed), (eta, eta, eta, eta, thin)
-    conductivity, modulus = scene.lubricant.conductivity, scene.solids.reduced_modulus
-    largest = scene.unit_hertz.pressure_max
-    return [
-        film * inlet_shear_factor(viscosity, beta, u, slide / u, conductivity, root * largest, modulus)
-        for film, viscosity, u, slide, root in zip(films, viscosities, speeds, slides, roots, strict=True)
-    ]
+def _inlet_factor(scene: Scene, speed: float, slide: float, load: float, viscosity: float, beta: float) -> float:
+    """Film with the heat of shear in the inlet over that without, for an entrainment `speed` above zero."""
+    pressure, modulus = scene.unit_hertz.pressure_max * load ** (1 / 3), scene.solids.reduced_modulus
+    return inlet_shear_factor(viscosity, beta, speed, slide / speed, scene.lubricant.conductivity, pressure, modulus)
 
 
 @lru_cache(maxsize=16)
@@ -221,7 +240,8 @@ def _surfaces(scene: Scene, films: Films, sigma: float, cover: float) -> _Surfac
     first, second = scene.surface_1, scene.surface_2
     slope = 2.0 * math.hypot(films[0].both / first.correlation_length, films[1].both / second.correlation_length)
     rougher = first if first.rq > second.rq else second
-    return _Surfaces(sigma, cover, slope, rougher.correlation_length / scene.film.spacing)
+    per_pressure = 4.0 / 3.0 / (scene.solids.reduced_modulus * slope) if slope > 0.0 else math.inf
+    return _Surfaces(sigma, cover, per_pressure, rougher.correlation_length / scene.film.spacing)
 
 
 def _shared(scene: Scene, surfaces: _Surfaces, film: float, pressure: float) -> _Shares:
@@ -230,14 +250,13 @@ def _shared(scene: Scene, surfaces: _Surfaces, film: float, pressure: float) -> 
     if sigma == 0.0:
         touching = 1.0 if film <= floor else 0.0
         return _Shares(_UNFITTED, max(film, floor), touching, touching, 1.0)
-    flattening = 4.0 / 3.0 * pressure / (scene.solids.reduced_modulus * surfaces.slope)
-    fit = Fit(film / sigma, flattening, surfaces.resolution)
-    # powers of them mean nothing far from the fit
-    (flattest, fullest), (coarsest, finest) = sharing.FITTED["flattening"], sharing.FITTED["resolution"]
-    flat, resolution = min(max(flattening, flattest), fullest), min(max(surfaces.resolution, coarsest), finest)
-    share = sharing.load_ratio(fit.clearance, flat, resolution)
-    gap = max(sigma * sharing.film_ratio(fit.clearance, share, flat, resolution), floor)
-    return _Shares(fit, gap, share, sharing.area_ratio(share, flat), sharing.oil_pressure(fit.clearance, flat))
+    clearance, flattening, resolution = fit = Fit(film / sigma, surfaces.flattening * pressure, surfaces.resolution)
+    if not sharing.covers(*fit):  # powers of them mean nothing far from the fit
+        flattening, resolution = sharing.nearest(flattening, resolution)
+    share = sharing.load_ratio(clearance, flattening, resolution)
+    gap = max(sigma * sharing.film_ratio(clearance, share, flattening, resolution), floor)
+    area, raised = sharing.area_ratio(share, flattening), sharing.oil_pressure(clearance, flattening)
+    return _Shares(fit, gap, share, area, raised)
 
 
 # friction and heat

@@ -144,6 +144,11 @@ class FittedSharing:
         (low, high), (flat, flatter), (coarse, fine) = self.FITTED.values()
         return low <= clearance <= high and flat <= flattening <= flatter and coarse <= resolution <= fine
 
+    def nearest(self, flattening: float, resolution: float) -> tuple[float, float]:
+        """The nearest flattening and resolution among those of the fit."""
+        _, (flat, flatter), (coarse, fine) = self.FITTED.values()
+        return min(max(flattening, flat), flatter), min(max(resolution, coarse), fine)
+
     def exposure_constants(self, *, rougher: bool, dry: bool) -> tuple[float, float]:
         """(k, m) of `exposed`, 1 - exp(-k A_c^m), for callers to whom an array costs too much."""
         if dry:

@@ -42,17 +42,17 @@ class Roelands:
 
     def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
         """Viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
-        log_range, z, s0 = self._constants
-        thermal = ((temperature - 138.0) / (self.reference_temperature - 138.0)) ** -s0
-        exponent = log_range * ((1.0 + pressure / _P0) ** z * thermal - 1.0)
-        return self.viscosity * exp(minimum(exponent, _STIFF))
+        scale, z, s0 = self._constants
+        exponent = scale * (temperature - 138.0) ** -s0 * (pressure + _P0) ** z
+        return exp(minimum(_LN_ETA_INF + exponent, _STIFF))
 
     @cached_property
     def _constants(self) -> tuple[float, float, float]:
-        """ln(eta0 / eta_inf), z and S0."""
-        log_range = math.log(self.viscosity) - _LN_ETA_INF
+        """ln(eta0 / eta_inf) p0^-z (T0 - 138)^S0, z and S0."""
+        log_range, warmth = math.log(self.viscosity) - _LN_ETA_INF, self.reference_temperature - 138.0
         z = self.pressure_coefficient * _P0 / log_range
-        return log_range, z, self.temperature_coefficient * (self.reference_temperature - 138.0) / log_range
+        s0 = self.temperature_coefficient * warmth / log_range
+        return log_range * _P0**-z * warmth**s0, z, s0
 
 
 @dataclass(frozen=True)
