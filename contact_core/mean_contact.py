@@ -193,12 +193,12 @@ def _smooth(scene: Scene, op: OperatingPoint, further: float) -> _Smooth:
     if speed == 0.0:
         return _Smooth(now, 0.0, 0.0, by_load / (_D * load), by_temperature / _KELVIN)
     if scene.heat.inlet_shear != "none":
-        beta = math.log(oil[0] / warm[0]) / _KELVIN
+        beta, warm_beta = (_thinning(scene, op.inlet_temperature + more) for more in (0.0, _KELVIN))
         factor = _inlet_factor(scene, speed, slide, load, oil[0], beta)
         by_sliding = _inlet_factor(scene, speed, slide + further, load, oil[0], beta) / factor - 1.0
         by_speed += _inlet_factor(scene, faster, slide, load, oil[0], beta) / factor - 1.0
         by_load += _inlet_factor(scene, speed, slide, heavier, oil[0], beta) / factor - 1.0
-        by_temperature += _inlet_factor(scene, speed, slide, load, warm[0], beta) / factor - 1.0
+        by_temperature += _inlet_factor(scene, speed, slide, load, warm[0], warm_beta) / factor - 1.0
         now *= factor
     return _Smooth(
         now, by_sliding / further, by_speed / (_D * entrainment), by_load / (_D * load), by_temperature / _KELVIN
@@ -214,6 +214,12 @@ def _smooth_film(scene: Scene, speed: float, load: float, viscosity: float, pres
     m = max(load, _LIGHTEST) / (modulus * radius * radius * root * quarter)
     lubricant = pressure_coefficient * modulus * quarter
     return moes_film(m, lubricant, radius / geometry.radius_y) * root * radius
+
+
+def _thinning(scene: Scene, temperature: float) -> float:
+    """-d ln(viscosity)/dT [1/K] at p = 0."""
+    (eta, _), (thin, _) = _oil(scene.lubricant.viscosity, temperature)
+    return math.log(eta / thin) / _KELVIN
 
 
 def _inlet_factor(scene: Scene, speed: float, slide: float, load: float, viscosity: float, beta: float) -> float:

@@ -152,10 +152,10 @@ def _doses(
     law, old = scene.tribofilm, (means[0].coverage, means[1].coverage)
     if not op.slides or op.load == 0.0:
         return old, (0.0, 0.0)
-    pressures = np.array([contact.solid_pressure, 0.0])
-    shears = np.array([contact.solid_shear, contact.fluid_shear])
+    exposure: Law = law.exposure
     warm = op.inlet_temperature + contact.rise
-    touching, oiled = law.exposure(pressures, shears, contact.slide, warm).tolist()
+    touching = float(exposure(contact.solid_pressure, contact.solid_shear, contact.slide, warm))
+    oiled = float(exposure(0.0, contact.fluid_shear, contact.slide, warm))
     first, dose_1 = _dose(scene, op, contact, 0, means[0].coverage, touching, oiled)
     second, dose_2 = _dose(scene, op, contact, 1, means[1].coverage, touching, oiled)
     return (first, second), (dose_1, dose_2)

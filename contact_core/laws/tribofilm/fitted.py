@@ -115,7 +115,7 @@ class Ghanbarzadeh(_Unabraded):
         rubbed = solid_pressure > 0.0
         if self.nodes == "stressed":
             rubbed |= shear > self.least_shear
-        return rubbed.astype(np.float64)
+        return rubbed * 1.0
 
     def evolve(
         self, growth: Array, removal: Array, exposed: Array, abraded: Array, temperature: float
