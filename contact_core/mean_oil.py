@@ -14,17 +14,18 @@ Array = NDArray[np.float64]
 Law = Callable[..., Any]
 
 # quadrature over the Hertz ellipse: at the distance sqrt(1 - t^2) from its centre p is in proportion to t, dA to t dt
-_T = 0.5 + 0.5 * np.polynomial.legendre.leggauss(10)[0]
-_WEIGHTS = _T * np.polynomial.legendre.leggauss(10)[1]  # of the mean over the ellipse
+_T = 0.5 + 0.5 * np.polynomial.legendre.leggauss(10)[0][:, None]
+_WEIGHTS = _T[:, 0] * np.polynomial.legendre.leggauss(10)[1]  # of the mean over the ellipse
 _ROUNDS, _SETTLED = 30, 1e-7  # of the oil's temperature: at most, and the change [K] that ends them
 
 
 def oil_shear(scene: Scene, pressures: Array, rates: Array, temperatures: Array) -> Array:
     """Mean shear stress [Pa] of oil under Hertz's semi-ellipsoids of largest `pressures`, one for each point."""
-    local = pressures[:, None] * _T
+    local = _T * pressures
     viscosity: Law = scene.lubricant.viscosity
-    newtonian = viscosity(local, temperatures[:, None]) * rates[:, None]
-    return scene.lubricant.rheology(newtonian, local) @ _WEIGHTS
+    newtonian = viscosity(local, temperatures) * rates
+    shear: Array = _WEIGHTS @ scene.lubricant.rheology(newtonian, local)
+    return shear
 
 
 class MeanHeat(NamedTuple):

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.constants import Boltzmann, Planck
 
 from ...quantities import parameter
-from ..elementary import expm1
+from ..elementary import Numbers, expm1
 
 Array = NDArray[np.float64]
 Temperature = float | Array
@@ -108,7 +108,9 @@ class Ghanbarzadeh(_Unabraded):
         """Rate k of growth [1/s] at `temperature` [K]."""
         return Boltzmann * temperature / Planck * self.rate_factor
 
-    def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
+    def exposure(
+        self, solid_pressure: Numbers, shear: Numbers, sliding_speed: float, temperature: Temperature
+    ) -> Numbers:
         """1 where a node is rubbed, else 0, under solid pressure and total |shear stress| [Pa]; 0 without sliding."""
         if sliding_speed == 0.0:
             return np.zeros_like(solid_pressure)
