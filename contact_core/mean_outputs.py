@@ -91,7 +91,8 @@ def _flags(scene: Scene, op: OperatingPoint, contact: MeanContact) -> int:
         flags |= _LAMBDA_CAPPED
     elif not scene_film(scene).sharing.covers(*contact.fit):
         flags |= _OUTSIDE_FIT
-    if not all(scene.tribofilm.covers(temperature) for temperature in op.bodies):
+    one, two = op.bodies
+    if not (scene.tribofilm.covers(one) and scene.tribofilm.covers(two)):
         flags |= _TRIBOFILM_TEMPERATURE
     return flags
 

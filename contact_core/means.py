@@ -107,14 +107,15 @@ def _body_after(
     speed = (op.speed_1, op.speed_2)[i]
     depth = volume / _track_area(scene, i, speed != 0.0)
     smoother = math.exp(-scene_film(scene).smoothing * depth / contact.sigma) if contact.sigma > 0.0 else 1.0
-    return Mean(
-        growth,
-        removal,
-        coverage,
-        mean.wear + depth,
-        mean.roughness * smoother,
-        mean.worn + volume,
-        mean.cycles + abs(speed) * step / track_length(scene, i),
+    return changed(
+        mean,
+        growth=growth,
+        removal=removal,
+        coverage=coverage,
+        wear=mean.wear + depth,
+        roughness=mean.roughness * smoother,
+        worn=mean.worn + volume,
+        cycles=mean.cycles + abs(speed) * step / track_length(scene, i),
     )
 
 

@@ -21,7 +21,7 @@ from .scene import OperatingPoint, Scene
 from .trends import Trends
 
 Array = NDArray[np.float64]
-_Record = TypeVar("_Record", "ContactState", "Outputs")
+_Record = TypeVar("_Record", "ContactState", "Outputs", "Mean")
 _MAGIC, _SCHEMA = b"tribofmu", 4
 
 

@@ -81,6 +81,13 @@ def test_the_fit_covers_its_own_points_and_nothing_far_from_them(golden):
         assert not LAW.covers(**middle | {name: 5.0 * high})
 
 
+def test_the_nearest_point_of_the_fit_is_the_point_itself_or_lies_on_its_edge():
+    (flat, flatter), (coarse, fine) = LAW.FITTED["flattening"], LAW.FITTED["resolution"]
+    assert LAW.nearest(0.3, 3.0) == (0.3, 3.0)
+    assert LAW.nearest(0.1 * flat, 10.0 * fine) == (flat, fine)
+    assert LAW.nearest(10.0 * flatter, 0.1 * coarse) == (flatter, coarse)
+
+
 @pytest.mark.parametrize("rougher", [True, False])
 @pytest.mark.parametrize("dry", [True, False])
 def test_exposure_grows_from_nothing_toward_all_with_the_area(rougher, dry):

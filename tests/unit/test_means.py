@@ -20,6 +20,7 @@ from contact_core import (
     track_of,
 )
 from contact_core.folding import folded, means_of
+from contact_core.laws.heat import TemperatureField
 from contact_core.laws.rheology import Eyring, Newtonian
 from contact_core.quantities import OUTPUTS
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
@@ -43,6 +44,25 @@ def with_oil(scene, rheology):
 
 def now(scene, op, state):
     return advance(scene, op, state, 0.0)[1]
+
+
+def assert_total(scene, state, op, names):
+    """Derivatives of friction are those of the whole step, by differences from outside."""
+    entrainment, sliding = op.entrainment_speed, op.sliding_speed
+    found = now(scene, op, state)
+    for name in names:
+        relative = DERIVATIVES[name]
+        scale = min(abs(entrainment), abs(sliding)) if name.startswith("speed") else getattr(op, name)
+        step = relative * scale
+        up, down = (
+            now(scene, replace(op, **{name: getattr(op, name) + sign * step}), state).friction_force
+            for sign in (1.0, -1.0)
+        )
+        expected = (up - down) / (2.0 * step)
+        size = max(
+            abs(expected), 1e-3 * abs(found.friction_force) / getattr(op, name) if name == "temperature" else 0.0
+        )
+        assert getattr(found, f"dfriction_d{name}") == pytest.approx(expected, abs=1e-3 * size), name
 
 
 @pytest.fixture(scope="module")
@@ -93,19 +113,25 @@ def test_derivatives_are_total(grown, entrainment, sliding, rheology):
     scene, state, op = grown
     scene = with_oil(scene, rheology)
     op = point(op, entrainment, sliding, load=60.0)
-    found = now(scene, op, state)
-    for name, relative in DERIVATIVES.items():
-        scale = min(abs(entrainment), abs(sliding)) if name.startswith("speed") else getattr(op, name)
-        step = relative * scale
-        up, down = (
-            now(scene, replace(op, **{name: getattr(op, name) + sign * step}), state).friction_force
-            for sign in (1.0, -1.0)
-        )
-        expected = (up - down) / (2.0 * step)
-        size = max(
-            abs(expected), 1e-3 * abs(found.friction_force) / getattr(op, name) if name == "temperature" else 0.0
-        )
-        assert getattr(found, f"dfriction_d{name}") == pytest.approx(expected, abs=1e-3 * size), name
+    assert_total(scene, state, op, DERIVATIVES)
+
+
+@pytest.mark.parametrize("entrainment", [0.02, 0.25, 3.0])
+@pytest.mark.parametrize("sliding", [-5e-3, 0.4])
+def test_derivatives_are_total_with_shear_heating_in_the_inlet(grown, entrainment, sliding):
+    scene, state, op = grown
+    op = point(op, entrainment, sliding, load=60.0)
+    scene = replace(scene, heat=replace(scene.heat, inlet_shear="gupta"))
+    assert_total(scene, state, op, DERIVATIVES)
+
+
+@pytest.mark.parametrize("entrainment", [0.02, 0.25, 3.0])
+def test_derivatives_by_load_and_temperature_are_total_where_the_oil_warms_itself(grown, entrainment):
+    scene, state, op = grown
+    steel = [getattr(scene.heat, name) for name in ("conductivity_1", "conductivity_2")]
+    steel += [getattr(scene.heat, name) for name in ("diffusivity_1", "diffusivity_2")]
+    scene, op = replace(scene, heat=TemperatureField(*steel)), point(op, entrainment, 0.4, load=60.0)
+    assert_total(scene, state, op, ("load", "temperature"))
 
 
 def test_at_rest_the_solids_carry_all_and_friction_is_the_boundary_laws():
