@@ -2,7 +2,8 @@
 
 The film is a formula's, curves fitted to the deterministic level share the load. Friction is evaluated at the point
 that is asked for and at four beside it: with a little more sliding, film, load and temperature, the others held. Its
-derivatives are these differences, with those of the film by the chain rule.
+derivatives are these differences, with those of the film by the chain rule. Where the bodies' speeds decide how they
+take up heat, there is a sixth point with more entrainment.
 """
 
 import math
@@ -21,7 +22,7 @@ from .scene import OperatingPoint, Scene
 Array = NDArray[np.float64]
 
 _D, _KELVIN = 1e-6, 1e-4  # how far the points lie apart, relative and in temperature
-_WARMER = np.array([0.0, 0.0, 0.0, 0.0, _KELVIN])
+_WARMER = np.array([0.0, 0.0, 0.0, 0.0, _KELVIN, 0.0])
 _ROOT = (1.0 + _D) ** (1 / 3)  # by which more load makes Hertz's contact larger
 _PROBE = 1e6  # Pa: pressure that tells the pressure coefficient
 _SPIN = 3.0 * math.pi / 16.0  # mean lever of friction under Hertz's pressure, over a
@@ -117,7 +118,7 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
     further = _D * math.copysign(max(abs(sliding), scene.boundary_friction.slip_speed), sliding)
     smooth = _smooth(scene, op, further)
     points = _points(scene, op, _surfaces(scene, films, sigma, cover), smooth.film, further)
-    fluid, heat = _oil_friction(scene, op, points)
+    fluid, heat = _oil_friction(scene, op, points, further)
     now, slide, pull = points[0], abs(points[0].rubbing), abs(points[0].solid + fluid[0])
     if heat is None:
         rise, into_1 = _flash_rise(scene, abs(now.shear), slide), 0.5 * pull * slide
@@ -155,23 +156,31 @@ def _points(scene: Scene, op: OperatingPoint, surfaces: _Surfaces, film: float, 
     thicker = _shared(scene, surfaces, film * (1.0 + _D), root * largest)
     heavier = _shared(scene, surfaces, film, more * largest)
     now = _point(scene, cover, shares, root, slide, op.spin)
-    return [
+    points = [
         now,
         _point(scene, cover, shares, root, slide + further, op.spin),
         _point(scene, cover, thicker, root, slide, op.spin),
         _point(scene, cover, heavier, more, slide, op.spin),
         now,
     ]
+    return [*points, now] if isinstance(scene.heat, TemperatureField) else points
+
+
+def _faster(op: OperatingPoint) -> float:
+    """By how much [m/s] entrainment is more at the sixth point."""
+    return _D * max(abs(op.speed_1), abs(op.speed_2), _SLOWEST)
 
 
 def _derivatives(
     op: OperatingPoint, smooth: _Smooth, forces: list[float], further: float
 ) -> tuple[float, float, float, float]:
     """Of the friction on body 1 along +x by speed_1, speed_2, load and temperature, from `forces` on body 2 [N]."""
-    now, sliding, thicker, heavier, warmer = forces
+    now, sliding, thicker, heavier, warmer, *faster = forces
     by_film = (now - thicker) / _D
     by_sliding = (now - sliding) / further + by_film * smooth.by_sliding
     by_speed = 0.5 * by_film * smooth.by_speed
+    if faster:
+        by_speed += 0.5 * (now - faster[0]) / _faster(op)
     by_load = (now - heavier) / (_D * op.load) + by_film * smooth.by_load
     by_temperature = (now - warmer) / _KELVIN + by_film * smooth.by_temperature
     return by_speed + by_sliding, by_speed - by_sliding, by_load, by_temperature
@@ -297,10 +306,13 @@ def _point(scene: Scene, cover: float, shares: _Shares, root: float, slide: floa
     )
 
 
-def _oil_friction(scene: Scene, op: OperatingPoint, points: list[_Point]) -> tuple[list[float], MeanHeat | None]:
-    """Friction of the oil [N] at the five points, and the heat where it warms the film."""
+def _oil_friction(
+    scene: Scene, op: OperatingPoint, points: list[_Point], further: float
+) -> tuple[list[float], MeanHeat | None]:
+    """Friction of the oil [N] at the points, and the heat where it warms the film."""
     oily, pressures, rates = np.array([point[-3:] for point in points]).T
-    start = op.inlet_temperature + _WARMER
+    warmer = _WARMER[: len(points)]
+    start = op.inlet_temperature + warmer
 
     def friction(warm: Array) -> Array:
         return oily * oil_shear(scene, pressures, rates, warm)
@@ -308,8 +320,12 @@ def _oil_friction(scene: Scene, op: OperatingPoint, points: list[_Point]) -> tup
     if not isinstance(scene.heat, TemperatureField):
         return friction(start).tolist(), None
     solid, rubbing, areas, gaps = np.array([(p.solid, p.rubbing, p.area, p.shares.gap) for p in points]).T
-    circle = np.sqrt(areas / math.pi)
-    heat = MeanHeat.of(scene, scene.heat, op, _WARMER, circle, areas, gaps)
+    first, second = np.full(6, op.speed_1), np.full(6, op.speed_2)
+    first[1], second[1] = op.speed_1 + 0.5 * further, op.speed_2 - 0.5 * further
+    first[5], second[5] = op.speed_1 + _faster(op), op.speed_2 + _faster(op)
+    one, two = op.bodies
+    bodies = (one + warmer, two + warmer)
+    heat = MeanHeat.of(scene.heat, (first, second), bodies, areas, gaps, scene.lubricant.conductivity)
     warm = heat.film(start, lambda film: np.abs((solid + friction(film)) * rubbing))
     return friction(warm).tolist(), heat
 

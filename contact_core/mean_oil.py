@@ -1,5 +1,6 @@
 """Friction and warmth of the oil under a Hertzian mean contact, for several operating points at once."""
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -7,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .laws.heat import TemperatureField
-from .scene import OperatingPoint, Scene
+from .scene import Scene
 
 Array = NDArray[np.float64]
+Pair = tuple[Array, Array]  # of body 1 and 2
 # laws take anything that broadcasts: plain floats, which are faster than arrays of one, and arrays of temperatures
 Law = Callable[..., Any]
 
@@ -40,15 +42,13 @@ class MeanHeat(NamedTuple):
 
     @staticmethod
     def of(
-        scene: Scene, law: TemperatureField, op: OperatingPoint, warmer: Array, radius: Array, areas: Array, gaps: Array
+        law: TemperatureField, speeds: Pair, bodies: Pair, areas: Array, gaps: Array, oil_conductivity: float
     ) -> "MeanHeat":
-        """Both bodies, `warmer` [K] than at `op`, as half spaces under an even source on a circle of `radius` [m] that
-        holds still.
+        """Both bodies as half spaces at their speeds [m/s] under an even source that holds still, on a circle as large
+        as the ellipse.
         """
-        first, second = law.conductances(radius, (op.speed_1, op.speed_2))
-        one, two = op.bodies
-        across = gaps / (12.0 * scene.lubricant.conductivity)
-        return MeanHeat(first, second, one + warmer, two + warmer, areas, across)
+        first, second = law.conductances(np.sqrt(areas / math.pi), speeds)
+        return MeanHeat(first, second, *bodies, areas, gaps / (12.0 * oil_conductivity))
 
     def _surfaces(self, power: Array) -> Array:
         """Temperature [K] of the surfaces under a power [W]."""

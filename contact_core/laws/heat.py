@@ -14,7 +14,7 @@ from scipy import ndimage
 from ..kernels.moving_source import MovingSurface, partition
 from ..quantities import parameter
 from .bulk import InputBulk, LumpedBulk, OilBulk
-from .elementary import sqrt
+from .elementary import Numbers, sqrt
 
 Array = NDArray[np.float64]
 Nodes = NDArray[np.bool_]
@@ -61,7 +61,7 @@ def _flat(bodies: Pair, into_1: float, into_2: float) -> Temperatures:
     return Temperatures(*bodies, 0.5 * (bodies[0] + bodies[1]), into_1, into_2, 0.0, True)
 
 
-def _conductance(radius: Array, speed: float, conductivity: float, diffusivity: float) -> Array:
+def _conductance(radius: Numbers, speed: Numbers, conductivity: float, diffusivity: float) -> Numbers:
     """Heat flux per mean rise [W/(m2 K)] under an even source on a circle of `radius` [m] that moves at `speed`.
 
     Source: Tian & Kennedy 1994, doi:10.1115/1.2927035.
@@ -180,7 +180,7 @@ class TemperatureField:
     inlet_shear: str = _inlet_shear()
     bulk: OilBulk | InputBulk | LumpedBulk = _AS_THE_OIL
 
-    def conductances(self, radius: Array, speeds: Pair) -> tuple[Array, Array]:
+    def conductances(self, radius: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
         """Heat flux per mean rise [W/(m2 K)] into each body, under an even source on a circle of `radius` [m]."""
         first = _conductance(radius, speeds[0], self.conductivity_1, self.diffusivity_1)
         return first, _conductance(radius, speeds[1], self.conductivity_2, self.diffusivity_2)
