@@ -13,6 +13,7 @@ Array = NDArray[np.float64]
 
 _FLATTENING = 0.2  # where the constants hold as they are: about that of the shipped scenes,
 _RESOLUTION = 2.0  # and theirs on their grids
+_THICKEST = 1e30  # L beyond which no solid carries anything: its powers need not overflow
 
 
 def rms_slope(rq: ArrayLike, correlation_length: ArrayLike) -> Array:
@@ -112,8 +113,8 @@ class FittedSharing:
 
     def load_ratio(self, clearance: Numbers, flattening: Numbers, resolution: Numbers) -> Numbers:
         """contact_load_ratio at lambda = `clearance`."""
-        reduced = clearance * (flattening / _FLATTENING) ** 2
-        return exp(-self.load_factor * (reduced * resolution / _RESOLUTION) ** self.load_exponent)
+        reduced = clearance * (flattening / _FLATTENING) ** 2 * resolution / _RESOLUTION
+        return exp(-self.load_factor * minimum(reduced, _THICKEST) ** self.load_exponent)
 
     def area_ratio(self, load_ratio: Numbers, flattening: Numbers) -> Numbers:
         """contact_area_ratio where the solids carry `load_ratio` of the load."""

@@ -65,7 +65,8 @@ def test_a_thick_film_is_in_proportion_to_that_of_smooth_bodies():
 
 
 def test_the_largest_films_and_exponents_do_not_overflow():
-    steep = FittedSharing(film_exponent=20.0)
+    steep = FittedSharing(film_exponent=20.0, load_exponent=10.0)
+    assert steep.load_ratio(1e60, 0.2, 2.0) == 0.0
     assert steep.film_ratio(1e30, 0.0, 0.2, 2.0) == pytest.approx(steep.film_factor * 1e30)
     assert steep.film_ratio(0.0, 0.0, 0.2, 2.0) == pytest.approx(steep.film_mixed)
 
