@@ -18,7 +18,7 @@ from .folding import folded
 from .laws.tribofilm import thickness
 from .means import advance_means
 from .patches import bare_heights, heights_of, roughness_of
-from .scene import OperatingPoint, Scene
+from .scene import OperatingPoint, Scene, with_bodies
 from .state import Body, ContactState, Outputs, RangeFlag
 from .surfaces import mean_roughness, rms_roughness
 
@@ -39,9 +39,10 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
     contact has no solution.
     """
     op.check()
-    refusal = scene.tribofilm.refusal(op.temperature)
-    if refusal:
-        raise OperatingPointError(refusal)
+    for temperature in _given_temperatures(scene, op):
+        refusal = scene.tribofilm.refusal(temperature)
+        if refusal:
+            raise OperatingPointError(refusal)
     if not (math.isfinite(dt) and dt >= 0.0):
         raise OperatingPointError(f"The step dt = {dt!r} s must be finite and not negative.")
     if scene.film.name == "regression":
@@ -77,14 +78,20 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
 
 
 def _advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
-    """`advance` at the fast level; where the bodies warm up, in steps in which the oil hardly changes."""
+    """`advance` at the fast level; where the bodies warm up, in steps in which neither oil nor surfaces change much."""
+    pressure = scene.unit_hertz.pressure_max * op.load ** (1 / 3)
+    if pressure > scene.plasticity.hardness:
+        raise OperatingPointError(
+            f"load = {op.load:g} N presses smooth bodies together with {pressure:.3g} Pa, above plasticity.hardness = "
+            f"{scene.plasticity.hardness:g} Pa: film.model = 'regression' knows no such contact. Lower the load."
+        )
     if scene.heat.bulk.name != "lumped" or dt == 0.0:
         return advance_means(scene, _with_bodies(scene, op, state), state, dt)
     before, left = [state.outputs.wear_volume_1, state.outputs.wear_volume_2], dt
     while left > 0.0:
         now = _with_bodies(scene, op, state)
-        state, _ = advance_means(scene, now, state, 0.0)
-        step = _cool_time(scene, now, state, left)
+        state, there = advance_means(scene, now, state, 0.0)
+        step = _cool_time(scene, now, state, min(left, there.suggested_step))
         warm = _temperatures_after(scene, now, state, step)
         state, outputs = advance_means(scene, now, state, step)
         state, left = replace(state, temperatures=warm), left - step
@@ -96,13 +103,17 @@ def _advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: fl
     return replace(state, outputs=outputs), outputs
 
 
+def _given_temperatures(scene: Scene, op: OperatingPoint) -> tuple[float, ...]:
+    """The temperatures that the caller decides and the tribofilm feels; what bodies warm up to is told by a flag."""
+    return with_bodies(scene, op, None).bodies if scene.heat.bulk.name == "inputs" else (op.temperature,)
+
+
 def _with_bodies(scene: Scene, op: OperatingPoint, state: ContactState) -> OperatingPoint:
-    """The operating point with the bulk temperatures that the scene's law gives the bodies."""
-    inputs = (op.body_temperature_1, op.body_temperature_2)
-    if scene.heat.bulk.name == "oil" and inputs == (None, None):
-        return op
-    first, second = scene.heat.bulk.bodies(op.temperature, inputs, state.temperatures)
-    return replace(op, body_temperature_1=first, body_temperature_2=second)
+    """The operating point with bulk temperatures. Raises OperatingPointError if bodies have warmed out of all range."""
+    now = with_bodies(scene, op, state.temperatures)
+    if scene.heat.bulk.name == "lumped":
+        now.check()
+    return now
 
 
 def _temperatures_after(

@@ -38,7 +38,11 @@ from .sweep import Sweep
 
 Array = NDArray[np.float64]
 
-_SETTLING = 80  # transient steps after a new start before the march is sampled: about one passage of the oil
+# transient steps after a new start before the march is sampled: about one passage of the oil in near rolling, in
+# proportion more where the faster body runs ahead of the oil
+_SETTLING = 80
+_MOST_SETTLING = 400
+_AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which that is near rolling
 _ITERATIONS = 40  # at most, of one transient step; a warm one needs about 16
 _DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
 _DRY_PASS = 8  # dry instants that stand for one pass of a surface point through the contact
@@ -170,10 +174,12 @@ def sweep_mixed(
     passes = (abs(steps[0]) / scene.film.domain, abs(steps[1]) / scene.film.domain)
     rougher = 0 if scene.surface_1.rq > scene.surface_2.rq else 1
     jumps = _jumps(scene, op, 1 - rougher, _SMOOTHER if jumping else -1.0)
-    unsampled = _SETTLING
+    ahead = max(abs(speed) for speed in speeds_of(op)) / abs(op.entrainment_speed)
+    passage = _SETTLING if ahead <= _AHEAD else min(math.ceil(_SETTLING * ahead), _MOST_SETTLING)
+    unsampled = passage
     if state.film is None:
         state = replace(state, film=solve(scene, op, state, dry=True, solid_share=state.share).film)
-        unsampled = _SETTLING if state.share == 1.0 else _CALMING
+        unsampled = passage if state.share == 1.0 else _CALMING
     elif same and (any(jumps) or not jumping):
         unsampled = 0
     elif same:

@@ -13,7 +13,7 @@ from .laws.heat import Temperatures
 from .laws.tribofilm import thickness
 from .oil import left_behind, sheared, solve_flow, warmed
 from .patches import bare_heights, contact_grid, heights_of, on_grid, patch_nodes, roughness_of
-from .scene import OperatingPoint, Scene
+from .scene import OperatingPoint, Scene, with_bodies
 from .state import ContactState
 
 Array = NDArray[np.float64]
@@ -88,6 +88,7 @@ def solve(
             f"film.model = '{scene.film.name}' knows means only, no fields. Solve scene.at_level('deterministic')."
         )
     op.check()
+    op = with_bodies(scene, op, state.temperatures)
     bare, law = bare_heights(scene, state.rows), scene.plasticity
     nodes = [patch_nodes(scene, body) for body in state.bodies]
     patches = [heights_of(z, body) for z, body in zip(bare, state.bodies, strict=True)]

@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .laws.heat import FlashTemperature, TemperatureField
+from .laws.rheology import Carreau
 from .mean_oil import Law, MeanHeat, oil_shear
 from .mean_surfaces import Films, composite_roughness, mean_cover, scene_film
-from .reference import inlet_shear_factor, moes_film
+from .reference import bair_thinning_factor, inlet_shear_factor, moes_film
 from .scene import OperatingPoint, Scene
 
 Array = NDArray[np.float64]
@@ -26,6 +27,7 @@ _WARMER = np.array([0.0, 0.0, 0.0, 0.0, _KELVIN, 0.0])
 _ROOT = (1.0 + _D) ** (1 / 3)  # by which more load makes Hertz's contact larger
 _PROBE = 1e6  # Pa: pressure that tells the pressure coefficient
 _SPIN = 3.0 * math.pi / 16.0  # mean lever of friction under Hertz's pressure, over a
+_THICKEST = 0.01  # of the radius: thicker a film, and the bodies are no parabolas on its scale
 _SLOWEST, _LIGHTEST = 1e-30, 1e-9  # m/s, N: less makes no other film, and would divide by zero
 
 
@@ -37,7 +39,7 @@ class Fit(NamedTuple):
     resolution: float
 
 
-_UNFITTED = Fit(math.inf, 0.0, 0.0)  # smooth bodies, or no load
+_UNFITTED = Fit(math.inf, 0.0, 0.0)  # no load
 
 
 class MeanContact(NamedTuple):
@@ -68,6 +70,7 @@ class _Surfaces(NamedTuple):
 
     sigma: float  # composite rms roughness [m]
     cover: float
+    hardness: float  # where they touch [Pa]
     flattening: float  # per Hertz's largest pressure [1/Pa]
     resolution: float  # correlation length of the rougher body over the distance of the nodes
 
@@ -106,6 +109,7 @@ class _Point(NamedTuple):
     oily: float  # part of it on which the oil carries load [m2]
     oil_pressure: float  # largest of the oil that carries load [Pa]
     oil_rate: float  # of shear [1/s]
+    grip: float  # share of the limiting stress
 
 
 def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
@@ -150,17 +154,17 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
 
 def _points(scene: Scene, op: OperatingPoint, surfaces: _Surfaces, film: float, further: float) -> list[_Point]:
     """The operating point, and those with more sliding (by `further` [m/s]), film, load and temperature."""
-    root, slide, cover = op.load ** (1 / 3), op.sliding_speed, surfaces.cover
+    root, slide = op.load ** (1 / 3), op.sliding_speed
     more, largest = root * _ROOT, scene.unit_hertz.pressure_max
     shares = _shared(scene, surfaces, film, root * largest)
     thicker = _shared(scene, surfaces, film * (1.0 + _D), root * largest)
     heavier = _shared(scene, surfaces, film, more * largest)
-    now = _point(scene, cover, shares, root, slide, op.spin)
+    now = _point(scene, surfaces, shares, root, slide, op.spin)
     points = [
         now,
-        _point(scene, cover, shares, root, slide + further, op.spin),
-        _point(scene, cover, thicker, root, slide, op.spin),
-        _point(scene, cover, heavier, more, slide, op.spin),
+        _point(scene, surfaces, shares, root, slide + further, op.spin),
+        _point(scene, surfaces, thicker, root, slide, op.spin),
+        _point(scene, surfaces, heavier, more, slide, op.spin),
         now,
     ]
     return [*points, now] if isinstance(scene.heat, TemperatureField) else points
@@ -191,27 +195,41 @@ def _derivatives(
 
 def _smooth(scene: Scene, op: OperatingPoint, further: float) -> _Smooth:
     """Nijenbanning, Venner & Moes' central film of the smooth bodies, and what the inputs do to it."""
-    entrainment, load, slide = op.entrainment_speed, op.load, op.sliding_speed
+    entrainment, load, slide, inlet = op.entrainment_speed, op.load, op.sliding_speed, op.inlet_temperature
     speed = abs(entrainment)
-    oil, warm = _oil(scene.lubricant.viscosity, op.inlet_temperature)
-    faster, heavier = speed * (1.0 + _D), load * (1.0 + _D)
-    now = _smooth_film(scene, speed, load, *oil)
-    by_speed = _smooth_film(scene, faster, load, *oil) / now - 1.0
-    by_load = _smooth_film(scene, speed, heavier, *oil) / now - 1.0
-    by_temperature, by_sliding = _smooth_film(scene, speed, load, *warm) / now - 1.0, 0.0
-    if speed == 0.0:
-        return _Smooth(now, 0.0, 0.0, by_load / (_D * load), by_temperature / _KELVIN)
-    if scene.heat.inlet_shear != "none":
-        beta, warm_beta = (_thinning(scene, op.inlet_temperature + more) for more in (0.0, _KELVIN))
-        factor = _inlet_factor(scene, speed, slide, load, oil[0], beta)
-        by_sliding = _inlet_factor(scene, speed, slide + further, load, oil[0], beta) / factor - 1.0
-        by_speed += _inlet_factor(scene, faster, slide, load, oil[0], beta) / factor - 1.0
-        by_load += _inlet_factor(scene, speed, slide, heavier, oil[0], beta) / factor - 1.0
-        by_temperature += _inlet_factor(scene, speed, slide, load, warm[0], warm_beta) / factor - 1.0
-        now *= factor
+    oil, warm = _oil(scene.lubricant.viscosity, inlet)
+    thins = speed > 0.0 and (scene.heat.inlet_shear != "none" or scene.lubricant.flow == "local")
+
+    def film(speed: float, load: float, slide: float, oil: tuple[float, float], temperature: float) -> float:
+        newtonian = _smooth_film(scene, speed, load, *oil)
+        return newtonian * _thinned(scene, speed, load, slide, oil[0], newtonian, temperature) if thins else newtonian
+
+    now = film(speed, load, slide, oil, inlet)
+    by_load = film(speed, load * (1.0 + _D), slide, oil, inlet) / now - 1.0
+    by_temperature = film(speed, load, slide, warm, inlet + _KELVIN) / now - 1.0
+    by_speed = film(speed * (1.0 + _D), load, slide, oil, inlet) / now - 1.0
+    by_sliding = film(speed, load, slide + further, oil, inlet) / now - 1.0 if thins else 0.0
     return _Smooth(
-        now, by_sliding / further, by_speed / (_D * entrainment), by_load / (_D * load), by_temperature / _KELVIN
+        min(now, _THICKEST * scene.geometry.radius_x),
+        by_sliding / further,
+        by_speed / (_D * entrainment) if speed > 0.0 else 0.0,
+        by_load / (_D * load),
+        by_temperature / _KELVIN,
     )
+
+
+def _thinned(
+    scene: Scene, speed: float, load: float, slide: float, viscosity: float, newtonian: float, temperature: float
+) -> float:
+    """Film of an oil that shear heats in the inlet or thins, over a `newtonian` one [m], for a speed above zero."""
+    factor, law = 1.0, scene.lubricant.rheology
+    if scene.heat.inlet_shear != "none":
+        pressure, modulus = scene.unit_hertz.pressure_max * load ** (1 / 3), scene.solids.reduced_modulus
+        beta, oil = _thinning(scene, temperature), scene.lubricant.conductivity
+        factor = inlet_shear_factor(viscosity, beta, speed, slide / speed, oil, pressure, modulus)
+    if scene.lubricant.flow == "local" and isinstance(law, Carreau):
+        factor *= bair_thinning_factor(newtonian, speed, viscosity, law.critical_stress, law.exponent, slide / speed)
+    return factor
 
 
 def _smooth_film(scene: Scene, speed: float, load: float, viscosity: float, pressure_coefficient: float) -> float:
@@ -229,12 +247,6 @@ def _thinning(scene: Scene, temperature: float) -> float:
     """-d ln(viscosity)/dT [1/K] at p = 0."""
     (eta, _), (thin, _) = _oil(scene.lubricant.viscosity, temperature)
     return math.log(eta / thin) / _KELVIN
-
-
-def _inlet_factor(scene: Scene, speed: float, slide: float, load: float, viscosity: float, beta: float) -> float:
-    """Film with the heat of shear in the inlet over that without, for an entrainment `speed` above zero."""
-    pressure, modulus = scene.unit_hertz.pressure_max * load ** (1 / 3), scene.solids.reduced_modulus
-    return inlet_shear_factor(viscosity, beta, speed, slide / speed, scene.lubricant.conductivity, pressure, modulus)
 
 
 @lru_cache(maxsize=16)
@@ -256,15 +268,15 @@ def _surfaces(scene: Scene, films: Films, sigma: float, cover: float) -> _Surfac
     slope = 2.0 * math.hypot(films[0].both / first.correlation_length, films[1].both / second.correlation_length)
     rougher = first if first.rq > second.rq else second
     per_pressure = 4.0 / 3.0 / (scene.solids.reduced_modulus * slope) if slope > 0.0 else math.inf
-    return _Surfaces(sigma, cover, per_pressure, rougher.correlation_length / scene.film.spacing)
+    thickest = min(max(films[0].thickness, films[1].thickness) / scene.tribofilm.full_thickness, 1.0)
+    resolution = rougher.correlation_length / scene.film.spacing
+    return _Surfaces(sigma, cover, scene.plasticity.under(thickest), per_pressure, resolution)
 
 
 def _shared(scene: Scene, surfaces: _Surfaces, film: float, pressure: float) -> _Shares:
     """Of rough bodies, for a film of smooth ones [m] and Hertz's largest pressure [Pa]."""
-    floor, sharing, sigma = scene.film.floor, scene_film(scene).sharing, surfaces.sigma
-    if sigma == 0.0:
-        touching = 1.0 if film <= floor else 0.0
-        return _Shares(_UNFITTED, max(film, floor), touching, touching, 1.0)
+    floor, sharing = scene.film.floor, scene_film(scene).sharing
+    sigma = max(surfaces.sigma, floor)  # smooth bodies touch where their adsorbed layers do
     clearance, flattening, resolution = fit = Fit(film / sigma, surfaces.flattening * pressure, surfaces.resolution)
     if not sharing.covers(*fit):  # powers of them mean nothing far from the fit
         flattening, resolution = sharing.nearest(flattening, resolution)
@@ -277,19 +289,19 @@ def _shared(scene: Scene, surfaces: _Surfaces, film: float, pressure: float) -> 
 # friction and heat
 
 
-def _point(scene: Scene, cover: float, shares: _Shares, root: float, slide: float, spin: float) -> _Point:
+def _point(scene: Scene, surfaces: _Surfaces, shares: _Shares, root: float, slide: float, spin: float) -> _Point:
     """What the solids do at a sliding speed [m/s], spin [rad/s] and load [N], whose cubic `root` is given."""
     hertz = scene.unit_hertz
     largest, area = hertz.pressure_max * root, math.pi * hertz.a * hertz.b * root * root
     carried = 2.0 / 3.0 * shares.load * largest  # mean over the Hertz area
-    touching = max(shares.area, carried / scene.plasticity.hardness)  # the hardness allows no smaller contact
+    touching = max(shares.area, carried / surfaces.hardness)  # the hardness allows no smaller contact
     pressure = carried / (touching + 1e-300)
     rubbing, along = slide, 1.0
     if spin != 0.0:
         rubbing = math.hypot(slide, _SPIN * spin * hertz.a * root)
         along = slide / max(rubbing, _SLOWEST)
     boundary: Law = scene.boundary_friction
-    shear = boundary(pressure, cover, rubbing)
+    shear = boundary(pressure, surfaces.cover, rubbing)
     oily = area * (1.0 - shares.load) / shares.raised
     return _Point(
         shares,
@@ -303,6 +315,7 @@ def _point(scene: Scene, cover: float, shares: _Shares, root: float, slide: floa
         oily,
         shares.raised * largest,
         rubbing / shares.gap,
+        abs(float(scene.boundary_friction.grip(rubbing))),
     )
 
 
@@ -310,12 +323,12 @@ def _oil_friction(
     scene: Scene, op: OperatingPoint, points: list[_Point], further: float
 ) -> tuple[list[float], MeanHeat | None]:
     """Friction of the oil [N] at the points, and the heat where it warms the film."""
-    oily, pressures, rates = np.array([point[-3:] for point in points]).T
+    oily, pressures, rates, grips = np.array([point[-4:] for point in points]).T
     warmer = _WARMER[: len(points)]
     start = op.inlet_temperature + warmer
 
     def friction(warm: Array) -> Array:
-        return oily * oil_shear(scene, pressures, rates, warm)
+        return oily * oil_shear(scene, pressures, rates, grips, warm)
 
     if not isinstance(scene.heat, TemperatureField):
         return friction(start).tolist(), None

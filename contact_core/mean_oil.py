@@ -21,12 +21,14 @@ _WEIGHTS = _T[:, 0] * np.polynomial.legendre.leggauss(10)[1]  # of the mean over
 _ROUNDS, _SETTLED = 30, 1e-7  # of the oil's temperature: at most, and the change [K] that ends them
 
 
-def oil_shear(scene: Scene, pressures: Array, rates: Array, temperatures: Array) -> Array:
-    """Mean shear stress [Pa] of oil under Hertz's semi-ellipsoids of largest `pressures`, one for each point."""
+def oil_shear(scene: Scene, pressures: Array, rates: Array, grips: Array, temperatures: Array) -> Array:
+    """Mean shear stress [Pa] of oil under Hertz's semi-ellipsoids of largest `pressures`, one for each point; `grips`
+    are the shares of the limiting stress (`FilmBlend.grip`).
+    """
     local = _T * pressures
     viscosity: Law = scene.lubricant.viscosity
     newtonian = viscosity(local, temperatures) * rates
-    shear: Array = _WEIGHTS @ scene.lubricant.rheology(newtonian, local)
+    shear: Array = _WEIGHTS @ scene.lubricant.rheology(newtonian, local * grips)
     return shear
 
 

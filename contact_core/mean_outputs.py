@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from .laws.load_sharing import FittedSharing
 from .mean_contact import MeanContact
 from .mean_surfaces import Films, Means, scene_film
 from .scene import OperatingPoint, Scene
@@ -12,6 +13,7 @@ _LONGEST = 10.0  # times the duty: no step need be shorter than that
 _LAMBDA_CAPPED, _OUTSIDE_FIT = int(RangeFlag.LAMBDA_CAPPED), int(RangeFlag.OUTSIDE_FIT)
 _TRIBOFILM_TEMPERATURE = int(RangeFlag.TRIBOFILM_TEMPERATURE)  # numbers are faster to add up
 _BLANK = Outputs()
+_LOCAL = 1.0  # error of films that feel local stresses, of which this level knows the mean
 
 
 def outputs_of(
@@ -79,6 +81,11 @@ def outputs_of(
     )
 
 
+def _exposure_error(sharing: FittedSharing) -> float:
+    """Relative half width of the share of the rougher body that is exposed: no film is less sure."""
+    return sharing.HALF_WIDTHS["exposure_rougher"] / sharing.exposure_rougher
+
+
 def _lambda_ratio(op: OperatingPoint, contact: MeanContact) -> float:
     if contact.sigma == 0.0 or op.load == 0.0:
         return _LAMBDA_CAP
@@ -102,16 +109,15 @@ def _errors(scene: Scene, op: OperatingPoint, contact: MeanContact) -> dict[str,
     oil's.
     """
     force, share = abs(contact.solid + contact.fluid), contact.load_ratio
-    if force == 0.0 or contact.sigma == 0.0:
+    if force == 0.0:
         return {}
     sharing = scene_film(scene).sharing
     error = 2.0 * sharing.load_scatter
-    solid = abs(contact.solid) / (share * op.load) if share > 0.0 else 0.0
-    fluid = abs(contact.fluid) / ((1.0 - share) * op.load) if share < 1.0 else 0.0
+    solid = abs(contact.solid) / share if share > 0.0 else 0.0
+    fluid = abs(contact.fluid) / (1.0 - share) if share < 1.0 else 0.0
     return {
-        "error_friction": min(abs(solid - fluid) * error * op.load / force, 1.0),
+        "error_friction": min(abs(solid - fluid) * error / force, 1.0),
         "error_film": 2.0 * sharing.film_scatter,
-        # no film is less sure than the share of the rougher body that is exposed
-        "error_tribofilm": sharing.HALF_WIDTHS["exposure_rougher"] / sharing.exposure_rougher,
+        "error_tribofilm": _LOCAL if scene.tribofilm.abrades else _exposure_error(sharing),
         "error_wear": min(error / share, 1.0) if share > 0.0 else 0.0,
     }

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from .errors import ConvergenceError
 from .evolution import track_length
 from .film.instant import Grid
 from .folding import means_of
@@ -23,6 +24,12 @@ from .state import ContactState, Mean, Outputs, changed
 
 _SAME = 1e-4  # a contact evaluated before the surfaces changed by less, relative, is the contact after it
 _TRIAL = 1.0  # s: step that tells how fast the surfaces change
+# pressures over their mean and what they weigh, of an exponential distribution
+_PARTS, _OF_PARTS = np.polynomial.laguerre.laggauss(6)
+# rows |y| / b of the track, what they weigh in its mean, and the mean pressure on each over that
+_ROWS = 0.5 + 0.5 * np.polynomial.legendre.leggauss(6)[0]
+_OF_ROWS = 0.5 * np.polynomial.legendre.leggauss(6)[1]
+_ROWS_PRESSURE = 1.5 * (1.0 - _ROWS**2)
 
 
 def advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
@@ -41,6 +48,11 @@ def advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: flo
     else:
         speed = _stepped(scene, op, contact, means, _TRIAL)[3]
         rates = [_wear_rate(scene, op, contact, i, films[i].thickness) for i in (0, 1)]
+    if not math.isfinite(contact.solid + contact.fluid + contact.gap):
+        raise ConvergenceError(
+            f"Friction or film at load = {op.load:g} N, speeds {op.speed_1:g} and {op.speed_2:g} m/s is not finite: "
+            "the laws of the oil do not reach that far. Lower load or sliding speed."
+        )
     outputs = outputs_of(scene, op, state.outputs, contact, means, films, rates, speed)
     return changed(state, time=state.time + dt, means=means, outputs=outputs, solved_for=None), outputs
 
@@ -155,11 +167,23 @@ def _doses(
         return old, (0.0, 0.0)
     exposure: Law = law.exposure
     warm = op.inlet_temperature + contact.rise
-    touching = float(exposure(contact.solid_pressure, contact.solid_shear, contact.slide, warm))
+    touching = _touching(scene, contact, warm)
     oiled = float(exposure(0.0, contact.fluid_shear, contact.slide, warm))
     first, dose_1 = _dose(scene, op, contact, 0, means[0].coverage, touching, oiled)
     second, dose_2 = _dose(scene, op, contact, 1, means[1].coverage, touching, oiled)
     return (first, second), (dose_1, dose_2)
+
+
+def _touching(scene: Scene, contact: MeanContact, warm: float) -> float:
+    """Mean exposure where solids touch. Stress counts by its exponential for laws that it activates, so that the
+    pressure may not be taken as even there: it falls off exponentially up to the hardness (assumed).
+    """
+    law: Any = scene.tribofilm
+    if not law.abrades or contact.solid_pressure == 0.0:
+        return float(law.exposure(contact.solid_pressure, contact.solid_shear, contact.slide, warm))
+    parts = np.minimum(_PARTS, scene.plasticity.under(contact.cover) / contact.solid_pressure)
+    exposure = law.exposure(parts * contact.solid_pressure, parts * contact.solid_shear, contact.slide, warm)
+    return float(_OF_PARTS @ exposure)
 
 
 def _dose(
@@ -177,7 +201,9 @@ def _dose(
     if scene.tribofilm.dose == "clock" and moving:
         return coverage, (share * touching + (1.0 - share) * oiled) / coverage
     mean = contact.area_ratio * touching + (1.0 - contact.area_ratio) * oiled
-    return coverage, mean * _time_share(scene, op, i, moving) / coverage
+    # contact_length: a mean chord of the Hertz ellipse over 2a
+    share = 0.25 * math.pi if scene.tribofilm.dose == "contact_length" else _residence(scene, op, i)
+    return coverage, mean * share / coverage
 
 
 def _abrasion(scene: Scene, op: OperatingPoint, contact: MeanContact, i: int) -> float:
@@ -185,14 +211,11 @@ def _abrasion(scene: Scene, op: OperatingPoint, contact: MeanContact, i: int) ->
     law: Any = scene.tribofilm
     if not law.abrades:
         return 0.0
-    felt = contact.solid_pressure * contact.area_ratio * _time_share(scene, op, i, (op.speed_1, op.speed_2)[i] != 0.0)
-    return float(law.abrasion(felt, contact.slide, None))
+    felt = contact.solid_pressure * contact.area_ratio * _residence(scene, op, i)
+    return float(_OF_ROWS @ law.abrasion(felt * _ROWS_PRESSURE, contact.slide, _ROWS))
 
 
-def _time_share(scene: Scene, op: OperatingPoint, i: int, moving: bool) -> float:
-    """Share of the time that a point of the track counts as under the Hertz ellipse, by the law's dose."""
-    if scene.tribofilm.dose == "contact_length":
-        return 0.25 * math.pi  # a mean chord over 2a
-    a = scene.unit_hertz.a
-    way = track_length(scene, i) if moving else scene.film.domain
-    return 0.5 * math.pi * a * op.load ** (1 / 3) / way
+def _residence(scene: Scene, op: OperatingPoint, i: int) -> float:
+    """Share of its time that a point of the track |y| < b is under the Hertz ellipse."""
+    way = track_length(scene, i) if (op.speed_1, op.speed_2)[i] != 0.0 else scene.film.domain
+    return 0.5 * math.pi * scene.unit_hertz.a * op.load ** (1 / 3) / way

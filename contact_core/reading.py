@@ -97,6 +97,8 @@ def _value(hint: Any, raw: Any, full: str, f: "Field[Any]") -> Any:
     slot = full.rpartition(".")[2]
     models = None if f.metadata else SLOTS.get(slot) or (FILMS if slot == "film" else None)
     if models:
+        if isinstance(raw, Mapping) and not {"model", "set"} & set(raw) and hasattr(f.default, "name"):
+            raw = {"model": f.default.name, **raw}
         return _build_law(models, raw, full)
     if is_dataclass(hint):
         return build(hint, raw, full)  # type: ignore[arg-type]
@@ -172,7 +174,8 @@ def _merged(base: Mapping[str, Any], over: Mapping[str, Any], path: str) -> dict
 
 def _hint(f: "Field[Any]") -> str:
     if "unit" not in f.metadata:
-        return "Add the table."
+        models = ", ".join(law.name for law in SLOTS.get(f.name, ()))  # type: ignore[attr-defined]
+        return f"Add the table, with a 'model': {models}." if models else "Add the table."
     return f"It is the {f.metadata['text']}" + (f" [{f.metadata['unit']}]." if f.metadata["unit"] else ".")
 
 

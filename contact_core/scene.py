@@ -190,6 +190,11 @@ class Operation:
         return OperatingPoint(**{f.name: getattr(self, f.name) for f in fields(OperatingPoint)})
 
 
+def _rank(item: tuple[str, str]) -> int:
+    """Order in which an override is applied."""
+    return {"set": 0, "model": 1}.get(item[0].rpartition(".")[2], 2)
+
+
 @dataclass(frozen=True)
 class Scene:
     """One contact: geometry, surfaces, materials and a law in every slot."""
@@ -217,7 +222,8 @@ class Scene:
         Raises SceneError with every sentence that says what is wrong and what would be right.
         """
         table = read_table(source)
-        for key, value in (overrides or {}).items():
+        # sets and models first: they decide which other keys there are
+        for key, value in sorted((overrides or {}).items(), key=_rank):
             override(table, key, value)
         return Scene.from_dict(table)
 
@@ -341,16 +347,19 @@ class Scene:
         times = [step.time for step in self.operation.steps]
         if times and self.operation.file:
             yield "duty", f"operation.steps and operation.file = '{self.operation.file}' exclude each other. Keep one."
-        temperatures = [("operation", self.operation.temperature)]
+        warm = with_bodies(self, self.operation.point, None).bodies
+        temperatures = [("operation.", self.operation.temperature)]
+        if self.heat.bulk.name == "inputs":
+            temperatures = [(f"operation: body {i + 1}, ", warm[i]) for i in (0, 1)]
         temperatures += [
-            (f"operation.steps[{i}]", step.temperature)
+            (f"operation.steps[{i}].", step.temperature)
             for i, step in enumerate(self.operation.steps)
             if step.temperature is not None
         ]
         for name, temperature in temperatures:
             refusal = self.tribofilm.refusal(temperature)
             if refusal:
-                yield "temperature", f"{name}.{refusal}"
+                yield "temperature", f"{name}{refusal}"
         if any(late <= early for early, late in pairwise([0.0, *times])):
             yield "duty", f"The times of operation.steps, {times} s, must be above 0 and increase."
 
@@ -365,7 +374,31 @@ class Scene:
             found.append(
                 f"The tribofilm's constants are extrapolated: they do not hold at {self.operation.temperature:g} K."
             )
+        given = (self.operation.body_temperature_1, self.operation.body_temperature_2)
+        if given != (None, None) and self.heat.bulk.name != "inputs":
+            found.append(f"heat.bulk = '{self.heat.bulk.name}' does not use operation.body_temperature_1 and _2.")
+        if (
+            self.film.name == "regression"
+            and self.lubricant.flow == "local"
+            and self.lubricant.rheology.name == "eyring"
+        ):
+            found.append("film.model = 'regression' thins films by shear for the rheology 'carreau' only.")
+        if self.film.name == "regression" and self.tribofilm.abrades:
+            found.append(
+                f"tribofilm.model = '{self.tribofilm.name}' feels local stresses; film.model = 'regression' knows "
+                "their mean and takes them as exponentially distributed: within a factor of two to four."
+            )
         return found
+
+
+def with_bodies(scene: Scene, op: OperatingPoint, stored: tuple[float, float] | None) -> OperatingPoint:
+    """The operating point with the bulk temperatures that the scene's law gives the bodies; `stored` are a state's."""
+    inputs = (op.body_temperature_1, op.body_temperature_2)
+    bulk = scene.heat.bulk
+    if bulk.name == "oil" and inputs == (None, None):
+        return op
+    first, second = bulk.bodies(op.temperature, inputs, stored)
+    return op if inputs == (first, second) else replace(op, body_temperature_1=first, body_temperature_2=second)
 
 
 def tunables(scene: Scene) -> dict[str, tuple[float | int, "Field[Any]"]]:

@@ -154,7 +154,7 @@ def _formula_film(scene: Scene, op: OperatingPoint) -> float:
     """Hamrock & Dowson's central film [m] of the smooth bodies; zero without entrainment."""
     if op.entrainment_speed == 0.0:
         return 0.0
-    oil, shape = (scene.lubricant.viscosity, op.temperature), scene.geometry
+    oil, shape = (scene.lubricant.viscosity, op.inlet_temperature), scene.geometry
     contact = SmoothContact.of(
         op.load, op.entrainment_speed, *oil, shape.radius_x, shape.radius_y, scene.solids.reduced_modulus
     )

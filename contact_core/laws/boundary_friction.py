@@ -16,8 +16,9 @@ Array = NDArray[np.float64]
 class FilmBlend:
     """tau = mu p_solid, mu between bare steel's and the full tribofilm's in proportion to the local mean cover.
 
-    `slip_speed` is the sliding speed over which the friction changes sign: mu is multiplied by tanh(u_s / slip_speed),
-    so that it is continuous and smooth through zero sliding, and 99.99 % of its value at five times that speed.
+    `slip_speed` is the sliding speed over which friction changes sign: mu, and the limiting stress of the oil, are
+    multiplied by tanh(u_s / slip_speed) (`grip`), so that friction is continuous and its slope bounded through zero
+    sliding, and 99.99 % of its value at five times that speed. Oil below its limiting stress shears as it does.
     """
 
     name: ClassVar[str] = "film_blend"
@@ -33,12 +34,19 @@ class FilmBlend:
 
     def __call__(self, solid_pressure: Array, cover: Array, sliding_speed: Array | float) -> Array:
         """Shear stress [Pa], with the sign of the sliding speed [m/s], for cover 0 to 1 and solid pressure [Pa]."""
-        return self.coefficient(cover) * solid_pressure * tanh(sliding_speed / self.slip_speed)
+        return self.coefficient(cover) * solid_pressure * self.grip(sliding_speed)
+
+    def grip(self, sliding_speed: Array | float) -> Array:
+        """Share of full friction at a sliding speed [m/s], with its sign."""
+        return tanh(sliding_speed / self.slip_speed)
+
+    def grip_slope(self, sliding_speed: Array | float) -> Array:
+        """Derivative of `grip` by the sliding speed [s/m]."""
+        return (1.0 - self.grip(sliding_speed) ** 2) / self.slip_speed
 
     def slope(self, solid_pressure: Array, cover: Array, sliding_speed: Array | float) -> Array:
         """Derivative of the shear stress by the sliding speed [Pa s/m]."""
-        rise = (1.0 - tanh(sliding_speed / self.slip_speed) ** 2) / self.slip_speed
-        return self.coefficient(cover) * solid_pressure * rise
+        return self.coefficient(cover) * solid_pressure * self.grip_slope(sliding_speed)
 
 
 LAWS = (FilmBlend,)

@@ -1,7 +1,7 @@
 """Where the pressure is cut off, and whose surface yields."""
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +40,10 @@ class ElasticPerfectlyPlastic:
         U = h1 + h2, then nothing: the largest of the three at every depth.
         """
         left = np.maximum(np.maximum(film_1, film_2) - depth, 0.5 * (film_1 + film_2 - depth))
-        cover = np.clip(left / full_thickness, 0.0, 1.0)
+        return self.under(np.clip(left / full_thickness, 0.0, 1.0))
+
+    def under(self, cover: Any) -> Any:
+        """Hardness [Pa] under a film of `cover` (0 to 1) of its full thickness."""
         return self.hardness - (self.hardness - self.film_hardness) * cover
 
 

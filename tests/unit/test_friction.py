@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from cheap_scene import cheap
 
-from contact_core import Scene, solve
+from contact_core import Scene, advance, solve
 from contact_core.film.instant import Grid
 from contact_core.friction import Film, derivatives, friction, shear, sliding
 
@@ -130,3 +130,24 @@ def test_the_boundary_limit_lies_where_additives_are_measured():
     for name in ("azam_case_a", "mtm_zddp"):
         law = Scene.from_toml(name).boundary_friction
         assert all(0.09 <= law.coefficient(cover) <= 0.14 for cover in (0.0, 0.5, 1.0))
+
+
+@pytest.mark.parametrize("level", ["deterministic", "regression"])
+def test_the_slope_of_friction_through_zero_sliding_is_bounded_by_the_slip_speed(level):
+    scene, state, point = cheap()
+    scene = scene.at_level(level)
+    op = replace(point, speed_1=point.speed_2)
+    _, outputs = advance(scene, op, state, 0.0)
+    law, oil = scene.boundary_friction, scene.lubricant.rheology
+    steepest = max(law.bare, oil.limiting_coefficient) * op.load / law.slip_speed
+    assert -1.01 * steepest < outputs.dfriction_dspeed_1 < -0.1 * steepest
+    assert outputs.dfriction_dspeed_2 == pytest.approx(-outputs.dfriction_dspeed_1, rel=1e-3)
+
+
+def test_oil_at_its_limit_grips_as_solids_do():
+    scene, _, _ = cheap(lubricant__rheology__model="newtonian")
+    stiff = replace(wet(0.0), fluid=np.full_like(HERTZ, 6e9))  # beyond its limit at any speed
+    full, part = (
+        friction(shear(scene, at(speed_1=0.1 + speed, speed_2=0.1), stiff), GRID).force_fluid for speed in (0.1, 1e-7)
+    )
+    assert part == pytest.approx(scene.boundary_friction.grip(1e-7) * full, rel=1e-6)
