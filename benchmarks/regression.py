@@ -2,7 +2,7 @@
 
     python benchmarks/regression.py sweep                         # solve the sweep: 6 min
     python benchmarks/regression.py fit                           # fit the curves: the page without the fast level
-    python benchmarks/regression.py check [--deterministic-only]  # both levels on 100 random points of each scene: 8 min
+    python benchmarks/regression.py check [--deterministic-only]  # both levels on 100 random points of each scene, and over two hours: 10 min
 
 Solved points stay in results/regression. `fit` and `check` write docs/regression.md, docs/regression.png and
 tests/golden/load_sharing.csv.
@@ -12,7 +12,7 @@ import argparse
 from pathlib import Path
 
 import numpy as np
-from regression_check import curves_page, deterministic, level_page
+from regression_check import curves_page, deterministic, hours_page, level_page
 from regression_fit import Fit, Table, constants_page, draw
 from regression_points import (
     SCENES,
@@ -64,7 +64,7 @@ def write_page(*, fast: bool) -> None:
         "",
         f"Written by `python benchmarks/regression.py {'check' if fast else 'fit'}`.",
         "",
-        *(level_page(solved) if fast else []),
+        *([*level_page(solved), "", *hours_page(), ""] if fast else []),
         *constants_page(fit),
         *curves_page(FittedSharing(), solved),
         "",

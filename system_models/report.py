@@ -28,6 +28,7 @@ _COLUMNS = (
 )
 _SHARES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0)  # of the run: running-in is early
 _FEW_ROWS = 12
+_WARM = 0.05  # K: bodies warmer than the oil by more are worth a line
 
 _BLUE, _RED, _BLACK = "#0072B2", "#D55E00", "#000000"  # of Okabe and Ito: told apart by the colour-blind
 _Line = tuple[str, str, str]  # variable, legend, colour
@@ -76,7 +77,20 @@ def closing_lines(dataset: xr.Dataset) -> list[str]:
     """Load cycles, who drove the blocks, validity and range, in sentences."""
     last = dataset.isel(time=-1)
     ball, disc = (f"{int(last[f'load_cycles_{body}']):,}".replace(",", " ") for body in (1, 2))
-    return [f"Load cycles: ball {ball}, disc {disc}.", *_blocks(last), _validity(dataset), *_range(dataset)]
+    cycles = f"Load cycles: ball {ball}, disc {disc}."
+    return [cycles, *_blocks(last), *_warmth(dataset), _validity(dataset), *_range(dataset)]
+
+
+def _warmth(dataset: xr.Dataset) -> list[str]:
+    """Temperatures and heat of the bodies at the end, if they are not those of the oil."""
+    last, oil = dataset.isel(time=-1), dataset["temperature"]
+    if all(float(np.abs(dataset[f"temperature_{body}"] - oil).max()) < _WARM for body in (1, 2)):
+        return []
+    warm = ", ".join(
+        f"{name} {float(last[f'temperature_{body}']) - 273.15:.1f} degC with {float(last[f'heat_flow_{body}']):.3g} W"
+        for body, name in ((1, "ball"), (2, "disc"))
+    )
+    return [f"At the end the bodies take up the heat of friction: {warm}."]
 
 
 def _blocks(last: xr.Dataset) -> list[str]:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from cheap_scene import CHEAP, cheap
 
-from contact_core import Scene, Transient, advance, initial_state, solve
+from contact_core import OperatingPointError, Scene, Transient, advance, initial_state, solve
 from contact_core import oil as oil_module
 from contact_core.film import thinning
 from contact_core.kernels import moving_source
@@ -190,3 +190,49 @@ def test_spin_wears_and_grows_film_without_sliding(level):
     assert spun.wear_volume_1 > 0.0 and spun.wear_volume_2 > 0.0 and spun.tribofilm_1 > 0.0
     assert spun.power_loss == pytest.approx(-spun.spin_torque * 500.0, rel=1e-9)
     assert abs(spun.friction_force) < 0.02 * spun.friction_coefficient * point.load + 1e-3 * point.load
+
+
+def test_a_solution_knows_the_temperatures_that_the_scene_gives_its_bodies():
+    scene, state = smooth()
+    point = sliding(scene, 4.0, 0.2)
+    warm = replace(point, body_temperature_1=420.0, body_temperature_2=420.0)
+    assert central(scene, state, warm) == central(scene, state, point)  # bodies are as warm as the oil
+    inputs, _ = smooth({"heat.bulk": "inputs"})
+    assert central(inputs, state, warm) < 0.7 * central(inputs, state, point)
+
+
+@pytest.mark.parametrize("level", ["deterministic", "regression"])
+def test_bodies_that_would_melt_are_refused_by_name(level):
+    changes = {name: "0 W/K" if "conductance" in name else "1e-3 J/K" for name in LUMPED if name[-1].isdigit()}
+    scene, state, _ = cheap(CHEAP | LUMPED | changes | {"tribofilm.model": "none", "wear.model": "none"})
+    op = sliding(scene, 0.25, 0.5)
+    with pytest.raises(OperatingPointError, match=r"body_temperature_\d = .* at most 900"):
+        advance(scene.at_level(level), op, state, 600.0)
+
+
+def test_body_temperatures_that_nobody_uses_are_told():
+    told = cheap(CHEAP | {"operation.body_temperature_1": "100 degC"})[0].warnings()
+    assert any("operation.body_temperature_1" in sentence and "heat.bulk = 'oil'" in sentence for sentence in told)
+    used = cheap(CHEAP | {"operation.body_temperature_1": "92 degC", "heat.bulk": "inputs"})[0].warnings()
+    assert not any("body_temperature" in sentence for sentence in used)
+
+
+def test_the_tribofilms_constants_are_asked_for_the_temperature_that_it_feels():
+    scene, state, point = cheap(CHEAP | {"heat.bulk": "inputs"})
+    hot = replace(point, body_temperature_1=point.temperature + 40.0)
+    with pytest.raises(OperatingPointError, match="fit_temperature"):
+        advance(scene, hot, state, 0.0)
+    bodies = {"body_temperature_1": point.temperature, "body_temperature_2": point.temperature}
+    advance(scene, replace(point, temperature=point.temperature + 40.0, **bodies), state, 0.0)
+
+
+def test_the_order_of_changes_does_not_matter():
+    changes = {
+        "lubricant.flow": "local",
+        "lubricant.set": "fva3",
+        "tribofilm.edge_weight": "20",
+        "tribofilm.set": "gosvami",
+    }
+    scene = Scene.from_toml("mtm_zddp", changes)
+    assert scene == Scene.from_toml("mtm_zddp", dict(reversed(changes.items())))
+    assert (scene.lubricant.flow, scene.tribofilm.edge_weight) == ("local", 20.0)
