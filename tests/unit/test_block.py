@@ -120,3 +120,13 @@ def test_the_sequence_of_instants_goes_on_after_a_restart():
     assert state.dry_blocks_left > 0 and 0.0 < state.share < 1.0
     restored = ContactState.from_bytes(state.to_bytes(), scene)
     assert advance(scene, op, restored, 60.0)[0].to_bytes() == advance(scene, op, state, 60.0)[0].to_bytes()
+
+
+def test_a_march_is_settled_before_it_is_sampled_however_far_the_faster_body_runs_ahead():
+    smooth = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.model": "none"}
+    scene, state, point = cheap(CHEAP | smooth, film__points=97)
+    op = replace(point, speed_1=9.0, speed_2=-1.0)
+    steady = solve(scene, op, state)
+    _, outputs = advance(scene, op, state, 0.0)
+    assert outputs.contact_load_ratio == 0.0
+    assert outputs.h_min == pytest.approx(float(steady.gap.min()), rel=0.02)
