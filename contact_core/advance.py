@@ -89,12 +89,13 @@ def _advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: fl
         return advance_means(scene, _with_bodies(scene, op, state), state, dt)
     before, left = [state.outputs.wear_volume_1, state.outputs.wear_volume_2], dt
     while left > 0.0:
-        now = _with_bodies(scene, op, state)
-        state, there = advance_means(scene, now, state, 0.0)
-        step = _cool_time(scene, now, state, min(left, there.suggested_step))
-        warm = _temperatures_after(scene, now, state, step)
-        state, outputs = advance_means(scene, now, state, step)
-        state, left = replace(state, temperatures=warm), left - step
+        now, step = _with_bodies(scene, op, state), left
+        after, outputs = advance_means(scene, now, state, step)
+        while step > (longest := min(outputs.suggested_step, _cool_time(scene, now, after, step))) > _NO_TIME:
+            step = longest
+            after, outputs = advance_means(scene, now, state, step)
+        warm = _temperatures_after(scene, now, after, step)
+        state, left = replace(after, temperatures=warm), left - step
     rates = [(out - old) / dt for out, old in zip((outputs.wear_volume_1, outputs.wear_volume_2), before, strict=True)]
     bodies = _with_bodies(scene, op, state).bodies
     outputs = replace(
