@@ -92,6 +92,7 @@ def traction() -> tuple[list[str], dict[str, np.ndarray]]:
         cells(["---"] * 6),
         *map(cells, rows),
     ]
+    lines += ["", "At SRR 2 the annulus of low pressure around the contact has not reached its limit: 1.6 % of the load."]
     return lines, curves
 
 
@@ -101,7 +102,7 @@ def continuity() -> tuple[list[str], dict[str, np.ndarray]]:
         [
             "## Continuity",
             "",
-            "Largest step of mu between neighbours of 24 speeds a decade, SRR of the scene; fresh surfaces.",
+            "Largest step of mu from one speed to the next, SRR of the scene; fresh surfaces. Below 1e-4 m/s the step is that of", "the boundary law itself (`slip_speed`).",
             "",
         ],
         {},

@@ -108,7 +108,6 @@ class Fit:
         found = predicted(self.law, sweep)
         self.scatter = {
             "load_scatter": float(np.std(found["W_c"] - sweep.load_ratio)),
-            "area_scatter": float(np.std(found["A_c"] - sweep.area_ratio)),
             "film_scatter": float(np.std(np.log(found["h_c"] / sweep.film_ratio))),
         }
 

@@ -18,6 +18,7 @@ from .folding import folded
 from .laws.tribofilm import thickness
 from .means import advance_means
 from .patches import bare_heights, heights_of, roughness_of
+from .quantities import TABLE
 from .scene import OperatingPoint, Scene, with_bodies
 from .state import Body, ContactState, Outputs, RangeFlag
 from .surfaces import mean_roughness, rms_roughness
@@ -112,8 +113,12 @@ def _given_temperatures(scene: Scene, op: OperatingPoint) -> tuple[float, ...]:
 def _with_bodies(scene: Scene, op: OperatingPoint, state: ContactState) -> OperatingPoint:
     """The operating point with bulk temperatures. Raises OperatingPointError if bodies have warmed out of all range."""
     now = with_bodies(scene, op, state.temperatures)
-    if scene.heat.bulk.name == "lumped":
-        now.check()
+    hottest = TABLE["body_temperature_1"].maximum
+    if scene.heat.bulk.name == "lumped" and not max(now.bodies) <= hottest:
+        raise OperatingPointError(
+            f"The bodies have warmed to {now.bodies[0]:.4g} K and {now.bodies[1]:.4g} K, above {hottest:g} K. Raise "
+            "heat.bulk.conductance_1 and _2, or lower load or sliding speed."
+        )
     return now
 
 

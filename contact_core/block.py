@@ -40,7 +40,8 @@ Array = NDArray[np.float64]
 
 # transient steps after a new start before the march is sampled: about one passage of the oil in near rolling, in
 # proportion more where the faster body runs ahead of the oil
-_SETTLING = 80
+_SETTLING = 80  # at least
+_PASSAGE = 1.8  # of half the contact's length
 _MOST_SETTLING = 400
 _AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which that is near rolling
 _ITERATIONS = 40  # at most, of one transient step; a warm one needs about 16
@@ -175,7 +176,8 @@ def sweep_mixed(
     rougher = 0 if scene.surface_1.rq > scene.surface_2.rq else 1
     jumps = _jumps(scene, op, 1 - rougher, _SMOOTHER if jumping else -1.0)
     ahead = max(abs(speed) for speed in speeds_of(op)) / abs(op.entrainment_speed)
-    passage = _SETTLING if ahead <= _AHEAD else min(math.ceil(_SETTLING * ahead), _MOST_SETTLING)
+    across = max(_SETTLING, math.ceil(_PASSAGE * scene.hertz(op.load).a / scene.film.spacing))
+    passage = across if ahead <= _AHEAD else min(math.ceil(across * ahead), _MOST_SETTLING)
     unsampled = passage
     if state.film is None:
         state = replace(state, film=solve(scene, op, state, dry=True, solid_share=state.share).film)

@@ -105,7 +105,7 @@ def derivatives(scene: Scene, op: OperatingPoint, film: Film) -> dict[str, float
     viscosity = oil.viscosity(film.fluid, film.temperature)
     newtonian = viscosity * speed / film.gap
     grip, grip_slope = scene.boundary_friction.grip(speed), scene.boundary_friction.grip_slope(speed)
-    by_newtonian, by_limit = oil.rheology.slopes(newtonian, film.fluid * grip)
+    by_newtonian, by_pressure = oil.rheology.slopes(newtonian, film.fluid * grip)
     more, less = (oil.viscosity(film.fluid * (1.0 + sign * _STEP), film.temperature) for sign in (1.0, -1.0))
     stiffening = (more - less) / (2.0 * _STEP)  # d viscosity / d ln p
     step = _STEP * float(np.mean(film.temperature))
@@ -119,12 +119,12 @@ def derivatives(scene: Scene, op: OperatingPoint, film: Film) -> dict[str, float
     def force(stress: Array) -> float:
         return -float((stress * along_x).sum()) * cell
 
-    by_speed = by_newtonian * viscosity / film.gap + by_limit * film.fluid * grip_slope + solid_by_speed
+    by_speed = by_newtonian * viscosity / film.gap + by_pressure * film.fluid * grip_slope + solid_by_speed
     if np.ndim(speed):  # along the sliding the law decides, across it the direction
         across = (oil.rheology(newtonian, film.fluid * grip) + solid) / np.maximum(speed, 1e-300)
         by_speed = by_speed * np.square(along_x) + across * np.square(along_y)
     sliding_slope = -float(by_speed.sum()) * cell
-    by_load = by_newtonian * stiffening * speed / film.gap + by_limit * film.fluid * grip + solid
+    by_load = by_newtonian * stiffening * speed / film.gap + by_pressure * film.fluid * grip + solid
     by_temperature = by_newtonian * (warmer - colder) / (2.0 * step) * speed / film.gap
     return {
         "dfriction_dspeed_1": sliding_slope,

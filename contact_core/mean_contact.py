@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from .laws.heat import FlashTemperature, TemperatureField
 from .laws.rheology import Carreau
 from .mean_oil import Law, MeanHeat, oil_shear
-from .mean_surfaces import Films, composite_roughness, mean_cover, scene_film
+from .mean_surfaces import Films, composite_roughness, hardness_of, mean_cover, scene_film
 from .reference import bair_thinning_factor, inlet_shear_factor, moes_film
 from .scene import OperatingPoint, Scene
 
@@ -268,9 +268,8 @@ def _surfaces(scene: Scene, films: Films, sigma: float, cover: float) -> _Surfac
     slope = 2.0 * math.hypot(films[0].both / first.correlation_length, films[1].both / second.correlation_length)
     rougher = first if first.rq > second.rq else second
     per_pressure = 4.0 / 3.0 / (scene.solids.reduced_modulus * slope) if slope > 0.0 else math.inf
-    thickest = min(max(films[0].thickness, films[1].thickness) / scene.tribofilm.full_thickness, 1.0)
     resolution = rougher.correlation_length / scene.film.spacing
-    return _Surfaces(sigma, cover, scene.plasticity.under(thickest), per_pressure, resolution)
+    return _Surfaces(sigma, cover, hardness_of(scene, films), per_pressure, resolution)
 
 
 def _shared(scene: Scene, surfaces: _Surfaces, film: float, pressure: float) -> _Shares:
@@ -333,7 +332,7 @@ def _oil_friction(
     if not isinstance(scene.heat, TemperatureField):
         return friction(start).tolist(), None
     solid, rubbing, areas, gaps = np.array([(p.solid, p.rubbing, p.area, p.shares.gap) for p in points]).T
-    first, second = np.full(6, op.speed_1), np.full(6, op.speed_2)
+    first, second = np.full(6, op.speed_1, np.float64), np.full(6, op.speed_2, np.float64)
     first[1], second[1] = op.speed_1 + 0.5 * further, op.speed_2 - 0.5 * further
     first[5], second[5] = op.speed_1 + _faster(op), op.speed_2 + _faster(op)
     one, two = op.bodies

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .errors import ConvergenceError
 from .laws.heat import TemperatureField
 from .scene import Scene
 
@@ -18,7 +19,8 @@ Law = Callable[..., Any]
 # quadrature over the Hertz ellipse: at the distance sqrt(1 - t^2) from its centre p is in proportion to t, dA to t dt
 _T = 0.5 + 0.5 * np.polynomial.legendre.leggauss(10)[0][:, None]
 _WEIGHTS = _T[:, 0] * np.polynomial.legendre.leggauss(10)[1]  # of the mean over the ellipse
-_ROUNDS, _SETTLED = 30, 1e-7  # of the oil's temperature: at most, and the change [K] that ends them
+_ROUNDS = 100  # of the oil's temperature, at most
+_SETTLED = 1e-8  # misfit that ends them, over the rise and 1 K
 
 
 def oil_shear(scene: Scene, pressures: Array, rates: Array, grips: Array, temperatures: Array) -> Array:
@@ -58,23 +60,31 @@ class MeanHeat(NamedTuple):
         return (power / self.areas + one * self.body_1 + two * self.body_2) / (one + two)
 
     def film(self, start: Array, power: Callable[[Array], Array]) -> Array:
-        """Temperature [K] of the oil with which its friction makes it that warm, by Steffensen's method."""
-
-        def warmed(film: Array) -> Array:
+        """Temperature [K] of the oil with which its friction makes it that warm, from a guess. By secants in a bracket:
+        the warmer, the less friction. Raises ConvergenceError if it cannot be found.
+        """
+        low = self._surfaces(np.zeros_like(start))
+        high = np.full_like(start, np.inf)
+        film, before, missing_before = start, start, np.zeros_like(start)
+        for count in range(_ROUNDS):
             heat = power(film)
-            return self._surfaces(heat) + heat / self.areas * self.across
-
-        film = start
-        for _ in range(_ROUNDS):
-            first = warmed(film)
-            second = warmed(first)
-            bend = second - 2.0 * first + film
-            jump = np.divide((first - film) ** 2, bend, out=np.zeros_like(bend), where=np.abs(bend) > 1e-12)
-            film, change = np.where(np.abs(bend) > 1e-12, film - jump, second), np.abs(second - first).max()
-            film = np.clip(film, np.minimum(start, second), np.maximum(first, second) + np.abs(first - start))
-            if change < _SETTLED:
-                break
-        return film
+            missing = self._surfaces(heat) + heat / self.areas * self.across - film
+            if np.abs(missing).max() <= _SETTLED * (1.0 + float(np.abs(film - start).max())):
+                return film
+            low, high = np.where(missing > 0.0, film, low), np.where(missing < 0.0, film, high)
+            # warmer oil makes less heat: the answer lies between a guess and what it makes of the oil
+            high = np.minimum(high, film + np.maximum(missing, 0.0))
+            low = np.maximum(low, film + np.minimum(missing, 0.0))
+            step = film - before
+            slope = np.divide(missing - missing_before, step, out=np.full_like(step, -1.0), where=step != 0.0)
+            before, missing_before = film, missing
+            film = film - missing / np.minimum(slope, -1e-12)
+            outside = (film <= low) | (film >= high) | (count % 4 == 3)
+            film = np.where(outside & (missing != 0.0), 0.5 * (low + high), film)
+        raise ConvergenceError(
+            f"The temperature of the oil that its own friction warms was not found in {_ROUNDS} rounds. Give the oil a "
+            "limiting stress (lubricant.rheology.limiting_coefficient), or lower load or sliding speed."
+        )
 
     def surface(self, power: float) -> tuple[float, float]:
         """Rise [K] of the surfaces over the bodies' mean and heat [W] into body 1, at the first point."""

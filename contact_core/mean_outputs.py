@@ -112,7 +112,8 @@ def _errors(scene: Scene, op: OperatingPoint, contact: MeanContact) -> dict[str,
     if force == 0.0:
         return {}
     sharing = scene_film(scene).sharing
-    error = 2.0 * sharing.load_scatter
+    # the scatter of the fit is that of its middle; where hardly any solids touch, there is less to be wrong about
+    error = 2.0 * sharing.load_scatter * min(1.0, 0.15 + share / 0.1)
     solid = abs(contact.solid) / share if share > 0.0 else 0.0
     fluid = abs(contact.fluid) / (1.0 - share) if share < 1.0 else 0.0
     return {

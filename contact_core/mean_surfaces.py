@@ -53,6 +53,12 @@ def mean_cover(scene: Scene, films: Films) -> float:
     return min(0.5 * (films[0].thickness + films[1].thickness) / scene.tribofilm.full_thickness, 1.0)
 
 
+def hardness_of(scene: Scene, films: Films) -> float:
+    """Hardness [Pa] where they touch: under the thicker tribofilm."""
+    thickest = min(max(films[0].thickness, films[1].thickness) / scene.tribofilm.full_thickness, 1.0)
+    return float(scene.plasticity.under(thickest))
+
+
 def scene_film(scene: Scene) -> Regression:
     """The scene's film, which is of this level."""
     assert isinstance(scene.film, Regression)

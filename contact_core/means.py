@@ -18,7 +18,7 @@ from .folding import means_of
 from .mean_contact import MeanContact, evaluate
 from .mean_oil import Law
 from .mean_outputs import outputs_of
-from .mean_surfaces import Films, Means, composite_roughness, films_of, mean_cover, scene_film
+from .mean_surfaces import Films, Means, composite_roughness, films_of, hardness_of, mean_cover, scene_film
 from .scene import OperatingPoint, Scene
 from .state import ContactState, Mean, Outputs, changed
 
@@ -181,7 +181,7 @@ def _touching(scene: Scene, contact: MeanContact, warm: float) -> float:
     law: Any = scene.tribofilm
     if not law.abrades or contact.solid_pressure == 0.0:
         return float(law.exposure(contact.solid_pressure, contact.solid_shear, contact.slide, warm))
-    parts = np.minimum(_PARTS, scene.plasticity.under(contact.cover) / contact.solid_pressure)
+    parts = np.minimum(_PARTS, hardness_of(scene, contact.films) / contact.solid_pressure)
     exposure = law.exposure(parts * contact.solid_pressure, parts * contact.solid_shear, contact.slide, warm)
     return float(_OF_PARTS @ exposure)
 
@@ -193,17 +193,17 @@ def _dose(
     rougher = (scene.surface_1.rq > scene.surface_2.rq) == (i == 0)
     dry = contact.load_ratio > scene.control.dry_above
     k, m = scene_film(scene).sharing.exposure_constants(rougher=rougher, dry=dry)
-    share = -math.expm1(-k * contact.area_ratio**m)
-    coverage = max(coverage, 1.0 if oiled > 0.0 else share if touching > 0.0 else 0.0)
+    met = -math.expm1(-k * contact.area_ratio**m)
+    coverage = max(coverage, 1.0 if oiled > 0.0 else met if touching > 0.0 else 0.0)
     if coverage == 0.0:
         return 0.0, 0.0
     moving = (op.speed_1, op.speed_2)[i] != 0.0
     if scene.tribofilm.dose == "clock" and moving:
-        return coverage, (share * touching + (1.0 - share) * oiled) / coverage
+        return coverage, (met * touching + (1.0 - met) * oiled) / coverage
     mean = contact.area_ratio * touching + (1.0 - contact.area_ratio) * oiled
     # contact_length: a mean chord of the Hertz ellipse over 2a
-    share = 0.25 * math.pi if scene.tribofilm.dose == "contact_length" else _residence(scene, op, i)
-    return coverage, mean * share / coverage
+    stay = 0.25 * math.pi if scene.tribofilm.dose == "contact_length" else _residence(scene, op, i)
+    return coverage, mean * stay / coverage
 
 
 def _abrasion(scene: Scene, op: OperatingPoint, contact: MeanContact, i: int) -> float:

@@ -13,6 +13,7 @@ from typing import Any
 
 from .errors import OperatingPointError, SceneError
 from .film import FILMS, Deterministic, Regression
+from .laws import SLOTS
 from .laws.boundary_friction import FilmBlend
 from .laws.density import DowsonHigginson, Incompressible
 from .laws.heat import FlashTemperature, NoHeat, TemperatureField
@@ -190,6 +191,11 @@ class Operation:
         return OperatingPoint(**{f.name: getattr(self, f.name) for f in fields(OperatingPoint)})
 
 
+def _full_key(key: str) -> str:
+    """`heat.bulk=oil` is short for `heat.bulk.model=oil`."""
+    return f"{key}.model" if key == "film" or key.rpartition(".")[2] in SLOTS else key
+
+
 def _rank(item: tuple[str, str]) -> int:
     """Order in which an override is applied."""
     return {"set": 0, "model": 1}.get(item[0].rpartition(".")[2], 2)
@@ -223,7 +229,8 @@ class Scene:
         """
         table = read_table(source)
         # sets and models first: they decide which other keys there are
-        for key, value in sorted((overrides or {}).items(), key=_rank):
+        changes = {_full_key(key): value for key, value in (overrides or {}).items()}
+        for key, value in sorted(changes.items(), key=_rank):
             override(table, key, value)
         return Scene.from_dict(table)
 
@@ -347,21 +354,25 @@ class Scene:
         times = [step.time for step in self.operation.steps]
         if times and self.operation.file:
             yield "duty", f"operation.steps and operation.file = '{self.operation.file}' exclude each other. Keep one."
-        warm = with_bodies(self, self.operation.point, None).bodies
-        temperatures = [("operation.", self.operation.temperature)]
-        if self.heat.bulk.name == "inputs":
-            temperatures = [(f"operation: body {i + 1}, ", warm[i]) for i in (0, 1)]
-        temperatures += [
-            (f"operation.steps[{i}].", step.temperature)
-            for i, step in enumerate(self.operation.steps)
-            if step.temperature is not None
-        ]
-        for name, temperature in temperatures:
+        for name, temperature in self._felt_temperatures():
             refusal = self.tribofilm.refusal(temperature)
             if refusal:
                 yield "temperature", f"{name}{refusal}"
         if any(late <= early for early, late in pairwise([0.0, *times])):
             yield "duty", f"The times of operation.steps, {times} s, must be above 0 and increase."
+
+    def _felt_temperatures(self) -> Iterator[tuple[str, float]]:
+        """Temperatures that the duty gives and the tribofilm feels, and the words before their name."""
+        points = [("operation", self.operation.point)]
+        for i, step in enumerate(self.operation.steps):
+            given = {f.name: getattr(step, f.name) for f in fields(OperatingPoint)}
+            changed = {name: value for name, value in given.items() if value is not None}
+            points.append((f"operation.steps[{i}]", replace(self.operation.point, **changed)))
+        for name, point in points:
+            if self.heat.bulk.name == "inputs":
+                yield from ((f"{name}: body {i + 1}, ", warm) for i, warm in enumerate(point.bodies))
+            else:
+                yield f"{name}.", point.temperature
 
     def warnings(self) -> list[str]:
         """Return sentences on what can be computed but is not resolved well."""

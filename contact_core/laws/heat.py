@@ -21,6 +21,7 @@ Nodes = NDArray[np.bool_]
 Pair = tuple[float, float]
 
 _AS_THE_OIL = OilBulk()
+_CREEP = 1e-3  # Peclet number
 _MATCHED = 1e-6  # mismatch up to which temperatures count as solved; the solver aims at 1e-7
 
 
@@ -181,9 +182,18 @@ class TemperatureField:
     bulk: OilBulk | InputBulk | LumpedBulk = _AS_THE_OIL
 
     def conductances(self, radius: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
-        """Heat flux per mean rise [W/(m2 K)] into each body, under an even source on a circle of `radius` [m]."""
-        first = _conductance(radius, speeds[0], self.conductivity_1, self.diffusivity_1)
-        return first, _conductance(radius, speeds[1], self.conductivity_2, self.diffusivity_2)
+        """Heat flux per mean rise [W/(m2 K)] into each body, under an even source on a circle of `radius` [m].
+
+        A body at rest counts as one that creeps at a Peclet number of 1e-3, lest the conductance have a kink there.
+        """
+        first, second = (
+            _conductance(radius, np.hypot(speed, _CREEP * 2.0 * diffusivity / radius), conductivity, diffusivity)
+            for speed, conductivity, diffusivity in (
+                (speeds[0], self.conductivity_1, self.diffusivity_1),
+                (speeds[1], self.conductivity_2, self.diffusivity_2),
+            )
+        )
+        return first, second
 
     def temperatures(self, rubbing: Rubbing) -> Temperatures:
         """Temperatures and heat."""

@@ -104,9 +104,6 @@ class FittedSharing:
     load_scatter: float = parameter(
         "", "standard deviation of W_c about its curve, absolute", least=0.0, most=1.0, default=0.063
     )
-    area_scatter: float = parameter(
-        "", "standard deviation of A_c about its curve, absolute", least=0.0, most=1.0, default=0.038
-    )
     film_scatter: float = parameter(
         "", "standard deviation of h_c about its curve, relative", least=0.0, most=10.0, default=0.114
     )

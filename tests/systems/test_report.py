@@ -111,3 +111,17 @@ def test_invalid_steps_are_shaded(long_run: xr.Dataset) -> None:
 def test_the_overview_is_a_png(long_run: xr.Dataset, tmp_path: Path) -> None:
     path = report.write_overview(long_run, tmp_path / "overview.png")
     assert path.read_bytes().startswith(b"\x89PNG")
+
+
+def test_bodies_that_are_warmer_than_the_oil_are_told(long_run: xr.Dataset) -> None:
+    told = report.closing_lines(long_run)
+    assert not any("take up the heat" in line for line in told)
+    warmer = long_run.assign(
+        temperature_1=long_run["temperature"] + 10.0,
+        temperature_2=long_run["temperature"],
+        heat_flow_1=("time", np.full(long_run.sizes["time"], 1.25)),
+        heat_flow_2=("time", np.full(long_run.sizes["time"], 0.5)),
+    )
+    at = float(long_run["temperature"][-1]) + 10.0 - 273.15
+    (line,) = [line for line in report.closing_lines(warmer) if "take up the heat" in line]
+    assert f"ball {at:.1f} degC with 1.25 W, disc {at - 10.0:.1f} degC with 0.5 W" in line

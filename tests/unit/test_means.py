@@ -472,3 +472,37 @@ def test_elliptical_contacts_have_the_formulas_film():
     assert now(scene, op, state).h_c != pytest.approx(
         factor * nijenbanning_venner_moes(replace(smooth, radius_y=0.01)), rel=0.01
     )
+
+
+@pytest.mark.parametrize(("one", "two"), [(0.0, 0.3), (0.3, 0.0), (3.0, 1.0), (-0.1, 0.08)])
+@pytest.mark.parametrize("name", ["speed_1", "speed_2"])
+@pytest.mark.parametrize("changes", [{}, {"heat.inlet_shear": "gupta"}, {"heat.bulk": "inputs"}], ids=str)
+def test_derivatives_are_total_where_the_oil_warms_itself_whoever_is_at_rest(one, two, name, changes):
+    scene, state, op = fast(FAST | {"heat.model": "field", "tribofilm.model": "none"} | changes)
+    op = replace(op, speed_1=one, speed_2=two, spin=50.0, body_temperature_1=380.0, body_temperature_2=365.0)
+
+    def force(speed):
+        return now(scene, replace(op, **{name: speed}), state).friction_force
+
+    speed, step = getattr(op, name), 1e-5
+    expected = (force(speed + step) - force(speed - step)) / (2.0 * step)
+    assert getattr(now(scene, op, state), f"dfriction_d{name}") == pytest.approx(expected, rel=1e-3)
+
+
+def test_whole_numbers_are_numbers():
+    scene, state, op = fast(FAST | {"heat.model": "field"})
+    assert now(scene, replace(op, speed_1=1, speed_2=2), state) == now(
+        scene, replace(op, speed_1=1.0, speed_2=2.0), state
+    )
+
+
+@pytest.mark.parametrize("speed", [3.0, 30.0])
+@pytest.mark.parametrize(("model", "power"), [("newtonian", 1.0), ("carreau", 0.5)])
+def test_oil_without_a_limit_finds_the_temperature_that_it_makes_of_itself(speed, model, power):
+    oil = {"lubricant.rheology.model": model, "lubricant.rheology.limiting_coefficient": "0"}
+    if model == "carreau":
+        oil |= {"lubricant.rheology.critical_stress": "5 MPa", "lubricant.rheology.exponent": str(power)}
+    scene, state, op = fast(SMOOTH | oil | {"heat.model": "field"})
+    slower, found = (now(scene, replace(op, speed_1=u, speed_2=0.0), state) for u in (0.5 * speed, speed))
+    assert found.flash_temperature_rise > 0.8 * slower.flash_temperature_rise > 1.0
+    assert 0.3 < found.friction_coefficient / slower.friction_coefficient < 1.0

@@ -206,7 +206,7 @@ def test_bodies_that_would_melt_are_refused_by_name(level):
     changes = {name: "0 W/K" if "conductance" in name else "1e-3 J/K" for name in LUMPED if name[-1].isdigit()}
     scene, state, _ = cheap(CHEAP | LUMPED | changes | {"tribofilm.model": "none", "wear.model": "none"})
     op = sliding(scene, 0.25, 0.5)
-    with pytest.raises(OperatingPointError, match=r"body_temperature_\d = .* at most 900"):
+    with pytest.raises(OperatingPointError, match=r"bodies have warmed to .* above 900 K.*heat\.bulk\.conductance_1"):
         advance(scene.at_level(level), op, state, 600.0)
 
 
@@ -236,3 +236,19 @@ def test_the_order_of_changes_does_not_matter():
     scene = Scene.from_toml("mtm_zddp", changes)
     assert scene == Scene.from_toml("mtm_zddp", dict(reversed(changes.items())))
     assert (scene.lubricant.flow, scene.tribofilm.edge_weight) == ("local", 20.0)
+
+
+def test_a_short_form_is_a_model_in_any_order():
+    changes = {"lubricant.rheology.limiting_coefficient": "0.02", "lubricant.rheology": "newtonian"}
+    assert Scene.from_toml("mtm_zddp", changes).lubricant.rheology.limiting_coefficient == 0.02
+    lumped = LUMPED | {"heat.bulk": LUMPED["heat.bulk.model"]}
+    del lumped["heat.bulk.model"]
+    assert Scene.from_toml("mtm_zddp", dict(reversed(lumped.items()))).heat == Scene.from_toml("mtm_zddp", LUMPED).heat
+
+
+def test_the_formula_film_of_warm_bodies_is_that_of_the_oil_they_draw_in():
+    scene, state, point = cheap(CHEAP | {"heat.bulk": "inputs", "tribofilm.model": "none"})
+    warm = replace(point, body_temperature_1=point.temperature + 40.0, body_temperature_2=point.temperature + 40.0)
+    _, told = advance(scene, warm, state, 0.0)
+    _, same = advance(scene, replace(point, temperature=point.temperature + 40.0), state, 0.0)
+    assert told.lambda_conventional == pytest.approx(same.lambda_conventional, rel=1e-12)
