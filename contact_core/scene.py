@@ -191,9 +191,10 @@ class Operation:
         return OperatingPoint(**{f.name: getattr(self, f.name) for f in fields(OperatingPoint)})
 
 
-def _full_key(key: str) -> str:
+def _full_key(key: str, value: str) -> str:
     """`heat.bulk=oil` is short for `heat.bulk.model=oil`."""
-    return f"{key}.model" if key == "film" or key.rpartition(".")[2] in SLOTS else key
+    laws = FILMS if key == "film" else SLOTS.get(key.rpartition(".")[2], ())
+    return f"{key}.model" if value in {law.name for law in laws} else key  # type: ignore[attr-defined]
 
 
 def _rank(item: tuple[str, str]) -> int:
@@ -229,7 +230,7 @@ class Scene:
         """
         table = read_table(source)
         # sets and models first: they decide which other keys there are
-        changes = {_full_key(key): value for key, value in (overrides or {}).items()}
+        changes = {_full_key(key, value): value for key, value in (overrides or {}).items()}
         for key, value in sorted(changes.items(), key=_rank):
             override(table, key, value)
         return Scene.from_dict(table)
