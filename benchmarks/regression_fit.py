@@ -274,7 +274,8 @@ def constants_page(fit: Fit) -> list[str]:
     for rougher in (True, False):
         seen = whole.columns["exposed_rougher" if rougher else "exposed_smoother"]
         is_dry = whole.columns["blocks_dry"] > 0.0
-        off = covered(whole) * fit.law.exposed(whole.area_ratio, rougher=rougher, dry=is_dry) - seen
+        dry_share, mixed_share = (fit.law.exposed(whole.area_ratio, rougher=rougher, dry=d) for d in (True, False))
+        off = covered(whole) * np.where(is_dry, dry_share, mixed_share) - seen
         exposed.append((("smoother", "rougher")[rougher], f"{np.std(off):.3f}", f"{np.abs(off).max():.3f}"))
     return [
         "## The sweep",

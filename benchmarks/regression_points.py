@@ -133,7 +133,7 @@ def _numbers_of(scene: Scene, point: Point) -> dict[str, float]:
     return {
         "sigma": sigma,
         "lambda": smooth_film(scene, point.load, point.speed, point.temperature) / sigma,
-        "slope": float(rms_slope(rq, lengths)),
+        "slope": float(rms_slope(rq[0], lengths[0], rq[1], lengths[1])),
         "mean_pressure": 2.0 / 3.0 * hertz.pressure_max,
         "modulus": scene.solids.reduced_modulus,
         "hardness": scene.plasticity.hardness,

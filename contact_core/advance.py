@@ -122,10 +122,8 @@ def _with_bodies(scene: Scene, op: OperatingPoint, state: ContactState) -> Opera
     return now
 
 
-def _temperatures_after(
-    scene: Scene, op: OperatingPoint, state: ContactState, step: float
-) -> tuple[float, float] | None:
-    """Bulk temperatures [K] after `step` [s] of the present flow of heat; None where the scene stores none."""
+def _temperatures_after(scene: Scene, op: OperatingPoint, state: ContactState, step: float) -> tuple[float, float]:
+    """Bulk temperatures [K] after `step` [s] of the present flow of heat."""
     return scene.heat.bulk.after(op.bodies, _heat_flows(op, state.outputs), op.temperature, step)
 
 
@@ -158,9 +156,7 @@ def _cool_time(scene: Scene, op: OperatingPoint, state: ContactState, left: floa
     step = left
     while step > _NO_TIME:
         after = _temperatures_after(scene, op, state, step)
-        if after is None or not has_moved(
-            scene, replace(op, body_temperature_1=after[0], body_temperature_2=after[1]), op
-        ):
+        if not has_moved(scene, replace(op, body_temperature_1=after[0], body_temperature_2=after[1]), op):
             break
         step *= 0.5
     return step

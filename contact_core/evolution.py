@@ -46,7 +46,7 @@ def wear_speed(scene: Scene, op: OperatingPoint, body: Body, i: int, film: Array
     """Wear depth per second [m/s] of a patch under a tribofilm [m]."""
     cover = film / scene.tribofilm.full_thickness
     speeds: tuple[float | Array, float] = speeds_of(op)
-    if scene.wear.slide(speeds_of(op), i) == abs(op.sliding_speed):  # a law of sliding, not of surface speed
+    if scene.wear.of_sliding:
         speeds = sliding_on_track(scene, op, film.shape[0]), 0.0
     return scene.wear.rate(body.pressure, cover, speeds, i, scene.plasticity.hardness)
 

@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .laws.heat import FlashTemperature, TemperatureField
+from .laws.load_sharing import flattening_of, rms_slope
 from .laws.rheology import Carreau
 from .mean_oil import Law, MeanHeat, oil_shear
 from .mean_surfaces import Films, composite_roughness, hardness_of, mean_cover, scene_film
-from .reference import bair_thinning_factor, inlet_shear_factor, moes_film
+from .reference import bair_thinning_factor, inlet_shear_factor, nvm_film
 from .scene import OperatingPoint, Scene
 
 Array = NDArray[np.float64]
@@ -233,14 +234,10 @@ def _thinned(
 
 
 def _smooth_film(scene: Scene, speed: float, load: float, viscosity: float, pressure_coefficient: float) -> float:
-    """The film [m] of an oil at p = 0; `reference.nijenbanning_venner_moes` without its arrays."""
-    geometry, modulus = scene.geometry, scene.solids.reduced_modulus
-    radius = geometry.radius_x
-    root = math.sqrt(2.0 * viscosity * max(speed, _SLOWEST) / (modulus * radius))
-    quarter = math.sqrt(root)
-    m = max(load, _LIGHTEST) / (modulus * radius * radius * root * quarter)
-    lubricant = pressure_coefficient * modulus * quarter
-    return moes_film(m, lubricant, radius / geometry.radius_y) * root * radius
+    """The film [m] of an oil at p = 0."""
+    shape, modulus = scene.geometry, scene.solids.reduced_modulus
+    load, speed = max(load, _LIGHTEST), max(speed, _SLOWEST)
+    return nvm_film(load, speed, viscosity, pressure_coefficient, shape.radius_x, shape.radius_y, modulus)
 
 
 def _thinning(scene: Scene, temperature: float) -> float:
@@ -265,9 +262,10 @@ def _thin(viscosity: Law, temperature: float) -> tuple[float, float]:
 
 def _surfaces(scene: Scene, films: Films, sigma: float, cover: float) -> _Surfaces:
     first, second = scene.surface_1, scene.surface_2
-    slope = 2.0 * math.hypot(films[0].both / first.correlation_length, films[1].both / second.correlation_length)
+    slope = rms_slope(films[0].both, first.correlation_length, films[1].both, second.correlation_length)
     rougher = first if first.rq > second.rq else second
-    per_pressure = 4.0 / 3.0 / (scene.solids.reduced_modulus * slope) if slope > 0.0 else math.inf
+    # Hertz's mean pressure is two thirds of his largest
+    per_pressure = flattening_of(2.0 / 3.0, scene.solids.reduced_modulus, slope) if slope > 0.0 else math.inf
     resolution = rougher.correlation_length / scene.film.spacing
     return _Surfaces(sigma, cover, hardness_of(scene, films), per_pressure, resolution)
 

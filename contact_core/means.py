@@ -137,7 +137,7 @@ def _wear_rate(scene: Scene, op: OperatingPoint, contact: MeanContact, i: int, f
     if force == 0.0:
         return 0.0
     speeds = (op.speed_1, op.speed_2)
-    if op.spin and scene.wear.slide(speeds, i) == abs(op.sliding_speed):  # a law of sliding, not of surface speed
+    if op.spin and scene.wear.of_sliding:
         speeds = contact.slide, 0.0
     rate: Law = scene.wear.rate
     return float(rate(force, cover, speeds, i, scene.plasticity.hardness))
@@ -192,8 +192,7 @@ def _dose(
     """`_doses` of one body, for the exposures of a point that touches and of one under oil."""
     rougher = (scene.surface_1.rq > scene.surface_2.rq) == (i == 0)
     dry = contact.load_ratio > scene.control.dry_above
-    k, m = scene_film(scene).sharing.exposure_constants(rougher=rougher, dry=dry)
-    met = -math.expm1(-k * contact.area_ratio**m)
+    met = scene_film(scene).sharing.exposed(contact.area_ratio, rougher=rougher, dry=dry)
     coverage = max(coverage, 1.0 if oiled > 0.0 else met if touching > 0.0 else 0.0)
     if coverage == 0.0:
         return 0.0, 0.0

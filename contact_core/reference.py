@@ -85,9 +85,8 @@ class SmoothContact:
     @property
     def moes_parameters(self) -> tuple[float, float]:
         """Moes' parameters of load and lubricant (M, L), on the sum of surface speeds and radius_x."""
-        speed = 2.0 * self.viscosity * self.entrainment_speed / (self.reduced_modulus * self.radius_x)
-        load = self.load / (self.reduced_modulus * self.radius_x**2)
-        return load * speed**-0.75, self.pressure_coefficient * self.reduced_modulus * speed**0.25
+        oil, solids = (self.viscosity, self.pressure_coefficient), (self.radius_x, self.reduced_modulus)
+        return _moes_numbers(self.load, self.entrainment_speed, *oil, *solids)[:2]
 
 
 def hamrock_dowson(contact: SmoothContact) -> tuple[float, float]:
@@ -111,9 +110,34 @@ def nijenbanning_venner_moes(contact: SmoothContact) -> float:
 
     Source: Nijenbanning, Venner & Moes, Wear 176 (1994) 217, doi:10.1016/0043-1648(94)90150-3.
     """
-    speed = 2.0 * contact.viscosity * contact.entrainment_speed / (contact.reduced_modulus * contact.radius_x)
-    film = moes_film(*contact.moes_parameters, contact.radius_x / contact.radius_y)
-    return float(film * np.sqrt(speed) * contact.radius_x)
+    c = contact
+    return nvm_film(
+        c.load, c.entrainment_speed, c.viscosity, c.pressure_coefficient, c.radius_x, c.radius_y, c.reduced_modulus
+    )
+
+
+def nvm_film(
+    load: float,
+    entrainment_speed: float,
+    viscosity: float,
+    pressure_coefficient: float,
+    radius_x: float,
+    radius_y: float,
+    reduced_modulus: float,
+) -> float:
+    """`nijenbanning_venner_moes` of plain numbers, as in `SmoothContact`: no record to make."""
+    m, lubricant, speed = _moes_numbers(
+        load, entrainment_speed, viscosity, pressure_coefficient, radius_x, reduced_modulus
+    )
+    return moes_film(m, lubricant, radius_x / radius_y) * math.sqrt(speed) * radius_x
+
+
+def _moes_numbers(
+    load: float, speed: float, viscosity: float, pressure_coefficient: float, radius: float, modulus: float
+) -> tuple[float, float, float]:
+    """Moes' load M, lubricant L and speed U, on the sum of surface speeds and radius_x."""
+    u = 2.0 * viscosity * speed / (modulus * radius)
+    return load / (modulus * radius**2) * u**-0.75, pressure_coefficient * modulus * u**0.25, u
 
 
 def moes_film(load: float, lubricant: float, ratio: float = 1.0) -> float:

@@ -178,7 +178,9 @@ class ContactState:
     dry_blocks_left: int  # blocks until the share of the solids is measured again
     share: float  # of the load on the solids of a dry contact
     trends: Trends
-    temperatures: tuple[float, float] | None  # of the bodies, where the scene stores them; None: as the oil [K]
+    temperatures: (
+        tuple[float, float] | None
+    )  # of the bodies [K], which heat.bulk = "lumped" goes on from; None: none yet
     outputs: Outputs
     means: tuple[Mean, Mean] | None = None  # of the fast level, newer than the patches; None: the patches are current
 

@@ -102,7 +102,19 @@ class NoHeat:
 
 
 @dataclass(frozen=True)
-class FlashTemperature:
+class _Conductors:
+    """What laws need to know of two bodies that conduct heat."""
+
+    conductivity_1: float = _conductivity(1)
+    conductivity_2: float = _conductivity(2)
+    diffusivity_1: float = _diffusivity(1)
+    diffusivity_2: float = _diffusivity(2)
+    inlet_shear: str = _inlet_shear()
+    bulk: OilBulk | InputBulk | LumpedBulk = _AS_THE_OIL
+
+
+@dataclass(frozen=True)
+class FlashTemperature(_Conductors):
     """Average rise over circular spots that move at the sliding speed over both bodies.
 
     Azam's equation (5-7), the Tian-Kennedy average for a uniform source:
@@ -115,13 +127,6 @@ class FlashTemperature:
     name: ClassVar[str] = "flash"
     source: ClassVar[str] = "Tian & Kennedy 1994, doi:10.1115/1.2927035"
     warms_film: ClassVar[bool] = False
-
-    conductivity_1: float = _conductivity(1)
-    conductivity_2: float = _conductivity(2)
-    diffusivity_1: float = _diffusivity(1)
-    diffusivity_2: float = _diffusivity(2)
-    inlet_shear: str = _inlet_shear()
-    bulk: OilBulk | InputBulk | LumpedBulk = _AS_THE_OIL
 
     def rise(self, radius: Array, shear: Array, sliding_speed: float) -> Array:
         """Temperature rise [K] of spots of `radius` [m] under a mean |shear stress| [Pa]."""
@@ -160,7 +165,7 @@ class FlashTemperature:
 
 
 @dataclass(frozen=True)
-class TemperatureField:
+class TemperatureField(_Conductors):
     """Temperature of both surfaces node by node, each moving at its own speed through the heat it takes up, steady.
 
     The film dissipates evenly over its thickness and conducts across it, so the surfaces' temperatures fit its own at
@@ -173,13 +178,6 @@ class TemperatureField:
     name: ClassVar[str] = "field"
     source: ClassVar[str] = "Jaeger, Proc. R. Soc. N. S. W. 76 (1942) 203; Carslaw & Jaeger 1959, section 10.7"
     warms_film: ClassVar[bool] = True
-
-    conductivity_1: float = _conductivity(1)
-    conductivity_2: float = _conductivity(2)
-    diffusivity_1: float = _diffusivity(1)
-    diffusivity_2: float = _diffusivity(2)
-    inlet_shear: str = _inlet_shear()
-    bulk: OilBulk | InputBulk | LumpedBulk = _AS_THE_OIL
 
     def conductances(self, radius: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
         """Heat flux per mean rise [W/(m2 K)] into each body, under an even source on a circle of `radius` [m].

@@ -3,34 +3,29 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
 from ..quantities import parameter
-from .elementary import Numbers, exp, expm1, maximum, minimum
-
-Array = NDArray[np.float64]
+from .elementary import Numbers, exp, expm1, maximum, minimum, sqrt
 
 _FLATTENING = 0.2  # where the constants hold as they are: about that of the shipped scenes,
 _RESOLUTION = 2.0  # and theirs on their grids
 _THICKEST = 1e30  # L beyond which no solid carries anything: its powers need not overflow
 
 
-def rms_slope(rq: ArrayLike, correlation_length: ArrayLike) -> Array:
-    """Rms gradient of the composite roughness of bodies with rms roughness and correlation length [m], along axis 0.
+def rms_slope(rq_1: Numbers, length_1: Numbers, rq_2: Numbers, length_2: Numbers) -> Numbers:
+    """Rms gradient of the composite roughness of two bodies with rms roughness and correlation length [m].
 
     A surface with the autocorrelation rq^2 exp(-(r/l)^2) has the rms gradient 2 rq / l.
     """
-    return np.sqrt(np.sum((2.0 * np.asarray(rq) / np.asarray(correlation_length)) ** 2, axis=0))
+    return 2.0 * sqrt((rq_1 / length_1) ** 2 + (rq_2 / length_2) ** 2)
 
 
-def flattening_of(mean_pressure: ArrayLike, reduced_modulus: float, slope: ArrayLike) -> Array:
+def flattening_of(mean_pressure: Numbers, reduced_modulus: float, slope: Numbers) -> Numbers:
     """Mean Hertz pressure over what would press the roughness flat, p_m / (E* slope), E* = reduced_modulus / 2.
 
     The number that decides the real area of dry contact: Persson, J. Chem. Phys. 115 (2001) 3840,
     doi:10.1063/1.1388626.
     """
-    return np.asarray(mean_pressure) / (0.5 * reduced_modulus * np.asarray(slope))
+    return mean_pressure / (0.5 * reduced_modulus * slope)
 
 
 @dataclass(frozen=True)
@@ -147,23 +142,16 @@ class FittedSharing:
         _, (flat, flatter), (coarse, fine) = self.FITTED.values()
         return min(max(flattening, flat), flatter), min(max(resolution, coarse), fine)
 
-    def exposure_constants(self, *, rougher: bool, dry: bool) -> tuple[float, float]:
-        """(k, m) of `exposed`, 1 - exp(-k A_c^m), for callers to whom an array costs too much."""
-        if dry:
-            return (self.exposure_dry_rougher if rougher else self.exposure_dry_smoother), 1.0
-        return (self.exposure_rougher, self.exposure_exponent) if rougher else (self.exposure_smoother, 1.0)
-
-    def exposed(self, area_ratio: ArrayLike, *, rougher: bool, dry: ArrayLike = False) -> Array:
+    def exposed(self, area_ratio: Numbers, *, rougher: bool, dry: bool = False) -> Numbers:
         """Share of a body's points within Hertz's width that touch the other body in a pass through the contact.
 
         `dry`: where the solids carry so much that dry contact drives the blocks (control.dry_above).
         """
-        area = np.asarray(area_ratio)
+        if dry:
+            return -expm1(-(self.exposure_dry_rougher if rougher else self.exposure_dry_smoother) * area_ratio)
         if rougher:
-            mixed, alone = self.exposure_rougher * area**self.exposure_exponent, self.exposure_dry_rougher * area
-        else:
-            mixed, alone = self.exposure_smoother * area, self.exposure_dry_smoother * area
-        return -np.expm1(-np.where(dry, alone, mixed))
+            return -expm1(-self.exposure_rougher * area_ratio**self.exposure_exponent)
+        return -expm1(-self.exposure_smoother * area_ratio)
 
 
 LAWS = (FittedSharing,)

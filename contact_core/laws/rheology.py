@@ -4,6 +4,7 @@ A law maps the stress that a Newtonian oil would have, viscosity times shear rat
 carries more than `limiting_coefficient` times its pressure.
 """
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -22,18 +23,18 @@ def _limiting_coefficient() -> Any:
     return parameter("", "limiting shear stress / pressure; 0: no limit", least=0.0, most=1.0, default=0.0)
 
 
-class _Limited:
+class _Limited(ABC):
     """What all laws share: odd in the shear, cut at the limiting stress (Bair & Winer, J. Lubr. Technol. 101 (1979)
     258). A law gives its `_stress` [Pa] of a Newtonian stress >= 0 and the `_slope` of that.
     """
 
     limiting_coefficient: float
 
-    def _stress(self, newtonian: Array) -> Array:
-        raise NotImplementedError
+    @abstractmethod
+    def _stress(self, newtonian: Array) -> Array: ...
 
-    def _slope(self, newtonian: Array) -> Array:
-        raise NotImplementedError
+    @abstractmethod
+    def _slope(self, newtonian: Array) -> Array: ...
 
     def __call__(self, newtonian: Array, pressure: Array) -> Array:
         """Shear stress [Pa] with the sign of `newtonian` = viscosity times shear rate [Pa], under a pressure [Pa]."""

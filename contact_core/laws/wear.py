@@ -18,6 +18,7 @@ class NoWear:
 
     name: ClassVar[str] = "none"
     source: ClassVar[str] = ""
+    of_sliding: ClassVar[bool] = True
 
     def coefficient(self, cover: Array) -> Array:
         """Zeros in the shape of `cover`."""
@@ -50,6 +51,11 @@ class Archard:
     sliding: str = parameter(
         "", "speed that wears a body", choices=("difference", "surface_speed"), default="difference"
     )
+
+    @property
+    def of_sliding(self) -> bool:
+        """Whether the bodies' relative sliding wears them, and spin with it; else each one's own speed does."""
+        return self.sliding == "difference"
 
     def coefficient(self, cover: Array) -> Array:
         """Dimensionless wear coefficient K under a tribofilm of `cover` (0 to 1) of its full thickness."""

@@ -126,7 +126,22 @@ class _Activated:
 
 
 @dataclass(frozen=True)
-class ZhangSpikes(_Activated):
+class _ByOneStress(_Activated):
+    """What laws of one stress and nothing else share."""
+
+    full_thickness: float = _full_thickness()
+    prefactor: float = _prefactor()
+    activation_energy: float = _activation_energy()
+    activation_volume: float = _activation_volume("the stress")
+    removal_coefficient: float = _removal_coefficient()
+    edge_weight: float = _edge_weight()
+    dose: str = parameter(
+        "", "the time that the rates are for", choices=("residence", "contact_length"), default="residence"
+    )
+
+
+@dataclass(frozen=True)
+class ZhangSpikes(_ByOneStress):
     """Growth by shear stress, of oil or of solids: a full film grows a tribofilm without any contact.
 
     Activation volumes of 0.09 nm3 (n-octyl), 0.13 nm3 (2-ethylhexyl) and 0.20 nm3 (2-cyclohexylethyl ZDDP) were
@@ -139,16 +154,7 @@ class ZhangSpikes(_Activated):
         "Zhang & Spikes 2016, doi:10.1007/s11249-016-0706-7; Zhang, Ewen & Spikes 2022, doi:10.1039/d2me00049k"
     )
 
-    full_thickness: float = _full_thickness()
-    prefactor: float = _prefactor()
-    activation_energy: float = _activation_energy()
-    activation_volume: float = _activation_volume("shear stress")
-    removal_coefficient: float = _removal_coefficient()
-    edge_weight: float = _edge_weight()
     least_shear: float = _least_shear()
-    dose: str = parameter(
-        "", "the time that the rates are for", choices=("residence", "contact_length"), default="residence"
-    )
 
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
         """Rate of growth over h_max [1/s] under the total |shear stress| [Pa] of oil and solids; 0 without sliding."""
@@ -158,7 +164,7 @@ class ZhangSpikes(_Activated):
 
 
 @dataclass(frozen=True)
-class Gosvami(_Activated):
+class Gosvami(_ByOneStress):
     """Growth by the normal stress where solids touch.
 
     E0 = 0.8 +- 0.2 eV and dV = 3.8 +- 1.2 A^3 from single asperities under normal stresses of some GPa: a volume of
@@ -167,16 +173,6 @@ class Gosvami(_Activated):
 
     name: ClassVar[str] = "gosvami"
     source: ClassVar[str] = "Gosvami et al. 2015, doi:10.1126/science.1258788"
-
-    full_thickness: float = _full_thickness()
-    prefactor: float = _prefactor()
-    activation_energy: float = _activation_energy()
-    activation_volume: float = _activation_volume("normal stress")
-    removal_coefficient: float = _removal_coefficient()
-    edge_weight: float = _edge_weight()
-    dose: str = parameter(
-        "", "the time that the rates are for", choices=("residence", "contact_length"), default="residence"
-    )
 
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
         """Rate of growth over h_max [1/s] under the solid pressure [Pa] where solids touch; 0 without sliding."""
@@ -224,7 +220,8 @@ class Combined(_Activated):
     def by_shear(self) -> ZhangSpikes:
         """The law of the growth by shear."""
         barrier = (self.prefactor, self.activation_energy, self.activation_volume)
-        return ZhangSpikes(self.full_thickness, *barrier, self.removal_coefficient, self.edge_weight, self.least_shear)
+        removal = (self.removal_coefficient, self.edge_weight)
+        return ZhangSpikes(self.full_thickness, *barrier, *removal, least_shear=self.least_shear)
 
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
         """Weighted rate of growth over h_max [1/s] under solid pressure and total |shear stress| [Pa]."""
