@@ -1,0 +1,41 @@
+/* One worker process, which runs the model of one FMU instance: a message goes in, an answer comes out.
+
+   channel_linux.c and channel_windows.c implement it; message.h says what the messages hold. */
+
+#ifndef CHANNEL_H
+#define CHANNEL_H
+
+#include <stddef.h>
+
+typedef struct Channel Channel;
+
+/* Why something failed: a sentence for the host's log, and what the worker left behind. */
+typedef struct {
+    char text[16384];
+} Reason;
+
+/* Folder of the FMU's resources, to be freed by the caller: beside this library, else what `uri` says; NULL and a
+   reason if there is none. */
+char *channel_resources(const char *uri, Reason *why);
+
+/* Start a worker for the FMU with these resources, give it the first message in `message` and wait for its answer
+   as channel_call does. NULL and a reason if there is no worker or no answer. */
+Channel *channel_open(const char *resources, const void *message, size_t *size, double limit, Reason *why);
+
+/* Where the next message of `size` bytes is to be written; NULL without memory. It moves with every call. */
+unsigned char *channel_room(Channel *channel, size_t size);
+
+/* Send the message of *size bytes in the room and wait, at most `limit` seconds (0: as long as it takes). Returns 1
+   with the answer's length in *size. Returns 0 and a reason if the worker is lost; then only channel_close is left. */
+int channel_call(Channel *channel, size_t *size, double limit, Reason *why);
+
+/* The answer of the last call, until the next channel_room. */
+const unsigned char *channel_answer(const Channel *channel);
+
+/* Whether the worker has been lost since the last call. */
+int channel_lost(Channel *channel);
+
+/* End the worker, without waiting for it, and free the channel. `message` (of `size` bytes) asks it to go. */
+void channel_close(Channel *channel, const void *message, size_t size);
+
+#endif

@@ -1,0 +1,61 @@
+/* What host and worker say to each other. worker.py holds the other side; change them together.
+
+   Numbers are little-endian; every item begins at a multiple of 8 bytes.
+
+   request: struct request, `forgotten` state numbers (uint64), `sets` records, then `payload` bytes
+   answer:  struct answer, `outputs` values (double) of the outputs in order of their references,
+            `logs` entries (struct entry, category, message), then what the operation returns
+
+   record:  struct record; for a string its `value` is a length in bytes, and the text follows, padded to 8 */
+
+#ifndef MESSAGE_H
+#define MESSAGE_H
+
+#include <stdint.h>
+
+enum operation {
+    OPEN = 1,  /* payload: instance name, NUL, guid; returns the table: uint64 count, a record for every variable */
+    SETUP,     /* numbers: start time, stop time or NaN, tolerance or NaN */
+    ENTER,     /* enter initialisation mode */
+    EXIT,      /* exit initialisation mode */
+    STEP,      /* numbers: time, step */
+    LOOK,      /* outputs as they are now; returns the table */
+    TERMINATE,
+    RESET,     /* returns the table */
+    SAVE,      /* keep the state under the number `state`; returns its parts: uint64 count, for each struct part,
+                  then the bytes of those that are new, each padded to 8 */
+    RESTORE,   /* the state with the number `state`, or, if it is 0, the one in the payload; returns the table */
+    QUIT       /* end without an answer */
+};
+
+enum kind { REAL, INTEGER, BOOLEAN, STRING };
+
+enum causality { INPUT, FIXED, TUNABLE, OUTPUT };
+
+struct request {
+    uint32_t operation, sets;
+    uint64_t forgotten, state, payload;
+    double numbers[3];
+};
+
+struct answer {
+    uint32_t status, held; /* fmi2Status; whether outputs stand until the next step whatever inputs are set */
+    uint64_t outputs, logs;
+};
+
+struct entry {
+    uint32_t status, category, message, unused; /* lengths in bytes; both texts end with NUL, padded to 8 together */
+};
+
+struct record {
+    uint16_t kind, causality;
+    uint32_t reference;
+    double value;
+};
+
+struct part {
+    uint64_t size;
+    int64_t same; /* number of the same part in the state saved before, or -1: its bytes follow */
+};
+
+#endif
