@@ -11,7 +11,7 @@ typedef struct Channel Channel;
 
 /* Why something failed: a sentence for the host's log, and what the worker left behind. */
 typedef struct {
-    char text[16384];
+    char text[8192];
 } Reason;
 
 /* Folder of the FMU's resources, to be freed by the caller: beside this library, else what `uri` says; NULL and a
@@ -22,7 +22,7 @@ char *channel_resources(const char *uri, Reason *why);
    as channel_call does. NULL and a reason if there is no worker or no answer. */
 Channel *channel_open(const char *resources, const void *message, size_t *size, double limit, Reason *why);
 
-/* Where the next message of `size` bytes is to be written; NULL without memory. It moves with every call. */
+/* Where the next message of `size` bytes is to be written, with what has been written of it; NULL without memory. */
 unsigned char *channel_room(Channel *channel, size_t size);
 
 /* Send the message of *size bytes in the room and wait, at most `limit` seconds (0: as long as it takes). Returns 1

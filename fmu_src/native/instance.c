@@ -1,0 +1,622 @@
+#include "instance.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "channel.h"
+#include "lock.h"
+
+#define PADDED(n) (((n) + 7u) & ~(size_t)7u)
+#define START_LIMIT 120.0 /* seconds for the imports of a worker, with kernels that are not compiled yet */
+
+typedef struct {
+    size_t users, size;
+    unsigned char bytes[];
+} Part;
+
+struct State {
+    struct State *next;
+    uint64_t number; /* under which the worker knows it; 0: it does not */
+    uint64_t life;   /* of that worker */
+    size_t count;
+    Part *parts[];
+};
+
+typedef struct {
+    uint16_t kind, causality;
+    double value;
+    char *text; /* of a string */
+} Variable;
+
+typedef struct {
+    unsigned char *bytes;
+    size_t size, room;
+} Buffer;
+
+struct Instance {
+    struct Instance *next;
+    char *name, *guid, *resources;
+    fmi2CallbackFunctions host;
+    int logging;
+    char **categories; /* NULL-terminated; NULL: all */
+    Channel *worker;
+    uint64_t life;       /* counts the workers */
+    double limit;        /* seconds for a call; 0: none */
+    int held;            /* outputs stand until the next step, whatever inputs are set */
+    int stale;           /* outputs are older than what they depend on */
+    Variable *variables; /* by value reference */
+    size_t count;
+    uint32_t *outputs;
+    size_t outputs_count;
+    Buffer sets;      /* records to send with the next request */
+    uint32_t sets_count;
+    Buffer forgotten; /* numbers of states that the worker need not keep */
+    uint64_t numbers; /* last number of a state */
+    State *states;
+    State *last; /* the parts of the state saved last, which the worker knows, too; not among `states` */
+    Reason why;
+    char plain[sizeof(Reason) + 256], escaped[2 * sizeof(Reason) + 512]; /* not on the stack: hosts have small ones */
+};
+
+static Instance *instances;
+static Lock instances_lock = LOCK_INITIAL;
+
+static void state_free(State *state) {
+    for (size_t k = 0; state && k < state->count; k++)
+        if (!--state->parts[k]->users) free(state->parts[k]);
+    free(state);
+}
+
+/* log */
+
+static int heard(const Instance *instance, fmi2Status status, const char *category) {
+    if (status >= fmi2Error) return 1;
+    if (!instance->categories) return instance->logging || status != fmi2OK;
+    for (char **wanted = instance->categories; *wanted; wanted++)
+        if (!strcmp(*wanted, "logAll") || !strcmp(*wanted, category)) return 1;
+    return 0;
+}
+
+/* `message` is a format without conversions: percent signs are doubled. */
+static void tell(const Instance *instance, fmi2Status status, const char *category, const char *message) {
+    if (instance->host.logger && heard(instance, status, category))
+        instance->host.logger(instance->host.componentEnvironment, instance->name, status, category, message);
+}
+
+fmi2Status instance_fail(Instance *instance, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(instance->plain, sizeof instance->plain, format, arguments);
+    va_end(arguments);
+    char *to = instance->escaped;
+    for (const char *from = instance->plain; *from; from++) {
+        if (*from == '%') *to++ = '%';
+        *to++ = *from;
+    }
+    *to = 0;
+    tell(instance, fmi2Error, "logStatusError", instance->escaped);
+    return fmi2Error;
+}
+
+static void drop_categories(Instance *instance) {
+    for (char **name = instance->categories; name && *name; name++) free(*name);
+    free(instance->categories);
+    instance->categories = NULL;
+}
+
+void instance_hear(Instance *instance, fmi2Boolean logging, size_t count, const char *const categories[]) {
+    drop_categories(instance);
+    instance->logging = logging;
+    if (!logging || !count || !(instance->categories = calloc(count + 1, sizeof *instance->categories))) return;
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++)
+        if (categories[i] && (instance->categories[kept] = strdup(categories[i]))) kept++;
+}
+
+/* what is to be sent */
+
+static unsigned char *extended(Buffer *buffer, size_t size) {
+    if (buffer->size + size > buffer->room) {
+        size_t room = 2 * (buffer->size + size);
+        unsigned char *bytes = realloc(buffer->bytes, room);
+        if (!bytes) return NULL;
+        buffer->bytes = bytes;
+        buffer->room = room;
+    }
+    unsigned char *place = buffer->bytes + buffer->size;
+    buffer->size += size;
+    return place;
+}
+
+static unsigned char *append(unsigned char *to, const void *bytes, size_t size) {
+    if (size) memcpy(to, bytes, size);
+    return to + size;
+}
+
+/* what comes back */
+
+typedef struct {
+    const unsigned char *at, *end;
+} Reader;
+
+static const void *taken(Reader *reader, size_t size) {
+    if ((size_t)(reader->end - reader->at) < size) return NULL;
+    const void *place = reader->at;
+    reader->at += size;
+    return place;
+}
+
+static int take_logs(const Instance *instance, Reader *reader, uint64_t logs) {
+    for (; logs; logs--) {
+        struct entry entry;
+        const void *head = taken(reader, sizeof entry);
+        if (!head) return 0;
+        memcpy(&entry, head, sizeof entry);
+        const char *texts = taken(reader, PADDED((size_t)entry.category + entry.message));
+        if (!texts) return 0;
+        tell(instance, (fmi2Status)entry.status, texts, texts + entry.category);
+    }
+    return 1;
+}
+
+static int take_outputs(Instance *instance, Reader *reader, uint64_t outputs) {
+    const unsigned char *values = taken(reader, outputs * sizeof(double));
+    if (!values || outputs > instance->outputs_count) return 0;
+    for (size_t i = 0; i < outputs; i++)
+        memcpy(&instance->variables[instance->outputs[i]].value, values + i * sizeof(double), sizeof(double));
+    return 1;
+}
+
+static int take_variable(Variable *variable, Reader *reader) {
+    struct record record;
+    const void *place = taken(reader, sizeof record);
+    if (!place) return 0;
+    memcpy(&record, place, sizeof record);
+    variable->kind = record.kind;
+    variable->causality = record.causality;
+    variable->value = record.value;
+    if (record.kind != STRING) return 1;
+    size_t length = (size_t)record.value;
+    const char *text = taken(reader, PADDED(length));
+    char *copy = text ? malloc(length + 1) : NULL;
+    if (!copy) return 0;
+    memcpy(copy, text, length);
+    copy[length] = 0;
+    free(variable->text);
+    variable->text = copy;
+    return 1;
+}
+
+static int take_table(Instance *instance, Reader *reader) {
+    uint64_t count;
+    const void *place = taken(reader, sizeof count);
+    if (!place) return 0;
+    memcpy(&count, place, sizeof count);
+    if (!instance->variables) {
+        instance->variables = calloc(count + 1, sizeof *instance->variables);
+        instance->outputs = calloc(count + 1, sizeof *instance->outputs);
+        if (!instance->variables || !instance->outputs) return 0;
+        instance->count = count;
+    }
+    if (count != instance->count) return 0;
+    instance->outputs_count = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (!take_variable(&instance->variables[i], reader)) return 0;
+        if (instance->variables[i].causality == OUTPUT) instance->outputs[instance->outputs_count++] = (uint32_t)i;
+    }
+    return 1;
+}
+
+/* requests */
+
+static const double NONE[3] = {0.0, 0.0, 0.0};
+
+static size_t request_size(const Instance *instance, size_t payload) {
+    return sizeof(struct request) + instance->forgotten.size + instance->sets.size + payload;
+}
+
+static void write_request(Instance *instance, unsigned char *to, enum operation operation, const double numbers[3],
+                          uint64_t state, size_t payload) {
+    struct request request = {(uint32_t)operation, instance->sets_count, instance->forgotten.size / 8, state, payload,
+                              {numbers[0], numbers[1], numbers[2]}};
+    to = append(to, &request, sizeof request);
+    to = append(to, instance->forgotten.bytes, instance->forgotten.size);
+    append(to, instance->sets.bytes, instance->sets.size);
+    instance->forgotten.size = instance->sets.size = instance->sets_count = 0;
+}
+
+/* The status of an answer of `size` bytes; what the operation returns is left in `rest`. */
+static fmi2Status answered(Instance *instance, size_t size, Reader *rest) {
+    const unsigned char *bytes = channel_answer(instance->worker);
+    struct answer answer;
+    *rest = (Reader){bytes, bytes + size};
+    const void *head = taken(rest, sizeof answer);
+    if (!head) return instance_fail(instance, "The worker's answer is damaged.");
+    memcpy(&answer, head, sizeof answer);
+    instance->held = (int)answer.held;
+    if (!take_outputs(instance, rest, answer.outputs) || !take_logs(instance, rest, answer.logs))
+        return instance_fail(instance, "The worker's answer is damaged.");
+    return (fmi2Status)answer.status;
+}
+
+static void lose_worker(Instance *instance) {
+    channel_close(instance->worker, NULL, 0);
+    instance->worker = NULL;
+    instance->forgotten.size = instance->sets.size = instance->sets_count = 0;
+}
+
+static fmi2Status lost(Instance *instance) {
+    return instance_fail(instance,
+                         "The process that runs the model was lost: %s Restore a saved state, or reset the FMU, to "
+                         "go on with a new one.",
+                         instance->why.text);
+}
+
+static fmi2Status request(Instance *instance, enum operation operation, const double numbers[3], uint64_t state,
+                          size_t payload, Reader *rest) {
+    if (!instance->worker) return lost(instance);
+    size_t size = request_size(instance, payload);
+    unsigned char *room = channel_room(instance->worker, size);
+    if (!room) return instance_fail(instance, "There is no memory for a message of %zu bytes.", size);
+    write_request(instance, room, operation, numbers, state, payload);
+    if (channel_call(instance->worker, &size, instance->limit, &instance->why)) return answered(instance, size, rest);
+    lose_worker(instance);
+    return lost(instance);
+}
+
+/* A new worker with a new model. */
+static fmi2Status open_worker(Instance *instance) {
+    static const char nothing[1] = "";
+    size_t name = strlen(instance->name) + 1, payload = name + strlen(instance->guid), size;
+    instance->forgotten.size = instance->sets.size = instance->sets_count = 0;
+    size = request_size(instance, payload);
+    unsigned char *message = malloc(size);
+    if (!message) return instance_fail(instance, "There is no memory for a message of %zu bytes.", size);
+    write_request(instance, message, OPEN, NONE, 0, payload);
+    append(append(message + size - payload, instance->name, name), *instance->guid ? instance->guid : nothing,
+           payload - name);
+    double limit = instance->limit > START_LIMIT ? instance->limit : START_LIMIT;
+    instance->worker = channel_open(instance->resources, message, &size, limit, &instance->why);
+    free(message);
+    if (!instance->worker) return instance_fail(instance, "The model cannot be started: %s", instance->why.text);
+    instance->life++;
+    Reader rest;
+    fmi2Status status = answered(instance, size, &rest);
+    if (status == fmi2OK && !take_table(instance, &rest))
+        status = instance_fail(instance, "The worker's table of variables is damaged.");
+    if (status != fmi2OK) {
+        snprintf(instance->why.text, sizeof instance->why.text, "It could not be instantiated.");
+        lose_worker(instance);
+    }
+    return status;
+}
+
+static fmi2Status request_table(Instance *instance, enum operation operation, uint64_t state, size_t payload) {
+    Reader rest;
+    fmi2Status status = request(instance, operation, NONE, state, payload, &rest);
+    if (instance->worker && !take_table(instance, &rest))
+        return instance_fail(instance, "The worker's table of variables is damaged.");
+    instance->stale = operation != LOOK && !instance->held;
+    return status;
+}
+
+fmi2Status instance_do(Instance *instance, enum operation operation, const double numbers[3]) {
+    Reader rest;
+    fmi2Status status = request(instance, operation, numbers ? numbers : NONE, 0, 0, &rest);
+    instance->stale = !instance->held;
+    return status;
+}
+
+/* A worker that was lost while nobody called is noticed here, not by the call that is to mend it. */
+static void notice_loss(Instance *instance) {
+    if (instance->worker && channel_lost(instance->worker)) {
+        snprintf(instance->why.text, sizeof instance->why.text, "It ended between two calls.");
+        lose_worker(instance);
+    }
+}
+
+fmi2Status instance_reset(Instance *instance) {
+    notice_loss(instance);
+    return instance->worker ? request_table(instance, RESET, 0, 0) : open_worker(instance);
+}
+
+/* instances */
+
+static double call_limit(void) {
+    const char *text = getenv("TRIBOFMU_TIMEOUT");
+    double limit = text ? strtod(text, NULL) : 0.0;
+    return limit > 0.0 ? limit : 0.0;
+}
+
+Instance *instance_new(const char *name, const char *guid, const char *uri, const fmi2CallbackFunctions *host,
+                       fmi2Boolean logging) {
+    Instance *instance = calloc(1, sizeof *instance);
+    if (!instance) return NULL;
+    instance->host = *host;
+    instance->logging = logging;
+    instance->name = strdup(name ? name : "");
+    instance->guid = strdup(guid ? guid : "");
+    instance->limit = call_limit();
+    instance->stale = 1;
+    if (instance->name && instance->guid) {
+        instance->resources = channel_resources(uri, &instance->why);
+        if (!instance->resources)
+            instance_fail(instance, "%s", instance->why.text);
+        else if (open_worker(instance) == fmi2OK) {
+            lock(&instances_lock);
+            instance->next = instances;
+            instances = instance;
+            unlock(&instances_lock);
+            return instance;
+        }
+    }
+    instance_free(instance);
+    return NULL;
+}
+
+int instance_known(const void *component) {
+    lock(&instances_lock);
+    const Instance *known = instances;
+    while (known && known != component) known = known->next;
+    unlock(&instances_lock);
+    return known != NULL;
+}
+
+void instance_free(Instance *instance) {
+    lock(&instances_lock);
+    for (Instance **link = &instances; *link; link = &(*link)->next)
+        if (*link == instance) {
+            *link = instance->next;
+            break;
+        }
+    unlock(&instances_lock);
+    if (instance->worker) {
+        const struct request quit = {QUIT, 0, 0, 0, 0, {0.0, 0.0, 0.0}};
+        channel_close(instance->worker, &quit, sizeof quit);
+    }
+    while (instance->states) instance_forget(instance, instance->states);
+    state_free(instance->last);
+    for (size_t i = 0; i < instance->count; i++) free(instance->variables[i].text);
+    drop_categories(instance);
+    free(instance->variables);
+    free(instance->outputs);
+    free(instance->sets.bytes);
+    free(instance->forgotten.bytes);
+    free(instance->name);
+    free(instance->guid);
+    free(instance->resources);
+    free(instance);
+}
+
+/* variables */
+
+static const char *const KIND[] = {"Real", "Integer", "Boolean", "String"};
+
+static Variable *variable_of(Instance *instance, enum kind kind, uint32_t reference) {
+    if (reference < instance->count && instance->variables[reference].kind == kind)
+        return &instance->variables[reference];
+    instance_fail(instance, "There is no %s variable with value reference %u.", KIND[kind], reference);
+    return NULL;
+}
+
+fmi2Status instance_get(Instance *instance, enum kind kind, const uint32_t references[], size_t count, void *values) {
+    if (!instance->worker) return lost(instance);
+    fmi2Status status = fmi2OK;
+    for (size_t i = 0; i < count; i++) {
+        const Variable *variable = variable_of(instance, kind, references[i]);
+        if (!variable) return fmi2Error;
+        if (instance->stale && variable->causality == OUTPUT) {
+            status = request_table(instance, LOOK, 0, 0);
+            if (status != fmi2OK) return status;
+        }
+        if (kind == REAL)
+            ((fmi2Real *)values)[i] = variable->value;
+        else if (kind == STRING)
+            ((fmi2String *)values)[i] = variable->text;
+        else
+            ((fmi2Integer *)values)[i] = (fmi2Integer)variable->value;
+    }
+    return status;
+}
+
+static int settable(Instance *instance, const Variable *variable, enum kind kind, uint32_t reference) {
+    if (variable->causality == OUTPUT)
+        instance_fail(instance, "The %s variable with value reference %u is an output and cannot be set.", KIND[kind],
+                      reference);
+    else if (variable->causality == FIXED && instance->held)
+        instance_fail(instance,
+                      "The %s variable with value reference %u is a fixed parameter: set it before initialisation "
+                      "ends, or reset the FMU first.",
+                      KIND[kind], reference);
+    else
+        return 1;
+    return 0;
+}
+
+static int set_text(Variable *variable, const char *text) {
+    char *copy = strdup(text);
+    if (!copy) return 0;
+    free(variable->text);
+    variable->text = copy;
+    return 1;
+}
+
+static int set_one(Instance *instance, Variable *variable, uint32_t reference, const void *values, size_t i) {
+    struct record record = {variable->kind, variable->causality, reference, 0.0};
+    const char *text = NULL;
+    size_t length = 0;
+    if (variable->kind == REAL)
+        record.value = ((const fmi2Real *)values)[i];
+    else if (variable->kind == STRING) {
+        text = ((const fmi2String *)values)[i] ? ((const fmi2String *)values)[i] : "";
+        length = strlen(text);
+        record.value = (double)length;
+    } else
+        record.value = ((const fmi2Integer *)values)[i];
+    unsigned char *place = extended(&instance->sets, sizeof record + PADDED(length));
+    if (!place || (text && !set_text(variable, text))) return 0;
+    memset(place, 0, sizeof record + PADDED(length));
+    append(append(place, &record, sizeof record), text, length);
+    variable->value = record.value;
+    instance->sets_count++;
+    return 1;
+}
+
+fmi2Status instance_set(Instance *instance, enum kind kind, const uint32_t references[], size_t count,
+                        const void *values) {
+    enum { MANY = 65536 };
+    if (!instance->worker) return lost(instance);
+    for (size_t i = 0; i < count; i++) {
+        Variable *variable = variable_of(instance, kind, references[i]);
+        if (!variable || !settable(instance, variable, kind, references[i])) return fmi2Error;
+    }
+    for (size_t i = 0; i < count; i++)
+        if (!set_one(instance, &instance->variables[references[i]], references[i], values, i))
+            return instance_fail(instance, "There is no memory for the values that are set.");
+    if (!instance->held) instance->stale = 1;
+    return instance->sets_count > MANY ? request_table(instance, LOOK, 0, 0) : fmi2OK;
+}
+
+/* states */
+
+static void forget_number(Instance *instance, const State *state) {
+    if (!state->number || state->life != instance->life || !instance->worker) return;
+    unsigned char *place = extended(&instance->forgotten, sizeof state->number);
+    if (place) memcpy(place, &state->number, sizeof state->number);
+}
+
+static State *state_new(size_t parts) {
+    return calloc(1, sizeof(State) + parts * sizeof(Part *));
+}
+
+static State *listed(Instance *instance, State *state) {
+    state->next = instance->states;
+    instance->states = state;
+    return state;
+}
+
+void instance_forget(Instance *instance, State *state) {
+    for (State **link = &instance->states; *link; link = &(*link)->next)
+        if (*link == state) {
+            *link = state->next;
+            break;
+        }
+    forget_number(instance, state);
+    state_free(state);
+}
+
+int instance_owns(const Instance *instance, const State *state) {
+    const State *own = instance->states;
+    while (own && own != state) own = own->next;
+    return own != NULL;
+}
+
+static Part *part_new(const void *bytes, size_t size) {
+    Part *part = malloc(sizeof *part + size);
+    if (!part) return NULL;
+    part->users = 0;
+    part->size = size;
+    append(part->bytes, bytes, size);
+    return part;
+}
+
+/* Take a saved state's parts: those that are as in the state saved before are shared with it. */
+static int take_parts(State *state, const State *before, uint64_t count, Reader *reader) {
+    const unsigned char *heads = taken(reader, count * sizeof(struct part));
+    if (!heads) return 0;
+    for (size_t k = 0; k < count; k++) {
+        struct part head;
+        memcpy(&head, heads + k * sizeof head, sizeof head);
+        Part *part = NULL;
+        if (head.same < 0) {
+            const void *bytes = taken(reader, PADDED(head.size));
+            if (bytes) part = part_new(bytes, head.size);
+        } else if (before && (size_t)head.same < before->count)
+            part = before->parts[head.same];
+        if (!part) return 0;
+        part->users++;
+        state->parts[state->count++] = part;
+    }
+    return 1;
+}
+
+/* The worker sends only what is new since the state saved last: keep that state's parts, whatever the host frees. */
+static void remember(Instance *instance, const State *saved) {
+    State *last = state_new(saved->count);
+    for (size_t k = 0; last && k < saved->count; k++) {
+        last->parts[last->count++] = saved->parts[k];
+        saved->parts[k]->users++;
+    }
+    state_free(instance->last);
+    instance->last = last;
+    if (last) last->life = saved->life;
+}
+
+fmi2Status instance_save(Instance *instance, State **state) {
+    Reader rest;
+    uint64_t count, number = ++instance->numbers;
+    const State *before = instance->last && instance->last->life == instance->life ? instance->last : NULL;
+    fmi2Status status = request(instance, SAVE, (double[3]){before != NULL, 0.0, 0.0}, number, 0, &rest);
+    if (status != fmi2OK) return status;
+    const void *head = taken(&rest, sizeof count);
+    if (head) memcpy(&count, head, sizeof count);
+    if (!head || count > (size_t)(rest.end - rest.at) / sizeof(struct part))
+        return instance_fail(instance, "The worker's state is damaged.");
+    State *saved = state_new(count);
+    if (!saved || !take_parts(saved, before, count, &rest)) {
+        state_free(saved);
+        state_free(instance->last);
+        instance->last = NULL;
+        return instance_fail(instance, "The state could not be kept: there is no memory, or it is damaged.");
+    }
+    saved->number = number;
+    saved->life = instance->life;
+    remember(instance, saved);
+    if (*state && instance_owns(instance, *state)) instance_forget(instance, *state);
+    *state = listed(instance, saved);
+    return fmi2OK;
+}
+
+static fmi2Status restore_bytes(Instance *instance, const State *state) {
+    size_t payload = state_size(state), size = request_size(instance, payload);
+    unsigned char *room = channel_room(instance->worker, size);
+    if (!room) return instance_fail(instance, "There is no memory for a message of %zu bytes.", size);
+    state_write(state, (char *)room + size - payload);
+    return request_table(instance, RESTORE, 0, payload);
+}
+
+fmi2Status instance_restore(Instance *instance, State *state) {
+    notice_loss(instance);
+    if (!instance->worker && open_worker(instance) != fmi2OK) return fmi2Error;
+    instance->sets.size = instance->sets_count = 0; /* the state has values of its own */
+    return state->number && state->life == instance->life ? request_table(instance, RESTORE, state->number, 0)
+                                                          : restore_bytes(instance, state);
+}
+
+size_t state_size(const State *state) {
+    size_t size = 0;
+    for (size_t k = 0; k < state->count; k++) size += state->parts[k]->size;
+    return size;
+}
+
+void state_write(const State *state, char *bytes) {
+    for (size_t k = 0; k < state->count; k++) {
+        memcpy(bytes, state->parts[k]->bytes, state->parts[k]->size);
+        bytes += state->parts[k]->size;
+    }
+}
+
+State *instance_read(Instance *instance, const char *bytes, size_t size) {
+    Part *part = part_new(bytes, size);
+    State *state = part ? state_new(1) : NULL;
+    if (!state) {
+        free(part);
+        instance_fail(instance, "There is no memory for a state of %zu bytes.", size);
+        return NULL;
+    }
+    part->users = 1;
+    state->parts[state->count++] = part;
+    return listed(instance, state);
+}
