@@ -90,7 +90,7 @@ class Worker:
         self._entries: list[tuple[int, str, str]] = []  # log that no slave can keep
         self._saved: dict[int, Any] = {}
         self._before: list[Buffer] = []  # parts of the state saved last
-        self._outputs: Callable[[Sequence[Value]], tuple[float, ...]] = tuple
+        self._outputs: Callable[[Sequence[Value]], tuple[Any, ...]] = lambda values: ()
         self._row = struct.Struct("")
 
     def serve(self) -> None:
