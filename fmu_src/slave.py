@@ -8,6 +8,7 @@ A message has one of `LOG_CATEGORIES`. pythonfmu's binary hands it on if the hos
 for its category, or for none.
 """
 
+import contextlib
 import math
 import sys
 import traceback
@@ -27,6 +28,7 @@ from contact_core import (
     StateError,
     advance,
     initial_state,
+    warm_up,
 )
 from contact_core.quantities import LEVELS, OF_CALLER
 from contact_core.scene import with_values
@@ -77,6 +79,12 @@ class ContactSlave(Fmi2Slave):
         self._phase = Phase.NEW
         self._fault = "its initialisation has not ended."
         self._interrupted = False
+
+    @classmethod
+    def warm_up(cls, folder: Path) -> None:
+        """Load what the first steps of the contact in these resources need, before processes are forked."""
+        with contextlib.suppress(ContactError):  # which the first instance will say
+            warm_up(resources.read(str(folder), cls.__module__))
 
     def _told(self, level: str) -> list[tuple[str, int, type]]:
         """Name, value reference and type of the outputs that the core fills at a level."""
@@ -296,9 +304,9 @@ class ContactSlave(Fmi2Slave):
         self._phase, self._fault = handle.phase, handle.fault
 
     @staticmethod
-    def parts(handle: Snapshot) -> list[bytes]:
+    def parts(handle: Snapshot) -> list[bytes | memoryview]:
         """Buffers whose join is `_fmu_state_to_bytes`: what has not changed since another state is the same object."""
-        return [handle.data]
+        return handle.parts
 
     @staticmethod
     def _fmu_state_to_bytes(handle: Snapshot | bytes) -> bytes:

@@ -24,7 +24,7 @@ FIELDS = {q.name for q in OUTPUTS if "regression" not in q.levels}
 @pytest.fixture(scope="module")
 def quick_folder(scene, tmp_path_factory):
     folder = tmp_path_factory.mktemp("quick")
-    return unpacked(build(scene.at_level("regression"), folder / "quick.fmu"), folder)
+    return unpacked(build(scene.at_level("regression"), folder / "quick.fmu", "embedded"), folder)
 
 
 def core_rows(scene, steps):
