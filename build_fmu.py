@@ -1,4 +1,4 @@
-"""Build a scene's FMU: python build_fmu.py SCENE [--out FILE.fmu] [--set key=value ...]."""
+"""Build a scene's FMU: python build_fmu.py SCENE [--flavour isolated|embedded] [--out FILE.fmu] ..."""
 
 from fmu_src.build import main
 

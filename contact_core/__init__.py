@@ -4,6 +4,7 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
 `ContactState` come out. Where to find what:
 
     quantities   names, symbols, units, signs and averages of every input and output; ranges of every parameter
+    constants    of nature
     units        "1.26 GPa" to SI, at the border
     scene        Scene, its checks, OperatingPoint, Operation (the duty)
     reading      TOML to records and back, with did-you-mean

@@ -8,8 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import OperatingPointError
-from .film.scaled import half_space
-from .kernels.dry import dry_solution
 from .quantities import out_of_range, parameter
 from .reference import hertz_point
 
@@ -76,6 +74,9 @@ def dry_contact(
     Without rms height, complementarity is in terms of the approach. Raises OperatingPointError for input that cannot
     be used; a tolerance that was missed is reported by `converged`.
     """
+    from .film.scaled import half_space  # the kernels: loaded where a contact is solved
+    from .kernels.dry import dry_solution
+
     z = _heights(heights)
     numbers = _numbers(spacing, radius, load, reduced_modulus, hardness, tolerance, fft)
     spacing, load, radius = numbers.spacing, numbers.load, float(radius)

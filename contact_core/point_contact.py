@@ -8,8 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import OperatingPointError
-from .film.estimate import solve_with_estimate
-from .film.fitted import fitted_grid
 from .film.instant import FilmSolution, Grid, Instant, Settings
 from .laws.density import DowsonHigginson, Incompressible
 from .laws.viscosity import Barus, Roelands
@@ -112,6 +110,8 @@ def point_contact(
     short of the tolerance says so (`converged`, `shortfall`). At rest the dry contact is the answer; the gap of solids
     is the floor then, too, so that `approach` is a floor less than that of `dry_contact`.
     """
+    from .film.estimate import solve_with_estimate  # the kernels: loaded where a film is solved
+
     given = {
         "load": load, "radius_x": radius_x, "reduced_modulus": reduced_modulus, "speed_1": speed_1, "speed_2": speed_2,
         "viscosity": viscosity, "pressure_viscosity": pressure_viscosity, "floor": floor, "tolerance": tolerance,
@@ -279,6 +279,8 @@ def _grid(
         if not (np.isfinite(spacing) and spacing > 0.0):
             _refuse([f"spacing = {spacing:g} m must be finite and above 0."])
         return Grid.centred(ny, nx, spacing)
+    from .film.fitted import fitted_grid
+
     found = fitted_grid(numbers.load, numbers.radius_x, numbers.reduced_modulus, film, ny, nx)
     return found if numbers.speed_1 + numbers.speed_2 >= 0.0 else found.mirrored()
 

@@ -6,11 +6,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
+import scipy  # its parts are loaded at their first use
 from numpy.typing import NDArray
-from scipy.constants import Boltzmann, Planck
-from scipy.integrate import quad
-from scipy.optimize import brentq, minimize_scalar
-from scipy.special import elliprd, elliprf, elliprg, i0e, k0e, k1e
+
+from .constants import BOLTZMANN, PLANCK
 
 
 @dataclass(frozen=True)
@@ -39,13 +38,15 @@ def hertz_point(load: float, radius_x: float, radius_y: float, reduced_modulus: 
         return Hertz(a, a, 1.5 * load / (np.pi * a * a), a * a / radius_x)
     small, large = sorted((radius_x, radius_y))
 
+    special = scipy.special
+
     def mismatch(log_ratio: float) -> float:
         k2 = np.exp(2.0 * log_ratio)  # (short half width / long half width)^2
-        return float(elliprd(0.0, 1.0, k2) / elliprd(0.0, k2, 1.0) - large / small)
+        return float(special.elliprd(0.0, 1.0, k2) / special.elliprd(0.0, k2, 1.0) - large / small)
 
     # Carlson's integrals, because E/k^2 - K and K - E lose their digits near the circle
-    k = float(np.exp(brentq(mismatch, np.log(1e-12), 0.0, xtol=1e-15)))
-    ellipk, ellipe = float(elliprf(0.0, k * k, 1.0)), 2.0 * float(elliprg(0.0, k * k, 1.0))
+    k = float(np.exp(scipy.optimize.brentq(mismatch, np.log(1e-12), 0.0, xtol=1e-15)))
+    ellipk, ellipe = float(special.elliprf(0.0, k * k, 1.0)), 2.0 * float(special.elliprg(0.0, k * k, 1.0))
     curvature = 0.5 * (1.0 / small + 1.0 / large)
     long = (3.0 * load * ellipe / (np.pi * k * k * reduced_modulus * curvature)) ** (1 / 3)
     short = k * long
@@ -276,7 +277,7 @@ def ghanbarzadeh_thickness(
     k = (k_B T / h) rate_factor [1/s] at `temperature` [K]; h_max and C3 [m]; C4 = removal_rate [1/s].
     Source: Ghanbarzadeh et al., Tribol. Int. 93 (2016) 573, doi:10.1016/j.triboint.2014.12.018.
     """
-    rate = Boltzmann * temperature / Planck * rate_factor
+    rate = BOLTZMANN * temperature / PLANCK * rate_factor
     formed = full_thickness * (1.0 - np.exp(-rate * np.asarray(time)))
     return formed - removal_thickness * (1.0 - np.exp(-removal_rate * np.asarray(time)))
 
@@ -301,10 +302,11 @@ def jaeger_circle(peclet: float) -> tuple[float, float]:
     quadrature of Jaeger's point source, in polar coordinates around the point that is warmed.
     Source: Jaeger, Proc. R. Soc. N. S. W. 76 (1942) 203.
     """
+    quad, minimize_scalar = scipy.integrate.quad, scipy.optimize.minimize_scalar
 
     def mean_part(distance: float) -> float:  # weighted by what a circle shares with its copy at this distance
         shared = 2.0 * np.arccos(0.5 * distance) - 0.5 * distance * np.sqrt(4.0 - distance**2)
-        return float(shared * i0e(peclet * distance))
+        return float(shared * scipy.special.i0e(peclet * distance))
 
     def rise(x: float) -> float:  # on the axis, at x downstream of the centre
         def part(angle: float) -> float:  # between upstream and the direction to the source
@@ -333,6 +335,7 @@ def jaeger_band(x: float, peclet: float) -> float:
 
     In units of q b / K, b half width; peclet = u b / (2 k). Source: Jaeger, Proc. R. Soc. N. S. W. 76 (1942) 203.
     """
+    k0e, k1e = scipy.special.k0e, scipy.special.k1e
 
     def integral(v: float) -> float:  # of exp(w) K0(|w|) from w = 0 to v, in closed form
         if v == 0.0:

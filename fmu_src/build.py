@@ -1,4 +1,4 @@
-"""Build a scene's FMU: model description, documentation, resources and pythonfmu's binaries, in one zip.
+"""Build a scene's FMU: model description, documentation, resources and binaries, in one zip.
 
 pythonfmu's own builder is not used: it stamps time and a random guid into every FMU, runs the model to
 describe it, and packs a copy of itself that would hide the installed one.
@@ -8,7 +8,7 @@ import argparse
 import io
 import sys
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
 
@@ -18,21 +18,31 @@ from contact_core.scene import Scene
 from . import resources
 from .describe import model_description
 from .document import documentation
+from .resources import FLAVOURS, Flavour
 
 _LIBRARIES = (".so", ".dll", ".dylib")
 
 
-def build(scene: Scene, out: Path) -> Path:
-    """Write the FMU of `scene` to `out` and return it. The same scene and versions give the same bytes.
+def build(scene: Scene, out: Path, flavour: Flavour = "isolated", python: str | None = None) -> Path:
+    """Write the FMU of `scene` to `out` and return it. The same arguments and versions give the same bytes.
 
-    Raises OSError if the file cannot be written or pythonfmu's binaries are missing.
+    `flavour` "isolated": any host can load it, and the model runs in a process of its own, in the interpreter
+    `python` (default: what the host finds). "embedded": the model runs inside a host that is itself Python.
+    Raises OSError if the file cannot be written or the binaries are missing.
     """
-    parts = {
-        "modelDescription.xml": model_description(scene),
-        "documentation/index.html": documentation(scene),
-        **{f"resources/{name}": data for name, data in resources.files(scene).items()},
-        **_binaries(),
-    }
+    return pack(
+        {
+            "modelDescription.xml": model_description(scene, flavour),
+            "documentation/index.html": documentation(scene),
+            **{f"resources/{name}": data for name, data in resources.files(scene, flavour, python).items()},
+            **binaries(flavour, resources.MODEL),
+        },
+        out,
+    )
+
+
+def pack(parts: Mapping[str, bytes], out: Path) -> Path:
+    """Write an FMU of these files."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         for name in sorted(parts):
@@ -44,17 +54,17 @@ def build(scene: Scene, out: Path) -> Path:
     return out
 
 
-def _binaries() -> dict[str, bytes]:
-    """The library of pythonfmu for every platform it has, under the model's name."""
-    root = files("pythonfmu") / "resources" / "binaries"
+def binaries(flavour: Flavour, model: str) -> dict[str, bytes]:
+    """The flavour's library for every platform that has one, under the model's name."""
+    root = files("fmu_src") / "native" if flavour == "isolated" else files("pythonfmu") / "resources"
     found = {
-        f"binaries/{platform.name}/{resources.MODEL}{Path(library.name).suffix}": library.read_bytes()
-        for platform in root.iterdir()
+        f"binaries/{platform.name}/{model}{Path(library.name).suffix}": library.read_bytes()
+        for platform in (root / "binaries").iterdir()
         for library in platform.iterdir()
         if Path(library.name).suffix in _LIBRARIES
     }
     if not found:
-        raise FileNotFoundError(f"pythonfmu has no binaries in {root}. Install pythonfmu again.")
+        raise FileNotFoundError(f"There are no binaries in {root}. Install tribofmu and pythonfmu again.")
     return found
 
 
@@ -63,6 +73,21 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="build_fmu.py", description="Build the FMU of a scene.")
     parser.add_argument("scene", metavar="SCENE", help="name of a shipped scene, or path of a .toml file")
     parser.add_argument("--out", type=Path, metavar="FILE.fmu", help="default: here, the scene's name")
+    parser.add_argument(
+        "--flavour",
+        choices=FLAVOURS,
+        default="isolated",
+        help="isolated: for any host, the model in a process of its own; embedded: for hosts that are Python "
+        "(default: %(default)s)",
+    )
+    parser.add_argument(
+        "--python",
+        metavar="PATH",
+        nargs="?",
+        const=sys.executable,
+        help="the Python that runs an isolated FMU where TRIBOFMU_PYTHON is not set (without PATH: the one that builds "
+        "it; without --python: python3 on the host's PATH)",
+    )
     parser.add_argument(
         "--set",
         dest="overrides",
@@ -73,11 +98,15 @@ def main(argv: Sequence[str] | None = None) -> int:
         help="change a value of the scene, e.g. film.points=65 or tribofilm.model=none",
     )
     arguments = parser.parse_args(argv)
+    if arguments.python and arguments.flavour == "embedded":
+        parser.error("--python is for isolated FMUs: an embedded one is run by its host's Python")
     try:
         scene = Scene.from_toml(arguments.scene, _overrides(arguments.overrides))
         for warning in scene.warnings():
             print(f"Note: {warning}", file=sys.stderr)
-        print(build(scene, arguments.out or Path(f"{scene.name}.fmu")))
+        out = arguments.out or Path(f"{scene.name}.fmu")
+        python = arguments.python and str(Path(arguments.python).absolute())
+        print(build(scene, out, arguments.flavour, python))
     except SceneError as error:
         print(error, file=sys.stderr)
         return 2

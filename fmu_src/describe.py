@@ -11,11 +11,10 @@ from contact_core import units
 from contact_core.film import Deterministic
 from contact_core.scene import Scene
 
-from .resources import MODEL, guid
+from .resources import MODEL, Flavour, guid
 from .variables import Value, Variable, variables
 
 _CAPABILITIES = {
-    "needsExecutionTool": True,  # Python with the installed contact_core; also pythonfmu's default
     "canHandleVariableCommunicationStepSize": True,
     "canInterpolateInputs": False,
     "canBeInstantiatedOnlyOncePerProcess": False,
@@ -25,7 +24,7 @@ _CAPABILITIES = {
 }
 
 
-def model_description(scene: Scene) -> bytes:
+def model_description(scene: Scene, flavour: Flavour) -> bytes:
     """The XML document; the same scene and versions give the same bytes."""
     table = variables(scene)
     root = ET.Element(
@@ -33,7 +32,7 @@ def model_description(scene: Scene) -> bytes:
         {
             "fmiVersion": "2.0",
             "modelName": MODEL,
-            "guid": guid(scene),
+            "guid": guid(scene, flavour),
             "description": scene.description,
             "version": contact_core.__version__,
             "generationTool": f"tribofmu {contact_core.__version__} with pythonfmu {pythonfmu.__version__}",
@@ -45,6 +44,9 @@ def model_description(scene: Scene) -> bytes:
         "CoSimulation",
         {
             "modelIdentifier": MODEL,
+            # An isolated FMU brings all that a host calls, and starts what it needs itself, as it would load a shared
+            # library. An embedded one can only be run by a host that is Python.
+            "needsExecutionTool": _text(flavour == "embedded"),
             **{name: _text(value) for name, value in _CAPABILITIES.items()},
         },
     )

@@ -1,15 +1,18 @@
 """What lies in the FMU's resources for the slave, written and read in one place.
 
 `scene.json` is the scene, `versions.json` the packages it was built with, `slavemodule.txt` names the script
-that pythonfmu's binary loads. The script's name carries a fingerprint of scene and versions: two FMUs in one
-process never share a module, and an edited scene is noticed.
+that makes the slave. The script's name carries a fingerprint of scene and versions: two FMUs in one process
+never share a module, and an edited scene is noticed. An isolated FMU has besides: `start.py`, which its library
+runs, `guid.txt`, and `python.txt` if it was told which Python is to run it.
 """
 
 import functools
 import hashlib
 import json
 import uuid
+from importlib.resources import files as package_files
 from pathlib import Path
+from typing import Literal, get_args
 
 import pythonfmu
 
@@ -18,10 +21,12 @@ from contact_core.errors import SceneError
 from contact_core.scene import Scene
 
 MODEL = "MixedContact"
+Flavour = Literal["isolated", "embedded"]
+FLAVOURS: tuple[Flavour, ...] = get_args(Flavour)
 VERSIONS = {"contact_core": contact_core.__version__, "pythonfmu": pythonfmu.__version__}
 
 # The loader runs the file twice and takes the deepest subclass of Fmi2Slave among its names: let it be one.
-_SCRIPT = f'''"""What pythonfmu's binary loads."""
+_SCRIPT = f'''"""The slave that the FMU's library loads."""
 
 from fmu_src import slave
 
@@ -34,9 +39,9 @@ class {MODEL}(slave.ContactSlave):
 '''
 
 
-def guid(scene: Scene) -> str:
-    """The FMU's identity as a UUID, from scene and versions."""
-    return str(uuid.UUID(hex=_fingerprint(scene)[:32]))
+def guid(scene: Scene, flavour: Flavour) -> str:
+    """The FMU's identity as a UUID, from scene, versions and flavour."""
+    return str(uuid.uuid5(uuid.UUID(hex=_fingerprint(scene)[:32]), flavour))
 
 
 def module_name(scene: Scene) -> str:
@@ -48,15 +53,21 @@ def _fingerprint(scene: Scene) -> str:
     return hashlib.sha256(json.dumps([scene.to_dict(), VERSIONS], sort_keys=True).encode()).hexdigest()
 
 
-def files(scene: Scene) -> dict[str, bytes]:
-    """Name and content of every file in `resources/`."""
+def files(scene: Scene, flavour: Flavour, python: str | None) -> dict[str, bytes]:
+    """Name and content of every file in `resources/`; `python` is the interpreter of an isolated FMU."""
     module = module_name(scene)
-    return {
+    found = {
         "scene.json": (json.dumps(scene.to_dict(), indent=1) + "\n").encode(),
         "versions.json": (json.dumps(VERSIONS, indent=1) + "\n").encode(),
         "slavemodule.txt": module.encode(),
         f"{module}.py": _SCRIPT.encode(),
     }
+    if flavour == "isolated":
+        found["start.py"] = (package_files("fmu_src") / "native" / "start.py").read_bytes()
+        found["guid.txt"] = guid(scene, flavour).encode()
+        if python:
+            found["python.txt"] = python.encode()
+    return found
 
 
 @functools.lru_cache(maxsize=64)

@@ -251,7 +251,7 @@ def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint") -> "xr.Datas
         bar_format="{desc} {percentage:3.0f} %|{bar}| {n:.1f}/{total:.1f} min [{elapsed}<{remaining}]",
     )
     with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder, bar, logging_redirect_tqdm():
-        fmu = build(scene, Path(folder) / f"{scene.name}.fmu")
+        fmu = build(scene, Path(folder) / f"{scene.name}.fmu", "embedded")
         return run(
             fmu,
             duty,

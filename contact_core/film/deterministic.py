@@ -5,7 +5,6 @@ from typing import ClassVar
 
 from ..quantities import parameter
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings
-from .routes import solve_film
 
 
 @dataclass(frozen=True)
@@ -59,6 +58,8 @@ class Deterministic:
         iterations: int | None = None,
     ) -> FilmSolution:
         """Solve one instant as `routes.solve_film`; `iterations`: fewer than the scene allows."""
+        from .routes import solve_film  # the kernels: loaded where a film is solved
+
         most = min(iterations or self.iterations, self.iterations)
         settings = Settings(self.floor, self.tolerance, most, self.fft, self.criterion == "lumped")
         return solve_film(now, grid, settings, start, follows)

@@ -27,7 +27,6 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ..kernels.thinning import stress_of_flow
 from .instant import Array, FilmSolution, FilmState, Instant
 
 _STIFFEST = 1e30  # Pa: no stress of a Newtonian oil above matters
@@ -68,6 +67,8 @@ def thinned_fluidity(
     """
     if not rheology.thins:
         return np.zeros_like(gap)
+    from ..kernels.thinning import stress_of_flow  # the kernels: loaded where an oil is thinned
+
     thinned, steepness = np.zeros_like(gap), _steepness(pressure, spacing)
     driven = steepness > 0.0
     newtonian = viscosity[driven]

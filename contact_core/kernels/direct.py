@@ -8,10 +8,9 @@ some tens of those of `mixed`.
 """
 
 import numpy as np
+import scipy
 from numba import njit
 from numpy.typing import NDArray
-from scipy.sparse import csc_matrix
-from scipy.sparse.linalg import splu
 
 from . import reynolds
 from .half_space import HalfSpace
@@ -211,9 +210,9 @@ class _Direct(Iteration):
             return
         rows = (self.values[:filled], self.columns[:filled], self.starts[: n + 1])
         # rows read as columns: the transpose. Its pattern is all but symmetric, which saves a third of the time
-        matrix, how = csc_matrix(rows, shape=(n, n)), {"SymmetricMode": True}
+        matrix, how = scipy.sparse.csc_matrix(rows, shape=(n, n)), {"SymmetricMode": True}
         try:
-            factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options=how)
+            factors = scipy.sparse.linalg.splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options=how)
         except RuntimeError:  # singular: no step
             base[:] = np.nan
             return

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
-import scipy.fft
+import scipy
 from numba import njit
 from numpy.typing import NDArray
 

@@ -7,7 +7,7 @@ doi:10.1016/0022-460X(70)90075-1.
 """
 
 import numpy as np
-import scipy.fft
+import scipy
 from numba import njit
 from numpy.typing import NDArray
 

@@ -11,10 +11,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-import scipy.fft
+import scipy
 from numpy.typing import NDArray
-from scipy.sparse.linalg import LinearOperator, bicgstab
-from scipy.special import erf
 
 from .half_space import influence
 
@@ -44,8 +42,8 @@ def moving_influence(ny: int, nx: int, peclet: float) -> Array:
     along, across = np.arange(-nx, nx) + 0.5, np.arange(-1, ny) + 0.5
     coefficients = np.zeros((ny, 2 * nx - 1))
     for s, weights in _quadrature(nx, peclet):
-        in_x = np.diff(erf(along / s - 0.5 * peclet * s), axis=1)
-        in_y = np.diff(erf(across / s), axis=1)
+        in_x = np.diff(scipy.special.erf(along / s - 0.5 * peclet * s), axis=1)
+        in_y = np.diff(scipy.special.erf(across / s), axis=1)
         coefficients += (in_y * weights).T @ in_x
     return 0.5 * np.sqrt(np.pi) * coefficients
 
@@ -172,13 +170,13 @@ def partition(
 
     inverse = (mask / (resistance + one.rise_of_cell + two.rise_of_cell)).ravel()
     size = (half.size, half.size)
-    through, _ = bicgstab(
-        LinearOperator(size, drop, dtype=np.float64),
+    through, _ = scipy.sparse.linalg.bicgstab(
+        scipy.sparse.linalg.LinearOperator(size, drop, dtype=np.float64),
         wanted.ravel(),
         rtol=0.0,
         atol=tolerance * scale,
         maxiter=iterations,
-        M=LinearOperator(size, lambda flux: flux * inverse, dtype=np.float64),
+        M=scipy.sparse.linalg.LinearOperator(size, lambda flux: flux * inverse, dtype=np.float64),
     )
     conducted = through.reshape(half.shape)
     into_1 = half + conducted

@@ -14,10 +14,9 @@ from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
+import scipy
 from numba import njit
 from numpy.typing import NDArray
-from scipy.sparse import csc_matrix
-from scipy.sparse.linalg import splu
 
 from . import reynolds
 from .half_space import HalfSpace
@@ -287,9 +286,11 @@ class _Film:
         start, index, value = np.empty(size + 1, np.int32), np.empty(10 * size, np.int32), np.empty(10 * size)
         args = (by_f, by_h, scale, self.patch, nodes, column, solid, q.edge)
         count = _assemble(*args, start, index, value)
-        rows = csc_matrix((value[:count], index[:count], start), shape=(size, size))  # the transpose, by columns
+        # the transpose, by columns
+        rows = scipy.sparse.csc_matrix((value[:count], index[:count], start), shape=(size, size))
+        how = {"SymmetricMode": True}
         try:
-            lu = splu(rows, permc_spec="NATURAL", diag_pivot_thresh=0.01, options={"SymmetricMode": True})
+            lu = scipy.sparse.linalg.splu(rows, permc_spec="NATURAL", diag_pivot_thresh=0.01, options=how)
         except RuntimeError:  # singular
             return None
 

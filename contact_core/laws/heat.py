@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from ..kernels.moving_source import MovingSurface, partition
 from ..quantities import parameter
@@ -138,7 +138,7 @@ class FlashTemperature(_Conductors):
         total, bodies, solid = rubbing.total, rubbing.bodies, rubbing.solid
         if total == 0.0 or not solid.any():
             return _flat(bodies, 0.5 * total, 0.5 * total)
-        spots, count = ndimage.label(solid)
+        spots, count = scipy.ndimage.label(solid)
         nodes = np.bincount(spots.ravel(), minlength=count + 1)[1:]
         heat = np.bincount(spots.ravel(), rubbing.dissipation.ravel(), count + 1)[1:]
         into_1, into_2 = self._conduction(

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.special import expit
 
 from ..quantities import parameter
 
@@ -129,7 +129,7 @@ class Carreau(_Limited):
         for _ in range(100):
             u = target + v
             missing = 0.5 * (1.0 - self.exponent) * np.logaddexp(0.0, 2.0 * u) - v
-            slope = self.exponent + (1.0 - self.exponent) * expit(-2.0 * u)
+            slope = self.exponent + (1.0 - self.exponent) * scipy.special.expit(-2.0 * u)
             v = np.minimum(v + missing / np.maximum(slope, 1e-12), _EASIEST)
             if np.all((missing <= 1e-15 * (4.0 + np.abs(u))) | (v == _EASIEST)):
                 break

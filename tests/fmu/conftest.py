@@ -35,7 +35,7 @@ def other_scene() -> Scene:
 
 @pytest.fixture(scope="session")
 def fmu_file(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build(scene, tmp_path_factory.mktemp("fmu") / "small.fmu")
+    return build(scene, tmp_path_factory.mktemp("fmu") / "small.fmu", "embedded")
 
 
 @pytest.fixture(scope="session")

@@ -118,7 +118,7 @@ def test_states_can_be_kept_and_instances_shared(description):
 
 
 def test_the_same_scene_gives_the_same_bytes(fmu_file, scene, tmp_path):
-    assert build(scene, tmp_path / "again.fmu").read_bytes() == fmu_file.read_bytes()
+    assert build(scene, tmp_path / "again.fmu", "embedded").read_bytes() == fmu_file.read_bytes()
 
 
 def test_another_scene_has_another_guid_and_script(fmu_file, other_scene, tmp_path):
@@ -127,7 +127,7 @@ def test_another_scene_has_another_guid_and_script(fmu_file, other_scene, tmp_pa
             root = ET.fromstring(archive.read("modelDescription.xml"))
             return root.get("guid"), archive.read("resources/slavemodule.txt")
 
-    mine, other = identity(fmu_file), identity(build(other_scene, tmp_path / "other.fmu"))
+    mine, other = identity(fmu_file), identity(build(other_scene, tmp_path / "other.fmu", "embedded"))
     assert mine[0] != other[0]
     assert mine[1] != other[1]
 

@@ -25,7 +25,7 @@ def quick() -> Scene:
 @pytest.fixture(scope="module")
 def quick_folder(quick, tmp_path_factory):
     folder = tmp_path_factory.mktemp("quick")
-    with zipfile.ZipFile(build(quick, folder / "quick.fmu")) as archive:
+    with zipfile.ZipFile(build(quick, folder / "quick.fmu", "embedded")) as archive:
         archive.extractall(folder)
     return folder
 

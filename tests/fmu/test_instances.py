@@ -13,7 +13,7 @@ from fmu_src import build
 
 
 def test_two_scenes_in_one_process_keep_to_themselves(folder, other_scene, tmp_path):
-    other_folder = unpacked(build(other_scene, tmp_path / "other.fmu"), tmp_path / "other")
+    other_folder = unpacked(build(other_scene, tmp_path / "other.fmu", "embedded"), tmp_path / "other")
     with hosted(folder) as alone:
         expected = alone.initialise().step(60.0)
     with hosted(other_folder) as other, hosted(folder) as mine:

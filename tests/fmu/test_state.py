@@ -106,7 +106,7 @@ def test_a_damaged_state_is_refused_and_the_contact_stands(stepped, damage):
 
 
 def test_a_state_of_another_scene_is_refused(stepped, other_scene, tmp_path):
-    with hosted(unpacked(build(other_scene, tmp_path / "other.fmu"), tmp_path / "other")) as other:
+    with hosted(unpacked(build(other_scene, tmp_path / "other.fmu", "embedded"), tmp_path / "other")) as other:
         state = other.initialise().state()
     before = stepped.outputs()
     stepped.restore(state)

@@ -34,7 +34,7 @@ def duty(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Duty:
 
 @pytest.fixture(scope="session")
 def fmu(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build(scene, tmp_path_factory.mktemp("fmu") / "contact.fmu")
+    return build(scene, tmp_path_factory.mktemp("fmu") / "contact.fmu", "embedded")
 
 
 @pytest.fixture(scope="session")

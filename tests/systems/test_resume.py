@@ -96,7 +96,7 @@ def test_the_first_and_the_last_row_are_stored_however_short_the_run(
 
 def test_the_state_of_another_fmu_is_not_gone_on_from(fmu: Path, scene: Scene, duty: Duty, tmp_path: Path) -> None:
     other = Scene.from_dict(scene.to_dict() | {"wear": {"model": "none"}})
-    run(build(other, tmp_path / "other.fmu"), duty, 30.0, 30.0, None, Checkpoint(tmp_path, {}))
+    run(build(other, tmp_path / "other.fmu", "embedded"), duty, 30.0, 30.0, None, Checkpoint(tmp_path, {}))
     with pytest.raises(StateError, match="does not take the state of the checkpoint at t = 30 s"):
         run(fmu, duty, 60.0, 30.0, None, Checkpoint.resume(tmp_path, {}))
 

@@ -19,8 +19,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.constants import Boltzmann
 
+from ...constants import BOLTZMANN
 from ...quantities import parameter
 from .fitted import Ghanbarzadeh, beyond_fit, fit_temperature, thickness
 
@@ -92,7 +92,7 @@ class _Activated:
     def rate(self, stress: Array, temperature: Temperature) -> Array:
         """Rate of growth over h_max [1/s] under a stress [Pa] at a surface temperature [K]."""
         barrier = np.maximum(self.activation_energy - stress * self.activation_volume, 0.0)
-        found: Array = self.prefactor / self.full_thickness * np.exp(-barrier / (Boltzmann * temperature))
+        found: Array = self.prefactor / self.full_thickness * np.exp(-barrier / (BOLTZMANN * temperature))
         return found
 
     def abrasion(self, solid_pressure: Array, sliding_speed: float | Array, position: Array | None) -> Array:

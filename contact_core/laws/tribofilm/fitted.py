@@ -5,8 +5,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.constants import Boltzmann, Planck
 
+from ...constants import BOLTZMANN, PLANCK
 from ...quantities import parameter
 from ..elementary import Numbers, expm1
 
@@ -106,7 +106,7 @@ class Ghanbarzadeh(_Unabraded):
 
     def rate(self, temperature: Temperature) -> Temperature:
         """Rate k of growth [1/s] at `temperature` [K]."""
-        return Boltzmann * temperature / Planck * self.rate_factor
+        return BOLTZMANN * temperature / PLANCK * self.rate_factor
 
     def exposure(
         self, solid_pressure: Numbers, shear: Numbers, sliding_speed: float, temperature: Temperature

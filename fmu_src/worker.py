@@ -1,0 +1,308 @@
+"""The process of one isolated FMU instance: messages of the host in, calls of the slave, answers out.
+
+native/message.h says what the messages hold; change them together.
+"""
+
+import importlib.util
+import inspect
+import os
+import struct
+import sys
+import traceback
+from collections.abc import Callable, Iterator, Sequence
+from enum import IntEnum
+from operator import itemgetter
+from pathlib import Path
+from types import ModuleType
+from typing import Any, Protocol
+
+from pythonfmu import Fmi2Slave
+from pythonfmu.enums import Fmi2Status
+
+from .variables import Value
+
+_REQUEST = struct.Struct("<IIQQQ3d")
+_ANSWER = struct.Struct("<IIQQ")
+_ENTRY = struct.Struct("<IIII")
+_RECORD = struct.Struct("<HHId")
+_PART = struct.Struct("<Qq")
+_COUNT = struct.Struct("<Q")
+
+_KINDS = ("Real", "Integer", "Boolean", "String")
+_CAUSALITIES = ("input", "parameter", "tunable", "output")
+_TYPES: tuple[type, ...] = (float, int, bool, str)
+
+Buffer = bytes | memoryview
+
+
+class Operation(IntEnum):
+    """What the host can ask for."""
+
+    OPEN = 1
+    SETUP = 2
+    ENTER = 3
+    EXIT = 4
+    STEP = 5
+    LOOK = 6
+    TERMINATE = 7
+    RESET = 8
+    SAVE = 9
+    RESTORE = 10
+    QUIT = 11
+
+
+class Channel(Protocol):
+    """The way to the host and back."""
+
+    def receive(self) -> bytes:
+        """The host's next message; EOFError if there is no host any more."""
+
+    def send(self, chunks: Sequence[Buffer]) -> None:
+        """Answer it."""
+
+
+def slave_class(resources: Path) -> type[Fmi2Slave]:
+    """The slave of the script in `resources`: as for pythonfmu's binary, the deepest subclass of Fmi2Slave."""
+    name = (resources / "slavemodule.txt").read_text("utf-8").strip()
+    module = sys.modules.get(name) or _loaded(name, resources / f"{name}.py")
+    found = [c for _, c in inspect.getmembers(module, inspect.isclass) if issubclass(c, Fmi2Slave)]
+    return max(found, key=lambda c: len(c.mro()))
+
+
+def _loaded(name: str, file: Path) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(name, file)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+class Worker:
+    """One slave and its saved states, served until the host is done with it."""
+
+    def __init__(self, channel: Channel, resources: Path) -> None:
+        self._channel = channel
+        self._resources = resources
+        self._make: Callable[[], Any] = _unmade
+        self._slave: Any = None
+        self._entries: list[tuple[int, str, str]] = []  # log that no slave can keep
+        self._saved: dict[int, Any] = {}
+        self._before: list[Buffer] = []  # parts of the state saved last
+        self._outputs: Callable[[Sequence[Value]], tuple[Any, ...]] = lambda values: ()
+        self._row = struct.Struct("")
+
+    def serve(self) -> None:
+        """Answer until the host asks to quit."""
+        while self._answer(self._channel.receive()):
+            pass
+
+    def _answer(self, message: bytes) -> bool:
+        operation, sets, forgotten, state, size, *numbers = _REQUEST.unpack_from(message)
+        if operation == Operation.QUIT:
+            return False
+        results: Sequence[Buffer] = ()
+        try:
+            offset = _REQUEST.size + 8 * forgotten
+            for (number,) in _COUNT.iter_unpack(message[_REQUEST.size : offset]):
+                self._saved.pop(number, None)
+            if sets:
+                self._set(message, offset, sets)
+            if operation == Operation.STEP:
+                self._slave.do_step(numbers[0], numbers[1])
+            else:
+                payload = message[len(message) - size :]
+                results = self._ACTIONS[operation](self, state, numbers, payload)
+        except BaseException:  # also SystemExit and KeyboardInterrupt: only the host ends a worker
+            self._entries.append((Fmi2Status.error.value, "logStatusError", _escaped(traceback.format_exc())))
+        self._channel.send([*self._head(), *results])
+        return True
+
+    def _head(self) -> Iterator[Buffer]:
+        """Status, outputs if they stand until the next step, and what was logged."""
+        slave = self._slave
+        entries = self._entries
+        held = False
+        if slave is not None:
+            held = slave.held
+            if queue := slave._get_log_queue():
+                entries = entries + [(m.status.value, m.category, m.msg) for m in queue]
+                queue.clear()
+        status = Fmi2Status.ok.value
+        if entries and max(entry[0] for entry in entries) >= Fmi2Status.error.value:
+            status = Fmi2Status.error.value
+        values = self._outputs(slave.values) if held else ()
+        yield _ANSWER.pack(status, held, len(values), len(entries))
+        if held:
+            yield self._row.pack(*values)
+        for entry in entries:
+            yield _entry(*entry)
+        self._entries = []
+
+    def _set(self, message: bytes, offset: int, count: int) -> None:
+        """Set what the host has set, in its order."""
+        setters = (self._slave.set_real, self._slave.set_integer, self._slave.set_boolean, self._slave.set_string)
+        references: list[int] = []
+        values: list[Any] = []
+        current = -1
+        for _ in range(count):
+            kind, _, reference, value = _RECORD.unpack_from(message, offset)
+            offset += _RECORD.size
+            if kind != current and references:
+                setters[current](references, values)
+                references, values = [], []
+            current = kind
+            references.append(reference)
+            if kind == 3:
+                length = int(value)
+                values.append(message[offset : offset + length].decode("utf-8", "replace"))
+                offset += length + -length % 8
+            else:
+                values.append(_TYPES[kind](value))
+        setters[current](references, values)
+
+    # operations
+
+    def _open(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
+        name, _, guid = payload.partition(b"\0")
+        own = (self._resources / "guid.txt").read_text("utf-8")
+        if guid.decode("utf-8", "replace") != own:
+            raise ValueError(
+                f"The host asks for the FMU with guid {guid.decode('utf-8', 'replace')!r}, but this one has {own!r}: "
+                "its modelDescription.xml and its resources do not belong together. Unpack the FMU again."
+            )
+        cls = slave_class(self._resources)
+        arguments = {"instance_name": name.decode("utf-8", "replace"), "resources": str(self._resources)}
+        self._make = lambda: cls(**arguments, visible=False)
+        return self._reset(state, numbers, payload)
+
+    def _reset(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
+        self._slave = None
+        self._slave = slave = self._make()
+        outputs = [vr for vr, (_, causality) in enumerate(slave.layout) if causality == "output"]
+        self._outputs = itemgetter(*outputs) if len(outputs) > 1 else lambda values: tuple(values[i] for i in outputs)
+        self._row = struct.Struct(f"<{len(outputs)}d")
+        return self._table()
+
+    def _setup(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
+        start, stop, tolerance = numbers
+        self._slave.setup_experiment(start, _defined(stop), _defined(tolerance))
+        return []
+
+    def _enter(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
+        self._slave.enter_initialization_mode()
+        return []
+
+    def _exit(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
+        self._slave.exit_initialization_mode()
+        return []
+
+    def _look(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
+        for kind, get in zip(
+            _KINDS, (self._slave.get_real, self._slave.get_integer, self._slave.get_boolean), strict=False
+        ):
+            get([vr for vr, description in enumerate(self._slave.layout) if description == (kind, "output")])
+        return self._table()
+
+    def _terminate(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
+        self._slave.terminate()
+        return []
+
+    def _save(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
+        handle = self._slave._get_fmu_state()
+        parts = self._slave.parts(handle)
+        known = {_identity(part): k for k, part in enumerate(self._before)} if numbers[0] else {}
+        same = [known.get(_identity(part), -1) for part in parts]
+        self._saved[state] = handle
+        self._before = parts
+        heads = [_PART.pack(_size(part), k) for part, k in zip(parts, same, strict=True)]
+        new = [chunk for part, k in zip(parts, same, strict=True) if k < 0 for chunk in (part, _padding(_size(part)))]
+        return [_COUNT.pack(len(parts)), *heads, *new]
+
+    def _restore(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
+        handle = self._saved[state] if state else self._slave._fmu_state_from_bytes(payload)
+        self._slave._set_fmu_state(handle)
+        return self._table()
+
+    def _table(self) -> list[Buffer]:
+        """Every variable's kind, causality and value."""
+        layout, values = self._slave.layout, self._slave.values
+        return [_COUNT.pack(len(layout)), *map(_record, range(len(layout)), layout, values)]
+
+    _ACTIONS = {  # noqa: RUF012
+        Operation.OPEN: _open,
+        Operation.SETUP: _setup,
+        Operation.ENTER: _enter,
+        Operation.EXIT: _exit,
+        Operation.LOOK: _look,
+        Operation.TERMINATE: _terminate,
+        Operation.RESET: _reset,
+        Operation.SAVE: _save,
+        Operation.RESTORE: _restore,
+    }
+
+
+def _unmade() -> None:
+    raise RuntimeError("The FMU has not been instantiated.")
+
+
+def _defined(value: float) -> float | None:
+    return value if value == value else None
+
+
+def _escaped(text: str) -> str:
+    """`text` as a printf format, which is how hosts read messages."""
+    return text.replace("%", "%%")
+
+
+def _padding(size: int) -> bytes:
+    return bytes(-size % 8)
+
+
+def _size(part: Buffer) -> int:
+    return part.nbytes if isinstance(part, memoryview) else len(part)
+
+
+def _identity(part: Buffer) -> tuple[int, int]:
+    """What two parts have in common if they are the same unchangeable buffer."""
+    return (id(part.obj), part.nbytes) if isinstance(part, memoryview) else (id(part), len(part))
+
+
+def _entry(status: int, category: str, message: str) -> bytes:
+    first, second = (text.encode("utf-8", "backslashreplace") + b"\0" for text in (category, message))
+    texts = first + second
+    return _ENTRY.pack(status, len(first), len(second), 0) + texts + _padding(len(texts))
+
+
+def _record(reference: int, description: tuple[str, str], value: Value) -> bytes:
+    kind, causality = _KINDS.index(description[0]), _CAUSALITIES.index(description[1])
+    if isinstance(value, str):
+        text = value.encode("utf-8", "backslashreplace")
+        return _RECORD.pack(kind, causality, reference, len(text)) + text + _padding(len(text))
+    return _RECORD.pack(kind, causality, reference, value)
+
+
+class Pipe:
+    """A channel of two descriptors: the length of a message, then the message."""
+
+    def __init__(self, incoming: int, outgoing: int) -> None:
+        self._incoming = os.fdopen(incoming, "rb")
+        self._outgoing = os.fdopen(outgoing, "wb")
+
+    def receive(self) -> bytes:
+        """The host's next message."""
+        (size,) = _COUNT.unpack(self._exactly(_COUNT.size))
+        return self._exactly(size)
+
+    def _exactly(self, size: int) -> bytes:
+        data = self._incoming.read(size)
+        if len(data) < size:
+            raise EOFError("The host has closed the pipe.")
+        return data
+
+    def send(self, chunks: Sequence[Buffer]) -> None:
+        """Answer it."""
+        self._outgoing.write(_COUNT.pack(sum(map(_size, chunks))))
+        self._outgoing.writelines(chunks)
+        self._outgoing.flush()

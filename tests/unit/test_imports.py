@@ -1,0 +1,37 @@
+"""What is loaded, and when: a worker process must be there at once."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+_HEAVY = ("numba", "llvmlite", "pyfftw", "scipy.fft", "scipy.special", "scipy.sparse", "scipy.ndimage", "xarray")
+
+_FAST_LEVEL = """
+scene = Scene.from_toml("mtm_zddp").at_level("regression")
+state, _ = advance(scene, scene.operation.point, initial_state(scene), 0.0)
+advance(scene, scene.operation.point, state, 1.0)
+"""
+
+
+def _loaded(code: str) -> set[str]:
+    """Those of the heavy packages that a fresh process has loaded after the code."""
+    report = f"\nimport json, sys\nprint(json.dumps([name for name in {_HEAVY!r} if name in sys.modules]))"
+    run = subprocess.run([sys.executable, "-c", code + report], capture_output=True, text=True, check=True)
+    return set(json.loads(run.stdout))
+
+
+@pytest.mark.parametrize("package", ["contact_core", "fmu_src.slave"])
+def test_an_import_loads_no_compiler_and_no_heavy_package(package):
+    assert _loaded(f"import {package}") == set()
+
+
+def test_the_fast_level_needs_no_compiler():
+    loaded = _loaded("from contact_core import Scene, advance, initial_state" + _FAST_LEVEL)
+    assert not loaded & {"numba", "llvmlite", "pyfftw", "xarray"}
+
+
+def test_the_deterministic_level_loads_its_compiler_at_its_first_solution():
+    """The probe sees what it is to see."""
+    assert "numba" in _loaded("import contact_core.film.routes")
