@@ -19,7 +19,7 @@
 
 #define END_LIMIT 1000 /* milliseconds from the end of a worker's pipes to its own */
 
-enum outcome { DONE, LOST, LATE };
+enum outcome { DONE, LOST, LATE, TOO_LONG };
 
 struct Channel {
     HANDLE job, process;
@@ -182,29 +182,6 @@ static wchar_t *command_line(const char *resources, const char *python) {
     return command;
 }
 
-static int worker_new(Channel *channel, const char *resources, Reason *why) {
-    char text[256], *python = interpreter(resources, why);
-    if (!python) return 0;
-    HANDLE ends[3];
-    wchar_t *command = command_line(resources, python), *program = wide(python);
-    channel->job = job_new();
-    channel->moved = CreateEventW(NULL, TRUE, FALSE, NULL);
-    channel->requests = pipe_new(PIPE_ACCESS_OUTBOUND, &ends[0]);
-    channel->answers = pipe_new(PIPE_ACCESS_INBOUND, &ends[1]);
-    channel->complaints = ends[2] = scratch_new();
-    int started = command && program && channel->job && channel->moved && spawn(channel, program, command, ends);
-    if (!started)
-        snprintf(why->text, sizeof why->text, "'%s' cannot be run (%s). %s", python, meaning(GetLastError(), text),
-                 PYTHON_HINT);
-    SetHandleInformation(channel->complaints, HANDLE_FLAG_INHERIT, 0);
-    close_handle(ends[0]); /* the worker's alone from now on, so that a pipe breaks with the worker */
-    close_handle(ends[1]);
-    free(program);
-    free(command);
-    free(python);
-    return started;
-}
-
 /* messages */
 
 static DWORD milliseconds_left(ULONGLONG end) {
@@ -250,12 +227,24 @@ static void quote(HANDLE complaints, Reason *why) {
     *to = 0;
 }
 
+/* Read a message of at most `most` bytes into the room. */
+static enum outcome receive(Channel *channel, size_t *size, size_t most, ULONGLONG end) {
+    uint64_t length = 0;
+    enum outcome outcome = move(channel, channel->answers, &length, sizeof length, end);
+    if (outcome != DONE) return outcome;
+    if (length > most || !channel_room(channel, (size_t)length)) return TOO_LONG;
+    *size = (size_t)length;
+    return move(channel, channel->answers, channel->room + 1, *size, end);
+}
+
 /* Say why, and see to it that it is so. */
 static int lost_because(Channel *channel, enum outcome outcome, double limit, Reason *why) {
     DWORD code = 0;
     if (outcome == LATE)
         snprintf(why->text, sizeof why->text,
                  "There was no answer within %g s, so it was killed. TRIBOFMU_TIMEOUT sets the limit.", limit);
+    else if (outcome == TOO_LONG)
+        snprintf(why->text, sizeof why->text, "There is no room for its answer, so it was killed.");
     else if (!WaitForSingleObject(channel->process, END_LIMIT) && GetExitCodeProcess(channel->process, &code))
         snprintf(why->text, sizeof why->text, "It ended with exit code %lu (0x%lX).", code, code);
     else
@@ -265,14 +254,59 @@ static int lost_because(Channel *channel, enum outcome outcome, double limit, Re
     return 0;
 }
 
+/* Wait for "R", or for "E" and the reason. */
+static int ready(Channel *channel, const char *python, ULONGLONG end, Reason *why) {
+    size_t size = 0;
+    enum outcome outcome = receive(channel, &size, sizeof why->text / 2, end);
+    const char *text = (const char *)channel_answer(channel);
+    if (outcome == DONE && size && *text == 'R') return 1;
+    if (outcome == DONE && size && *text == 'E')
+        snprintf(why->text, sizeof why->text, "%.*s\nIt was run by '%s'. %s", (int)size - 1, text + 1, python,
+                 PYTHON_HINT);
+    else {
+        snprintf(why->text, sizeof why->text, "'%s' %s. %s", python,
+                 outcome == LATE ? "was not ready in time" : "ended before it was ready", PYTHON_HINT);
+        quote(channel->complaints, why);
+    }
+    return 0;
+}
+
+/* channels */
+
+static int worker_new(Channel *channel, const char *resources, ULONGLONG end, Reason *why) {
+    char text[256], *python = interpreter(resources, why);
+    if (!python) return 0;
+    HANDLE ends[3];
+    wchar_t *command = command_line(resources, python), *program = wide(python);
+    channel->job = job_new();
+    channel->moved = CreateEventW(NULL, TRUE, FALSE, NULL);
+    channel->requests = pipe_new(PIPE_ACCESS_OUTBOUND, &ends[0]);
+    channel->answers = pipe_new(PIPE_ACCESS_INBOUND, &ends[1]);
+    channel->complaints = ends[2] = scratch_new();
+    int started = command && program && channel->job && channel->moved && spawn(channel, program, command, ends);
+    if (!started)
+        snprintf(why->text, sizeof why->text, "'%s' cannot be run (%s). %s", python, meaning(GetLastError(), text),
+                 PYTHON_HINT);
+    SetHandleInformation(channel->complaints, HANDLE_FLAG_INHERIT, 0);
+    close_handle(ends[0]); /* the worker's alone from now on, so that a pipe breaks with the worker */
+    close_handle(ends[1]);
+    if (started) started = ready(channel, python, end, why);
+    free(program);
+    free(command);
+    free(python);
+    return started;
+}
+
+static ULONGLONG end_of(double limit) { return limit > 0.0 ? GetTickCount64() + (ULONGLONG)(limit * 1000.0) : 0; }
+
 Channel *channel_open(const char *resources, const void *message, size_t *size, double limit, Reason *why) {
     Channel *channel = calloc(1, sizeof *channel);
     unsigned char *room = channel ? channel_room(channel, *size) : NULL;
-    if (room) {
+    snprintf(why->text, sizeof why->text, "There is no memory for its messages.");
+    if (room && worker_new(channel, resources, end_of(limit), why) && (room = channel_room(channel, *size)) != NULL) {
         memcpy(room, message, *size);
-        if (worker_new(channel, resources, why) && channel_call(channel, size, limit, why)) return channel;
-    } else
-        snprintf(why->text, sizeof why->text, "There is no memory for its messages.");
+        if (channel_call(channel, size, limit, why)) return channel;
+    }
     if (channel) channel_close(channel, NULL, 0);
     return NULL;
 }
@@ -289,20 +323,11 @@ unsigned char *channel_room(Channel *channel, size_t size) {
 }
 
 int channel_call(Channel *channel, size_t *size, double limit, Reason *why) {
-    ULONGLONG end = limit > 0.0 ? GetTickCount64() + (ULONGLONG)(limit * 1000.0) : 0;
-    uint64_t length = *size;
-    channel->room[0] = length;
-    enum outcome outcome = move(channel, channel->requests, channel->room, sizeof length + *size, end);
-    if (outcome == DONE) outcome = move(channel, channel->answers, &length, sizeof length, end);
-    if (outcome == DONE && (length > PTRDIFF_MAX / 4 || !channel_room(channel, (size_t)length))) {
-        snprintf(why->text, sizeof why->text, "There is no memory for its answer of %llu bytes.",
-                 (unsigned long long)length);
-        return 0;
-    }
-    if (outcome == DONE) outcome = move(channel, channel->answers, channel->room + 1, (size_t)length, end);
-    if (outcome != DONE) return lost_because(channel, outcome, limit, why);
-    *size = (size_t)length;
-    return 1;
+    ULONGLONG end = end_of(limit);
+    channel->room[0] = *size;
+    enum outcome outcome = move(channel, channel->requests, channel->room, sizeof *channel->room + *size, end);
+    if (outcome == DONE) outcome = receive(channel, size, PTRDIFF_MAX / 4, end);
+    return outcome == DONE || lost_because(channel, outcome, limit, why);
 }
 
 const unsigned char *channel_answer(const Channel *channel) { return (unsigned char *)(channel->room + 1); }
