@@ -12,6 +12,8 @@ from typing import Any, Literal
 Role = Literal["input", "output", "diagnostic"]
 Kind = Literal["Real", "Integer", "Boolean"]
 
+LEVELS = ("regression", "deterministic")  # film models by rising fidelity: 1, 2
+
 
 @dataclass(frozen=True)
 class Quantity:
@@ -28,7 +30,7 @@ class Quantity:
     display: str = ""  # the unit people read, convertible to `unit`
     kind: Kind = "Real"
     relative: bool = False  # a temperature difference, not a temperature
-    levels: tuple[str, ...] = ("deterministic", "regression")  # film models that can tell it; others leave it zero
+    levels: tuple[str, ...] = LEVELS  # film models that can tell it; others leave it zero
 
 
 def _pair(name: str, symbol: str, unit: str, text: str, **rest: Any) -> tuple[Quantity, Quantity]:
@@ -82,6 +84,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     *_pair("heat_flow", "Q", "W", "heat that the contact puts into the body", nominal=1.0),
     Quantity("approach", "delta", "m", "approach of the bodies from first touching of the undeformed, smooth shapes", nominal=1e-6, display="um"),
     Quantity("valid", "", "", "false: the last input could not be used; state and outputs stand as they were", kind="Boolean"),
+    Quantity("fidelity_used", "", "", "film model that gave the outputs: 1 regression, 2 deterministic, 0 none yet", kind="Integer", minimum=0, maximum=2),
     Quantity("range_flags", "", "", "sum of the RangeFlag values raised (see RangeFlag)", kind="Integer", minimum=0),
     Quantity("iterations", "", "", "film iterations in the last step", kind="Integer", minimum=0, levels=_FIELDS),
     Quantity("suggested_step", "dt", "s", "time until the stored contact is due to be solved again", nominal=60.0, minimum=0.0),
@@ -106,6 +109,8 @@ OUTPUTS: tuple[Quantity, ...] = (
 )
 
 # fmt: on
+
+OF_CALLER = {"valid", "fidelity_used"}  # outputs that the core leaves to its caller, who chooses what is solved and how
 
 TABLE: dict[str, Quantity] = {q.name: q for q in (*INPUTS, *OUTPUTS)}
 

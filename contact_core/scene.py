@@ -26,6 +26,9 @@ from .quantities import TABLE, input_parameter, out_of_range, parameter
 from .reading import build, did_you_mean, override, read_table, unbuild
 from .reference import Hertz, hertz_point
 
+_SEEDS = 2**31  # of a surface: what FMI's integers can tell apart
+_SEED_STEP = 1_327_217_885  # the odd number nearest to _SEEDS over the golden ratio
+
 
 @dataclass(frozen=True)
 class Geometry:
@@ -52,7 +55,7 @@ class Surface:
 
     rq: float = parameter("m", "rms roughness", least=0.0, most=1e-4)
     correlation_length: float = parameter("m", "correlation length", above=0.0, most=1.0, shapes_arrays=True)
-    seed: int = parameter("", "number of the realisation", least=0, most=2**31 - 1)
+    seed: int = parameter("", "number of the realisation", least=0, most=_SEEDS - 1)
 
 
 @dataclass(frozen=True)
@@ -262,6 +265,23 @@ class Scene:
         if level == self.film.name:
             return self
         return replace(self, film=films[level](**{name: getattr(self.film, name) for name in shared}))
+
+    def realisation(self, number: int) -> "Scene":
+        """The scene with other surfaces of the same statistics; 0: its own. Raises SceneError for a negative number.
+
+        Both bodies stay independent of each other, as two bodies are with any seeds. The seeds step by 2^31 over the
+        golden ratio, modulo 2^31: a surface is the same at no two numbers, and among the first 10,000 it is none that a
+        seed changed by less than 100,000 gives.
+        """
+        if not 0 <= number < _SEEDS:
+            raise SceneError(f"seed = {number} must be at least 0 and at most {_SEEDS - 1}.")
+        if number == 0:
+            return self
+        first, second = (
+            replace(surface, seed=(surface.seed + number * _SEED_STEP) % _SEEDS)
+            for surface in (self.surface_1, self.surface_2)
+        )
+        return replace(self, surface_1=first, surface_2=second)
 
     def hertz(self, load: float) -> Hertz:
         """Hertz's contact of the smooth, dry bodies at a load [N] above zero."""

@@ -46,6 +46,7 @@ class RangeFlag(IntFlag):
     SLOW_BODY = 128, "the slower body shows a block only part of its track: its film and wear are uneven along it"
     STIFF_WEAR = 256, "blocks are longer than wear stays stable for: fine roughness and A_c are less sure"
     OUTSIDE_FIT = 512, "outside the points to which the curves of the fast level were fitted"
+    OTHER_LEVEL = 1024, "outputs that only the deterministic level can tell stand as it last left them, or at zero"
 
 
 @dataclass(frozen=True)

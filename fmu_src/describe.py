@@ -12,6 +12,7 @@ from contact_core.film import Deterministic
 from contact_core.scene import Scene
 
 from .resources import MODEL, Flavour, guid
+from .slave import LOG_CATEGORIES
 from .variables import Value, Variable, variables
 
 _CAPABILITIES = {
@@ -52,7 +53,7 @@ def model_description(scene: Scene, flavour: Flavour) -> bytes:
     )
     _units(root, table)
     categories = ET.SubElement(root, "LogCategories")
-    for name, text in pythonfmu.Fmi2Slave.log_categories.items():
+    for name, text in LOG_CATEGORIES.items():
         ET.SubElement(categories, "Category", {"name": name, "description": text})
     experiment = {"startTime": 0.0, "stopTime": scene.operation.duration, "stepSize": scene.operation.interval}
     if isinstance(scene.film, Deterministic):
@@ -106,13 +107,10 @@ def _scalar_variable(reference: int, variable: Variable) -> ET.Element:
         "valueReference": str(reference),
         "description": variable.text,
         "causality": variable.causality,
+        "variability": variable.variability,
     }
-    if variable.causality == "parameter":
-        attributes |= {"variability": "fixed", "initial": "exact"}
-    else:
-        attributes["variability"] = "continuous" if variable.kind == "Real" else "discrete"
-    if variable.causality == "output":
-        attributes["initial"] = "calculated"
+    if variable.causality != "input":  # of which FMI knows only one kind
+        attributes["initial"] = "exact" if variable.causality == "parameter" else "calculated"
     element = ET.Element("ScalarVariable", attributes)
     typed = ET.SubElement(element, variable.kind)
     if variable.kind == "Real":

@@ -3,13 +3,15 @@
 An exception that reaches pythonfmu's binary can end the host's process, and its only other answer, Discard,
 ends a simulation without a word. So every callback returns OK; what could not be used is logged, `valid`
 turns false, and state and outputs stand until the next step that can be computed.
+
+A message has one of `LOG_CATEGORIES`. pythonfmu's binary hands it on if the host has switched logging on and asked
+for its category, or for none.
 """
 
 import math
 import sys
 import traceback
 from collections.abc import Callable, Sequence
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -21,20 +23,39 @@ from contact_core import (
     ContactState,
     ConvergenceError,
     OperatingPoint,
-    Scene,
+    RangeFlag,
     StateError,
     advance,
     initial_state,
 )
+from contact_core.quantities import LEVELS, OF_CALLER
 from contact_core.scene import with_values
 
 from . import loader, resources
-from .snapshot import Phase, Snapshot
-from .variables import INITIAL_STATE, ZERO, Causality, Kind, Value, variables
+from .snapshot import Phase, Scenes, Snapshot, check_owner
+from .variables import FIDELITY, INITIAL_STATE, SEED, SPECIAL, ZERO, Causality, Kind, Value, variables
+
+LOG_CATEGORIES = {
+    "logStatusWarning": "calls that FMI does not allow, and the user's interrupt",
+    "logStatusError": "unexpected errors, with their traceback",
+    "logValidity": "inputs, parameters, steps and states that cannot be used; range flags when they appear",
+    "logSolver": "contacts without a solution, and solutions that missed their tolerance or were replaced",
+}
+_OF_SOLVER = RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK
+_OTHER_LEVEL = int(RangeFlag.OTHER_LEVEL)
+
+
+class CallError(ContactError):
+    """A call that FMI does not allow."""
 
 
 class ContactSlave(Fmi2Slave):
-    """One contact: its scene with the parameters, its state, and all variables by value reference."""
+    """One contact: its scene with the parameters, its state, and all variables by value reference.
+
+    `values` are theirs, `layout` has kind and causality of each; both are to be read only. The list stays the same one.
+    """
+
+    log_categories = LOG_CATEGORIES
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -47,12 +68,28 @@ class ContactSlave(Fmi2Slave):
             raise
         self._variables = variables(self._design)
         self._references = {v.name: vr for vr, v in enumerate(self._variables)}
-        self._values: list[Value] = [v.start for v in self._variables]
-        self._scene: Scene | None = None
+        self.values: list[Value] = [v.start for v in self._variables]
+        self.layout = tuple((v.kind, v.causality) for v in self._variables)
+        self._inputs = [(v.name, vr) for vr, v in enumerate(self._variables) if v.causality == "input"]
+        self._outputs = {level: self._told(level) for level in LEVELS}
+        self._scenes: Scenes | None = None
         self._state: ContactState | None = None
         self._phase = Phase.NEW
         self._fault = "its initialisation has not ended."
         self._interrupted = False
+
+    def _told(self, level: str) -> list[tuple[str, int, type]]:
+        """Name, value reference and type of the outputs that the core fills at a level."""
+        return [
+            (v.name, vr, type(v.start))
+            for vr, v in enumerate(self._variables)
+            if v.causality == "output" and v.name not in OF_CALLER and level in v.levels
+        ]
+
+    @property
+    def held(self) -> bool:
+        """Whether the outputs stand until the next step, whatever is set before it."""
+        return self._phase is Phase.STEPPING
 
     # initialisation and steps
 
@@ -75,26 +112,34 @@ class ContactSlave(Fmi2Slave):
     def _initialise(self) -> None:
         """Make scene, state and outputs from the parameters and inputs as they are now."""
         self._phase = Phase.SETTLED
-        self._scene = self._state = None
+        self._scenes = self._state = None
         self._fault = "an unexpected error was logged at initialisation."
         try:
-            scene = self._rebuilt(self._values)
-            state = self._first_state(scene)
+            scenes = self._rebuilt(self.values)
+            state = self._first_state(scenes)
         except ContactError as error:
             self._fault = str(error)
             raise
-        self._scene, self._state = scene, state
+        self._scenes, self._state = scenes, state
         self._advance(0.0)
+        told = self._outputs[LEVELS[int(self._value(FIDELITY)) - 1]]
+        for output in self._outputs[LEVELS[-1]]:  # no trace of what was evaluated earlier in the initialisation mode
+            if output not in told:
+                _, reference, kind = output
+                self.values[reference] = kind(0)
 
-    def _rebuilt(self, values: Sequence[Value]) -> Scene:
-        """The scene with the parameters in `values`."""
-        parameters = self._named("parameter", values)
-        return with_values(self._design, {name: x for name, x in parameters.items() if name != INITIAL_STATE})
+    def _rebuilt(self, values: Sequence[Value]) -> Scenes:
+        """The scene with the parameters in `values`, at each level."""
+        pairs = zip(self._variables, values, strict=True)
+        parameters: dict[str, Any] = {v.name: value for v, value in pairs if v.causality == "parameter"}
+        numbers = {name: value for name, value in parameters.items() if name not in SPECIAL}
+        scene = with_values(self._design, numbers).realisation(parameters[SEED])
+        return tuple(scene.at_level(level) for level in LEVELS)
 
-    def _first_state(self, scene: Scene) -> ContactState:
-        path = self._named("parameter", self._values)[INITIAL_STATE]
+    def _first_state(self, scenes: Scenes) -> ContactState:
+        path = str(self._value(INITIAL_STATE))
         if not path:
-            return initial_state(scene)
+            return initial_state(scenes[0])
         try:
             data = Path(path).read_bytes()
         except OSError as error:
@@ -102,28 +147,38 @@ class ContactSlave(Fmi2Slave):
                 f"{INITIAL_STATE} = '{path}' cannot be read: {error.strerror}. "
                 "Give the path of a stored state, or leave it empty."
             ) from None
-        return ContactState.from_bytes(data, scene)
+        return ContactState.from_bytes(data, scenes[0])
 
     def _advance(self, step_size: float) -> None:
-        if self._scene is None or self._state is None:
+        if self._scenes is None or self._state is None:
             raise ContactError(f"The contact is not set up: {self._fault}")
-        point = OperatingPoint(**self._named("input", self._values))
-        state, outputs = advance(self._scene, point, self._state, step_size)
-        results: dict[str, float] = {name: x for name, x in asdict(outputs).items() if name in self._references}
-        broken = [name for name, value in results.items() if not math.isfinite(value)]
+        fidelity = int(self._value(FIDELITY))
+        if not 1 <= fidelity <= len(LEVELS):
+            known = " or ".join(f"{i} ({level})" for i, level in enumerate(LEVELS, 1))
+            raise ContactError(f"{FIDELITY} = {fidelity} must be {known}.")
+        values: dict[str, Any] = {name: self.values[reference] for name, reference in self._inputs}
+        point = OperatingPoint(**values)
+        state, outputs = advance(self._scenes[fidelity - 1], point, self._state, step_size)
+        told = self._outputs[LEVELS[fidelity - 1]]
+        broken = [name for name, _, _ in told if not math.isfinite(getattr(outputs, name))]
         if broken:
             raise ConvergenceError(
                 f"No finite {', '.join(broken)} came out at {point}. Change the inputs, or go back to an earlier state."
             )
+        flags = outputs.range_flags | (_OTHER_LEVEL if len(told) < len(self._outputs[LEVELS[-1]]) else 0)
+        appeared = flags & ~int(self._value("range_flags"))
+        results = [(reference, kind(getattr(outputs, name))) for name, reference, kind in told]
         self._state = state
-        for name, value in results.items():
-            reference = self._references[name]
-            self._values[reference] = type(self._variables[reference].start)(value)
-        self._values[self._references["valid"]] = True
+        for reference, value in results:
+            self.values[reference] = value
+        for name, value in (("range_flags", flags), ("fidelity_used", fidelity), ("valid", True)):
+            self.values[self._references[name]] = value
+        for flag in RangeFlag(appeared) if appeared else ():
+            category = "logSolver" if flag in _OF_SOLVER else "logValidity"
+            self._tell(f"range_flags: {flag.text}.", Fmi2Status.ok, category)
 
-    def _named(self, causality: Causality, values: Sequence[Value]) -> dict[str, Any]:
-        pairs = zip(self._variables, values, strict=True)
-        return {variable.name: value for variable, value in pairs if variable.causality == causality}
+    def _value(self, name: str) -> Value:
+        return self.values[self._references[name]]
 
     # the guard
 
@@ -131,18 +186,26 @@ class ContactSlave(Fmi2Slave):
         """Run `action`; whatever it raises becomes one log entry and valid = false."""
         try:
             action(*arguments)
+        except CallError as error:
+            self._refuse(str(error), Fmi2Status.warning, "logStatusWarning")
+        except ConvergenceError as error:
+            self._refuse(str(error), Fmi2Status.warning, "logSolver")
         except ContactError as error:
-            self._refuse(str(error), Fmi2Status.warning)
+            self._refuse(str(error), Fmi2Status.warning, "logValidity")
         except KeyboardInterrupt:
             self._interrupted = True
-            self._refuse("Interrupted by the user.", Fmi2Status.warning)
-        except Exception:
-            self._refuse(f"Unexpected error in the contact. {traceback.format_exc()}", Fmi2Status.error)
+            self._refuse("Interrupted by the user.", Fmi2Status.warning, "logStatusWarning")
+        except (Exception, SystemExit):
+            reason = f"Unexpected error in the contact. {traceback.format_exc()}"
+            self._refuse(reason, Fmi2Status.error, "logStatusError")
 
-    def _refuse(self, reason: str, status: Fmi2Status) -> None:
-        self._values[self._references["valid"]] = False
+    def _refuse(self, reason: str, status: Fmi2Status, category: str) -> None:
+        self.values[self._references["valid"]] = False
+        self._tell(reason, status, category)
+
+    def _tell(self, message: str, status: Fmi2Status, category: str) -> None:
         # the host reads the message as a printf format, the binary as strict UTF-8
-        self.log(reason.replace("%", "%%").encode("utf-8", "backslashreplace").decode(), status)
+        self.log(message.replace("%", "%%").encode("utf-8", "backslashreplace").decode(), status, category)
 
     # variables by value reference
 
@@ -153,8 +216,9 @@ class ContactSlave(Fmi2Slave):
         for vr in references:
             known = self._causality(vr) is not None and self._variables[vr].kind == kind
             if not known:
-                self._refuse(f"There is no {kind} variable with value reference {vr}.", Fmi2Status.warning)
-            found.append(self._values[vr] if known else ZERO[kind])
+                reason = f"There is no {kind} variable with value reference {vr}."
+                self._refuse(reason, Fmi2Status.warning, "logStatusWarning")
+            found.append(self.values[vr] if known else ZERO[kind])
         return found
 
     def _set(self, references: list[int], values: Sequence[Value], kind: Kind) -> None:
@@ -164,13 +228,13 @@ class ContactSlave(Fmi2Slave):
     def _store(self, reference: int, value: Value, kind: Kind) -> None:
         causality = self._causality(reference)
         if causality is None or self._variables[reference].kind != kind:
-            raise ContactError(f"There is no {kind} variable with value reference {reference}.")
+            raise CallError(f"There is no {kind} variable with value reference {reference}.")
         name = self._variables[reference].name
         if causality == "output":
-            raise ContactError(f"{name} is an output and cannot be set.")
-        if causality == "parameter" and self._phase is Phase.STEPPING:
-            raise ContactError(f"{name} is a parameter: set it before initialisation ends, or reset the FMU first.")
-        self._values[reference] = value
+            raise CallError(f"{name} is an output and cannot be set.")
+        if self.held and self._variables[reference].variability == "fixed":
+            raise CallError(f"{name} is a parameter: set it before initialisation ends, or reset the FMU first.")
+        self.values[reference] = value
         if self._phase is Phase.SETTLED:
             self._phase = Phase.UNSETTLED
 
@@ -212,18 +276,19 @@ class ContactSlave(Fmi2Slave):
     # state: a handle is a Snapshot, or its bytes until they are set (the binary decodes without the instance)
 
     def _get_fmu_state(self) -> Snapshot:
-        return Snapshot(self._module, self._phase, self._fault, tuple(self._values), self._scene, self._state)
+        return Snapshot(self._module, self._phase, self._fault, tuple(self.values), self._scenes, self._state)
 
     def _set_fmu_state(self, handle: Snapshot | bytes) -> None:
         self._guard(self._restore, handle)
 
     def _restore(self, handle: Snapshot | bytes) -> None:
-        snapshot = Snapshot.from_bytes(handle, self._rebuilt) if isinstance(handle, bytes) else handle
-        if snapshot.module != self._module:
-            raise StateError("The FMU state belongs to another FMU. Use one that an FMU of the same scene has given.")
-        self._values = list(snapshot.values)
-        self._scene, self._state = snapshot.scene, snapshot.state
-        self._phase, self._fault = snapshot.phase, snapshot.fault
+        if isinstance(handle, bytes):
+            starts = tuple(v.start for v in self._variables)
+            handle = Snapshot.from_bytes(handle, self._module, starts, self._rebuilt)
+        check_owner(handle.module, self._module)
+        self.values[:] = handle.values
+        self._scenes, self._state = handle.scenes, handle.state
+        self._phase, self._fault = handle.phase, handle.fault
 
     @staticmethod
     def _fmu_state_to_bytes(handle: Snapshot | bytes) -> bytes:

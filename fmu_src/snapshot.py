@@ -1,5 +1,6 @@
 """The FMU's whole state: a frozen record as FMI's handle, and as bytes."""
 
+import hashlib
 import json
 import struct
 from collections.abc import Callable
@@ -13,7 +14,13 @@ from contact_core.state import ContactState
 
 from .variables import Value
 
-_MAGIC = b"tribofmu FMU 1\n"
+_MAGIC = b"tribofmu FMU 2\n"
+_DIGEST = 16  # bytes
+_LENGTH = struct.Struct("<I")
+_SIGNED = 32  # first bytes of a contact state: they hold the checksum of its rest
+
+Values = tuple[Value, ...]
+Scenes = tuple[Scene, ...]  # one contact at each of quantities.LEVELS
 
 
 class Phase(StrEnum):
@@ -32,37 +39,63 @@ class Snapshot:
     module: str  # fingerprint of the FMU it belongs to
     phase: Phase
     fault: str  # why the contact could not be set up; for `state` None
-    values: tuple[Value, ...]  # by value reference
-    scene: Scene | None  # with the parameters of `values`
+    values: Values  # by value reference
+    scenes: Scenes | None  # with the parameters of `values`
     state: ContactState | None
 
     @cached_property
     def data(self) -> bytes:
-        """Magic, length of a JSON header, header, contact state. The same state, the same bytes."""
+        """Magic, digest, length of a JSON header, header, contact state. The same state, the same bytes."""
         header = json.dumps(
             {"module": self.module, "phase": self.phase, "fault": self.fault, "values": self.values}
         ).encode()
         contact = b"" if self.state is None else self.state.to_bytes()
-        return b"".join([_MAGIC, struct.pack("<I", len(header)), header, contact])
+        return b"".join([_MAGIC, _digest(header, contact), _LENGTH.pack(len(header)), header, contact])
 
     @staticmethod
-    def from_bytes(data: bytes, rebuild: Callable[[tuple[Value, ...]], Scene]) -> "Snapshot":
-        """Restore what `data` wrote, bit for bit; `rebuild` makes the scene from the values.
+    def from_bytes(data: bytes, module: str, starts: Values, rebuild: Callable[[Values], Scenes]) -> "Snapshot":
+        """Restore what `data` wrote, bit for bit; `rebuild` makes the scenes from the values, which are like `starts`.
 
-        Raises StateError if damaged or of another scene.
+        Raises StateError if damaged or of another FMU.
         """
-        start = len(_MAGIC) + 4
         if data[: len(_MAGIC)] != _MAGIC:
-            raise StateError("The stored FMU state is not one of tribofmu's. Give one that this FMU has serialised.")
+            raise StateError(
+                "The stored FMU state is not one that this version of tribofmu writes. Give one that this FMU has "
+                "serialised."
+            )
+        header, contact = _parts(data)
         try:
-            length = struct.unpack("<I", data[len(_MAGIC) : start])[0]
-            header = json.loads(data[start : start + length])
-            values, phase = tuple(header["values"]), Phase(header["phase"])
-            module, fault = header["module"], header["fault"]
-        except (ValueError, KeyError, TypeError, struct.error) as error:
+            table = json.loads(header)
+            phase, fault, values = Phase(table["phase"]), str(table["fault"]), tuple(table["values"])
+            owner = table["module"]
+        except (ValueError, KeyError, TypeError, RecursionError) as error:
             raise StateError(f"The stored FMU state is damaged ({error}). Use an earlier one.") from None
-        contact = data[start + length :]
+        check_owner(owner, module)
+        if [type(value) for value in values] != [type(start) for start in starts]:
+            raise StateError("The stored FMU state has other variables than this FMU. Give one that it has serialised.")
         if not contact:
             return Snapshot(module, phase, fault, values, None, None)
-        scene = rebuild(values)
-        return Snapshot(module, phase, fault, values, scene, ContactState.from_bytes(contact, scene))
+        scenes = rebuild(values)
+        return Snapshot(module, phase, fault, values, scenes, ContactState.from_bytes(contact, scenes[0]))
+
+
+def check_owner(owner: str, module: str) -> None:
+    """Raise StateError if the state of the FMU `owner` is to be that of another one."""
+    if owner != module:
+        raise StateError("The FMU state belongs to another FMU. Use one that an FMU of the same scene has given.")
+
+
+def _parts(data: bytes) -> tuple[bytes, bytes]:
+    """Header and contact state, if they are as they were written."""
+    start = len(_MAGIC) + _DIGEST + _LENGTH.size
+    if len(data) >= start:
+        (length,) = _LENGTH.unpack_from(data, start - _LENGTH.size)
+        header, contact = data[start : start + length], data[start + length :]
+        if len(header) == length and data[len(_MAGIC) : start - _LENGTH.size] == _digest(header, contact):
+            return header, contact
+    raise StateError("The stored FMU state is damaged: it was cut or changed. Use an earlier one.")
+
+
+def _digest(header: bytes, contact: bytes) -> bytes:
+    """Fingerprint of the header and of the checksum that covers the contact state: its megabytes are read once."""
+    return hashlib.blake2b(_LENGTH.pack(len(header)) + header + contact[:_SIGNED], digest_size=_DIGEST).digest()

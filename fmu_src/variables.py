@@ -4,14 +4,16 @@ import math
 from dataclasses import Field, dataclass
 from typing import Any, Literal
 
-from contact_core.quantities import INPUTS, OUTPUTS, Quantity
+from contact_core.quantities import INPUTS, LEVELS, OUTPUTS, Quantity
 from contact_core.scene import Scene, tunables
 
 Kind = Literal["Real", "Integer", "Boolean", "String"]
 Causality = Literal["input", "parameter", "output"]
+Variability = Literal["continuous", "discrete", "fixed", "tunable"]
 Value = float | int | bool | str
 
-INITIAL_STATE = "initial_state"
+FIDELITY, SEED, INITIAL_STATE = "fidelity", "seed", "initial_state"
+SPECIAL = (FIDELITY, SEED, INITIAL_STATE)  # parameters that are no numbers of the scene
 ZERO: dict[Kind, Value] = {"Real": 0.0, "Integer": 0, "Boolean": False, "String": ""}
 
 
@@ -30,6 +32,14 @@ class Variable:
     minimum: float = -math.inf
     maximum: float = math.inf
     relative: bool = False
+    levels: tuple[str, ...] = LEVELS  # that fill an output
+
+    @property
+    def variability(self) -> Variability:
+        """As FMI says it; what is not Real has no derivative."""
+        if self.causality == "parameter":
+            return "tunable" if self.name == FIDELITY else "fixed"
+        return "continuous" if self.kind == "Real" else "discrete"
 
 
 def variables(scene: Scene) -> tuple[Variable, ...]:
@@ -41,6 +51,24 @@ def variables(scene: Scene) -> tuple[Variable, ...]:
         *(_quantity(q, "input", _start(scene, q.name)) for q in INPUTS),
         *(_parameter(name, value, field) for name, (value, field) in tunables(scene).items()),
         Variable(
+            FIDELITY,
+            "film model from the next step on: 1 regression (means), 2 deterministic (fields)",
+            "Integer",
+            "parameter",
+            fidelity_of(scene.film.name),
+            minimum=1,
+            maximum=len(LEVELS),
+        ),
+        Variable(
+            SEED,
+            "number of the realisation of both rough surfaces; 0: those of surface_1.seed and surface_2.seed",
+            "Integer",
+            "parameter",
+            0,
+            minimum=0,
+            maximum=2**31 - 1,
+        ),
+        Variable(
             INITIAL_STATE,
             "file with a stored contact state (ContactState.to_bytes) to start from; empty: fresh surfaces",
             "String",
@@ -51,6 +79,11 @@ def variables(scene: Scene) -> tuple[Variable, ...]:
     )
 
 
+def fidelity_of(level: str) -> int:
+    """The number that FMI has for a level."""
+    return LEVELS.index(level) + 1
+
+
 def _start(scene: Scene, name: str) -> float:
     """Start value of an input; a body's temperature is the oil's if the scene says nothing else."""
     value = getattr(scene.operation, name)
@@ -58,9 +91,19 @@ def _start(scene: Scene, name: str) -> float:
 
 
 def _quantity(q: Quantity, causality: Causality, start: Value) -> Variable:
-    nominal = q.nominal if q.kind == "Real" else None
     return Variable(
-        q.name, q.text, q.kind, causality, start, q.unit, q.display, nominal, q.minimum, q.maximum, q.relative
+        q.name,
+        q.text,
+        q.kind,
+        causality,
+        start,
+        unit=q.unit,
+        display=q.display,
+        nominal=q.nominal if q.kind == "Real" else None,
+        minimum=q.minimum,
+        maximum=q.maximum,
+        relative=q.relative,
+        levels=q.levels,
     )
 
 
@@ -68,13 +111,20 @@ def _parameter(name: str, value: float | int, field: "Field[Any]") -> Variable:
     """A number of the scene. FMI knows closed ranges only: the bound of `above` is in, refused when used."""
     above, least, most = (field.metadata[key] for key in ("above", "least", "most"))
     low = above if above is not None else least if least is not None else -math.inf
+    kind: Kind = "Integer" if isinstance(value, int) else "Real"
     return Variable(
         name,
         field.metadata["text"],
-        "Integer" if isinstance(value, int) else "Real",
+        kind,
         "parameter",
         value,
         unit=field.metadata["unit"],
+        nominal=_magnitude(value, most) if kind == "Real" else None,
         minimum=low,
         maximum=math.inf if most is None else most,
     )
+
+
+def _magnitude(value: float, most: float | None) -> float:
+    """Nominal of a parameter: its value; of one that is switched off by zero, a thousandth of the most it may be."""
+    return abs(value) or 1e-3 * (1e3 if most is None else most)

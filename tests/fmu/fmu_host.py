@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import fmpy
+from fmpy.fmi2 import fmi2OK
 from fmpy.simulation import instantiate_fmu
 
 import contact_core
@@ -24,13 +25,16 @@ class Host:
 
     def __init__(self, folder: Path, logging: bool = True):
         description = fmpy.read_model_description(str(folder))
-        self.log: list[tuple[int, str]] = []
+        self.log: list[tuple[int, str]] = []  # status and text of what went wrong
+        self.entries: list[tuple[int, str, str]] = []  # status, category and text of everything
         self.variables = {v.name: v for v in description.modelVariables}
         self.fmu = instantiate_fmu(str(folder), description, debug_logging=logging, logger=self._logged)
         self.time = 0.0
 
     def _logged(self, component, instance, status, category, message) -> None:
-        self.log.append((status, message.decode()))
+        self.entries.append((status, (category or b"").decode(), message.decode()))
+        if status != fmi2OK:
+            self.log.append((status, message.decode()))
 
     def initialise(self, **values) -> Host:
         self.fmu.setupExperiment()

@@ -7,7 +7,7 @@ import fmpy
 import pytest
 from fmpy.validation import validate_fmu
 
-from contact_core.quantities import INPUTS, OUTPUTS
+from contact_core.quantities import INPUTS, OF_CALLER, OUTPUTS
 from contact_core.scene import tunables
 from contact_core.state import Outputs
 from fmu_src import build
@@ -51,9 +51,9 @@ def test_temperature_differences_are_marked_as_relative(xml):
     assert "flash_temperature_rise" in marked
 
 
-def test_every_output_is_filled_by_the_core_or_is_valid(by_name):
+def test_every_output_is_filled_by_the_core_or_its_caller(by_name):
     outputs = {name for name, v in by_name.items() if v.causality == "output"}
-    assert outputs == {*Outputs.__dataclass_fields__, "valid"}
+    assert outputs == {*Outputs.__dataclass_fields__, *OF_CALLER}
 
 
 def test_every_tunable_of_the_scene_is_a_fixed_parameter_at_its_exact_value(by_name, scene):

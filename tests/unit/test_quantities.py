@@ -5,7 +5,7 @@ import pytest
 
 from contact_core import OperatingPoint, Outputs, Scene, units
 from contact_core.film import FILMS
-from contact_core.quantities import INPUTS, OUTPUTS, TABLE, out_of_range, parameter
+from contact_core.quantities import INPUTS, LEVELS, OF_CALLER, OUTPUTS, TABLE, out_of_range, parameter
 from contact_core.scene import tunables
 
 QUANTITIES = (*INPUTS, *OUTPUTS)
@@ -17,17 +17,17 @@ def test_every_name_is_used_once():
 
 
 def test_the_core_fills_exactly_the_outputs_of_the_table():
-    # `valid` says whether the last input could be used at all, which only the caller of the core can know
-    assert {f.name for f in fields(Outputs)} == {q.name for q in OUTPUTS} - {"valid"}
+    assert {f.name for f in fields(Outputs)} == {q.name for q in OUTPUTS} - OF_CALLER
 
 
 def test_the_outputs_have_the_kinds_of_the_table():
     kinds = {f.name: {float: "Real", int: "Integer"}[type(f.default)] for f in fields(Outputs)}
-    assert kinds == {q.name: q.kind for q in OUTPUTS if q.name != "valid"}
+    assert kinds == {q.name: q.kind for q in OUTPUTS if q.name not in OF_CALLER}
 
 
 def test_every_quantity_is_told_by_a_level_there_is():
     levels = {film.name for film in FILMS}
+    assert set(LEVELS) == levels
     assert all(q.levels and set(q.levels) <= levels for q in QUANTITIES)
     assert all("deterministic" in q.levels for q in QUANTITIES)
 

@@ -1,0 +1,436 @@
+/* A host for FMI 2.0 co-simulation FMUs that knows nothing of Python.
+ *
+ * It reads one command per line from stdin, fields separated by tabs, and answers each with a line
+ *     answer <status>                                    fmi2Status, or -1: no library, function or instance
+ * after a line for every entry that the FMU logs, and one for what the command asks for:
+ *     log <instance> <status> <category> <message>
+ *     value <value> ...                                  reals are hexadecimal
+ * F, K and S number FMUs, instances and states; R and Q are value references.
+ *
+ *     fmu F LIBRARY URI GUID      instantiate K F LOGGING     setup|enter|exit|terminate|reset|free K
+ *     set(r|i|b|s) K R VALUE ...  get(r|i|b|s) K R ...        step K T H       terminated K
+ *     save|restore|freestate K S  (de)serialize K S FILE      derivative K R Q
+ *     bench K N T H R A B Q ...   N times: set R to A or B in turn, step, get Q ...; nanoseconds of each time
+ *     cycles F N                  N times: instantiate and free
+ *     together N                  the next N commands, each in a thread of its own, all at once
+ *     fork                        a child that only waits; its process id
+ */
+#include <dlfcn.h>
+#include <pthread.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "fmi2FunctionTypes.h"
+
+#define FUNCTIONS(X) \
+    X(Instantiate) X(FreeInstance) X(SetupExperiment) X(EnterInitializationMode) X(ExitInitializationMode) \
+    X(Terminate) X(Reset) X(DoStep) X(GetBooleanStatus) X(GetDirectionalDerivative) \
+    X(SetReal) X(SetInteger) X(SetBoolean) X(SetString) X(GetReal) X(GetInteger) X(GetBoolean) X(GetString) \
+    X(GetFMUstate) X(SetFMUstate) X(FreeFMUstate) X(SerializedFMUstateSize) X(SerializeFMUstate) X(DeSerializeFMUstate)
+
+enum { FMUS = 16, INSTANCES = 256, STATES = 256, FIELDS = 4096, NONE = -1 };
+
+#define MEMBER(name) fmi2##name##TYPE *name;
+typedef struct {
+    FUNCTIONS(MEMBER)
+    char *uri, *guid;
+} Fmu;
+
+typedef struct {
+    const Fmu *fmu;
+    fmi2Component component; /* kept after `free`, so that a script can do what a careless host does */
+    fmi2CallbackFunctions callbacks;
+} Instance;
+
+static Fmu fmus[FMUS];
+static Instance instances[INSTANCES];
+static fmi2FMUstate states[STATES];
+static pthread_mutex_t printing = PTHREAD_MUTEX_INITIALIZER;
+
+/* output: what would break a line is escaped */
+
+static void print_text(const char *text)
+{
+    putchar('\t');
+    for (; text && *text; text++)
+        switch (*text) {
+        case '\\': fputs("\\\\", stdout); break;
+        case '\n': fputs("\\n", stdout); break;
+        case '\t': fputs("\\t", stdout); break;
+        case '\r': fputs("\\r", stdout); break;
+        default: putchar(*text);
+        }
+}
+
+static void logger(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category,
+                   fmi2String message, ...)
+{
+    static char text[1 << 16];
+    va_list arguments;
+    (void)name;
+    pthread_mutex_lock(&printing);
+    va_start(arguments, message);
+    vsnprintf(text, sizeof text, message, arguments);
+    va_end(arguments);
+    printf("log\t%td\t%d", (Instance *)environment - instances, status);
+    print_text(category ? category : "NULL");
+    print_text(text);
+    putchar('\n');
+    pthread_mutex_unlock(&printing);
+}
+
+/* input */
+
+static void fail(const char *what, const char *which)
+{
+    fprintf(stderr, "c_host: %s: %s\n", what, which);
+    exit(2);
+}
+
+static int slot(const char *field, int size)
+{
+    int n = atoi(field);
+    if (n < 0 || n >= size)
+        fail("no such number", field);
+    return n;
+}
+
+static Instance *instance(char **field)
+{
+    return &instances[slot(field[1], INSTANCES)];
+}
+
+static size_t references(char **field, int count, int stride, fmi2ValueReference *reference)
+{
+    size_t n = 0;
+    for (int i = 0; i + stride <= count; i += stride)
+        reference[n++] = (fmi2ValueReference)strtoul(field[i], NULL, 10);
+    return n;
+}
+
+/* life of an FMU and of an instance */
+
+static int load(char **field, int count)
+{
+    Fmu *fmu = &fmus[slot(field[1], FMUS)];
+    void *library = dlopen(field[2], RTLD_NOW | RTLD_LOCAL);
+    (void)count;
+    if (!library) {
+        printf("log\t-1\t3\tdlopen\t%s\n", dlerror());
+        return NONE;
+    }
+#define RESOLVE(name) \
+    if (!(*(void **)&fmu->name = dlsym(library, "fmi2" #name))) { \
+        printf("log\t-1\t3\tdlsym\tfmi2" #name "\n"); \
+        return NONE; \
+    }
+    FUNCTIONS(RESOLVE)
+    fmu->uri = strdup(field[3]);
+    fmu->guid = strdup(field[4]);
+    return fmi2OK;
+}
+
+static int create(Instance *host, const Fmu *fmu, int logging)
+{
+    fmi2CallbackFunctions callbacks = {logger, calloc, free, NULL, host};
+    host->fmu = fmu;
+    host->callbacks = callbacks;
+    host->component = fmu->Instantiate("contact", fmi2CoSimulation, fmu->guid, fmu->uri, &host->callbacks, 0, logging);
+    return host->component ? fmi2OK : NONE;
+}
+
+static int instantiate(char **field, int count)
+{
+    (void)count;
+    return create(instance(field), &fmus[slot(field[2], FMUS)], atoi(field[3]));
+}
+
+static int release(char **field, int count)
+{
+    (void)count;
+    instance(field)->fmu->FreeInstance(instance(field)->component);
+    return fmi2OK;
+}
+
+static int setup(char **field, int count)
+{
+    (void)count;
+    return instance(field)->fmu->SetupExperiment(instance(field)->component, 0, 0.0, 0.0, 0, 0.0);
+}
+
+#define PLAIN(name, function) \
+    static int name(char **field, int count) \
+    { \
+        (void)count; \
+        return instance(field)->fmu->function(instance(field)->component); \
+    }
+PLAIN(enter, EnterInitializationMode)
+PLAIN(leave, ExitInitializationMode)
+PLAIN(terminate, Terminate)
+PLAIN(reset, Reset)
+
+static int step(char **field, int count)
+{
+    (void)count;
+    return instance(field)->fmu->DoStep(instance(field)->component, strtod(field[2], NULL), strtod(field[3], NULL), 0);
+}
+
+static int terminated(char **field, int count)
+{
+    fmi2Boolean value = 0;
+    int status = instance(field)->fmu->GetBooleanStatus(instance(field)->component, fmi2Terminated, &value);
+    (void)count;
+    printf("value\t%d\n", value);
+    return status;
+}
+
+/* variables */
+
+#define SET(name, Type, parse) \
+    static int name(char **field, int count) \
+    { \
+        fmi2ValueReference reference[FIELDS]; \
+        fmi2##Type value[FIELDS]; \
+        size_t n = references(field + 2, count - 2, 2, reference); \
+        for (size_t i = 0; i < n; i++) \
+            value[i] = parse(field[3 + 2 * i]); \
+        return instance(field)->fmu->Set##Type(instance(field)->component, reference, n, value); \
+    }
+#define REAL(text) strtod(text, NULL)
+#define TEXT(text) (text)
+SET(set_reals, Real, REAL)
+SET(set_integers, Integer, atoi)
+SET(set_booleans, Boolean, atoi)
+SET(set_strings, String, TEXT)
+
+#define PRINT_REAL(value) printf("\t%a", value)
+#define PRINT_INTEGER(value) printf("\t%d", value)
+#define GET(name, Type, print) \
+    static int name(char **field, int count) \
+    { \
+        fmi2ValueReference reference[FIELDS]; \
+        fmi2##Type value[FIELDS] = {0}; \
+        size_t n = references(field + 2, count - 2, 1, reference); \
+        int status = instance(field)->fmu->Get##Type(instance(field)->component, reference, n, value); \
+        printf("value"); \
+        for (size_t i = 0; i < n; i++) \
+            print(value[i]); \
+        putchar('\n'); \
+        return status; \
+    }
+GET(get_reals, Real, PRINT_REAL)
+GET(get_integers, Integer, PRINT_INTEGER)
+GET(get_booleans, Boolean, PRINT_INTEGER)
+GET(get_strings, String, print_text)
+
+static int derivative(char **field, int count)
+{
+    fmi2ValueReference unknown = (fmi2ValueReference)atoi(field[2]), known = (fmi2ValueReference)atoi(field[3]);
+    fmi2Real seed = 1.0, value = 0.0;
+    int status = instance(field)->fmu->GetDirectionalDerivative(instance(field)->component, &unknown, 1, &known, 1,
+                                                                &seed, &value);
+    (void)count;
+    printf("value\t%a\n", value);
+    return status;
+}
+
+/* states */
+
+static int save(char **field, int count)
+{
+    (void)count; /* a slot in use is handed over again, as FMI allows */
+    return instance(field)->fmu->GetFMUstate(instance(field)->component, &states[slot(field[2], STATES)]);
+}
+
+static int restore(char **field, int count)
+{
+    (void)count;
+    return instance(field)->fmu->SetFMUstate(instance(field)->component, states[slot(field[2], STATES)]);
+}
+
+static int free_state(char **field, int count)
+{
+    (void)count;
+    return instance(field)->fmu->FreeFMUstate(instance(field)->component, &states[slot(field[2], STATES)]);
+}
+
+static int serialize(char **field, int count)
+{
+    Instance *host = instance(field);
+    fmi2FMUstate state = states[slot(field[2], STATES)];
+    size_t size = 0;
+    int status = host->fmu->SerializedFMUstateSize(host->component, state, &size);
+    FILE *file = fopen(field[3], "wb");
+    fmi2Byte *data = malloc(size + 1);
+    (void)count;
+    if (!file || !data)
+        fail("cannot write", field[3]);
+    if (status == fmi2OK)
+        status = host->fmu->SerializeFMUstate(host->component, state, data, size);
+    fwrite(data, 1, size, file);
+    fclose(file);
+    free(data);
+    return status;
+}
+
+static int deserialize(char **field, int count)
+{
+    Instance *host = instance(field);
+    FILE *file = fopen(field[3], "rb");
+    (void)count;
+    if (!file)
+        fail("cannot read", field[3]);
+    fseek(file, 0, SEEK_END);
+    size_t size = (size_t)ftell(file);
+    fmi2Byte *data = malloc(size + 1);
+    rewind(file);
+    if (!data || fread(data, 1, size, file) != size)
+        fail("cannot read", field[3]);
+    int status = host->fmu->DeSerializeFMUstate(host->component, data, size, &states[slot(field[2], STATES)]);
+    fclose(file);
+    free(data);
+    return status;
+}
+
+/* repetition */
+
+static int bench(char **field, int count)
+{
+    Instance *host = instance(field);
+    long n = atol(field[2]), done = 0;
+    long long *taken = calloc((size_t)n + 1, sizeof *taken);
+    double t = strtod(field[3], NULL), h = strtod(field[4], NULL);
+    fmi2ValueReference input = (fmi2ValueReference)atoi(field[5]), output[FIELDS];
+    fmi2Real value[2] = {strtod(field[6], NULL), strtod(field[7], NULL)}, result[FIELDS];
+    size_t outputs = references(field + 8, count - 8, 1, output);
+    int status = fmi2OK;
+    for (; done < n && status == fmi2OK; done++) {
+        struct timespec start, end;
+        clock_gettime(CLOCK_MONOTONIC, &start);
+        status |= host->fmu->SetReal(host->component, &input, 1, &value[done % 2]);
+        status |= host->fmu->DoStep(host->component, t + (double)done * h, h, 1);
+        status |= host->fmu->GetReal(host->component, output, outputs, result);
+        clock_gettime(CLOCK_MONOTONIC, &end);
+        taken[done] = (end.tv_sec - start.tv_sec) * 1000000000LL + end.tv_nsec - start.tv_nsec;
+    }
+    printf("value");
+    for (long i = 0; i < done; i++)
+        printf("\t%lld", taken[i]);
+    putchar('\n');
+    free(taken);
+    return status;
+}
+
+static int cycles(char **field, int count)
+{
+    Instance *host = &instances[INSTANCES - 1];
+    int status = fmi2OK;
+    (void)count;
+    for (long i = atol(field[2]); i > 0 && status == fmi2OK; i--) {
+        status = create(host, &fmus[slot(field[1], FMUS)], 0);
+        if (status == fmi2OK)
+            host->fmu->FreeInstance(host->component);
+    }
+    return status;
+}
+
+static int fork_child(char **field, int count)
+{
+    (void)field, (void)count;
+    fflush(stdout);
+    pid_t child = fork();
+    while (child == 0)
+        pause();
+    printf("value\t%d\n", (int)child);
+    return fmi2OK;
+}
+
+/* commands */
+
+typedef struct {
+    pthread_t thread;
+    char line[1 << 16];
+    int status;
+} Job;
+
+static int together(char **field, int count);
+
+static const struct {
+    const char *name;
+    int (*run)(char **field, int count);
+    int fields;
+} commands[] = {
+    {"fmu", load, 5}, {"instantiate", instantiate, 4}, {"free", release, 2},
+    {"setup", setup, 2}, {"enter", enter, 2}, {"exit", leave, 2},
+    {"terminate", terminate, 2}, {"reset", reset, 2}, {"step", step, 4}, {"terminated", terminated, 2},
+    {"setr", set_reals, 2}, {"seti", set_integers, 2}, {"setb", set_booleans, 2}, {"sets", set_strings, 2},
+    {"getr", get_reals, 2}, {"geti", get_integers, 2}, {"getb", get_booleans, 2}, {"gets", get_strings, 2},
+    {"save", save, 3}, {"restore", restore, 3}, {"freestate", free_state, 3},
+    {"serialize", serialize, 4}, {"deserialize", deserialize, 4}, {"derivative", derivative, 4},
+    {"bench", bench, 8}, {"cycles", cycles, 3}, {"together", together, 2}, {"fork", fork_child, 1},
+};
+
+static void *obey(void *argument)
+{
+    Job *job = argument;
+    char *field[FIELDS];
+    int count = 0;
+    for (char *rest = job->line; rest && count < FIELDS; count++) {
+        field[count] = rest;
+        rest = strchr(rest, '\t');
+        if (rest)
+            *rest++ = '\0';
+    }
+    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
+        if (!strcmp(commands[i].name, field[0])) {
+            if (count < commands[i].fields)
+                fail("too few fields", field[0]);
+            job->status = commands[i].run(field, count);
+            return NULL;
+        }
+    fail("no such command", field[0]);
+    return NULL;
+}
+
+static int next(Job *job)
+{
+    if (!fgets(job->line, sizeof job->line, stdin))
+        return 0;
+    job->line[strcspn(job->line, "\n")] = '\0';
+    return 1;
+}
+
+static int together(char **field, int count)
+{
+    int n = slot(field[1], INSTANCES), worst = fmi2OK;
+    Job *jobs = calloc((size_t)n, sizeof *jobs);
+    (void)count;
+    for (int i = 0; i < n; i++)
+        if (!next(&jobs[i]))
+            fail("too few commands", field[1]);
+    for (int i = 0; i < n; i++)
+        if (pthread_create(&jobs[i].thread, NULL, obey, &jobs[i]))
+            fail("no thread", field[1]);
+    for (int i = 0; i < n; i++) {
+        pthread_join(jobs[i].thread, NULL);
+        if (jobs[i].status < fmi2OK || jobs[i].status > worst)
+            worst = jobs[i].status;
+    }
+    free(jobs);
+    return worst;
+}
+
+int main(void)
+{
+    static Job job;
+    while (next(&job)) {
+        obey(&job);
+        printf("answer\t%d\n", job.status);
+        fflush(stdout);
+    }
+    return 0;
+}
