@@ -222,7 +222,7 @@ static void quote(HANDLE complaints, Reason *why) {
     ReadFile(complaints, text, (DWORD)room, &count, &place);
     for (const char *at = text; at < text + count; at++) {
         int torn = from && to == text && (*at & 0xC0) == 0x80; /* the rest of a character */
-        if (!torn && *at != '\r') *to++ = *at;
+        if (!torn && *at && *at != '\r') *to++ = *at;
     }
     *to = 0;
 }
