@@ -69,7 +69,7 @@ class ContactSlave(Fmi2Slave):
         self._variables = variables(self._design)
         self._references = {v.name: vr for vr, v in enumerate(self._variables)}
         self.values: list[Value] = [v.start for v in self._variables]
-        self.layout = tuple((v.kind, v.causality) for v in self._variables)
+        self.layout = tuple((v.kind, "tunable" if v.variability == "tunable" else v.causality) for v in self._variables)
         self._inputs = [(v.name, vr) for vr, v in enumerate(self._variables) if v.causality == "input"]
         self._outputs = {level: self._told(level) for level in LEVELS}
         self._scenes: Scenes | None = None
@@ -282,13 +282,23 @@ class ContactSlave(Fmi2Slave):
         self._guard(self._restore, handle)
 
     def _restore(self, handle: Snapshot | bytes) -> None:
-        if isinstance(handle, bytes):
-            starts = tuple(v.start for v in self._variables)
-            handle = Snapshot.from_bytes(handle, self._module, starts, self._rebuilt)
-        check_owner(handle.module, self._module)
+        """Go back to a state. One that cannot be used is an error: the host takes it for the contact's from now on."""
+        try:
+            if isinstance(handle, bytes):
+                starts = tuple(v.start for v in self._variables)
+                handle = Snapshot.from_bytes(handle, self._module, starts, self._rebuilt)
+            check_owner(handle.module, self._module)
+        except ContactError as error:
+            self._refuse(str(error), Fmi2Status.error, "logValidity")
+            return
         self.values[:] = handle.values
         self._scenes, self._state = handle.scenes, handle.state
         self._phase, self._fault = handle.phase, handle.fault
+
+    @staticmethod
+    def parts(handle: Snapshot) -> list[bytes]:
+        """Buffers whose join is `_fmu_state_to_bytes`: what has not changed since another state is the same object."""
+        return [handle.data]
 
     @staticmethod
     def _fmu_state_to_bytes(handle: Snapshot | bytes) -> bytes:

@@ -1,0 +1,377 @@
+"""The isolated flavour in a host that knows nothing of Python: whatever the model does, the host lives and goes on."""
+
+import os
+import shutil
+import signal
+import sys
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from conftest import SMALL, unpacked
+from native_host import ERROR, NONE, OK, Fmu, Instance, NativeHost, compiled, plain_environment
+from processes import alive, children, descriptors, resident, soon
+
+from contact_core import Scene
+from fmu_src import build
+from fmu_src.resources import module_name
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux" or not shutil.which("gcc"), reason="needs Linux and gcc")
+
+# What the load does to a faulty model.
+FAULTS = {
+    1001.0: ("raise ValueError('bad 50%')", "ValueError: bad 50%"),
+    1002.0: ("raise SystemExit(3)", "SystemExit: 3"),
+    1003.0: ("raise KeyboardInterrupt", "KeyboardInterrupt"),
+    1004.0: ("raise MemoryError", "MemoryError"),
+    1005.0: ("ctypes.string_at(0)", "killed by signal 11 (Segmentation fault).\nFatal Python error"),
+    1006.0: ("os._exit(7)", "ended with exit status 7"),
+    1007.0: ("os.kill(os.getpid(), 9)", "killed by signal 9"),
+    1008.0: ("while True: pass", "no answer within 0.5 s"),
+    1009.0: ("sum(range(10**12))", "no answer within 0.5 s"),  # does not let go of the interpreter
+    1010.0: ("slave.advance = None", "TypeError: 'NoneType' object is not callable"),  # within the slave's own guard
+}
+SCRIPT = """
+import ctypes, os
+from fmu_src import slave
+from contact_core import advance
+
+class MixedContact(slave.ContactSlave):
+    def do_step(self, time, step):
+        slave.advance = advance
+        load = self.values[self._references["load"]]{faults}
+        return super().do_step(time, step)
+"""
+STEPS = [(1.0, {"load": 40.0}), (2.0, {}), (0.5, {"speed_1": 0.2, "load": 60.0})]
+
+
+@pytest.fixture(scope="module")
+def quick() -> Scene:
+    return Scene.from_toml("mtm_zddp", SMALL).at_level("regression")
+
+
+@pytest.fixture(scope="module")
+def quick_folder(quick: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("isolated")
+    return unpacked(build(quick, folder / "quick.fmu"), folder / "quick")
+
+
+@pytest.fixture(scope="module")
+def faulty_folder(quick: Scene, quick_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("faulty") / "fmu"
+    shutil.copytree(quick_folder, folder)
+    faults = "".join(f"\n        if load == {load}:\n            {what}" for load, (what, _) in FAULTS.items())
+    (folder / "resources" / f"{module_name(quick)}.py").write_text(SCRIPT.format(faults=faults))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return compiled(tmp_path_factory.mktemp("c_host"))
+
+
+@pytest.fixture
+def host(program: Path) -> Iterator[NativeHost]:
+    """A host with a limit for calls; it must end by itself, without a fault, whatever the test did."""
+    with NativeHost(program, plain_environment() | {"TRIBOFMU_TIMEOUT": "0.5"}) as host:
+        yield host
+    assert host.code == 0
+
+
+def rows(instance: Instance) -> list[dict[str, object]]:
+    """Outputs of the steps that all runs are compared by."""
+    found = []
+    for dt, inputs in STEPS:
+        assert instance.step(dt, **inputs) == OK
+        found.append(instance.outputs())
+    return found
+
+
+def started(host: NativeHost, folder: Path, number: int = 0) -> Instance:
+    return stepped(host.load(folder), number)
+
+
+def stepped(fmu: Fmu, number: int) -> Instance:
+    """An instance after its first step."""
+    instance = fmu.instance(number)
+    assert instance.created.status == OK, instance.log
+    assert set(instance.initialise()) == {OK}
+    assert instance.step(1.0, load=50.0) == OK
+    return instance
+
+
+def test_the_c_host_and_the_core_agree_bit_for_bit(host, quick, quick_folder):
+    from test_run import bits, direct
+
+    instance = host.load(quick_folder).instance()
+    assert set(instance.initialise()) == {OK}
+    found = [instance.outputs(), *rows(instance)]
+    expected = [{name: row[name] for name in found[0] if name in row} for row in direct(quick, STEPS)[0]]
+    assert {name for name in found[0] if name not in expected[0]} == {"fidelity_used", "valid"}
+    assert [{name: bits(row)[name] for name in expected[0]} for row in found] == expected
+    assert instance.log == []
+
+
+@pytest.mark.parametrize("load", FAULTS)
+def test_a_fault_of_the_model_is_an_error_and_the_saved_state_goes_on_bit_for_bit(host, faulty_folder, load):
+    instance, other = started(host, faulty_folder), started(host, faulty_folder, 1)
+    assert instance.ask("save", 0).status == OK
+    expected = rows(instance)
+    reason = FAULTS[load][1]
+    for _ in range(2):
+        instance.log.clear()
+        assert instance.step(1.0, load=load) == ERROR
+        assert any(status == ERROR and reason in text for _, status, _, text in instance.log), instance.log
+        assert other.step(1.0) == OK
+        assert instance.ask("restore", 0).status == OK
+        assert rows(instance) == expected
+
+
+def test_a_lost_worker_says_so_at_every_call_until_a_state_is_restored(host, faulty_folder):
+    instance = started(host, faulty_folder)
+    instance.step(1.0, load=1006.0)
+    calls = [("step", 1.0, 1.0), ("setr", 0, 1.0), ("getr", 0), ("save", 1), ("exit",), ("terminate",)]
+    for call in calls:
+        answer = instance.ask(*call)
+        assert answer.status == ERROR
+        assert "Restore a saved state, or reset the FMU" in answer.log[0][3]
+    assert instance.ask("reset").status == OK
+    assert set(instance.initialise()) == {OK}
+    fresh = host.load(faulty_folder).instance(1)
+    fresh.initialise()
+    assert rows(instance) == rows(fresh)
+
+
+def test_bytes_of_a_state_survive_the_worker_that_wrote_them(host, faulty_folder, tmp_path):
+    instance, file = started(host, faulty_folder), tmp_path / "state"
+    assert [instance.ask(*call).status for call in (("save", 0), ("serialize", 0, file), ("freestate", 0))] == [OK] * 3
+    expected = rows(instance)
+    instance.step(1.0, load=1007.0)
+    assert instance.ask("deserialize", 1, file).status == OK
+    assert instance.ask("restore", 1).status == OK
+    assert rows(instance) == expected
+
+
+def test_a_worker_that_ends_between_calls_is_replaced(host, quick_folder):
+    instance = started(host, quick_folder)
+    instance.ask("save", 0)
+    expected = rows(instance)
+    (supervisor,) = children(host.process.pid)
+    (worker,) = children(supervisor)
+    os.kill(worker, signal.SIGKILL)
+    assert soon(lambda: not alive(worker))
+    assert instance.ask("restore", 0).status == OK
+    assert rows(instance) == expected
+
+
+def test_a_lost_supervisor_is_replaced(host, quick_folder):
+    instances = [started(host, quick_folder, k) for k in range(2)]
+    for k, instance in enumerate(instances):
+        instance.ask("save", k)
+    expected = rows(instances[0])
+    (supervisor,) = children(host.process.pid)
+    workers = children(supervisor)
+    os.kill(supervisor, signal.SIGKILL)
+    assert soon(lambda: not any(map(alive, workers)))
+    assert instances[0].step(1.0) == ERROR
+    assert "supervisor ended" in instances[0].log[-1][3]
+    for k, instance in enumerate(instances):
+        assert instance.ask("restore", k).status == OK
+        assert rows(instance) == expected
+
+
+@pytest.mark.parametrize("load", [None, 1008.0, 1009.0])
+def test_the_models_processes_end_with_a_host_that_is_killed(program, faulty_folder, load):
+    host = NativeHost(program, plain_environment())
+    instance = started(host, faulty_folder)
+    (supervisor,) = children(host.process.pid)
+    processes = [supervisor, *children(supervisor)]
+    if load:
+        instance.set(load=load)
+        host.tell("step", 0, 1.0, 1.0)
+    host.process.kill()
+    host.close()
+    assert len(processes) == 2
+    assert soon(lambda: not any(map(alive, processes)))
+
+
+def test_the_models_processes_end_with_a_host_that_forgets_to_free(program, quick_folder):
+    with NativeHost(program, plain_environment()) as host:
+        started(host, quick_folder)
+        (supervisor,) = children(host.process.pid)
+        processes = [supervisor, *children(supervisor)]
+    assert host.code == 0
+    assert soon(lambda: not any(map(alive, processes)))
+
+
+def test_a_child_forked_from_the_host_does_not_keep_the_model_alive(program, quick_folder):
+    host = NativeHost(program, plain_environment())
+    started(host, quick_folder)
+    child = int(host.ask("fork").values[0])
+    (supervisor,) = set(children(host.process.pid)) - {child}
+    host.process.kill()
+    host.close()
+    try:
+        assert soon(lambda: not alive(supervisor))
+    finally:
+        os.kill(child, signal.SIGKILL)
+
+
+@pytest.mark.parametrize("name", ["with space", "Reibschlüssel", "hash#", "plus+", "percent%20", "at@(x)"])
+def test_the_fmu_may_lie_in_any_folder(host, quick_folder, tmp_path, name):
+    folder = shutil.copytree(quick_folder, tmp_path / name)
+    assert started(host, folder).step(1.0) == OK
+
+
+def test_the_resources_are_found_by_their_uri_where_the_library_lies_elsewhere(host, quick_folder, tmp_path):
+    folder = shutil.copytree(quick_folder, tmp_path / "ü#%20")
+    away = tmp_path / "away" / "binaries" / "linux64"
+    shutil.copytree(folder / "binaries" / "linux64", away)
+    shutil.copy(folder / "modelDescription.xml", tmp_path / "away")
+    assert host.load(tmp_path / "away", (folder / "resources").as_uri()).instance().created.status == OK
+
+
+@pytest.mark.parametrize(
+    ("python", "reason"),
+    [
+        ("/nowhere/python3", "TRIBOFMU_PYTHON names the Python '/nowhere/python3', which cannot be run (No such file"),
+        ("no-such-python", "TRIBOFMU_PYTHON names the Python 'no-such-python', which cannot be run (No such file"),
+        (__file__, "which cannot be run (Permission denied)"),
+        ("/bin/true", "'/bin/true' ended before it was ready"),
+    ],
+)
+def test_a_python_that_cannot_run_is_named(program, quick_folder, python, reason):
+    with NativeHost(program, plain_environment() | {"TRIBOFMU_PYTHON": python}) as host:
+        instance = host.load(quick_folder).instance()
+    assert instance.created.status == NONE
+    assert reason in instance.log[0][3]
+    assert "Set TRIBOFMU_PYTHON to the Python of an environment in which tribofmu is installed" in instance.log[0][3]
+
+
+def test_a_python_without_the_packages_is_named(program, quick_folder, tmp_path):
+    bare = tmp_path / "python3"
+    bare.write_text(f'#!/bin/sh\nexec {sys.executable} -S "$@"\n')
+    bare.chmod(0o755)
+    with NativeHost(program, plain_environment() | {"TRIBOFMU_PYTHON": str(bare)}) as host:
+        instance = host.load(quick_folder).instance()
+    assert instance.created.status == NONE
+    assert "No module named" in instance.log[0][3]
+    assert f"It was run by '{bare}'." in instance.log[0][3]
+
+
+def test_the_python_recorded_at_build_is_taken_where_the_variable_is_not_set(program, quick, tmp_path):
+    folder = unpacked(build(quick, tmp_path / "quick.fmu", python=sys.executable), tmp_path / "quick")
+    environment = plain_environment() | {"PATH": "/nowhere"}
+    del environment["TRIBOFMU_PYTHON"]
+    with NativeHost(program, environment) as host:
+        assert started(host, folder).step(1.0) == OK
+
+
+def test_python3_on_the_path_is_the_last_resort(program, quick_folder, tmp_path):
+    (tmp_path / "python3").symlink_to(sys.executable)
+    environment = plain_environment() | {"PATH": "/nowhere"}
+    del environment["TRIBOFMU_PYTHON"]
+    with NativeHost(program, environment) as host:
+        assert "There is no python3 on PATH" in host.load(quick_folder).instance().log[0][3]
+    with NativeHost(program, environment | {"PATH": f"/nowhere:{Path(sys.executable).parent}"}) as host:
+        assert started(host, quick_folder).step(1.0) == OK
+
+
+def test_a_hosts_own_python_settings_do_not_reach_the_model(program, quick_folder):
+    foreign = {"PYTHONHOME": "/nowhere", "PYTHONPATH": "/nowhere", "LD_LIBRARY_PATH": "/nowhere"}
+    with NativeHost(program, plain_environment() | foreign) as host:
+        assert started(host, quick_folder).step(1.0) == OK
+
+
+def test_a_guid_of_another_fmu_is_refused(host, quick_folder):
+    instance = host.load(quick_folder, guid="{another}").instance()
+    assert instance.created.status == NONE
+    assert "'{another}'" in instance.log[0][3]
+
+
+def test_two_contact_fmus_live_in_one_host(host, quick_folder, other_scene, tmp_path):
+    other_folder = unpacked(build(other_scene.at_level("regression"), tmp_path / "other.fmu"), tmp_path / "other")
+    first = started(host, quick_folder)
+    second = started(host, other_folder, 1)
+    assert first.outputs() != second.outputs()
+    alone = started(host, quick_folder, 2)
+    assert rows(first) == rows(alone)
+    assert len(children(host.process.pid)) == 2
+
+
+def test_fifty_instances_live_at_once(host, quick_folder):
+    fmu = host.load(quick_folder)
+    instances = [stepped(fmu, k) for k in range(50)]
+    (supervisor,) = children(host.process.pid)
+    assert len(children(supervisor)) == 50
+    first = rows(instances[0])
+    assert all(rows(instance) == first for instance in instances[1:])
+    for instance in instances:
+        instance.free()
+    assert soon(lambda: children(supervisor) == [])
+
+
+def test_calls_that_fmi_does_not_allow_are_errors_and_change_nothing(host, quick_folder):
+    instance = started(host, quick_folder)
+    before = instance.outputs()
+    wear, h_c = (instance.fmu.variables[name].valueReference for name in ("wear.bare", "h_c"))
+    refused = [
+        (("getr", 9999), "There is no Real variable with value reference 9999."),
+        (("setb", 0, 1), "There is no Boolean variable with value reference 0."),
+        (("setr", h_c, 1.0), "is an output and cannot be set"),
+        (("setr", wear, 1.0), "is a fixed parameter"),
+        (("derivative", 0, 1), "fmi2GetDirectionalDerivative is not supported"),
+    ]
+    for call, reason in refused:
+        answer = instance.ask(*call)
+        assert answer.status == ERROR
+        assert reason in answer.log[0][3]
+    assert instance.outputs() == before
+
+
+def test_freed_instances_and_states_are_errors_not_crashes(host, quick_folder):
+    instance = started(host, quick_folder)
+    instance.ask("save", 0)
+    instance.ask("save", 1)
+    instance.ask("freestate", 0)
+    instance.free()
+    assert [instance.ask(*call).status for call in (("step", 0.0, 1.0), ("restore", 1), ("save", 2))] == [ERROR] * 3
+    instance.free()
+    assert started(host, quick_folder).step(1.0) == OK
+
+
+def test_a_damaged_state_is_refused_and_nothing_changes(host, quick_folder, tmp_path):
+    instance, file = started(host, quick_folder), tmp_path / "state"
+    instance.ask("save", 0)
+    instance.ask("serialize", 0, file)
+    data, before = file.read_bytes(), instance.outputs()
+    for damaged in (data[:-1], data[: len(data) // 2], b"", data[:200] + bytes([data[200] ^ 1]) + data[201:]):
+        file.write_bytes(damaged)
+        instance.log.clear()
+        assert instance.ask("deserialize", 1, file).status == OK
+        assert instance.ask("restore", 1).status == ERROR
+        assert "The stored" in instance.log[0][3]
+        assert "Use an earlier one" in instance.log[0][3] or "Give one" in instance.log[0][3]
+        assert instance.outputs() == before | {"valid": 0}
+        assert instance.ask("restore", 0).status == OK
+        assert instance.outputs() == before
+
+
+def test_instances_that_come_and_go_leave_nothing_behind(host, quick_folder):
+    fmu = host.load(quick_folder)
+    host.ask("cycles", fmu.number, 20)
+    size = resident(host.process.pid)
+    assert host.ask("cycles", fmu.number, 100).status == OK
+    assert resident(host.process.pid) - size < 500  # kB
+    (supervisor,) = children(host.process.pid)
+    assert soon(lambda: children(supervisor) == [])
+    assert descriptors(host.process.pid) < 10
+    assert descriptors(supervisor) < 12
+
+
+def test_the_fmu_needs_no_python_of_its_host(quick_folder, tmp_path):
+    with zipfile.ZipFile(quick_folder.parent / "quick.fmu") as archive:
+        library = archive.read("binaries/linux64/MixedContact.so")
+    assert b"Py_" not in library
+    assert b"libpython" not in library
