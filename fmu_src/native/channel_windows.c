@@ -62,9 +62,9 @@ static char *library_path(void) {
 static char *beside_library(void) {
     char *path = library_path();
     for (int up = 0; path && up < 3; up++) {
-        char *slash = path + strlen(path);
-        while (slash > path && !strchr("\\/", *slash)) slash--;
-        *slash = 0;
+        size_t end = strlen(path);
+        while (end > 0 && path[end - 1] != '\\' && path[end - 1] != '/') end--;
+        path[end > 0 ? end - 1 : 0] = 0;
     }
     char *folder = path ? joined(path, "resources") : NULL;
     free(path);
