@@ -28,6 +28,7 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     mean_oil, mean_surfaces, mean_outputs   its oil, what the means say of the surfaces, what it can tell
     folding      from patches to means and back
     advance      advance: the evolution over time; uncertainty: how sure its outputs are
+    warming      warm_up: loads what the first steps of a scene need
     tracks       the rubbed surfaces as they are, for profiles and pictures
     reference    closed forms
     data/        named oils, solids and tribofilms, and the shipped scenes
@@ -48,6 +49,7 @@ from .reading import shipped_scenes
 from .scene import OperatingPoint, Scene
 from .state import ContactState, Outputs, RangeFlag, initial_state
 from .tracks import Track, track_of
+from .warming import warm_up
 
 __version__ = "0.1.0"
 
@@ -75,4 +77,5 @@ __all__ = [
     "solve",
     "track_of",
     "uncertainty",
+    "warm_up",
 ]

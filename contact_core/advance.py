@@ -40,8 +40,7 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
     contact has no solution.
     """
     op.check()
-    for temperature in _given_temperatures(scene, op):
-        refusal = scene.tribofilm.refusal(temperature)
+    for refusal in (scene.refusal(op), *map(scene.tribofilm.refusal, _given_temperatures(scene, op))):
         if refusal:
             raise OperatingPointError(refusal)
     if not (math.isfinite(dt) and dt >= 0.0):
@@ -80,11 +79,12 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
 
 def _advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
     """`advance` at the fast level; where the bodies warm up, in steps in which neither oil nor surfaces change much."""
-    pressure = scene.unit_hertz.pressure_max * op.load ** (1 / 3)
+    pressure = scene.unit_hertz_at(op).pressure_max * op.load ** (1 / 3)
     if pressure > scene.plasticity.hardness:
         raise OperatingPointError(
             f"load = {op.load:g} N presses smooth bodies together with {pressure:.3g} Pa, above plasticity.hardness = "
-            f"{scene.plasticity.hardness:g} Pa: film.model = 'regression' knows no such contact. Lower the load."
+            f"{scene.plasticity.hardness:g} Pa: film.model = 'regression' knows no such contact. Lower the load or "
+            "enlarge the radii."
         )
     if scene.heat.bulk.name != "lumped" or dt == 0.0:
         return advance_means(scene, _with_bodies(scene, op, state), state, dt)

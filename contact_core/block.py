@@ -116,6 +116,7 @@ def has_moved(scene: Scene, op: OperatingPoint, old: OperatingPoint) -> bool:
         (op.sliding_speed, old.sliding_speed, max(abs(op.sliding_speed), abs(old.sliding_speed))),
         (op.spin, old.spin, max(abs(op.spin), abs(old.spin))),
         (eta, eta_old, max(eta, eta_old)),
+        *((now, then, max(now, then)) for now, then in zip(scene.radii(op), scene.radii(old), strict=True)),
     )
     for name in ("load", "speed_1", "speed_2", "entrainment_speed", "sliding_speed", "spin"):
         if (getattr(op, name) == 0.0) != (getattr(old, name) == 0.0):
@@ -176,7 +177,7 @@ def sweep_mixed(
     rougher = 0 if scene.surface_1.rq > scene.surface_2.rq else 1
     jumps = _jumps(scene, op, 1 - rougher, _SMOOTHER if jumping else -1.0)
     ahead = max(abs(speed) for speed in speeds_of(op)) / abs(op.entrainment_speed)
-    across = max(_SETTLING, math.ceil(_PASSAGE * scene.hertz(op.load).a / scene.film.spacing))
+    across = max(_SETTLING, math.ceil(_PASSAGE * scene.hertz_at(op).a / scene.film.spacing))
     passage = across if ahead <= _AHEAD else min(math.ceil(across * ahead), _MOST_SETTLING)
     unsampled = passage
     if state.film is None:
@@ -244,7 +245,7 @@ def _feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep
     if law.dose == "clock" and speeds_of(op)[i] != 0.0:
         exposure = (sweep.since[i] < 1.0).astype(np.float64)
     elif law.dose == "contact_length" and op.load > 0.0:
-        exposure = exposure * scene.film.domain / (2.0 * scene.hertz(op.load).a)
+        exposure = exposure * scene.film.domain / (2.0 * scene.hertz_at(op).a)
     elif law.dose == "residence":
         exposure = exposure * reach
     if not op.slides or op.load == 0.0:  # nothing rubs in pure rolling, at rest or apart

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import SceneError
+from .errors import OperatingPointError, SceneError
 from .film import Deterministic
 from .film.instant import FilmSolution, FilmState, Grid, Instant
 from .friction import Film, Friction, friction
@@ -88,6 +88,9 @@ def solve(
             f"film.model = '{scene.film.name}' knows means only, no fields. Solve scene.at_level('deterministic')."
         )
     op.check()
+    refusal = scene.refusal(op)
+    if refusal:
+        raise OperatingPointError(refusal)
     op = with_bodies(scene, op, state.temperatures)
     bare, law = bare_heights(scene, state.rows), scene.plasticity
     nodes = [patch_nodes(scene, body) for body in state.bodies]
@@ -108,7 +111,7 @@ def solve(
     now = replace(instant_of(scene, op, heights, limit), dry=dry, solid_share=solid_share)
     before = state.film if transient else None
     if op.load == 0.0:
-        film = _open(scene, grid, heights)
+        film = _open(scene, op, grid, heights)
     else:
         follows = (transient.dt, transient.moved) if transient and before else None
         most = transient.iterations if transient else None
@@ -160,12 +163,13 @@ def solve(
 
 def instant_of(scene: Scene, op: OperatingPoint, heights: Array, limit: Array) -> Instant:
     """An instant of a scene with heights and largest pressures as given, [ny, nx]."""
+    radius_x, radius_y = scene.radii(op)
     return Instant(
         load=op.load,
         entrainment_speed=op.entrainment_speed,
         temperature=op.inlet_temperature,
-        radius_x=scene.geometry.radius_x,
-        radius_y=scene.geometry.radius_y,
+        radius_x=radius_x,
+        radius_y=radius_y,
         reduced_modulus=scene.solids.reduced_modulus,
         viscosity=scene.lubricant.viscosity,
         density=scene.lubricant.density,
@@ -175,10 +179,10 @@ def instant_of(scene: Scene, op: OperatingPoint, heights: Array, limit: Array) -
     )
 
 
-def _open(scene: Scene, grid: Grid, heights: Array) -> FilmSolution:
+def _open(scene: Scene, op: OperatingPoint, grid: Grid, heights: Array) -> FilmSolution:
     """No load: the bodies just touch and nothing presses."""
-    x, y = grid.x[None, :], grid.y[:, None]
-    shape = x**2 / (2 * scene.geometry.radius_x) + y**2 / (2 * scene.geometry.radius_y) - heights
+    radius_x, radius_y = scene.radii(op)
+    shape = grid.x[None, :] ** 2 / (2 * radius_x) + grid.y[:, None] ** 2 / (2 * radius_y) - heights
     rigid = scene.film.floor - float(shape.min())
     zeros, nothing = np.zeros_like(shape), np.zeros(shape.shape, np.bool_)
     return FilmSolution(

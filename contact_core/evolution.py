@@ -55,7 +55,7 @@ def sliding_on_track(scene: Scene, op: OperatingPoint, rows: int) -> float | Arr
     """Sliding speed [m/s]; with spin that of each row [rows, 1], as a mean over its part of the contact."""
     if op.spin == 0.0 or op.load == 0.0:
         return op.sliding_speed
-    hertz, y = scene.hertz(op.load), contact_grid(scene, rows).y[:, None]
+    hertz, y = scene.hertz_at(op), contact_grid(scene, rows).y[:, None]
     # mean |x| over a row under Hertz's pressure is 3/8 of its length on either side
     along = 0.375 * hertz.a * np.sqrt(np.maximum(1.0 - (y / hertz.b) ** 2, 0.0))
     return np.hypot(op.sliding_speed - op.spin * y, op.spin * along)
@@ -68,14 +68,14 @@ def area_of_node(scene: Scene, op: OperatingPoint, i: int) -> float:
 
 
 def across_track(scene: Scene, rows: int) -> Array:
-    """|y| / b of each of the patches' rows, [rows, 1], b being that of the reference load."""
+    """|y| / b of each of the patches' rows, [rows, 1], b being that of the reference load and the scene's radii."""
     across: Array = np.abs(contact_grid(scene, rows).y)[:, None] / scene.hertz(scene.operation.load).b
     return across
 
 
 def track_rows(scene: Scene, rows: int, share: float = 1.0) -> NDArray[np.bool_]:
-    """Which of the patches' rows have |y| < share * b, at least the middle one. b is that of the reference load,
-    whatever the load is now: a mean over the track does not jump with it.
+    """Which of the patches' rows have |y| < share * b, at least the middle one. b is that of the reference load and
+    the scene's radii, whatever they are now: a mean over the track does not jump with them.
     """
     b = scene.hertz(scene.operation.load).b
     y = contact_grid(scene, rows).y
@@ -107,7 +107,7 @@ def stable_time(scene: Scene, op: OperatingPoint, body: Body, i: int) -> float:
         return math.inf
     track = track_rows(scene, body.wear.shape[0])
     cover = thickness(body.growth, body.removal)[track].mean(keepdims=True) / scene.tribofilm.full_thickness
-    width = 2.0 * scene.hertz(op.load).a
+    width = 2.0 * scene.hertz_at(op).a
     duty = min(width / track_length(scene, i), 1.0) if speeds_of(op)[i] != 0.0 else 1.0
     shortest = math.sqrt(2.0) * math.pi / scene.film.spacing
     stiffness = 0.25 * scene.solids.reduced_modulus * shortest

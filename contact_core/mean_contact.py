@@ -18,7 +18,7 @@ from .laws.load_sharing import flattening_of, rms_slope
 from .laws.rheology import Carreau
 from .mean_oil import Law, MeanHeat, oil_shear
 from .mean_surfaces import Films, composite_roughness, hardness_of, mean_cover, scene_film
-from .reference import bair_thinning_factor, inlet_shear_factor, nvm_film
+from .reference import Hertz, bair_thinning_factor, inlet_shear_factor, nvm_film
 from .scene import OperatingPoint, Scene
 
 Array = NDArray[np.float64]
@@ -130,7 +130,7 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
     else:
         rise, into_1 = heat.surface(pull * slide)
     forces = [(point.solid + oil) * point.along for point, oil in zip(points, fluid, strict=True)]
-    lever = _SPIN * scene.unit_hertz.a * op.load ** (1 / 3)
+    lever = _SPIN * scene.unit_hertz_at(op).a * op.load ** (1 / 3)
     return MeanContact(
         films,
         sigma,
@@ -156,16 +156,17 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
 def _points(scene: Scene, op: OperatingPoint, surfaces: _Surfaces, film: float, further: float) -> list[_Point]:
     """The operating point, and those with more sliding (by `further` [m/s]), film, load and temperature."""
     root, slide = op.load ** (1 / 3), op.sliding_speed
-    more, largest = root * _ROOT, scene.unit_hertz.pressure_max
+    more, hertz = root * _ROOT, scene.unit_hertz_at(op)
+    largest = hertz.pressure_max
     shares = _shared(scene, surfaces, film, root * largest)
     thicker = _shared(scene, surfaces, film * (1.0 + _D), root * largest)
     heavier = _shared(scene, surfaces, film, more * largest)
-    now = _point(scene, surfaces, shares, root, slide, op.spin)
+    now = _point(scene, hertz, surfaces, shares, root, slide, op.spin)
     points = [
         now,
-        _point(scene, surfaces, shares, root, slide + further, op.spin),
-        _point(scene, surfaces, thicker, root, slide, op.spin),
-        _point(scene, surfaces, heavier, more, slide, op.spin),
+        _point(scene, hertz, surfaces, shares, root, slide + further, op.spin),
+        _point(scene, hertz, surfaces, thicker, root, slide, op.spin),
+        _point(scene, hertz, surfaces, heavier, more, slide, op.spin),
         now,
     ]
     return [*points, now] if isinstance(scene.heat, TemperatureField) else points
@@ -199,11 +200,14 @@ def _smooth(scene: Scene, op: OperatingPoint, further: float) -> _Smooth:
     entrainment, load, slide, inlet = op.entrainment_speed, op.load, op.sliding_speed, op.inlet_temperature
     speed = abs(entrainment)
     oil, warm = _oil(scene.lubricant.viscosity, inlet)
+    radii, largest = scene.radii(op), scene.unit_hertz_at(op).pressure_max
     thins = speed > 0.0 and (scene.heat.inlet_shear != "none" or scene.lubricant.flow == "local")
 
     def film(speed: float, load: float, slide: float, oil: tuple[float, float], temperature: float) -> float:
-        newtonian = _smooth_film(scene, speed, load, *oil)
-        return newtonian * _thinned(scene, speed, load, slide, oil[0], newtonian, temperature) if thins else newtonian
+        newtonian = _smooth_film(scene, radii, speed, load, *oil)
+        if not thins:
+            return newtonian
+        return newtonian * _thinned(scene, speed, largest * load ** (1 / 3), slide, oil[0], newtonian, temperature)
 
     now = film(speed, load, slide, oil, inlet)
     by_load = film(speed, load * (1.0 + _D), slide, oil, inlet) / now - 1.0
@@ -211,7 +215,7 @@ def _smooth(scene: Scene, op: OperatingPoint, further: float) -> _Smooth:
     by_speed = film(speed * (1.0 + _D), load, slide, oil, inlet) / now - 1.0
     by_sliding = film(speed, load, slide + further, oil, inlet) / now - 1.0 if thins else 0.0
     return _Smooth(
-        min(now, _THICKEST * scene.geometry.radius_x),
+        min(now, _THICKEST * radii[0]),
         by_sliding / further,
         by_speed / (_D * entrainment) if speed > 0.0 else 0.0,
         by_load / (_D * load),
@@ -220,12 +224,14 @@ def _smooth(scene: Scene, op: OperatingPoint, further: float) -> _Smooth:
 
 
 def _thinned(
-    scene: Scene, speed: float, load: float, slide: float, viscosity: float, newtonian: float, temperature: float
+    scene: Scene, speed: float, pressure: float, slide: float, viscosity: float, newtonian: float, temperature: float
 ) -> float:
-    """Film of an oil that shear heats in the inlet or thins, over a `newtonian` one [m], for a speed above zero."""
+    """Film of an oil that shear heats in the inlet or thins, over a `newtonian` one [m], for a speed above zero and
+    Hertz's largest pressure [Pa].
+    """
     factor, law = 1.0, scene.lubricant.rheology
     if scene.heat.inlet_shear != "none":
-        pressure, modulus = scene.unit_hertz.pressure_max * load ** (1 / 3), scene.solids.reduced_modulus
+        modulus = scene.solids.reduced_modulus
         beta, oil = _thinning(scene, temperature), scene.lubricant.conductivity
         factor = inlet_shear_factor(viscosity, beta, speed, slide / speed, oil, pressure, modulus)
     if scene.lubricant.flow == "local" and isinstance(law, Carreau):
@@ -233,11 +239,12 @@ def _thinned(
     return factor
 
 
-def _smooth_film(scene: Scene, speed: float, load: float, viscosity: float, pressure_coefficient: float) -> float:
+def _smooth_film(
+    scene: Scene, radii: tuple[float, float], speed: float, load: float, viscosity: float, pressure_coefficient: float
+) -> float:
     """The film [m] of an oil at p = 0."""
-    shape, modulus = scene.geometry, scene.solids.reduced_modulus
     load, speed = max(load, _LIGHTEST), max(speed, _SLOWEST)
-    return nvm_film(load, speed, viscosity, pressure_coefficient, shape.radius_x, shape.radius_y, modulus)
+    return nvm_film(load, speed, viscosity, pressure_coefficient, *radii, scene.solids.reduced_modulus)
 
 
 def _thinning(scene: Scene, temperature: float) -> float:
@@ -286,9 +293,12 @@ def _shared(scene: Scene, surfaces: _Surfaces, film: float, pressure: float) -> 
 # friction and heat
 
 
-def _point(scene: Scene, surfaces: _Surfaces, shares: _Shares, root: float, slide: float, spin: float) -> _Point:
-    """What the solids do at a sliding speed [m/s], spin [rad/s] and load [N], whose cubic `root` is given."""
-    hertz = scene.unit_hertz
+def _point(
+    scene: Scene, hertz: Hertz, surfaces: _Surfaces, shares: _Shares, root: float, slide: float, spin: float
+) -> _Point:
+    """What the solids do at a sliding speed [m/s], spin [rad/s] and load [N], whose cubic `root` is given; `hertz` is
+    the contact at 1 N.
+    """
     largest, area = hertz.pressure_max * root, math.pi * hertz.a * hertz.b * root * root
     carried = 2.0 / 3.0 * shares.load * largest  # mean over the Hertz area
     touching = max(shares.area, carried / surfaces.hardness)  # the hardness allows no smaller contact

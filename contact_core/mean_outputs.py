@@ -29,7 +29,7 @@ def outputs_of(
     """What this level can tell; the rest stays zero. Counters of solved blocks go on."""
     force = contact.solid + contact.fluid
     scale = op.load ** (1 / 3)
-    hertz = scene.unit_hertz
+    hertz = scene.unit_hertz_at(op)
     hot_1, hot_2 = op.bodies
     first, second = means
     longest = _LONGEST * scene.operation.duration

@@ -217,4 +217,4 @@ def _abrasion(scene: Scene, op: OperatingPoint, contact: MeanContact, i: int) ->
 def _residence(scene: Scene, op: OperatingPoint, i: int) -> float:
     """Share of its time that a point of the track |y| < b is under the Hertz ellipse."""
     way = track_length(scene, i) if (op.speed_1, op.speed_2)[i] != 0.0 else scene.film.domain
-    return 0.5 * math.pi * scene.unit_hertz.a * op.load ** (1 / 3) / way
+    return 0.5 * math.pi * scene.unit_hertz_at(op).a * op.load ** (1 / 3) / way

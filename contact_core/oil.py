@@ -79,7 +79,7 @@ def inlet_factor(scene: Scene, op: OperatingPoint) -> float:
     """Film with the heat of shear in the inlet over that without."""
     oil, inlet = scene.lubricant, op.inlet_temperature
     viscosity, warmer, colder = (float(oil.viscosity(np.zeros(1), inlet + step)[0]) for step in (0.0, 0.5, -0.5))
-    speed, pressure = abs(op.entrainment_speed), scene.hertz(op.load).pressure_max
+    speed, pressure = abs(op.entrainment_speed), scene.hertz_at(op).pressure_max
     return inlet_shear_factor(
         viscosity,
         float(np.log(colder / warmer)),

@@ -49,6 +49,8 @@ INPUTS: tuple[Quantity, ...] = (
     Quantity("spin", "omega", "rad/s", "angular velocity of body 1 relative to body 2 about the axis from x to y", "input", 100.0, -1e5, 1e5),
     *_pair("body_temperature", "T_b", "K", "bulk temperature, used where heat.bulk is 'inputs'", role="input",
            nominal=350.0, minimum=230.0, maximum=900.0, display="degC"),
+    Quantity("radius_x", "R_x", "m", "combined radius of curvature along x", "input", 0.01, 1e-6, 100.0, "mm"),
+    Quantity("radius_y", "R_y", "m", "combined radius of curvature along y", "input", 0.01, 1e-6, 100.0, "mm"),
 )
 
 OUTPUTS: tuple[Quantity, ...] = (

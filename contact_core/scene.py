@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import Field, dataclass, fields, is_dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -28,16 +28,23 @@ from .reference import Hertz, hertz_point
 
 _SEEDS = 2**31  # of a surface: what FMI's integers can tell apart
 _SEED_STEP = 1_327_217_885  # the odd number nearest to _SEEDS over the golden ratio
+_ROOM = 2.4  # side of the grid over the half width of Hertz's contact, at least
+_INPUTS_ANYWAY = ("geometry.radius_x", "geometry.radius_y")
 
 
 @dataclass(frozen=True)
 class Geometry:
     """Undeformed shape and the way a surface point travels between two passes through the contact."""
 
-    radius_x: float = parameter("m", "combined radius of curvature along x", above=0.0, most=100.0)
-    radius_y: float = parameter("m", "combined radius of curvature along y", above=0.0, most=100.0)
+    radius_x: float = input_parameter("radius_x")  # where an operating point says nothing else
+    radius_y: float = input_parameter("radius_y")
     track_length_1: float = parameter("m", "travel of a point of body 1 between two passes", above=0.0, most=1e3)
     track_length_2: float = parameter("m", "travel of a point of body 2 between two passes", above=0.0, most=1e3)
+
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Combined radii of curvature [m] along x and y."""
+        return self.radius_x, self.radius_y
 
 
 @dataclass(frozen=True)
@@ -114,6 +121,8 @@ class OperatingPoint:
     spin: float = input_parameter("spin", default=0.0)
     body_temperature_1: float | None = input_parameter("body_temperature_1", default=None)  # None: the oil's
     body_temperature_2: float | None = input_parameter("body_temperature_2", default=None)
+    radius_x: float | None = input_parameter("radius_x", default=None)  # None: the scene's
+    radius_y: float | None = input_parameter("radius_y", default=None)
 
     @property
     def entrainment_speed(self) -> float:
@@ -167,6 +176,8 @@ class Step:
     spin: float | None = input_parameter("spin", default=None)
     body_temperature_1: float | None = input_parameter("body_temperature_1", default=None)
     body_temperature_2: float | None = input_parameter("body_temperature_2", default=None)
+    radius_x: float | None = input_parameter("radius_x", default=None)
+    radius_y: float | None = input_parameter("radius_y", default=None)
 
 
 @dataclass(frozen=True)
@@ -190,8 +201,9 @@ class Operation:
 
     @property
     def point(self) -> OperatingPoint:
-        """The operating point of reference."""
-        return OperatingPoint(**{f.name: getattr(self, f.name) for f in fields(OperatingPoint)})
+        """The operating point of reference; its radii are the scene's."""
+        given = {f.name for f in fields(self)}
+        return OperatingPoint(**{f.name: getattr(self, f.name) for f in fields(OperatingPoint) if f.name in given})
 
 
 def _full_key(key: str, value: str) -> str:
@@ -285,12 +297,48 @@ class Scene:
 
     def hertz(self, load: float) -> Hertz:
         """Hertz's contact of the smooth, dry bodies at a load [N] above zero."""
-        return hertz_point(load, self.geometry.radius_x, self.geometry.radius_y, self.solids.reduced_modulus)
+        return hertz_point(load, *self.geometry.radii, self.solids.reduced_modulus)
+
+    def radii(self, op: OperatingPoint) -> tuple[float, float]:
+        """Combined radii of curvature [m] along x and y at an operating point."""
+        x, y = op.radius_x, op.radius_y
+        return self.geometry.radius_x if x is None else x, self.geometry.radius_y if y is None else y
+
+    def hertz_at(self, op: OperatingPoint) -> Hertz:
+        """Hertz's contact of the smooth, dry bodies at an operating point with a load."""
+        return hertz_point(op.load, *self.radii(op), self.solids.reduced_modulus)
 
     @cached_property
     def unit_hertz(self) -> Hertz:
         """Hertz's contact at 1 N: lengths and pressure grow with the cube root of the load, the approach its square."""
         return self.hertz(1.0)
+
+    def unit_hertz_at(self, op: OperatingPoint) -> Hertz:
+        """Hertz's contact at 1 N and the radii of an operating point."""
+        return _unit_hertz(*self.radii(op), self.solids.reduced_modulus)
+
+    def refusal(self, op: OperatingPoint) -> str:
+        """Why the grid cannot hold the contact that an operating point's radii make; "" if it can, or without them."""
+        if self.film.name != "deterministic" or op.load == 0.0 or self.radii(op) == self.geometry.radii:
+            return ""
+        own, hertz, (x, y) = self.hertz(op.load), self.hertz_at(op), self.radii(op)
+        said, wide = f"At {op.load:g} N radius_x = {x:g} m and radius_y = {y:g} m", max(hertz.a, hertz.b)
+        room = self.film.domain / _ROOM
+        if wide > max(room, own.a, own.b):  # a and b grow with the cube root of both radii
+            most = (room / wide) ** 3
+            return (
+                f"{said} make a Hertz contact of {2 * hertz.a:.3g} m by {2 * hertz.b:.3g} m, too large for "
+                f"film.domain = {self.film.domain:g} m. Use at most {most * x:.3g} m and {most * y:.3g} m, less load, "
+                f"or a scene with a domain of at least {2.9 * wide:.2g} m."
+            )
+        hardness = self.plasticity.hardness
+        if hertz.pressure_max > max(hardness, own.pressure_max):  # in proportion to the radii's power -2/3
+            least = (hertz.pressure_max / hardness) ** 1.5
+            return (
+                f"{said} make a Hertz pressure of {hertz.pressure_max:.3g} Pa, above plasticity.hardness = "
+                f"{hardness:g} Pa. Use at least {least * x:.3g} m and {least * y:.3g} m, or less load."
+            )
+        return ""
 
     @property
     def largest_load(self) -> float:
@@ -318,7 +366,7 @@ class Scene:
         load, plasticity = self.largest_load, self.plasticity
         hertz = self.hertz(load)
         wide = max(hertz.a, hertz.b)
-        if self.film.domain < 2.4 * wide:
+        if self.film.domain < _ROOM * wide:
             yield (
                 "domain",
                 f"film.domain = {self.film.domain:g} m is too small: at {load:g} N the Hertz contact is "
@@ -375,6 +423,10 @@ class Scene:
         times = [step.time for step in self.operation.steps]
         if times and self.operation.file:
             yield "duty", f"operation.steps and operation.file = '{self.operation.file}' exclude each other. Keep one."
+        for name, point in self._duty_points():
+            refusal = self.refusal(point)
+            if refusal:
+                yield "radii", f"{name}: {refusal}"
         for name, temperature in self._felt_temperatures():
             refusal = self.tribofilm.refusal(temperature)
             if refusal:
@@ -382,14 +434,17 @@ class Scene:
         if any(late <= early for early, late in pairwise([0.0, *times])):
             yield "duty", f"The times of operation.steps, {times} s, must be above 0 and increase."
 
-    def _felt_temperatures(self) -> Iterator[tuple[str, float]]:
-        """Temperatures that the duty gives and the tribofilm feels, and the words before their name."""
-        points = [("operation", self.operation.point)]
+    def _duty_points(self) -> Iterator[tuple[str, OperatingPoint]]:
+        """The operating points of the duty and their names."""
+        yield "operation", self.operation.point
         for i, step in enumerate(self.operation.steps):
             given = {f.name: getattr(step, f.name) for f in fields(OperatingPoint)}
             changed = {name: value for name, value in given.items() if value is not None}
-            points.append((f"operation.steps[{i}]", replace(self.operation.point, **changed)))
-        for name, point in points:
+            yield f"operation.steps[{i}]", replace(self.operation.point, **changed)
+
+    def _felt_temperatures(self) -> Iterator[tuple[str, float]]:
+        """Temperatures that the duty gives and the tribofilm feels, and the words before their name."""
+        for name, point in self._duty_points():
             if self.heat.bulk.name == "inputs":
                 yield from ((f"{name}: body {i + 1}, ", warm) for i, warm in enumerate(point.bodies))
             else:
@@ -423,6 +478,11 @@ class Scene:
         return found
 
 
+@lru_cache(maxsize=64)
+def _unit_hertz(radius_x: float, radius_y: float, reduced_modulus: float) -> Hertz:
+    return hertz_point(1.0, radius_x, radius_y, reduced_modulus)
+
+
 def with_bodies(scene: Scene, op: OperatingPoint, stored: tuple[float, float] | None) -> OperatingPoint:
     """The operating point with the bulk temperatures that the scene's law gives the bodies; `stored` are a state's."""
     inputs = (op.body_temperature_1, op.body_temperature_2)
@@ -434,7 +494,9 @@ def with_bodies(scene: Scene, op: OperatingPoint, stored: tuple[float, float] | 
 
 
 def tunables(scene: Scene) -> dict[str, tuple[float | int, "Field[Any]"]]:
-    """Every number of the scene that changes no array's shape, by dotted name: (value, dataclass field)."""
+    """Every number of the scene that changes no array's shape and is no input, by dotted name: (value, dataclass
+    field).
+    """
     found: dict[str, tuple[float | int, Field[Any]]] = {}
 
     def visit(record: Any, path: str) -> None:
@@ -442,7 +504,7 @@ def tunables(scene: Scene) -> dict[str, tuple[float | int, "Field[Any]"]]:
             value, name = getattr(record, f.name), f"{path}.{f.name}" if path else f.name
             if is_dataclass(value):
                 visit(value, name)
-            elif isinstance(value, (int, float)) and not f.metadata["shapes_arrays"]:
+            elif isinstance(value, (int, float)) and not f.metadata["shapes_arrays"] and name not in _INPUTS_ANYWAY:
                 found[name] = (value, f)
 
     for part in (

@@ -129,7 +129,7 @@ def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[s
     grid = Grid(fields.x, fields.y)
     formula, sigma = 0.0, 0.0
     if op.load > 0.0:
-        hertz = scene.hertz(op.load)
+        hertz = scene.hertz_at(op)
         inside = disc(grid, hertz)
         carried = fields.pressure[inside].sum()
         slope = np.gradient(fields.fluid_pressure, scene.film.spacing, axis=1)
@@ -154,10 +154,8 @@ def _formula_film(scene: Scene, op: OperatingPoint) -> float:
     """Hamrock & Dowson's central film [m] of the smooth bodies; zero without entrainment."""
     if op.entrainment_speed == 0.0:
         return 0.0
-    oil, shape = (scene.lubricant.viscosity, op.inlet_temperature), scene.geometry
-    contact = SmoothContact.of(
-        op.load, op.entrainment_speed, *oil, shape.radius_x, shape.radius_y, scene.solids.reduced_modulus
-    )
+    oil = scene.lubricant.viscosity, op.inlet_temperature
+    contact = SmoothContact.of(op.load, op.entrainment_speed, *oil, *scene.radii(op), scene.solids.reduced_modulus)
     return hamrock_dowson(contact)[0]
 
 
@@ -173,7 +171,7 @@ def _flags(scene: Scene, op: OperatingPoint, fields: ContactFields) -> RangeFlag
     rows, columns = fields.solid_pressure[[1, -2], :], fields.solid_pressure[:, [1, -2]]
     if max(rows.max(), columns.max()) > 0.01 * fields.pressure.max():
         flags |= RangeFlag.DOMAIN_EDGE
-    if 2.0 * scene.hertz(op.load).a < 8.0 * scene.film.spacing:
+    if 2.0 * scene.hertz_at(op).a < 8.0 * scene.film.spacing:
         flags |= RangeFlag.FEW_NODES
     if not fields.roughness.any():
         flags |= RangeFlag.LAMBDA_CAPPED

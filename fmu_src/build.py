@@ -15,7 +15,7 @@ from pathlib import Path
 from contact_core.errors import SceneError
 from contact_core.scene import Scene
 
-from . import resources
+from . import evidence, icon, packages, resources
 from .describe import model_description
 from .document import documentation
 from .resources import FLAVOURS, Flavour
@@ -23,17 +23,24 @@ from .resources import FLAVOURS, Flavour
 _LIBRARIES = (".so", ".dll", ".dylib")
 
 
-def build(scene: Scene, out: Path, flavour: Flavour = "isolated", python: str | None = None) -> Path:
+def build(
+    scene: Scene, out: Path, flavour: Flavour = "isolated", *, python: str | None = None, reference: bool = False
+) -> Path:
     """Write the FMU of `scene` to `out` and return it. The same arguments and versions give the same bytes.
 
     `flavour` "isolated": any host can load it, and the model runs in a process of its own, in the interpreter
     `python` (default: what the host finds). "embedded": the model runs inside a host that is itself Python.
-    Raises OSError if the file cannot be written or the binaries are missing.
+    `reference`: with reference data, for which the contact is solved at five operating points.
+    Raises OSError if the file cannot be written, or the binaries or a licence are missing.
     """
     return pack(
         {
             "modelDescription.xml": model_description(scene, flavour),
-            "documentation/index.html": documentation(scene),
+            "model.png": icon.png(),
+            "documentation/index.html": documentation(scene, flavour, reference),
+            "documentation/externalDependencies.txt": packages.external_dependencies(flavour),
+            **{f"documentation/licenses/{name}": text for name, text in packages.licences(flavour).items()},
+            **(evidence.reference(scene) if reference else {}),
             **{f"resources/{name}": data for name, data in resources.files(scene, flavour, python).items()},
             **binaries(flavour, resources.MODEL),
         },
@@ -106,7 +113,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             print(f"Note: {warning}", file=sys.stderr)
         out = arguments.out or Path(f"{scene.name}.fmu")
         python = arguments.python and str(Path(arguments.python).absolute())
-        print(build(scene, out, arguments.flavour, python))
+        print(build(scene, out, arguments.flavour, python=python, reference=True))
     except SceneError as error:
         print(error, file=sys.stderr)
         return 2

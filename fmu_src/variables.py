@@ -85,8 +85,8 @@ def fidelity_of(level: str) -> int:
 
 
 def _start(scene: Scene, name: str) -> float:
-    """Start value of an input; a body's temperature is the oil's if the scene says nothing else."""
-    value = getattr(scene.operation, name)
+    """Start value of an input: the scene's; a body's temperature is the oil's if the scene says nothing else."""
+    value = getattr(scene.geometry if hasattr(scene.geometry, name) else scene.operation, name)
     return float(scene.operation.temperature if value is None else value)
 
 

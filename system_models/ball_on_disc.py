@@ -174,8 +174,7 @@ class _Recorder:
     def set_inputs(self, slave: FMU2Slave, duty: Duty, time: float) -> None:
         """Set the operating point that holds from `time` on."""
         point = duty.at(time)
-        values = [getattr(point, v.name) for v in self.inputs]
-        self.held = [point.temperature if value is None else value for value in values]  # a body not said to be warmer
+        self.held = [_held(point, v) for v in self.inputs]
         slave.setReal([v.valueReference for v in self.inputs], self.held)
 
     def record(self, slave: FMU2Slave) -> None:
@@ -212,6 +211,13 @@ class _Recorder:
                 invalid[0],
             )
         return to_dataset(points, self.rows, self.units, self.texts)
+
+
+def _held(point: OperatingPoint, variable: ModelVariable) -> float:
+    """Value of an input at an operating point; what it leaves open is the oil's temperature or the scene's radius."""
+    value = getattr(point, variable.name)
+    open_value = point.temperature if variable.unit == "K" else variable.start
+    return float(open_value if value is None else value)
 
 
 @contextmanager

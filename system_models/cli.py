@@ -1,7 +1,7 @@
-"""The command `tribofmu`: list the shipped scenes, run one, sweep its Stribeck curves.
+"""The command `tribofmu`: list the shipped scenes, run one, sweep its Stribeck curves, check an FMU.
 
-Exit codes: 0 done; 1 some rows of the result are invalid; 2 refused or failed, with a sentence on stderr; 130
-interrupted.
+Exit codes: 0 done; 1 some rows of the result are invalid, or some rule failed; 2 refused or failed, with a sentence
+on stderr; 130 interrupted.
 """
 
 import argparse
@@ -77,6 +77,17 @@ def _parser() -> argparse.ArgumentParser:
         "--points", metavar="N", type=int, default=12, help="speeds of a sweep (default: %(default)s)"
     )
     stribeck.add_argument("--srr", metavar="R", help="slide-to-roll ratio (u1 - u2) / u_e, instead of the scene's own")
+    check = commands.add_parser("check", help="give a verdict per rule on an FMU, anybody's")
+    check.set_defaults(command=_check)
+    check.add_argument("fmu", metavar="FILE.fmu", type=Path)
+    check.add_argument("--deep", action="store_true", help="run it, too: replay, rollback, range of the inputs, ...")
+    check.add_argument(
+        "--limit",
+        metavar="S",
+        type=float,
+        default=120.0,
+        help="with --deep: seconds after which a call of the FMU counts as hung (default: %(default)g)",
+    )
     return parser
 
 
@@ -346,6 +357,20 @@ def _report_curves(scene: Scene, duty: "Duty", curves: "Curves", folder: Path) -
     written.append(stribeck_report.write_figure(dataset, folder / "stribeck.png"))
     print(f"Written: {', '.join(map(str, written))}")
     return 1 if stribeck_report.invalid_points(dataset) else 0
+
+
+def _check(arguments: argparse.Namespace) -> int:
+    from .check import report
+    from .check.package import opened
+    from .check.verdict import Verdict
+
+    found = []
+    with opened(arguments.fmu) as package:
+        for finding in report.findings(package, arguments.deep, arguments.limit):
+            print(report.line(finding), flush=True)
+            found.append(finding)
+    print(f"{arguments.fmu}: {report.summary(found)}.")
+    return 1 if any(finding.verdict is Verdict.FAIL for finding in found) else 0
 
 
 if __name__ == "__main__":

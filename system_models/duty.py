@@ -1,4 +1,4 @@
-"""The duty: load, speeds and temperature against time.
+"""The duty: load, speeds, temperature and radii against time.
 
 A duty holds each operating point from its time to the next one's. It is constant (the scene's `[operation]`), has the
 `[[operation.steps]]` of the scene, or is a CSV file whose header names each column with its unit:
@@ -80,8 +80,10 @@ class Duty:
     def sized(self, scene: Scene) -> Scene:
         """The scene with `operation.largest_load` raised to the duty's, so that its checks hold throughout.
 
-        Raises SceneError if the grid cannot hold the contact at that load.
+        Raises SceneError if the grid cannot hold the contact at that load, or at the radii of a point.
         """
+        for refusal in filter(None, map(scene.refusal, self.points)):
+            raise SceneError(refusal)
         largest = max(point.load for point in self.points)
         if largest <= scene.largest_load:
             return scene

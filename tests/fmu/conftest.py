@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from fmu_host import Host, hosted
+from native_host import compiled
 
 from contact_core import Scene
 from fmu_src import build
@@ -63,3 +64,19 @@ def stepped(host: Host, stored: bytes) -> Host:
     """An FMU after its first step."""
     host.restore(stored)
     return host
+
+
+@pytest.fixture(scope="session")
+def quick() -> Scene:
+    return Scene.from_toml("mtm_zddp", SMALL).at_level("regression")
+
+
+@pytest.fixture(scope="session")
+def quick_folder(quick: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("isolated")
+    return unpacked(build(quick, folder / "quick.fmu"), folder / "quick")
+
+
+@pytest.fixture(scope="session")
+def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return compiled(tmp_path_factory.mktemp("c_host"))

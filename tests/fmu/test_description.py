@@ -71,8 +71,17 @@ def test_every_tunable_of_the_scene_is_a_fixed_parameter_at_its_exact_value(by_n
 
 def test_the_inputs_start_at_the_scenes_operation(by_name, scene):
     for q in INPUTS:
-        value = getattr(scene.operation, q.name)
-        assert float(by_name[q.name].start) == (scene.operation.temperature if value is None else value)
+        if q.name not in ("radius_x", "radius_y"):
+            value = getattr(scene.operation, q.name)
+            assert float(by_name[q.name].start) == (scene.operation.temperature if value is None else value)
+
+
+def test_radii_are_inputs_that_start_at_the_scenes_and_no_parameters(by_name, scene):
+    for name in ("radius_x", "radius_y"):
+        radius = by_name[name]
+        assert (radius.causality, radius.unit, radius.displayUnit) == ("input", "m", "mm")
+        assert float(radius.start) == getattr(scene.geometry, name)
+        assert f"geometry.{name}" not in by_name
 
 
 def test_units_are_exponents_of_the_base_units(xml):

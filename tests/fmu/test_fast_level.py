@@ -48,6 +48,27 @@ def test_the_fmu_agrees_with_the_core_bit_for_bit(quick, quick_folder):
     assert all(row["valid"] for row in rows)
 
 
+def test_radii_reach_the_core_at_every_step(quick, quick_folder):
+    steps = [(1.0, {}), (1.0, {"radius_x": 8e-3, "radius_y": 9e-3}), (1.0, {"radius_y": 7e-3})]
+    with hosted(quick_folder) as host:
+        host.initialise()
+        rows = [host.outputs(), *(host.step(dt, **inputs) for dt, inputs in steps)]
+    expected = [{name: row[name] for name in bits(rows[0])} for row in direct(quick, steps)[0]]
+    assert [bits(row) for row in rows] == expected
+    assert len({row["approach"] for row in rows[1:]}) == 3
+
+
+def test_radii_that_cannot_be_used_are_said_and_change_nothing(quick_folder):
+    with hosted(quick_folder) as host:
+        host.initialise()
+        before = host.step(1.0)
+        refused = host.step(1.0, radius_x=0.0)
+        assert not refused.pop("valid")
+        assert refused.items() <= before.items()
+        assert "radius_x = 0 m" in str(host.log)
+        assert host.step(1.0, radius_x=0.01)["valid"]
+
+
 def test_a_state_of_means_goes_on_in_another_process(quick_folder, tmp_path):
     with hosted(quick_folder) as host:
         host.initialise()

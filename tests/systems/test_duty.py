@@ -88,6 +88,23 @@ def test_a_scene_without_a_file_has_a_constant_duty(scene: Scene) -> None:
     assert Duty.of_scene(scene) == Duty.from_steps(scene.operation.point)
 
 
+def test_radii_may_change_within_a_duty(tmp_path: Path) -> None:
+    text = "time [s],radius_x [mm],radius_y [mm]\n0,10,10\n5,8,9\n"
+    duty = Duty.from_csv(write(tmp_path, text), REFERENCE)
+    assert [(point.radius_x, point.radius_y) for point in duty.points] == [(0.01, 0.01), (0.008, 0.009)]
+    steps = Duty.of_scene(with_steps([{"time": "60 s", "radius_x": "8 mm"}]))
+    assert [(point.radius_x, point.radius_y) for point in steps.points] == [(None, None), (0.008, None)]
+
+
+def test_radii_too_large_for_the_grid_are_refused_before_the_duty_begins(scene: Scene) -> None:
+    wide = replace(REFERENCE, radius_x=0.1, radius_y=0.1)
+    with pytest.raises(SceneError, match=r"radius_x = 0\.1 m .* too large for film\.domain = 0\.0005 m\. Use at most"):
+        Duty((0.0, 1.0), (REFERENCE, wide)).sized(scene)
+    with pytest.raises(SceneError, match=r"operation\.steps\[0\]: .*radius_x = 0\.1 m"):
+        with_steps([{"time": "60 s", "radius_x": "100 mm", "radius_y": "100 mm"}])
+    assert Duty((0.0,), (wide,)).sized(scene.at_level("regression")).film.name == "regression"
+
+
 def test_a_scenes_file_is_looked_for_in_the_folder_given(tmp_path: Path) -> None:
     write(tmp_path, "time [s],load [N]\n0,12\n")
     scene = Scene.from_toml("mtm_zddp", {"operation.file": "duty.csv"})

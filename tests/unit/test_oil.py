@@ -8,8 +8,7 @@ from cheap_scene import CHEAP, cheap
 
 from contact_core import OperatingPointError, Scene, Transient, advance, initial_state, solve
 from contact_core import oil as oil_module
-from contact_core.film import thinning
-from contact_core.kernels import moving_source
+from contact_core.kernels import moving_source, thinning
 from contact_core.oil import inlet_factor
 
 SMOOTH = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.model": "none", "film.tolerance": "1e-4"}

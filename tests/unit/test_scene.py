@@ -238,11 +238,15 @@ def test_the_digest_follows_shape_surfaces_and_grid_only():
 def test_tunables_are_the_numbers_that_shape_no_array():
     scene = Scene.from_toml("mtm_zddp")
     values = {name: value for name, (value, _) in tunables(scene).items()}
-    assert values["geometry.radius_x"] == scene.geometry.radius_x
+    assert values["geometry.track_length_1"] == scene.geometry.track_length_1
     assert values["lubricant.viscosity.viscosity"] == 0.004
     assert values["surface_1.seed"] == 1
     assert not {"film.points", "film.domain", "surface_1.correlation_length", "tribofilm.dose"} & set(values)
     assert not any(name.startswith("operation.") for name in values)
+
+
+def test_radii_are_no_tunables_because_they_are_inputs():
+    assert not {"geometry.radius_x", "geometry.radius_y"} & set(tunables(Scene.from_toml("mtm_zddp")))
 
 
 def test_a_tunable_can_be_changed_and_the_rest_stays():

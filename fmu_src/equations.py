@@ -1,0 +1,189 @@
+"""The equations of every law and film, in the notation of `markup.equation`, for the FMU's documentation."""
+
+Lines = tuple[str, ...]
+
+# What every contact of a level solves: title, lines, a sentence.
+GOVERNING: dict[str, tuple[tuple[str, Lines, str], ...]] = {
+    "deterministic": (
+        (
+            "Flow of the oil (Reynolds)",
+            (
+                "∂/∂x [ρ h^3/(12 η) ∂p_f/∂x] + ∂/∂y [ρ h^3/(12 η) ∂p_f/∂y] = u_e ∂(ρ h)/∂x + ∂(ρ h)/∂t",
+                "p_f ≥ 0,   u_e = (u_1 + u_2)/2",
+            ),
+            "At every node, with the squeeze of the passing roughness; oil that would be under tension cavitates.",
+        ),
+        (
+            "Gap",
+            ("h = h_0 + x^2/(2 R_x) + y^2/(2 R_y) − z_1 − z_2 + d",),
+            "z are the heights of both surfaces as they are now, tribofilm, wear and plastic depth included.",
+        ),
+        (
+            "Elastic deformation (half space)",
+            ("d(x, y) = 2/(π E′) ∬ p(x′, y′) [(x − x′)^2 + (y − y′)^2]^{−1/2} dx′ dy′",),
+            "p is the pressure of oil and solids together.",
+        ),
+        ("Load balance", ("W = ∬ p dx dy",), "It decides the rigid gap h0."),
+    ),
+    "regression": (
+        (
+            "Film of the smooth bodies",
+            ("h_s = R_x U^{1/2} H(M, L, R_x/R_y),   λ = h_s/σ",),
+            "H is the formula of Nijenbanning, Venner and Moes over all regimes, σ the composite rms roughness now; "
+            "thinned in the inlet where heat.inlet_shear or lubricant.flow ask for it.",
+        ),
+    ),
+}
+
+# How solids and oil share the load, by film.criterion at the deterministic level.
+SHARING: dict[str, tuple[Lines, str]] = {
+    "split": (
+        (
+            "h > h_{floor}:   p = p_f",
+            "h = h_{floor}:   p = p_f + p_s,   p_s ≥ 0",
+            "0 ≤ p ≤ hardness,   W_c = ∬ p_s dx dy / W",
+        ),
+        "Solids touch where the gap is down to film.floor, the thickness of the adsorbed layer; what would overlap "
+        "beyond the hardness stays as plastic depth.",
+    ),
+    "lumped": (
+        (
+            "h > h_{floor}:   p is the oil's",
+            "h = h_{floor}:   p is the solids'",
+            "0 ≤ p ≤ hardness",
+        ),
+        "One pressure for both: where the gap is down to film.floor, all of it counts as the solids'.",
+    ),
+}
+
+FRICTION: dict[str, tuple[Lines, str]] = {
+    "deterministic": (
+        (
+            "F = −∬ (τ_{oil} + τ_{solid}) v_x/|v| dx dy,   v = (u_1 − u_2 − ω y, ω x)",
+            "τ_N = η(p_f, T) |v|/h",
+        ),
+        "Summed node by node; the rheology makes the oil's stress of the Newtonian one, τN.",
+    ),
+    "regression": (
+        (
+            "F = −(μ W_c W + ⟨τ_{oil}⟩ A_{oil}) (u_1 − u_2)/|u_1 − u_2|",
+            "τ_N = η(p, T) |u_1 − u_2|/h_c",
+        ),
+        "⟨τ⟩ is the oil's mean stress under Hertz's pressure; A is the part of Hertz's area on which oil carries load, "
+        "A = (1 − Wc) π a b / [1 + K (0.2/s) exp(−λ)].",
+    ),
+}
+
+# (slot, law): lines and a sentence. Sources are the laws' own.
+LAWS: dict[tuple[str, str], tuple[Lines, str]] = {
+    ("viscosity", "roelands"): (
+        (
+            "η = η_0 exp{(ln η_0 + 9.67) [(1 + p/p_0)^z ((T − 138)/(T_0 − 138))^{−S} − 1]}",
+            "p_0 = 196 MPa,   η in pascal seconds,   T in kelvin",
+        ),
+        "z and S follow from the pressure and temperature coefficients at p = 0 and T0.",
+    ),
+    ("viscosity", "barus"): (("η = η_0 exp[α p − β (T − T_0)]",), ""),
+    ("viscosity", "modulus"): (
+        ("η = K exp[C/(D + T)] exp{p/[a_1 + a_2 T + (b_1 + b_2 T) p]}",),
+        "Vogel's law without pressure, the modulus equation with it.",
+    ),
+    ("viscosity", "astm_d341"): (
+        (
+            "log_{10} log_{10}(ν + 0.7) = A − B log_{10} T,   ν in mm^2/s",
+            "η = η_∞ [η(0, T)/η_∞]^m,   m = (1 + p/p_0)^z",
+        ),
+        "A straight line through the data sheet's two viscosities; the density falls linearly with temperature. "
+        "Under pressure Roelands' law, 63.1 µPa s and 196 MPa.",
+    ),
+    ("density", "dowson_higginson"): (("ρ/ρ_0 = (5.9 · 10^8 + 1.34 p)/(5.9 · 10^8 + p),   p in Pa",), ""),
+    ("density", "none"): (("ρ = ρ_0",), "Incompressible."),
+    ("rheology", "newtonian"): (("τ_{oil} = τ_N,   at most Λ p_f",), "Λ: limiting_coefficient; 0 means no limit."),
+    ("rheology", "eyring"): (
+        ("τ_{oil} = τ_E arsinh(τ_N/τ_E),   at most Λ p_f",),
+        "Λ: limiting_coefficient; 0 means no limit.",
+    ),
+    ("rheology", "carreau"): (
+        ("τ_{oil} = τ_N [1 + (τ_N/G)^2]^{(n − 1)/2},   at most Λ p_f",),
+        "Λ: limiting_coefficient; 0 means no limit.",
+    ),
+    ("plasticity", "elastic_perfectly_plastic"): (
+        ("p ≤ H(c),   H(c) = H_{steel} − (H_{steel} − H_{film}) c",),
+        "c is how much of its full thickness the tribofilm that is met has; plastic depth is shared in halves.",
+    ),
+    ("boundary_friction", "film_blend"): (
+        ("τ_{solid} = μ p_s tanh(|v|/v_0),   μ = μ_{bare} + (μ_{film} − μ_{bare}) c",),
+        "c is the mean cover of both bodies by tribofilm, 0 to 1; v0 is slip_speed.",
+    ),
+    ("heat", "none"): (("T = T_{bulk},   Q_1 = Q_2 = P/2",), "Surfaces as warm as their bodies."),
+    ("heat", "flash"): (
+        (
+            "ΔT = 1.22 r q/{√π [K_1 (0.6575 + Pe_1)^{1/2} + K_2 (0.6575 + Pe_2)^{1/2}]}",
+            "q = τ |u_1 − u_2|,   Pe_i = |u_1 − u_2| r/(2 κ_i)",
+        ),
+        "The mean rise of a contact spot of radius r; K and κ are conductivity and diffusivity of the bodies.",
+    ),
+    ("heat", "field"): (
+        (
+            "T_i = T_{bulk,i} + G_i ∗ q_i,   q_1 + q_2 = q = τ |v|",
+            "q_1 = q/2 + (k/h) (T_2 − T_1)",
+        ),
+        "G is the steady rise under a source that moves at the body's own speed, ∗ the sum over all nodes; the film "
+        "conducts across its thickness.",
+    ),
+    ("bulk", "oil"): (("T_{bulk,1} = T_{bulk,2} = T_{oil}",), ""),
+    ("bulk", "inputs"): (
+        ("T_{bulk,i} = T_{b,i}",),
+        "The inputs body_temperature_1 and _2; the heat flows are outputs.",
+    ),
+    ("bulk", "lumped"): (
+        ("C_i ∂T_{bulk,i}/∂t = Q_i − G_i (T_{bulk,i} − T_{oil})",),
+        "Exact over a step of constant heat.",
+    ),
+    ("tribofilm", "none"): (("h_t = 0",), "No additive."),
+    ("tribofilm", "ghanbarzadeh"): (
+        ("h_t = h_{max} [1 − exp(−k t)] − C_3 [1 − exp(−C_4 t)],   k = x k_B T/h_P",),
+        "t is how long the point has been rubbed; kB and hP are Boltzmann's and Planck's constants.",
+    ),
+    ("tribofilm", "andersson"): (
+        ("∂h_t/∂t = C_5 (1 − h_t/h_{max}) max(τ |u_1 − u_2| − C_6, 0)",),
+        "Where solids touch; nothing is removed.",
+    ),
+    ("tribofilm", "zhang_spikes"): (
+        (
+            "∂h_t/∂t = A exp[−(E_0 − τ ΔV)/(k_B T)] (1 − h_t/h_{max}) − r h_t",
+            "r = k_r p_s |v|",
+        ),
+        "τ is the shear stress of oil and solids: a full film grows a tribofilm, too.",
+    ),
+    ("tribofilm", "gosvami"): (
+        (
+            "∂h_t/∂t = A exp[−(E_0 − p_s ΔV)/(k_B T)] (1 − h_t/h_{max}) − r h_t",
+            "r = k_r p_s |v|",
+        ),
+        "By the normal stress where solids touch.",
+    ),
+    ("tribofilm", "combined"): (
+        (
+            "∂h_t/∂t = (w_1 k c + w_2 g) (h_{max} − h_t) − r h_t",
+            "k = x k_B T/h_P,   g = (A/h_{max}) exp[−(E_0 − τ ΔV)/(k_B T)],   r = k_r p_s |v|",
+        ),
+        "c is 1 where solids rub, else 0.",
+    ),
+    ("wear", "none"): (("w = 0",), ""),
+    ("wear", "archard"): (
+        ("∂w/∂t = K p_s v/H,   K = K_{bare} + (K_{film} − K_{bare}) c",),
+        "ps is the mean pressure that a point of the surface feels from the other solid over its track, c how much of "
+        "its full thickness its tribofilm has; wear.sliding says which speed v is.",
+    ),
+    ("sharing", "fitted"): (
+        (
+            "W_c = exp(−B Λ^C),   Λ = λ (s/0.2)^2 (r/2)",
+            "A_c = [1 − exp(−c s)] W_c^D",
+            "h_c/σ = W_c g + (1 − W_c) [(E λ)^n + f^n]^{1/n}",
+            "g = G (s/0.2)^{−1.5},   f = F (s r/0.4)^{−0.75} ≥ g",
+        ),
+        "λ: film of the smooth bodies over composite roughness; s: mean Hertz pressure over what would press the "
+        "roughness flat; r: correlation length over the distance of the nodes.",
+    ),
+}

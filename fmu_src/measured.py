@@ -1,0 +1,131 @@
+"""Measured errors and costs that the FMU's documentation shows: figures of `docs/`, written there by the benchmarks.
+
+Every row holds the numbers of one line of its page; `tests/fmu/test_content.py` compares them.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Table:
+    """Measured figures: what they say, what writes them, and the page of docs/ that they are from."""
+
+    title: str
+    command: str
+    page: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+_FAST = "python benchmarks/regression.py check"
+_BANDS = ("λ", "points", "friction, median", "90 %", "h_c, median", "90 %", "W_c (absolute), median", "90 %")
+
+ERRORS: dict[str, tuple[Table, ...]] = {
+    "deterministic": (
+        Table(
+            "Time steps and sampling: two hours of azam_case_a on 129 nodes against ten times shorter blocks, rms over "
+            "time in %, of tribofilm and wear body 1 and 2",
+            "python benchmarks/evolution.py control",
+            "evolution.md",
+            ("driver", "friction", "h_c", "W_c", "A_c", "tribofilm 1", "tribofilm 2", "wear 1", "wear 2"),
+            (
+                ("auto", "2.1", "1.2", "3.3", "1.7", "1.5", "0.9", "1.4", "2.2"),
+                ("mixed", "1.9", "1.0", "2.7", "1.3", "0.0", "1.1", "1.3", "1.3"),
+            ),
+        ),
+        Table(
+            "Iteration: one step of moving roughness, mtm_zddp on 129 nodes, against film.tolerance = 2e-4",
+            "python benchmarks/tolerance.py mtm_zddp",
+            "tolerance.md",
+            ("film.tolerance", "pressure error %", "W_c"),
+            (("1e-3", "0.65", "0.620"), ("3e-3", "1.35", "0.621"), ("1e-2", "3.02", "0.634")),
+        ),
+        Table(
+            "Grid: the first block of mtm_zddp on fresh surfaces; no error_* output knows of it",
+            "python benchmarks/grid.py mtm_zddp",
+            "grid.md",
+            ("nodes", "friction coefficient", "W_c", "A_c", "h_c [m]"),
+            (
+                ("65", "0.106", "0.817", "0.479", "4.1e-08"),
+                ("129", "0.0868", "0.614", "0.296", "5.75e-08"),
+                ("193", "0.0725", "0.477", "0.225", "6.02e-08"),
+            ),
+        ),
+    ),
+    "regression": (
+        Table(
+            "Against the deterministic level on random points of azam_case_a that the fit has not seen, relative",
+            _FAST,
+            "regression.md",
+            _BANDS,
+            (
+                ("below 0.05", "35", "0.062", "0.104", "0.098", "0.157", "0.072", "0.084"),
+                ("0.05 to 0.2", "28", "0.079", "0.191", "0.095", "0.173", "0.055", "0.109"),
+                ("0.2 to 1", "22", "0.047", "0.064", "0.042", "0.106", "0.019", "0.041"),
+                ("above 1", "15", "0.054", "0.252", "0.069", "0.143", "0.005", "0.032"),
+            ),
+        ),
+        Table(
+            "The same for mtm_zddp",
+            _FAST,
+            "regression.md",
+            _BANDS,
+            (
+                ("below 0.05", "45", "0.040", "0.057", "0.097", "0.133", "0.046", "0.065"),
+                ("0.05 to 0.2", "16", "0.043", "0.094", "0.068", "0.150", "0.024", "0.069"),
+                ("0.2 to 1", "13", "0.022", "0.063", "0.058", "0.114", "0.010", "0.035"),
+                ("above 1", "26", "0.140", "0.273", "0.031", "0.060", "0.019", "0.078"),
+            ),
+        ),
+        Table(
+            "After two hours of rubbing, deterministic / fast",
+            _FAST,
+            "regression.md",
+            ("scene", "min", "friction coefficient", "W_c", "A_c", "h_c [nm]", "tribofilm 1 [nm]", "tribofilm 2 [nm]"),
+            (
+                (
+                    "azam_case_a",
+                    "120",
+                    "0.0604 / 0.0754",
+                    "0.391 / 0.518",
+                    "0.306 / 0.264",
+                    "73.8 / 57.3",
+                    "64.4 / 64.3",
+                    "27.1 / 28.3",
+                ),
+                (
+                    "mtm_zddp",
+                    "120",
+                    "0.106 / 0.0997",
+                    "0.891 / 0.801",
+                    "0.461 / 0.283",
+                    "81.9 / 92.8",
+                    "150 / 152",
+                    "65.6 / 70.8",
+                ),
+            ),
+        ),
+    ),
+}
+
+COSTS: dict[str, Table] = {
+    "deterministic": Table(
+        "CPU seconds so far on 129 nodes, one thread: at 0 min the first solution, at 120 min with all that followed",
+        _FAST,
+        "regression.md",
+        ("scene", "min", "CPU s"),
+        (
+            ("azam_case_a", "0", "2.5"),
+            ("azam_case_a", "120", "32"),
+            ("mtm_zddp", "0", "2.5"),
+            ("mtm_zddp", "120", "23"),
+        ),
+    ),
+    "regression": Table(
+        "Microseconds of one step with changed load and speeds, laws as shipped",
+        "python benchmarks/regression_cost.py",
+        "regression_cost.md",
+        ("scene", "median", "5 %", "95 %"),
+        (("azam_case_a", "92.6", "90.7", "107.1"), ("mtm_zddp", "92.4", "90.7", "119.8")),
+    ),
+}

@@ -1,0 +1,76 @@
+"""What the FMU needs from outside and under which licences, from the metadata of the installed packages."""
+
+from importlib.metadata import PackageNotFoundError, distribution
+
+from contact_core import __version__
+
+from . import resources
+
+PACKAGE = "tribofmu"
+_MADE_BY_OTHERS = {"embedded": ("pythonfmu",), "isolated": ()}  # whose libraries lie in the FMU, by flavour
+
+
+def licences(flavour: str) -> dict[str, bytes]:
+    """Name and text of the licence of the FMU and of each library in it that others made.
+
+    Raises FileNotFoundError if a package is not installed with its licence.
+    """
+    others = {f"{package}.txt": _licence(package) for package in _MADE_BY_OTHERS[flavour]}
+    return {"license.txt": _licence(PACKAGE), **others}
+
+
+def _licence(package: str) -> bytes:
+    try:
+        files = distribution(package).files or []
+    except PackageNotFoundError:
+        files = []
+    texts = [file for file in files if file.name == "LICENSE"]
+    if not texts:
+        raise FileNotFoundError(f"{package} is not installed with its licence. Install it with pip.")
+    return texts[0].read_binary()
+
+
+def python() -> str:
+    """Versions of Python that will do."""
+    return distribution(PACKAGE).metadata["Requires-Python"]
+
+
+def dependencies() -> list[str]:
+    """What pip installs beside the package, as it asks for it."""
+    return [name for name in distribution(PACKAGE).requires or [] if "extra ==" not in name]
+
+
+def exact() -> dict[str, str]:
+    """Packages of which the FMU takes no other version."""
+    return {PACKAGE: __version__, "pythonfmu": resources.VERSIONS["pythonfmu"]}
+
+
+VARIABLES: dict[str, dict[str, str]] = {
+    "isolated": {
+        "TRIBOFMU_PYTHON": "path of the Python that has the packages; without it the one recorded when the FMU was "
+        "built, if any, then python3 on PATH",
+        "TRIBOFMU_TIMEOUT": "longest time of a call in seconds, after which it ends with an error; without it, none",
+    },
+    "embedded": {
+        "LD_PRELOAD": "Linux, host without Python: path of libpython3.x.so",
+        "PYTHONPATH": "host without Python: where the packages lie",
+    },
+}
+
+
+def external_dependencies(flavour: str) -> bytes:
+    """documentation/externalDependencies.txt."""
+    lines = [
+        "What this FMU needs that does not lie in it.",
+        "",
+        f"Python {python()}"
+        + (", in the process of the host" if flavour == "embedded" else ", in a process of its own"),
+        "Packages in exactly these versions:",
+        *(f"    {name} {version}" for name, version in exact().items()),
+        "and what pip installs with them:",
+        *(f"    {name}" for name in dependencies()),
+        "Environment variables:",
+        *(f"    {name}: {text}" for name, text in VARIABLES[flavour].items()),
+        "",
+    ]
+    return "\n".join(lines).encode()

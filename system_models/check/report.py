@@ -1,0 +1,33 @@
+"""Every rule answered, one after the other, and the lines that are printed."""
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+
+from . import deep, static
+from .package import Package
+from .verdict import Finding, Verdict, failed
+
+_WIDTH = max(map(len, [*static.RULES, *deep.RULES]))
+
+
+def findings(package: Package, thorough: bool, limit: float) -> Iterator[Finding]:
+    """The static rules, and where `thorough` those that run the FMU; `limit` [s] is that of one call."""
+    for name, rule in static.RULES.items():
+        try:
+            answer = rule(package)
+        except ValueError as error:
+            answer = failed(f"A value cannot be read: {error}.")
+        yield Finding(name, *answer)
+    if thorough:
+        yield from deep.findings(package, limit)
+
+
+def line(finding: Finding) -> str:
+    """Name, verdict and evidence."""
+    return f"{finding.rule:{_WIDTH}}  {finding.verdict:4}  {finding.evidence}"
+
+
+def summary(found: Iterable[Finding]) -> str:
+    """How many of each verdict."""
+    count = Counter(finding.verdict for finding in found)
+    return ", ".join(f"{count[verdict]} {verdict}" for verdict in Verdict)

@@ -1,0 +1,404 @@
+"""Rules that need the file only: archive, model description, binaries, what lies beside them."""
+
+import math
+import re
+import zipfile
+from collections import Counter
+from collections.abc import Callable
+from functools import wraps
+from pathlib import Path, PurePosixPath
+
+import fmpy
+from fmpy.model_description import BaseUnit, ModelDescription, ModelVariable
+from fmpy.validation import validate_fmu
+from lxml import etree
+
+from contact_core import units
+from contact_core.errors import SceneError
+
+from .binaries import Library, UnreadableError, read_library
+from .package import DESCRIPTION, Package
+from .variables import attribute, is_real
+from .verdict import Answer, failed, not_applicable, noted, passed, some
+
+Rule = Callable[[Package], Answer]
+
+_SCHEMATA = {
+    "1": "fmi1/fmiModelDescription.xsd",
+    "2": "fmi2/fmi2ModelDescription.xsd",
+    "3": "fmi3/fmi3ModelDescription.xsd",
+}
+
+# FMI 2.0.4, section 2.1 and 4.2: what a library exports
+_CO_SIMULATION = (
+    "GetTypesPlatform GetVersion SetDebugLogging Instantiate FreeInstance SetupExperiment EnterInitializationMode "
+    "ExitInitializationMode Terminate Reset GetReal GetInteger GetBoolean GetString SetReal SetInteger SetBoolean "
+    "SetString DoStep CancelStep GetStatus GetRealStatus GetIntegerStatus GetBooleanStatus GetStringStatus"
+).split()
+_STATE = ["GetFMUstate", "SetFMUstate", "FreeFMUstate"]
+_BYTES = ["SerializedFMUstateSize", "SerializeFMUstate", "DeSerializeFMUstate"]
+
+# supplied by every ordinary Linux or Windows
+_LINUX = re.compile(r"(lib(c|m|dl|pthread|rt|gcc_s|stdc\+\+)|ld-linux.*)\.so\.\d+$")
+_WINDOWS = re.compile(
+    r"(api-ms-win-.*|kernel32|user32|advapi32|shell32|ole32|oleaut32|ntdll|ws2_32|bcrypt(primitives)?|shlwapi|gdi32|"
+    r"version|secur32|userenv|psapi|dbghelp|winmm|iphlpapi|rpcrt4|synchronization|msvcrt|ucrtbase|msvcp\d+\w*|"
+    r"vcruntime\d+\w*)\.dll$",
+    re.IGNORECASE,
+)
+_PYTHON_LIBRARY = re.compile(r"(lib)?python\d.*", re.IGNORECASE)
+
+
+def _described(rule: Callable[[ModelDescription], Answer]) -> Rule:
+    """A rule about the description, where fmpy could interpret it."""
+
+    @wraps(rule)
+    def answer(package: Package) -> Answer:
+        if package.description is None:
+            return not_applicable(f"{DESCRIPTION} cannot be interpreted.")
+        return rule(package.description)
+
+    return answer
+
+
+# the archive and its description
+
+
+def archive(package: Package) -> Answer:
+    """Every file whole, no path that leaves the folder, no file twice."""
+    try:
+        damaged = package.archive.testzip()
+    except (zipfile.BadZipFile, NotImplementedError, OSError) as error:
+        return failed(f"The archive cannot be read to its end: {error}.")
+    if damaged:
+        return failed(f"'{damaged}' is damaged: its checksum is wrong.")
+    astray = [info.orig_filename for info in package.archive.infolist() if _leaves(info.orig_filename)]
+    if astray:
+        return failed(f"'{some(astray)}' must be relative, without '..', and with '/' between folders.")
+    twice = [name for name, count in Counter(package.names).items() if count > 1]
+    if twice:
+        return failed(f"{some(twice)} lies in the archive more than once.")
+    return passed(f"{len(package.names)} files, all whole, all within the folder.")
+
+
+def _leaves(name: str) -> bool:
+    return "\\" in name or name.startswith("/") or ":" in name.split("/")[0] or ".." in PurePosixPath(name).parts
+
+
+def schema(package: Package) -> Answer:
+    """Valid against the XSD of its FMI version."""
+    file = _SCHEMATA.get(package.version[:1])
+    if file is None:
+        return failed(f"fmiVersion = '{package.version}' is none of 1.0, 2.0, 3.0.")
+    xsd = etree.XMLSchema(file=str(Path(fmpy.__file__).parent / "schema" / file))
+    if xsd.validate(package.root):
+        return passed(f"{DESCRIPTION} is valid FMI {package.version}.")
+    first = xsd.error_log[0]
+    return failed(f"Line {first.line} of {DESCRIPTION}: {first.message}")
+
+
+def validation(package: Package) -> Answer:
+    """fmpy's own validation finds nothing."""
+    problems = validate_fmu(str(package.path))
+    if problems:
+        return failed(f"{len(problems)} problem(s), the first: {' '.join(problems[0].split())}")
+    return passed("fmpy.validation.validate_fmu finds no problem.")
+
+
+# variables
+
+
+@_described
+def unit_of_reals(description: ModelDescription) -> Answer:
+    """Every Real has a unit, and the unit a base unit."""
+    reals = [v for v in description.modelVariables if is_real(v)]
+    bare = [v.name for v in reals if attribute(v, "unit") is None]
+    if bare:
+        return failed(f"{some(bare)} have no unit; a number without dimension has the unit '1'.")
+    defined = {unit.name: unit for unit in description.unitDefinitions}
+    unknown = [f"'{attribute(v, 'unit')}' of {v.name}" for v in reals if attribute(v, "unit") not in defined]
+    if unknown:
+        return failed(f"The unit {some(unknown)} is not in UnitDefinitions.")
+    empty = sorted({u for v in reals if defined[u := str(attribute(v, "unit"))].baseUnit is None})
+    if empty:
+        return failed(f"The unit {some(empty)} has no BaseUnit, so it cannot be converted or compared.")
+    return passed(f"{len(reals)} Reals with {len({attribute(v, 'unit') for v in reals})} units.")
+
+
+@_described
+def unit_audit(description: ModelDescription) -> Answer:
+    """A unit with the name of an SI unit is that unit."""
+    known = 0
+    for unit in description.unitDefinitions:
+        expected = _si(unit.name)
+        if expected is None or unit.baseUnit is None or unit.baseUnit.mol:  # our mol is a number
+            continue
+        known += 1
+        factor, exponents = expected
+        base = unit.baseUnit
+        right = math.isclose(base.factor, factor, rel_tol=1e-9) and base.offset == 0.0 and not (base.A or base.cd)
+        if not right or (base.m, base.kg, base.s, base.K) != exponents:
+            m, kg, s, kelvin = exponents
+            return failed(
+                f"The unit '{unit.name}' is declared as {_base(base)}; by its name it is "
+                f"{_base(BaseUnit(m=m, kg=kg, s=s, K=kelvin, factor=factor))}."
+            )
+    count = len(description.unitDefinitions)
+    return passed(f"{known} of {count} unit names are known here, and mean what they say.")
+
+
+def _si(name: str) -> tuple[float, units.Dimension] | None:
+    try:
+        return units.unit(name)
+    except SceneError:
+        return None
+
+
+def _base(base: BaseUnit) -> str:
+    exponents = ((axis, getattr(base, axis)) for axis in ("kg", "m", "s", "A", "K", "mol", "cd", "rad"))
+    text = " ".join(f"{axis}={n}" for axis, n in exponents if n) or "a plain number"
+    factor = f" factor={base.factor:g}" if base.factor != 1.0 else ""
+    return text + factor + (f" offset={base.offset:g}" if base.offset else "")
+
+
+@_described
+def nominals(description: ModelDescription) -> Answer:
+    """Every Real has a nominal, finite and not zero."""
+    reals = [v for v in description.modelVariables if is_real(v)]
+    bare = [v.name for v in reals if attribute(v, "nominal") is None]
+    if bare:
+        return failed(f"{some(bare)} have no nominal; hosts then take 1, and tolerances miss small quantities.")
+    odd = [f"{v.name} = {attribute(v, 'nominal')}" for v in reals if not _scale(attribute(v, "nominal"))]
+    if odd:
+        return failed(f"The nominal {some(odd)} must be finite and not zero.")
+    return passed(f"{len(reals)} Reals with their magnitudes.")
+
+
+def _scale(text: str | None) -> float:
+    """A nominal value as a positive number; 0 if it cannot serve."""
+    value = abs(float(text or 0.0))
+    return value if math.isfinite(value) else 0.0
+
+
+@_described
+def starts(description: ModelDescription) -> Answer:
+    """Start values where FMI wants them, within min and max."""
+    variables = [v for v in description.modelVariables if v.type != "Clock"]
+    missing = [v.name for v in variables if v.start is None and (v.causality == "input" or v.initial in _STARTED)]
+    if missing:
+        return failed(f"{some(missing)} have no start value; inputs and variables of initial exact or approx need one.")
+    numbers = [v for v in variables if is_real(v) or "Int" in v.type]
+    for v in numbers:
+        low, high = _range(v)
+        values = [float(word) for word in (v.start or "").split()]
+        if low > high:
+            return failed(f"{v.name} has min = {low:g} above max = {high:g}.")
+        if not all(low <= value <= high for value in values):
+            return failed(f"{v.name} starts at {v.start}, which is not within its range {low:g} to {high:g}.")
+    return passed(f"{sum(v.start is not None for v in variables)} start values, all within their ranges.")
+
+
+_STARTED = ("exact", "approx")
+
+
+def _range(variable: ModelVariable) -> tuple[float, float]:
+    low, high = attribute(variable, "min"), attribute(variable, "max")
+    return -math.inf if low is None else float(low), math.inf if high is None else float(high)
+
+
+# structure
+
+
+@_described
+def outputs(description: ModelDescription) -> Answer:
+    """ModelStructure/Outputs lists every output once, and nothing else."""
+    listed = Counter(u.variable.name for u in description.outputs)
+    expected = {v.name for v in description.modelVariables if v.causality == "output" and v.alias is None}
+    missing = sorted(expected - set(listed))
+    if missing:
+        return failed(f"{some(missing)} are outputs, but not in ModelStructure/Outputs.")
+    foreign = sorted(set(listed) - expected)
+    if foreign:
+        return failed(f"{some(foreign)} are in ModelStructure/Outputs, but not outputs.")
+    twice = [name for name, count in listed.items() if count > 1]
+    if twice:
+        return failed(f"{some(twice)} are in ModelStructure/Outputs more than once.")
+    return passed(f"{len(expected)} outputs, each listed once.")
+
+
+@_described
+def dependencies(description: ModelDescription) -> Answer:
+    """Every output says what it depends on."""
+    silent = [u.variable.name for u in description.outputs if u.dependencies is None]
+    if silent:
+        return failed(f"{some(silent)} have no dependencies: a host must suppose loops through every input.")
+    inputs = sum(any(v.causality == "input" for v in u.dependencies) for u in description.outputs)
+    return passed(f"{inputs} of {len(description.outputs)} outputs depend directly on inputs.")
+
+
+@_described
+def initial_unknowns(description: ModelDescription) -> Answer:
+    """Every calculated output is in InitialUnknowns."""
+    listed = {u.variable.name for u in description.initialUnknowns}
+    calculated = [
+        v.name
+        for v in description.modelVariables
+        if v.causality == "output" and v.initial in ("calculated", "approx") and v.alias is None and not v.clocks
+    ]
+    missing = [name for name in calculated if name not in listed]
+    if missing:
+        return failed(f"{some(missing)} are calculated outputs, but not in ModelStructure/InitialUnknowns.")
+    return passed(f"{len(calculated)} calculated outputs, all in InitialUnknowns.")
+
+
+@_described
+def capabilities(description: ModelDescription) -> Answer:
+    """What the FMU can do for a master that iterates or goes back."""
+    slave = description.coSimulation
+    if slave is None:
+        return not_applicable("There is no interface for co-simulation.")
+    lacks = [
+        text
+        for has, text in (
+            (slave.canGetAndSetFMUstate, "it cannot be set back (canGetAndSetFMUstate)"),
+            (slave.canSerializeFMUstate, "its state cannot be stored (canSerializeFMUstate)"),
+            (slave.canHandleVariableCommunicationStepSize, "its step must be constant"),
+            (not slave.needsExecutionTool, "needsExecutionTool is true, so some hosts refuse it"),
+            (not slave.canBeInstantiatedOnlyOncePerProcess, "only one instance fits in a process"),
+        )
+        if not has
+    ]
+    if lacks:
+        return noted(f"Declared: {'; '.join(lacks)}.")
+    return passed("State can be kept and stored, steps can vary, many instances fit, no other tool is needed.")
+
+
+# binaries
+
+
+def platforms(package: Package) -> Answer:
+    """A binary of the right name for every platform that has a folder."""
+    folders = {name.split("/")[1] for name in package.names if re.match(r"binaries/[^/]+/.*\.(so|dll|dylib)$", name)}
+    found = package.binaries
+    unnamed = sorted(folders - set(found))
+    if unnamed:
+        wanted = " or ".join(sorted(package.identifiers))
+        return failed(f"binaries/{unnamed[0]} holds no library called {wanted}, which is its modelIdentifier.")
+    if not found and not package.sources:
+        return failed("There is neither a binary nor source code: no host can run it.")
+    text = f"Binaries for {', '.join(sorted(found)) or 'no platform'}" + (", and sources." if package.sources else ".")
+    return passed(text) if package.platform in found else noted(f"{text} None for this machine, {package.platform}.")
+
+
+def functions(package: Package) -> Answer:
+    """The binaries export what FMI 2.0 co-simulation calls."""
+    description = package.description
+    if description is None or description.coSimulation is None or package.version != "2.0":
+        return not_applicable("The list is that of FMI 2.0 co-simulation.")
+    slave = description.coSimulation
+    wanted = [*_CO_SIMULATION, *_STATE * slave.canGetAndSetFMUstate, *_BYTES * slave.canSerializeFMUstate]
+    libraries, unread = _libraries(package)
+    for platform, library in libraries.items():
+        missing = [f"fmi2{name}" for name in wanted if f"fmi2{name}" not in library.exported]
+        if missing:
+            return failed(f"The binary for {platform} does not export {some(missing)}.")
+    if not libraries:
+        return not_applicable(f"No binary could be read. {unread}".rstrip())
+    return passed(f"{len(wanted)} functions in the binaries for {', '.join(libraries)}. {unread}".rstrip())
+
+
+def host_needs(package: Package) -> Answer:
+    """What a plain host must supply before it can load the binaries."""
+    libraries, unread = _libraries(package)
+    if not libraries:
+        return not_applicable(f"No binary could be read. {unread}".rstrip())
+    found, wrong, worth = [], [], []
+    for platform, library in libraries.items():
+        bundled = {PurePosixPath(name).name for name in package.names if name.startswith(f"binaries/{platform}/")}
+        foreign = [name for name in library.needed if not _LINUX.match(name) and not _WINDOWS.match(name)]
+        python = [name for name in library.undefined if name.lstrip("_").startswith("Py")]
+        python += [name for name in foreign if _PYTHON_LIBRARY.match(name)]
+        outside = [name for name in foreign if name not in python and name not in bundled]
+        lost = [] if foreign else [name for name in library.undefined if name not in python]
+        if library.glibc:
+            found.append(f"{platform}: glibc {library.glibc} or later")
+        if lost:
+            wrong.append(f"{platform}: no library that it names supplies {some(lost)}")
+        if python:
+            text = f"{platform}: only a host with Python can load it ({some(python, 2)})"
+            (worth if package.needs_tool else wrong).append(
+                text if package.needs_tool else f"{text}, which needsExecutionTool must declare"
+            )
+        if outside:
+            worth.append(f"{platform}: the host must have {some(outside)}")
+    evidence = "; ".join([*wrong, *worth, *found]) or f"{', '.join(libraries)}: nothing beyond the operating system"
+    answer = failed if wrong else noted if worth else passed
+    return answer(f"{evidence}. {unread}".rstrip())
+
+
+def _libraries(package: Package) -> tuple[dict[str, Library], str]:
+    """The binaries by platform, and a sentence about those that were not read."""
+    libraries, unread = {}, []
+    for platform, name in sorted(package.binaries.items()):
+        try:
+            libraries[platform] = read_library(package.archive.read(name))
+        except (UnreadableError, zipfile.BadZipFile) as error:
+            unread.append(f"{platform} was not examined: {error}.")
+    return libraries, " ".join(unread)
+
+
+# what lies beside
+
+
+def documentation(package: Package) -> Answer:
+    """A page for people."""
+    page = "documentation/index.html"
+    if page in package.names:
+        return passed(f"{page}, {package.archive.getinfo(page).file_size / 1024:.0f} kB.")
+    return noted(f"There is no {page}.")
+
+
+def icon(package: Package) -> Answer:
+    """A picture for the host's canvas."""
+    places = ("model.png", "terminalsAndIcons/icon.png", "terminalsAndIcons/icon.svg")
+    found = [name for name in places if name in package.names]
+    return passed(f"{found[0]}.") if found else noted("There is no icon (model.png).")
+
+
+def licence(package: Package) -> Answer:
+    """Who may use it."""
+    files = [name for name in package.names if re.match(r"documentation/licenses/.+", name)]
+    declared = package.root.get("license") or package.root.get("copyright")
+    if files or declared:
+        return passed(f"{' and '.join(filter(None, [some(files), declared]))}.")
+    return noted("There is neither documentation/licenses/ nor an attribute license: nobody knows who may use it.")
+
+
+def reference_data(package: Package) -> Answer:
+    """Results with which an importer can check itself."""
+    found = [name for name in package.names if name.endswith("ref.csv")]
+    if found:
+        return passed(f"{some(found)}; --deep replays it.")
+    return noted("There are no reference results (*ref.csv): an importer cannot check itself.")
+
+
+RULES: dict[str, Rule] = {
+    "archive": archive,
+    "schema": schema,
+    "fmpy": validation,
+    "units": unit_of_reals,
+    "unit audit": unit_audit,
+    "nominals": nominals,
+    "starts": starts,
+    "outputs": outputs,
+    "dependencies": dependencies,
+    "initial unknowns": initial_unknowns,
+    "capabilities": capabilities,
+    "platforms": platforms,
+    "functions": functions,
+    "host needs": host_needs,
+    "documentation": documentation,
+    "icon": icon,
+    "licence": licence,
+    "reference data": reference_data,
+}

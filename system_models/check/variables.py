@@ -1,0 +1,44 @@
+"""What a variable of fmpy's model description says of itself."""
+
+import math
+
+from fmpy.model_description import ModelVariable
+
+_REALS = {"Real", "Float32", "Float64"}
+_MILLION = 1e6
+
+
+def is_real(variable: ModelVariable) -> bool:
+    """True for variables of floating-point type."""
+    return variable.type in _REALS
+
+
+def attribute(variable: ModelVariable, name: str) -> str | None:
+    """`unit`, `nominal`, `min` or `max` of a variable, its declared type's where it has none of its own."""
+    own = getattr(variable, name)
+    return getattr(variable.declaredType, name) if own is None and variable.declaredType is not None else own
+
+
+def magnitude(variable: ModelVariable) -> float:
+    """Nominal value of a Real, else that of its start value, else 1."""
+    for text in (attribute(variable, "nominal"), variable.start):
+        value = abs(float(text or 0.0))
+        if value and math.isfinite(value):
+            return value
+    return 1.0
+
+
+def clipped(variable: ModelVariable, value: float) -> float:
+    """`value` within the declared range."""
+    low, high = attribute(variable, "min"), attribute(variable, "max")
+    if low is not None:
+        value = max(value, float(low))
+    return value if high is None else min(value, float(high))
+
+
+def extremes(variable: ModelVariable) -> list[float]:
+    """Both ends of the declared range, at most a million times the magnitude away from zero, and zero if within."""
+    far = _MILLION * magnitude(variable)
+    ends = [attribute(variable, "min"), attribute(variable, "max")]
+    values = [clipped(variable, min(max(float(end), -far), far)) for end in ends if end is not None]
+    return sorted({*values, *([0.0] if clipped(variable, 0.0) == 0.0 else [])})

@@ -1,0 +1,154 @@
+"""Any sequence of calls that FMI's state machine allows, with any input: no crash, no NaN, no lost state."""
+
+import math
+import shutil
+import sys
+
+import pytest
+from hypothesis import HealthCheck, settings
+from hypothesis import strategies as st
+from hypothesis.stateful import Bundle, RuleBasedStateMachine, consumes, invariant, precondition, rule
+from native_host import ERROR, OK, NativeHost, plain_environment
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux" or not shutil.which("gcc"), reason="needs Linux and gcc")
+
+WILD = st.one_of(
+    st.sampled_from([0.0, -0.0, 5e-324, 1e-9, 1e9, 1.7e308, math.nan, math.inf, -math.inf, -1.0]),
+    st.floats(allow_nan=True, allow_infinity=True),
+)
+INPUTS = {
+    "load": st.one_of(st.floats(0.0, 120.0), WILD),
+    "speed_1": st.one_of(st.floats(-1.0, 1.0), WILD),
+    "speed_2": st.one_of(st.floats(-1.0, 1.0), WILD),
+    "temperature": st.one_of(st.floats(340.0, 360.0), WILD),
+    "spin": st.one_of(st.floats(-10.0, 10.0), WILD),
+}
+STEPS = st.one_of(st.sampled_from([0.0, 1e-6, 1e-3, 1.0, 60.0, 3600.0]), WILD)
+PARAMETERS = st.sampled_from(["wear.bare", "boundary_friction.bare", "plasticity.hardness", "surface_1.rq"])
+
+
+class Calls(RuleBasedStateMachine):
+    """One instance in a C host; every rule is a call of FMI, made where FMI allows it."""
+
+    host: NativeHost
+    fmu: object
+    states = Bundle("states")
+
+    def __init__(self):
+        super().__init__()
+        self.instance = self.fmu.instance(0)
+        assert self.instance.created.status == OK
+        self.phase = "new"
+        self.kept = {}
+        self.slots = 0
+
+    def teardown(self):
+        for slot in range(1, self.slots + 1):
+            self.called("freestate", slot)
+        self.instance.free()
+
+    def called(self, *words):
+        answer = self.instance.ask(*words)
+        assert answer.status == OK, (words, answer.log)
+        return answer
+
+    @precondition(lambda self: self.phase == "new")
+    @rule(tolerance=WILD)
+    def begin(self, tolerance):
+        self.called("setup")
+        self.called("enter")
+        self.phase = "initialising"
+
+    @precondition(lambda self: self.phase == "initialising")
+    @rule()
+    def end_initialisation(self):
+        self.called("exit")
+        self.phase = "stepping"
+
+    @rule(name=st.sampled_from(sorted(INPUTS)), data=st.data())
+    def set_input(self, name, data):
+        value = data.draw(INPUTS[name])
+        assert self.instance.set(**{name: value}) == [OK]
+        (found,) = self.instance.get(name)
+        assert found == value or math.isnan(value)
+
+    @precondition(lambda self: self.phase != "stepping")
+    @rule(name=PARAMETERS, value=WILD)
+    def set_parameter(self, name, value):
+        assert self.instance.set(**{name: value}) == [OK]
+
+    @rule(level=st.integers(-1, 2))
+    def set_fidelity(self, level):
+        assert self.instance.set(fidelity=1 if level == 2 else level) == [OK]
+
+    @precondition(lambda self: self.phase == "stepping")
+    @rule(dt=STEPS, good=st.booleans())
+    def step(self, dt, good):
+        if good:
+            self.instance.set(load=40.0, speed_1=0.1, speed_2=0.09, temperature=353.15, spin=0.0, fidelity=1)
+        before = self.instance.outputs()
+        self.called("step", 0.0, dt)
+        after = self.instance.outputs()
+        if not after["valid"]:
+            assert after == before | {"valid": 0}
+
+    @rule(target=states)
+    def save(self):
+        self.slots += 1
+        self.called("save", self.slots)
+        self.kept[self.slots] = (self.phase, self.seen())
+        return self.slots
+
+    @rule(state=states)
+    def restore(self, state):
+        self.called("restore", state)
+        self.phase, expected = self.kept[state]
+        assert self.seen() == expected
+
+    @rule(target=states, state=states)
+    def copy_by_bytes(self, state):
+        self.slots += 1
+        file = self.folder / "state"
+        self.called("serialize", state, file)
+        self.called("deserialize", self.slots, file)
+        self.kept[self.slots] = self.kept[state]
+        return self.slots
+
+    @rule(state=consumes(states))
+    def forget(self, state):
+        self.called("freestate", state)
+
+    @rule()
+    def reset(self):
+        self.called("reset")
+        self.phase = "new"
+
+    @precondition(lambda self: self.phase == "stepping")
+    @rule()
+    def terminate_and_reset(self):
+        self.called("terminate")
+        self.reset()
+
+    @precondition(lambda self: self.phase == "stepping")
+    @rule(reference=st.sampled_from([9999, 2**32 - 1]))
+    def ask_for_nothing(self, reference):
+        assert self.instance.ask("getr", reference).status == ERROR
+
+    def seen(self):
+        return tuple(self.instance.outputs().items())
+
+    @invariant()
+    def no_output_is_nan(self):
+        found = self.instance.outputs()
+        assert all(math.isfinite(value) for value in found.values()), found
+
+
+def test_any_sequence_of_calls(program, quick_folder, tmp_path):
+    with NativeHost(program, plain_environment()) as host:
+        Calls.host, Calls.fmu, Calls.folder = host, host.load(quick_folder), tmp_path
+        machine = Calls.TestCase()
+        machine.settings = settings(
+            max_examples=500, stateful_step_count=20, deadline=None, suppress_health_check=list(HealthCheck)
+        )
+        machine.runTest()
+    assert host.code == 0
