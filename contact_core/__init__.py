@@ -32,6 +32,7 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     tracks       the rubbed surfaces as they are, for profiles and pictures
     reference    closed forms
     data/        named oils, solids and tribofilms, and the shipped scenes
+    checksum     of bytes joined from parts whose checksums are known
     errors       what can go wrong, each message with a way out
 
 Imports run one way: kernels <- laws <- film <- friction <- oil <- patches <- evolution <- contact <- sweep <- block

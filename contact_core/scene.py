@@ -348,6 +348,10 @@ class Scene:
 
     def digest(self) -> str:
         """Fingerprint of what a stored state depends on: shape, surfaces and grid."""
+        return self._digest
+
+    @cached_property
+    def _digest(self) -> str:
         table = self.to_dict()
         parts = {key: table[key] for key in ("geometry", "surface_1", "surface_2")}
         parts["grid"] = [self.film.points, self.film.domain]

@@ -6,15 +6,17 @@ grid of the contact.
 """
 
 import json
+import math
 import struct
 import zlib
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass, fields
 from enum import IntFlag
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .checksum import joined
 from .errors import StateError
 from .film.instant import FilmState
 from .scene import OperatingPoint, Scene
@@ -195,12 +197,23 @@ class ContactState:
 
         The same state gives the same bytes.
         """
-        arrays: list[NDArray[Any]] = []
-        tree = _pack(self, arrays)
-        shapes = [[a.dtype.str, list(a.shape)] for a in arrays]
-        header = json.dumps({"schema": _SCHEMA, "arrays": shapes, "state": tree}).encode()
-        rest = b"".join([struct.pack("<I", len(header)), header, *(a.tobytes() for a in arrays)])
-        return _MAGIC + struct.pack("<I", zlib.crc32(rest)) + rest
+        return b"".join(self.parts())
+
+    def parts(self) -> list[bytes | memoryview]:
+        """What `to_bytes` joins: all up to the arrays, then the memory of each array, which is not copied.
+
+        An array that has not changed since an earlier state is the same object in both (`obj` of its part): at the
+        fast level that is all of them, between two solutions of the deterministic one all but what grows and wears.
+        """
+        stored = [_stored(record) for record in (*self.bodies, self.film, self.trends) if record is not None]
+        shapes = [shape for record in stored for shape in record.shapes]
+        header = json.dumps({"schema": _SCHEMA, "arrays": shapes, "state": _pack(self)}).encode()
+        head = struct.pack("<I", len(header)) + header
+        checksum = zlib.crc32(head)
+        for record in stored:
+            checksum = joined(checksum, record.checksum, record.size)
+        arrays = [array.data for record in stored for array in record.arrays]
+        return [_MAGIC + struct.pack("<I", checksum) + head, *arrays]
 
     @staticmethod
     def from_bytes(data: bytes, scene: Scene) -> "ContactState":
@@ -214,17 +227,48 @@ class ContactState:
         return state
 
 
-def _pack(value: Any, arrays: list[NDArray[Any]]) -> Any:
+class _Stored(NamedTuple):
+    """The arrays of a record as they are stored."""
+
+    arrays: list[NDArray[Any]]
+    shapes: list[list[Any]]
+    size: int  # bytes
+    checksum: int
+
+
+def _stored(record: Body | FilmState | Trends) -> _Stored:
+    """Made once and kept with the record, whose arrays never change."""
+    kept: _Stored | None = vars(record).get("_stored")
+    if kept is None:
+        values = (getattr(record, name) for name in _NAMES[type(record)])
+        arrays = [_little_endian(value) for value in values if isinstance(value, np.ndarray)]
+        checksum = 0
+        for array in arrays:
+            checksum = zlib.crc32(array.data, checksum)
+        shapes = [[array.dtype.str, list(array.shape)] for array in arrays]
+        kept = _Stored(arrays, shapes, sum(array.nbytes for array in arrays), checksum)
+        vars(record)["_stored"] = kept
+    return kept
+
+
+def _little_endian(array: NDArray[Any]) -> NDArray[Any]:
+    return np.ascontiguousarray(array).astype(array.dtype.newbyteorder("<"), copy=False)
+
+
+def _pack(value: Any) -> Any:
+    """What JSON can hold of a value; None for an array."""
+    if isinstance(value, float):
+        return value.hex()
     if isinstance(value, np.ndarray):
-        arrays.append(np.ascontiguousarray(value).astype(value.dtype.newbyteorder("<"), copy=False))
         return None
     if isinstance(value, tuple):
-        return [_pack(item, arrays) for item in value]
-    if isinstance(value, (Outputs, OperatingPoint)):
-        return {name: float(x).hex() if isinstance(x, float) else x for name, x in asdict(value).items()}
-    if isinstance(value, (ContactState, Body, Mean, FilmState, Trends)):
-        return {f.name: _pack(getattr(value, f.name), arrays) for f in fields(value)}
-    return value.hex() if isinstance(value, float) else value
+        return [_pack(item) for item in value]
+    names = _NAMES.get(type(value))
+    return {name: _pack(getattr(value, name)) for name in names} if names else value
+
+
+_RECORDS = (ContactState, Body, Mean, FilmState, Trends, Outputs, OperatingPoint)
+_NAMES = {record: tuple(f.name for f in fields(record)) for record in _RECORDS}
 
 
 def _read(data: bytes) -> ContactState:
@@ -232,7 +276,7 @@ def _read(data: bytes) -> ContactState:
     if data[: len(_MAGIC)] != _MAGIC or len(data) < start:
         raise StateError("The stored state is not one of tribofmu's. Give a file that a run has written.")
     checksum, length = struct.unpack("<II", data[len(_MAGIC) : start])
-    if zlib.crc32(data[start - 4 :]) != checksum:
+    if zlib.crc32(memoryview(data)[start - 4 :]) != checksum:
         raise StateError("The stored state is damaged: it was cut or changed. Use an earlier one.")
     try:
         header = json.loads(data[start : start + length])
@@ -240,7 +284,7 @@ def _read(data: bytes) -> ContactState:
             raise StateError(f"The stored state has schema {header['schema']}, this version reads {_SCHEMA}.")
         arrays, at = [], start + length
         for dtype, shape in header["arrays"]:
-            array = np.frombuffer(data, np.dtype(dtype), int(np.prod(shape)), at).reshape(shape)
+            array = np.frombuffer(data, np.dtype(dtype), math.prod(shape), at).reshape(shape)
             at += array.nbytes
             arrays.append(array.copy())  # a copy, because the bytes need not be aligned
         return _unpack_state(header["state"], iter(arrays))
@@ -256,7 +300,8 @@ def _unpack_state(tree: dict[str, Any], arrays: Any) -> ContactState:
         return float.fromhex(value) if isinstance(value, str) else value
 
     def record(cls: Any, values: dict[str, Any]) -> Any:
-        return cls(**{f.name: next(arrays) if values[f.name] is None else number(values[f.name]) for f in fields(cls)})
+        pairs = ((name, values[name]) for name in _NAMES[cls])
+        return cls(**{name: next(arrays) if value is None else number(value) for name, value in pairs})
 
     bodies = (record(Body, tree["bodies"][0]), record(Body, tree["bodies"][1]))
     return ContactState(

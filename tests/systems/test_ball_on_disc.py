@@ -62,6 +62,11 @@ def test_the_duty_reaches_the_contact(dataset: xr.Dataset) -> None:
     assert dataset["temperature_1"].values.tolist() == [353.15] * 3 + [355.15] * 2
 
 
+def test_radii_that_a_duty_leaves_open_are_the_scenes(dataset: xr.Dataset, scene: Scene) -> None:
+    for name in ("radius_x", "radius_y"):
+        assert dataset[name].values.tolist() == [getattr(scene.geometry, name)] * 5
+
+
 def test_friction_coefficient_is_force_over_the_load_of_the_same_row(dataset: xr.Dataset) -> None:
     force, load = dataset["friction_force"].values, dataset["load"].values
     np.testing.assert_allclose(dataset["friction_coefficient"].values, abs(force) / load, rtol=1e-14)

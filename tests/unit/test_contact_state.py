@@ -1,10 +1,15 @@
+import zlib
 from dataclasses import FrozenInstanceError, fields, is_dataclass, replace
 from typing import Any, ClassVar, get_args, get_origin, get_type_hints
 
 import numpy as np
 import pytest
+from cheap_scene import cheap
+from hypothesis import given
+from hypothesis import strategies as st
 
-from contact_core import ContactState, Outputs, RangeFlag, Scene, StateError, initial_state
+from contact_core import ContactState, Outputs, RangeFlag, Scene, StateError, advance, initial_state
+from contact_core.checksum import joined
 from contact_core.film.instant import FilmState
 from contact_core.state import Body, Mean
 from contact_core.trends import NAMES, Trends
@@ -99,6 +104,51 @@ def test_a_last_bit_that_differs_shows_in_the_bytes(used):
     assert replace(used, time=np.nextafter(used.time, 0.0).item()).to_bytes() != used.to_bytes()
 
 
+def test_parts_are_the_bytes_with_the_arrays_themselves(used):
+    head, *memory = used.parts()
+    assert b"".join([head, *memory]) == used.to_bytes()
+    assert isinstance(head, bytes)
+    listed = arrays(used)
+    assert len(memory) == len(listed) > 20
+    assert all(part.obj is array and part.readonly for part, array in zip(memory, listed, strict=True))
+
+
+def test_the_checksum_is_that_of_all_that_follows_it(used):
+    data = used.to_bytes()
+    for written in (data, replace(used, time=1.0).to_bytes()):
+        assert int.from_bytes(written[8:12], "little") == zlib.crc32(written[12:])
+
+
+def test_a_changed_array_is_not_taken_for_the_one_stored_before(scene, used):
+    before = used.to_bytes()
+    first, second = used.bodies
+    worn = replace(used, bodies=(replace(first, wear=first.wear + 1.0), second))
+    assert worn.to_bytes() != before
+    assert same_bits(ContactState.from_bytes(worn.to_bytes(), scene), worn)
+    assert used.to_bytes() == before
+
+
+def memory_kept(then: ContactState, now: ContactState) -> list[bool]:
+    return [new.obj is old.obj for new, old in zip(now.parts()[1:], then.parts()[1:], strict=True)]
+
+
+def test_a_step_of_the_fast_level_keeps_every_array():
+    scene, state, point = cheap()
+    fast = scene.at_level("regression")
+    state, _ = advance(fast, point, state, 1.0)
+    later, _ = advance(fast, point, state, 1.0)
+    assert later.parts()[0] != state.parts()[0]
+    assert all(memory_kept(state, later))
+
+
+def test_between_two_solutions_most_arrays_are_kept():
+    scene, state, point = cheap()
+    state, _ = advance(scene, point, state, 0.0)
+    later, _ = advance(scene, point, state, 1e-3)
+    changed = [not kept for kept in memory_kept(state, later)]
+    assert 0 < sum(changed) < 0.5 * len(changed)
+
+
 def test_arrays_of_a_state_are_read_only_and_aligned_like_fresh_ones(scene, used):
     restored = ContactState.from_bytes(used.to_bytes(), scene)
     found = arrays(restored) + arrays(initial_state(scene))
@@ -175,6 +225,17 @@ def test_the_state_of_another_contact_is_refused_with_both_fingerprints(scene, u
 def test_a_state_outlives_a_change_of_laws(used):
     other = Scene.from_toml("mtm_zddp", SMALL | {"wear.bare": "2e-5", "tribofilm.model": "none"})
     assert same_bits(ContactState.from_bytes(used.to_bytes(), other), used)
+
+
+@given(st.binary(max_size=300), st.binary(max_size=300), st.integers(0, 2**32 - 1))
+def test_checksums_join_like_their_bytes(first, second, start):
+    checksum = zlib.crc32(first, start)
+    assert joined(checksum, zlib.crc32(second), len(second)) == zlib.crc32(second, checksum)
+
+
+def test_checksums_of_large_parts_join():
+    large = np.arange(300_000).tobytes()
+    assert joined(zlib.crc32(b"before"), zlib.crc32(large), len(large)) == zlib.crc32(b"before" + large)
 
 
 def test_range_flags_add_up_and_come_apart_again():

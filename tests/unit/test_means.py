@@ -64,6 +64,12 @@ def assert_total(scene, state, op):
         assert getattr(found, f"dfriction_d{name}") == pytest.approx(expected, abs=1e-3 * size), name
 
 
+@pytest.mark.parametrize("radii", [(5e-3, 5e-3), (8e-3, 20e-3)])
+def test_derivatives_are_total_at_any_radii(radii):
+    scene, state, op = fast(FAST | {"heat.inlet_shear": "gupta"})
+    assert_total(scene, state, replace(op, radius_x=radii[0], radius_y=radii[1]))
+
+
 @pytest.fixture(scope="module")
 def grown():
     """A scene, a state with half an hour's tribofilm and wear, and its operating point."""
