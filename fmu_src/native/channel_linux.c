@@ -138,9 +138,15 @@ static void after_fork(void) {
     current = NULL;
 }
 
-__attribute__((constructor)) static void loaded(void) { pthread_atfork(NULL, NULL, after_fork); }
+/* What pthread_atfork calls: by itself it leaves the handler behind when this library is unloaded, unless the compiler
+   has seen to it. `current` stands for the library. */
+int __register_atfork(void (*prepare)(void), void (*parent)(void), void (*child)(void), void *library);
+void __cxa_finalize(void *library);
+
+__attribute__((constructor)) static void loaded(void) { __register_atfork(NULL, NULL, after_fork, &current); }
 
 __attribute__((destructor)) static void unloaded(void) {
+    __cxa_finalize(&current);
     if (current) {
         current->users = 1;
         release(current);

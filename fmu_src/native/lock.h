@@ -4,11 +4,13 @@
 #define LOCK_H
 
 #ifdef _WIN32
-#include <windows.h>
-typedef SRWLOCK Lock;
-#define LOCK_INITIAL SRWLOCK_INIT
-static inline void lock(Lock *held) { AcquireSRWLockExclusive(held); }
-static inline void unlock(Lock *held) { ReleaseSRWLockExclusive(held); }
+/* An SRWLOCK of channel_windows.c: windows.h would claim names of message.h. */
+typedef struct {
+    void *word;
+} Lock;
+#define LOCK_INITIAL {0}
+void lock(Lock *held);
+void unlock(Lock *held);
 #else
 #include <pthread.h>
 typedef pthread_mutex_t Lock;

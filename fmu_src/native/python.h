@@ -7,17 +7,30 @@
 
 #define PYTHON_HINT "Set TRIBOFMU_PYTHON to the Python of an environment in which tribofmu is installed."
 
-/* Path of the interpreter: TRIBOFMU_PYTHON, else what python.txt in the resources says, else python3 on PATH. To be
-   freed by the caller; NULL and a reason if there is none. */
+/* Path of the interpreter: TRIBOFMU_PYTHON, else what python.txt in the resources says, else python3 (on Windows
+   python.exe, then python3.exe) on PATH. To be freed by the caller; NULL and a reason if there is none. */
 char *interpreter(const char *resources, Reason *why);
 
 /* The environment without what is meant for the host's own Python and libraries; one block, to be freed. */
+#ifdef _WIN32
+wchar_t *clean_environment(void);
+#else
 char **clean_environment(void);
+#endif
 
 /* folder/name, to be freed; NULL without memory. */
 char *joined(const char *folder, const char *name);
 
 /* The path that a file URI means, to be freed; NULL if it is none. */
 char *path_of_uri(const char *uri);
+
+#ifdef _WIN32
+/* Text is UTF-8 everywhere but in calls of Windows; both to be freed, NULL without memory. */
+wchar_t *wide(const char *text);
+char *narrow(const wchar_t *text);
+
+/* What an error code of Windows means; no longer than 255 bytes. */
+const char *meaning(unsigned long code, char text[256]);
+#endif
 
 #endif

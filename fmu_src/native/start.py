@@ -1,36 +1,53 @@
-"""Run by the FMU's library: serves its instances, in the Python in which tribofmu is installed."""
+"""Run by the FMU's library: serves its instances, in the Python in which tribofmu is installed.
+
+With --pipe it serves one instance over its standard streams; else it forks a worker for each, and the library's
+socket tells it to.
+"""
 
 import os
 import sys
 import traceback
 from pathlib import Path
 
-_CONTROL = 3  # the library's socket; on Windows messages go through the standard streams
+_SOCKET = 3
+_PIPE = "--pipe" in sys.argv
 
 
 def _serve(resources: Path) -> None:
     # one thread: the workers are many, and a process with threads cannot be forked
     os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", MKL_NUM_THREADS="1", NUMBA_NUM_THREADS="1")
-    if sys.platform == "win32":
-        from fmu_src.worker import Pipe, Worker
-
-        _say(b"R")
-        incoming, outgoing = os.dup(0), os.dup(1)
-        os.dup2(2, 1)  # what the model prints goes to where errors go
-        Worker(Pipe(incoming, outgoing), resources).serve()
-    else:
+    if _PIPE:
+        _serve_one(resources)
+    elif sys.platform != "win32":
         from fmu_src.supervisor import supervise
 
-        os.closerange(_CONTROL + 1, os.sysconf("SC_OPEN_MAX"))
-        supervise(_CONTROL, resources, lambda: _say(b"R"))
+        os.closerange(_SOCKET + 1, os.sysconf("SC_OPEN_MAX"))
+        supervise(_SOCKET, resources, lambda: _say(b"R"))
+
+
+def _serve_one(resources: Path) -> None:
+    import faulthandler
+
+    from fmu_src.worker import Pipe, Worker
+
+    _say(b"R")
+    incoming, outgoing = os.dup(0), os.dup(1)
+    os.dup2(os.open(os.devnull, os.O_RDONLY), 0)  # what the model reads and prints is no message
+    os.dup2(2, 1)
+    faulthandler.enable()
+    try:
+        Worker(Pipe(incoming, outgoing), resources).serve()
+    except BaseException:  # the library reads stderr when its worker has ended
+        traceback.print_exc()
+        os._exit(1)
 
 
 def _say(data: bytes) -> None:
     """Tell the library that all is ready (R), or why there is no worker (E)."""
-    if sys.platform == "win32":
+    if _PIPE:
         os.write(1, len(data).to_bytes(8, "little") + data)
     else:
-        os.write(_CONTROL, data)
+        os.write(_SOCKET, data)
 
 
 try:

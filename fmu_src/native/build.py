@@ -1,0 +1,109 @@
+"""Build the isolated FMU's library from the sources here: python -m fmu_src.native.build [--platform ...].
+
+The committed libraries are built by zig (pip install tribofmu[native]), which knows every platform and old C
+libraries: the same sources and the same zig give the same bytes on any machine. gcc serves to try a change on Linux.
+"""
+
+import argparse
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from shutil import copyfile, which
+
+from . import image
+
+FOLDER = Path(__file__).parent
+COMPILERS = {"zig": ("linux64", "win64"), "gcc": ("linux64",)}
+
+
+@dataclass(frozen=True)
+class Platform:
+    """A platform by FMI's name for it."""
+
+    target: str  # zig's name
+    flags: tuple[str, ...]
+    sources: tuple[str, ...]
+    library: str
+
+
+PLATFORMS = {
+    "linux64": Platform(
+        "x86_64-linux-gnu.2.17",  # any glibc since 2012
+        ("-D_GNU_SOURCE", "-pthread"),
+        ("fmi2.c", "instance.c", "python_linux.c", "channel_linux.c"),
+        "tribofmu.so",
+    ),
+    "win64": Platform(
+        "x86_64-windows-gnu",
+        (),
+        ("fmi2.c", "instance.c", "python_windows.c", "channel_windows.c"),
+        "tribofmu.dll",
+    ),
+}
+FLAGS = (
+    *("-std=gnu11", "-O2", "-g0", "-s", "-shared", "-fPIC", "-fvisibility=hidden"),
+    *("-Wall", "-Wextra", "-Wshadow", "-Werror"),
+)
+
+
+def command(platform: str, compiler: str, library: Path) -> list[str]:
+    """The call of `compiler`, in the folder of the sources, that builds the library of `platform`."""
+    chosen = PLATFORMS[platform]
+    call = [sys.executable, "-m", "ziglang", "cc", "-target", chosen.target] if compiler == "zig" else ["gcc"]
+    return [*call, *FLAGS, *chosen.flags, "-isystem", str(_headers()), "-o", str(library), *chosen.sources]
+
+
+def _headers() -> Path:
+    """FMI's headers, in the wheel of fmpy."""
+    spec = find_spec("fmpy")
+    if spec is None or spec.origin is None:
+        raise FileNotFoundError("fmpy, whose wheel has FMI's headers, is not installed. Install fmpy.")
+    return Path(spec.origin).parent / "c-code"
+
+
+def build(platform: str, compiler: str, out: Path) -> Path:
+    """Build the library of `platform` into the folder `out` and return its path.
+
+    Raises FileNotFoundError without compiler, and CalledProcessError if it refuses the sources.
+    """
+    with tempfile.TemporaryDirectory() as scratch:
+        library = Path(scratch, PLATFORMS[platform].library)  # besides, zig writes an import library
+        subprocess.run(command(platform, compiler, library), cwd=FOLDER, check=True)
+        out.mkdir(parents=True, exist_ok=True)
+        return Path(copyfile(library, out / library.name))
+
+
+def available(compiler: str) -> bool:
+    """Whether `compiler` is there."""
+    return (find_spec("ziglang") if compiler == "zig" else which("gcc")) is not None
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line."""
+    parser = argparse.ArgumentParser(prog="python -m fmu_src.native.build", description="Build the library of isolated FMUs.")
+    parser.add_argument("--platform", choices=PLATFORMS, nargs="+", help="default: all that the compiler knows")
+    parser.add_argument("--compiler", choices=COMPILERS, default="zig", help="default: %(default)s")
+    parser.add_argument("--out", type=Path, default=FOLDER / "binaries", help="folder (default: in the package)")
+    arguments = parser.parse_args(argv)
+    known = COMPILERS[arguments.compiler]
+    platforms = arguments.platform or known
+    if not set(platforms) <= set(known):
+        parser.error(f"{arguments.compiler} builds {' and '.join(known)} only")
+    if not available(arguments.compiler):
+        parser.error(f"{arguments.compiler} is not installed (zig: pip install ziglang)")
+    for platform in platforms:
+        library = build(platform, arguments.compiler, arguments.out / platform)
+        found = image.read(library)
+        print(f"{library}: {library.stat().st_size} bytes")
+        print(f"  needs   {', '.join(found.libraries)}")
+        print(f"  imports {', '.join(found.imports)}")
+        print(f"  exports {', '.join(found.exports)}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
