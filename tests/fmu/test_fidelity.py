@@ -126,9 +126,7 @@ def test_the_fmu_of_a_fast_scene_has_both_levels_and_the_outputs_of_its_own(quic
         assert int(host.variables["fidelity"].start) == FAST
         host.initialise()
         rows = [host.step(dt, fidelity=fidelity) for dt, fidelity in steps]
-    for row, expected, (_, fidelity) in zip(
-        rows, core_rows(quick, [(0.0, FAST), *steps])[1:], steps, strict=True
-    ):
+    for row, expected, (_, fidelity) in zip(rows, core_rows(quick, [(0.0, FAST), *steps])[1:], steps, strict=True):
         assert bits(row) == bits({name: expected[name] for name in bits(row)})
         assert row["fidelity_used"] == fidelity
         assert not row["range_flags"] & RangeFlag.OTHER_LEVEL
