@@ -117,6 +117,11 @@ def test_the_first_evaluation_is_at_the_level_asked_for_and_shows_nothing_of_ano
     assert bits(found) == bits(expected)
     assert found["fidelity_used"] == FAST
     assert found["pressure_max"] == 0.0
+    first = host.step(60.0)
+    host.restore(state := host.state())
+    assert host.state() == state
+    assert first["valid"]
+    assert host.log == []
 
 
 def test_the_fmu_of_a_fast_scene_has_both_levels_and_the_outputs_of_its_own(quick_folder, scene):

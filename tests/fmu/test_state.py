@@ -143,7 +143,7 @@ def positions(data):
 def test_a_state_is_refused_wherever_it_was_cut(read, stored):
     assert read(stored).data == stored
     for length in positions(stored):
-        with pytest.raises(StateError, match="(Use|Give) .*\\."):
+        with pytest.raises(StateError, match=r"(Use|Give) .*\."):
             read(stored[:length])
 
 
@@ -152,7 +152,7 @@ def test_a_state_is_refused_wherever_a_byte_was_changed(read, stored, mask):
     for position in positions(stored):
         changed = bytearray(stored)
         changed[position] ^= mask
-        with pytest.raises(StateError, match="(Use|Give) .*\\."):
+        with pytest.raises(StateError, match=r"(Use|Give) .*\."):
             read(bytes(changed))
 
 
