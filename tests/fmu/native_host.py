@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 import sys
 import sysconfig
@@ -19,15 +18,12 @@ LETTER = {"Real": "r", "Integer": "i", "Boolean": "b", "String": "s"}
 
 
 def compiled(folder: Path) -> Path:
-    """The program, compiled into `folder`. Raises FileNotFoundError if there is no gcc."""
-    gcc = shutil.which("gcc")
-    if gcc is None:
-        raise FileNotFoundError("gcc is not on PATH.")
+    """The program, compiled into `folder` by gcc."""
     program = folder / "c_host"
     headers = Path(fmpy.__file__).parent / "c-code"
     options = ["-std=c99", "-D_POSIX_C_SOURCE=200809L", "-Wall", "-Wextra", "-Werror", "-O2", "-pthread"]
     source = Path(__file__).with_name("c_host.c")
-    subprocess.run([gcc, *options, "-I", str(headers), str(source), "-ldl", "-o", str(program)], check=True)
+    subprocess.run(["gcc", *options, "-I", str(headers), str(source), "-ldl", "-o", str(program)], check=True)
     return program
 
 
