@@ -59,7 +59,7 @@ class Answer:
         return [float.fromhex(value) for value in self.values]
 
 
-class HostDied(Exception):
+class HostDiedError(Exception):
     """The host ended before it had answered; `code` is its exit code (negative: the signal)."""
 
     def __init__(self, command: str, code: int):
@@ -107,7 +107,7 @@ class NativeHost:
                 answer.log.append((int(rest[0]), int(rest[1]), rest[2], _plain(rest[3])))
             else:
                 answer.values = [_plain(value) for value in rest]
-        raise HostDied(command, self.process.wait())
+        raise HostDiedError(command, self.process.wait())
 
     def ask(self, *words: object) -> Answer:
         self.tell(*words)
