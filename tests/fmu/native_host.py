@@ -70,10 +70,9 @@ class HostDiedError(Exception):
 class NativeHost:
     """A running host. Closing it ends its input, so that it leaves by itself; `code` is its exit code then."""
 
-    def __init__(self, program: Path, environment: Mapping[str, str], cpu: int | None = None):
-        pin = [] if cpu is None else ["taskset", "-c", str(cpu)]
+    def __init__(self, program: Path, environment: Mapping[str, str]):
         self.process = subprocess.Popen(
-            [*pin, str(program)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=dict(environment), text=True
+            [str(program)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=dict(environment), text=True
         )
         self.code: int | None = None
         self._fmus = 0
