@@ -17,7 +17,7 @@ SMALL = {
     "surface_1.correlation_length": "32 um",
     "surface_2.correlation_length": "32 um",
 }
-FLAVOURS = {"embedded": "fmu_file"}  # flavour: fixture of its file
+FLAVOURS = {"embedded": build}
 
 
 def unpacked(fmu: Path, folder: Path) -> Path:
@@ -85,14 +85,25 @@ def flavour(request: pytest.FixtureRequest) -> str:
 
 
 @pytest.fixture(scope="session")
-def flavoured_file(flavour: str, request: pytest.FixtureRequest) -> Path:
-    """The same scene in every flavour."""
-    return request.getfixturevalue(FLAVOURS[flavour])
+def flavoured_file(flavour: str, scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return FLAVOURS[flavour](scene, tmp_path_factory.mktemp(flavour) / "small.fmu")
 
 
 @pytest.fixture(scope="session")
-def flavoured_folder(flavour: str, flavoured_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return unpacked(flavoured_file, tmp_path_factory.mktemp(flavour))
+def flavoured_folder(flavoured_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return unpacked(flavoured_file, tmp_path_factory.mktemp("unpacked"))
+
+
+@pytest.fixture(scope="session")
+def quick_file(flavour: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A contact at the fast level: many instances cost little."""
+    scene = Scene.from_toml("mtm_zddp", SMALL).at_level("regression")
+    return FLAVOURS[flavour](scene, tmp_path_factory.mktemp(flavour) / "quick.fmu")
+
+
+@pytest.fixture(scope="session")
+def quick_folder(quick_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return unpacked(quick_file, tmp_path_factory.mktemp("unpacked"))
 
 
 @pytest.fixture(scope="session")

@@ -15,13 +15,11 @@ from pathlib import Path
 
 import fmpy
 import pytest
-from conftest import SMALL, unpacked
 from fmpy.simulation import instantiate_fmu
 from fmu_host import environment, hosted
 from native_host import ERROR, OK, NativeHost, plain_environment
 
-from contact_core import Scene
-from fmu_src import build, slave
+from fmu_src import slave
 from fmu_src.snapshot import Snapshot
 
 OUTPUTS = ("friction_force", "h_c", "wear_volume_1")
@@ -47,16 +45,9 @@ host = Host(Path({str(folder)!r})).initialise()
     return run.returncode
 
 
-@pytest.fixture(scope="module")
-def quick_file(tmp_path_factory):
-    """A contact at the fast level: many instances cost little."""
-    scene = Scene.from_toml("mtm_zddp", SMALL).at_level("regression")
-    return build(scene, tmp_path_factory.mktemp("quick") / "quick.fmu")
-
-
-@pytest.fixture(scope="module")
-def quick_folder(quick_file, tmp_path_factory):
-    return unpacked(quick_file, tmp_path_factory.mktemp("quick"))
+@pytest.fixture(scope="session", params=["embedded"])
+def flavour(request):
+    return request.param
 
 
 @pytest.fixture
@@ -68,54 +59,6 @@ def c_host(native_program, embedding):
 
 
 # what holds
-
-
-def test_fifty_instances_live_at_once(c_host, quick_folder):
-    fmu = c_host.load(quick_folder)
-    instances = [fmu.instance(k) for k in range(50)]
-    for k, instance in enumerate(instances):
-        assert instance.initialise(load=40.0 + k) == [OK] * 4
-    assert {instance.step(60.0) for instance in instances} == {OK}
-    assert len({instance.get("friction_force")[0] for instance in instances}) == 50
-
-
-def test_two_contacts_in_a_host_in_c_keep_to_themselves(c_host, folder, quick_folder):
-    fmus = [c_host.load(folder), c_host.load(quick_folder)]
-    instances = [fmu.instance(k) for k, fmu in enumerate(fmus)]
-    for instance in instances:
-        instance.initialise()
-        assert instance.step(60.0) == OK
-    assert instances[0].get("friction_force") != instances[1].get("friction_force")
-    assert "h_min" not in fmus[1].variables
-    assert instances[0].get("h_min")[0] > 0.0
-
-
-def test_eight_threads_give_the_bits_of_one(c_host, quick_folder):
-    fmu = c_host.load(quick_folder)
-    alone = fmu.instance()
-    alone.initialise()
-    assert [alone.step(60.0) for _ in range(3)] == [OK] * 3
-    crowd = range(1, 9)
-    calls = [("instantiate", 0, 1), ("setup",), ("enter",), ("exit",), *(("step", 60.0 * n, 60.0) for n in range(3))]
-    for command, *words in calls:
-        assert c_host.together((command, k, *words) for k in crowd).status == OK
-    references = [fmu.variables[name].valueReference for name in OUTPUTS]
-    assert {tuple(c_host.ask("getr", k, *references).reals) for k in crowd} == {tuple(alone.get(*OUTPUTS))}
-
-
-def test_every_log_entry_has_a_category(c_host, quick_folder):
-    """A host may take it for a string without looking."""
-    instance = c_host.load(quick_folder).instance()
-    instance.initialise()
-    instance.step(60.0, load=-1.0)
-    assert [(status, category) for _, status, category, _ in instance.log] == [(1, "logStatusWarning")]
-
-
-def test_the_reason_of_a_failed_instantiation_reaches_the_log(c_host, quick_file, tmp_path):
-    folder = unpacked(quick_file, tmp_path / "copy")
-    (folder / "resources" / "versions.json").write_text('{"contact_core": "0.0.1"}')
-    created = c_host.load(folder).instance().created
-    assert any("0.0.1" in text for *_, text in created.log)
 
 
 @pytest.mark.parametrize("logging", [True, False])
