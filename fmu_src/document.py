@@ -29,7 +29,8 @@ th, td { border-bottom: 1px solid #ddd; padding: .25em .7em .25em 0; text-align:
 code { font-size: .95em; } .wide { overflow-x: auto; } .source { font-size: .85em; color: #555; margin: .2em 0; }
 .equation { font-family: Cambria, "Times New Roman", serif; font-size: 1.12em; margin: .3em 0 .3em 1.5em;
   white-space: pre-wrap; }
-svg { max-width: 34em; display: block; font-size: 14px; } svg text { fill: #222; } .middle { text-anchor: middle; } .end { text-anchor: end; }
+svg { max-width: 34em; display: block; font-size: 14px; } svg text { fill: #222; }
+.middle { text-anchor: middle; } .end { text-anchor: end; }
 .line path, .input, .asked, .output { fill: none; stroke: #222; stroke-width: 1.6; } .line .grid { stroke: #ccc; }
 .ball { fill: #c3cbd4; } .disc { fill: #9aa5b1; } .oil { fill: #f3b34a; } .line .force { stroke: #a33; }
 svg text.force { fill: #a33; } .input { stroke: #1f5fa8; stroke-width: 2.4; } .output { stroke: #a33; }
@@ -166,6 +167,12 @@ def _equations(scene: Scene) -> Iterator[str]:
     yield "<h3>Friction</h3>"
     yield from _formula(*equations.FRICTION[level])
     yield from _laws(scene)
+    if scene.heat.inlet_shear != "none":
+        yield f"<h3>heat.inlet_shear: {scene.heat.inlet_shear}</h3>"
+        yield from _formula(*equations.INLET_SHEAR[scene.heat.inlet_shear])
+    if level == "regression" and scene.lubricant.flow == "local" and scene.lubricant.rheology.name == "carreau":
+        yield "<h3>lubricant.flow: local</h3>"
+        yield from _formula(*equations.SHEAR_THINNING)
     yield "<h3>Options, fixed when the FMU was built</h3>"
     yield table(("option", "choice", "meaning"), _options(scene))
 
@@ -176,8 +183,9 @@ def _laws(record: Any, path: str = "") -> Iterator[str]:
         part: Any = getattr(record, f.name)
         if (f.name, getattr(part, "name", "")) in equations.LAWS:
             lines, sentence = equations.LAWS[f.name, part.name]
+            dose = equations.DOSES[part.dose] if f.name == "tribofilm" and part.name != "none" else ""
             yield f"<h3>{path}{f.name}: {part.name}</h3>"
-            yield from _formula(lines, sentence, part.source)
+            yield from _formula(lines, f"{sentence} {dose}".strip(), part.source)
         if is_dataclass(part):
             yield from _laws(part, f"{path}{f.name}.")
 
@@ -275,7 +283,7 @@ def _errors(scene: Scene) -> Iterator[str]:
             "They come from the fit of the level, and do not hold where range_flags says outside the fit."
             if isinstance(scene.film, Regression)
             else "They come from time steps and sampling. The grid's error is in none of them and is larger where "
-            "solids carry load: compare two grids. Wear driven by 'auto' has been found beyond them more often than within."
+            "solids carry load: compare two grids. Wear driven by 'auto' was found beyond them more often than within."
         )
     )
     yield paragraph("What has been measured, and the command of the repository that measures it:")
@@ -355,8 +363,9 @@ def _variables(scene: Scene) -> Iterator[str]:
 
 
 def _row(v: Variable) -> tuple[str, ...]:
-    low, high = (f"{bound:g}" if math.isfinite(bound) else "" for bound in (v.minimum, v.maximum))
-    return v.name, v.unit, low, high, "" if v.causality == "output" else str(v.start), v.text
+    low, high = (f"{bound:.10g}" if math.isfinite(bound) else "" for bound in (v.minimum, v.maximum))
+    start = f"{v.start:.10g}" if isinstance(v.start, float) else str(v.start)
+    return v.name, v.unit, low, high, "" if v.causality == "output" else start, v.text
 
 
 def _state() -> Iterator[str]:
