@@ -17,7 +17,7 @@ from contact_core.state import RangeFlag
 
 from . import drawings, equations, evidence, markup, measured, packages
 from .markup import bullets, equation, paragraph, plain, table
-from .resources import MODEL
+from .resources import MODEL, Flavour
 from .slave import ContactSlave
 from .variables import INITIAL_STATE, Variable, variables
 
@@ -54,8 +54,8 @@ _PAGE = """<!DOCTYPE html>
 _CELSIUS = 273.15
 
 
-def documentation(scene: Scene, flavour: str, reference: bool) -> bytes:
-    """The page, UTF-8, for a flavour of the FMU ("embedded" or "isolated"), with or without reference data in it."""
+def documentation(scene: Scene, flavour: Flavour, reference: bool) -> bytes:
+    """The page, UTF-8, for a flavour of the FMU, with or without reference data in it."""
     sections = {
         "contact": ("The contact", _contact(scene)),
         "signs": ("Signs and directions", _signs(scene)),
@@ -324,10 +324,23 @@ def _steps(scene: Scene) -> Iterator[str]:
     yield _measured(measured.COSTS[scene.film.name])
 
 
-def _status(flavour: str) -> Iterator[str]:
-    unexpected = {
-        "isolated": ("Error", "the host goes on; restore a state, or reset"),
-        "embedded": ("OK", "valid is false; state and outputs stand; the log has an entry of status error"),
+def _status(flavour: Flavour) -> Iterator[str]:
+    broken: dict[Flavour, tuple[tuple[str, str, str], ...]] = {
+        "isolated": (
+            ("an unexpected error in the model", "Error", "the log has its traceback; the host goes on"),
+            (
+                "the model's process ends, or gives no answer within TRIBOFMU_TIMEOUT",
+                "Error",
+                "the host goes on; restore a state, or reset, to go on in a new process",
+            ),
+        ),
+        "embedded": (
+            (
+                "an unexpected error in the model",
+                "OK",
+                "valid is false; state and outputs stand; the log has its traceback",
+            ),
+        ),
     }
     yield table(
         ("what happened", "status", "answer"),
@@ -344,7 +357,7 @@ def _status(flavour: str) -> Iterator[str]:
                 "OK",
                 "the same at every step until a reset; it never runs with other values than those asked for",
             ),
-            ("an unexpected error in the model", *unexpected[flavour]),
+            *broken[flavour],
         ),
     )
     yield paragraph("valid is to be looked at after every step. range_flags is the sum of:")
@@ -386,7 +399,7 @@ def _log() -> Iterator[str]:
     yield table(("category", "messages"), ContactSlave.log_categories.items())
 
 
-def _needs(flavour: str) -> Iterator[str]:
+def _needs(flavour: Flavour) -> Iterator[str]:
     where = {
         "isolated": "The FMU starts a Python of its own process for the model; the host needs none.",
         "embedded": "The model runs in the Python of the host.",
@@ -412,7 +425,7 @@ def _check(reference: bool) -> Iterator[str]:
     yield paragraph("tribofmu check FILE.fmu --deep replays it, beside other checks.")
 
 
-def _licence(flavour: str) -> Iterator[str]:
+def _licence(flavour: Flavour) -> Iterator[str]:
     names = packages.licences(flavour)
     links = ", ".join(f'<a href="licenses/{name}">{name}</a>' for name in names)
     yield (
