@@ -19,7 +19,7 @@ from . import drawings, equations, evidence, markup, measured, packages
 from .markup import bullets, equation, paragraph, plain, table
 from .resources import MODEL, Flavour
 from .slave import ContactSlave
-from .variables import INITIAL_STATE, Variable, variables
+from .variables import FIDELITY, INITIAL_STATE, Variable, variables
 
 _STYLE = """
 body { max-width: 60em; margin: 2em auto; padding: 0 1em; font: 16px/1.5 system-ui, sans-serif; color: #222; }
@@ -106,12 +106,13 @@ def _contact(scene: Scene) -> Iterator[str]:
     yield paragraph(
         "Two rough bodies roll and slide on each other in oil under a normal load. The FMU computes film, pressure and "
         "real contact, friction, the growth of a tribofilm where they rub, wear, and the roughness that results. "
-        f"Level: film.model = '{scene.film.name}'; "
+        f"It starts at the level film.model = '{scene.film.name}': "
         + (
             f"fields on {scene.film.points} x {scene.film.points} nodes over {_number(1e3 * scene.film.domain, 'mm')}."
             if scene.film.name == "deterministic"
             else "means of both surfaces, with curves of load sharing fitted to the deterministic level."
         )
+        + f" The parameter {FIDELITY} changes the level at any step; this page is about the one at the start."
     )
     rows = [
         ("radii of combined curvature along x and y", _numbers(1e3, (shape.radius_x, shape.radius_y), "mm")),
@@ -370,7 +371,9 @@ def _variables(scene: Scene) -> Iterator[str]:
     for title, causality in (("Inputs", "input"), ("Outputs", "output"), ("Parameters", "parameter")):
         yield f"<h3>{title}</h3>"
         if causality == "parameter":
-            yield paragraph("Set them before initialisation ends; afterwards they are fixed until a reset.")
+            yield paragraph(
+                f"Set them before initialisation ends; afterwards all but {FIDELITY} are fixed until a reset."
+            )
         rows = (_row(v) for v in listed if v.causality == causality)
         yield table(("name", "unit", "least", "most", "start", "meaning"), rows)
 

@@ -21,7 +21,7 @@ from fmu_host import hosted
 from contact_core import ConvergenceError, RangeFlag, Scene
 from contact_core.film import FILMS
 from contact_core.laws import SLOTS
-from fmu_src import build, evidence, icon, measured
+from fmu_src import build, evidence, icon, measured, packages
 from fmu_src.document import documentation
 from fmu_src.equations import DOSES, GOVERNING, INLET_SHEAR, LAWS, SHARING
 from fmu_src.markup import equation
@@ -52,7 +52,7 @@ def contact(request) -> Scene:
 @pytest.fixture(scope="module")
 def whole(contact, tmp_path_factory) -> Path:
     """The FMU with reference data."""
-    return build(contact, tmp_path_factory.mktemp("whole") / "whole.fmu", reference=True)
+    return build(contact, tmp_path_factory.mktemp("whole") / "whole.fmu", "embedded", reference=True)
 
 
 @pytest.fixture(scope="module")
@@ -246,6 +246,7 @@ def test_the_icon_is_the_picture_that_its_script_draws(files):
 def test_the_licences_are_ours_and_that_of_the_library_in_the_fmu(files):
     assert files["documentation/licenses/license.txt"] == (ROOT / "LICENSE").read_bytes()
     assert b"MIT License" in files["documentation/licenses/pythonfmu.txt"]
+    assert set(packages.licences("isolated")) == {"license.txt"}
 
 
 def test_what_the_fmu_needs_from_outside_is_listed(files):
@@ -253,6 +254,13 @@ def test_what_the_fmu_needs_from_outside_is_listed(files):
     for needed in ("Python >=3.11", "tribofmu 0.1.0", "pythonfmu 0.7", "numba>=", "PYTHONPATH"):
         assert needed in text
     assert "pytest" not in text
+    assert "TRIBOFMU_PYTHON" in packages.external_dependencies("isolated").decode()
+
+
+def test_a_package_without_its_licence_is_named(monkeypatch):
+    monkeypatch.setattr(packages, "PACKAGE", "tribofmu-elsewhere")
+    with pytest.raises(FileNotFoundError, match="tribofmu-elsewhere is not installed with its licence"):
+        packages.licences("isolated")
 
 
 # reference data
@@ -326,4 +334,4 @@ def test_expected_values_stand_where_the_contact_has_no_solution(contact, monkey
 
 
 def test_the_same_scene_gives_the_same_bytes(whole, contact, tmp_path):
-    assert build(contact, tmp_path / "again.fmu", reference=True).read_bytes() == whole.read_bytes()
+    assert build(contact, tmp_path / "again.fmu", "embedded", reference=True).read_bytes() == whole.read_bytes()
