@@ -307,6 +307,7 @@ def reference(fmu: Fmu, notebook: Path) -> Answer:
 
 
 _TRUTH = {"true": 1.0, "false": 0.0}
+_RELATIVE_TOLERANCE = re.compile(r"\brel(?:ative)?_?tol(?:erance)?\W+([\d.eE+-]+)", re.IGNORECASE)
 _Table = tuple[list[str], list[float], list[dict[str, float]]]
 
 
@@ -328,7 +329,9 @@ def _relative_tolerance(file: Path) -> float:
     """What stands beside the results: in a manifest, or as RelTol in an .opt file."""
     for beside in (*file.parent.glob("*manifest.xml"), file.with_suffix(".opt")):
         if beside.exists():
-            match = re.search(r"\brel(?:ative)?_?tol(?:erance)?\W+([\d.eE+-]+)", beside.read_text("utf-8"), re.IGNORECASE)
+            match = re.search(
+                r"\brel(?:ative)?_?tol(?:erance)?\W+([\d.eE+-]+)", beside.read_text("utf-8"), re.IGNORECASE
+            )
             if match:
                 return float(match[1])
     return _TOLERANCE
@@ -361,17 +364,23 @@ STAGES: dict[str, Stage] = {
 }  # fmt: skip
 
 
-def main(folder: str, stage: str, notebook: str) -> None:
+def answer(folder: Path, stage: str, notebook: Path) -> Answer | None:
     """Answer one stage; what it raises is an answer, too."""
-    fmu = Fmu(Path(folder), Path(notebook) / "call")
-    try:
-        answer = STAGES[stage](fmu, Path(notebook))
-    except FMICallException:
-        answer = failed(f"{fmu.fault}.")
-    except Exception as error:  # fmpy's own, when an FMU cannot be loaded or instantiated, and unreadable data
-        answer = failed(". ".join([" ".join(str(error).split()).rstrip("."), *fmu.messages[-1:]]) + ".")
-    if answer is not None:
-        (Path(notebook) / "answer.json").write_text(json.dumps(answer))
+    with (notebook / "call").open("wb", buffering=0) as trace:
+        fmu = Fmu(folder, trace)
+        try:
+            return STAGES[stage](fmu, notebook)
+        except FMICallException:
+            return failed(f"{fmu.fault}.")
+        except Exception as error:  # fmpy's own, when an FMU cannot be loaded or instantiated, and unreadable data
+            return failed(". ".join([" ".join(str(error).split()).rstrip("."), *fmu.messages[-1:]]) + ".")
+
+
+def main(folder: str, stage: str, notebook: str) -> None:
+    """Write the answer of one stage, if it gives one."""
+    found = answer(Path(folder), stage, Path(notebook))
+    if found is not None:
+        (Path(notebook) / "answer.json").write_text(json.dumps(found))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import math
 import re
 import zipfile
+import zlib
 from collections import Counter
 from collections.abc import Callable
 from functools import wraps
@@ -30,11 +31,14 @@ _SCHEMATA = {
 }
 
 # FMI 2.0.4, section 2.1 and 4.2: what a library exports
-_CO_SIMULATION = (
-    "GetTypesPlatform GetVersion SetDebugLogging Instantiate FreeInstance SetupExperiment EnterInitializationMode "
-    "ExitInitializationMode Terminate Reset GetReal GetInteger GetBoolean GetString SetReal SetInteger SetBoolean "
-    "SetString DoStep CancelStep GetStatus GetRealStatus GetIntegerStatus GetBooleanStatus GetStringStatus"
-).split()
+# fmt: off
+_CO_SIMULATION = [
+    "GetTypesPlatform", "GetVersion", "SetDebugLogging", "Instantiate", "FreeInstance", "SetupExperiment",
+    "EnterInitializationMode", "ExitInitializationMode", "Terminate", "Reset", "GetReal", "GetInteger",
+    "GetBoolean", "GetString", "SetReal", "SetInteger", "SetBoolean", "SetString", "DoStep", "CancelStep",
+    "GetStatus", "GetRealStatus", "GetIntegerStatus", "GetBooleanStatus", "GetStringStatus",
+]
+# fmt: on
 _STATE = ["GetFMUstate", "SetFMUstate", "FreeFMUstate"]
 _BYTES = ["SerializedFMUstateSize", "SerializeFMUstate", "DeSerializeFMUstate"]
 
@@ -68,7 +72,7 @@ def archive(package: Package) -> Answer:
     """Every file whole, no path that leaves the folder, no file twice."""
     try:
         damaged = package.archive.testzip()
-    except (zipfile.BadZipFile, NotImplementedError, OSError) as error:
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, OSError) as error:
         return failed(f"The archive cannot be read to its end: {error}.")
     if damaged:
         return failed(f"'{damaged}' is damaged: its checksum is wrong.")
@@ -98,7 +102,7 @@ def schema(package: Package) -> Answer:
 
 
 def validation(package: Package) -> Answer:
-    """fmpy's own validation finds nothing."""
+    """Nothing that the validation of fmpy finds."""
     problems = validate_fmu(str(package.path))
     if problems:
         return failed(f"{len(problems)} problem(s), the first: {' '.join(problems[0].split())}")
@@ -312,28 +316,34 @@ def host_needs(package: Package) -> Answer:
     libraries, unread = _libraries(package)
     if not libraries:
         return not_applicable(f"No binary could be read. {unread}".rstrip())
-    found, wrong, worth = [], [], []
+    wrong: list[str] = []
+    worth: list[str] = []
+    undeclared = "" if package.needs_tool else ", which needsExecutionTool must declare"
     for platform, library in libraries.items():
-        bundled = {PurePosixPath(name).name for name in package.names if name.startswith(f"binaries/{platform}/")}
-        foreign = [name for name in library.needed if not _LINUX.match(name) and not _WINDOWS.match(name)]
-        python = [name for name in library.undefined if name.lstrip("_").startswith("Py")]
-        python += [name for name in foreign if _PYTHON_LIBRARY.match(name)]
-        outside = [name for name in foreign if name not in python and name not in bundled]
-        lost = [] if foreign else [name for name in library.undefined if name not in python]
-        if library.glibc:
-            found.append(f"{platform}: glibc {library.glibc} or later")
+        beside = {PurePosixPath(name).name for name in package.names if name.startswith(f"binaries/{platform}/")}
+        python, foreign, lost = _beyond_the_system(library, beside)
         if lost:
             wrong.append(f"{platform}: no library that it names supplies {some(lost)}")
         if python:
-            text = f"{platform}: only a host with Python can load it ({some(python, 2)})"
-            (worth if package.needs_tool else wrong).append(
-                text if package.needs_tool else f"{text}, which needsExecutionTool must declare"
-            )
-        if outside:
-            worth.append(f"{platform}: the host must have {some(outside)}")
-    evidence = "; ".join([*wrong, *worth, *found]) or f"{', '.join(libraries)}: nothing beyond the operating system"
+            said = f"{platform}: only a host with Python can load it ({some(python, 2)}){undeclared}"
+            (wrong if undeclared else worth).append(said)
+        if foreign:
+            worth.append(f"{platform}: the host must have {some(foreign)}")
+    least = [f"{platform}: glibc {library.glibc} or later" for platform, library in libraries.items() if library.glibc]
+    evidence = "; ".join([*wrong, *worth, *least]) or f"{', '.join(libraries)}: nothing beyond the operating system"
     answer = failed if wrong else noted if worth else passed
     return answer(f"{evidence}. {unread}".rstrip())
+
+
+def _beyond_the_system(library: Library, beside: set[str]) -> tuple[list[str], list[str], list[str]]:
+    """What of Python it needs, which libraries that neither the system nor the FMU has, and which symbols of none."""
+    foreign = [name for name in library.needed if not (_LINUX.match(name) or _WINDOWS.match(name) or name in beside)]
+    python = [name for name in library.undefined if name.lstrip("_").startswith("Py")]
+    python += [name for name in foreign if _PYTHON_LIBRARY.match(name)]
+    foreign = [name for name in foreign if name not in python]
+    # the system's libraries put versions on all their symbols, others need not
+    unversioned = any(not _LINUX.match(name) for name in library.needed)
+    return python, foreign, [] if unversioned else [name for name in library.undefined if name not in python]
 
 
 def _libraries(package: Package) -> tuple[dict[str, Library], str]:
@@ -342,7 +352,7 @@ def _libraries(package: Package) -> tuple[dict[str, Library], str]:
     for platform, name in sorted(package.binaries.items()):
         try:
             libraries[platform] = read_library(package.archive.read(name))
-        except (UnreadableError, zipfile.BadZipFile) as error:
+        except (UnreadableError, zipfile.BadZipFile, zlib.error) as error:
             unread.append(f"{platform} was not examined: {error}.")
     return libraries, " ".join(unread)
 
