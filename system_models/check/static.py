@@ -81,7 +81,7 @@ def archive(package: Package) -> Answer:
         return failed(f"'{some(astray)}' must be relative, without '..', and with '/' between folders.")
     twice = [name for name, count in Counter(package.names).items() if count > 1]
     if twice:
-        return failed(f"{some(twice)} lies in the archive more than once.")
+        return failed(f"In the archive more than once: {some(twice)}.")
     return passed(f"{len(package.names)} files, all whole, all within the folder.")
 
 
@@ -115,17 +115,17 @@ def validation(package: Package) -> Answer:
 @_described
 def unit_of_reals(description: ModelDescription) -> Answer:
     """Every Real has a unit, and the unit a base unit."""
-    reals = [v for v in description.modelVariables if is_real(v)]
+    reals = _reals(description)
     bare = [v.name for v in reals if attribute(v, "unit") is None]
     if bare:
-        return failed(f"{some(bare)} have no unit; a number without dimension has the unit '1'.")
+        return failed(f"Without a unit: {some(bare)}; a number without dimension has the unit '1'.")
     defined = {unit.name: unit for unit in description.unitDefinitions}
     unknown = [f"'{attribute(v, 'unit')}' of {v.name}" for v in reals if attribute(v, "unit") not in defined]
     if unknown:
-        return failed(f"The unit {some(unknown)} is not in UnitDefinitions.")
+        return failed(f"Not in UnitDefinitions: the unit {some(unknown)}.")
     empty = sorted({u for v in reals if defined[u := str(attribute(v, "unit"))].baseUnit is None})
     if empty:
-        return failed(f"The unit {some(empty)} has no BaseUnit, so it cannot be converted or compared.")
+        return failed(f"Without a BaseUnit: the unit {some(empty)}, which so cannot be converted or compared.")
     return passed(f"{len(reals)} Reals with {len({attribute(v, 'unit') for v in reals})} units.")
 
 
@@ -168,14 +168,19 @@ def _base(base: BaseUnit) -> str:
 @_described
 def nominals(description: ModelDescription) -> Answer:
     """Every Real has a nominal, finite and not zero."""
-    reals = [v for v in description.modelVariables if is_real(v)]
+    reals = _reals(description)
     bare = [v.name for v in reals if attribute(v, "nominal") is None]
     if bare:
-        return failed(f"{some(bare)} have no nominal; hosts then take 1, and tolerances miss small quantities.")
+        return failed(f"Without a nominal: {some(bare)}; hosts then take 1, and tolerances miss small quantities.")
     odd = [f"{v.name} = {attribute(v, 'nominal')}" for v in reals if not _scale(attribute(v, "nominal"))]
     if odd:
         return failed(f"The nominal {some(odd)} must be finite and not zero.")
     return passed(f"{len(reals)} Reals with their magnitudes.")
+
+
+def _reals(description: ModelDescription) -> list[ModelVariable]:
+    """All Reals but time, which is in seconds by FMI."""
+    return [v for v in description.modelVariables if is_real(v) and v.causality != "independent"]
 
 
 def _scale(text: str | None) -> float:
@@ -190,7 +195,7 @@ def starts(description: ModelDescription) -> Answer:
     variables = [v for v in description.modelVariables if v.type != "Clock"]
     missing = [v.name for v in variables if v.start is None and (v.causality == "input" or v.initial in _STARTED)]
     if missing:
-        return failed(f"{some(missing)} have no start value; inputs and variables of initial exact or approx need one.")
+        return failed(f"Without a start value: {some(missing)}; inputs and what is initially exact or approx need one.")
     numbers = [v for v in variables if is_real(v) or "Int" in v.type]
     for v in numbers:
         low, high = _range(v)
@@ -220,13 +225,13 @@ def outputs(description: ModelDescription) -> Answer:
     expected = {v.name for v in description.modelVariables if v.causality == "output" and v.alias is None}
     missing = sorted(expected - set(listed))
     if missing:
-        return failed(f"{some(missing)} are outputs, but not in ModelStructure/Outputs.")
+        return failed(f"Not in ModelStructure/Outputs: {some(missing)}.")
     foreign = sorted(set(listed) - expected)
     if foreign:
-        return failed(f"{some(foreign)} are in ModelStructure/Outputs, but not outputs.")
+        return failed(f"In ModelStructure/Outputs, but no output: {some(foreign)}.")
     twice = [name for name, count in listed.items() if count > 1]
     if twice:
-        return failed(f"{some(twice)} are in ModelStructure/Outputs more than once.")
+        return failed(f"In ModelStructure/Outputs more than once: {some(twice)}.")
     return passed(f"{len(expected)} outputs, each listed once.")
 
 
@@ -235,7 +240,7 @@ def dependencies(description: ModelDescription) -> Answer:
     """Every output says what it depends on."""
     silent = [u.variable.name for u in description.outputs if u.dependencies is None]
     if silent:
-        return failed(f"{some(silent)} have no dependencies: a host must suppose loops through every input.")
+        return failed(f"Without dependencies: {some(silent)}; a host must suppose that every input counts.")
     inputs = sum(any(v.causality == "input" for v in u.dependencies) for u in description.outputs)
     return passed(f"{inputs} of {len(description.outputs)} outputs depend directly on inputs.")
 
@@ -251,7 +256,7 @@ def initial_unknowns(description: ModelDescription) -> Answer:
     ]
     missing = [name for name in calculated if name not in listed]
     if missing:
-        return failed(f"{some(missing)} are calculated outputs, but not in ModelStructure/InitialUnknowns.")
+        return failed(f"Calculated, but not in ModelStructure/InitialUnknowns: {some(missing)}.")
     return passed(f"{len(calculated)} calculated outputs, all in InitialUnknowns.")
 
 

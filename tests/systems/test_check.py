@@ -58,9 +58,9 @@ def verdicts(found: dict, verdict: Verdict) -> set[str]:
 
 @pytest.fixture(scope="module")
 def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Our own FMU at its fast level."""
+    """Our own FMU, at its fast level, for hosts with Python."""
     scene = Scene.from_toml("mtm_zddp").at_level("regression")
-    return build(scene, tmp_path_factory.mktemp("fmu") / "contact.fmu")
+    return build(scene, tmp_path_factory.mktemp("fmu") / "contact.fmu", flavour="embedded")
 
 
 # the file
@@ -76,26 +76,34 @@ def test_our_own_fmu_breaks_no_rule(fmu: Path, capsys: pytest.CaptureFixture[str
 @pytest.mark.parametrize(
     ("edit", "rules", "evidence"),
     [
-        (replaced(' unit="1"', ""), {"units"}, "have no unit"),
-        (replaced(r'(<Unit name="N">\s*)<BaseUnit [^>]*>', r"\1"), {"units"}, "N has no BaseUnit"),
+        (replaced(' unit="1"', ""), {"units"}, "Without a unit"),
+        (replaced(r'(<Unit name="N">\s*)<BaseUnit [^>]*>', r"\1"), {"units"}, "Without a BaseUnit: the unit N,"),
         (
             replaced(r'(<Unit name="N">\s*)<BaseUnit [^>]*>', r'\1<BaseUnit kg="1" m="1" s="-1"/>'),
             {"unit audit"},
             "'N' is declared as kg=1 m=1 s=-1; by its name it is kg=1 m=1 s=-2",
         ),
-        (replaced(' nominal="[^"]*"', ""), {"nominals"}, "load have no nominal"),
+        (replaced(' nominal="[^"]*"', ""), {"nominals"}, "Without a nominal: load;"),
         (replaced('(name="load".*\\s*<Real [^>]*start=)"[^"]*"', r'\1"-5"'), {"starts"}, "load starts at -5"),
-        (replaced('(<Unknown index="[0-9]+") dependencies="" dependenciesKind=""', r"\1"), {"dependencies"}, ""),
-        (replaced('(<Outputs>\\s*)<Unknown index="[0-9]+" [^>]*>', r"\1"), {"outputs", "fmpy"}, "friction_force are"),
+        (
+            replaced('(<Unknown index="[0-9]+") dependencies="" dependenciesKind=""', r"\1"),
+            {"dependencies"},
+            "Without dependencies: fr",
+        ),
+        (
+            replaced('(<Outputs>\\s*)<Unknown index="[0-9]+" [^>]*>', r"\1"),
+            {"outputs", "fmpy"},
+            "Not in ModelStructure/Outputs: friction_force.",
+        ),
         (
             replaced('(<InitialUnknowns>\\s*)<Unknown index="[0-9]+" [^>]*>', r"\1"),
             {"initial unknowns", "fmpy"},
-            "friction_force are calculated",
+            "not in ModelStructure/InitialUnknowns: friction_force.",
         ),
         (replaced("<fmiModelDescription ", '<fmiModelDescription colour="red" '), {"schema", "fmpy"}, "'colour'"),
         (replaced('needsExecutionTool="true"', 'needsExecutionTool="false"'), {"host needs"}, "must declare"),
     ],
-)  # fmt: skip
+)
 def test_a_defect_of_the_description_fails_its_rule_only(
     fmu: Path, tmp_path: Path, edit: Edit, rules: set[str], evidence: str
 ) -> None:
@@ -313,12 +321,15 @@ def test_reference_results_are_replayed(slave: Callable[..., Path]) -> None:
     with zipfile.ZipFile(fmu, "a") as archive:
         archive.writestr(f"{folder}/in.csv", "time,u\n0.0,1.0\n1.0,3.0\n")
         archive.writestr(f"{folder}/ref.csv", "time,y\n0.0,0.0\n0.5,0.5\n1.0,1.0\n3.0,7.001\n")
-    assert answers(fmu)["reference results"] == (Verdict.PASS, "4 values within 0.001 of their reference.")
+    assert answers(fmu)["reference results"] == (
+        Verdict.PASS,
+        "4 values of ref.csv come out again within their tolerance.",
+    )
     with zipfile.ZipFile(fmu, "a") as archive:
         archive.writestr(f"{folder}/ref.opt", "StartTime, 0.0\nRelTol, 1e-4\n")
     found = answers(fmu)
     assert verdicts(found, Verdict.FAIL) == {"reference results"}
-    assert "y is 7.0 instead of 7.001 at 3 s" in found["reference results"].evidence
+    assert "y is 7.0 at 3 s; ref.csv has 7.001 +- 0.0007" in found["reference results"].evidence
 
 
 @pytest.mark.parametrize(
