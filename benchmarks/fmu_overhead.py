@@ -17,6 +17,7 @@ import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Literal
 
 import fmpy
 import numpy as np
@@ -28,7 +29,7 @@ from fmu_src import build
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "fmu"))
 from empty_slave import Empty, pack
-from native_host import Instance, NativeHost, compiled, embedding_environment
+from native_host import Instance, NativeHost, compiled, embedding_environment, plain_environment
 
 ROUNDS, STEP, FIRST = 5_000, 1e-3, 60.0  # -, s, s
 READ = ("friction_force", "friction_coefficient", "power_loss", "heat_flow_1", "heat_flow_2")
@@ -40,21 +41,22 @@ SCENE = Scene.from_toml("mtm_zddp").at_level("regression")
 class Flavour:
     """How to build an FMU and to run it in the host in C."""
 
-    name: str
+    name: Literal["embedded", "isolated"]
     environment: Callable[[], dict[str, str] | None]
 
     def contact(self, folder: Path) -> Path:
-        return unpacked(build(SCENE, folder / "contact.fmu"))
+        return unpacked(build(SCENE, folder / f"{self.name}_contact.fmu", self.name))
 
     def empty(self, folder: Path) -> Path:
         """An empty slave with all of the contact's files but its own: its description and its script."""
-        own = ("modelDescription.xml", "resources/slavemodule.txt")
-        with zipfile.ZipFile(build(SCENE, folder / "parts.fmu")) as archive:
+        own = ("modelDescription.xml", "resources/slavemodule.txt", "resources/guid.txt")
+        with zipfile.ZipFile(build(SCENE, folder / "parts.fmu", self.name)) as archive:
             parts = {name: archive.read(name) for name in archive.namelist() if name not in own}
-        return unpacked(pack(folder / "empty.fmu", parts))
+        return unpacked(pack(folder / f"{self.name}_empty.fmu", parts))
 
 
-FLAVOURS = (Flavour("embedded", embedding_environment),)
+FLAVOURS = (Flavour("embedded", embedding_environment), Flavour("isolated", plain_environment))
+os.environ["TRIBOFMU_PYTHON"] = sys.executable
 
 
 @dataclass(frozen=True)

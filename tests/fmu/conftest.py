@@ -1,6 +1,7 @@
 """One small FMU, built and unpacked once: 17 nodes, every law in use: what flows, not how well it is resolved."""
 
 import shutil
+import sys
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,19 +12,26 @@ from native_host import compiled, embedding_environment, plain_environment
 
 from contact_core import Scene
 from fmu_src import build
+from fmu_src.resources import FLAVOURS, Flavour
 
 SMALL = {
     "film.points": "17",
     "surface_1.correlation_length": "32 um",
     "surface_2.correlation_length": "32 um",
 }
-FLAVOURS = {"embedded": build}
 
 
 def unpacked(fmu: Path, folder: Path) -> Path:
     with zipfile.ZipFile(fmu) as archive:
         archive.extractall(folder)
     return folder
+
+
+@pytest.fixture(scope="session", autouse=True)
+def python_of_isolated_fmus() -> Iterator[None]:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("TRIBOFMU_PYTHON", sys.executable)
+        yield
 
 
 @pytest.fixture(scope="session")
@@ -74,19 +82,19 @@ def quick() -> Scene:
 
 
 @pytest.fixture(scope="session")
-def quick_folder(quick: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def isolated_folder(quick: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("isolated")
     return unpacked(build(quick, folder / "quick.fmu"), folder / "quick")
 
 
 @pytest.fixture(scope="session", params=FLAVOURS)
-def flavour(request: pytest.FixtureRequest) -> str:
+def flavour(request: pytest.FixtureRequest) -> Flavour:
     return request.param
 
 
 @pytest.fixture(scope="session")
-def flavoured_file(flavour: str, scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return FLAVOURS[flavour](scene, tmp_path_factory.mktemp(flavour) / "small.fmu")
+def flavoured_file(flavour: Flavour, scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build(scene, tmp_path_factory.mktemp(flavour) / "small.fmu", flavour)
 
 
 @pytest.fixture(scope="session")
@@ -95,10 +103,9 @@ def flavoured_folder(flavoured_file: Path, tmp_path_factory: pytest.TempPathFact
 
 
 @pytest.fixture(scope="session")
-def quick_file(flavour: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def quick_file(flavour: Flavour, quick: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A contact at the fast level: many instances cost little."""
-    scene = Scene.from_toml("mtm_zddp", SMALL).at_level("regression")
-    return FLAVOURS[flavour](scene, tmp_path_factory.mktemp(flavour) / "quick.fmu")
+    return build(quick, tmp_path_factory.mktemp(flavour) / "quick.fmu", flavour)
 
 
 @pytest.fixture(scope="session")
@@ -124,6 +131,6 @@ def embedding() -> dict[str, str]:
 
 
 @pytest.fixture(scope="session")
-def native_environment(flavour: str, request: pytest.FixtureRequest) -> dict[str, str]:
+def native_environment(flavour: Flavour, request: pytest.FixtureRequest) -> dict[str, str]:
     """Environment that the host in C needs for a flavour."""
     return request.getfixturevalue("embedding") if flavour == "embedded" else plain_environment()

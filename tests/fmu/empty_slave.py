@@ -20,8 +20,9 @@ _VARIABLES = """
     <Real start="1.0"/>
   </ScalarVariable>
 """
+_GUID = "3b7c1a52-9d0f-4e7c-8a35-5d0e1c6f2b90"
 _DESCRIPTION = f"""<?xml version="1.0" encoding="UTF-8"?>
-<fmiModelDescription fmiVersion="2.0" modelName="Empty" guid="{{3b7c1a52-9d0f-4e7c-8a35-5d0e1c6f2b90}}">
+<fmiModelDescription fmiVersion="2.0" modelName="Empty" guid="{_GUID}">
 <CoSimulation modelIdentifier="MixedContact" canGetAndSetFMUstate="true" canSerializeFMUstate="true"/>
 <ModelVariables>{_VARIABLES}</ModelVariables>
 <ModelStructure>
@@ -37,6 +38,7 @@ def pack(out: Path, parts: Mapping[str, bytes]) -> Path:
     with zipfile.ZipFile(out, "w") as archive:
         archive.writestr("modelDescription.xml", _DESCRIPTION)
         archive.writestr("resources/slavemodule.txt", "empty_slave_of_fmu")
+        archive.writestr("resources/guid.txt", _GUID)
         archive.writestr("resources/empty_slave_of_fmu.py", Path(__file__).read_bytes())
         for name, data in parts.items():
             archive.writestr(name, data)
@@ -47,7 +49,7 @@ class Empty(Fmi2Slave):
     """y = p u at the end of a step."""
 
     layout = LAYOUT
-    held = False  # outputs follow no setting between steps
+    held = True  # outputs stand until the next step
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -69,6 +71,10 @@ class Empty(Fmi2Slave):
 
     def _set_fmu_state(self, state: tuple[float, ...]) -> None:
         self.values[:] = state
+
+    @classmethod
+    def parts(cls, state: tuple[float, ...]) -> list[bytes]:
+        return [cls._fmu_state_to_bytes(state)]
 
     @staticmethod
     def _fmu_state_to_bytes(state: tuple[float, ...]) -> bytes:

@@ -143,9 +143,9 @@ class Calls(RuleBasedStateMachine):
         assert all(math.isfinite(value) for value in found.values()), found
 
 
-def test_any_sequence_of_calls(native_program, quick_folder, tmp_path):
+def test_any_sequence_of_calls(native_program, isolated_folder, tmp_path):
     with NativeHost(native_program, plain_environment()) as host:
-        Calls.host, Calls.fmu, Calls.folder = host, host.load(quick_folder), tmp_path
+        Calls.host, Calls.fmu, Calls.folder = host, host.load(isolated_folder), tmp_path
         machine = Calls.TestCase()
         machine.settings = settings(
             max_examples=500, stateful_step_count=20, deadline=None, suppress_health_check=list(HealthCheck)

@@ -49,9 +49,9 @@ STEPS = [(1.0, {"load": 40.0}), (2.0, {}), (0.5, {"speed_1": 0.2, "load": 60.0})
 
 
 @pytest.fixture(scope="module")
-def faulty_folder(quick: Scene, quick_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def faulty_folder(quick: Scene, isolated_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("faulty") / "fmu"
-    shutil.copytree(quick_folder, folder)
+    shutil.copytree(isolated_folder, folder)
     faults = "".join(f"\n        if load == {load}:\n            {what}" for load, (what, _) in FAULTS.items())
     (folder / "resources" / f"{module_name(quick)}.py").write_text(SCRIPT.format(faults=faults))
     return folder
@@ -87,10 +87,10 @@ def stepped(fmu: Fmu, number: int) -> Instance:
     return instance
 
 
-def test_the_c_host_and_the_core_agree_bit_for_bit(host, quick, quick_folder):
+def test_the_c_host_and_the_core_agree_bit_for_bit(host, quick, isolated_folder):
     from test_run import bits, direct
 
-    instance = host.load(quick_folder).instance()
+    instance = host.load(isolated_folder).instance()
     assert set(instance.initialise()) == {OK}
     found = [instance.outputs(), *rows(instance)]
     expected = [{name: row[name] for name in found[0] if name in row} for row in direct(quick, STEPS)[0]]
@@ -156,8 +156,8 @@ def test_bytes_of_a_state_survive_the_worker_that_wrote_them(host, faulty_folder
     assert rows(instance) == expected
 
 
-def test_a_worker_that_ends_between_calls_is_replaced(host, quick_folder):
-    instance = started(host, quick_folder)
+def test_a_worker_that_ends_between_calls_is_replaced(host, isolated_folder):
+    instance = started(host, isolated_folder)
     instance.ask("save", 0)
     expected = rows(instance)
     (supervisor,) = children(host.process.pid)
@@ -168,8 +168,8 @@ def test_a_worker_that_ends_between_calls_is_replaced(host, quick_folder):
     assert rows(instance) == expected
 
 
-def test_a_lost_supervisor_is_replaced(host, quick_folder):
-    instances = [started(host, quick_folder, k) for k in range(2)]
+def test_a_lost_supervisor_is_replaced(host, isolated_folder):
+    instances = [started(host, isolated_folder, k) for k in range(2)]
     for k, instance in enumerate(instances):
         instance.ask("save", k)
     expected = rows(instances[0])
@@ -199,18 +199,18 @@ def test_the_models_processes_end_with_a_host_that_is_killed(native_program, fau
     assert soon(lambda: not any(map(alive, processes)))
 
 
-def test_the_models_processes_end_with_a_host_that_forgets_to_free(native_program, quick_folder):
+def test_the_models_processes_end_with_a_host_that_forgets_to_free(native_program, isolated_folder):
     with NativeHost(native_program, plain_environment()) as host:
-        started(host, quick_folder)
+        started(host, isolated_folder)
         (supervisor,) = children(host.process.pid)
         processes = [supervisor, *children(supervisor)]
     assert host.code == 0
     assert soon(lambda: not any(map(alive, processes)))
 
 
-def test_a_child_forked_from_the_host_does_not_keep_the_model_alive(native_program, quick_folder):
+def test_a_child_forked_from_the_host_does_not_keep_the_model_alive(native_program, isolated_folder):
     host = NativeHost(native_program, plain_environment())
-    started(host, quick_folder)
+    started(host, isolated_folder)
     child = int(host.ask("fork").values[0])
     (supervisor,) = set(children(host.process.pid)) - {child}
     host.process.kill()
@@ -222,13 +222,13 @@ def test_a_child_forked_from_the_host_does_not_keep_the_model_alive(native_progr
 
 
 @pytest.mark.parametrize("name", ["with space", "Reibschlüssel", "hash#", "plus+", "percent%20", "at@(x)"])
-def test_the_fmu_may_lie_in_any_folder(host, quick_folder, tmp_path, name):
-    folder = shutil.copytree(quick_folder, tmp_path / name)
+def test_the_fmu_may_lie_in_any_folder(host, isolated_folder, tmp_path, name):
+    folder = shutil.copytree(isolated_folder, tmp_path / name)
     assert started(host, folder).step(1.0) == OK
 
 
-def test_the_resources_are_found_by_their_uri_where_the_library_lies_elsewhere(host, quick_folder, tmp_path):
-    folder = shutil.copytree(quick_folder, tmp_path / "ü#%20")
+def test_the_resources_are_found_by_their_uri_where_the_library_lies_elsewhere(host, isolated_folder, tmp_path):
+    folder = shutil.copytree(isolated_folder, tmp_path / "ü#%20")
     away = tmp_path / "away" / "binaries" / "linux64"
     shutil.copytree(folder / "binaries" / "linux64", away)
     shutil.copy(folder / "modelDescription.xml", tmp_path / "away")
@@ -244,20 +244,20 @@ def test_the_resources_are_found_by_their_uri_where_the_library_lies_elsewhere(h
         ("/bin/true", "'/bin/true' ended before it was ready"),
     ],
 )
-def test_a_python_that_cannot_run_is_named(native_program, quick_folder, python, reason):
+def test_a_python_that_cannot_run_is_named(native_program, isolated_folder, python, reason):
     with NativeHost(native_program, plain_environment() | {"TRIBOFMU_PYTHON": python}) as host:
-        instance = host.load(quick_folder).instance()
+        instance = host.load(isolated_folder).instance()
     assert instance.created.status == NONE
     assert reason in instance.log[0][3]
     assert "Set TRIBOFMU_PYTHON to the Python of an environment in which tribofmu is installed" in instance.log[0][3]
 
 
-def test_a_python_without_the_packages_is_named(native_program, quick_folder, tmp_path):
+def test_a_python_without_the_packages_is_named(native_program, isolated_folder, tmp_path):
     bare = tmp_path / "python3"
     bare.write_text(f'#!/bin/sh\nexec {sys.executable} -S "$@"\n')
     bare.chmod(0o755)
     with NativeHost(native_program, plain_environment() | {"TRIBOFMU_PYTHON": str(bare)}) as host:
-        instance = host.load(quick_folder).instance()
+        instance = host.load(isolated_folder).instance()
     assert instance.created.status == NONE
     assert "No module named" in instance.log[0][3]
     assert f"It was run by '{bare}'." in instance.log[0][3]
@@ -271,40 +271,40 @@ def test_the_python_recorded_at_build_is_taken_where_the_variable_is_not_set(nat
         assert started(host, folder).step(1.0) == OK
 
 
-def test_python3_on_the_path_is_the_last_resort(native_program, quick_folder, tmp_path):
+def test_python3_on_the_path_is_the_last_resort(native_program, isolated_folder, tmp_path):
     (tmp_path / "python3").symlink_to(sys.executable)
     environment = plain_environment() | {"PATH": "/nowhere"}
     del environment["TRIBOFMU_PYTHON"]
     with NativeHost(native_program, environment) as host:
-        assert "There is no python3 on PATH" in host.load(quick_folder).instance().log[0][3]
+        assert "There is no python3 on PATH" in host.load(isolated_folder).instance().log[0][3]
     with NativeHost(native_program, environment | {"PATH": f"/nowhere:{Path(sys.executable).parent}"}) as host:
-        assert started(host, quick_folder).step(1.0) == OK
+        assert started(host, isolated_folder).step(1.0) == OK
 
 
-def test_a_hosts_own_python_settings_do_not_reach_the_model(native_program, quick_folder):
+def test_a_hosts_own_python_settings_do_not_reach_the_model(native_program, isolated_folder):
     foreign = {"PYTHONHOME": "/nowhere", "PYTHONPATH": "/nowhere", "LD_LIBRARY_PATH": "/nowhere"}
     with NativeHost(native_program, plain_environment() | foreign) as host:
-        assert started(host, quick_folder).step(1.0) == OK
+        assert started(host, isolated_folder).step(1.0) == OK
 
 
-def test_a_guid_of_another_fmu_is_refused(host, quick_folder):
-    instance = host.load(quick_folder, guid="{another}").instance()
+def test_a_guid_of_another_fmu_is_refused(host, isolated_folder):
+    instance = host.load(isolated_folder, guid="{another}").instance()
     assert instance.created.status == NONE
     assert "'{another}'" in instance.log[0][3]
 
 
-def test_two_contact_fmus_live_in_one_host(host, quick_folder, other_scene, tmp_path):
+def test_two_contact_fmus_live_in_one_host(host, isolated_folder, other_scene, tmp_path):
     other_folder = unpacked(build(other_scene.at_level("regression"), tmp_path / "other.fmu"), tmp_path / "other")
-    first = started(host, quick_folder)
+    first = started(host, isolated_folder)
     second = started(host, other_folder, 1)
     assert first.outputs() != second.outputs()
-    alone = started(host, quick_folder, 2)
+    alone = started(host, isolated_folder, 2)
     assert rows(first) == rows(alone)
     assert len(children(host.process.pid)) == 2
 
 
-def test_fifty_instances_live_at_once(host, quick_folder):
-    fmu = host.load(quick_folder)
+def test_fifty_instances_live_at_once(host, isolated_folder):
+    fmu = host.load(isolated_folder)
     instances = [stepped(fmu, k) for k in range(50)]
     (supervisor,) = children(host.process.pid)
     assert len(children(supervisor)) == 50
@@ -315,8 +315,8 @@ def test_fifty_instances_live_at_once(host, quick_folder):
     assert soon(lambda: children(supervisor) == [])
 
 
-def test_calls_that_fmi_does_not_allow_are_errors_and_change_nothing(host, quick_folder):
-    instance = started(host, quick_folder)
+def test_calls_that_fmi_does_not_allow_are_errors_and_change_nothing(host, isolated_folder):
+    instance = started(host, isolated_folder)
     before = instance.outputs()
     wear, h_c = (instance.fmu.variables[name].valueReference for name in ("wear.bare", "h_c"))
     refused = [
@@ -333,19 +333,19 @@ def test_calls_that_fmi_does_not_allow_are_errors_and_change_nothing(host, quick
     assert instance.outputs() == before
 
 
-def test_freed_instances_and_states_are_errors_not_crashes(host, quick_folder):
-    instance = started(host, quick_folder)
+def test_freed_instances_and_states_are_errors_not_crashes(host, isolated_folder):
+    instance = started(host, isolated_folder)
     instance.ask("save", 0)
     instance.ask("save", 1)
     instance.ask("freestate", 0)
     instance.free()
     assert [instance.ask(*call).status for call in (("step", 0.0, 1.0), ("restore", 1), ("save", 2))] == [ERROR] * 3
     instance.free()
-    assert started(host, quick_folder).step(1.0) == OK
+    assert started(host, isolated_folder).step(1.0) == OK
 
 
-def test_a_damaged_state_is_refused_and_nothing_changes(host, quick_folder, tmp_path):
-    instance, file = started(host, quick_folder), tmp_path / "state"
+def test_a_damaged_state_is_refused_and_nothing_changes(host, isolated_folder, tmp_path):
+    instance, file = started(host, isolated_folder), tmp_path / "state"
     instance.ask("save", 0)
     instance.ask("serialize", 0, file)
     data, before = file.read_bytes(), instance.outputs()
@@ -361,8 +361,8 @@ def test_a_damaged_state_is_refused_and_nothing_changes(host, quick_folder, tmp_
         assert instance.outputs() == before
 
 
-def test_instances_that_come_and_go_leave_nothing_behind(host, quick_folder):
-    fmu = host.load(quick_folder)
+def test_instances_that_come_and_go_leave_nothing_behind(host, isolated_folder):
+    fmu = host.load(isolated_folder)
     host.ask("cycles", fmu.number, 20)
     size = resident(host.process.pid)
     assert host.ask("cycles", fmu.number, 100).status == OK
@@ -373,8 +373,8 @@ def test_instances_that_come_and_go_leave_nothing_behind(host, quick_folder):
     assert descriptors(supervisor) < 12
 
 
-def test_the_fmu_needs_no_python_of_its_host(quick_folder, tmp_path):
-    with zipfile.ZipFile(quick_folder.parent / "quick.fmu") as archive:
+def test_the_fmu_needs_no_python_of_its_host(isolated_folder, tmp_path):
+    with zipfile.ZipFile(isolated_folder.parent / "quick.fmu") as archive:
         library = archive.read("binaries/linux64/MixedContact.so")
     assert b"Py_" not in library
     assert b"libpython" not in library
