@@ -6,6 +6,7 @@
     results        the run as an xarray Dataset, as netCDF and as CSV
     report         the printed table and the overview picture
     stribeck       rubs a contact and sweeps the speed at given times; stribeck_report: its table and picture
+    check/         a verdict per rule on an FMU, anybody's
     cli            the command line
 
 A system sees the contact only through its scene, the quantities and the FMU; the Stribeck curves, which go back to one

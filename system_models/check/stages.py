@@ -26,8 +26,7 @@ from .verdict import Answer, failed, not_applicable, noted, passed, some
 Stage = Callable[[Fmu, Path], Answer | None]
 
 _STEPS = 3
-_CYCLES = 20
-_SETTLED = 5  # cycles after which caches are full
+_SETTLED, _CYCLES = 5, 20  # instances: until caches are full, and then
 _LEAK = 10.0  # kB per instance that are worth a note
 _SPLIT = 1e-3  # of the magnitude: a difference by the size of the step that is worth a note
 _TOLERANCE = 1e-3  # of reference results that state none
@@ -247,21 +246,21 @@ def reset(fmu: Fmu, notebook: Path) -> Answer:
 
 def cycles(fmu: Fmu, notebook: Path) -> Answer:
     """Instances come and go, and leave little behind."""
-    memory = []
-    for _ in range(_CYCLES):
-        with fmu.instance():
-            pass
-        gc.collect()  # of fmpy's objects
-        memory.append(_resident())
-    growth = (memory[-1] - memory[_SETTLED - 1]) / (_CYCLES - _SETTLED)
+    before = _memory_after(fmu, _SETTLED)
+    growth = (_memory_after(fmu, _CYCLES) - before) / _CYCLES
+    evidence = f"{_SETTLED + _CYCLES} instances made and freed"
     if math.isnan(growth):
-        return passed(f"{_CYCLES} instances made and freed; memory is measured on Linux only.")
-    evidence = f"{_CYCLES} instances made and freed; memory grows by {max(growth, 0.0):.0f} kB per instance."
+        return passed(f"{evidence}; memory is measured on Linux only.")
+    evidence += f"; memory grows by {max(growth, 0.0):.0f} kB per instance."
     return noted(evidence) if growth > _LEAK else passed(evidence)
 
 
-def _resident() -> float:
-    """Memory of this process in kB; NaN where it cannot be told."""
+def _memory_after(fmu: Fmu, count: int) -> float:
+    """Memory of this process in kB after so many instances; NaN where it cannot be told."""
+    for _ in range(count):
+        with fmu.instance():
+            pass
+        gc.collect(1)  # what fmpy leaves
     try:
         text = Path("/proc/self/status").read_text()
     except OSError:
@@ -387,7 +386,8 @@ def answer(folder: Path, stage: str, notebook: Path) -> Answer | None:
         except FMICallException:
             return failed(f"{fmu.fault}.")
         except Exception as error:  # fmpy's own, when an FMU cannot be loaded or instantiated, and unreadable data
-            return failed(". ".join([" ".join(str(error).split()).rstrip("."), *fmu.messages[-1:]]) + ".")
+            sentences = [" ".join(str(error).split()), *fmu.messages[-1:]]
+            return failed(" ".join(sentence.rstrip(".") + "." for sentence in sentences))
 
 
 def main(folder: str, stage: str, notebook: str) -> None:
