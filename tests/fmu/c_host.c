@@ -15,102 +15,7 @@
  *     together N                  the next N commands, each in a thread of its own, all at once
  *     fork                        a child that only waits; its process id
  */
-#include <dlfcn.h>
-#include <pthread.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
-#include <unistd.h>
-
-#include "fmi2FunctionTypes.h"
-
-#define FUNCTIONS(X) \
-    X(Instantiate) X(FreeInstance) X(SetupExperiment) X(EnterInitializationMode) X(ExitInitializationMode) \
-    X(Terminate) X(Reset) X(DoStep) X(GetBooleanStatus) X(GetDirectionalDerivative) \
-    X(SetReal) X(SetInteger) X(SetBoolean) X(SetString) X(GetReal) X(GetInteger) X(GetBoolean) X(GetString) \
-    X(GetFMUstate) X(SetFMUstate) X(FreeFMUstate) X(SerializedFMUstateSize) X(SerializeFMUstate) X(DeSerializeFMUstate)
-
-enum { FMUS = 16, INSTANCES = 256, STATES = 256, FIELDS = 4096, NONE = -1 };
-
-#define MEMBER(name) fmi2##name##TYPE *name;
-typedef struct {
-    FUNCTIONS(MEMBER)
-    char *uri, *guid;
-} Fmu;
-
-typedef struct {
-    const Fmu *fmu;
-    fmi2Component component; /* kept after `free`, so that a script can do what a careless host does */
-    fmi2CallbackFunctions callbacks;
-} Instance;
-
-static Fmu fmus[FMUS];
-static Instance instances[INSTANCES];
-static fmi2FMUstate states[STATES];
-static pthread_mutex_t printing = PTHREAD_MUTEX_INITIALIZER;
-
-/* output: what would break a line is escaped */
-
-static void print_text(const char *text)
-{
-    putchar('\t');
-    for (; text && *text; text++)
-        switch (*text) {
-        case '\\': fputs("\\\\", stdout); break;
-        case '\n': fputs("\\n", stdout); break;
-        case '\t': fputs("\\t", stdout); break;
-        case '\r': fputs("\\r", stdout); break;
-        default: putchar(*text);
-        }
-}
-
-static void logger(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category,
-                   fmi2String message, ...)
-{
-    static char text[1 << 16];
-    va_list arguments;
-    (void)name;
-    pthread_mutex_lock(&printing);
-    va_start(arguments, message);
-    vsnprintf(text, sizeof text, message, arguments);
-    va_end(arguments);
-    printf("log\t%td\t%d", (Instance *)environment - instances, status);
-    print_text(category ? category : "NULL");
-    print_text(text);
-    putchar('\n');
-    pthread_mutex_unlock(&printing);
-}
-
-/* input */
-
-static void fail(const char *what, const char *which)
-{
-    fprintf(stderr, "c_host: %s: %s\n", what, which);
-    exit(2);
-}
-
-static int slot(const char *field, int size)
-{
-    int n = atoi(field);
-    if (n < 0 || n >= size)
-        fail("no such number", field);
-    return n;
-}
-
-static Instance *instance(char **field)
-{
-    return &instances[slot(field[1], INSTANCES)];
-}
-
-static size_t references(char **field, int count, int stride, fmi2ValueReference *reference)
-{
-    size_t n = 0;
-    for (int i = 0; i + stride <= count; i += stride)
-        reference[n++] = (fmi2ValueReference)strtoul(field[i], NULL, 10);
-    return n;
-}
+#include "c_host.h"
 
 /* life of an FMU and of an instance */
 
@@ -118,7 +23,6 @@ static int load(char **field, int count)
 {
     Fmu *fmu = &fmus[slot(field[1], FMUS)];
     void *library = dlopen(field[2], RTLD_NOW | RTLD_LOCAL);
-    (void)count;
     if (!library) {
         printf("log\t-1\t3\tdlopen\t%s\n", dlerror());
         return NONE;
@@ -145,27 +49,23 @@ static int create(Instance *host, const Fmu *fmu, int logging)
 
 static int instantiate(char **field, int count)
 {
-    (void)count;
     return create(instance(field), &fmus[slot(field[2], FMUS)], atoi(field[3]));
 }
 
 static int release(char **field, int count)
 {
-    (void)count;
     instance(field)->fmu->FreeInstance(instance(field)->component);
     return fmi2OK;
 }
 
 static int setup(char **field, int count)
 {
-    (void)count;
     return instance(field)->fmu->SetupExperiment(instance(field)->component, 0, 0.0, 0.0, 0, 0.0);
 }
 
 #define PLAIN(name, function) \
     static int name(char **field, int count) \
     { \
-        (void)count; \
         return instance(field)->fmu->function(instance(field)->component); \
     }
 PLAIN(enter, EnterInitializationMode)
@@ -175,7 +75,6 @@ PLAIN(reset, Reset)
 
 static int step(char **field, int count)
 {
-    (void)count;
     return instance(field)->fmu->DoStep(instance(field)->component, strtod(field[2], NULL), strtod(field[3], NULL), 0);
 }
 
@@ -183,7 +82,6 @@ static int terminated(char **field, int count)
 {
     fmi2Boolean value = 0;
     int status = instance(field)->fmu->GetBooleanStatus(instance(field)->component, fmi2Terminated, &value);
-    (void)count;
     printf("value\t%d\n", value);
     return status;
 }
@@ -233,7 +131,6 @@ static int derivative(char **field, int count)
     fmi2Real seed = 1.0, value = 0.0;
     int status = instance(field)->fmu->GetDirectionalDerivative(instance(field)->component, &unknown, 1, &known, 1,
                                                                 &seed, &value);
-    (void)count;
     printf("value\t%a\n", value);
     return status;
 }
@@ -242,19 +139,17 @@ static int derivative(char **field, int count)
 
 static int save(char **field, int count)
 {
-    (void)count; /* a slot in use is handed over again, as FMI allows */
+    /* a slot in use is handed over again, as FMI allows */
     return instance(field)->fmu->GetFMUstate(instance(field)->component, &states[slot(field[2], STATES)]);
 }
 
 static int restore(char **field, int count)
 {
-    (void)count;
     return instance(field)->fmu->SetFMUstate(instance(field)->component, states[slot(field[2], STATES)]);
 }
 
 static int free_state(char **field, int count)
 {
-    (void)count;
     return instance(field)->fmu->FreeFMUstate(instance(field)->component, &states[slot(field[2], STATES)]);
 }
 
@@ -266,7 +161,6 @@ static int serialize(char **field, int count)
     int status = host->fmu->SerializedFMUstateSize(host->component, state, &size);
     FILE *file = fopen(field[3], "wb");
     fmi2Byte *data = malloc(size + 1);
-    (void)count;
     if (!file || !data)
         fail("cannot write", field[3]);
     if (status == fmi2OK)
@@ -281,7 +175,6 @@ static int deserialize(char **field, int count)
 {
     Instance *host = instance(field);
     FILE *file = fopen(field[3], "rb");
-    (void)count;
     if (!file)
         fail("cannot read", field[3]);
     fseek(file, 0, SEEK_END);
@@ -329,7 +222,6 @@ static int cycles(char **field, int count)
 {
     Instance *host = &instances[INSTANCES - 1];
     int status = fmi2OK;
-    (void)count;
     for (long i = atol(field[2]); i > 0 && status == fmi2OK; i--) {
         status = create(host, &fmus[slot(field[1], FMUS)], 0);
         if (status == fmi2OK)
@@ -340,7 +232,6 @@ static int cycles(char **field, int count)
 
 static int fork_child(char **field, int count)
 {
-    (void)field, (void)count;
     fflush(stdout);
     pid_t child = fork();
     while (child == 0)
@@ -408,7 +299,6 @@ static int together(char **field, int count)
 {
     int n = slot(field[1], INSTANCES), worst = fmi2OK;
     Job *jobs = calloc((size_t)n, sizeof *jobs);
-    (void)count;
     for (int i = 0; i < n; i++)
         if (!next(&jobs[i]))
             fail("too few commands", field[1]);

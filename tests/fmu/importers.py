@@ -6,6 +6,7 @@ is UNUSABLE if the importer is not installed, or lacks a library of the system.
 
 import importlib
 import json
+import shutil
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
@@ -46,6 +47,18 @@ def with_fmpy(fmu: str) -> Iterator[list[float]]:
             yield slave.getReal(list(real_outputs(fmu).values()))
         slave.terminate()
         slave.freeInstance()
+
+
+def with_fmu_manipulation_toolbox(fmu: str) -> Iterator[list[float]]:
+    """Through a container: an FMU whose native library imports the FMUs that it holds."""
+    from fmu_manipulation_toolbox.assembly import AssemblyNode
+
+    with tempfile.TemporaryDirectory() as folder:
+        node = AssemblyNode("container.fmu", step_size=STEP)
+        node.add_fmu(Path(fmu).name)
+        shutil.copy(fmu, folder)
+        node.make_fmu(Path(folder))
+        yield from with_fmpy(str(Path(folder, "container.fmu")))
 
 
 def with_fmuloader(fmu: str) -> Iterator[list[float]]:
@@ -101,6 +114,7 @@ IMPORTERS: dict[str, Callable[[str], Iterator[list[float]]]] = {
     "libcosimpy": with_libcosimpy,
     "ecospy": with_ecospy,
     "fmuloader": with_fmuloader,
+    "fmu_manipulation_toolbox": with_fmu_manipulation_toolbox,
 }
 
 if __name__ == "__main__":
