@@ -49,5 +49,5 @@ def test_a_host_in_c_gives_the_same_bits(native_program, native_environment, fla
         rows.append([value.hex() for value in instance.outputs().values() if isinstance(value, float)])
     instance.free()
     host.close()
-    assert instance.log == []
+    assert {status for _, status, _, _ in instance.log} <= {OK}
     assert rows == expected

@@ -131,11 +131,15 @@ def test_a_host_without_python_can_load_it(native_program, folder):
         assert host.load(folder).loaded.status == OK
 
 
-@limit("pythonfmu finalises Python on another thread while the process ends; it mostly crashes")
-def test_a_host_in_c_ends_cleanly(native_program, embedding, quick_folder):
+@pytest.mark.xfail(reason="pythonfmu finalises Python on another thread while the process ends", strict=False)
+def test_a_host_in_c_ends_cleanly(native_program, embedding, folder):
+    """Not strict: of ten hosts, none to half crash."""
+
     def ended() -> int:
         host = NativeHost(native_program, embedding)
-        host.load(quick_folder).instance().free()
+        instance = host.load(folder).instance()
+        instance.initialise()
+        instance.free()
         return host.close()
 
     assert all(ended() == 0 for _ in range(10))  # the first crash settles it

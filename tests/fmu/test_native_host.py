@@ -2,7 +2,7 @@
 
 import pytest
 from conftest import unpacked
-from native_host import NONE, OK, NativeHost
+from native_host import NONE, OK, WARNING, NativeHost
 
 OUTPUTS = ("friction_force", "h_c", "wear_volume_1")
 IN_A_NAME = {"embedded": " ", "isolated": " #ü+(@%20"}  # characters that the folder of an FMU may have
@@ -72,7 +72,8 @@ def test_every_log_entry_has_a_category(c_host, quick_folder):
     instance = c_host.load(quick_folder).instance()
     instance.initialise()
     instance.step(60.0, load=-1.0)
-    assert [(status, category) for _, status, category, _ in instance.log] == [(1, "logStatusWarning")]
+    assert {category for _, _, category, _ in instance.log} == {"logValidity"}
+    assert instance.log[-1][1] == WARNING
 
 
 def test_the_reason_of_a_failed_instantiation_reaches_the_log(c_host, quick_file, tmp_path):

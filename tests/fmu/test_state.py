@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from conftest import unpacked
-from fmpy.fmi2 import fmi2Warning
+from fmpy.fmi2 import fmi2Error
 from fmu_host import environment, hosted
 from hypothesis import given
 from hypothesis import strategies as st
@@ -116,7 +116,7 @@ def test_a_damaged_state_is_refused_and_the_contact_stands(stepped, damage):
     stepped.restore(damage(state))
     assert stepped.outputs() == before | {"valid": False}
     assert len(stepped.log) == 1
-    assert stepped.log[0][0] == fmi2Warning
+    assert stepped.log[0][0] == fmi2Error
     first = stepped.step(60.0)
     stepped.restore(state)
     assert stepped.step(60.0) == first
