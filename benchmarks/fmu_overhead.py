@@ -25,7 +25,7 @@ from fmpy.simulation import instantiate_fmu
 from regression_cost import unit
 
 from contact_core import Scene, advance, initial_state
-from fmu_src import build
+from fmu_src.build import build
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "fmu"))
 from empty_slave import Empty, pack

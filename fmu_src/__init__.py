@@ -7,14 +7,19 @@
     evidence    reference data: a short run to replay
     packages    what the FMU needs from outside, and licences
     icon        model.png
-    resources   what lies in the FMU for the slave: scene, versions, the script that pythonfmu's binary loads
+    resources   what lies in the FMU for the slave: scene, versions, the script that makes the slave
     slave       the guarded slave: callbacks in, contact_core.advance out; no physics
-    loader      what pythonfmu's binary leaves behind, tidied up
     snapshot    the FMU's state as a frozen record and as bytes
+
+Embedded, pythonfmu's binary runs the slave inside its host:
+
+    loader      what that binary leaves behind, tidied up
+
+Isolated, a library of our own lets another process run it:
+
+    native/     the library: fmi2.c -> instance.c -> channel_*.c; message.h: what is said; build.py: how it is made
+    supervisor  the process that imports the model once and forks a worker for every instance (Linux)
+    worker      the process of one instance: the library's messages in, calls of the slave, answers out
 
 The FMU is thin: it carries its scene, the physics comes from the installed contact_core of the same version.
 """
-
-from .build import build
-
-__all__ = ["build"]

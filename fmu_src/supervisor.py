@@ -202,8 +202,8 @@ def supervise(control: int, resources: Path, ready: Callable[[], None]) -> None:
     slave = slave_class(resources)
     if hasattr(slave, "warm_up"):
         slave.warm_up(resources)
-    gc.collect()
     gc.freeze()  # what is shared with the workers stays shared
+    gc.enable()
     supervisor = Supervisor(socket.socket(fileno=control), resources)
     ready()
     supervisor.serve()

@@ -250,7 +250,7 @@ def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint") -> "xr.Datas
     from tqdm import tqdm
     from tqdm.contrib.logging import logging_redirect_tqdm
 
-    from fmu_src import build
+    from fmu_src.build import build
 
     from .ball_on_disc import run
 

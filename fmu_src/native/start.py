@@ -4,6 +4,7 @@ With --pipe it serves one instance over its standard streams; else it forks a wo
 socket tells it to.
 """
 
+import gc
 import os
 import sys
 import traceback
@@ -19,6 +20,7 @@ def _serve(resources: Path) -> None:
     if _PIPE:
         _serve_one(resources)
     elif sys.platform != "win32":
+        gc.disable()  # what is imported stays: to look through it costs a tenth of a second
         from fmu_src.supervisor import supervise
 
         os.closerange(_SOCKET + 1, os.sysconf("SC_OPEN_MAX"))

@@ -11,7 +11,7 @@ from fmu_host import Host, hosted
 from native_host import compiled, embedding_environment, plain_environment
 
 from contact_core import Scene
-from fmu_src import build
+from fmu_src.build import build
 from fmu_src.resources import FLAVOURS, Flavour
 
 SMALL = {

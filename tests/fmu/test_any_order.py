@@ -1,7 +1,6 @@
 """Any sequence of calls that FMI's state machine allows, with any input: no crash, no NaN, no lost state."""
 
 import math
-import shutil
 import sys
 
 import pytest

@@ -21,7 +21,8 @@ from fmu_host import hosted
 from contact_core import ConvergenceError, RangeFlag, Scene
 from contact_core.film import FILMS
 from contact_core.laws import SLOTS
-from fmu_src import build, evidence, icon, measured, packages
+from fmu_src import evidence, icon, measured, packages
+from fmu_src.build import build
 from fmu_src.document import documentation
 from fmu_src.equations import DOSES, GOVERNING, INLET_SHEAR, LAWS, SHARING
 from fmu_src.markup import equation

@@ -12,7 +12,7 @@ from contact_core import Scene
 from contact_core.quantities import INPUTS, OF_CALLER, OUTPUTS
 from contact_core.scene import tunables
 from contact_core.state import Outputs
-from fmu_src import build
+from fmu_src.build import build
 from fmu_src.variables import variables
 
 

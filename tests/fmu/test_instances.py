@@ -9,7 +9,7 @@ import pytest
 from conftest import unpacked
 from fmu_host import environment, hosted
 
-from fmu_src import build
+from fmu_src.build import build
 
 
 def test_two_scenes_in_one_process_keep_to_themselves(folder, other_scene, tmp_path):

@@ -16,7 +16,7 @@ from native_host import ERROR, NONE, OK, Fmu, Instance, NativeHost, plain_enviro
 from processes import alive, children, descriptors, resident, soon
 
 from contact_core import Scene
-from fmu_src import build
+from fmu_src.build import build
 from fmu_src.resources import module_name
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the processes are looked at as Linux shows them")

@@ -17,7 +17,7 @@ from replay import STEPS, replay
 
 from contact_core import StateError
 from contact_core.quantities import LEVELS
-from fmu_src import build
+from fmu_src.build import build
 from fmu_src.resources import module_name
 from fmu_src.snapshot import Snapshot
 from fmu_src.variables import variables

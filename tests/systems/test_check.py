@@ -12,7 +12,7 @@ import pytest
 from pythonfmu.builder import FmuBuilder
 
 from contact_core import Scene
-from fmu_src import build
+from fmu_src.build import build
 from system_models.check import deep, report, stages
 from system_models.check.binaries import UnreadableError, read_library
 from system_models.check.instance import Instance

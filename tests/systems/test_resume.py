@@ -16,7 +16,7 @@ from fmpy.fmi2 import FMU2Slave
 
 import fmu_src.slave
 from contact_core import ContactError, OperatingPoint, Scene, StateError, advance
-from fmu_src import build
+from fmu_src.build import build
 from system_models import report
 from system_models.ball_on_disc import run
 from system_models.checkpoint import Checkpoint, identity
