@@ -362,12 +362,40 @@ def test_other_processes_are_asked(slave: Callable[..., Path], monkeypatch: pyte
     assert verdicts(found, Verdict.FAIL) == {"replay"}
 
 
-def test_our_own_fmu_is_rolled_back_and_restored_in_another_process(fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("flavour", ["embedded", "isolated"])
+def test_our_own_fmu_is_rolled_back_and_restored_in_another_process(
+    flavour: str, scene: Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("TRIBOFMU_PYTHON", sys.executable)
     monkeypatch.setattr(deep, "RULES", {rule: deep.RULES[rule] for rule in ("rollback", "serialise")})
-    found = deep_findings(fmu)
+    found = deep_findings(build(scene.at_level("regression"), tmp_path / "contact.fmu", flavour))
     assert verdicts(found, Verdict.PASS) == {"rollback", "serialise"}
 
 
 def test_what_cannot_be_run_here_is_not_judged(fmu: Path, tmp_path: Path) -> None:
     none = edited(fmu, tmp_path / "none.fmu", unchanged, "binaries/")
-    assert verdicts(deep_findings(none), Verdict.NOT_APPLICABLE) == set(deep.RULES)
+    exchange = edited(fmu, tmp_path / "exchange.fmu", replaced("<CoSimulation ", "<ModelExchange "))
+    for file in (none, exchange):
+        assert verdicts(deep_findings(file), Verdict.NOT_APPLICABLE) == set(deep.RULES)
+
+
+FMI_3 = """<fmiModelDescription fmiVersion="3.0" modelName="three" instantiationToken="3">
+  <CoSimulation modelIdentifier="three"/>
+  <UnitDefinitions><Unit name="m"><BaseUnit m="1"/></Unit></UnitDefinitions>
+  <ModelVariables>
+    <Float64 name="time" valueReference="0" causality="independent" variability="continuous"/>
+    <Float64 name="x" valueReference="1" causality="output" unit="m" nominal="1e-6" {initial}/>
+  </ModelVariables>
+  <ModelStructure><Output valueReference="1" dependencies=""/><InitialUnknown valueReference="1"/></ModelStructure>
+</fmiModelDescription>
+"""
+
+
+@pytest.mark.parametrize(("initial", "failing"), [("", set()), ('initial="exact"', {"starts", "fmpy"})])
+def test_the_file_of_an_fmi_3_fmu_is_judged(tmp_path: Path, initial: str, failing: set[str]) -> None:
+    with zipfile.ZipFile(tmp_path / "three.fmu", "w") as archive:
+        archive.writestr(XML, FMI_3.format(initial=initial))
+        archive.writestr("sources/three.c", "")
+    found = static_findings(tmp_path / "three.fmu")
+    assert verdicts(found, Verdict.FAIL) == failing
+    assert verdicts(found, Verdict.NOT_APPLICABLE) == {"functions", "host needs"}
