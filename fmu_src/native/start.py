@@ -28,8 +28,11 @@ def _serve(resources: Path) -> None:
 def _serve_one(resources: Path) -> None:
     import faulthandler
 
-    from fmu_src.worker import Pipe, Worker
+    from fmu_src.worker import Pipe, Worker, slave_class
 
+    slave = slave_class(resources)
+    if hasattr(slave, "warm_up"):
+        slave.warm_up(resources)
     _say(b"R")
     incoming, outgoing = os.dup(0), os.dup(1)
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)  # what the model reads and prints is no message
