@@ -49,7 +49,7 @@ def bare_heights(scene: Scene, rows: int) -> tuple[Array, Array]:
     )
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=32)  # sixteen contacts in one process
 def _bare(surface: Surface, points: int, domain: float, body: int, rows: int) -> Array:
     own = np.arange(rows) - (rows - points) // 2
     heights = generate(surface, points, domain, body)[own % (points - 1)]

@@ -278,19 +278,19 @@ class Scene:
             return self
         return replace(self, film=films[level](**{name: getattr(self.film, name) for name in shared}))
 
-    def realisation(self, number: int) -> "Scene":
-        """The scene with other surfaces of the same statistics; 0: its own. Raises SceneError for a negative number.
+    def realisation(self, seed: int) -> "Scene":
+        """The scene with other surfaces of the same statistics; 0: its own. Raises SceneError for a negative seed.
 
-        Both bodies stay independent of each other, as two bodies are with any seeds. The seeds step by 2^31 over the
-        golden ratio, modulo 2^31: a surface is the same at no two numbers, and among the first 10,000 it is none that a
-        seed changed by less than 100,000 gives.
+        Both bodies stay independent of each other, as two bodies are with any seeds. Their own seeds step by 2^31 over
+        the golden ratio, modulo 2^31: a surface comes twice at no two seeds, and up to seed 10,000 it is none that its
+        own seed changed by less than 100,000 gives.
         """
-        if not 0 <= number < _SEEDS:
-            raise SceneError(f"seed = {number} must be at least 0 and at most {_SEEDS - 1}.")
-        if number == 0:
+        if not 0 <= seed < _SEEDS:
+            raise SceneError(f"seed = {seed} must be at least 0 and at most {_SEEDS - 1}.")
+        if seed == 0:
             return self
         first, second = (
-            replace(surface, seed=(surface.seed + number * _SEED_STEP) % _SEEDS)
+            replace(surface, seed=(surface.seed + seed * _SEED_STEP) % _SEEDS)
             for surface in (self.surface_1, self.surface_2)
         )
         return replace(self, surface_1=first, surface_2=second)

@@ -17,9 +17,9 @@ from contact_core.state import RangeFlag
 
 from . import drawings, equations, evidence, markup, measured, packages
 from .markup import bullets, equation, paragraph, plain, table
-from .resources import MODEL
+from .resources import MODEL, Flavour
 from .slave import ContactSlave
-from .variables import INITIAL_STATE, Variable, variables
+from .variables import FIDELITY, INITIAL_STATE, Variable, variables
 
 _STYLE = """
 body { max-width: 60em; margin: 2em auto; padding: 0 1em; font: 16px/1.5 system-ui, sans-serif; color: #222; }
@@ -29,7 +29,8 @@ th, td { border-bottom: 1px solid #ddd; padding: .25em .7em .25em 0; text-align:
 code { font-size: .95em; } .wide { overflow-x: auto; } .source { font-size: .85em; color: #555; margin: .2em 0; }
 .equation { font-family: Cambria, "Times New Roman", serif; font-size: 1.12em; margin: .3em 0 .3em 1.5em;
   white-space: pre-wrap; }
-svg { max-width: 34em; display: block; font-size: 14px; } svg text { fill: #222; } .middle { text-anchor: middle; } .end { text-anchor: end; }
+svg { max-width: 34em; display: block; font-size: 14px; } svg text { fill: #222; }
+.middle { text-anchor: middle; } .end { text-anchor: end; }
 .line path, .input, .asked, .output { fill: none; stroke: #222; stroke-width: 1.6; } .line .grid { stroke: #ccc; }
 .ball { fill: #c3cbd4; } .disc { fill: #9aa5b1; } .oil { fill: #f3b34a; } .line .force { stroke: #a33; }
 svg text.force { fill: #a33; } .input { stroke: #1f5fa8; stroke-width: 2.4; } .output { stroke: #a33; }
@@ -53,8 +54,8 @@ _PAGE = """<!DOCTYPE html>
 _CELSIUS = 273.15
 
 
-def documentation(scene: Scene, flavour: str, reference: bool) -> bytes:
-    """The page, UTF-8, for a flavour of the FMU ("embedded" or "isolated"), with or without reference data in it."""
+def documentation(scene: Scene, flavour: Flavour, reference: bool) -> bytes:
+    """The page, UTF-8, for a flavour of the FMU, with or without reference data in it."""
     sections = {
         "contact": ("The contact", _contact(scene)),
         "signs": ("Signs and directions", _signs(scene)),
@@ -105,12 +106,13 @@ def _contact(scene: Scene) -> Iterator[str]:
     yield paragraph(
         "Two rough bodies roll and slide on each other in oil under a normal load. The FMU computes film, pressure and "
         "real contact, friction, the growth of a tribofilm where they rub, wear, and the roughness that results. "
-        f"Level: film.model = '{scene.film.name}'; "
+        f"It starts at the level film.model = '{scene.film.name}': "
         + (
             f"fields on {scene.film.points} x {scene.film.points} nodes over {_number(1e3 * scene.film.domain, 'mm')}."
             if scene.film.name == "deterministic"
             else "means of both surfaces, with curves of load sharing fitted to the deterministic level."
         )
+        + f" The parameter {FIDELITY} changes the level at any step; this page is about the one at the start."
     )
     rows = [
         ("radii of combined curvature along x and y", _numbers(1e3, (shape.radius_x, shape.radius_y), "mm")),
@@ -166,6 +168,12 @@ def _equations(scene: Scene) -> Iterator[str]:
     yield "<h3>Friction</h3>"
     yield from _formula(*equations.FRICTION[level])
     yield from _laws(scene)
+    if scene.heat.inlet_shear != "none":
+        yield f"<h3>heat.inlet_shear: {scene.heat.inlet_shear}</h3>"
+        yield from _formula(*equations.INLET_SHEAR[scene.heat.inlet_shear])
+    if level == "regression" and scene.lubricant.flow == "local" and scene.lubricant.rheology.name == "carreau":
+        yield "<h3>lubricant.flow: local</h3>"
+        yield from _formula(*equations.SHEAR_THINNING)
     yield "<h3>Options, fixed when the FMU was built</h3>"
     yield table(("option", "choice", "meaning"), _options(scene))
 
@@ -176,8 +184,9 @@ def _laws(record: Any, path: str = "") -> Iterator[str]:
         part: Any = getattr(record, f.name)
         if (f.name, getattr(part, "name", "")) in equations.LAWS:
             lines, sentence = equations.LAWS[f.name, part.name]
+            dose = equations.DOSES[part.dose] if f.name == "tribofilm" and part.name != "none" else ""
             yield f"<h3>{path}{f.name}: {part.name}</h3>"
-            yield from _formula(lines, sentence, part.source)
+            yield from _formula(lines, f"{sentence} {dose}".strip(), part.source)
         if is_dataclass(part):
             yield from _laws(part, f"{path}{f.name}.")
 
@@ -275,7 +284,7 @@ def _errors(scene: Scene) -> Iterator[str]:
             "They come from the fit of the level, and do not hold where range_flags says outside the fit."
             if isinstance(scene.film, Regression)
             else "They come from time steps and sampling. The grid's error is in none of them and is larger where "
-            "solids carry load: compare two grids. Wear driven by 'auto' has been found beyond them more often than within."
+            "solids carry load: compare two grids. Wear driven by 'auto' was found beyond them more often than within."
         )
     )
     yield paragraph("What has been measured, and the command of the repository that measures it:")
@@ -316,10 +325,23 @@ def _steps(scene: Scene) -> Iterator[str]:
     yield _measured(measured.COSTS[scene.film.name])
 
 
-def _status(flavour: str) -> Iterator[str]:
-    unexpected = {
-        "isolated": ("Error", "the host goes on; restore a state, or reset"),
-        "embedded": ("OK", "valid is false; state and outputs stand; the log has an entry of status error"),
+def _status(flavour: Flavour) -> Iterator[str]:
+    broken: dict[Flavour, tuple[tuple[str, str, str], ...]] = {
+        "isolated": (
+            ("an unexpected error in the model", "Error", "the log has its traceback; the host goes on"),
+            (
+                "the model's process ends, or gives no answer within TRIBOFMU_TIMEOUT",
+                "Error",
+                "the host goes on; restore a state, or reset, to go on in a new process",
+            ),
+        ),
+        "embedded": (
+            (
+                "an unexpected error in the model",
+                "OK",
+                "valid is false; state and outputs stand; the log has its traceback",
+            ),
+        ),
     }
     yield table(
         ("what happened", "status", "answer"),
@@ -336,7 +358,7 @@ def _status(flavour: str) -> Iterator[str]:
                 "OK",
                 "the same at every step until a reset; it never runs with other values than those asked for",
             ),
-            ("an unexpected error in the model", *unexpected[flavour]),
+            *broken[flavour],
         ),
     )
     yield paragraph("valid is to be looked at after every step. range_flags is the sum of:")
@@ -349,14 +371,17 @@ def _variables(scene: Scene) -> Iterator[str]:
     for title, causality in (("Inputs", "input"), ("Outputs", "output"), ("Parameters", "parameter")):
         yield f"<h3>{title}</h3>"
         if causality == "parameter":
-            yield paragraph("Set them before initialisation ends; afterwards they are fixed until a reset.")
+            yield paragraph(
+                f"Set them before initialisation ends; afterwards all but {FIDELITY} are fixed until a reset."
+            )
         rows = (_row(v) for v in listed if v.causality == causality)
         yield table(("name", "unit", "least", "most", "start", "meaning"), rows)
 
 
 def _row(v: Variable) -> tuple[str, ...]:
-    low, high = (f"{bound:g}" if math.isfinite(bound) else "" for bound in (v.minimum, v.maximum))
-    return v.name, v.unit, low, high, "" if v.causality == "output" else str(v.start), v.text
+    low, high = (f"{bound:.10g}" if math.isfinite(bound) else "" for bound in (v.minimum, v.maximum))
+    start = f"{v.start:.10g}" if isinstance(v.start, float) else str(v.start)
+    return v.name, v.unit, low, high, "" if v.causality == "output" else start, v.text
 
 
 def _state() -> Iterator[str]:
@@ -377,7 +402,7 @@ def _log() -> Iterator[str]:
     yield table(("category", "messages"), ContactSlave.log_categories.items())
 
 
-def _needs(flavour: str) -> Iterator[str]:
+def _needs(flavour: Flavour) -> Iterator[str]:
     where = {
         "isolated": "The FMU starts a Python of its own process for the model; the host needs none.",
         "embedded": "The model runs in the Python of the host.",
@@ -403,7 +428,7 @@ def _check(reference: bool) -> Iterator[str]:
     yield paragraph("tribofmu check FILE.fmu --deep replays it, beside other checks.")
 
 
-def _licence(flavour: str) -> Iterator[str]:
+def _licence(flavour: Flavour) -> Iterator[str]:
     names = packages.licences(flavour)
     links = ", ".join(f'<a href="licenses/{name}">{name}</a>' for name in names)
     yield (

@@ -187,3 +187,31 @@ LAWS: dict[tuple[str, str], tuple[Lines, str]] = {
         "roughness flat; r: correlation length over the distance of the nodes.",
     ),
 }
+
+# By tribofilm.dose: how the instants of a pass become growth over test time.
+DOSES: dict[str, str] = {
+    "clock": "Dose 'clock': a point that is rubbed at any instant of a pass counts as rubbed for the whole time.",
+    "contact_length": "Dose 'contact_length': growth by the mean over the crossing of the contact's length.",
+    "residence": "Dose 'residence': growth by the mean over the whole track.",
+}
+
+# What thins the film of an oil that shears: lines, a sentence, a source.
+INLET_SHEAR: dict[str, tuple[Lines, str, str]] = {
+    "gupta": (
+        (
+            "φ = [1 − 13.2 (p_H/E′) Q^{0.42}]/[1 + 0.213 (1 + 2.23 |S|^{0.83}) Q^{0.64}]",
+            "Q = η_0 β u_e^2/k,   S = (u_1 − u_2)/u_e",
+        ),
+        "Shear warms the oil in the inlet: the film is φ of the isothermal one; β is −d ln η/dT there, k the oil's "
+        "conductivity.",
+        "Gupta, Cheng, Zhu, Forster & Schrand 1992, doi:10.1080/10402009208982117",
+    ),
+}
+SHEAR_THINNING: tuple[Lines, str, str] = (
+    (
+        "φ = [1 + 0.79 X^m]^{−q},   X = (1 + |S|) u_e η_0/(h_s G)",
+        "m = 1/(1 + 0.2 |S|),   q = 3.6 (1 − n)^{1.7},   S = (u_1 − u_2)/u_e",
+    ),
+    "Shear thins the oil in the inlet: the film is φ of the Newtonian one.",
+    "Bair, Proc. IMechE J 219 (2005) 69",
+)

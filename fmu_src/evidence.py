@@ -22,7 +22,7 @@ COMPARED = (
     "friction_force",
     "friction_coefficient",
     "power_loss",
-    "dfriction_dspeed_1",
+    "dfriction_dload",
     "h_c",
     "contact_load_ratio",
     "contact_area_ratio",

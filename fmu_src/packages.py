@@ -4,13 +4,16 @@ from importlib.metadata import PackageNotFoundError, distribution
 
 from contact_core import __version__
 
-from . import resources
+from .resources import VERSIONS, Flavour
 
 PACKAGE = "tribofmu"
-_MADE_BY_OTHERS = {"embedded": ("pythonfmu",), "isolated": ()}  # whose libraries lie in the FMU, by flavour
+_MADE_BY_OTHERS: dict[Flavour, tuple[str, ...]] = {
+    "embedded": ("pythonfmu",),
+    "isolated": (),
+}  # whose libraries lie in the FMU, by flavour
 
 
-def licences(flavour: str) -> dict[str, bytes]:
+def licences(flavour: Flavour) -> dict[str, bytes]:
     """Name and text of the licence of the FMU and of each library in it that others made.
 
     Raises FileNotFoundError if a package is not installed with its licence.
@@ -42,10 +45,10 @@ def dependencies() -> list[str]:
 
 def exact() -> dict[str, str]:
     """Packages of which the FMU takes no other version."""
-    return {PACKAGE: __version__, "pythonfmu": resources.VERSIONS["pythonfmu"]}
+    return {PACKAGE: __version__, "pythonfmu": VERSIONS["pythonfmu"]}
 
 
-VARIABLES: dict[str, dict[str, str]] = {
+VARIABLES: dict[Flavour, dict[str, str]] = {
     "isolated": {
         "TRIBOFMU_PYTHON": "path of the Python that has the packages; without it the one recorded when the FMU was "
         "built, if any, then python3 on PATH",
@@ -58,7 +61,7 @@ VARIABLES: dict[str, dict[str, str]] = {
 }
 
 
-def external_dependencies(flavour: str) -> bytes:
+def external_dependencies(flavour: Flavour) -> bytes:
     """documentation/externalDependencies.txt."""
     lines = [
         "What this FMU needs that does not lie in it.",

@@ -34,8 +34,12 @@ from fmu_src import slave
 globals().setdefault("_references", []).append(globals())
 
 
-class {MODEL}(slave.ContactSlave):
-    """The contact of scene.json."""
+if "{MODEL}" in globals():
+    {MODEL} = globals()["{MODEL}"]  # one class for all instances: none is ever given back
+else:
+
+    class {MODEL}(slave.ContactSlave):
+        """The contact of scene.json."""
 '''
 
 

@@ -8,10 +8,12 @@ A message has one of `LOG_CATEGORIES`. pythonfmu's binary hands it on if the hos
 for its category, or for none.
 """
 
+import contextlib
 import math
 import sys
 import traceback
 from collections.abc import Callable, Sequence
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -23,17 +25,19 @@ from contact_core import (
     ContactState,
     ConvergenceError,
     OperatingPoint,
+    Outputs,
     RangeFlag,
     StateError,
     advance,
     initial_state,
+    warm_up,
 )
 from contact_core.quantities import LEVELS, OF_CALLER
 from contact_core.scene import with_values
 
 from . import loader, resources
 from .snapshot import Phase, Scenes, Snapshot, check_owner
-from .variables import FIDELITY, INITIAL_STATE, SEED, SPECIAL, ZERO, Causality, Kind, Value, variables
+from .variables import FIDELITY, INITIAL_STATE, SEED, SPECIAL, ZERO, Causality, Kind, Value, Variable, variables
 
 LOG_CATEGORIES = {
     "logStatusWarning": "calls that FMI does not allow, and the user's interrupt",
@@ -47,6 +51,24 @@ _OTHER_LEVEL = int(RangeFlag.OTHER_LEVEL)
 
 class CallError(ContactError):
     """A call that FMI does not allow."""
+
+
+class _Told:
+    """The outputs that the core fills at a level, and how to read them all at once."""
+
+    def __init__(self, table: Sequence[Variable], level: str) -> None:
+        told = [
+            (v.name, vr, type(v.start))
+            for vr, v in enumerate(table)
+            if v.causality == "output" and v.name not in OF_CALLER and level in v.levels
+        ]
+        self.names, self.references, self._kinds = zip(*told, strict=True)
+        self._fetch = attrgetter(*self.names)
+
+    def values(self, outputs: Outputs) -> list[Any]:
+        """In the order of `names`."""
+        pairs = zip(self._kinds, self._fetch(outputs), strict=True)
+        return [value if type(value) is kind else kind(value) for kind, value in pairs]
 
 
 class ContactSlave(Fmi2Slave):
@@ -71,20 +93,18 @@ class ContactSlave(Fmi2Slave):
         self.values: list[Value] = [v.start for v in self._variables]
         self.layout = tuple((v.kind, "tunable" if v.variability == "tunable" else v.causality) for v in self._variables)
         self._inputs = [(v.name, vr) for vr, v in enumerate(self._variables) if v.causality == "input"]
-        self._outputs = {level: self._told(level) for level in LEVELS}
+        self._told = [_Told(self._variables, level) for level in LEVELS]
         self._scenes: Scenes | None = None
         self._state: ContactState | None = None
         self._phase = Phase.NEW
         self._fault = "its initialisation has not ended."
         self._interrupted = False
 
-    def _told(self, level: str) -> list[tuple[str, int, type]]:
-        """Name, value reference and type of the outputs that the core fills at a level."""
-        return [
-            (v.name, vr, type(v.start))
-            for vr, v in enumerate(self._variables)
-            if v.causality == "output" and v.name not in OF_CALLER and level in v.levels
-        ]
+    @classmethod
+    def warm_up(cls, folder: Path) -> None:
+        """Load what the first steps of the contact in these resources need, before processes are forked."""
+        with contextlib.suppress(ContactError):  # which the first instance will say
+            warm_up(resources.read(str(folder), cls.__module__))
 
     @property
     def held(self) -> bool:
@@ -122,11 +142,9 @@ class ContactSlave(Fmi2Slave):
             raise
         self._scenes, self._state = scenes, state
         self._advance(0.0)
-        told = self._outputs[LEVELS[int(self._value(FIDELITY)) - 1]]
-        for output in self._outputs[LEVELS[-1]]:  # no trace of what was evaluated earlier in the initialisation mode
-            if output not in told:
-                _, reference, kind = output
-                self.values[reference] = kind(0)
+        for reference in {*self._told[-1].references} - {*self._told[self._fidelity() - 1].references}:
+            # it may have been evaluated earlier in the initialisation mode
+            self.values[reference] = self._variables[reference].start
 
     def _rebuilt(self, values: Sequence[Value]) -> Scenes:
         """The scene with the parameters in `values`, at each level."""
@@ -152,30 +170,33 @@ class ContactSlave(Fmi2Slave):
     def _advance(self, step_size: float) -> None:
         if self._scenes is None or self._state is None:
             raise ContactError(f"The contact is not set up: {self._fault}")
+        fidelity = self._fidelity()
+        values: dict[str, Any] = {name: self.values[reference] for name, reference in self._inputs}
+        point = OperatingPoint(**values)
+        state, outputs = advance(self._scenes[fidelity - 1], point, self._state, step_size)
+        told = self._told[fidelity - 1]
+        results = told.values(outputs)
+        if not all(map(math.isfinite, results)):
+            broken = [name for name, value in zip(told.names, results, strict=True) if not math.isfinite(value)]
+            raise ConvergenceError(
+                f"No finite {', '.join(broken)} came out at {point}. Change the inputs, or go back to an earlier state."
+            )
+        flags = outputs.range_flags | (_OTHER_LEVEL if len(told.names) < len(self._told[-1].names) else 0)
+        appeared = flags & ~int(self._value("range_flags"))
+        self._state = state
+        for reference, value in zip(told.references, results, strict=True):
+            self.values[reference] = value
+        for name, value in (("range_flags", flags), ("fidelity_used", fidelity), ("valid", True)):
+            self.values[self._references[name]] = value
+        if appeared:
+            self._tell_flags(RangeFlag(appeared))
+
+    def _fidelity(self) -> int:
         fidelity = int(self._value(FIDELITY))
         if not 1 <= fidelity <= len(LEVELS):
             known = " or ".join(f"{i} ({level})" for i, level in enumerate(LEVELS, 1))
             raise ContactError(f"{FIDELITY} = {fidelity} must be {known}.")
-        values: dict[str, Any] = {name: self.values[reference] for name, reference in self._inputs}
-        point = OperatingPoint(**values)
-        state, outputs = advance(self._scenes[fidelity - 1], point, self._state, step_size)
-        told = self._outputs[LEVELS[fidelity - 1]]
-        broken = [name for name, _, _ in told if not math.isfinite(getattr(outputs, name))]
-        if broken:
-            raise ConvergenceError(
-                f"No finite {', '.join(broken)} came out at {point}. Change the inputs, or go back to an earlier state."
-            )
-        flags = outputs.range_flags | (_OTHER_LEVEL if len(told) < len(self._outputs[LEVELS[-1]]) else 0)
-        appeared = flags & ~int(self._value("range_flags"))
-        results = [(reference, kind(getattr(outputs, name))) for name, reference, kind in told]
-        self._state = state
-        for reference, value in results:
-            self.values[reference] = value
-        for name, value in (("range_flags", flags), ("fidelity_used", fidelity), ("valid", True)):
-            self.values[self._references[name]] = value
-        for flag in RangeFlag(appeared) if appeared else ():
-            category = "logSolver" if flag in _OF_SOLVER else "logValidity"
-            self._tell(f"range_flags: {flag.text}.", Fmi2Status.ok, category)
+        return fidelity
 
     def _value(self, name: str) -> Value:
         return self.values[self._references[name]]
@@ -206,6 +227,11 @@ class ContactSlave(Fmi2Slave):
     def _tell(self, message: str, status: Fmi2Status, category: str) -> None:
         # the host reads the message as a printf format, the binary as strict UTF-8
         self.log(message.replace("%", "%%").encode("utf-8", "backslashreplace").decode(), status, category)
+
+    def _tell_flags(self, appeared: RangeFlag) -> None:
+        for flag in appeared:
+            category = "logSolver" if flag in _OF_SOLVER else "logValidity"
+            self._tell(f"range_flags: {flag.text}.", Fmi2Status.ok, category)
 
     # variables by value reference
 
@@ -296,9 +322,9 @@ class ContactSlave(Fmi2Slave):
         self._phase, self._fault = handle.phase, handle.fault
 
     @staticmethod
-    def parts(handle: Snapshot) -> list[bytes]:
+    def parts(handle: Snapshot) -> list[bytes | memoryview]:
         """Buffers whose join is `_fmu_state_to_bytes`: what has not changed since another state is the same object."""
-        return [handle.data]
+        return handle.parts
 
     @staticmethod
     def _fmu_state_to_bytes(handle: Snapshot | bytes) -> bytes:

@@ -43,14 +43,20 @@ class Snapshot:
     scenes: Scenes | None  # with the parameters of `values`
     state: ContactState | None
 
-    @cached_property
+    @property
     def data(self) -> bytes:
         """Magic, digest, length of a JSON header, header, contact state. The same state, the same bytes."""
+        return b"".join(self.parts)
+
+    @cached_property
+    def parts(self) -> list[bytes | memoryview]:
+        """What `data` joins, without a copy of the contact's arrays: see ContactState.parts."""
         header = json.dumps(
             {"module": self.module, "phase": self.phase, "fault": self.fault, "values": self.values}
         ).encode()
-        contact = b"" if self.state is None else self.state.to_bytes()
-        return b"".join([_MAGIC, _digest(header, contact), _LENGTH.pack(len(header)), header, contact])
+        contact = [] if self.state is None else self.state.parts()
+        signed = bytes(contact[0][:_SIGNED]) if contact else b""
+        return [b"".join([_MAGIC, _digest(header, signed), _LENGTH.pack(len(header)), header]), *contact]
 
     @staticmethod
     def from_bytes(data: bytes, module: str, starts: Values, rebuild: Callable[[Values], Scenes]) -> "Snapshot":
@@ -91,11 +97,11 @@ def _parts(data: bytes) -> tuple[bytes, bytes]:
     if len(data) >= start:
         (length,) = _LENGTH.unpack_from(data, start - _LENGTH.size)
         header, contact = data[start : start + length], data[start + length :]
-        if len(header) == length and data[len(_MAGIC) : start - _LENGTH.size] == _digest(header, contact):
+        if len(header) == length and data[len(_MAGIC) : start - _LENGTH.size] == _digest(header, contact[:_SIGNED]):
             return header, contact
     raise StateError("The stored FMU state is damaged: it was cut or changed. Use an earlier one.")
 
 
-def _digest(header: bytes, contact: bytes) -> bytes:
+def _digest(header: bytes, signed: bytes) -> bytes:
     """Fingerprint of the header and of the checksum that covers the contact state: its megabytes are read once."""
-    return hashlib.blake2b(_LENGTH.pack(len(header)) + header + contact[:_SIGNED], digest_size=_DIGEST).digest()
+    return hashlib.blake2b(_LENGTH.pack(len(header)) + header + signed, digest_size=_DIGEST).digest()

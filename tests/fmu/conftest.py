@@ -1,12 +1,13 @@
 """One small FMU, built and unpacked once: 17 nodes, every law in use: what flows, not how well it is resolved."""
 
+import shutil
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from fmu_host import Host, hosted
-from native_host import compiled
+from native_host import compiled, embedding_environment, plain_environment
 
 from contact_core import Scene
 from fmu_src import build
@@ -16,6 +17,7 @@ SMALL = {
     "surface_1.correlation_length": "32 um",
     "surface_2.correlation_length": "32 um",
 }
+FLAVOURS = {"embedded": build}
 
 
 def unpacked(fmu: Path, folder: Path) -> Path:
@@ -77,6 +79,51 @@ def quick_folder(quick: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path
     return unpacked(build(quick, folder / "quick.fmu"), folder / "quick")
 
 
+@pytest.fixture(scope="session", params=FLAVOURS)
+def flavour(request: pytest.FixtureRequest) -> str:
+    return request.param
+
+
 @pytest.fixture(scope="session")
-def program(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return compiled(tmp_path_factory.mktemp("c_host"))
+def flavoured_file(flavour: str, scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return FLAVOURS[flavour](scene, tmp_path_factory.mktemp(flavour) / "small.fmu")
+
+
+@pytest.fixture(scope="session")
+def flavoured_folder(flavoured_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return unpacked(flavoured_file, tmp_path_factory.mktemp("unpacked"))
+
+
+@pytest.fixture(scope="session")
+def quick_file(flavour: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A contact at the fast level: many instances cost little."""
+    scene = Scene.from_toml("mtm_zddp", SMALL).at_level("regression")
+    return FLAVOURS[flavour](scene, tmp_path_factory.mktemp(flavour) / "quick.fmu")
+
+
+@pytest.fixture(scope="session")
+def quick_folder(quick_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return unpacked(quick_file, tmp_path_factory.mktemp("unpacked"))
+
+
+@pytest.fixture(scope="session")
+def native_program(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A host written in C."""
+    if shutil.which("gcc") is None:
+        pytest.skip("the host in C needs gcc")
+    return compiled(tmp_path_factory.mktemp("native"))
+
+
+@pytest.fixture(scope="session")
+def embedding() -> dict[str, str]:
+    """Environment with which the host in C can load the embedded flavour."""
+    environment = embedding_environment()
+    if environment is None:
+        pytest.skip("this Python has no shared library that a host in C could load beforehand")
+    return environment
+
+
+@pytest.fixture(scope="session")
+def native_environment(flavour: str, request: pytest.FixtureRequest) -> dict[str, str]:
+    """Environment that the host in C needs for a flavour."""
+    return request.getfixturevalue("embedding") if flavour == "embedded" else plain_environment()

@@ -1,8 +1,10 @@
 """One run of an FMU in each importer: importers.py IMPORTER FMU prints the Real outputs after every step.
 
-Every importer runs in a process of its own: what one does to a process does not reach the others.
+Every importer runs in a process of its own: what one does to a process does not reach the others. The exit code
+is UNUSABLE if the importer is not installed, or lacks a library of the system.
 """
 
+import importlib
 import json
 import sys
 import tempfile
@@ -11,16 +13,17 @@ from pathlib import Path
 
 import fmpy
 
+UNUSABLE = 77
 STEP = 20.0  # s
 STIMULI = [
     {"load": 53.7, "speed_1": 0.1025, "temperature": 353.15},
     {"load": 40.0, "speed_1": 0.12, "temperature": 353.15},
-    {"load": 40.0, "speed_1": 0.08, "temperature": 360.0},
-    {"load": 60.0, "speed_1": 0.0975, "temperature": 350.0},
+    {"load": 40.0, "speed_1": 0.08, "temperature": 357.0},
+    {"load": 60.0, "speed_1": 0.1, "temperature": 350.0},
 ]
 
 
-def _real_outputs(fmu: str) -> dict[str, int]:
+def real_outputs(fmu: str) -> dict[str, int]:
     variables = fmpy.read_model_description(fmu).modelVariables
     return {v.name: v.valueReference for v in variables if (v.causality, v.type) == ("output", "Real")}
 
@@ -40,7 +43,7 @@ def with_fmpy(fmu: str) -> Iterator[list[float]]:
         for n, row in enumerate(STIMULI):
             slave.setReal(_inputs(fmu), list(row.values()))
             slave.doStep(n * STEP, STEP)
-            yield slave.getReal(list(_real_outputs(fmu).values()))
+            yield slave.getReal(list(real_outputs(fmu).values()))
         slave.terminate()
         slave.freeInstance()
 
@@ -57,7 +60,7 @@ def with_fmuloader(fmu: str) -> Iterator[list[float]]:
         for n, row in enumerate(STIMULI):
             slave.set_real(_inputs(fmu), list(row.values()))
             slave.do_step(n * STEP, STEP)
-            yield slave.get_real(list(_real_outputs(fmu).values()))
+            yield slave.get_real(list(real_outputs(fmu).values()))
         slave.terminate()
 
 
@@ -76,7 +79,7 @@ def with_libcosimpy(fmu: str) -> Iterator[list[float]]:
         manipulator.slave_real_values(slave, _inputs(fmu), list(row.values()))
         if not execution.step():
             raise RuntimeError(f"libcosim could not step: {execution.status()}")
-        yield observer.last_real_values(slave, list(_real_outputs(fmu).values()))
+        yield observer.last_real_values(slave, list(real_outputs(fmu).values()))
 
 
 def with_ecospy(fmu: str) -> Iterator[list[float]]:
@@ -90,7 +93,7 @@ def with_ecospy(fmu: str) -> Iterator[list[float]]:
             for name, value in row.items():
                 simulation.set_real(f"contact::{name}", value)
             simulation.step()
-            yield [simulation.get_real(f"contact::{name}") for name in _real_outputs(fmu)]
+            yield [simulation.get_real(f"contact::{name}") for name in real_outputs(fmu)]
 
 
 IMPORTERS: dict[str, Callable[[str], Iterator[list[float]]]] = {
@@ -102,5 +105,10 @@ IMPORTERS: dict[str, Callable[[str], Iterator[list[float]]]] = {
 
 if __name__ == "__main__":
     name, file = sys.argv[1:]
+    try:
+        importlib.import_module(name)
+    except (ImportError, OSError) as error:
+        print(error, file=sys.stderr)
+        sys.exit(UNUSABLE)
     rows = [[value.hex() for value in row] for row in IMPORTERS[name](str(Path(file).resolve()))]
     print(json.dumps(rows))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 import sys
 import sysconfig
@@ -19,15 +18,12 @@ LETTER = {"Real": "r", "Integer": "i", "Boolean": "b", "String": "s"}
 
 
 def compiled(folder: Path) -> Path:
-    """The program, compiled into `folder`. Raises FileNotFoundError if there is no gcc."""
-    gcc = shutil.which("gcc")
-    if gcc is None:
-        raise FileNotFoundError("gcc is not on PATH.")
+    """The program, compiled into `folder` by gcc."""
     program = folder / "c_host"
     headers = Path(fmpy.__file__).parent / "c-code"
     options = ["-std=c99", "-D_POSIX_C_SOURCE=200809L", "-Wall", "-Wextra", "-Werror", "-O2", "-pthread"]
     source = Path(__file__).with_name("c_host.c")
-    subprocess.run([gcc, *options, "-I", str(headers), str(source), "-ldl", "-o", str(program)], check=True)
+    subprocess.run(["gcc", *options, "-I", str(headers), str(source), "-ldl", "-o", str(program)], check=True)
     return program
 
 
@@ -63,7 +59,7 @@ class Answer:
         return [float.fromhex(value) for value in self.values]
 
 
-class HostDied(Exception):
+class HostDiedError(Exception):
     """The host ended before it had answered; `code` is its exit code (negative: the signal)."""
 
     def __init__(self, command: str, code: int):
@@ -74,10 +70,9 @@ class HostDied(Exception):
 class NativeHost:
     """A running host. Closing it ends its input, so that it leaves by itself; `code` is its exit code then."""
 
-    def __init__(self, program: Path, environment: Mapping[str, str], cpu: int | None = None):
-        pin = [] if cpu is None else ["taskset", "-c", str(cpu)]
+    def __init__(self, program: Path, environment: Mapping[str, str]):
         self.process = subprocess.Popen(
-            [*pin, str(program)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=dict(environment), text=True
+            [str(program)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=dict(environment), text=True
         )
         self.code: int | None = None
         self._fmus = 0
@@ -111,7 +106,7 @@ class NativeHost:
                 answer.log.append((int(rest[0]), int(rest[1]), rest[2], _plain(rest[3])))
             else:
                 answer.values = [_plain(value) for value in rest]
-        raise HostDied(command, self.process.wait())
+        raise HostDiedError(command, self.process.wait())
 
     def ask(self, *words: object) -> Answer:
         self.tell(*words)

@@ -25,7 +25,7 @@ def test_a_scene_file_is_built_where_out_says(tmp_path, capsys):
     file, out = tmp_path / "mine.toml", tmp_path / "made" / "mine.fmu"
     shipped = files("contact_core") / "data" / "scenes" / "azam_case_a.toml"
     file.write_text(shipped.read_text("utf-8").replace("azam_case_a", "mine"))
-    assert main([str(file), "--out", str(out)]) == 0
+    assert main([str(file), "--set", *CHANGES, "--out", str(out)]) == 0
     with zipfile.ZipFile(out) as archive:
         assert b'"name": "mine"' in archive.read("resources/scene.json")
 

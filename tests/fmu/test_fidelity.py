@@ -24,7 +24,7 @@ FIELDS = {q.name for q in OUTPUTS if "regression" not in q.levels}
 @pytest.fixture(scope="module")
 def quick_folder(scene, tmp_path_factory):
     folder = tmp_path_factory.mktemp("quick")
-    return unpacked(build(scene.at_level("regression"), folder / "quick.fmu"), folder)
+    return unpacked(build(scene.at_level("regression"), folder / "quick.fmu", "embedded"), folder)
 
 
 def core_rows(scene, steps):
@@ -117,6 +117,11 @@ def test_the_first_evaluation_is_at_the_level_asked_for_and_shows_nothing_of_ano
     assert bits(found) == bits(expected)
     assert found["fidelity_used"] == FAST
     assert found["pressure_max"] == 0.0
+    first = host.step(60.0)
+    host.restore(state := host.state())
+    assert host.state() == state
+    assert first["valid"]
+    assert host.log == []
 
 
 def test_the_fmu_of_a_fast_scene_has_both_levels_and_the_outputs_of_its_own(quick_folder, scene):
@@ -126,9 +131,7 @@ def test_the_fmu_of_a_fast_scene_has_both_levels_and_the_outputs_of_its_own(quic
         assert int(host.variables["fidelity"].start) == FAST
         host.initialise()
         rows = [host.step(dt, fidelity=fidelity) for dt, fidelity in steps]
-    for row, expected, (_, fidelity) in zip(
-        rows, core_rows(quick, [(0.0, FAST), *steps])[1:], steps, strict=True
-    ):
+    for row, expected, (_, fidelity) in zip(rows, core_rows(quick, [(0.0, FAST), *steps])[1:], steps, strict=True):
         assert bits(row) == bits({name: expected[name] for name in bits(row)})
         assert row["fidelity_used"] == fidelity
         assert not row["range_flags"] & RangeFlag.OTHER_LEVEL

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import fmi2Terminated
+from fmpy.fmi2 import fmi2Error, fmi2Terminated
 
 from contact_core import Outputs
 from fmu_src import slave
@@ -131,6 +131,80 @@ def test_an_unexpected_error_is_logged_with_its_traceback_and_the_state_stands(s
     assert "ZeroDivisionError: 100 %s surprising" in text
     assert "Traceback" in text
     assert stepped.step(60.0)["valid"]
+
+
+@pytest.mark.parametrize("error", [ValueError, SystemExit, MemoryError, RecursionError])
+@pytest.mark.parametrize("broken", ["with_values", "initial_state", "advance"])
+def test_an_unexpected_error_at_initialisation_is_logged_and_a_reset_recovers(host, monkeypatch, broken, error):
+    def surprise(*arguments):
+        raise error("surprising")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(slave, broken, surprise)
+        host.initialise()
+        assert not host.get("valid")
+    status, category, text = host.entries[0]
+    assert (status, category) == (fmi2Error, "logStatusError")
+    assert f"{error.__name__}: surprising" in text
+    assert "Traceback" in text
+    host.fmu.reset()
+    assert host.initialise().step(60.0)["valid"]
+
+
+def test_an_unexpected_error_in_an_evaluation_between_leaves_the_next_one_whole(host, monkeypatch):
+    def surprise(*arguments):
+        raise ValueError("surprising")
+
+    host.fmu.setupExperiment()
+    host.fmu.enterInitializationMode()
+    with monkeypatch.context() as patch:
+        patch.setattr(slave, "advance", surprise)
+        assert host.get("friction_force") == 0.0
+    host.set(load=30.0)
+    assert host.get("friction_force") != 0.0
+    assert host.get("valid")
+    assert [status for status, _ in host.log] == [fmi2Error]
+
+
+def test_an_unexpected_error_while_a_state_is_set_is_logged_and_the_contact_stands(stepped, monkeypatch):
+    state, before = stepped.state(), stepped.outputs()
+
+    def surprise(*arguments):
+        raise KeyError("surprising")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(slave.Snapshot, "from_bytes", surprise)
+        stepped.restore(state)
+    assert stepped.outputs() == before | {"valid": False}
+    assert "KeyError: 'surprising'" in stepped.log[0][1]
+    first = stepped.step(60.0)
+    stepped.restore(state)
+    assert stepped.step(60.0) == first
+
+
+def test_an_unexpected_error_while_a_value_is_set_is_logged_and_the_contact_stands(stepped, monkeypatch):
+    before = stepped.outputs()
+
+    def surprise(*arguments):
+        raise KeyError("surprising")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(slave.ContactSlave, "_store", surprise)
+        stepped.set(load=10.0)
+    assert stepped.outputs() == before | {"valid": False}
+    assert [status for status, _ in stepped.log] == [fmi2Error]
+    assert stepped.step(60.0)["valid"]
+
+
+def test_an_answer_that_cannot_be_told_in_part_is_not_told_at_all(stepped, monkeypatch):
+    before = stepped.outputs()
+
+    def broken(scene, point, state, dt):
+        return state, replace(Outputs(), friction_force=1.0, iterations="many")
+
+    monkeypatch.setattr(slave, "advance", broken)
+    assert stepped.step(60.0) == before | {"valid": False}
+    assert [status for status, _ in stepped.log] == [fmi2Error]
 
 
 def test_the_users_interrupt_ends_the_simulation(stepped, monkeypatch):

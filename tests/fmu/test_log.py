@@ -33,7 +33,7 @@ def entries(host, action):
         (lambda host: host.step(60.0, temperature=math.nan), (fmi2Warning, "logValidity")),
         (lambda host: host.step(-60.0), (fmi2Warning, "logValidity")),
         (lambda host: host.step(60.0, fidelity=5), (fmi2Warning, "logValidity")),
-        (lambda host: host.restore(b"something else"), (fmi2Warning, "logValidity")),
+        (lambda host: host.restore(b"something else"), (fmi2Error, "logValidity")),
         (lambda host: host.step(60.0, load=0.0), (fmi2OK, "logValidity")),
         (lambda host: host.set(h_c=1.0), (fmi2Warning, "logStatusWarning")),
         (lambda host: host.set(wear__bare=1.0), (fmi2Warning, "logStatusWarning")),

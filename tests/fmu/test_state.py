@@ -1,16 +1,26 @@
 """Save, step, restore, step: the same bits, in this process and in another."""
 
+import importlib
 import json
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from conftest import unpacked
+from fmpy.fmi2 import fmi2Warning
 from fmu_host import environment, hosted
+from hypothesis import given
+from hypothesis import strategies as st
 from replay import STEPS, replay
 
+from contact_core import StateError
+from contact_core.quantities import LEVELS
 from fmu_src import build
+from fmu_src.resources import module_name
+from fmu_src.snapshot import Snapshot
+from fmu_src.variables import variables
 
 
 @pytest.fixture
@@ -94,15 +104,83 @@ def test_a_state_before_initialisation_can_be_kept_and_initialised_later(host):
         lambda data: b"something else",
         lambda data: data[:40],
         lambda data: data[:-8],
+        lambda data: data + b"\0",
+        lambda data: data.replace(b'"load":', b'"Load":', 1),
         lambda data: data.replace(b'"values": [', b'"values": {', 1),
+        lambda data: data.replace(b'"phase": "stepping"', b'"phase": "standing"', 1),
     ],
 )
 def test_a_damaged_state_is_refused_and_the_contact_stands(stepped, damage):
     state, before = stepped.state(), stepped.outputs()
+    assert damage(state) != state
     stepped.restore(damage(state))
     assert stepped.outputs() == before | {"valid": False}
     assert len(stepped.log) == 1
-    assert stepped.step(60.0)["valid"]
+    assert stepped.log[0][0] == fmi2Warning
+    first = stepped.step(60.0)
+    stepped.restore(state)
+    assert stepped.step(60.0) == first
+
+
+@pytest.fixture(scope="module")
+def read(scene):
+    """Reads a serialised state as the slave does, but for the scenes, which are there already."""
+    table = variables(scene)
+    scenes = tuple(scene.at_level(level) for level in LEVELS)
+
+    def read(data):
+        return Snapshot.from_bytes(data, module_name(scene), tuple(v.start for v in table), lambda values: scenes)
+
+    return read
+
+
+def positions(data):
+    """Every byte up to the contact state's arrays, and then one in about a hundred; the last one too."""
+    front = data.index(b'"arrays"') + 2_000
+    return [*range(front), *range(front, len(data), 101), len(data) - 1]
+
+
+def test_a_state_is_refused_wherever_it_was_cut(read, stored):
+    assert read(stored).data == stored
+    for length in positions(stored):
+        with pytest.raises(StateError, match=r"(Use|Give) .*\."):
+            read(stored[:length])
+
+
+@pytest.mark.parametrize("mask", [0x01, 0x20, 0xFF])
+def test_a_state_is_refused_wherever_a_byte_was_changed(read, stored, mask):
+    for position in positions(stored):
+        changed = bytearray(stored)
+        changed[position] ^= mask
+        with pytest.raises(StateError, match=r"(Use|Give) .*\."):
+            read(bytes(changed))
+
+
+@given(data=st.binary(max_size=200), kept=st.integers(0, 60))
+def test_no_bytes_do_more_than_be_refused(read, stored, data, kept):
+    with pytest.raises(StateError):
+        read(stored[:kept] + data)
+
+
+def test_the_length_of_a_header_that_is_not_there_is_refused_before_it_is_read(read, stored):
+    start = stored.index(b"{") - 4
+    with pytest.raises(StateError, match="was cut or changed"):
+        read(stored[:start] + b"\xff\xff\xff\xff" + stored[start + 4 :])
+
+
+def test_the_contact_of_another_state_is_no_part_of_this_one(read, live, stored):
+    other = live.state()
+    head, tail = other[: other.index(b"tribofmu", 1)], stored[stored.index(b"tribofmu", 1) :]
+    assert head + tail not in (other, stored)
+    with pytest.raises(StateError, match="was cut or changed"):
+        read(head + tail)
+
+
+def test_a_well_made_state_of_other_variables_is_refused(read, stored):
+    snapshot = read(stored)
+    for values in (snapshot.values[:-1], ("text", *snapshot.values[1:])):
+        with pytest.raises(StateError, match="other variables"):
+            read(replace(snapshot, values=values).data)
 
 
 def test_a_state_of_another_scene_is_refused(stepped, other_scene, tmp_path):
@@ -111,4 +189,28 @@ def test_a_state_of_another_scene_is_refused(stepped, other_scene, tmp_path):
     before = stepped.outputs()
     stepped.restore(state)
     assert stepped.outputs() == before | {"valid": False}
+    assert "belongs to another FMU" in other.log[0][1]  # fmpy's logger gives all to the last host made
     assert stepped.step(60.0)["valid"]
+
+
+def test_the_list_of_values_is_the_same_one_after_a_restore(folder, monkeypatch):
+    """Who reads the slave's own list need not ask for it again."""
+    monkeypatch.syspath_prepend(str(folder / "resources"))
+    module = importlib.import_module((folder / "resources/slavemodule.txt").read_text())
+    instance = module.MixedContact(instance_name="contact", resources=str(folder / "resources"))
+    values, layout = instance.values, instance.layout
+    assert len(values) == len(layout)
+    assert not instance.held
+    instance.enter_initialization_mode()
+    assert not instance.held
+    instance.exit_initialization_mode()
+    assert instance.held
+    load = layout.index(("Real", "input"))
+    state, before = instance._get_fmu_state(), list(values)
+    instance.set_real([load], [30.0])
+    instance.do_step(0.0, 60.0)
+    assert instance.values is values
+    assert values != before
+    instance._set_fmu_state(instance._fmu_state_to_bytes(state))
+    assert instance.values is values
+    assert values == before

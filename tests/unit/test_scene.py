@@ -1,3 +1,4 @@
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -267,6 +268,37 @@ def test_a_tunable_out_of_range_is_refused_by_name():
 def test_what_is_not_tunable_is_refused_by_name(name):
     with pytest.raises(SceneError, match=f"'{name}' is not a number that can be changed"):
         with_values(Scene.from_toml("mtm_zddp"), {name: 1.0})
+
+
+def test_realisation_zero_is_the_scene_and_others_change_the_surfaces_only():
+    scene = Scene.from_toml("mtm_zddp")
+    assert scene.realisation(0) == scene
+    other = scene.realisation(3)
+    assert other.surface_1.seed != scene.surface_1.seed
+    assert other.surface_2.seed != scene.surface_2.seed
+    assert other == scene.realisation(3)
+    back = {"surface_1.seed": scene.surface_1.seed, "surface_2.seed": scene.surface_2.seed}
+    assert with_values(other, back) == scene
+
+
+def test_no_two_realisations_nor_neighbouring_seeds_share_a_surface():
+    scene = Scene.from_toml("mtm_zddp")
+    for name in ("surface_1", "surface_2"):
+        seeds = sorted(getattr(scene.realisation(number), name).seed for number in range(10_000))
+        gaps = [late - early for early, late in pairwise([*seeds, seeds[0] + 2**31])]
+        assert min(gaps) >= 100_000
+    assert all(0 <= seed < 2**31 for seed in seeds)
+
+
+@pytest.mark.parametrize("number", [1, 2, 9_999, 2**31 - 1])
+def test_every_realisation_is_a_scene_that_passes_its_checks(number):
+    assert Scene.from_toml("mtm_zddp").realisation(number).check() == []
+
+
+@pytest.mark.parametrize("number", [-1, 2**31])
+def test_a_realisation_out_of_range_is_refused(number):
+    with pytest.raises(SceneError, match=rf"seed = {number} must be at least 0 and at most 2147483647"):
+        Scene.from_toml("mtm_zddp").realisation(number)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,231 @@
+"""What an FMU costs over a direct call: a step, and many instances at once.
+
+    python benchmarks/fmu_overhead.py
+
+Writes docs/fmu_overhead.md. All of it in one run, for each flavour: the median and the 90 % range of the time of one
+round trip (set one input, step, get five outputs) of an empty slave and of mtm_zddp at the fast level, called directly,
+through fmpy, and from a host in C that knows nothing of Python, all on one CPU; then how long it takes until the
+instances in the host in C have made their first step, and the memory of all processes by then (PSS: a page that n
+processes share counts 1/n in each). Needs gcc, and a shared library of Python for the embedded flavour in C.
+"""
+
+import os
+import sys
+import tempfile
+import time
+import zipfile
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import fmpy
+import numpy as np
+from fmpy.simulation import instantiate_fmu
+from regression_cost import unit
+
+from contact_core import Scene, advance, initial_state
+from fmu_src import build
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "fmu"))
+from empty_slave import Empty, pack
+from native_host import Instance, NativeHost, compiled, embedding_environment
+
+ROUNDS, STEP, FIRST = 5_000, 1e-3, 60.0  # -, s, s
+READ = ("friction_force", "friction_coefficient", "power_loss", "heat_flow_1", "heat_flow_2")
+CROWDS = (1, 20, 50)
+SCENE = Scene.from_toml("mtm_zddp").at_level("regression")
+
+
+@dataclass(frozen=True)
+class Flavour:
+    """How to build an FMU and to run it in the host in C."""
+
+    name: str
+    environment: Callable[[], dict[str, str] | None]
+
+    def contact(self, folder: Path) -> Path:
+        return unpacked(build(SCENE, folder / "contact.fmu"))
+
+    def empty(self, folder: Path) -> Path:
+        """An empty slave with all of the contact's files but its own: its description and its script."""
+        own = ("modelDescription.xml", "resources/slavemodule.txt")
+        with zipfile.ZipFile(build(SCENE, folder / "parts.fmu")) as archive:
+            parts = {name: archive.read(name) for name in archive.namelist() if name not in own}
+        return unpacked(pack(folder / "empty.fmu", parts))
+
+
+FLAVOURS = (Flavour("embedded", embedding_environment),)
+
+
+@dataclass(frozen=True)
+class Duty:
+    """What a round trip sets, in turn, and gets."""
+
+    input: str
+    values: tuple[float, float]
+    outputs: tuple[str, ...]
+
+
+CONTACT = Duty("load", (SCENE.operation.load, 0.9 * SCENE.operation.load), READ)
+EMPTY = Duty("u", (1.0, 2.0), ("y",))
+
+
+def unpacked(fmu: Path) -> Path:
+    folder = fmu.with_suffix("")
+    with zipfile.ZipFile(fmu) as archive:
+        archive.extractall(folder)
+    return folder
+
+
+def timed(rounds: Iterator[None]) -> list[float]:
+    """Microseconds between one item and the next."""
+    found, start = [], time.perf_counter_ns()
+    for _ in rounds:
+        end = time.perf_counter_ns()
+        found.append((end - start) / 1e3)
+        start = time.perf_counter_ns()
+    return found
+
+
+def contact_directly() -> Iterator[None]:
+    point = SCENE.operation.point
+    points = [replace(point, load=load) for load in CONTACT.values]
+    state, _ = advance(SCENE, point, initial_state(SCENE), FIRST)
+    for i in range(ROUNDS):
+        state, outputs = advance(SCENE, points[i % 2], state, STEP)
+        [getattr(outputs, name) for name in READ]
+        yield
+
+
+def empty_directly() -> Iterator[None]:
+    slave = Empty(instance_name="", resources="")
+    for i in range(ROUNDS):
+        slave.set_real([0], [EMPTY.values[i % 2]])
+        slave.do_step(i * STEP, STEP)
+        slave.get_real([1])
+        yield
+
+
+def in_fmpy(folder: Path, duty: Duty) -> Iterator[None]:
+    description = fmpy.read_model_description(str(folder), validate=False)
+    references = {v.name: v.valueReference for v in description.modelVariables}
+    put, got = [references[duty.input]], [references[name] for name in duty.outputs]
+    fmu = instantiate_fmu(str(folder), description)
+    fmu.setupExperiment()
+    fmu.enterInitializationMode()
+    fmu.exitInitializationMode()
+    fmu.doStep(0.0, FIRST)
+    for i in range(ROUNDS):
+        fmu.setReal(put, [duty.values[i % 2]])
+        fmu.doStep(FIRST + i * STEP, STEP)
+        fmu.getReal(got)
+        yield
+    fmu.freeInstance()
+
+
+def ready(host: NativeHost, folder: Path, count: int) -> list[Instance]:
+    """Instances after their first step."""
+    fmu = host.load(folder)
+    instances = [fmu.instance(k, logging=False) for k in range(count)]
+    for instance in instances:
+        if any((*instance.initialise(), instance.step(FIRST))):
+            raise RuntimeError(f"The FMU does not run in the host in C: {instance.log}")
+    return instances
+
+
+def in_c(program: Path, environment: dict[str, str], folder: Path, duty: Duty) -> list[float]:
+    """Microseconds of each round trip."""
+    host = NativeHost(program, environment)
+    (instance,) = ready(host, folder, 1)
+    references = [instance.fmu.variables[name].valueReference for name in (duty.input, *duty.outputs)]
+    answer = instance.ask("bench", ROUNDS, FIRST, STEP, references[0], *duty.values, *references[1:])
+    host.close()
+    return [float(value) / 1e3 for value in answer.values]
+
+
+def family(pid: int) -> list[int]:
+    """A process and all that descend from it."""
+    threads = Path(f"/proc/{pid}/task").iterdir()
+    children = [int(child) for thread in threads for child in (thread / "children").read_text().split()]
+    return [pid, *(member for child in children for member in family(child))]
+
+
+def proportional_set_size(pid: int) -> float:
+    """PSS of a process in MB."""
+    lines = Path(f"/proc/{pid}/smaps_rollup").read_text().splitlines()
+    return next(int(line.split()[1]) for line in lines if line.startswith("Pss:")) / 1024.0
+
+
+def crowd(program: Path, environment: dict[str, str], folder: Path, count: int) -> tuple[float, float, int]:
+    """Seconds until all instances are ready, their memory in MB, and the number of processes."""
+    start = time.perf_counter()
+    host = NativeHost(program, environment)
+    ready(host, folder, count)
+    taken = time.perf_counter() - start
+    members = family(host.process.pid)
+    memory = sum(proportional_set_size(pid) for pid in members)
+    host.close()
+    return taken, memory, len(members)
+
+
+def row(slave: str, way: str, found: list[float], direct: float) -> str:
+    low, middle, high = np.percentile(found, [5, 50, 95])
+    return f"| {slave} | {way} | {middle:.1f} | {low:.1f} | {high:.1f} | {middle - direct:.1f} |"
+
+
+def steps(program: Path, folder: Path) -> Iterator[str]:
+    """Rows of the table of round trips, all on one CPU."""
+    for slave, duty, directly in (("empty", EMPTY, empty_directly), ("mtm_zddp", CONTACT, contact_directly)):
+        found = timed(directly())
+        direct = float(np.median(found))
+        yield row(slave, "direct call", found, direct)
+        for flavour in FLAVOURS:
+            unpacked_fmu = flavour.empty(folder) if slave == "empty" else flavour.contact(folder)
+            yield row(slave, f"{flavour.name}, fmpy", timed(in_fmpy(unpacked_fmu, duty)), direct)
+            environment = flavour.environment()
+            if environment is not None:
+                found = in_c(program, environment, unpacked_fmu, duty)
+                yield row(slave, f"{flavour.name}, host in C", found, direct)
+
+
+def crowds(program: Path, folder: Path) -> Iterator[str]:
+    """Rows of the table of many instances."""
+    for flavour in FLAVOURS:
+        environment = flavour.environment()
+        for count in CROWDS if environment is not None else ():
+            taken, memory, processes = crowd(program, environment, flavour.contact(folder), count)
+            yield f"| {flavour.name} | {count} | {taken:.2f} | {memory:.0f} | {processes} |"
+
+
+def shown(rows: Iterator[str]) -> list[str]:
+    found = []
+    for line in rows:
+        print(line, flush=True)
+        found.append(line)
+    return found
+
+
+def main() -> None:
+    lines = [
+        "# What an FMU costs over a direct call",
+        "",
+        "Written by `python benchmarks/fmu_overhead.py`, which says what is measured.",
+        "",
+        "| slave | called by | median [us] | 5 % [us] | 95 % [us] | over the direct call [us] |",
+        "|---|---|---|---|---|---|",
+    ]
+    cpus = os.sched_getaffinity(0)
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        program = compiled(folder)
+        os.sched_setaffinity(0, {max(cpus)})
+        lines += shown(steps(program, folder))
+        lines += ["", f"np.exp of nine numbers took {unit():.2f} us in the same run.", ""]
+        os.sched_setaffinity(0, cpus)
+        lines += ["| flavour | instances | ready after [s] | memory [MB] | processes |", "|---|---|---|---|---|"]
+        lines += shown(crowds(program, folder))
+    (Path(__file__).parents[1] / "docs" / "fmu_overhead.md").write_text("\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,337 @@
+"""What lies in the FMU beside the model: documentation, icon, licences, reference data."""
+
+import csv
+import io
+import posixpath
+import re
+import struct
+import zipfile
+import zlib
+from dataclasses import fields
+from html.parser import HTMLParser
+from itertools import pairwise
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pytest
+from conftest import SMALL, unpacked
+from fmu_host import hosted
+
+from contact_core import ConvergenceError, RangeFlag, Scene
+from contact_core.film import FILMS
+from contact_core.laws import SLOTS
+from fmu_src import build, evidence, icon, measured, packages
+from fmu_src.document import documentation
+from fmu_src.equations import DOSES, GOVERNING, INLET_SHEAR, LAWS, SHARING
+from fmu_src.markup import equation
+from fmu_src.slave import ContactSlave
+from fmu_src.variables import variables
+
+ROOT = Path(__file__).parents[2]
+OTHERS = {  # laws that the shipped scenes do not use
+    "lubricant.set": "m100",
+    "lubricant.rheology": "carreau",
+    "lubricant.rheology.critical_stress": "5 MPa",
+    "lubricant.rheology.exponent": "0.5",
+    "lubricant.density": "none",
+    "lubricant.flow": "local",
+    "heat.model": "field",
+    "heat.inlet_shear": "gupta",
+    "heat.bulk": "inputs",
+    "tribofilm.set": "combined_80c",
+    "film.criterion": "lumped",
+}
+
+
+@pytest.fixture(scope="module", params=["deterministic", "regression"])
+def contact(request) -> Scene:
+    return Scene.from_toml("mtm_zddp", SMALL).at_level(request.param)
+
+
+@pytest.fixture(scope="module")
+def whole(contact, tmp_path_factory) -> Path:
+    """The FMU with reference data."""
+    return build(contact, tmp_path_factory.mktemp("whole") / "whole.fmu", "embedded", reference=True)
+
+
+@pytest.fixture(scope="module")
+def files(whole) -> dict[str, bytes]:
+    with zipfile.ZipFile(whole) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+@pytest.fixture
+def table(files):
+    """Rows of one of the tables of the reference data, as numbers by name."""
+
+    def read(name: str) -> list[dict[str, float]]:
+        text = files[f"{evidence.FOLDER}/{name}"].decode()
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(io.StringIO(text))]
+
+    return read
+
+
+# documentation
+
+
+class Page(HTMLParser):
+    """Nesting, links, ids and the text of each element of a page."""
+
+    def __init__(self, page: bytes):
+        super().__init__()
+        self.open: list[str] = []
+        self.links: list[str] = []
+        self.ids: list[str] = []
+        self.tags: set[str] = set()
+        self.cells: list[str] = []
+        self.text = ""
+        self.feed(page.decode())
+        self.close()
+
+    def handle_starttag(self, tag, attributes):
+        self.handle_startendtag(tag, attributes)
+        if tag != "meta":
+            self.open.append(tag)
+        if tag == "td":
+            self.cells.append("")
+
+    def handle_startendtag(self, tag, attributes):
+        self.tags.add(tag)
+        self.links += [value for name, value in attributes if name in ("href", "src")]
+        self.ids += [value for name, value in attributes if name == "id"]
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if "td" in self.open:
+            self.cells[-1] += data
+        self.text += data
+
+
+@pytest.fixture(scope="module")
+def page(files) -> Page:
+    return Page(files["documentation/index.html"])
+
+
+def laws(record) -> list[object]:
+    """Every law in a scene, and its film."""
+    parts = [part for part in vars(record).values() if hasattr(part, "__dataclass_fields__")]
+    return [part for part in parts if hasattr(part, "source")] + [law for part in parts for law in laws(part)]
+
+
+@pytest.mark.parametrize("flavour", ["embedded", "isolated"])
+@pytest.mark.parametrize("changes", [{}, OTHERS], ids=["as shipped", "other laws"])
+@pytest.mark.parametrize("level", ["deterministic", "regression"])
+def test_the_page_is_well_nested_and_stands_alone(level, changes, flavour):
+    scene = Scene.from_toml("mtm_zddp", SMALL | changes).at_level(level)
+    page = Page(documentation(scene, flavour, reference=True))
+    assert page.open == []
+    assert len(set(page.ids)) == len(page.ids) > 10
+    assert not page.tags & {"script", "link", "img", "iframe"}
+    outside = [link for link in page.links if ":" in link]
+    assert outside
+    assert all(link.startswith("https://doi.org/10.") for link in outside)
+
+
+def test_every_link_of_the_page_leads_somewhere(files, page):
+    inside = [link for link in page.links if ":" not in link]
+    for link in inside:
+        if link.startswith("#"):
+            assert link[1:] in page.ids
+        else:
+            assert posixpath.normpath(f"documentation/{link}") in files
+    assert f"../{evidence.FOLDER}/steps-ref.csv" in inside
+    assert "licenses/license.txt" in inside
+
+
+def test_the_page_names_every_variable_flag_and_log_category(page, contact):
+    for names in (
+        [v.name for v in variables(contact)],
+        [v.text for v in variables(contact)],
+        [flag.name for flag in RangeFlag],
+        [flag.text for flag in RangeFlag],
+        list(ContactSlave.log_categories),
+    ):
+        assert set(names) <= set(page.cells)
+
+
+@pytest.mark.parametrize("changes", [{}, OTHERS], ids=["as shipped", "other laws"])
+def test_the_page_names_every_law_in_use_with_its_source(contact, changes):
+    scene = Scene.from_toml("mtm_zddp", SMALL | changes).at_level(contact.film.name)
+    page = Page(documentation(scene, "isolated", reference=False))
+    for law in laws(scene):
+        assert law.name in page.text
+        assert law.source in page.text
+    assert len(laws(scene)) >= 9
+
+
+def test_every_law_and_film_has_equations():
+    assert set(LAWS) == {(slot, law.name) for slot, known in SLOTS.items() for law in known}
+    assert set(GOVERNING) == {film.name for film in FILMS}
+    doses = {choice for law in SLOTS["tribofilm"] for choice in choices(law, "dose")}
+    assert set(DOSES) == doses
+    assert set(INLET_SHEAR) | {"none"} == {choice for law in SLOTS["heat"] for choice in choices(law, "inlet_shear")}
+    deterministic = next(film for film in FILMS if film.name == "deterministic")
+    assert set(SHARING) == choices(deterministic, "criterion")
+
+
+def choices(law: type, name: str) -> set[str]:
+    """What a law's option can be; nothing if it has no such option."""
+    return {choice for field in fields(law) if field.name == name for choice in field.metadata["choices"]}
+
+
+def test_an_equation_has_scripts_and_italic_letters():
+    assert equation("h_c < W_{max}^2 exp(x)") == (
+        '<p class="equation"><i>h</i><sub><i>c</i></sub> &lt; <i>W</i><sub>max</sub><sup>2</sup> exp(<i>x</i>)</p>'
+    )
+
+
+def test_a_contact_that_nothing_entrains_is_described(contact):
+    still = Scene.from_toml("mtm_zddp", SMALL | {"operation.speed_1": "1 m/s", "operation.speed_2": "-1 m/s"})
+    page = Page(documentation(still.at_level(contact.film.name), "isolated", reference=False))
+    assert "nothing entrains oil" in page.text
+    assert "built without reference data" in page.text
+
+
+def numbers(line: str) -> list[str]:
+    return re.findall(r"(?<![\w.])\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w.])", line)
+
+
+@pytest.mark.parametrize(
+    "figures",
+    [*(table for tables in measured.ERRORS.values() for table in tables), *measured.COSTS.values()],
+    ids=lambda table: table.title[:30],
+)
+def test_measured_figures_are_those_of_the_benchmarks_page(figures):
+    text = (ROOT / "docs" / figures.page).read_text("utf-8")
+    assert (ROOT / figures.command.split()[1]).exists()
+    assert figures.command.rpartition(" ")[0] in text or figures.command in text
+    lines = text.splitlines()
+    for row in figures.rows:
+        words = {cell for cell in row if not numbers(cell)}
+        wanted = [number for cell in row for number in numbers(cell)]
+        assert len(row) == len(figures.head)
+        assert any(
+            all(word in line for word in words) and is_part(wanted, numbers(line.replace("(", " (")))
+            for line in lines
+            if line.startswith("|")
+        ), row
+
+
+def is_part(wanted: list[str], found: list[str]) -> bool:
+    """Whether `wanted` stand in `found` in this order."""
+    rest = iter(found)
+    return all(number in rest for number in wanted)
+
+
+# icon, licences, dependencies
+
+
+def test_the_icon_is_the_picture_that_its_script_draws(files):
+    data = files["model.png"]
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    assert struct.unpack(">II", data[16:24]) == (icon.SIZE, icon.SIZE)
+    assert data.count(b"IDAT") == 1
+    start = data.index(b"IDAT")
+    (length,) = struct.unpack(">I", data[start - 4 : start])
+    rows = np.frombuffer(zlib.decompress(data[start + 4 : start + 4 + length]), np.uint8)
+    shipped = rows.reshape(icon.SIZE, 1 + 4 * icon.SIZE)[:, 1:].reshape(icon.SIZE, icon.SIZE, 4)
+    drawn = icon.draw()
+    assert np.abs(shipped.astype(int) - drawn).max() <= 1  # rounding of another machine
+    assert {0, 255} <= set(drawn[..., 3].ravel())
+
+
+def test_the_licences_are_ours_and_that_of_the_library_in_the_fmu(files):
+    assert files["documentation/licenses/license.txt"] == (ROOT / "LICENSE").read_bytes()
+    assert b"MIT License" in files["documentation/licenses/pythonfmu.txt"]
+    assert set(packages.licences("isolated")) == {"license.txt"}
+
+
+def test_what_the_fmu_needs_from_outside_is_listed(files):
+    text = files["documentation/externalDependencies.txt"].decode()
+    for needed in ("Python >=3.11", "tribofmu 0.1.0", "pythonfmu 0.7", "numba>=", "PYTHONPATH"):
+        assert needed in text
+    assert "pytest" not in text
+    assert "TRIBOFMU_PYTHON" in packages.external_dependencies("isolated").decode()
+
+
+def test_a_package_without_its_licence_is_named(monkeypatch):
+    monkeypatch.setattr(packages, "PACKAGE", "tribofmu-elsewhere")
+    with pytest.raises(FileNotFoundError, match="tribofmu-elsewhere is not installed with its licence"):
+        packages.licences("isolated")
+
+
+# reference data
+
+
+def replayed(folder: Path, stimuli, expected) -> list[tuple[float, str]]:
+    """Time and name of every expected value that the FMU misses."""
+    scale = {name: max(abs(row[name]) for row in expected) for name in expected[0]}
+    missed, inputs = [], {row.pop("time"): row for row in (dict(row) for row in stimuli)}
+    with hosted(folder) as host:
+        host.initialise(**inputs[0.0])
+        found = host.outputs()
+        for i, row in enumerate(expected):
+            if i:
+                start = expected[i - 1]["time"]
+                found = host.step(row["time"] - start, **inputs.get(start, {}))
+            missed += [
+                (row["time"], name)
+                for name in row.keys() - {"time"}
+                if abs(found[name] - row[name]) > evidence.TOLERANCE * scale[name]
+            ]
+    return missed
+
+
+def test_the_fmu_replays_its_reference_data(whole, table, tmp_path):
+    stimuli, expected = table(evidence.STIMULI), table(evidence.EXPECTED)
+    folder = unpacked(whole, tmp_path)
+    assert replayed(folder, stimuli, expected) == []
+    assert all(row["valid"] for row in expected)
+    expected[3]["friction_force"] *= 1.01
+    expected[5]["tribofilm_1"] *= 1.01
+    assert replayed(folder, stimuli, expected) == [(16.0, "friction_force"), (17.5, "tribofilm_1")]
+
+
+def test_the_stimuli_change_load_and_speed_turn_back_and_roll(table):
+    first, lighter, slower, back, rolling = table(evidence.STIMULI)
+    assert lighter["load"] < first["load"]
+    assert abs(slower["speed_1"]) < abs(lighter["speed_1"])
+    assert (back["speed_1"], back["speed_2"]) == (-slower["speed_1"], -slower["speed_2"])
+    assert rolling["speed_1"] == rolling["speed_2"] != 0.0
+    times = [row["time"] for row in table(evidence.EXPECTED)]
+    assert len({late - early for early, late in pairwise(times)}) == len(times) - 1
+
+
+def test_the_manifest_leads_to_the_tables_and_the_tolerance(files):
+    manifest = ET.fromstring(files[f"{evidence.FOLDER}/fmi-ls-manifest.xml"])
+    name = "{http://fmi-standard.org/fmi-ls-manifest}fmi-ls-name"
+    assert (manifest.tag, manifest.get(name)) == ("fmiReferences", "org.fmi-standard.fmi-ls-ref")
+    experiments = ET.fromstring(files[f"{evidence.FOLDER}/{manifest.find('Related').get('source')}"])
+    experiment = experiments.find("Experiment")
+    assert float(experiment.get("tolerance")) == evidence.TOLERANCE
+    for kind in ("Stimuli", "References"):
+        assert f"{evidence.FOLDER}/{experiment.find(kind).get('source')}" in files
+
+
+def test_expected_values_stand_where_the_contact_has_no_solution(contact, monkeypatch):
+    solved, calls = evidence.advance, []
+
+    def sometimes(scene, point, state, dt):
+        calls.append(dt)
+        if len(calls) == 3:
+            raise ConvergenceError("no solution")
+        return solved(scene, point, state, dt)
+
+    monkeypatch.setattr(evidence, "advance", sometimes)
+    text = evidence.reference(contact)[f"{evidence.FOLDER}/{evidence.EXPECTED}"].decode()
+    rows = [line.split(",")[1:] for line in text.splitlines()[1:]]
+    assert calls == [0.0, 10.0, 4.0, 2.0, 1.0, 0.5]
+    assert [row[-1] for row in rows] == ["1", "1", "0", "1", "1", "1"]
+    assert rows[2][:-1] == rows[1][:-1] != rows[3][:-1]
+
+
+def test_the_same_scene_gives_the_same_bytes(whole, contact, tmp_path):
+    assert build(contact, tmp_path / "again.fmu", "embedded", reference=True).read_bytes() == whole.read_bytes()
