@@ -39,7 +39,7 @@ def windows(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 @pytest.fixture(scope="module")
 def isolated(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("wine")
-    return unpacked(build(scene, folder / "small.fmu"), folder / "a ü#+ b")
+    return unpacked(build(scene, folder / "small.fmu", "isolated"), folder / "a ü#+ b")
 
 
 @pytest.fixture
