@@ -30,6 +30,7 @@ RULES: dict[str, tuple[str, ...]] = {
     "reference results": ("reference",),
 }
 
+_START = 60.0  # s until the first call at most
 _POLL = 0.1  # s between two looks at a process
 _LONGEST = 300  # characters of what a process has printed
 
@@ -88,7 +89,7 @@ def _stage(folder: Path, stage: str, notebook: Path, limit: float) -> Answer | N
         finally:
             _kill(process)
     if not ended:
-        return failed(f"{_last_call(notebook)} did not return within {limit:g} s.")
+        return failed(f"Hung in {_last_call(notebook)}: it had not returned after {limit:g} s.")
     if process.returncode:
         ending = f"The process ended with {_how(process.returncode)} during {_last_call(notebook)}"
         return failed(f"{ending}{_last_line(notebook / f'{stage}.txt')}.")
@@ -116,7 +117,7 @@ def _watch(process: "subprocess.Popen[bytes]", trace: Path, limit: float) -> boo
             call = trace.read_bytes() if trace.exists() else b""
         if call != last:
             last, since = call, time.monotonic()
-        elif time.monotonic() - since > limit:
+        elif time.monotonic() - since > (limit if call else _START):
             return False
 
 

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from ctypes import c_void_p
+from io import FileIO
 from pathlib import Path
 from typing import Any, Literal
 
@@ -12,20 +13,20 @@ from fmpy.fmi1 import FMICallException
 from fmpy.model_description import ModelVariable
 from fmpy.simulation import instantiate_fmu
 
-from .variables import attribute, clipped, magnitude
+from .variables import clipped, magnitude
 
 Value = float | int | bytes
 Row = dict[str, str]  # outputs as text that differs where bits differ
 
 _STATUS = ("OK", "warning", "discard", "error", "fatal", "pending")
-_LONGEST = 300  # characters of an FMU's message
+_LONGEST = 300  # characters of a message, its end: there a traceback says what it was
 _FEW = 100.0  # steps in an experiment that names no step
 
 
 class Fmu:
-    """An FMU unpacked in `folder`; its calls go to the file `trace`."""
+    """An FMU unpacked in `folder`; its last call stands in the file `trace`."""
 
-    def __init__(self, folder: Path, trace: Path):
+    def __init__(self, folder: Path, trace: FileIO):
         self.folder = folder
         self.description = fmpy.read_model_description(str(folder), validate=False)
         self.capabilities = self.description.coSimulation
@@ -36,7 +37,7 @@ class Fmu:
         self.start_time, self.step = _experiment(self.description.defaultExperiment)
         self.messages: list[str] = []  # of errors
         self.fault = ""  # the call that an instance has refused, and how
-        self._trace = trace.open("wb", buffering=0)
+        self._trace = trace
         self._calls = 0
 
     def note(self, call: str) -> None:
@@ -50,7 +51,7 @@ class Fmu:
     def refused(self, call: str, status: int) -> None:
         """Remember that an instance has answered a call with an error."""
         self.fault = f"{call} was answered with {_STATUS[status]}" + (
-            f" ({self.messages[-1][:_LONGEST]})" if self.messages else ""
+            f" ({self.messages[-1][-_LONGEST:]})" if self.messages else ""
         )
 
     @contextmanager

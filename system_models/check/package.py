@@ -1,6 +1,7 @@
 """An FMU file, opened: its archive, and its model description as XML and as fmpy's object."""
 
 import zipfile
+import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -42,7 +43,7 @@ class Package:
 
     @property
     def platform(self) -> str:
-        """This machine's name for the folder of its binaries."""
+        """What FMI calls this machine: the folder of its binaries."""
         return fmpy.platform_tuple if self.version.startswith("3") else fmpy.platform
 
     @property
@@ -90,7 +91,7 @@ def _package(path: Path, archive: zipfile.ZipFile) -> Package:
         root = etree.fromstring(archive.read(DESCRIPTION), etree.XMLParser(resolve_entities=False))
     except KeyError:
         raise FmuError(f"'{path}' holds no {DESCRIPTION} at its top: it is not an FMU.") from None
-    except (etree.XMLSyntaxError, zipfile.BadZipFile) as error:
+    except (etree.XMLSyntaxError, zipfile.BadZipFile, zlib.error) as error:
         raise FmuError(f"{DESCRIPTION} in '{path}' cannot be read: {error}. Build the FMU again.") from None
     try:
         return Package(path, archive, root, fmpy.read_model_description(str(path), validate=False))

@@ -5,16 +5,19 @@ a new process. Every comparison is of bits.
 """
 
 import csv
+import gc
 import json
 import math
 import re
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from itertools import count
+from itertools import pairwise
 from pathlib import Path
+from typing import NamedTuple
 
 from fmpy.fmi1 import FMICallException
+from lxml import etree
 
 from .instance import Fmu, Instance, Row
 from .variables import extremes, magnitude
@@ -28,6 +31,8 @@ _SETTLED = 5  # cycles after which caches are full
 _LEAK = 10.0  # kB per instance that are worth a note
 _SPLIT = 1e-3  # of the magnitude: a difference by the size of the step that is worth a note
 _TOLERANCE = 1e-3  # of reference results that state none
+_RELATIVE_TOLERANCE = re.compile(r"^\s*RelTol\W+([\d.eE+-]+)", re.MULTILINE)
+_TRUTH = {"true": 1.0, "false": 0.0}
 
 
 def _rows(fmu: Fmu, instance: Instance, first: int = 0) -> list[Row]:
@@ -246,6 +251,7 @@ def cycles(fmu: Fmu, notebook: Path) -> Answer:
     for _ in range(_CYCLES):
         with fmu.instance():
             pass
+        gc.collect()  # of fmpy's objects
         memory.append(_resident())
     growth = (memory[-1] - memory[_SETTLED - 1]) / (_CYCLES - _SETTLED)
     if math.isnan(growth):
@@ -289,34 +295,36 @@ def reference(fmu: Fmu, notebook: Path) -> Answer:
         return not_applicable("There are no reference results (*ref.csv) in the FMU.")
     compared = 0
     for file in files:
-        names, times, expected = _table(file)
-        rtol = _relative_tolerance(file)
+        results = _table(file)
         held = file.with_name(file.name.removesuffix("ref.csv") + "in.csv")
-        stimuli = _table(held) if held.exists() else ([], [], [])
-        unknown = sorted({*names, *stimuli[0]} - set(fmu.variables))
+        stimuli = _table(held) if held.exists() else _Table([], [], [])
+        unknown = sorted({*results.names, *stimuli.names} - set(fmu.variables))
         if unknown:
             return failed(f"{file.name} or {held.name} names {some(unknown)}, which are no variables of the FMU.")
-        rows = zip(times, _replayed(fmu, names, times, stimuli), expected, strict=True)
-        for time, row, wanted in rows:
+        allowed = _allowed(fmu, results, _tolerance(file))
+        for time, row, wanted in zip(results.times, _replayed(fmu, results, stimuli), results.rows, strict=True):
             for name, value in wanted.items():
-                nominal = float(fmu.variables[name].nominal or 0.0)
-                if not abs(row[name] - value) <= rtol * max(abs(value), nominal):
-                    return failed(f"{name} is {row[name]!r} instead of {value!r} at {time:g} s ({file.name}).")
+                if not abs(row[name] - value) <= allowed[name]:
+                    return failed(
+                        f"{name} is {row[name]!r} at {time:g} s; {file.name} has {value!r} +- {allowed[name]:.2g}."
+                    )
                 compared += 1
-    return passed(f"{compared} values within {rtol:g} of their reference.")
+    return passed(f"{compared} values of {some([file.name for file in files])} come out again within their tolerance.")
 
 
-_TRUTH = {"true": 1.0, "false": 0.0}
-_Table = tuple[list[str], list[float], list[dict[str, float]]]
+class _Table(NamedTuple):
+    names: list[str]
+    times: list[float]  # s
+    rows: list[dict[str, float]]
 
 
 def _table(file: Path) -> _Table:
-    """Names, times and rows of a CSV with a header; the first column is the time in s."""
+    """Read a CSV with a header; its first column is the time."""
     with file.open(newline="", encoding="utf-8") as stream:
         head, *lines = [line for line in csv.reader(stream) if line]
     names = [name.strip() for name in head[1:]]
     rows = [{n: _number(cell) for n, cell in zip(names, line[1:], strict=True)} for line in lines]
-    return names, [float(line[0]) for line in lines], rows
+    return _Table(names, [float(line[0]) for line in lines], rows)
 
 
 def _number(cell: str) -> float:
@@ -324,32 +332,41 @@ def _number(cell: str) -> float:
     return _TRUTH[text] if text in _TRUTH else float(text)
 
 
-def _relative_tolerance(file: Path) -> float:
-    """What stands beside the results: in a manifest, or as RelTol in an .opt file."""
-    for beside in (*file.parent.glob("*manifest.xml"), file.with_suffix(".opt")):
-        if beside.exists():
-            match = re.search(r"\brel(?:ative)?_?tol(?:erance)?\W+([\d.eE+-]+)", beside.read_text("utf-8"), re.IGNORECASE)
-            if match:
-                return float(match[1])
-    return _TOLERANCE
+def _tolerance(file: Path) -> float:
+    """Relative tolerance of reference results: of their experiment (fmi-ls-ref), or RelTol in their .opt file."""
+    for path in file.parent.glob("*.exp"):
+        for experiment in etree.parse(path).iter("Experiment"):
+            about = {element.get("source") for element in experiment.iter("References")}
+            if file.name in about and "tolerance" in experiment.attrib:
+                return float(experiment.get("tolerance"))
+    options = file.with_suffix(".opt")
+    stated = _RELATIVE_TOLERANCE.search(options.read_text("utf-8")) if options.exists() else None
+    return float(stated[1]) if stated else _TOLERANCE
 
 
-def _replayed(fmu: Fmu, names: list[str], times: list[float], stimuli: _Table) -> Iterator[dict[str, float]]:
-    """The named variables at the times; inputs are held from their row to the next, parameters at their start."""
-    _, changes, settings = stimuli
-    fmu.start_time = times[0]
+def _allowed(fmu: Fmu, results: _Table, rtol: float) -> dict[str, float]:
+    """Differences that a tolerance allows: it is one of a column's largest magnitude, or of the nominal if all is 0."""
+    largest = {name: max(abs(row[name]) for row in results.rows) for name in results.names}
+    return {name: rtol * (size or magnitude(fmu.variables[name])) for name, size in largest.items()}
+
+
+def _replayed(fmu: Fmu, results: _Table, stimuli: _Table) -> Iterator[dict[str, float]]:
+    """The variables at the times of `results`; inputs hold from their row to the next, parameters start as they do."""
+    fmu.start_time = results.times[0]
 
     def inputs(time: float) -> dict[str, float]:
-        past = [row for change, row in zip(changes, settings, strict=True) if change <= time]
+        past = [row for change, row in zip(stimuli.times, stimuli.rows, strict=True) if change <= time]
         return past[-1] if past else {}
 
+    def outputs() -> dict[str, float]:
+        return {name: float(value) for name, value in instance.read(results.names).items()}
+
     with fmu.instance() as instance:
-        instance.initialise(**inputs(times[0]))
-        for number in count():
-            yield {name: float(value) for name, value in instance.read(names).items()}
-            if number == len(times) - 1:
-                return
-            instance.step(times[number + 1] - times[number], inputs(times[number]))
+        instance.initialise(**inputs(results.times[0]))
+        yield outputs()
+        for begin, end in pairwise(results.times):
+            instance.step(end - begin, inputs(begin))
+            yield outputs()
 
 
 STAGES: dict[str, Stage] = {
@@ -361,17 +378,23 @@ STAGES: dict[str, Stage] = {
 }  # fmt: skip
 
 
-def main(folder: str, stage: str, notebook: str) -> None:
+def answer(folder: Path, stage: str, notebook: Path) -> Answer | None:
     """Answer one stage; what it raises is an answer, too."""
-    fmu = Fmu(Path(folder), Path(notebook) / "call")
-    try:
-        answer = STAGES[stage](fmu, Path(notebook))
-    except FMICallException:
-        answer = failed(f"{fmu.fault}.")
-    except Exception as error:  # fmpy's own, when an FMU cannot be loaded or instantiated, and unreadable data
-        answer = failed(". ".join([" ".join(str(error).split()).rstrip("."), *fmu.messages[-1:]]) + ".")
-    if answer is not None:
-        (Path(notebook) / "answer.json").write_text(json.dumps(answer))
+    with (notebook / "call").open("wb", buffering=0) as trace:
+        fmu = Fmu(folder, trace)
+        try:
+            return STAGES[stage](fmu, notebook)
+        except FMICallException:
+            return failed(f"{fmu.fault}.")
+        except Exception as error:  # fmpy's own, when an FMU cannot be loaded or instantiated, and unreadable data
+            return failed(". ".join([" ".join(str(error).split()).rstrip("."), *fmu.messages[-1:]]) + ".")
+
+
+def main(folder: str, stage: str, notebook: str) -> None:
+    """Write the answer of one stage, if it gives one."""
+    found = answer(Path(folder), stage, Path(notebook))
+    if found is not None:
+        (Path(notebook) / "answer.json").write_text(json.dumps(found))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import math
 import re
 import zipfile
+import zlib
 from collections import Counter
 from collections.abc import Callable
 from functools import wraps
@@ -30,11 +31,14 @@ _SCHEMATA = {
 }
 
 # FMI 2.0.4, section 2.1 and 4.2: what a library exports
-_CO_SIMULATION = (
-    "GetTypesPlatform GetVersion SetDebugLogging Instantiate FreeInstance SetupExperiment EnterInitializationMode "
-    "ExitInitializationMode Terminate Reset GetReal GetInteger GetBoolean GetString SetReal SetInteger SetBoolean "
-    "SetString DoStep CancelStep GetStatus GetRealStatus GetIntegerStatus GetBooleanStatus GetStringStatus"
-).split()
+# fmt: off
+_CO_SIMULATION = [
+    "GetTypesPlatform", "GetVersion", "SetDebugLogging", "Instantiate", "FreeInstance", "SetupExperiment",
+    "EnterInitializationMode", "ExitInitializationMode", "Terminate", "Reset", "GetReal", "GetInteger",
+    "GetBoolean", "GetString", "SetReal", "SetInteger", "SetBoolean", "SetString", "DoStep", "CancelStep",
+    "GetStatus", "GetRealStatus", "GetIntegerStatus", "GetBooleanStatus", "GetStringStatus",
+]
+# fmt: on
 _STATE = ["GetFMUstate", "SetFMUstate", "FreeFMUstate"]
 _BYTES = ["SerializedFMUstateSize", "SerializeFMUstate", "DeSerializeFMUstate"]
 
@@ -68,7 +72,7 @@ def archive(package: Package) -> Answer:
     """Every file whole, no path that leaves the folder, no file twice."""
     try:
         damaged = package.archive.testzip()
-    except (zipfile.BadZipFile, NotImplementedError, OSError) as error:
+    except (zipfile.BadZipFile, zlib.error, NotImplementedError, OSError) as error:
         return failed(f"The archive cannot be read to its end: {error}.")
     if damaged:
         return failed(f"'{damaged}' is damaged: its checksum is wrong.")
@@ -77,7 +81,7 @@ def archive(package: Package) -> Answer:
         return failed(f"'{some(astray)}' must be relative, without '..', and with '/' between folders.")
     twice = [name for name, count in Counter(package.names).items() if count > 1]
     if twice:
-        return failed(f"{some(twice)} lies in the archive more than once.")
+        return failed(f"In the archive more than once: {some(twice)}.")
     return passed(f"{len(package.names)} files, all whole, all within the folder.")
 
 
@@ -98,7 +102,7 @@ def schema(package: Package) -> Answer:
 
 
 def validation(package: Package) -> Answer:
-    """fmpy's own validation finds nothing."""
+    """Nothing that the validation of fmpy finds."""
     problems = validate_fmu(str(package.path))
     if problems:
         return failed(f"{len(problems)} problem(s), the first: {' '.join(problems[0].split())}")
@@ -111,17 +115,17 @@ def validation(package: Package) -> Answer:
 @_described
 def unit_of_reals(description: ModelDescription) -> Answer:
     """Every Real has a unit, and the unit a base unit."""
-    reals = [v for v in description.modelVariables if is_real(v)]
+    reals = _reals(description)
     bare = [v.name for v in reals if attribute(v, "unit") is None]
     if bare:
-        return failed(f"{some(bare)} have no unit; a number without dimension has the unit '1'.")
+        return failed(f"Without a unit: {some(bare)}; a number without dimension has the unit '1'.")
     defined = {unit.name: unit for unit in description.unitDefinitions}
     unknown = [f"'{attribute(v, 'unit')}' of {v.name}" for v in reals if attribute(v, "unit") not in defined]
     if unknown:
-        return failed(f"The unit {some(unknown)} is not in UnitDefinitions.")
+        return failed(f"Not in UnitDefinitions: the unit {some(unknown)}.")
     empty = sorted({u for v in reals if defined[u := str(attribute(v, "unit"))].baseUnit is None})
     if empty:
-        return failed(f"The unit {some(empty)} has no BaseUnit, so it cannot be converted or compared.")
+        return failed(f"Without a BaseUnit: the unit {some(empty)}, which so cannot be converted or compared.")
     return passed(f"{len(reals)} Reals with {len({attribute(v, 'unit') for v in reals})} units.")
 
 
@@ -164,14 +168,19 @@ def _base(base: BaseUnit) -> str:
 @_described
 def nominals(description: ModelDescription) -> Answer:
     """Every Real has a nominal, finite and not zero."""
-    reals = [v for v in description.modelVariables if is_real(v)]
+    reals = _reals(description)
     bare = [v.name for v in reals if attribute(v, "nominal") is None]
     if bare:
-        return failed(f"{some(bare)} have no nominal; hosts then take 1, and tolerances miss small quantities.")
+        return failed(f"Without a nominal: {some(bare)}; hosts then take 1, and tolerances miss small quantities.")
     odd = [f"{v.name} = {attribute(v, 'nominal')}" for v in reals if not _scale(attribute(v, "nominal"))]
     if odd:
         return failed(f"The nominal {some(odd)} must be finite and not zero.")
     return passed(f"{len(reals)} Reals with their magnitudes.")
+
+
+def _reals(description: ModelDescription) -> list[ModelVariable]:
+    """All Reals but time, which is in seconds by FMI."""
+    return [v for v in description.modelVariables if is_real(v) and v.causality != "independent"]
 
 
 def _scale(text: str | None) -> float:
@@ -186,7 +195,7 @@ def starts(description: ModelDescription) -> Answer:
     variables = [v for v in description.modelVariables if v.type != "Clock"]
     missing = [v.name for v in variables if v.start is None and (v.causality == "input" or v.initial in _STARTED)]
     if missing:
-        return failed(f"{some(missing)} have no start value; inputs and variables of initial exact or approx need one.")
+        return failed(f"Without a start value: {some(missing)}; inputs and what is initially exact or approx need one.")
     numbers = [v for v in variables if is_real(v) or "Int" in v.type]
     for v in numbers:
         low, high = _range(v)
@@ -216,13 +225,13 @@ def outputs(description: ModelDescription) -> Answer:
     expected = {v.name for v in description.modelVariables if v.causality == "output" and v.alias is None}
     missing = sorted(expected - set(listed))
     if missing:
-        return failed(f"{some(missing)} are outputs, but not in ModelStructure/Outputs.")
+        return failed(f"Not in ModelStructure/Outputs: {some(missing)}.")
     foreign = sorted(set(listed) - expected)
     if foreign:
-        return failed(f"{some(foreign)} are in ModelStructure/Outputs, but not outputs.")
+        return failed(f"In ModelStructure/Outputs, but no output: {some(foreign)}.")
     twice = [name for name, count in listed.items() if count > 1]
     if twice:
-        return failed(f"{some(twice)} are in ModelStructure/Outputs more than once.")
+        return failed(f"In ModelStructure/Outputs more than once: {some(twice)}.")
     return passed(f"{len(expected)} outputs, each listed once.")
 
 
@@ -231,7 +240,7 @@ def dependencies(description: ModelDescription) -> Answer:
     """Every output says what it depends on."""
     silent = [u.variable.name for u in description.outputs if u.dependencies is None]
     if silent:
-        return failed(f"{some(silent)} have no dependencies: a host must suppose loops through every input.")
+        return failed(f"Without dependencies: {some(silent)}; a host must suppose that every input counts.")
     inputs = sum(any(v.causality == "input" for v in u.dependencies) for u in description.outputs)
     return passed(f"{inputs} of {len(description.outputs)} outputs depend directly on inputs.")
 
@@ -247,7 +256,7 @@ def initial_unknowns(description: ModelDescription) -> Answer:
     ]
     missing = [name for name in calculated if name not in listed]
     if missing:
-        return failed(f"{some(missing)} are calculated outputs, but not in ModelStructure/InitialUnknowns.")
+        return failed(f"Calculated, but not in ModelStructure/InitialUnknowns: {some(missing)}.")
     return passed(f"{len(calculated)} calculated outputs, all in InitialUnknowns.")
 
 
@@ -312,28 +321,34 @@ def host_needs(package: Package) -> Answer:
     libraries, unread = _libraries(package)
     if not libraries:
         return not_applicable(f"No binary could be read. {unread}".rstrip())
-    found, wrong, worth = [], [], []
+    wrong: list[str] = []
+    worth: list[str] = []
+    undeclared = "" if package.needs_tool else ", which needsExecutionTool must declare"
     for platform, library in libraries.items():
-        bundled = {PurePosixPath(name).name for name in package.names if name.startswith(f"binaries/{platform}/")}
-        foreign = [name for name in library.needed if not _LINUX.match(name) and not _WINDOWS.match(name)]
-        python = [name for name in library.undefined if name.lstrip("_").startswith("Py")]
-        python += [name for name in foreign if _PYTHON_LIBRARY.match(name)]
-        outside = [name for name in foreign if name not in python and name not in bundled]
-        lost = [] if foreign else [name for name in library.undefined if name not in python]
-        if library.glibc:
-            found.append(f"{platform}: glibc {library.glibc} or later")
+        beside = {PurePosixPath(name).name for name in package.names if name.startswith(f"binaries/{platform}/")}
+        python, foreign, lost = _beyond_the_system(library, beside)
         if lost:
             wrong.append(f"{platform}: no library that it names supplies {some(lost)}")
         if python:
-            text = f"{platform}: only a host with Python can load it ({some(python, 2)})"
-            (worth if package.needs_tool else wrong).append(
-                text if package.needs_tool else f"{text}, which needsExecutionTool must declare"
-            )
-        if outside:
-            worth.append(f"{platform}: the host must have {some(outside)}")
-    evidence = "; ".join([*wrong, *worth, *found]) or f"{', '.join(libraries)}: nothing beyond the operating system"
+            said = f"{platform}: only a host with Python can load it ({some(python, 2)}){undeclared}"
+            (wrong if undeclared else worth).append(said)
+        if foreign:
+            worth.append(f"{platform}: the host must have {some(foreign)}")
+    least = [f"{platform}: glibc {library.glibc} or later" for platform, library in libraries.items() if library.glibc]
+    evidence = "; ".join([*wrong, *worth, *least]) or f"{', '.join(libraries)}: nothing beyond the operating system"
     answer = failed if wrong else noted if worth else passed
     return answer(f"{evidence}. {unread}".rstrip())
+
+
+def _beyond_the_system(library: Library, beside: set[str]) -> tuple[list[str], list[str], list[str]]:
+    """What of Python it needs, which libraries that neither the system nor the FMU has, and which symbols of none."""
+    foreign = [name for name in library.needed if not (_LINUX.match(name) or _WINDOWS.match(name) or name in beside)]
+    python = [name for name in library.undefined if name.lstrip("_").startswith("Py")]
+    python += [name for name in foreign if _PYTHON_LIBRARY.match(name)]
+    foreign = [name for name in foreign if name not in python]
+    # the system's libraries put versions on all their symbols, others need not
+    unversioned = any(not _LINUX.match(name) for name in library.needed)
+    return python, foreign, [] if unversioned else [name for name in library.undefined if name not in python]
 
 
 def _libraries(package: Package) -> tuple[dict[str, Library], str]:
@@ -342,7 +357,7 @@ def _libraries(package: Package) -> tuple[dict[str, Library], str]:
     for platform, name in sorted(package.binaries.items()):
         try:
             libraries[platform] = read_library(package.archive.read(name))
-        except (UnreadableError, zipfile.BadZipFile) as error:
+        except (UnreadableError, zipfile.BadZipFile, zlib.error) as error:
             unread.append(f"{platform} was not examined: {error}.")
     return libraries, " ".join(unread)
 

@@ -1,0 +1,373 @@
+"""The command `check`: each defect of an FMU is told by the rule concerned, and by no other."""
+
+import os
+import re
+import sys
+import zipfile
+from collections.abc import Callable
+from importlib.resources import files
+from pathlib import Path
+
+import pytest
+from pythonfmu.builder import FmuBuilder
+
+from contact_core import Scene
+from fmu_src import build
+from system_models.check import deep, report, stages
+from system_models.check.binaries import UnreadableError, read_library
+from system_models.check.instance import Instance
+from system_models.check.package import opened
+from system_models.check.verdict import Answer, Finding, Verdict
+from system_models.cli import main
+
+XML = "modelDescription.xml"
+Edit = Callable[[str], str]
+
+
+def edited(fmu: Path, out: Path, edit: Edit, drop: str = "$^") -> Path:
+    """A copy with its description edited, and without the files that `drop` matches."""
+    with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(out, "w") as new:
+        for name in old.namelist():
+            if not re.match(drop, name):
+                data = old.read(name)
+                new.writestr(name, edit(data.decode()) if name == XML else data)
+    return out
+
+
+def replaced(pattern: str, by: str) -> Edit:
+    def edit(text: str) -> str:
+        changed, count = re.subn(pattern, by, text, count=1)
+        assert count == 1
+        return changed
+
+    return edit
+
+
+def unchanged(text: str) -> str:
+    return text
+
+
+def static_findings(fmu: Path) -> dict[str, Finding]:
+    with opened(fmu) as package:
+        return {finding.rule: finding for finding in report.findings(package, False, 1.0)}
+
+
+def verdicts(found: dict, verdict: Verdict) -> set[str]:
+    return {rule for rule, finding in found.items() if finding.verdict == verdict}
+
+
+@pytest.fixture(scope="module")
+def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Our own FMU, at its fast level, for hosts with Python."""
+    scene = Scene.from_toml("mtm_zddp").at_level("regression")
+    return build(scene, tmp_path_factory.mktemp("fmu") / "contact.fmu", flavour="embedded")
+
+
+# the file
+
+
+def test_our_own_fmu_breaks_no_rule(fmu: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", str(fmu)]) == 0
+    *lines, last = capsys.readouterr().out.splitlines()
+    assert {line[:18].strip() for line in lines} == set(report.static.RULES)
+    assert re.search(r"1\d pass, 0 fail, \d note, 0 n/a\.$", last)
+
+
+@pytest.mark.parametrize(
+    ("edit", "rules", "evidence"),
+    [
+        (replaced(' unit="1"', ""), {"units"}, "Without a unit"),
+        (replaced(r'(<Unit name="N">\s*)<BaseUnit [^>]*>', r"\1"), {"units"}, "Without a BaseUnit: the unit N,"),
+        (
+            replaced(r'(<Unit name="N">\s*)<BaseUnit [^>]*>', r'\1<BaseUnit kg="1" m="1" s="-1"/>'),
+            {"unit audit"},
+            "'N' is declared as kg=1 m=1 s=-1; by its name it is kg=1 m=1 s=-2",
+        ),
+        (replaced(' nominal="[^"]*"', ""), {"nominals"}, "Without a nominal: load;"),
+        (replaced('(name="load".*\\s*<Real [^>]*start=)"[^"]*"', r'\1"-5"'), {"starts"}, "load starts at -5"),
+        (
+            replaced('(<Unknown index="[0-9]+") dependencies="" dependenciesKind=""', r"\1"),
+            {"dependencies"},
+            "Without dependencies: fr",
+        ),
+        (
+            replaced('(<Outputs>\\s*)<Unknown index="[0-9]+" [^>]*>', r"\1"),
+            {"outputs", "fmpy"},
+            "Not in ModelStructure/Outputs: friction_force.",
+        ),
+        (
+            replaced('(<InitialUnknowns>\\s*)<Unknown index="[0-9]+" [^>]*>', r"\1"),
+            {"initial unknowns", "fmpy"},
+            "not in ModelStructure/InitialUnknowns: friction_force.",
+        ),
+        (replaced("<fmiModelDescription ", '<fmiModelDescription colour="red" '), {"schema", "fmpy"}, "'colour'"),
+        (replaced('needsExecutionTool="true"', 'needsExecutionTool="false"'), {"host needs"}, "must declare"),
+    ],
+)
+def test_a_defect_of_the_description_fails_its_rule_only(
+    fmu: Path, tmp_path: Path, edit: Edit, rules: set[str], evidence: str
+) -> None:
+    found = static_findings(edited(fmu, tmp_path / "edited.fmu", edit))
+    assert verdicts(found, Verdict.FAIL) == rules
+    assert any(evidence in found[rule].evidence for rule in rules)
+
+
+def test_a_description_that_cannot_be_interpreted_is_not_judged_further(fmu: Path, tmp_path: Path) -> None:
+    odd = edited(fmu, tmp_path / "edited.fmu", replaced('causality="input"', 'causality="inward"'))
+    found = static_findings(odd)
+    assert verdicts(found, Verdict.FAIL) == {"schema", "fmpy"}
+    assert verdicts(found, Verdict.NOT_APPLICABLE) >= {"units", "outputs", "starts"}
+
+
+def test_a_missing_platform_is_worth_a_note_and_no_platform_a_failure(fmu: Path, tmp_path: Path) -> None:
+    with opened(fmu) as package:
+        here = package.platform
+    found = static_findings(edited(fmu, tmp_path / "one.fmu", unchanged, f"binaries/{here}/"))
+    assert verdicts(found, Verdict.FAIL) == set()
+    assert f"None for this machine, {here}" in found["platforms"].evidence
+    found = static_findings(edited(fmu, tmp_path / "none.fmu", unchanged, "binaries/"))
+    assert verdicts(found, Verdict.FAIL) == {"platforms"}
+
+
+def test_a_binary_of_another_name_is_not_found(fmu: Path, tmp_path: Path) -> None:
+    renamed = edited(fmu, tmp_path / "x.fmu", replaced('modelIdentifier="MixedContact"', 'modelIdentifier="Mixed"'))
+    found = static_findings(renamed)
+    assert verdicts(found, Verdict.FAIL) == {"platforms"}
+    assert "no library called Mixed" in found["platforms"].evidence
+
+
+def test_a_path_out_of_the_folder_and_a_damaged_file_fail_the_archive(fmu: Path, tmp_path: Path) -> None:
+    out = edited(fmu, tmp_path / "out.fmu", unchanged)
+    with zipfile.ZipFile(out, "a") as archive:
+        archive.writestr("../outside.txt", "")
+    assert verdicts(static_findings(out), Verdict.FAIL) == {"archive"}
+    with zipfile.ZipFile(fmu) as archive:
+        entry = archive.getinfo("documentation/index.html")
+    data = bytearray(fmu.read_bytes())
+    data[entry.header_offset + entry.compress_size // 2] ^= 0xFF
+    (tmp_path / "damaged.fmu").write_bytes(data)
+    assert verdicts(static_findings(tmp_path / "damaged.fmu"), Verdict.FAIL) == {"archive"}
+
+
+def test_a_file_that_is_no_fmu_is_refused_with_a_sentence(
+    fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    cut = tmp_path / "cut.fmu"
+    cut.write_bytes(fmu.read_bytes()[:5000])
+    empty = edited(fmu, tmp_path / "empty.fmu", unchanged, XML)
+    for file, said in (
+        (cut, "is cut short"),
+        (empty, "holds no modelDescription.xml"),
+        (edited(fmu, tmp_path / "xml.fmu", lambda text: text[:-30]), "cannot be read"),
+        (tmp_path / "nowhere.fmu", "No such file"),
+    ):
+        assert main(["check", str(file)]) == 2
+        printed = capsys.readouterr()
+        assert said in printed.err
+        assert printed.out == ""
+
+
+def test_a_failed_rule_is_told_by_the_exit_code(fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", str(edited(fmu, tmp_path / "bare.fmu", unchanged, "binaries/"))]) == 1
+    assert "1 fail" in capsys.readouterr().out
+
+
+# the binaries
+
+
+@pytest.mark.parametrize("name", ["linux64/libpythonfmu-export.so", "win64/pythonfmu-export.dll"])
+def test_libraries_of_both_systems_are_read(name: str) -> None:
+    data = (files("pythonfmu") / "resources" / "binaries" / name).read_bytes()
+    library = read_library(data)
+    assert {"fmi2Instantiate", "fmi2DoStep", "fmi2FreeInstance"} <= library.exported
+    if name.endswith(".so"):
+        assert "libc.so.6" in library.needed
+        assert "PyErr_Clear" in library.undefined
+        assert not {"malloc", "memcpy"} & {*library.undefined}
+        assert library.glibc.startswith("2.")
+    else:
+        assert {"python3.dll", "KERNEL32.dll"} <= set(library.needed)
+    for damaged in (data[:3000], data[:100], b"", b"#!/bin/sh\n"):
+        with pytest.raises(UnreadableError):
+            read_library(damaged)
+
+
+# the FMU at work
+
+SLAVE = """
+import json, math, os, sys, time
+from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability, Real
+
+class {name}(Fmi2Slave):
+    {body}
+
+    def __init__(self, **kwargs):
+        super().__init__(**kwargs)
+        self.u, self.x, self.y, self.hidden = 1.5, 0.0, 0.0, 0.0
+        kinds = dict(u=Fmi2Causality.input, x=Fmi2Causality.local, y=Fmi2Causality.output)
+        for name, causality in kinds.items():
+            self.register_variable(Real(name, causality=causality, variability=Fmi2Variability.continuous))
+        {start}
+
+    def do_step(self, now, step):
+        self.x += step * self.u
+        self.y = self.x
+        {step}
+        return True
+"""
+
+
+@pytest.fixture
+def slave(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Path]:
+    """A small FMU, an integrator of its input u from -2 to 10, with a defect."""
+    monkeypatch.setattr(sys, "path", [*sys.path])
+
+    def make(name: str, step: str = "pass", start: str = "pass", body: str = "pass") -> Path:
+        script = tmp_path / f"{name}.py"
+        script.write_text(SLAVE.format(name=name, step=step, start=start, body=body))
+        states = {"canGetAndSetFMUstate": True, "canSerializeFMUstate": True}
+        fmu = FmuBuilder.build_FMU(script, tmp_path / f"{name}_plain.fmu", **states)
+        return edited(
+            fmu, tmp_path / f"{name}.fmu", replaced('<Real start="1.5"', '<Real start="1.5" min="-2" max="10"')
+        )
+
+    return make
+
+
+def answers(fmu: Path) -> dict[str, Answer]:
+    """The rules that run an FMU, answered in this process."""
+    folder = fmu.with_suffix("")
+    with zipfile.ZipFile(fmu) as archive:
+        archive.extractall(folder)
+    found = {}
+    for rule, names in deep.RULES.items():
+        given = (stages.answer(folder, name, fmu.parent) for name in names)
+        found[rule] = next(answer for answer in given if answer is not None)
+    return found
+
+
+def deep_findings(fmu: Path, limit: float = 60.0) -> dict[str, Finding]:
+    with opened(fmu) as package:
+        return {finding.rule: finding for finding in deep.findings(package, limit)}
+
+
+def test_a_good_fmu_fails_no_rule_in_processes_of_its_own(slave: Callable[..., Path]) -> None:
+    found = deep_findings(slave("good"))
+    assert verdicts(found, Verdict.FAIL) == set()
+    assert verdicts(found, Verdict.NOT_APPLICABLE) == {"reference results"}
+    assert verdicts(found, Verdict.NOTE) <= {"unusable input", "memory"}
+    assert "u = nan (into y)" in found["unusable input"].evidence
+    assert "3 steps with inputs at the ends" in found["input range"].evidence
+
+
+FORGETFUL = """
+    @staticmethod
+    def _fmu_state_to_bytes(state):
+        return json.dumps({**state, "x": 0.0}).encode()
+"""
+SHARED = 'x = property(lambda self: sys.shared_x, lambda self, value: setattr(sys, "shared_x", value))'
+
+
+@pytest.mark.parametrize(
+    ("name", "defect", "rules", "evidence"),
+    [
+        ("spoils", {"step": "if 0.04 < self.x < 0.05: self.y = math.nan"}, {"finite"}, "y not finite after 3 step"),
+        ("hides", {"step": "self.hidden += 1.0; self.y += self.hidden"}, {"rollback", "serialise"}, "instead of"),
+        ("forgets", {"body": FORGETFUL}, {"serialise"}, "bytes do not hold"),
+        ("shares", {"body": SHARED}, {"two instances"}, "y is 0.0"),
+        ("dislikes", {"step": "if step < 0.01: self.y = math.inf"}, {"step splitting"}, "two steps of 0.005 s"),
+        ("overflows", {"step": "if self.u == 10.0: self.y = math.inf"}, {"input range"}, "with u = 10"),
+    ],
+)
+def test_a_misbehaving_fmu_fails_its_rule_only(
+    slave: Callable[..., Path], name: str, defect: dict[str, str], rules: set[str], evidence: str
+) -> None:
+    found = answers(slave(name, **defect))
+    assert verdicts(found, Verdict.FAIL) == rules
+    assert all(evidence in found[rule].evidence for rule in rules)
+
+
+def test_what_is_worth_knowing_is_a_note(slave: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "hoard", [], raising=False)
+    found = answers(slave("hoards", start="sys.hoard.append(b'x' * (1 << 20))", step="self.y += step * 100.0"))
+    assert verdicts(found, Verdict.FAIL) == set()
+    assert verdicts(found, Verdict.NOTE) == {"unusable input", "memory", "step splitting"}
+    assert "move y by" in found["step splitting"].evidence
+    assert re.search(r"grows by 1\d{3} kB", found["memory"].evidence)
+
+
+def test_an_fmu_that_refuses_unusable_input_passes(slave: Callable[..., Path]) -> None:
+    found = answers(slave("refuses", step="self.x = self.x if math.isfinite(self.x) else 0.0; self.y = self.x"))
+    assert verdicts(found, Verdict.NOTE) <= {"memory"}
+
+
+def test_a_reset_that_does_nothing_fails(slave: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Instance, "reset", lambda self: None)
+    assert verdicts(answers(slave("stays")), Verdict.FAIL) == {"reset"}
+
+
+def test_capabilities_that_are_not_declared_are_not_asked_for(slave: Callable[..., Path], tmp_path: Path) -> None:
+    def humble(text: str) -> str:
+        return re.sub(r'(can(Get|Serial|Handle)\w+)="true"', r'\1="false"', text)
+
+    found = answers(edited(slave("humble"), tmp_path / "humbler.fmu", humble))
+    assert verdicts(found, Verdict.NOT_APPLICABLE) == {"rollback", "serialise", "step splitting", "reference results"}
+    assert verdicts(found, Verdict.FAIL) == set()
+
+
+def test_reference_results_are_replayed(slave: Callable[..., Path]) -> None:
+    fmu = slave("referred")
+    folder = "extra/org.fmi-standard.fmi-ls-ref"
+    with zipfile.ZipFile(fmu, "a") as archive:
+        archive.writestr(f"{folder}/in.csv", "time,u\n0.0,1.0\n1.0,3.0\n")
+        archive.writestr(f"{folder}/ref.csv", "time,y\n0.0,0.0\n0.5,0.5\n1.0,1.0\n3.0,7.001\n")
+    assert answers(fmu)["reference results"] == (
+        Verdict.PASS,
+        "4 values of ref.csv come out again within their tolerance.",
+    )
+    with zipfile.ZipFile(fmu, "a") as archive:
+        archive.writestr(f"{folder}/ref.opt", "StartTime, 0.0\nRelTol, 1e-4\n")
+    found = answers(fmu)
+    assert verdicts(found, Verdict.FAIL) == {"reference results"}
+    assert "y is 7.0 at 3 s; ref.csv has 7.001 +- 0.0007" in found["reference results"].evidence
+
+
+@pytest.mark.parametrize(
+    ("name", "step", "evidence"),
+    [
+        ("leaves", "os._exit(7)", "exit code 7 during fmi2DoStep at 0 s, u = 1.5"),
+        ("aborts", "os.abort()", "SIGABRT during fmi2DoStep" if os.name == "posix" else "during fmi2DoStep"),
+        ("raises", "raise ValueError('too far')", "was answered with fatal"),
+        ("hangs", "time.sleep(600.0)", "Hung in fmi2DoStep at 0 s, u = 1.5: it had not returned after 4 s."),
+    ],
+)
+def test_a_crash_and_a_hang_are_verdicts(slave: Callable[..., Path], name: str, step: str, evidence: str) -> None:
+    found = deep_findings(slave(name, step), limit=4.0)
+    assert verdicts(found, Verdict.FAIL) == {"run"}
+    assert evidence in found["run"].evidence
+    assert verdicts(found, Verdict.NOT_APPLICABLE) == set(deep.RULES) - {"run"}
+
+
+def test_rules_go_on_after_one_that_crashes(slave: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(deep, "RULES", {rule: deep.RULES[rule] for rule in ("run", "input range", "reset")})
+    found = deep_findings(slave("bursts", "if self.u == 10.0: os.abort()"))
+    assert verdicts(found, Verdict.FAIL) == {"input range"}
+    assert "u = 10" in found["input range"].evidence
+    assert verdicts(found, Verdict.PASS) == {"run", "reset"}
+
+
+def test_other_processes_are_asked(slave: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(deep, "RULES", {rule: deep.RULES[rule] for rule in ("rollback", "replay")})
+    found = deep_findings(slave("knows", "self.y += os.getpid()"))
+    assert verdicts(found, Verdict.FAIL) == {"replay"}
+
+
+def test_our_own_fmu_is_rolled_back_and_restored_in_another_process(fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(deep, "RULES", {rule: deep.RULES[rule] for rule in ("rollback", "serialise")})
+    found = deep_findings(fmu)
+    assert verdicts(found, Verdict.PASS) == {"rollback", "serialise"}
+
+
+def test_what_cannot_be_run_here_is_not_judged(fmu: Path, tmp_path: Path) -> None:
+    none = edited(fmu, tmp_path / "none.fmu", unchanged, "binaries/")
+    assert verdicts(deep_findings(none), Verdict.NOT_APPLICABLE) == set(deep.RULES)
