@@ -84,7 +84,9 @@ def available(compiler: str) -> bool:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line."""
-    parser = argparse.ArgumentParser(prog="python -m fmu_src.native.build", description="Build the library of isolated FMUs.")
+    parser = argparse.ArgumentParser(
+        prog="python -m fmu_src.native.build", description="Build the library of isolated FMUs."
+    )
     parser.add_argument("--platform", choices=PLATFORMS, nargs="+", help="default: all that the compiler knows")
     parser.add_argument("--compiler", choices=COMPILERS, default="zig", help="default: %(default)s")
     parser.add_argument("--out", type=Path, default=FOLDER / "binaries", help="folder (default: in the package)")

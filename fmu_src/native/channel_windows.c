@@ -332,7 +332,10 @@ int channel_call(Channel *channel, size_t *size, double limit, Reason *why) {
 
 const unsigned char *channel_answer(const Channel *channel) { return (unsigned char *)(channel->room + 1); }
 
-int channel_lost(Channel *channel) { return WaitForSingleObject(channel->process, 0) != WAIT_TIMEOUT; }
+int channel_lost(Channel *channel) {
+    return WaitForSingleObject(channel->process, 0) != WAIT_TIMEOUT ||
+           !PeekNamedPipe(channel->answers, NULL, 0, NULL, NULL, NULL);
+}
 
 /* The worker need not be asked: between two calls it has nothing to lose, and it ends with its job. */
 void channel_close(Channel *channel, const void *message, size_t size) {

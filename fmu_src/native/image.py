@@ -115,7 +115,8 @@ def _pe_exports(data: bytes, directory: int, sections: list[tuple[int, ...]]) ->
 
 
 def _pe_imports(data: bytes, directory: int, sections: list[tuple[int, ...]]) -> tuple[list[str], list[str]]:
-    libraries, names = [], []
+    libraries: list[str] = []
+    names: list[str] = []
     at = _place(directory, sections)
     while True:
         lookup, library = struct.unpack_from("<I8xI", data, at)

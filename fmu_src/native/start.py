@@ -30,15 +30,15 @@ def _serve(resources: Path) -> None:
 def _serve_one(resources: Path) -> None:
     import faulthandler
 
-    from fmu_src.worker import Pipe, Worker
+    from fmu_src.worker import Pipe, Worker, slave_class
 
+    slave = slave_class(resources)
+    if hasattr(slave, "warm_up"):
+        slave.warm_up(resources)
     _say(b"R")
-    incoming, outgoing = os.dup(0), os.dup(1)
-    os.dup2(os.open(os.devnull, os.O_RDONLY), 0)  # what the model reads and prints is no message
-    os.dup2(2, 1)
     faulthandler.enable()
     try:
-        Worker(Pipe(incoming, outgoing), resources).serve()
+        Worker(Pipe(_incoming, _outgoing), resources).serve()
     except BaseException:  # the library reads stderr when its worker has ended
         traceback.print_exc()
         os._exit(1)
@@ -46,12 +46,14 @@ def _serve_one(resources: Path) -> None:
 
 def _say(data: bytes) -> None:
     """Tell the library that all is ready (R), or why there is no worker (E)."""
-    if _PIPE:
-        os.write(1, len(data).to_bytes(8, "little") + data)
-    else:
-        os.write(_SOCKET, data)
+    os.write(_outgoing, len(data).to_bytes(8, "little") + data if _PIPE else data)
 
 
+_incoming = _outgoing = _SOCKET
+if _PIPE:  # what the model reads and prints is no message
+    _incoming, _outgoing = os.dup(0), os.dup(1)
+    os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+    os.dup2(2, 1)
 try:
     _serve(Path(__file__).parent)
 except ModuleNotFoundError as error:

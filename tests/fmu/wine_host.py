@@ -72,6 +72,7 @@ class Relay:
         with contextlib.suppress(OSError):  # closed
             while True:
                 line, _ = self._lines.accept()
+                line.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
                 command = b""
                 while not command.endswith(b"\0"):
                     command += line.recv(4096)

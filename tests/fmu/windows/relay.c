@@ -19,6 +19,7 @@ static SOCKET dial(const char *port)
     SOCKET line = socket(AF_INET, SOCK_STREAM, 0);
     if (connect(line, (struct sockaddr *)&there, sizeof there))
         exit(4);
+    setsockopt(line, IPPROTO_TCP, TCP_NODELAY, (const char *)&(BOOL){TRUE}, sizeof(BOOL));
     return line;
 }
 
