@@ -51,6 +51,9 @@ class Operation(IntEnum):
     QUIT = 11
 
 
+_TABLES = (Operation.OPEN, Operation.LOOK, Operation.RESET, Operation.RESTORE)  # return all values
+
+
 class Channel(Protocol):
     """The way to the host and back."""
 
@@ -116,11 +119,11 @@ class Worker:
                 results = self._ACTIONS[operation](self, state, numbers, payload)
         except BaseException:  # also SystemExit and KeyboardInterrupt: only the host ends a worker
             self._entries.append((Fmi2Status.error.value, "logStatusError", _escaped(traceback.format_exc())))
-        self._channel.send([*self._head(), *results])
+        self._channel.send([*self._head(outputs=operation not in _TABLES), *results])
         return True
 
-    def _head(self) -> Iterator[Buffer]:
-        """Status, outputs if they stand until the next step, and what was logged."""
+    def _head(self, outputs: bool) -> Iterator[Buffer]:
+        """Status, outputs if they stand until the next step and are asked for, and what was logged."""
         slave = self._slave
         entries = self._entries
         held = False
@@ -132,9 +135,9 @@ class Worker:
         status = Fmi2Status.ok.value
         if entries and max(entry[0] for entry in entries) >= Fmi2Status.error.value:
             status = Fmi2Status.error.value
-        values = self._outputs(slave.values) if held else ()
+        values = self._outputs(slave.values) if held and outputs else ()
         yield _ANSWER.pack(status, held, len(values), len(entries))
-        if held:
+        if values:
             yield self._row.pack(*values)
         for entry in entries:
             yield _entry(*entry)
