@@ -65,10 +65,20 @@ class _Told:
         self.names, self.references, self._kinds = zip(*told, strict=True)
         self._fetch = attrgetter(*self.names)
 
-    def values(self, outputs: Outputs) -> list[Any]:
+    def values(self, outputs: Outputs) -> tuple[Any, ...]:
         """In the order of `names`."""
-        pairs = zip(self._kinds, self._fetch(outputs), strict=True)
-        return [value if type(value) is kind else kind(value) for kind, value in pairs]
+        found = self._fetch(outputs)
+        if tuple(map(type, found)) == self._kinds:
+            return found
+        return tuple(kind(value) for kind, value in zip(self._kinds, found, strict=True))
+
+    def check(self, values: tuple[Any, ...], point: OperatingPoint) -> None:
+        """Raise ConvergenceError if a value is not finite."""
+        broken = [name for name, value in zip(self.names, values, strict=True) if not math.isfinite(value)]
+        if broken:
+            raise ConvergenceError(
+                f"No finite {', '.join(broken)} came out at {point}. Change the inputs, or go back to an earlier state."
+            )
 
 
 class ContactSlave(Fmi2Slave):
@@ -104,7 +114,10 @@ class ContactSlave(Fmi2Slave):
     def warm_up(cls, folder: Path) -> None:
         """Load what the first steps of the contact in these resources need, before processes are forked."""
         with contextlib.suppress(ContactError):  # which the first instance will say
-            warm_up(resources.read(str(folder), cls.__module__))
+            scene = resources.read(str(folder), cls.__module__)
+            warm_up(scene)
+            # the means of the fresh surfaces, so that the processes share these
+            advance(scene.at_level(LEVELS[0]), scene.operation.point, initial_state(scene), 0.0)
 
     @property
     def held(self) -> bool:
@@ -171,23 +184,22 @@ class ContactSlave(Fmi2Slave):
         if self._scenes is None or self._state is None:
             raise ContactError(f"The contact is not set up: {self._fault}")
         fidelity = self._fidelity()
-        values: dict[str, Any] = {name: self.values[reference] for name, reference in self._inputs}
-        point = OperatingPoint(**values)
+        inputs: dict[str, Any] = {name: self.values[reference] for name, reference in self._inputs}
+        point = OperatingPoint(**inputs)
         state, outputs = advance(self._scenes[fidelity - 1], point, self._state, step_size)
         told = self._told[fidelity - 1]
         results = told.values(outputs)
-        if not all(map(math.isfinite, results)):
-            broken = [name for name, value in zip(told.names, results, strict=True) if not math.isfinite(value)]
-            raise ConvergenceError(
-                f"No finite {', '.join(broken)} came out at {point}. Change the inputs, or go back to an earlier state."
-            )
+        if not math.isfinite(sum(results)):
+            told.check(results, point)
         flags = outputs.range_flags | (_OTHER_LEVEL if len(told.names) < len(self._told[-1].names) else 0)
         appeared = flags & ~int(self._value("range_flags"))
         self._state = state
+        values, references = self.values, self._references
         for reference, value in zip(told.references, results, strict=True):
-            self.values[reference] = value
-        for name, value in (("range_flags", flags), ("fidelity_used", fidelity), ("valid", True)):
-            self.values[self._references[name]] = value
+            values[reference] = value
+        values[references["range_flags"]] = flags
+        values[references["fidelity_used"]] = fidelity
+        values[references["valid"]] = True
         if appeared:
             self._tell_flags(RangeFlag(appeared))
 

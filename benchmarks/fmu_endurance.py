@@ -1,0 +1,129 @@
+"""What the isolated flavour stands: instances that come and go, long runs, lost processes.
+
+    python benchmarks/fmu_endurance.py
+
+Writes docs/fmu_endurance.md: growth of memory over 5000 instances made and freed and over 100000 steps, in the host, the
+supervisor and the worker; how long a lost worker and a lost supervisor keep a host from going on, with the model at its
+fast level and on the shipped grid. The host is a C program that knows nothing of Python. Needs Linux and gcc.
+"""
+
+import os
+import signal
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+from fmu_overhead import SCENE, STEP, Flavour, unpacked
+
+from contact_core import Scene
+from fmu_src.build import build
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "fmu"))
+from native_host import ERROR, OK, Instance, NativeHost, compiled, plain_environment
+from processes import alive, children, descriptors, resident, soon
+
+CYCLES, STEPS, LOSSES = 300, 10_000, 5
+SHIPPED = Scene.from_toml("mtm_zddp")
+
+
+def started(host: NativeHost, folder: Path) -> Instance:
+    instance = host.load(folder).instance(logging=False)
+    if any((*instance.initialise(), instance.step(STEP))):
+        raise RuntimeError(f"The FMU does not run: {instance.log}")
+    return instance
+
+
+def cycles(program: Path, folder: Path) -> Iterator[str]:
+    """Instances made and freed."""
+    with NativeHost(program, plain_environment()) as host:
+        fmu = host.load(folder)
+        host.ask("cycles", fmu.number, 100)
+        (supervisor,) = children(host.process.pid)
+        before = [(resident(pid), descriptors(pid)) for pid in (host.process.pid, supervisor)]
+        start = time.perf_counter()
+        if host.ask("cycles", fmu.number, CYCLES).status != OK:
+            raise RuntimeError("An instance could not be made.")
+        each = (time.perf_counter() - start) / CYCLES
+        soon(lambda: not children(supervisor))
+        for name, pid, (size, files) in zip(("host", "supervisor"), (host.process.pid, supervisor), before, strict=True):
+            grown, more = resident(pid) - size, descriptors(pid) - files
+            yield f"| {CYCLES} instances made and freed, {1e3 * each:.1f} ms each | {name} | {grown} kB, {more} files |"
+
+
+def steps(program: Path, folder: Path) -> Iterator[str]:
+    """A long run."""
+    with NativeHost(program, plain_environment()) as host:
+        instance = started(host, folder)
+        (supervisor,) = children(host.process.pid)
+        (worker,) = children(supervisor)
+        load, output = (instance.fmu.variables[name].valueReference for name in ("load", "friction_force"))
+        duty = (STEP, STEP, load, SCENE.operation.load, 0.9 * SCENE.operation.load, output)
+        instance.ask("bench", STEPS // 10, *duty)
+        processes = {"host": host.process.pid, "supervisor": supervisor, "worker": worker}
+        before = {name: resident(pid) for name, pid in processes.items()}
+        instance.ask("bench", STEPS, *duty)
+        for name, pid in processes.items():
+            yield f"| {STEPS} steps | {name} | {resident(pid) - before[name]} kB |"
+
+
+def losses(program: Path, folder: Path, model: str) -> Iterator[str]:
+    """From the kill to a restored instance that is ready to step, the killed process's last moments not counted."""
+    with NativeHost(program, plain_environment()) as host:
+        instance = started(host, folder)
+        instance.ask("save", 0)
+
+        def supervisor() -> int:
+            return children(host.process.pid)[0]
+
+        def worker() -> int:
+            return children(supervisor())[0]
+
+        for name, victim in (("worker", worker), ("supervisor", supervisor)):
+            taken = [restored(instance, victim) for _ in range(LOSSES)]
+            low, middle, high = 1e3 * np.percentile(taken, [0, 50, 100])
+            yield f"| {name} | {model} | {middle:.0f} | {low:.0f} | {high:.0f} |"
+
+
+def restored(instance: Instance, victim: Callable[[], int]) -> float:
+    """Seconds that a restore takes which finds its process killed."""
+    pid = victim()
+    os.kill(pid, signal.SIGKILL)
+    if not soon(lambda: not alive(pid)) or instance.ask("step", 0.0, STEP).status != ERROR:
+        raise RuntimeError("The host did not notice that its process was killed.")
+    start = time.perf_counter()
+    if instance.ask("restore", 0).status != OK:
+        raise RuntimeError(f"The instance could not be restored: {instance.log}")
+    return time.perf_counter() - start
+
+
+def main() -> None:
+    lines = [
+        "# What the isolated FMU stands",
+        "",
+        "Written by `python benchmarks/fmu_endurance.py`, which says what is measured.",
+        "",
+        "| what | process | growth |",
+        "|---|---|---|",
+    ]
+
+    def add(rows: Iterator[str]) -> None:
+        for line in rows:
+            print(line, flush=True)
+            lines.append(line)
+
+    with tempfile.TemporaryDirectory() as name:
+        folder, program = Path(name), compiled(Path(name))
+        quick = Flavour("isolated", plain_environment).contact(folder)
+        add(cycles(program, quick))
+        add(steps(program, quick))
+        lines += ["", "| lost process | model | restored after, median [ms] | least | most |", "|---|---|---|---|---|"]
+        add(losses(program, quick, "fast level"))
+        add(losses(program, unpacked(build(SHIPPED, folder / "shipped.fmu")), "129 x 129 nodes"))
+    (Path(__file__).parents[1] / "docs" / "fmu_endurance.md").write_text("\n".join(lines) + "\n")
+
+
+if __name__ == "__main__":
+    main()
