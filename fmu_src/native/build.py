@@ -5,6 +5,7 @@ libraries: the same sources and the same zig give the same bytes on any machine.
 """
 
 import argparse
+import hashlib
 import subprocess
 import sys
 import tempfile
@@ -17,6 +18,7 @@ from shutil import copyfile, which
 from . import image
 
 FOLDER = Path(__file__).parent
+MADE_FROM = "made_from.txt"
 COMPILERS = {"zig": ("linux64", "win64"), "gcc": ("linux64",)}
 
 
@@ -55,6 +57,14 @@ def command(platform: str, compiler: str, library: Path) -> list[str]:
     chosen = PLATFORMS[platform]
     call = [sys.executable, "-m", "ziglang", "cc", "-target", chosen.target] if compiler == "zig" else ["gcc"]
     return [*call, *FLAGS, *chosen.flags, "-isystem", str(_headers()), "-o", str(library), *chosen.sources]
+
+
+def fingerprint(platform: str) -> str:
+    """Of all that the library of `platform` is made from; it lies beside the library, to tell whether that is old."""
+    chosen = PLATFORMS[platform]
+    files = [*chosen.sources, *sorted(path.name for path in FOLDER.glob("*.h"))]
+    parts = [repr((chosen, FLAGS)).encode(), *(FOLDER.joinpath(name).read_bytes() for name in files)]
+    return hashlib.sha256(b"\0".join(parts)).hexdigest()
 
 
 def _headers() -> Path:
@@ -99,6 +109,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         parser.error(f"{arguments.compiler} is not installed (zig: pip install ziglang)")
     for platform in platforms:
         library = build(platform, arguments.compiler, arguments.out / platform)
+        library.with_name(MADE_FROM).write_text(fingerprint(platform) + "\n")
         found = image.read(library)
         print(f"{library}: {library.stat().st_size} bytes")
         print(f"  needs   {', '.join(found.libraries)}")

@@ -57,17 +57,22 @@ char *path_of_uri(const char *uri) {
     return path;
 }
 
+/* Its value, to be freed; NULL if it is empty. Not getenv's, which may be that of another C library than the host's. */
+static wchar_t *variable(const wchar_t *name) {
+    DWORD size = GetEnvironmentVariableW(name, NULL, 0);
+    wchar_t *value = size > 1 ? malloc(size * sizeof *value) : NULL;
+    if (value) GetEnvironmentVariableW(name, value, size);
+    return value;
+}
+
 /* Its full path, of a name along PATH alone: Windows by itself would begin in the host's folders. */
 static char *program(const char *name) {
-    DWORD folders_size = GetEnvironmentVariableW(L"PATH", NULL, 0), size;
-    wchar_t *folders = calloc(folders_size + 1, sizeof *folders), *called = wide(name), *path = NULL;
+    wchar_t *folders = variable(L"PATH"), *called = wide(name), *path = NULL;
+    const wchar_t *searched = folders ? folders : L"";
     char *found = NULL;
-    if (folders && called) {
-        GetEnvironmentVariableW(L"PATH", folders, folders_size);
-        size = SearchPathW(folders, called, L".exe", 0, NULL, NULL);
-        path = size ? malloc(size * sizeof *path) : NULL;
-        if (path && SearchPathW(folders, called, L".exe", size, path, NULL)) found = narrow(path);
-    }
+    DWORD size = called ? SearchPathW(searched, called, L".exe", 0, NULL, NULL) : 0;
+    if (size) path = malloc(size * sizeof *path);
+    if (path && SearchPathW(searched, called, L".exe", size, path, NULL)) found = narrow(path);
     free(folders);
     free(called);
     free(path);
@@ -97,8 +102,8 @@ static int recorded(const char *resources, char *path, int room) {
 
 char *interpreter(const char *resources, Reason *why) {
     char path[4096], *found;
-    const wchar_t *variable = _wgetenv(L"TRIBOFMU_PYTHON");
-    char *wish = variable && *variable ? narrow(variable) : NULL;
+    wchar_t *asked = variable(L"TRIBOFMU_PYTHON");
+    char *wish = asked ? narrow(asked) : NULL;
     if (wish)
         found = chosen(wish, "TRIBOFMU_PYTHON", why);
     else if (recorded(resources, path, sizeof path))
@@ -106,6 +111,7 @@ char *interpreter(const char *resources, Reason *why) {
     else if (!(found = program("python.exe")) && !(found = program("python3.exe")))
         snprintf(why->text, sizeof why->text, "There is no python.exe on PATH. %s", PYTHON_HINT);
     free(wish);
+    free(asked);
     return found;
 }
 

@@ -12,9 +12,9 @@ import pytest
 from conftest import unpacked
 from native_host import OK, NativeHost, compiled, plain_environment
 
-import fmu_src
 from contact_core import Scene
 from fmu_src.build import binaries
+from fmu_src.build import build as build_fmu
 from fmu_src.native import build, image
 
 pytestmark = pytest.mark.fmu
@@ -79,6 +79,12 @@ def test_an_isolated_fmu_takes_all_of_them() -> None:
     assert binaries("isolated", "Model") == expected
 
 
+@pytest.mark.parametrize("platform", COMMITTED)
+def test_no_source_is_newer_than_its_library(platform: str) -> None:
+    made_from = COMMITTED[platform].with_name(build.MADE_FROM).read_text().strip()
+    assert build.fingerprint(platform) == made_from, "Run python -m fmu_src.native.build and commit the libraries."
+
+
 @pytest.mark.skipif(not build.available("zig"), reason="needs zig: pip install tribofmu[native]")
 @pytest.mark.parametrize("platform", COMMITTED)
 def test_zig_makes_the_committed_bytes(platform: str, tmp_path: Path) -> None:
@@ -88,7 +94,7 @@ def test_zig_makes_the_committed_bytes(platform: str, tmp_path: Path) -> None:
 @pytest.mark.skipif(not build.available("gcc"), reason="needs gcc")
 def test_the_sources_behave_as_the_committed_library(scene: Scene, tmp_path: Path) -> None:
     program = compiled(tmp_path)
-    file = fmu_src.build(scene, tmp_path / "small.fmu", "isolated")
+    file = build_fmu(scene, tmp_path / "small.fmu", "isolated")
     shipped, rebuilt = unpacked(file, tmp_path / "shipped"), unpacked(file, tmp_path / "rebuilt")
     (library,) = (rebuilt / "binaries" / "linux64").iterdir()
     assert library.read_bytes() == COMMITTED["linux64"].read_bytes()

@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 from conftest import unpacked
 
-import fmu_src
 from contact_core import Scene
+from fmu_src.build import build
 from fmu_src.resources import guid
 from fmu_src.worker import Operation
 
@@ -68,7 +68,7 @@ class PipeHost:
 @pytest.fixture(scope="module")
 def resources(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("pipe")
-    return unpacked(fmu_src.build(scene, folder / "small.fmu", "isolated"), folder / "fmu") / "resources"
+    return unpacked(build(scene, folder / "small.fmu", "isolated"), folder / "fmu") / "resources"
 
 
 def edited(resources: Path, folder: Path, file: str, edit: Callable[[str], str]) -> Path:

@@ -16,7 +16,7 @@ from native_host import ERROR, NONE, OK, Instance, NativeHost, plain_environment
 from wine_host import Relay, WineHost, windows_path
 
 from contact_core import Scene
-from fmu_src import build
+from fmu_src.build import build
 
 pytestmark = [
     pytest.mark.fmu,
