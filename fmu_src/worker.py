@@ -19,6 +19,8 @@ from typing import Any, Protocol
 from pythonfmu import Fmi2Slave
 from pythonfmu.enums import Fmi2Status
 
+from contact_core.errors import ContactError, SceneError
+
 from .variables import Value
 
 _REQUEST = struct.Struct("<IIQQQ3d")
@@ -78,7 +80,11 @@ def _loaded(name: str, file: Path) -> ModuleType:
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     sys.modules[name] = module
-    spec.loader.exec_module(module)
+    keep, sys.dont_write_bytecode = sys.dont_write_bytecode, True  # the FMU's folder is its host's
+    try:
+        spec.loader.exec_module(module)
+    finally:
+        sys.dont_write_bytecode = keep
     return module
 
 
@@ -117,10 +123,15 @@ class Worker:
             else:
                 payload = message[len(message) - size :]
                 results = self._ACTIONS[operation](self, state, numbers, payload)
+        except ContactError as error:
+            self._fail(str(error))
         except BaseException:  # also SystemExit and KeyboardInterrupt: only the host ends a worker
-            self._entries.append((Fmi2Status.error.value, "logStatusError", _escaped(traceback.format_exc())))
+            self._fail(traceback.format_exc())
         self._channel.send([*self._head(outputs=operation not in _TABLES), *results])
         return True
+
+    def _fail(self, reason: str) -> None:
+        self._entries.append((Fmi2Status.error.value, "logStatusError", _escaped(reason)))
 
     def _head(self, outputs: bool) -> Iterator[Buffer]:
         """Status, outputs if they stand until the next step and are asked for, and what was logged."""
@@ -171,7 +182,7 @@ class Worker:
         name, _, guid = payload.partition(b"\0")
         own = (self._resources / "guid.txt").read_text("utf-8")
         if guid.decode("utf-8", "replace") != own:
-            raise ValueError(
+            raise SceneError(
                 f"The host asks for the FMU with guid {guid.decode('utf-8', 'replace')!r}, but this one has {own!r}: "
                 "its modelDescription.xml and its resources do not belong together. Unpack the FMU again."
             )

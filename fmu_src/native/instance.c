@@ -324,10 +324,20 @@ fmi2Status instance_reset(Instance *instance) {
 
 /* instances */
 
-static double call_limit(void) {
-    const char *text = getenv("TRIBOFMU_TIMEOUT");
-    double limit = text ? strtod(text, NULL) : 0.0;
-    return limit > 0.0 ? limit : 0.0;
+/* Read TRIBOFMU_TIMEOUT: digits, a point, digits. Not by strtod, whose point is a comma in some hosts. */
+static int read_limit(double *limit, Reason *why) {
+    const char *text = getenv("TRIBOFMU_TIMEOUT"), *at = text ? text : "";
+    double whole = 0.0, scale = 1.0;
+    for (; '0' <= *at && *at <= '9'; at++) whole = 10.0 * whole + (*at - '0');
+    if (*at == '.')
+        for (at++; '0' <= *at && *at <= '9'; at++) whole += (*at - '0') * (scale /= 10.0);
+    *limit = whole;
+    if (!*at && (whole > 0.0 || !text || !*text)) return 1;
+    snprintf(why->text, sizeof why->text,
+             "TRIBOFMU_TIMEOUT = '%.100s' must be a number of seconds above 0, such as 600 or 0.5. Leave it unset for no "
+             "limit.",
+             text);
+    return 0;
 }
 
 Instance *instance_new(const char *name, const char *guid, const char *uri, const fmi2CallbackFunctions *host,
@@ -338,11 +348,10 @@ Instance *instance_new(const char *name, const char *guid, const char *uri, cons
     instance->logging = logging;
     instance->name = strdup(name ? name : "");
     instance->guid = strdup(guid ? guid : "");
-    instance->limit = call_limit();
     instance->stale = 1;
     if (instance->name && instance->guid) {
         instance->resources = channel_resources(uri, &instance->why);
-        if (!instance->resources)
+        if (!instance->resources || !read_limit(&instance->limit, &instance->why))
             instance_fail(instance, "%s", instance->why.text);
         else if (open_worker(instance) == fmi2OK) {
             lock(&instances_lock);
