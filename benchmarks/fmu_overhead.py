@@ -90,11 +90,13 @@ def timed(rounds: Iterator[None]) -> list[float]:
 
 
 def contact_directly() -> Iterator[None]:
-    point = SCENE.operation.point
-    points = [replace(point, load=load) for load in CONTACT.values]
+    radius_x, radius_y = SCENE.radii(SCENE.operation.point)
+    oil = SCENE.operation.temperature
+    rest = {"body_temperature_1": oil, "body_temperature_2": oil, "radius_x": radius_x, "radius_y": radius_y}
+    point = replace(SCENE.operation.point, **rest)  # all inputs, as an FMU has them
     state, _ = advance(SCENE, point, initial_state(SCENE), FIRST)
     for i in range(ROUNDS):
-        state, outputs = advance(SCENE, points[i % 2], state, STEP)
+        state, outputs = advance(SCENE, replace(point, load=CONTACT.values[i % 2]), state, STEP)
         [getattr(outputs, name) for name in READ]
         yield
 

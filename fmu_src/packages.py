@@ -7,30 +7,30 @@ from contact_core import __version__
 from .resources import VERSIONS, Flavour
 
 PACKAGE = "tribofmu"
-_MADE_BY_OTHERS: dict[Flavour, tuple[str, ...]] = {
-    "embedded": ("pythonfmu",),
-    "isolated": (),
-}  # whose libraries lie in the FMU, by flavour
+_HEADER = "fmi2TypesPlatform.h"  # one of those that our library is compiled with; all have the same licence
 
 
 def licences(flavour: Flavour) -> dict[str, bytes]:
-    """Name and text of the licence of the FMU and of each library in it that others made.
+    """Name and text of the licence of the FMU and of what others made of the library in it.
 
     Raises FileNotFoundError if a package is not installed with its licence.
     """
-    others = {f"{package}.txt": _licence(package) for package in _MADE_BY_OTHERS[flavour]}
-    return {"license.txt": _licence(PACKAGE), **others}
+    if flavour == "embedded":
+        return {"license.txt": _file(PACKAGE, "LICENSE"), "pythonfmu.txt": _file("pythonfmu", "LICENSE")}
+    comment = _file("fmpy", _HEADER).partition(b"/*")[2].partition(b"*/")[0]
+    return {"license.txt": _file(PACKAGE, "LICENSE"), "fmi.txt": comment.strip() + b"\n"}
 
 
-def _licence(package: str) -> bytes:
+def _file(package: str, name: str) -> bytes:
+    """The content of the file `name` that pip has installed for a package."""
     try:
         files = distribution(package).files or []
     except PackageNotFoundError:
         files = []
-    texts = [file for file in files if file.name == "LICENSE"]
-    if not texts:
-        raise FileNotFoundError(f"{package} is not installed with its licence. Install it with pip.")
-    return texts[0].read_binary()
+    found = [file for file in files if file.name == name]
+    if not found:
+        raise FileNotFoundError(f"{package} is not installed with its {name}. Install it with pip.")
+    return found[0].read_binary()
 
 
 def python() -> str:

@@ -1,9 +1,11 @@
 """Several FMUs and many instances live in one process."""
 
 import json
+import os
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from conftest import unpacked
@@ -78,3 +80,21 @@ def test_missing_resources_are_refused(folder, tmp_path, capfd, name):
     with pytest.raises(Exception, match="Failed to instantiate"), hosted(copy):
         pass
     assert "cannot be read" in capfd.readouterr().err
+
+
+def test_a_host_may_fork_after_the_isolated_library_was_unloaded(isolated_folder):
+    """The handler that keeps a forked child from its parent's processes goes with the library."""
+    code = f"""
+import os
+from pathlib import Path
+from fmu_host import hosted
+with hosted(Path({str(isolated_folder)!r})) as host:
+    assert host.initialise().step(1.0)["valid"]
+child = os.fork()
+if not child:
+    os._exit(0)
+assert os.waitpid(child, 0)[1] == 0
+"""
+    variables = environment()
+    variables["PYTHONPATH"] = os.pathsep.join([str(Path(__file__).parent), variables["PYTHONPATH"]])
+    subprocess.run([sys.executable, "-c", code], env=variables, check=True)
