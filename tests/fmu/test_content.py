@@ -247,7 +247,9 @@ def test_the_icon_is_the_picture_that_its_script_draws(files):
 def test_the_licences_are_ours_and_that_of_the_library_in_the_fmu(files):
     assert files["documentation/licenses/license.txt"] == (ROOT / "LICENSE").read_bytes()
     assert b"MIT License" in files["documentation/licenses/pythonfmu.txt"]
-    assert set(packages.licences("isolated")) == {"license.txt"}
+    isolated = packages.licences("isolated")
+    assert set(isolated) == {"license.txt", "fmi.txt"}
+    assert b"Redistribution and use in source and binary forms" in isolated["fmi.txt"]
 
 
 def test_what_the_fmu_needs_from_outside_is_listed(files):
@@ -260,7 +262,7 @@ def test_what_the_fmu_needs_from_outside_is_listed(files):
 
 def test_a_package_without_its_licence_is_named(monkeypatch):
     monkeypatch.setattr(packages, "PACKAGE", "tribofmu-elsewhere")
-    with pytest.raises(FileNotFoundError, match="tribofmu-elsewhere is not installed with its licence"):
+    with pytest.raises(FileNotFoundError, match="tribofmu-elsewhere is not installed with its LICENSE"):
         packages.licences("isolated")
 
 
