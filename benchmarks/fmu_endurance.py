@@ -3,8 +3,9 @@
     python benchmarks/fmu_endurance.py
 
 Writes docs/fmu_endurance.md: growth of memory over 5000 instances made and freed and over 100000 steps, in the host, the
-supervisor and the worker; how long a lost worker and a lost supervisor keep a host from going on, with the model at its
-fast level and on the shipped grid. The host is a C program that knows nothing of Python. Needs Linux and gcc.
+supervisor and the worker; how long a start takes, and how long a lost worker and a lost supervisor keep a host from going
+on, with the model at its fast level and on the shipped grid. The host is a C program that knows nothing of Python. Needs
+Linux and gcc.
 """
 
 import os
@@ -25,7 +26,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "fmu"))
 from native_host import ERROR, OK, Instance, NativeHost, compiled, plain_environment
 from processes import alive, children, descriptors, resident, soon
 
-CYCLES, STEPS, LOSSES = 300, 10_000, 5
+CYCLES, STEPS, LOSSES = 5_000, 100_000, 11
 SHIPPED = Scene.from_toml("mtm_zddp")
 
 
@@ -67,6 +68,21 @@ def steps(program: Path, folder: Path) -> Iterator[str]:
         instance.ask("bench", STEPS, *duty)
         for name, pid in processes.items():
             yield f"| {STEPS} steps | {name} | {resident(pid) - before[name]} kB |"
+
+
+def starts(program: Path, folder: Path, model: str) -> Iterator[str]:
+    """The first calls of a host."""
+    calls = (("instantiate", 0, 0, 0), ("setup", 0), ("enter", 0), ("exit", 0), ("step", 0, 0.0, STEP))
+    with NativeHost(program, plain_environment()) as host:
+        host.load(folder)
+        taken = {}
+        for call in (*calls, ("step", 0, STEP, STEP)):
+            start = time.perf_counter()
+            if host.ask(*call).status != OK:
+                raise RuntimeError(f"The FMU fails at {call}.")
+            taken["again" if call[0] in taken else call[0]] = 1e3 * (time.perf_counter() - start)
+        shown = (taken[name] for name in ("instantiate", "exit", "step", "again"))
+        yield f"| {model} | {' | '.join(f'{milliseconds:.1f}' for milliseconds in shown)} |"
 
 
 def losses(program: Path, folder: Path, model: str) -> Iterator[str]:
@@ -117,11 +133,16 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder, program = Path(name), compiled(Path(name))
         quick = Flavour("isolated", plain_environment).contact(folder)
+        shipped = unpacked(build(SHIPPED, folder / "shipped.fmu"))
+        models = ((quick, "fast level"), (shipped, "129 x 129 nodes"))
         add(cycles(program, quick))
         add(steps(program, quick))
+        lines += ["", "| model | instantiate [ms] | initialise [ms] | first step [ms] | second step [ms] |", "|---|---|---|---|---|"]
+        for model in models:
+            add(starts(program, *model))
         lines += ["", "| lost process | model | restored after, median [ms] | least | most |", "|---|---|---|---|---|"]
-        add(losses(program, quick, "fast level"))
-        add(losses(program, unpacked(build(SHIPPED, folder / "shipped.fmu")), "129 x 129 nodes"))
+        for model in models:
+            add(losses(program, *model))
     (Path(__file__).parents[1] / "docs" / "fmu_endurance.md").write_text("\n".join(lines) + "\n")
 
 
