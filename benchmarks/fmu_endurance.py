@@ -49,7 +49,9 @@ def cycles(program: Path, folder: Path) -> Iterator[str]:
             raise RuntimeError("An instance could not be made.")
         each = (time.perf_counter() - start) / CYCLES
         soon(lambda: not children(supervisor))
-        for name, pid, (size, files) in zip(("host", "supervisor"), (host.process.pid, supervisor), before, strict=True):
+        for name, pid, (size, files) in zip(
+            ("host", "supervisor"), (host.process.pid, supervisor), before, strict=True
+        ):
             grown, more = resident(pid) - size, descriptors(pid) - files
             yield f"| {CYCLES} instances made and freed, {1e3 * each:.1f} ms each | {name} | {grown} kB, {more} files |"
 
@@ -137,7 +139,11 @@ def main() -> None:
         models = ((quick, "fast level"), (shipped, "129 x 129 nodes"))
         add(cycles(program, quick))
         add(steps(program, quick))
-        lines += ["", "| model | instantiate [ms] | initialise [ms] | first step [ms] | second step [ms] |", "|---|---|---|---|---|"]
+        lines += [
+            "",
+            "| model | instantiate [ms] | initialise [ms] | first step [ms] | second step [ms] |",
+            "|---|---|---|---|---|",
+        ]
         for model in models:
             add(starts(program, *model))
         lines += ["", "| lost process | model | restored after, median [ms] | least | most |", "|---|---|---|---|---|"]
