@@ -94,7 +94,7 @@ class Worker:
     def __init__(self, channel: Channel, resources: Path) -> None:
         self._channel = channel
         self._resources = resources
-        self._make: Callable[[], Any] = _unmade
+        self._arguments: dict[str, Any] = {}
         self._slave: Any = None
         self._entries: list[tuple[int, str, str]] = []  # log that no slave can keep
         self._saved: dict[int, Any] = {}
@@ -118,17 +118,39 @@ class Worker:
                 self._saved.pop(number, None)
             if sets:
                 self._set(message, offset, sets)
-            if operation == Operation.STEP:
-                self._slave.do_step(numbers[0], numbers[1])
-            else:
-                payload = message[len(message) - size :]
-                results = self._ACTIONS[operation](self, state, numbers, payload)
+            results = self._do(operation, state, numbers, message[len(message) - size :])
         except ContactError as error:
             self._fail(str(error))
         except BaseException:  # also SystemExit and KeyboardInterrupt: only the host ends a worker
             self._fail(traceback.format_exc())
         self._channel.send([*self._head(outputs=operation not in _TABLES), *results])
         return True
+
+    def _do(self, operation: int, state: int, numbers: Sequence[float], payload: bytes) -> Sequence[Buffer]:
+        """What the operation returns."""
+        slave = self._slave
+        match operation:
+            case Operation.STEP:
+                slave.do_step(numbers[0], numbers[1])
+            case Operation.SETUP:
+                slave.setup_experiment(numbers[0], *map(_defined, numbers[1:]))
+            case Operation.ENTER:
+                slave.enter_initialization_mode()
+            case Operation.EXIT:
+                slave.exit_initialization_mode()
+            case Operation.TERMINATE:
+                slave.terminate()
+            case Operation.SAVE:
+                return self._save(state, known=bool(numbers[0]))
+            case Operation.OPEN:
+                self._open(payload)
+            case Operation.RESET:
+                self._instantiate()
+            case Operation.LOOK:
+                self._evaluate()
+            case Operation.RESTORE:
+                slave._set_fmu_state(self._saved[state] if state else slave._fmu_state_from_bytes(payload))
+        return self._table() if operation in _TABLES else ()
 
     def _fail(self, reason: str) -> None:
         self._entries.append((Fmi2Status.error.value, "logStatusError", _escaped(reason)))
@@ -178,87 +200,47 @@ class Worker:
 
     # operations
 
-    def _open(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
-        name, _, guid = payload.partition(b"\0")
+    def _open(self, payload: bytes) -> None:
+        name, guid = (text.decode("utf-8", "replace") for text in payload.split(b"\0", 1))
         own = (self._resources / "guid.txt").read_text("utf-8")
-        if guid.decode("utf-8", "replace") != own:
+        if guid != own:
             raise SceneError(
-                f"The host asks for the FMU with guid {guid.decode('utf-8', 'replace')!r}, but this one has {own!r}: "
-                "its modelDescription.xml and its resources do not belong together. Unpack the FMU again."
+                f"The host asks for the FMU with guid {guid!r}, but this one has {own!r}: its modelDescription.xml and "
+                "its resources do not belong together. Unpack the FMU again."
             )
-        cls = slave_class(self._resources)
-        arguments = {"instance_name": name.decode("utf-8", "replace"), "resources": str(self._resources)}
-        self._make = lambda: cls(**arguments, visible=False)
-        return self._reset(state, numbers, payload)
+        self._arguments = {"instance_name": name, "resources": str(self._resources), "visible": False}
+        self._instantiate()
 
-    def _reset(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
-        self._slave = None
-        self._slave = slave = self._make()
+    def _instantiate(self) -> None:
+        self._slave = None  # two at once may be too large
+        self._slave = slave = slave_class(self._resources)(**self._arguments)
         outputs = [vr for vr, (_, causality) in enumerate(slave.layout) if causality == "output"]
         self._outputs = itemgetter(*outputs) if len(outputs) > 1 else lambda values: tuple(values[i] for i in outputs)
         self._row = struct.Struct(f"<{len(outputs)}d")
-        return self._table()
 
-    def _setup(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
-        start, stop, tolerance = numbers
-        self._slave.setup_experiment(start, _defined(stop), _defined(tolerance))
-        return []
-
-    def _enter(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
-        self._slave.enter_initialization_mode()
-        return []
-
-    def _exit(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
-        self._slave.exit_initialization_mode()
-        return []
-
-    def _look(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
+    def _evaluate(self) -> None:
+        """Ask for every output: in initialisation mode that makes the slave compute them."""
         for kind, get in zip(
             _KINDS, (self._slave.get_real, self._slave.get_integer, self._slave.get_boolean), strict=False
         ):
             get([vr for vr, description in enumerate(self._slave.layout) if description == (kind, "output")])
-        return self._table()
 
-    def _terminate(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
-        self._slave.terminate()
-        return []
-
-    def _save(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
+    def _save(self, number: int, known: bool) -> list[Buffer]:
+        """Keep the state; return its parts, of those that the host knows from the state saved before only the place."""
         handle = self._slave._get_fmu_state()
         parts = self._slave.parts(handle)
-        known = {_identity(part): k for k, part in enumerate(self._before)} if numbers[0] else {}
-        same = [known.get(_identity(part), -1) for part in parts]
-        self._saved[state] = handle
+        places = {_identity(part): k for k, part in enumerate(self._before)} if known else {}
+        same = [places.get(_identity(part), -1) for part in parts]
+        self._saved[number] = handle
         self._before = parts
         heads = [_PART.pack(_size(part), k) for part, k in zip(parts, same, strict=True)]
         new = [chunk for part, k in zip(parts, same, strict=True) if k < 0 for chunk in (part, _padding(_size(part)))]
         return [_COUNT.pack(len(parts)), *heads, *new]
 
-    def _restore(self, state: int, numbers: Sequence[float], payload: bytes) -> list[Buffer]:
-        handle = self._saved[state] if state else self._slave._fmu_state_from_bytes(payload)
-        self._slave._set_fmu_state(handle)
-        return self._table()
-
     def _table(self) -> list[Buffer]:
         """Every variable's kind, causality and value."""
         layout, values = self._slave.layout, self._slave.values
         return [_COUNT.pack(len(layout)), *map(_record, range(len(layout)), layout, values)]
-
-    _ACTIONS = {  # noqa: RUF012
-        Operation.OPEN: _open,
-        Operation.SETUP: _setup,
-        Operation.ENTER: _enter,
-        Operation.EXIT: _exit,
-        Operation.LOOK: _look,
-        Operation.TERMINATE: _terminate,
-        Operation.RESET: _reset,
-        Operation.SAVE: _save,
-        Operation.RESTORE: _restore,
-    }
-
-
-def _unmade() -> None:
-    raise RuntimeError("The FMU has not been instantiated.")
 
 
 def _defined(value: float) -> float | None:

@@ -72,42 +72,6 @@ static double now(void) {
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* resources */
-
-static int holds_start(const char *folder) {
-    char *file = joined(folder, "start.py");
-    int found = file && access(file, R_OK) == 0;
-    free(file);
-    return found;
-}
-
-/* <folder>/binaries/<platform>/<this library> -> <folder>/resources */
-static char *beside_library(void) {
-    Dl_info info;
-    char *path = dladdr((void *)&supervisor_lock, &info) ? realpath(info.dli_fname, NULL) : NULL;
-    for (int up = 0; path && up < 3; up++) {
-        char *slash = strrchr(path, '/');
-        if (slash) *slash = 0;
-    }
-    char *folder = path ? joined(path, "resources") : NULL;
-    free(path);
-    return folder;
-}
-
-char *channel_resources(const char *uri, Reason *why) {
-    char *folder = beside_library();
-    if (folder && holds_start(folder)) return folder;
-    free(folder);
-    folder = path_of_uri(uri ? uri : "");
-    if (folder && holds_start(folder)) return folder;
-    free(folder);
-    snprintf(why->text, sizeof why->text,
-             "The FMU's resources are neither beside its library nor at '%s'. Unpack the whole FMU and keep its "
-             "folders together.",
-             uri ? uri : "");
-    return NULL;
-}
-
 /* supervisor */
 
 static int hung_up(const Supervisor *supervisor) {

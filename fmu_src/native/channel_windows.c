@@ -34,57 +34,6 @@ void lock(Lock *held) { AcquireSRWLockExclusive((SRWLOCK *)held); }
 
 void unlock(Lock *held) { ReleaseSRWLockExclusive((SRWLOCK *)held); }
 
-/* resources */
-
-static int holds_start(const char *folder) {
-    char *file = joined(folder, "start.py");
-    wchar_t *path = file ? wide(file) : NULL;
-    int found = path && GetFileAttributesW(path) != INVALID_FILE_ATTRIBUTES;
-    free(path);
-    free(file);
-    return found;
-}
-
-static char *library_path(void) {
-    enum { LONGEST = 32768 };
-    const DWORD flags = GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT;
-    HMODULE library;
-    wchar_t *path = malloc(LONGEST * sizeof *path);
-    char *found = NULL;
-    if (path && GetModuleHandleExW(flags, (LPCWSTR)(const void *)&library_path, &library) &&
-        GetModuleFileNameW(library, path, LONGEST))
-        found = narrow(path);
-    free(path);
-    return found;
-}
-
-/* <folder>/binaries/<platform>/<this library> -> <folder>/resources */
-static char *beside_library(void) {
-    char *path = library_path();
-    for (int up = 0; path && up < 3; up++) {
-        size_t end = strlen(path);
-        while (end > 0 && path[end - 1] != '\\' && path[end - 1] != '/') end--;
-        path[end > 0 ? end - 1 : 0] = 0;
-    }
-    char *folder = path ? joined(path, "resources") : NULL;
-    free(path);
-    return folder;
-}
-
-char *channel_resources(const char *uri, Reason *why) {
-    char *folder = beside_library();
-    if (folder && holds_start(folder)) return folder;
-    free(folder);
-    folder = path_of_uri(uri ? uri : "");
-    if (folder && holds_start(folder)) return folder;
-    free(folder);
-    snprintf(why->text, sizeof why->text,
-             "The FMU's resources are neither beside its library nor at '%s'. Unpack the whole FMU and keep its "
-             "folders together.",
-             uri ? uri : "");
-    return NULL;
-}
-
 /* the worker's process */
 
 static void close_handle(HANDLE handle) {

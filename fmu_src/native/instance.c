@@ -5,35 +5,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "buffer.h"
 #include "channel.h"
 #include "lock.h"
+#include "state.h"
 
-#define PADDED(n) (((n) + 7u) & ~(size_t)7u)
 #define START_LIMIT 120.0 /* seconds for the imports of a worker, with kernels that are not compiled yet */
-
-typedef struct {
-    size_t users, size;
-    unsigned char bytes[];
-} Part;
-
-struct State {
-    struct State *next;
-    uint64_t number; /* under which the worker knows it; 0: it does not */
-    uint64_t life;   /* of that worker */
-    size_t count;
-    Part *parts[];
-};
 
 typedef struct {
     uint16_t kind, causality;
     double value;
     char *text; /* of a string */
 } Variable;
-
-typedef struct {
-    unsigned char *bytes;
-    size_t size, room;
-} Buffer;
 
 struct Instance {
     struct Instance *next;
@@ -55,19 +38,13 @@ struct Instance {
     Buffer forgotten; /* numbers of states that the worker need not keep */
     uint64_t numbers; /* last number of a state */
     State *states;
-    State *last; /* the parts of the state saved last, which the worker knows, too; not among `states` */
+    State *last; /* parts of the state saved last, whatever the host frees: the worker sends only what is new since */
     Reason why;
     char plain[sizeof(Reason) + 256], escaped[2 * sizeof(Reason) + 512]; /* not on the stack: hosts have small ones */
 };
 
 static Instance *instances;
 static Lock instances_lock = LOCK_INITIAL;
-
-static void state_free(State *state) {
-    for (size_t k = 0; state && k < state->count; k++)
-        if (!--state->parts[k]->users) free(state->parts[k]);
-    free(state);
-}
 
 /* log */
 
@@ -115,38 +92,7 @@ void instance_hear(Instance *instance, fmi2Boolean logging, size_t count, const 
         if (categories[i] && (instance->categories[kept] = strdup(categories[i]))) kept++;
 }
 
-/* what is to be sent */
-
-static unsigned char *extended(Buffer *buffer, size_t size) {
-    if (buffer->size + size > buffer->room) {
-        size_t room = 2 * (buffer->size + size);
-        unsigned char *bytes = realloc(buffer->bytes, room);
-        if (!bytes) return NULL;
-        buffer->bytes = bytes;
-        buffer->room = room;
-    }
-    unsigned char *place = buffer->bytes + buffer->size;
-    buffer->size += size;
-    return place;
-}
-
-static unsigned char *append(unsigned char *to, const void *bytes, size_t size) {
-    if (size) memcpy(to, bytes, size);
-    return to + size;
-}
-
 /* what comes back */
-
-typedef struct {
-    const unsigned char *at, *end;
-} Reader;
-
-static const void *taken(Reader *reader, size_t size) {
-    if ((size_t)(reader->end - reader->at) < size) return NULL;
-    const void *place = reader->at;
-    reader->at += size;
-    return place;
-}
 
 static int take_logs(const Instance *instance, Reader *reader, uint64_t logs) {
     for (; logs; logs--) {
@@ -496,10 +442,6 @@ static void forget_number(Instance *instance, const State *state) {
     if (place) memcpy(place, &state->number, sizeof state->number);
 }
 
-static State *state_new(size_t parts) {
-    return calloc(1, sizeof(State) + parts * sizeof(Part *));
-}
-
 static State *listed(Instance *instance, State *state) {
     state->next = instance->states;
     instance->states = state;
@@ -522,47 +464,6 @@ int instance_owns(const Instance *instance, const State *state) {
     return own != NULL;
 }
 
-static Part *part_new(const void *bytes, size_t size) {
-    Part *part = malloc(sizeof *part + size);
-    if (!part) return NULL;
-    part->users = 0;
-    part->size = size;
-    append(part->bytes, bytes, size);
-    return part;
-}
-
-/* Take a saved state's parts: those that are as in the state saved before are shared with it. */
-static int take_parts(State *state, const State *before, uint64_t count, Reader *reader) {
-    const unsigned char *heads = taken(reader, count * sizeof(struct part));
-    if (!heads) return 0;
-    for (size_t k = 0; k < count; k++) {
-        struct part head;
-        memcpy(&head, heads + k * sizeof head, sizeof head);
-        Part *part = NULL;
-        if (head.same < 0) {
-            const void *bytes = taken(reader, PADDED(head.size));
-            if (bytes) part = part_new(bytes, head.size);
-        } else if (before && (size_t)head.same < before->count)
-            part = before->parts[head.same];
-        if (!part) return 0;
-        part->users++;
-        state->parts[state->count++] = part;
-    }
-    return 1;
-}
-
-/* The worker sends only what is new since the state saved last: keep that state's parts, whatever the host frees. */
-static void remember(Instance *instance, const State *saved) {
-    State *last = state_new(saved->count);
-    for (size_t k = 0; last && k < saved->count; k++) {
-        last->parts[last->count++] = saved->parts[k];
-        saved->parts[k]->users++;
-    }
-    state_free(instance->last);
-    instance->last = last;
-    if (last) last->life = saved->life;
-}
-
 fmi2Status instance_save(Instance *instance, State **state) {
     Reader rest;
     uint64_t count, number = ++instance->numbers;
@@ -573,16 +474,13 @@ fmi2Status instance_save(Instance *instance, State **state) {
     if (head) memcpy(&count, head, sizeof count);
     if (!head || count > (size_t)(rest.end - rest.at) / sizeof(struct part))
         return instance_fail(instance, "The worker's state is damaged.");
-    State *saved = state_new(count);
-    if (!saved || !take_parts(saved, before, count, &rest)) {
-        state_free(saved);
-        state_free(instance->last);
-        instance->last = NULL;
-        return instance_fail(instance, "The state could not be kept: there is no memory, or it is damaged.");
-    }
+    State *saved = state_taken(count, &rest, before);
+    state_free(instance->last);
+    instance->last = saved ? state_shared(saved) : NULL;
+    if (!saved) return instance_fail(instance, "The state could not be kept: there is no memory, or it is damaged.");
     saved->number = number;
     saved->life = instance->life;
-    remember(instance, saved);
+    if (instance->last) instance->last->life = instance->life;
     if (*state && instance_owns(instance, *state)) instance_forget(instance, *state);
     *state = listed(instance, saved);
     return fmi2OK;
@@ -599,33 +497,13 @@ static fmi2Status restore_bytes(Instance *instance, const State *state) {
 fmi2Status instance_restore(Instance *instance, State *state) {
     notice_loss(instance);
     if (!instance->worker && open_worker(instance) != fmi2OK) return fmi2Error;
-    instance->sets.size = instance->sets_count = 0; /* the state has values of its own */
     return state->number && state->life == instance->life ? request_table(instance, RESTORE, state->number, 0)
                                                           : restore_bytes(instance, state);
 }
 
-size_t state_size(const State *state) {
-    size_t size = 0;
-    for (size_t k = 0; k < state->count; k++) size += state->parts[k]->size;
-    return size;
-}
-
-void state_write(const State *state, char *bytes) {
-    for (size_t k = 0; k < state->count; k++) {
-        memcpy(bytes, state->parts[k]->bytes, state->parts[k]->size);
-        bytes += state->parts[k]->size;
-    }
-}
-
 State *instance_read(Instance *instance, const char *bytes, size_t size) {
-    Part *part = part_new(bytes, size);
-    State *state = part ? state_new(1) : NULL;
-    if (!state) {
-        free(part);
-        instance_fail(instance, "There is no memory for a state of %zu bytes.", size);
-        return NULL;
-    }
-    part->users = 1;
-    state->parts[state->count++] = part;
-    return listed(instance, state);
+    State *state = state_of(bytes, size);
+    if (state) return listed(instance, state);
+    instance_fail(instance, "There is no memory for a state of %zu bytes.", size);
+    return NULL;
 }

@@ -9,9 +9,9 @@
 
 #include "fmi2Functions.h"
 #include "message.h"
+#include "state.h"
 
 typedef struct Instance Instance;
-typedef struct State State;
 
 /* NULL if there is no worker that can run the model; the host's log says why. */
 Instance *instance_new(const char *name, const char *guid, const char *uri, const fmi2CallbackFunctions *host,
@@ -34,13 +34,10 @@ fmi2Status instance_get(Instance *instance, enum kind kind, const uint32_t refer
 fmi2Status instance_set(Instance *instance, enum kind kind, const uint32_t references[], size_t count,
                         const void *values);
 
-/* States are the host's: they outlive the worker. */
 fmi2Status instance_save(Instance *instance, State **state);
 fmi2Status instance_restore(Instance *instance, State *state);
 void instance_forget(Instance *instance, State *state);
 int instance_owns(const Instance *instance, const State *state);
-size_t state_size(const State *state);
-void state_write(const State *state, char *bytes);
 State *instance_read(Instance *instance, const char *bytes, size_t size);
 
 #endif

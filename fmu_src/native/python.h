@@ -24,6 +24,12 @@ char *joined(const char *folder, const char *name);
 /* The path that a file URI means, to be freed; NULL if it is none. */
 char *path_of_uri(const char *uri);
 
+/* Whether there is such a file that can be read. */
+int readable(const char *path);
+
+/* Path of this library, to be freed; NULL if it cannot be told. */
+char *library_path(void);
+
 #ifdef _WIN32
 /* Text is UTF-8 everywhere but in calls of Windows; both to be freed, NULL without memory. */
 wchar_t *wide(const char *text);

@@ -1,5 +1,6 @@
 #include "python.h"
 
+#include <dlfcn.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -99,4 +100,11 @@ char **clean_environment(void) {
     }
     if (clean) clean[kept] = NULL;
     return clean;
+}
+
+int readable(const char *path) { return access(path, R_OK) == 0; }
+
+char *library_path(void) {
+    Dl_info info;
+    return dladdr((void *)&library_path, &info) ? realpath(info.dli_fname, NULL) : NULL;
 }

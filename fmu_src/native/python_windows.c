@@ -131,3 +131,23 @@ wchar_t *clean_environment(void) {
     if (all) FreeEnvironmentStringsW(all);
     return clean;
 }
+
+int readable(const char *path) {
+    wchar_t *wide_path = wide(path);
+    int found = wide_path && GetFileAttributesW(wide_path) != INVALID_FILE_ATTRIBUTES;
+    free(wide_path);
+    return found;
+}
+
+char *library_path(void) {
+    enum { LONGEST = 32768 };
+    const DWORD flags = GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT;
+    HMODULE library;
+    wchar_t *path = malloc(LONGEST * sizeof *path);
+    char *found = NULL;
+    if (path && GetModuleHandleExW(flags, (LPCWSTR)(const void *)&library_path, &library) &&
+        GetModuleFileNameW(library, path, LONGEST))
+        found = narrow(path);
+    free(path);
+    return found;
+}
