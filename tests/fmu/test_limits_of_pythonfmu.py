@@ -172,7 +172,8 @@ def test_a_model_that_hangs_is_given_up(stepped, monkeypatch):
 
 @limit("the interpreter and its packages are the host's")
 def test_the_host_need_not_have_the_packages(native_program, embedding, quick_folder):
-    host = NativeHost(native_program, embedding | {"PYTHONPATH": "", "TRIBOFMU_PYTHON": sys.executable})
+    nothing = {"PYTHONPATH": "", "PATH": "/nowhere"}  # an activated environment is found by PATH
+    host = NativeHost(native_program, embedding | nothing | {"TRIBOFMU_PYTHON": sys.executable})
     created = host.load(quick_folder).instance().created
     host.close()
     assert created.status == OK

@@ -293,7 +293,9 @@ def test_what_is_worth_knowing_is_a_note(slave: Callable[..., Path], monkeypatch
     assert verdicts(found, Verdict.FAIL) == set()
     assert verdicts(found, Verdict.NOTE) == {"unusable input", "memory", "step splitting"}
     assert "move y by" in found["step splitting"].evidence
-    assert re.search(r"grows by 1\d{3} kB", found["memory"].evidence)
+    grown = re.search(r"grows by (\d+) kB", found["memory"].evidence)
+    assert grown is not None
+    assert 500 < int(grown[1]) < 2000  # of 1024 that each hoards: what else was freed meanwhile counts, too
 
 
 def test_an_fmu_that_refuses_unusable_input_passes(slave: Callable[..., Path]) -> None:
