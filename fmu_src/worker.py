@@ -9,7 +9,7 @@ import os
 import struct
 import sys
 import traceback
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from enum import IntEnum
 from operator import itemgetter
 from pathlib import Path
@@ -30,6 +30,7 @@ _RECORD = struct.Struct("<HHId")
 _PART = struct.Struct("<Qq")
 _COUNT = struct.Struct("<Q")
 
+_OK, _ERROR = Fmi2Status.ok.value, Fmi2Status.error.value
 _KINDS = ("Real", "Integer", "Boolean", "String")
 _CAUSALITIES = ("input", "parameter", "tunable", "output")
 _TYPES: tuple[type, ...] = (float, int, bool, str)
@@ -100,7 +101,7 @@ class Worker:
         self._saved: dict[int, Any] = {}
         self._before: list[Buffer] = []  # parts of the state saved last
         self._outputs: Callable[[Sequence[Value]], tuple[Any, ...]] = lambda values: ()
-        self._row = struct.Struct("")
+        self._row = _ANSWER  # and the outputs
 
     def serve(self) -> None:
         """Answer until the host asks to quit."""
@@ -123,7 +124,7 @@ class Worker:
             self._fail(str(error))
         except BaseException:  # also SystemExit and KeyboardInterrupt: only the host ends a worker
             self._fail(traceback.format_exc())
-        self._channel.send([*self._head(outputs=operation not in _TABLES), *results])
+        self._channel.send([*self._head(operation not in _TABLES), *results])
         return True
 
     def _do(self, operation: int, state: int, numbers: Sequence[float], payload: bytes) -> Sequence[Buffer]:
@@ -153,28 +154,21 @@ class Worker:
         return self._table() if operation in _TABLES else ()
 
     def _fail(self, reason: str) -> None:
-        self._entries.append((Fmi2Status.error.value, "logStatusError", _escaped(reason)))
+        self._entries.append((_ERROR, "logStatusError", _escaped(reason)))
 
-    def _head(self, outputs: bool) -> Iterator[Buffer]:
+    def _head(self, outputs: bool) -> list[Buffer]:
         """Status, outputs if they stand until the next step and are asked for, and what was logged."""
         slave = self._slave
-        entries = self._entries
-        held = False
-        if slave is not None:
-            held = slave.held
-            if queue := slave._get_log_queue():
-                entries = entries + [(m.status.value, m.category, m.msg) for m in queue]
-                queue.clear()
-        status = Fmi2Status.ok.value
-        if entries and max(entry[0] for entry in entries) >= Fmi2Status.error.value:
-            status = Fmi2Status.error.value
-        values = self._outputs(slave.values) if held and outputs else ()
-        yield _ANSWER.pack(status, held, len(values), len(entries))
-        if values:
-            yield self._row.pack(*values)
-        for entry in entries:
-            yield _entry(*entry)
-        self._entries = []
+        entries, self._entries = self._entries, []
+        if slave is not None and (queue := slave._get_log_queue()):
+            entries += [(message.status.value, message.category, message.msg) for message in queue]
+            queue.clear()
+        status = _ERROR if any(entry[0] >= _ERROR for entry in entries) else _OK
+        held = slave is not None and slave.held
+        if held and outputs:
+            values = self._outputs(slave.values)
+            return [self._row.pack(status, held, len(values), len(entries), *values), *map(_entry, entries)]
+        return [_ANSWER.pack(status, held, 0, len(entries)), *map(_entry, entries)]
 
     def _set(self, message: bytes, offset: int, count: int) -> None:
         """Set what the host has set, in its order."""
@@ -216,7 +210,7 @@ class Worker:
         self._slave = slave = slave_class(self._resources)(**self._arguments)
         outputs = [vr for vr, (_, causality) in enumerate(slave.layout) if causality == "output"]
         self._outputs = itemgetter(*outputs) if len(outputs) > 1 else lambda values: tuple(values[i] for i in outputs)
-        self._row = struct.Struct(f"<{len(outputs)}d")
+        self._row = struct.Struct(f"{_ANSWER.format}{len(outputs)}d")
 
     def _evaluate(self) -> None:
         """Ask for every output: in initialisation mode that makes the slave compute them."""
@@ -265,7 +259,8 @@ def _identity(part: Buffer) -> tuple[int, int]:
     return (id(part.obj), part.nbytes) if isinstance(part, memoryview) else (id(part), len(part))
 
 
-def _entry(status: int, category: str, message: str) -> bytes:
+def _entry(entry: tuple[int, str, str]) -> bytes:
+    status, category, message = entry
     first, second = (text.encode("utf-8", "backslashreplace") + b"\0" for text in (category, message))
     texts = first + second
     return _ENTRY.pack(status, len(first), len(second), 0) + texts + _padding(len(texts))
