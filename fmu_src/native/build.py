@@ -110,7 +110,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     for platform in platforms:
         library = build(platform, arguments.compiler, arguments.out / platform)
         library.with_name(MADE_FROM).write_text(fingerprint(platform) + "\n")
-        found = image.read(library)
+        found = image.read(library.read_bytes())
         print(f"{library}: {library.stat().st_size} bytes")
         print(f"  needs   {', '.join(found.libraries)}")
         print(f"  imports {', '.join(found.imports)}")

@@ -1,40 +1,77 @@
-"""What a shared library takes from others and gives to them: ELF of 64-bit Linux, PE of 64-bit Windows."""
+"""What a shared library takes from others and gives to them. Nothing in its file is believed.
 
+ELF: System V ABI, chapters 4 and 5; versions of symbols: Linux Standard Base. PE: Microsoft, "PE Format".
+"""
+
+import re
 import struct
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from pathlib import Path
+from itertools import repeat
 
 _DYNAMIC, _DYNAMIC_SYMBOLS = 6, 11  # types of sections (ELF)
-_NEEDED = 1  # entry of the dynamic section
 _VERSIONS, _NEEDED_VERSIONS = 0x6FFFFFFF, 0x6FFFFFFE
-_EXPORTS, _IMPORTS = 0, 1  # directories (PE)
+_NEEDED = 1  # entry of the dynamic section
+_GLOBAL = 1  # binding of a symbol that must be found; weak ones may be missing
+_SIGNATURE = int.from_bytes(b"PE\0\0", "little")
+_PE32, _PE64 = 0x10B, 0x20B  # kinds of optional headers
+_MOST_SECTIONS = 96  # of a PE file: Windows loads no more
+
+_UNKNOWN = "it is neither a 64-bit ELF nor a PE file"
+_DAMAGED = "it is damaged"
+
+
+class ImageError(ValueError):
+    """A library of no kind known here, or a damaged one; the message says which."""
 
 
 @dataclass(frozen=True)
 class Image:
     """Names, sorted. An import of ELF carries its version: memcpy@GLIBC_2.14."""
 
-    libraries: tuple[str, ...]
+    libraries: tuple[str, ...]  # that the loader must find
     imports: tuple[str, ...]
     exports: tuple[str, ...]
+    unbound: tuple[str, ...] = ()  # imports that say neither of which library nor of which version
+    glibc: str = ""  # least version, where there is one
 
 
-def read(path: Path) -> Image:
-    """The image in a file. Raises ValueError if it is of no known kind."""
-    data = path.read_bytes()
+def read(data: bytes) -> Image:
+    """The image in a file: little-endian ELF of 64 bits, or PE. Raises ImageError."""
     if data[:6] == b"\x7fELF\x02\x01":
-        return _elf(data)
+        return _elf(_File(data))
     if data[:2] == b"MZ":
-        return _pe(data)
-    raise ValueError(f"{path} is neither a 64-bit ELF nor a PE file.")
+        return _pe(_File(data))
+    raise ImageError(_UNKNOWN)
 
 
-def _text(data: bytes, at: int) -> str:
-    return data[at : data.index(b"\0", at)].decode()
+class _File:
+    """Reads within the bounds of a file, and not in circles: tables of a sound file hardly overlap."""
+
+    def __init__(self, data: bytes):
+        self._data = data
+        self._left = 4 * len(data)  # bytes
+
+    def numbers(self, layout: str, at: int) -> tuple[int, ...]:
+        self._spend(at, struct.calcsize(layout))
+        return struct.unpack_from(layout, self._data, at)
+
+    def rows(self, layout: str, at: int, count: int) -> Iterator[tuple[int, ...]]:
+        size = struct.calcsize(layout)
+        return (self.numbers(layout, at + k * size) for k in range(count))
+
+    def text(self, at: int) -> str:
+        end = self._data.find(b"\0", at)
+        self._spend(at, end + 1 - at)
+        return self._data[at:end].decode("ascii", "replace")
+
+    def _spend(self, at: int, size: int) -> None:
+        self._left -= size
+        if size <= 0 or at + size > len(self._data) or self._left < 0:
+            raise ImageError(_DAMAGED)
 
 
-# ELF: System V ABI, AMD64 supplement; versions: Linux Standard Base, "Symbol Versioning"
+# ELF
 
 
 @dataclass(frozen=True)
@@ -45,86 +82,109 @@ class _Section:
     link: int
 
 
-def _elf(data: bytes) -> Image:
-    table, size, count = struct.unpack_from("<Q10xHH", data, 40)
-    sections = []
-    for k in range(count):
-        kind, offset, length, link = struct.unpack_from("<4xI16xQQI", data, table + k * size)
-        sections.append(_Section(kind, offset, length, link))
+def _elf(file: _File) -> Image:
+    table, length = file.numbers("<Q12xH", 40)
+    sections = [_Section(*row) for row in file.rows("<4xI16xQQI20x", table, length)]
     by_kind = {section.kind: section for section in sections}
+    if _DYNAMIC not in by_kind or _DYNAMIC_SYMBOLS not in by_kind:
+        raise ImageError("it has no table of dynamic symbols")
     symbols, dynamic = by_kind[_DYNAMIC_SYMBOLS], by_kind[_DYNAMIC]
+    if symbols.link >= len(sections):
+        raise ImageError(_DAMAGED)
     names = sections[symbols.link].offset
-    versions = dict(_needed_versions(data, by_kind[_NEEDED_VERSIONS], names)) if _NEEDED_VERSIONS in by_kind else {}
-    imports, exports = [], []
-    for k in range(1, symbols.size // 24):
-        name, info, section = struct.unpack_from("<IBxH", data, symbols.offset + 24 * k)
-        (version,) = struct.unpack_from("<H", data, by_kind[_VERSIONS].offset + 2 * k) if versions else (0,)
-        text = _text(data, names + name)
+    count = symbols.size // 24
+    needed, numbers = by_kind.get(_NEEDED_VERSIONS), by_kind.get(_VERSIONS)
+    versions = dict(_needed_versions(file, needed.offset, names)) if needed else {}
+    chosen = file.rows("<H", numbers.offset, count) if numbers else repeat((0,), count)
+    imports, exports, unbound = [], [], []
+    for row, (number,) in zip(file.rows("<IBxH16x", symbols.offset, count), chosen, strict=True):
+        name, info, section = row
+        version = versions.get(number & 0x7FFF)
         if section:
-            exports.append(text)
-        elif info >> 4 == 1:  # global: weak ones need not be there
-            imports.append("@".join(filter(None, (text, versions.get(version & 0x7FFF)))))
-    entries = struct.iter_unpack("<qQ", data[dynamic.offset : dynamic.offset + dynamic.size])
-    libraries = [_text(data, names + value) for tag, value in entries if tag == _NEEDED]
-    return Image(tuple(sorted(libraries)), tuple(sorted(imports)), tuple(sorted(exports)))
+            exports.append(file.text(names + name))
+        elif info >> 4 == _GLOBAL and version:
+            imports.append(f"{file.text(names + name)}@{version}")
+        elif info >> 4 == _GLOBAL:
+            unbound.append(file.text(names + name))
+    entries = file.rows("<QQ", dynamic.offset, dynamic.size // 16)
+    libraries = [file.text(names + value) for tag, value in entries if tag == _NEEDED]
+    return Image(
+        tuple(sorted(libraries)),
+        tuple(sorted(imports + unbound)),
+        tuple(sorted(exports)),
+        tuple(sorted(unbound)),
+        _least_glibc(versions.values()),
+    )
 
 
-def _needed_versions(data: bytes, section: _Section, names: int) -> Iterator[tuple[int, str]]:
+def _needed_versions(file: _File, at: int, names: int) -> Iterator[tuple[int, str]]:
     """Number and name of every version that is asked of a library."""
-    at, following = section.offset, 1
+    following = 1
     while following:
-        count, _, first, following = struct.unpack_from("<2xHIII", data, at)
+        count, first, following = file.numbers("<2xH4xII", at)
         entry = at + first
         for _ in range(count):
-            number, name, onward = struct.unpack_from("<6xHII", data, entry)
-            yield number, _text(data, names + name)
+            number, name, onward = file.numbers("<6xHII", entry)
+            yield number, file.text(names + name)
             entry += onward
         at += following
 
 
-# PE: Microsoft, "PE Format"
+def _least_glibc(versions: Iterable[str]) -> str:
+    """The newest of those versions that are of glibc; the loader wants all of them."""
+    found = [match[1] for version in versions if (match := re.fullmatch(r"GLIBC_([0-9]{1,4}(\.[0-9]{1,4})+)", version))]
+    return max(found, key=lambda text: [int(word) for word in text.split(".")], default="")
 
 
-def _pe(data: bytes) -> Image:
-    (header,) = struct.unpack_from("<I", data, 60)
-    sections, optional = struct.unpack_from("<H12xH", data, header + 6)
-    if data[header : header + 4] != b"PE\0\0" or data[header + 24 : header + 26] != b"\x0b\x02":
-        raise ValueError("The PE file is none for 64-bit Windows.")
-    directories = struct.unpack_from("<IIII", data, header + 24 + 112)
-    at = header + 24 + optional
-    placed = [struct.unpack_from("<8xIIII", data, at + 40 * k) for k in range(sections)]
-    libraries, imports = _pe_imports(data, directories[2 * _IMPORTS], placed)
-    exports = _pe_exports(data, directories[2 * _EXPORTS], placed)
+# PE
+
+
+def _pe(file: _File) -> Image:
+    (header,) = file.numbers("<I", 60)
+    signature, count, optional, kind = file.numbers("<I2xH12xH2xH", header)
+    if signature != _SIGNATURE or kind not in (_PE32, _PE64):
+        raise ImageError(_UNKNOWN)
+    if count > _MOST_SECTIONS:
+        raise ImageError(_DAMAGED)
+    sections = [*file.rows("<8x4I16x", header + 24 + optional, count)]
+    exported, _, imported, _ = file.numbers("<4I", header + 24 + (112 if kind == _PE64 else 96))
+    libraries, imports = _pe_imports(file, imported, sections, wide=kind == _PE64)
+    exports = _pe_exports(file, exported, sections)
     return Image(tuple(sorted(libraries)), tuple(sorted(imports)), tuple(sorted(exports)))
 
 
 def _place(address: int, sections: list[tuple[int, ...]]) -> int:
     """Offset in the file of a relative virtual address."""
-    for size, start, stored, offset in sections:
-        if start <= address < start + max(size, stored):
+    for _, start, stored, offset in sections:
+        if start <= address < start + stored:
             return address - start + offset
-    raise ValueError(f"The PE file has nothing at {address:#x}.")
+    raise ImageError(_DAMAGED)
 
 
-def _pe_exports(data: bytes, directory: int, sections: list[tuple[int, ...]]) -> list[str]:
+def _pe_exports(file: _File, directory: int, sections: list[tuple[int, ...]]) -> list[str]:
     if not directory:
         return []
-    count, names = struct.unpack_from("<I4xI", data, _place(directory, sections) + 24)
-    table = struct.unpack_from(f"<{count}I", data, _place(names, sections))
-    return [_text(data, _place(name, sections)) for name in table]
+    count, names = file.numbers("<I4xI", _place(directory, sections) + 24)
+    if not count:
+        return []
+    return [file.text(_place(name, sections)) for (name,) in file.rows("<I", _place(names, sections), count)]
 
 
-def _pe_imports(data: bytes, directory: int, sections: list[tuple[int, ...]]) -> tuple[list[str], list[str]]:
+def _pe_imports(
+    file: _File, directory: int, sections: list[tuple[int, ...]], wide: bool
+) -> tuple[list[str], list[str]]:
     libraries: list[str] = []
     names: list[str] = []
+    if not directory:
+        return libraries, names
+    layout, by_number = ("<Q", 1 << 63) if wide else ("<I", 1 << 31)
     at = _place(directory, sections)
-    while True:
-        lookup, library = struct.unpack_from("<I8xI", data, at)
-        if not library:
-            return libraries, names
-        libraries.append(_text(data, _place(library, sections)))
-        entry = _place(lookup, sections)
-        while (hint := struct.unpack_from("<Q", data, entry)[0]) != 0:
-            names.append(f"#{hint & 0xFFFF}" if hint >> 63 else _text(data, _place(hint, sections) + 2))
-            entry += 8
+    while (row := file.numbers("<I8xII", at))[1]:
+        lookup, library, addresses = row
+        libraries.append(file.text(_place(library, sections)))
+        entry = _place(lookup or addresses, sections)  # some linkers write the latter only
+        while hint := file.numbers(layout, entry)[0]:
+            names.append(f"#{hint & 0xFFFF}" if hint & by_number else file.text(_place(hint, sections) + 2))
+            entry += struct.calcsize(layout)
         at += 20
+    return libraries, names

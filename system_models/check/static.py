@@ -16,8 +16,8 @@ from lxml import etree
 
 from contact_core import units
 from contact_core.errors import SceneError
+from fmu_src.native import image
 
-from .binaries import Library, UnreadableError, read_library
 from .package import DESCRIPTION, Package
 from .variables import attribute, is_real
 from .verdict import Answer, failed, not_applicable, noted, passed, some
@@ -308,7 +308,7 @@ def functions(package: Package) -> Answer:
     wanted = [*_CO_SIMULATION, *_STATE * slave.canGetAndSetFMUstate, *_BYTES * slave.canSerializeFMUstate]
     libraries, unread = _libraries(package)
     for platform, library in libraries.items():
-        missing = [f"fmi2{name}" for name in wanted if f"fmi2{name}" not in library.exported]
+        missing = [f"fmi2{name}" for name in wanted if f"fmi2{name}" not in library.exports]
         if missing:
             return failed(f"The binary for {platform} does not export {some(missing)}.")
     if not libraries:
@@ -340,24 +340,24 @@ def host_needs(package: Package) -> Answer:
     return answer(f"{evidence}. {unread}".rstrip())
 
 
-def _beyond_the_system(library: Library, beside: set[str]) -> tuple[list[str], list[str], list[str]]:
+def _beyond_the_system(library: image.Image, beside: set[str]) -> tuple[list[str], list[str], list[str]]:
     """What of Python it needs, which libraries that neither the system nor the FMU has, and which symbols of none."""
-    foreign = [name for name in library.needed if not (_LINUX.match(name) or _WINDOWS.match(name) or name in beside)]
-    python = [name for name in library.undefined if name.lstrip("_").startswith("Py")]
+    foreign = [name for name in library.libraries if not (_LINUX.match(name) or _WINDOWS.match(name) or name in beside)]
+    python = [name for name in library.unbound if name.lstrip("_").startswith("Py")]
     python += [name for name in foreign if _PYTHON_LIBRARY.match(name)]
     foreign = [name for name in foreign if name not in python]
     # the system's libraries put versions on all their symbols, others need not
-    unversioned = any(not _LINUX.match(name) for name in library.needed)
-    return python, foreign, [] if unversioned else [name for name in library.undefined if name not in python]
+    unversioned = any(not _LINUX.match(name) for name in library.libraries)
+    return python, foreign, [] if unversioned else [name for name in library.unbound if name not in python]
 
 
-def _libraries(package: Package) -> tuple[dict[str, Library], str]:
+def _libraries(package: Package) -> tuple[dict[str, image.Image], str]:
     """The binaries by platform, and a sentence about those that were not read."""
     libraries, unread = {}, []
     for platform, name in sorted(package.binaries.items()):
         try:
-            libraries[platform] = read_library(package.archive.read(name))
-        except (UnreadableError, zipfile.BadZipFile, zlib.error) as error:
+            libraries[platform] = image.read(package.archive.read(name))
+        except (image.ImageError, zipfile.BadZipFile, zlib.error) as error:
             unread.append(f"{platform} was not examined: {error}.")
     return libraries, " ".join(unread)
 

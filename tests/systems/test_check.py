@@ -5,7 +5,6 @@ import re
 import sys
 import zipfile
 from collections.abc import Callable
-from importlib.resources import files
 from pathlib import Path
 
 import pytest
@@ -14,7 +13,6 @@ from pythonfmu.builder import FmuBuilder
 from contact_core import Scene
 from fmu_src.build import build
 from system_models.check import deep, report, stages
-from system_models.check.binaries import UnreadableError, read_library
 from system_models.check.instance import Instance
 from system_models.check.package import opened
 from system_models.check.verdict import Answer, Finding, Verdict
@@ -175,21 +173,17 @@ def test_a_failed_rule_is_told_by_the_exit_code(fmu: Path, tmp_path: Path, capsy
 # the binaries
 
 
-@pytest.mark.parametrize("name", ["linux64/libpythonfmu-export.so", "win64/pythonfmu-export.dll"])
-def test_libraries_of_both_systems_are_read(name: str) -> None:
-    data = (files("pythonfmu") / "resources" / "binaries" / name).read_bytes()
-    library = read_library(data)
-    assert {"fmi2Instantiate", "fmi2DoStep", "fmi2FreeInstance"} <= library.exported
-    if name.endswith(".so"):
-        assert "libc.so.6" in library.needed
-        assert "PyErr_Clear" in library.undefined
-        assert not {"malloc", "memcpy"} & {*library.undefined}
-        assert library.glibc.startswith("2.")
-    else:
-        assert {"python3.dll", "KERNEL32.dll"} <= set(library.needed)
-    for damaged in (data[:3000], data[:100], b"", b"#!/bin/sh\n"):
-        with pytest.raises(UnreadableError):
-            read_library(damaged)
+@pytest.mark.parametrize(
+    "data", [b"", b"#!/bin/sh\n", b"\x7fELF\x01\x01\x01" + bytes(90), b"\xcf\xfa\xed\xfe" + bytes(90)]
+)
+def test_a_binary_of_another_kind_is_not_examined(fmu: Path, tmp_path: Path, data: bytes) -> None:
+    other = edited(fmu, tmp_path / "other.fmu", unchanged, "binaries/")
+    with zipfile.ZipFile(other, "a") as archive:
+        archive.writestr("binaries/linux32/MixedContact.so", data)
+    found = static_findings(other)
+    for rule in ("functions", "host needs"):
+        assert found[rule].verdict == Verdict.NOT_APPLICABLE
+        assert "linux32 was not examined: it is neither a 64-bit ELF nor a PE file." in found[rule].evidence
 
 
 # the FMU at work
