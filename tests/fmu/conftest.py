@@ -2,29 +2,16 @@
 
 import shutil
 import sys
-import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from fmu_host import Host, hosted
+from fmu_host import SMALL, Host, hosted, unpacked
 from native_host import compiled, embedding_environment, plain_environment
 
 from contact_core import Scene
 from fmu_src.build import build
 from fmu_src.resources import FLAVOURS, Flavour
-
-SMALL = {
-    "film.points": "17",
-    "surface_1.correlation_length": "32 um",
-    "surface_2.correlation_length": "32 um",
-}
-
-
-def unpacked(fmu: Path, folder: Path) -> Path:
-    with zipfile.ZipFile(fmu) as archive:
-        archive.extractall(folder)
-    return folder
 
 
 @pytest.fixture(scope="session", autouse=True)

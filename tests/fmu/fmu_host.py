@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -12,6 +13,18 @@ from fmpy.fmi2 import fmi2OK
 from fmpy.simulation import instantiate_fmu
 
 import contact_core
+
+SMALL = {
+    "film.points": "17",
+    "surface_1.correlation_length": "32 um",
+    "surface_2.correlation_length": "32 um",
+}
+
+
+def unpacked(fmu: Path, folder: Path) -> Path:
+    with zipfile.ZipFile(fmu) as archive:
+        archive.extractall(folder)
+    return folder
 
 
 def environment() -> dict[str, str]:

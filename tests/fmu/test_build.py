@@ -4,7 +4,7 @@ import zipfile
 from importlib.resources import files
 
 import pytest
-from conftest import SMALL
+from fmu_host import SMALL
 
 from fmu_src.build import main
 

@@ -15,8 +15,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from conftest import SMALL, unpacked
-from fmu_host import hosted
+from fmu_host import SMALL, hosted, unpacked
 
 from contact_core import ConvergenceError, RangeFlag, Scene
 from contact_core.film import FILMS

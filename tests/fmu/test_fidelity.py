@@ -7,8 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 import pytest
-from conftest import unpacked
-from fmu_host import environment, hosted
+from fmu_host import environment, hosted, unpacked
 from replay import replay
 from test_run import bits
 

@@ -8,8 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from conftest import unpacked
-from fmu_host import environment, hosted
+from fmu_host import environment, hosted, unpacked
 
 from fmu_src.build import build
 

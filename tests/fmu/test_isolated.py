@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from conftest import unpacked
+from fmu_host import unpacked
 from native_host import ERROR, NONE, OK, Fmu, Instance, NativeHost, plain_environment
 from processes import alive, children, descriptors, resident, soon
 

@@ -9,7 +9,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
-from conftest import unpacked
+from fmu_host import unpacked
 from native_host import OK, NativeHost, compiled, plain_environment
 
 from contact_core import Scene

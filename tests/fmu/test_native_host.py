@@ -1,7 +1,7 @@
 """A host in C runs every flavour: many instances, several contacts and threads, states, reasons."""
 
 import pytest
-from conftest import unpacked
+from fmu_host import unpacked
 from native_host import NONE, OK, WARNING, NativeHost
 
 OUTPUTS = ("friction_force", "h_c", "wear_volume_1")

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from conftest import unpacked
+from fmu_host import unpacked
 
 from contact_core import Scene
 from fmu_src.build import build

@@ -8,9 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from conftest import unpacked
 from fmpy.fmi2 import fmi2Error
-from fmu_host import environment, hosted
+from fmu_host import environment, hosted, unpacked
 from hypothesis import given
 from hypothesis import strategies as st
 from replay import STEPS, replay

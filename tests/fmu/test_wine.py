@@ -11,7 +11,7 @@ from pathlib import Path
 import native_host
 import pytest
 import wine_host
-from conftest import unpacked
+from fmu_host import unpacked
 from native_host import ERROR, NONE, OK, Instance, NativeHost, plain_environment
 from wine_host import Relay, WineHost, windows_path
 
