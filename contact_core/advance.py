@@ -4,7 +4,6 @@ A block holds until the geometry has changed by `control.change`, a limit of tim
 however short or long the caller's steps are.
 """
 
-import math
 from dataclasses import replace
 from typing import Any
 
@@ -30,6 +29,7 @@ _UPPER = 0.8  # of the thickest tribofilm: nodes of the mean of the thick film
 _THIN = 3  # every third node along x and y is enough to tell the change of geometry
 _GROOVE = 0.2  # weight of a groove's depth among changes of geometry
 _NO_TIME = 1e-9  # s: shorter than any block
+_LONGEST_STEP = 1e9  # s: a longer one is a mistake, and would never end
 
 
 def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
@@ -43,8 +43,8 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
     for refusal in (scene.refusal(op), *map(scene.tribofilm.refusal, _given_temperatures(scene, op))):
         if refusal:
             raise OperatingPointError(refusal)
-    if not (math.isfinite(dt) and dt >= 0.0):
-        raise OperatingPointError(f"The step dt = {dt!r} s must be finite and not negative.")
+    if not 0.0 <= dt <= _LONGEST_STEP:
+        raise OperatingPointError(f"The step dt = {dt!r} s must be at least 0 and at most {_LONGEST_STEP:g} s.")
     if scene.film.name == "regression":
         return _advance_means(scene, op, state, dt)
     state = folded(scene, state)

@@ -11,6 +11,7 @@ import zipfile
 from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
+from shutil import which
 
 from contact_core.errors import SceneError
 from contact_core.scene import Scene
@@ -78,6 +79,16 @@ def binaries(flavour: Flavour, model: str) -> dict[str, bytes]:
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line; return 0, or 2 with a sentence on stderr."""
     parser = argparse.ArgumentParser(prog="build_fmu.py", description="Build the FMU of a scene.")
+    add_arguments(parser)
+    try:
+        return run(parser.parse_args(argv))
+    except SceneError as error:
+        print(error, file=sys.stderr)
+        return 2
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What `run` wants to know."""
     parser.add_argument("scene", metavar="SCENE", help="name of a shipped scene, or path of a .toml file")
     parser.add_argument("--out", type=Path, metavar="FILE.fmu", help="default: here, the scene's name")
     parser.add_argument(
@@ -104,23 +115,34 @@ def main(argv: Sequence[str] | None = None) -> int:
         default=[],
         help="change a value of the scene, e.g. film.points=65 or tribofilm.model=none",
     )
-    arguments = parser.parse_args(argv)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Build what the command line asks for and print its path; return 0, or 2 if it cannot be written.
+
+    Raises SceneError if it asks for what cannot be.
+    """
     if arguments.python and arguments.flavour == "embedded":
-        parser.error("--python is for isolated FMUs: an embedded one is run by its host's Python")
+        raise SceneError("--python is for isolated FMUs: an embedded one is run by its host's Python. Leave it out.")
+    scene = Scene.from_toml(arguments.scene, _overrides(arguments.overrides))
+    for warning in scene.warnings():
+        print(f"Note: {warning}", file=sys.stderr)
+    out = arguments.out or Path(f"{scene.name}.fmu")
     try:
-        scene = Scene.from_toml(arguments.scene, _overrides(arguments.overrides))
-        for warning in scene.warnings():
-            print(f"Note: {warning}", file=sys.stderr)
-        out = arguments.out or Path(f"{scene.name}.fmu")
-        python = arguments.python and str(Path(arguments.python).absolute())
-        print(build(scene, out, arguments.flavour, python=python, reference=True))
-    except SceneError as error:
-        print(error, file=sys.stderr)
-        return 2
+        print(build(scene, out, arguments.flavour, python=_recorded(arguments.python), reference=True))
     except OSError as error:
         print(f"The FMU cannot be written: {error}.", file=sys.stderr)
         return 2
     return 0
+
+
+def _recorded(python: str | None) -> str | None:
+    """The interpreter's whole path, if it is on this machine; a virtual environment's stays what it is."""
+    found = python and which(python)
+    if python and not found:
+        print(f"Note: '{python}' cannot be run here. The FMU will look for it as it stands.", file=sys.stderr)
+        return python
+    return str(Path(found).absolute()) if found else None
 
 
 def _overrides(pairs: Sequence[str]) -> dict[str, str]:

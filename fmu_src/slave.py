@@ -84,7 +84,8 @@ class _Told:
 class ContactSlave(Fmi2Slave):
     """One contact: its scene with the parameters, its state, and all variables by value reference.
 
-    `values` are theirs, `layout` has kind and causality of each; both are to be read only. The list stays the same one.
+    `values` are theirs, always the same list, `layout` has kind and causality of each, `phase` is where in its life it
+    is: all to be read only.
     """
 
     log_categories = LOG_CATEGORIES
@@ -106,7 +107,7 @@ class ContactSlave(Fmi2Slave):
         self._told = [_Told(self._variables, level) for level in LEVELS]
         self._scenes: Scenes | None = None
         self._state: ContactState | None = None
-        self._phase = Phase.NEW
+        self.phase = Phase.NEW
         self._fault = "its initialisation has not ended."
         self._interrupted = False
 
@@ -119,22 +120,17 @@ class ContactSlave(Fmi2Slave):
             # the means of the fresh surfaces, so that the processes share these
             advance(scene.at_level(LEVELS[0]), scene.operation.point, initial_state(scene), 0.0)
 
-    @property
-    def held(self) -> bool:
-        """Whether the outputs stand until the next step, whatever is set before it."""
-        return self._phase is Phase.STEPPING
-
     # initialisation and steps
 
     def enter_initialization_mode(self) -> None:
         """From here on the outputs follow inputs and parameters until initialisation ends."""
-        self._phase = Phase.UNSETTLED
+        self.phase = Phase.UNSETTLED
 
     def exit_initialization_mode(self) -> None:
         """Set up the contact and evaluate it, without moving time."""
-        if self._phase is not Phase.SETTLED:
+        if self.phase is not Phase.SETTLED:
             self._guard(self._initialise)
-        self._phase = Phase.STEPPING
+        self.phase = Phase.STEPPING
 
     def do_step(self, current_time: float, step_size: float) -> bool:
         """Advance under held inputs. False, which ends the simulation, only after the user's interrupt."""
@@ -144,7 +140,7 @@ class ContactSlave(Fmi2Slave):
 
     def _initialise(self) -> None:
         """Make scene, state and outputs from the parameters and inputs as they are now."""
-        self._phase = Phase.SETTLED
+        self.phase = Phase.SETTLED
         self._scenes = self._state = None
         self._fault = "an unexpected error was logged at initialisation."
         try:
@@ -248,7 +244,7 @@ class ContactSlave(Fmi2Slave):
     # variables by value reference
 
     def _get(self, references: list[int], kind: Kind) -> list[Any]:
-        if self._phase is Phase.UNSETTLED and any(self._causality(vr) == "output" for vr in references):
+        if self.phase is Phase.UNSETTLED and any(self._causality(vr) == "output" for vr in references):
             self._guard(self._initialise)
         found = []
         for vr in references:
@@ -270,11 +266,11 @@ class ContactSlave(Fmi2Slave):
         name = self._variables[reference].name
         if causality == "output":
             raise CallError(f"{name} is an output and cannot be set.")
-        if self.held and self._variables[reference].variability == "fixed":
+        if self.phase is Phase.STEPPING and self._variables[reference].variability == "fixed":
             raise CallError(f"{name} is a parameter: set it before initialisation ends, or reset the FMU first.")
         self.values[reference] = value
-        if self._phase is Phase.SETTLED:
-            self._phase = Phase.UNSETTLED
+        if self.phase is Phase.SETTLED:
+            self.phase = Phase.UNSETTLED
 
     def _causality(self, reference: int) -> Causality | None:
         return self._variables[reference].causality if 0 <= reference < len(self._variables) else None
@@ -314,7 +310,7 @@ class ContactSlave(Fmi2Slave):
     # state: a handle is a Snapshot, or its bytes until they are set (the binary decodes without the instance)
 
     def _get_fmu_state(self) -> Snapshot:
-        return Snapshot(self._module, self._phase, self._fault, tuple(self.values), self._scenes, self._state)
+        return Snapshot(self._module, self.phase, self._fault, tuple(self.values), self._scenes, self._state)
 
     def _set_fmu_state(self, handle: Snapshot | bytes) -> None:
         self._guard(self._restore, handle)
@@ -331,7 +327,7 @@ class ContactSlave(Fmi2Slave):
             return
         self.values[:] = handle.values
         self._scenes, self._state = handle.scenes, handle.state
-        self._phase, self._fault = handle.phase, handle.fault
+        self.phase, self._fault = handle.phase, handle.fault
 
     @staticmethod
     def parts(handle: Snapshot) -> list[bytes | memoryview]:

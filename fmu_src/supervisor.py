@@ -23,9 +23,12 @@ from pathlib import Path
 from .worker import Buffer, Worker, slave_class
 
 _SIZES = struct.Struct("<QQ")  # of the file, of the message
-_AT_SIZES, _AT_MESSAGE = 8, 64  # the turn comes first
+_SIZE = struct.Struct("<Q")
+_AT_SIZES, _AT_REASON_SIZE, _AT_REASON, _AT_MESSAGE = 8, 24, 64, 8192  # the turn comes first
 _WORKER, _HOST, _LOST = 1, 2, 3  # whose turn it is
-_REASON = 8000  # bytes
+_REASON = _AT_MESSAGE - _AT_REASON  # bytes
+
+_MODULES = "\nExtension modules:"  # the end of what faulthandler says, and of no use here
 
 _FUTEX, _WAIT, _WAKE = 202, 0, 1  # of x86-64
 _PR_SET_PDEATHSIG = 1
@@ -67,21 +70,20 @@ class SharedMemory:
     def send(self, chunks: Sequence[Buffer]) -> None:
         """Answer it."""
         data = b"".join(chunks)
-        self._write(data)
-        self._give(_HOST)
-
-    def lose(self, reason: str) -> None:
-        """Tell the host that there is no worker any more."""
-        self._write(reason.encode()[:_REASON])
-        self._give(_LOST)
-
-    def _write(self, data: bytes) -> None:
         end = _AT_MESSAGE + len(data)
         if end > len(self._memory):
             os.ftruncate(self._file, 2 * end)
             self._map()
         self._memory[_AT_MESSAGE:end] = data
         _SIZES.pack_into(self._memory, _AT_SIZES, len(self._memory), len(data))
+        self._give(_HOST)
+
+    def lose(self, reason: str) -> None:
+        """Tell the host that there is no worker any more."""
+        data = reason.encode()[:_REASON]
+        self._memory[_AT_REASON : _AT_REASON + len(data)] = data
+        _SIZE.pack_into(self._memory, _AT_REASON_SIZE, len(data))
+        self._give(_LOST)
 
     def _give(self, turn: int) -> None:
         self._turn.value = turn
@@ -135,25 +137,27 @@ class Supervisor:
             return False
         number = int.from_bytes(data[8:16], "little")
         if data[:1] == b"F":
-            self._fork(number, files[0])
+            self._control.send(self._forked(number, files))
         for pid, child in self._children.items():
             if data[:1] == b"K" and child.number == number:
                 os.kill(pid, signal.SIGKILL)
         return True
 
-    def _fork(self, number: int, file: int) -> None:
-        channel, trace = SharedMemory(file), os.memfd_create("trace")
+    def _forked(self, number: int, files: list[int]) -> bytes:
+        """Fork a worker for the channel in `files`; the answer to the order."""
         supervisor = os.getpid()
         try:
+            files.append(os.memfd_create("trace"))
+            file, trace = files  # one only if there was no descriptor left for the host's file
+            channel = SharedMemory(file)
             pid = os.fork()
-        except OSError as error:
-            channel.lose(f"No process could be forked for it ({error.strerror}).")
-            channel.close()
-            os.close(trace)
-            return
+        except (OSError, ValueError) as error:
+            for descriptor in files:
+                os.close(descriptor)
+            return f"ENo process could be made for it ({error}). Free other instances, or raise limits.".encode()
         if pid:
             self._children[pid] = Child(number, channel, trace)
-            return
+            return b"R"
         try:
             self._become_worker(supervisor, trace)
             Worker(channel, self._resources).serve()
@@ -180,10 +184,8 @@ class Supervisor:
             while (found := os.waitpid(-1, os.WNOHANG))[0]:
                 pid, status = found
                 child = self._children.pop(pid)
-                trace = (
-                    os.pread(child.trace, _REASON, 0).decode("utf-8", "replace").partition("\nExtension modules:")[0]
-                )
-                child.channel.lose(f"{_ending(status)}\n{trace}".rstrip())
+                trace = os.pread(child.trace, _REASON, 0).decode("utf-8", "replace")
+                child.channel.lose(f"{_ending(status)}\n{trace.partition(_MODULES)[0]}".rstrip())
                 child.channel.close()
                 os.close(child.trace)
 

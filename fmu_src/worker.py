@@ -21,6 +21,7 @@ from pythonfmu.enums import Fmi2Status
 
 from contact_core.errors import ContactError, SceneError
 
+from .snapshot import Phase
 from .variables import Value
 
 _REQUEST = struct.Struct("<IIQQQ3d")
@@ -31,6 +32,8 @@ _PART = struct.Struct("<Qq")
 _COUNT = struct.Struct("<Q")
 
 _OK, _ERROR = Fmi2Status.ok.value, Fmi2Status.error.value
+_PHASES = {Phase.NEW: 0, Phase.UNSETTLED: 1, Phase.SETTLED: 1, Phase.STEPPING: 2}
+_STEPPING = _PHASES[Phase.STEPPING]
 _KINDS = ("Real", "Integer", "Boolean", "String")
 _CAUSALITIES = ("input", "parameter", "tunable", "output")
 _TYPES: tuple[type, ...] = (float, int, bool, str)
@@ -164,11 +167,11 @@ class Worker:
             entries += [(message.status.value, message.category, message.msg) for message in queue]
             queue.clear()
         status = _ERROR if any(entry[0] >= _ERROR for entry in entries) else _OK
-        held = slave is not None and slave.held
-        if held and outputs:
+        phase = _PHASES[slave.phase] if slave is not None else 0
+        if phase == _STEPPING and outputs:
             values = self._outputs(slave.values)
-            return [self._row.pack(status, held, len(values), len(entries), *values), *map(_entry, entries)]
-        return [_ANSWER.pack(status, held, 0, len(entries)), *map(_entry, entries)]
+            return [self._row.pack(status, phase, len(values), len(entries), *values), *map(_entry, entries)]
+        return [_ANSWER.pack(status, phase, 0, len(entries)), *map(_entry, entries)]
 
     def _set(self, message: bytes, offset: int, count: int) -> None:
         """Set what the host has set, in its order."""

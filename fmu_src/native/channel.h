@@ -32,8 +32,8 @@ int channel_call(Channel *channel, size_t *size, double limit, Reason *why);
 /* The answer of the last call, until the next channel_room. */
 const unsigned char *channel_answer(const Channel *channel);
 
-/* Whether the worker has been lost since the last call. */
-int channel_lost(Channel *channel);
+/* Whether the worker has been lost since the last call, and why. */
+int channel_lost(Channel *channel, Reason *why);
 
 /* End the worker, without waiting for it, and free the channel. `message` (of `size` bytes) asks it to go. */
 void channel_close(Channel *channel, const void *message, size_t size);

@@ -1,7 +1,7 @@
 /* Linux: one supervisor process for this library imports the model once and forks a worker for every instance.
 
-   A channel is a file in memory that host and worker share: a head, whose `turn` both wait for as a futex, and room for
-   one message. The supervisor takes orders over a socket (supervisor.py): "F", a number and the channel's file: fork a
+   A channel is a file in memory that host and worker share: a head, whose `turn` both wait for as a futex, a place for
+   the supervisor's last words on the worker, and room for one message. The supervisor takes orders over a socket (supervisor.py): "F", a number and the channel's file: fork a
    worker; "K" and a number: kill it. When a worker ends, the supervisor writes why into the channel and takes its turn;
    when the host ends, the socket closes, and the supervisor kills the workers and ends. */
 
@@ -30,22 +30,25 @@
 enum turn { NOBODY, WORKER, HOST, LOST };
 
 enum {
-    HEAD = 64,           /* bytes before the message */
-    FIRST_ROOM = 65536,  /* bytes of a new channel */
-    WATCH = 50000000,    /* nanoseconds between looks at the supervisor */
-    SOCKET = 3,          /* the supervisor's end */
+    REASON = 64,        /* where in the file the supervisor says why the worker ended */
+    HEAD = 8192,        /* and where the message begins */
+    FIRST_ROOM = 65536, /* bytes of a new channel */
+    SOCKET = 3,         /* the supervisor's end */
 };
 
+/* seconds */
 #define START_LIMIT 120.0
 #define END_LIMIT 2.0
+#define WATCH 0.05 /* between looks at the supervisor */
 
 struct head {
     uint32_t turn, unused;
-    uint64_t capacity, size; /* bytes of the file, of the message */
+    uint64_t capacity, size, reason; /* bytes of the file, of the message, of the reason */
 };
 
 typedef struct {
-    int socket, users, lost;
+    int socket, users;
+    int foreign; /* it is that of the process from which this one was forked */
     pid_t process;
 } Supervisor;
 
@@ -75,8 +78,8 @@ static double now(void) {
 /* supervisor */
 
 static int hung_up(const Supervisor *supervisor) {
-    struct pollfd poll_socket = {supervisor->socket, POLLIN, 0};
-    return supervisor->lost || poll(&poll_socket, 1, 0) != 0;
+    struct pollfd end = {supervisor->socket, 0, 0}; /* without events: only the other side's end */
+    return supervisor->foreign || poll(&end, 1, 0) > 0;
 }
 
 static void release(Supervisor *supervisor) {
@@ -98,7 +101,7 @@ static void after_fork(void) {
     close(current->socket);
     current->socket = -1;
     current->process = 0;
-    current->lost = 1;
+    current->foreign = 1;
     current = NULL;
 }
 
@@ -153,21 +156,33 @@ static int spawn(Supervisor *supervisor, const char *resources, const char *pyth
     return started;
 }
 
-/* Wait for "R", or for "E" and the reason. */
+enum word { AGREED, REFUSED, GONE };
+
+/* Wait for the supervisor's "R", or for "E" and the reason. */
+static enum word heard(const Supervisor *supervisor, Reason *why) {
+    struct pollfd word = {supervisor->socket, POLLIN, 0};
+    double end = now() + START_LIMIT;
+    ssize_t length = -1;
+    errno = EINTR;
+    while (length < 0 && errno == EINTR && now() < end)
+        if (poll(&word, 1, (int)(1000.0 * (end - now())) + 1) > 0)
+            length = recv(supervisor->socket, why->text, sizeof why->text - 1, 0);
+    why->text[length > 0 ? length : 0] = 0;
+    if (length > 0 && why->text[0] == 'R') return AGREED;
+    if (length > 0) memmove(why->text, why->text + 1, (size_t)length);
+    return length > 0 ? REFUSED : GONE;
+}
+
+/* Wait until it has imported the model. */
 static int ready(const Supervisor *supervisor, const char *python, Reason *why) {
-    char text[sizeof why->text - 1024];
-    struct pollfd poll_socket = {supervisor->socket, POLLIN, 0};
-    int polled;
-    while ((polled = poll(&poll_socket, 1, (int)(START_LIMIT * 1000.0))) < 0 && errno == EINTR) continue;
-    ssize_t length = polled > 0 ? recv(supervisor->socket, text, sizeof text - 1, 0) : 0;
-    if (length > 0 && text[0] == 'R') return 1;
-    text[length > 0 ? length : 0] = 0;
-    if (length > 0)
-        snprintf(why->text, sizeof why->text, "%s\nIt was run by '%s'. %s", text + 1, python, PYTHON_HINT);
-    else
-        snprintf(why->text, sizeof why->text, "'%s' %s. %s", python,
-                 polled > 0 ? "ended before it was ready" : "was not ready in time", PYTHON_HINT);
-    return 0;
+    enum word word = heard(supervisor, why);
+    size_t used = word == REFUSED ? strlen(why->text) : 0;
+    if (word == REFUSED)
+        snprintf(why->text + used, sizeof why->text - used, "\nIt was run by '%s'. %s", python, PYTHON_HINT);
+    else if (word == GONE)
+        snprintf(why->text, sizeof why->text, "'%s' ended before it was ready, or was not ready in %g s. %s", python,
+                 START_LIMIT, PYTHON_HINT);
+    return word == AGREED;
 }
 
 /* Descriptors above those that the new process is given, so that none of them is overwritten. */
@@ -209,7 +224,6 @@ static Supervisor *supervisor_new(const char *resources, Reason *why) {
 /* The supervisor, with one user more; started if there is none. */
 static Supervisor *supervised(const char *resources, Reason *why) {
     if (current && hung_up(current)) {
-        current->lost = 1;
         release(current);
         current = NULL;
     }
@@ -253,11 +267,15 @@ static int give_turn(Channel *channel, size_t size) {
 }
 
 static int lost_because(Channel *channel, Reason *why) {
-    size_t size = channel->head->size, most = sizeof why->text - 1;
-    if (size > channel->mapped - HEAD) size = channel->mapped - HEAD;
+    size_t size = channel->head->reason, most = sizeof why->text - 1 < HEAD - REASON ? sizeof why->text - 1 : HEAD - REASON;
     if (size > most) size = most;
-    memcpy(why->text, (char *)channel->head + HEAD, size);
+    memcpy(why->text, (char *)channel->head + REASON, size);
     why->text[size] = 0;
+    return 0;
+}
+
+static int supervisor_lost(Reason *why) {
+    snprintf(why->text, sizeof why->text, "Its supervisor ended.");
     return 0;
 }
 
@@ -280,19 +298,18 @@ static int mapped_whole(Channel *channel) {
     return 1;
 }
 
-/* Wait for the worker's answer. */
+/* Wait for the worker's answer. Signals to the host may end each wait early: what is looked at goes by the clock. */
 static int answered(Channel *channel, double limit, Reason *why) {
-    double end = limit > 0.0 ? now() + limit : 0.0;
-    const struct timespec watch = {0, WATCH};
+    double start = now(), end = start + limit, look = start + WATCH;
+    const struct timespec watch = {0, (long)(1e9 * WATCH)};
     enum turn turn;
     while ((turn = turn_of(channel)) == WORKER) {
-        if (!syscall(SYS_futex, &channel->head->turn, FUTEX_WAIT, WORKER, &watch, NULL, 0) || errno != ETIMEDOUT)
-            continue;
-        if (hung_up(channel->supervisor)) {
-            snprintf(why->text, sizeof why->text, "Its supervisor ended.");
-            return 0;
-        }
-        if (end > 0.0 && now() > end) return timed_out(channel, limit, why);
+        if (!syscall(SYS_futex, &channel->head->turn, FUTEX_WAIT, WORKER, &watch, NULL, 0)) continue;
+        double time = now();
+        if (time < look) continue;
+        if (hung_up(channel->supervisor)) return supervisor_lost(why);
+        if (limit > 0.0 && time > end) return timed_out(channel, limit, why);
+        look = time + WATCH;
     }
     if (turn == LOST) return lost_because(channel, why);
     return mapped_whole(channel) || failed(why, "There is no memory for its answer");
@@ -330,21 +347,20 @@ static void channel_free(Channel *channel) {
 
 /* Order a worker for the channel: of a new supervisor if the present one is lost meanwhile. */
 static int worker_ordered(Channel *channel, const char *resources, Reason *why) {
+    enum word word = GONE;
     lock(&supervisor_lock);
     channel->number = ++channels;
-    int ordered = 0;
-    for (int attempt = 0; attempt < 2 && !ordered; attempt++) {
+    for (int attempt = 0; attempt < 2 && word == GONE; attempt++) {
         channel->supervisor = supervised(resources, why);
         if (!channel->supervisor) break;
-        ordered = order(channel->supervisor, 'F', channel->number, channel->file);
-        if (!ordered) {
-            failed(why, "Its supervisor does not listen");
+        if (order(channel->supervisor, 'F', channel->number, channel->file)) word = heard(channel->supervisor, why);
+        if (word != AGREED) {
             release(channel->supervisor);
             channel->supervisor = NULL;
         }
     }
     unlock(&supervisor_lock);
-    return ordered;
+    return word == AGREED;
 }
 
 Channel *channel_open(const char *resources, const void *message, size_t *size, double limit, Reason *why) {
@@ -375,7 +391,7 @@ unsigned char *channel_room(Channel *channel, size_t size) {
 }
 
 int channel_call(Channel *channel, size_t *size, double limit, Reason *why) {
-    if (channel->supervisor->lost) {
+    if (channel->supervisor->foreign) {
         snprintf(why->text, sizeof why->text, "It belongs to the process from which this one was forked.");
         return 0;
     }
@@ -387,10 +403,13 @@ int channel_call(Channel *channel, size_t *size, double limit, Reason *why) {
 
 const unsigned char *channel_answer(const Channel *channel) { return (unsigned char *)channel->head + HEAD; }
 
-int channel_lost(Channel *channel) { return turn_of(channel) == LOST || hung_up(channel->supervisor); }
+int channel_lost(Channel *channel, Reason *why) {
+    if (turn_of(channel) == LOST) return !lost_because(channel, why);
+    return hung_up(channel->supervisor) && !supervisor_lost(why);
+}
 
 void channel_close(Channel *channel, const void *message, size_t size) {
-    if (!channel->supervisor->lost) {
+    if (!channel->supervisor->foreign) {
         unsigned char *room = message && turn_of(channel) != WORKER ? channel_room(channel, size) : NULL;
         if (room) memcpy(room, message, size);
         if (!room || !give_turn(channel, size)) order(channel->supervisor, 'K', channel->number, -1);

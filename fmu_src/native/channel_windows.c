@@ -281,9 +281,10 @@ int channel_call(Channel *channel, size_t *size, double limit, Reason *why) {
 
 const unsigned char *channel_answer(const Channel *channel) { return (unsigned char *)(channel->room + 1); }
 
-int channel_lost(Channel *channel) {
-    return WaitForSingleObject(channel->process, 0) != WAIT_TIMEOUT ||
-           !PeekNamedPipe(channel->answers, NULL, 0, NULL, NULL, NULL);
+int channel_lost(Channel *channel, Reason *why) {
+    int lost = WaitForSingleObject(channel->process, 0) != WAIT_TIMEOUT ||
+               !PeekNamedPipe(channel->answers, NULL, 0, NULL, NULL, NULL);
+    return lost && !lost_because(channel, LOST, 0.0, why);
 }
 
 /* The worker need not be asked: between two calls it has nothing to lose, and it ends with its job. */

@@ -22,12 +22,13 @@ struct Instance {
     struct Instance *next;
     char *name, *guid, *resources;
     fmi2CallbackFunctions host;
-    int logging;
-    char **categories; /* NULL-terminated; NULL: all */
+    enum { QUIET, USUAL, LOUD } logging; /* errors; warnings, too; all in `categories` */
+    char **categories;                   /* NULL-terminated; NULL: all */
     Channel *worker;
     uint64_t life;       /* counts the workers */
     double limit;        /* seconds for a call; 0: none */
-    int held;            /* outputs stand until the next step, whatever inputs are set */
+    enum phase phase;    /* stepping: outputs stand until the next step, whatever inputs are set */
+    int terminated;
     int stale;           /* outputs are older than what they depend on */
     Variable *variables; /* by value reference */
     size_t count;
@@ -50,7 +51,8 @@ static Lock instances_lock = LOCK_INITIAL;
 
 static int heard(const Instance *instance, fmi2Status status, const char *category) {
     if (status >= fmi2Error) return 1;
-    if (!instance->categories) return instance->logging || status != fmi2OK;
+    if (instance->logging != LOUD) return instance->logging == USUAL && status != fmi2OK;
+    if (!instance->categories) return 1;
     for (char **wanted = instance->categories; *wanted; wanted++)
         if (!strcmp(*wanted, "logAll") || !strcmp(*wanted, category)) return 1;
     return 0;
@@ -62,19 +64,31 @@ static void tell(const Instance *instance, fmi2Status status, const char *catego
         instance->host.logger(instance->host.componentEnvironment, instance->name, status, category, message);
 }
 
-fmi2Status instance_fail(Instance *instance, const char *format, ...) {
-    va_list arguments;
-    va_start(arguments, format);
+/* Tell the host what is no format yet. */
+static void say(Instance *instance, fmi2Status status, const char *format, va_list arguments) {
     vsnprintf(instance->plain, sizeof instance->plain, format, arguments);
-    va_end(arguments);
     char *to = instance->escaped;
     for (const char *from = instance->plain; *from; from++) {
         if (*from == '%') *to++ = '%';
         *to++ = *from;
     }
     *to = 0;
-    tell(instance, fmi2Error, "logStatusError", instance->escaped);
+    tell(instance, status, status == fmi2Error ? "logStatusError" : "logStatusWarning", instance->escaped);
+}
+
+fmi2Status instance_fail(Instance *instance, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    say(instance, fmi2Error, format, arguments);
+    va_end(arguments);
     return fmi2Error;
+}
+
+static void warn(Instance *instance, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    say(instance, fmi2Warning, format, arguments);
+    va_end(arguments);
 }
 
 static void drop_categories(Instance *instance) {
@@ -85,7 +99,7 @@ static void drop_categories(Instance *instance) {
 
 void instance_hear(Instance *instance, fmi2Boolean logging, size_t count, const char *const categories[]) {
     drop_categories(instance);
-    instance->logging = logging;
+    instance->logging = logging ? LOUD : QUIET;
     if (!logging || !count || !(instance->categories = calloc(count + 1, sizeof *instance->categories))) return;
     size_t kept = 0;
     for (size_t i = 0; i < count; i++)
@@ -181,7 +195,7 @@ static fmi2Status answered(Instance *instance, size_t size, Reader *rest) {
     const void *head = taken(rest, sizeof answer);
     if (!head) return instance_fail(instance, "The worker's answer is damaged.");
     memcpy(&answer, head, sizeof answer);
-    instance->held = (int)answer.held;
+    instance->phase = (enum phase)answer.phase;
     if (!take_outputs(instance, rest, answer.outputs) || !take_logs(instance, rest, answer.logs))
         return instance_fail(instance, "The worker's answer is damaged.");
     return (fmi2Status)answer.status;
@@ -244,27 +258,51 @@ static fmi2Status request_table(Instance *instance, enum operation operation, ui
     fmi2Status status = request(instance, operation, NONE, state, payload, &rest);
     if (instance->worker && !take_table(instance, &rest))
         return instance_fail(instance, "The worker's table of variables is damaged.");
-    instance->stale = operation != LOOK && !instance->held;
+    instance->stale = operation != LOOK && instance->phase != STEPPING;
     return status;
+}
+
+/* Calls that FMI allows in one phase only. */
+static const struct {
+    const char *name;
+    enum phase phase;
+} CALLS[] = {
+    [SETUP] = {"fmi2SetupExperiment", NEW},
+    [ENTER] = {"fmi2EnterInitializationMode", NEW},
+    [EXIT] = {"fmi2ExitInitializationMode", INITIALISING},
+    [STEP] = {"fmi2DoStep", STEPPING},
+    [TERMINATE] = {"fmi2Terminate", STEPPING},
+};
+
+static fmi2Status out_of_turn(Instance *instance, const char *name) {
+    static const char *const now[] = {"before initialisation", "in initialisation mode", "after initialisation"};
+    return instance_fail(instance, "%s is not allowed %s. Nothing was done.", name,
+                         instance->terminated ? "after fmi2Terminate" : now[instance->phase]);
 }
 
 fmi2Status instance_do(Instance *instance, enum operation operation, const double numbers[3]) {
     Reader rest;
+    if (!instance->worker) return lost(instance);
+    if (instance->terminated || instance->phase != CALLS[operation].phase)
+        return out_of_turn(instance, CALLS[operation].name);
     fmi2Status status = request(instance, operation, numbers ? numbers : NONE, 0, 0, &rest);
-    instance->stale = !instance->held;
+    instance->stale = instance->phase != STEPPING;
+    instance->terminated = operation == TERMINATE && status == fmi2OK;
     return status;
 }
 
 /* A worker that was lost while nobody called is noticed here, not by the call that is to mend it. */
 static void notice_loss(Instance *instance) {
-    if (instance->worker && channel_lost(instance->worker)) {
-        snprintf(instance->why.text, sizeof instance->why.text, "It ended between two calls.");
+    if (instance->worker && channel_lost(instance->worker, &instance->why)) {
+        warn(instance, "The process that runs the model was lost between two calls: %s A new one takes its place.",
+             instance->why.text);
         lose_worker(instance);
     }
 }
 
 fmi2Status instance_reset(Instance *instance) {
     notice_loss(instance);
+    instance->terminated = 0;
     return instance->worker ? request_table(instance, RESET, 0, 0) : open_worker(instance);
 }
 
@@ -291,7 +329,7 @@ Instance *instance_new(const char *name, const char *guid, const char *uri, cons
     Instance *instance = calloc(1, sizeof *instance);
     if (!instance) return NULL;
     instance->host = *host;
-    instance->logging = logging;
+    instance->logging = logging ? LOUD : USUAL;
     instance->name = strdup(name ? name : "");
     instance->guid = strdup(guid ? guid : "");
     instance->stale = 1;
@@ -380,7 +418,7 @@ static int settable(Instance *instance, const Variable *variable, enum kind kind
     if (variable->causality == OUTPUT)
         instance_fail(instance, "The %s variable with value reference %u is an output and cannot be set.", KIND[kind],
                       reference);
-    else if (variable->causality == FIXED && instance->held)
+    else if (variable->causality == FIXED && instance->phase == STEPPING)
         instance_fail(instance,
                       "The %s variable with value reference %u is a fixed parameter: set it before initialisation "
                       "ends, or reset the FMU first.",
@@ -423,6 +461,7 @@ fmi2Status instance_set(Instance *instance, enum kind kind, const uint32_t refer
                         const void *values) {
     enum { MANY = 65536 };
     if (!instance->worker) return lost(instance);
+    if (instance->terminated) return out_of_turn(instance, "Setting a variable");
     for (size_t i = 0; i < count; i++) {
         Variable *variable = variable_of(instance, kind, references[i]);
         if (!variable || !settable(instance, variable, kind, references[i])) return fmi2Error;
@@ -430,7 +469,7 @@ fmi2Status instance_set(Instance *instance, enum kind kind, const uint32_t refer
     for (size_t i = 0; i < count; i++)
         if (!set_one(instance, &instance->variables[references[i]], references[i], values, i))
             return instance_fail(instance, "There is no memory for the values that are set.");
-    if (!instance->held) instance->stale = 1;
+    if (instance->phase != STEPPING) instance->stale = 1;
     return instance->sets_count > MANY ? request_table(instance, LOOK, 0, 0) : fmi2OK;
 }
 
@@ -497,8 +536,11 @@ static fmi2Status restore_bytes(Instance *instance, const State *state) {
 fmi2Status instance_restore(Instance *instance, State *state) {
     notice_loss(instance);
     if (!instance->worker && open_worker(instance) != fmi2OK) return fmi2Error;
-    return state->number && state->life == instance->life ? request_table(instance, RESTORE, state->number, 0)
-                                                          : restore_bytes(instance, state);
+    fmi2Status status = state->number && state->life == instance->life
+                            ? request_table(instance, RESTORE, state->number, 0)
+                            : restore_bytes(instance, state);
+    if (status == fmi2OK) instance->terminated = 0;
+    return status;
 }
 
 State *instance_read(Instance *instance, const char *bytes, size_t size) {

@@ -20,7 +20,8 @@ Instance *instance_new(const char *name, const char *guid, const char *uri, cons
 int instance_known(const void *component);
 void instance_free(Instance *instance);
 
-/* Which entries the host wants to hear: all, or those of the categories it names. */
+/* Which entries the host wants to hear: all, or those of the categories it names, or none. It hears errors anyway, and
+   warnings, too, until it has asked for none. */
 void instance_hear(Instance *instance, fmi2Boolean logging, size_t count, const char *const categories[]);
 /* Tell the host what went wrong, and return fmi2Error. */
 fmi2Status instance_fail(Instance *instance, const char *format, ...);

@@ -38,8 +38,10 @@ struct request {
     double numbers[3];
 };
 
+enum phase { NEW, INITIALISING, STEPPING };
+
 struct answer {
-    uint32_t status, held; /* fmi2Status; whether outputs stand until the next step whatever inputs are set */
+    uint32_t status, phase; /* fmi2Status; where in its life the model is now */
     uint64_t outputs, logs;
 };
 

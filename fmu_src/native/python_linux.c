@@ -104,7 +104,14 @@ char **clean_environment(void) {
 
 int readable(const char *path) { return access(path, R_OK) == 0; }
 
-char *library_path(void) {
+/* Told when the library is loaded: its path may be relative to where the host is then. */
+static char *library;
+
+__attribute__((constructor)) static void loaded(void) {
     Dl_info info;
-    return dladdr((void *)&library_path, &info) ? realpath(info.dli_fname, NULL) : NULL;
+    if (dladdr((void *)&library, &info)) library = realpath(info.dli_fname, NULL);
 }
+
+__attribute__((destructor)) static void unloaded(void) { free(library); }
+
+char *library_path(void) { return library ? strdup(library) : NULL; }

@@ -14,6 +14,7 @@
  *     cycles F N                  N times: instantiate and free
  *     together N                  the next N commands, each in a thread of its own, all at once
  *     fork                        a child that only waits; its process id
+ *     alarms MICROSECONDS         SIGALRM so often from now on; 0: no more
  */
 #include "c_host.h"
 
@@ -240,6 +241,17 @@ static int fork_child(char **field, int count)
     return fmi2OK;
 }
 
+/* signals that come all the time, as of a host's own clock */
+
+static void nothing(int number) {}
+
+static int alarms(char **field, int count)
+{
+    struct sigaction action = {.sa_handler = nothing, .sa_flags = SA_RESTART};
+    struct itimerval interval = {{0, atol(field[1])}, {0, atol(field[1])}};
+    return sigaction(SIGALRM, &action, NULL) || setitimer(ITIMER_REAL, &interval, NULL) ? fmi2Error : fmi2OK;
+}
+
 /* commands */
 
 typedef struct {
@@ -262,7 +274,7 @@ static const struct {
     {"getr", get_reals, 2}, {"geti", get_integers, 2}, {"getb", get_booleans, 2}, {"gets", get_strings, 2},
     {"save", save, 3}, {"restore", restore, 3}, {"freestate", free_state, 3},
     {"serialize", serialize, 4}, {"deserialize", deserialize, 4}, {"derivative", derivative, 4},
-    {"bench", bench, 8}, {"cycles", cycles, 3}, {"together", together, 2}, {"fork", fork_child, 1},
+    {"bench", bench, 8}, {"cycles", cycles, 3}, {"together", together, 2}, {"fork", fork_child, 1}, {"alarms", alarms, 2},
 };
 
 static void *obey(void *argument)

@@ -1,10 +1,12 @@
 /* What the commands of c_host.c work with: FMUs, instances and states by number, one line of text in or out. */
 #include <dlfcn.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
 #include <time.h>
 #include <unistd.h>
 

@@ -11,6 +11,8 @@ from typing import Any
 
 from pythonfmu import Fmi2Slave
 
+from fmu_src.snapshot import Phase
+
 INPUT, OUTPUT, PARAMETER = range(3)  # value references
 LAYOUT = (("Real", "input"), ("Real", "output"), ("Real", "parameter"))
 _VARIABLES = """
@@ -49,11 +51,17 @@ class Empty(Fmi2Slave):
     """y = p u at the end of a step."""
 
     layout = LAYOUT
-    held = True  # outputs stand until the next step
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.values = [0.0, 0.0, 1.0]
+        self.phase = Phase.NEW
+
+    def enter_initialization_mode(self) -> None:
+        self.phase = Phase.SETTLED
+
+    def exit_initialization_mode(self) -> None:
+        self.phase = Phase.STEPPING
 
     def do_step(self, current_time: float, step_size: float) -> bool:
         self.values[OUTPUT] = self.values[PARAMETER] * self.values[INPUT]

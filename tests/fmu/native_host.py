@@ -23,7 +23,7 @@ def compiled(folder: Path) -> Path:
     headers = Path(fmpy.__file__).parent / "c-code"
     options = [
         "-std=c99",
-        "-D_POSIX_C_SOURCE=200809L",
+        "-D_XOPEN_SOURCE=700",
         "-Wall",
         "-Wextra",
         "-Werror",

@@ -21,8 +21,13 @@ INPUTS = {
     "speed_2": st.one_of(st.floats(-1.0, 1.0), WILD),
     "temperature": st.one_of(st.floats(340.0, 360.0), WILD),
     "spin": st.one_of(st.floats(-10.0, 10.0), WILD),
+    "body_temperature_1": st.one_of(st.floats(340.0, 360.0), WILD),
+    "radius_x": st.one_of(st.floats(5e-3, 2e-2), WILD),
+    "radius_y": st.one_of(st.floats(5e-3, 2e-2), WILD),
 }
 STEPS = st.one_of(st.sampled_from([0.0, 1e-6, 1e-3, 1.0, 60.0, 3600.0]), WILD)
+GOOD = {"load": 40.0, "speed_1": 0.1, "speed_2": 0.09, "temperature": 353.15, "spin": 0.0, "fidelity": 1}
+GOOD |= {"body_temperature_1": 353.15, "radius_x": 9e-3, "radius_y": 9e-3}
 PARAMETERS = st.sampled_from(["wear.bare", "boundary_friction.bare", "plasticity.hardness", "surface_1.rq"])
 
 
@@ -52,8 +57,8 @@ class Calls(RuleBasedStateMachine):
         return answer
 
     @precondition(lambda self: self.phase == "new")
-    @rule(tolerance=WILD)
-    def begin(self, tolerance):
+    @rule()
+    def begin(self):
         self.called("setup")
         self.called("enter")
         self.phase = "initialising"
@@ -76,6 +81,12 @@ class Calls(RuleBasedStateMachine):
     def set_parameter(self, name, value):
         assert self.instance.set(**{name: value}) == [OK]
 
+    @precondition(lambda self: self.phase != "stepping")
+    @rule(path=st.sampled_from(["", "/nowhere/50%s", "ü", "x" * 5000]))
+    def set_initial_state(self, path):
+        assert self.instance.set(initial_state=path) == [OK]
+        assert self.instance.get("initial_state") == [path]
+
     @rule(level=st.integers(-1, 2))
     def set_fidelity(self, level):
         assert self.instance.set(fidelity=1 if level == 2 else level) == [OK]
@@ -84,7 +95,7 @@ class Calls(RuleBasedStateMachine):
     @rule(dt=STEPS, good=st.booleans())
     def step(self, dt, good):
         if good:
-            self.instance.set(load=40.0, speed_1=0.1, speed_2=0.09, temperature=353.15, spin=0.0, fidelity=1)
+            self.instance.set(**GOOD)
         before = self.instance.outputs()
         self.called("step", 0.0, dt)
         after = self.instance.outputs()
@@ -112,6 +123,18 @@ class Calls(RuleBasedStateMachine):
         self.called("deserialize", self.slots, file)
         self.kept[self.slots] = self.kept[state]
         return self.slots
+
+    @rule(state=states, at=st.floats(0.0, 1.0), bit=st.integers(0, 7))
+    def restore_a_damaged_copy(self, state, at, bit):
+        file, before = self.folder / "damaged", self.seen()
+        self.called("serialize", state, file)
+        data = bytearray(file.read_bytes())
+        data[min(int(at * len(data)), len(data) - 1)] ^= 1 << bit
+        file.write_bytes(data)
+        self.called("deserialize", 0, file)
+        assert self.instance.ask("restore", 0).status == ERROR
+        self.called("freestate", 0)
+        assert dict(self.seen()) == dict(before) | {"valid": 0}
 
     @rule(state=consumes(states))
     def forget(self, state):

@@ -3,8 +3,10 @@
 import itertools
 import math
 import os
+import resource
 import shutil
 import signal
+import subprocess
 import sys
 import zipfile
 from collections.abc import Iterator
@@ -134,7 +136,7 @@ def test_two_hundred_failures_leave_no_trace(host, faulty_folder):
 def test_a_lost_worker_says_so_at_every_call_until_a_state_is_restored(host, faulty_folder):
     instance = started(host, faulty_folder)
     instance.step(1.0, load=1006.0)
-    calls = [("step", 1.0, 1.0), ("setr", 0, 1.0), ("getr", 0), ("save", 1), ("exit",), ("terminate",)]
+    calls = [("step", 1.0, 1.0), ("setr", 0, 1.0), ("getr", 0), ("save", 1), ("terminate",)]
     for call in calls:
         answer = instance.ask(*call)
         assert answer.status == ERROR
@@ -182,6 +184,69 @@ def test_a_lost_supervisor_is_replaced(host, isolated_folder):
     for k, instance in enumerate(instances):
         assert instance.ask("restore", k).status == OK
         assert rows(instance) == expected
+
+
+def test_the_reason_of_a_loss_between_calls_is_told(host, isolated_folder):
+    first, second = started(host, isolated_folder), started(host, isolated_folder, 1)
+    for number, instance in enumerate((first, second)):
+        instance.ask("save", number)
+    (supervisor,) = children(host.process.pid)
+    workers = children(supervisor)
+    for worker in workers:
+        os.kill(worker, signal.SIGKILL)
+    assert soon(lambda: children(supervisor) == [])
+    first.log.clear()
+    assert first.step(1.0) == ERROR
+    assert "was lost: It was killed by signal 9 (Killed)" in first.log[0][3]
+    answer = second.ask("restore", 1)
+    assert answer.status == OK
+    assert "lost between two calls: It was killed by signal 9 (Killed)" in answer.log[0][3]
+    assert first.ask("restore", 0).status == OK
+
+    os.kill(supervisor, signal.SIGKILL)
+    assert soon(lambda: not alive(supervisor))
+    assert first.ask("reset").status == OK
+    answer = second.ask("step", 1.0, 1.0)
+    assert answer.status == ERROR
+    assert "was lost: Its supervisor ended." in answer.log[0][3]
+
+
+@pytest.mark.parametrize("victim", ["nobody", "supervisor"])
+def test_signals_to_the_host_neither_disturb_nor_delay(native_program, faulty_folder, victim):
+    """A periodic signal ends every wait early: limits and losses are noticed all the same, and none is made up."""
+    limit = {"TRIBOFMU_TIMEOUT": "1"} if victim == "nobody" else {}
+    with NativeHost(native_program, plain_environment() | limit) as host:
+        instance = started(host, faulty_folder)
+        instance.ask("save", 0)
+        (supervisor,) = children(host.process.pid)
+        assert host.ask("alarms", 1000).status == OK
+        for _ in range(300):
+            assert instance.ask("restore", 0).status == OK
+        assert children(host.process.pid) == [supervisor]
+        instance.set(load=1008.0)
+        host.tell("step", 0, 1.0, 1.0)
+        if victim == "supervisor":
+            os.kill(supervisor, signal.SIGKILL)
+        answer = host.answer()
+        assert answer.status == ERROR
+        assert ("no answer within 1 s" if victim == "nobody" else "supervisor ended") in answer.log[0][3]
+        assert host.ask("alarms", 0).status == OK
+
+
+def test_an_instance_for_which_there_is_no_descriptor_is_refused_alone(host, isolated_folder):
+    resource.prlimit(host.process.pid, resource.RLIMIT_NOFILE, (40, 40))
+    fmu = host.load(isolated_folder)
+    instances = []
+    while (instance := fmu.instance(len(instances))).created.status == OK:
+        instances.append(instance)
+        assert set(instance.initialise()) == {OK}
+    assert 5 < len(instances) < 20
+    assert "Free other instances, or raise limits" in instance.log[0][3]
+    assert {instance.step(1.0) for instance in instances} == {OK}
+    instances.pop().free()
+    (supervisor,) = children(host.process.pid)
+    assert soon(lambda: len(children(supervisor)) == len(instances))
+    assert fmu.instance(len(instances)).created.status == OK
 
 
 @pytest.mark.parametrize("load", [None, 1008.0, 1009.0])
@@ -339,6 +404,40 @@ def test_calls_that_fmi_does_not_allow_are_errors_and_change_nothing(host, isola
         assert answer.status == ERROR
         assert reason in answer.log[0][3]
     assert instance.outputs() == before
+
+
+def test_calls_out_of_turn_are_errors_and_change_nothing(host, isolated_folder):
+    instance = host.load(isolated_folder).instance()
+    before = [instance.ask(*call) for call in (("step", 0.0, 1.0), ("exit",), ("terminate",))]
+    instance.ask("enter")
+    within = [instance.ask(*call) for call in (("setup",), ("enter",), ("step", 0.0, 1.0), ("terminate",))]
+    instance.ask("exit")
+    outputs = instance.outputs()
+    after = [instance.ask(*call) for call in (("setup",), ("enter",), ("exit",))]
+    assert instance.outputs() == outputs
+    instance.ask("save", 0)
+    assert instance.ask("terminate").status == OK
+    ended = [instance.ask(*call) for call in (("step", 0.0, 1.0), ("setr", 0, 1.0), ("terminate",))]
+    assert instance.outputs() == outputs
+    told = ("before initialisation", "in initialisation mode", "after initialisation", "after fmi2Terminate")
+    for when, answers in zip(told, (before, within, after, ended), strict=True):
+        assert {answer.status for answer in answers} == {ERROR}
+        assert all(f"is not allowed {when}" in answer.log[0][3] for answer in answers)
+    assert instance.ask("restore", 0).status == OK
+    assert instance.step(1.0) == OK
+
+
+def test_a_library_loaded_by_a_relative_path_finds_its_resources(isolated_folder):
+    guid = (isolated_folder / "resources" / "guid.txt").read_text()
+    code = f"""
+import ctypes, os
+os.chdir({str(isolated_folder / "binaries" / "linux64")!r})
+library = ctypes.CDLL("./MixedContact.so")
+os.chdir("/")
+library.fmi2Instantiate.restype = ctypes.c_void_p
+assert library.fmi2Instantiate(b"contact", 1, {guid!r}.encode(), None, (ctypes.c_void_p * 5)(), 0, 0)
+"""
+    subprocess.run([sys.executable, "-c", code], env=plain_environment(), check=True)
 
 
 def test_freed_instances_and_states_are_errors_not_crashes(host, isolated_folder):

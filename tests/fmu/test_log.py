@@ -4,6 +4,7 @@ import math
 
 import fmpy
 import pytest
+from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Error, fmi2OK, fmi2Warning
 from fmu_host import hosted
 
@@ -111,3 +112,24 @@ def test_the_host_hears_only_the_categories_it_asked_for(stepped, monkeypatch):
     monkeypatch.setattr(slave, "advance", no_solution)
     stepped.step(60.0)
     assert [category for _, category, _ in stepped.entries] == ["logSolver"]
+
+
+def test_a_host_that_switches_logging_off_hears_errors_only(isolated_folder):
+    with hosted(isolated_folder, logging=False) as host:
+        host.initialise()
+        host.step(1.0, load=-1.0)
+        assert [status for status, *_ in host.entries] == [fmi2Warning]
+        host.fmu.setDebugLogging(False, [])
+        host.step(1.0)
+        with pytest.raises(FMICallException):
+            host.fmu.getReal([9999])
+        assert [status for status, *_ in host.entries] == [fmi2Warning, fmi2Error]
+
+
+@pytest.mark.parametrize(("categories", "heard"), [([], 1), (["logValidity"], 1), (["logAll"], 1), (["logSolver"], 0)])
+def test_a_host_hears_the_categories_it_names(isolated_folder, categories, heard):
+    with hosted(isolated_folder, logging=False) as host:
+        host.initialise()
+        host.fmu.setDebugLogging(True, categories)
+        host.step(1.0, load=-1.0)
+        assert [category for _, category, _ in host.entries] == ["logValidity"] * heard
