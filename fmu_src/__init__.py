@@ -1,6 +1,8 @@
 """The contact core as an FMU (FMI 2.0 co-simulation): `MixedContact`.
 
-    build       build: scene -> FMU file; main: the command line
+    command     the command line that builds an FMU
+    flavours    their names
+    build       build: scene -> FMU file
     variables   the FMU's variables, one per value reference, from the quantity table and the scene
     describe    modelDescription.xml
     document    documentation/index.html; from markup (HTML), equations, drawings, measured (errors and costs)

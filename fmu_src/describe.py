@@ -11,7 +11,8 @@ from contact_core import units
 from contact_core.film import Deterministic
 from contact_core.scene import Scene
 
-from .resources import MODEL, Flavour, guid
+from .flavours import Flavour
+from .resources import MODEL, guid
 from .slave import LOG_CATEGORIES
 from .variables import Value, Variable, variables
 

@@ -16,8 +16,9 @@ from contact_core.scene import Scene
 from contact_core.state import RangeFlag
 
 from . import drawings, equations, evidence, markup, measured, packages
+from .flavours import Flavour
 from .markup import bullets, equation, paragraph, plain, table
-from .resources import MODEL, Flavour
+from .resources import MODEL
 from .slave import ContactSlave
 from .variables import FIDELITY, INITIAL_STATE, Variable, variables
 

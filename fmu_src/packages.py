@@ -4,7 +4,8 @@ from importlib.metadata import PackageNotFoundError, distribution
 
 from contact_core import __version__
 
-from .resources import VERSIONS, Flavour
+from .flavours import Flavour
+from .resources import VERSIONS
 
 PACKAGE = "tribofmu"
 _HEADER = "fmi2TypesPlatform.h"  # one of those that our library is compiled with; all have the same licence

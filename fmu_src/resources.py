@@ -12,7 +12,6 @@ import json
 import uuid
 from importlib.resources import files as package_files
 from pathlib import Path
-from typing import Literal, get_args
 
 import pythonfmu
 
@@ -20,9 +19,9 @@ import contact_core
 from contact_core.errors import SceneError
 from contact_core.scene import Scene
 
+from .flavours import Flavour
+
 MODEL = "MixedContact"
-Flavour = Literal["isolated", "embedded"]
-FLAVOURS: tuple[Flavour, ...] = get_args(Flavour)
 VERSIONS = {"contact_core": contact_core.__version__, "pythonfmu": pythonfmu.__version__}
 
 # The loader runs the file twice and takes the deepest subclass of Fmi2Slave among its names: let it be one.

@@ -19,7 +19,7 @@ from contact_core import units
 from contact_core.errors import ContactError, StateError
 from contact_core.reading import shipped_scenes
 from contact_core.scene import Scene
-from fmu_src import build as fmu_build
+from fmu_src import command as fmu_command
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -79,8 +79,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     stribeck.add_argument("--srr", metavar="R", help="slide-to-roll ratio (u1 - u2) / u_e, instead of the scene's own")
     building = commands.add_parser("build", help="build the FMU of a scene, for another tool")
-    fmu_build.add_arguments(building)
-    building.set_defaults(command=fmu_build.run)
+    fmu_command.add_arguments(building)
+    building.set_defaults(command=fmu_command.run)
     check = commands.add_parser("check", help="give a verdict per rule on an FMU, anybody's")
     check.set_defaults(command=_check)
     check.add_argument("fmu", metavar="FILE.fmu", type=Path)
@@ -254,6 +254,8 @@ def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint") -> "xr.Datas
     from tqdm import tqdm
     from tqdm.contrib.logging import logging_redirect_tqdm
 
+    from fmu_src.build import build
+
     from .ball_on_disc import run
 
     logging.basicConfig(format="%(message)s")
@@ -264,7 +266,7 @@ def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint") -> "xr.Datas
         bar_format="{desc} {percentage:3.0f} %|{bar}| {n:.1f}/{total:.1f} min [{elapsed}<{remaining}]",
     )
     with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder, bar, logging_redirect_tqdm():
-        fmu = fmu_build.build(scene, Path(folder) / f"{scene.name}.fmu", "embedded")
+        fmu = build(scene, Path(folder) / f"{scene.name}.fmu", "embedded")
         return run(
             fmu,
             duty,

@@ -243,6 +243,9 @@ static int fork_child(char **field, int count)
 
 /* signals that come all the time, as of a host's own clock */
 
+#ifdef _WIN32
+static int alarms(char **field, int count) { return NONE; }
+#else
 static void nothing(int number) {}
 
 static int alarms(char **field, int count)
@@ -251,6 +254,7 @@ static int alarms(char **field, int count)
     struct itimerval interval = {{0, atol(field[1])}, {0, atol(field[1])}};
     return sigaction(SIGALRM, &action, NULL) || setitimer(ITIMER_REAL, &interval, NULL) ? fmi2Error : fmi2OK;
 }
+#endif
 
 /* commands */
 

@@ -11,7 +11,7 @@ from native_host import compiled, embedding_environment, plain_environment
 
 from contact_core import Scene
 from fmu_src.build import build
-from fmu_src.resources import FLAVOURS, Flavour
+from fmu_src.flavours import FLAVOURS, Flavour
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -6,7 +6,7 @@ from importlib.resources import files
 import pytest
 from fmu_host import SMALL
 
-from fmu_src.build import main
+from fmu_src.command import main
 
 CHANGES = [f"{key}={value}" for key, value in SMALL.items()]
 
