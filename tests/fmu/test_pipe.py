@@ -94,8 +94,8 @@ def test_it_is_ready_opens_steps_and_leaves_when_asked(resources: Path, scene: S
         for operation in (Operation.SETUP, Operation.ENTER, Operation.EXIT):
             assert status(host.ask(operation)) == OK
         answer = host.ask(Operation.STEP, numbers=(0.0, 1.0, 0.0))
-        _, held, outputs, _ = struct.unpack_from("<IIQQ", answer)
-        assert (status(answer), held) == (OK, 1)
+        _, phase, outputs, _ = struct.unpack_from("<IIQQ", answer)
+        assert (status(answer), phase) == (OK, 2)  # after initialisation
         assert outputs > 20
         host.send(struct.pack("<IIQQQ3d", Operation.QUIT, 0, 0, 0, 0, 0.0, 0.0, 0.0))
         assert host.end() == (0, "")
