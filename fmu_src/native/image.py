@@ -11,18 +11,30 @@ from itertools import repeat
 
 _DYNAMIC, _DYNAMIC_SYMBOLS = 6, 11  # types of sections (ELF)
 _VERSIONS, _NEEDED_VERSIONS = 0x6FFFFFFF, 0x6FFFFFFE
+_NOWHERE = 8  # type of a section that takes no room in the file (ELF)
 _NEEDED = 1  # entry of the dynamic section
 _GLOBAL = 1  # binding of a symbol that must be found; weak ones may be missing
 _SIGNATURE = int.from_bytes(b"PE\0\0", "little")
 _PE32, _PE64 = 0x10B, 0x20B  # kinds of optional headers
 _MOST_SECTIONS = 96  # of a PE file: Windows loads no more
 
+# machine in the header -> FMI 3's name of the platform
+_ELF_MACHINES = {62: "x86_64-linux", 183: "aarch64-linux"}
+_PE_MACHINES = {0x14C: "x86-windows", 0x8664: "x86_64-windows", 0xAA64: "aarch64-windows"}
+PLATFORMS = frozenset([*_ELF_MACHINES.values(), *_PE_MACHINES.values()])
+
 _UNKNOWN = "it is neither a 64-bit ELF nor a PE file"
-_DAMAGED = "it is damaged"
 
 
 class ImageError(ValueError):
     """A library of no kind known here, or a damaged one; the message says which."""
+
+
+class DamagedError(ImageError):
+    """A library whose file is cut short or spoilt."""
+
+    def __init__(self) -> None:
+        super().__init__("it is damaged")
 
 
 @dataclass(frozen=True)
@@ -45,6 +57,19 @@ def read(data: bytes) -> Image:
     raise ImageError(_UNKNOWN)
 
 
+def platform(data: bytes) -> str:
+    """The one of PLATFORMS that a library is for, by its header; nothing if it is for none. Raises DamagedError."""
+    file = _File(data)
+    if data[:6] == b"\x7fELF\x02\x01":
+        (machine,) = file.numbers("<H", 18)
+        return _ELF_MACHINES.get(machine, "")
+    if data[:2] == b"MZ":
+        (header,) = file.numbers("<I", 60)
+        signature, machine = file.numbers("<IH", header)
+        return _PE_MACHINES.get(machine, "") if signature == _SIGNATURE else ""
+    return ""
+
+
 class _File:
     """Reads within the bounds of a file, and not in circles: tables of a sound file hardly overlap."""
 
@@ -65,10 +90,16 @@ class _File:
         self._spend(at, end + 1 - at)
         return self._data[at:end].decode("ascii", "replace")
 
+    def must_hold(self, at: int, size: int) -> None:
+        """Raise DamagedError if the file ends before."""
+        if at + size > len(self._data):
+            raise DamagedError
+
     def _spend(self, at: int, size: int) -> None:
+        self.must_hold(at, size)
         self._left -= size
-        if size <= 0 or at + size > len(self._data) or self._left < 0:
-            raise ImageError(_DAMAGED)
+        if size <= 0 or self._left < 0:
+            raise DamagedError
 
 
 # ELF
@@ -83,14 +114,19 @@ class _Section:
 
 
 def _elf(file: _File) -> Image:
-    table, length = file.numbers("<Q12xH", 40)
+    segments, table, segment_count, length = file.numbers("<QQ8xH2xH", 32)
+    for offset, size in file.rows("<8xQ16xQ16x", segments, segment_count):
+        file.must_hold(offset, size)
     sections = [_Section(*row) for row in file.rows("<4xI16xQQI20x", table, length)]
+    for part in sections:
+        if part.kind != _NOWHERE:
+            file.must_hold(part.offset, part.size)
     by_kind = {section.kind: section for section in sections}
     if _DYNAMIC not in by_kind or _DYNAMIC_SYMBOLS not in by_kind:
         raise ImageError("it has no table of dynamic symbols")
     symbols, dynamic = by_kind[_DYNAMIC_SYMBOLS], by_kind[_DYNAMIC]
     if symbols.link >= len(sections):
-        raise ImageError(_DAMAGED)
+        raise DamagedError
     names = sections[symbols.link].offset
     count = symbols.size // 24
     needed, numbers = by_kind.get(_NEEDED_VERSIONS), by_kind.get(_VERSIONS)
@@ -145,8 +181,10 @@ def _pe(file: _File) -> Image:
     if signature != _SIGNATURE or kind not in (_PE32, _PE64):
         raise ImageError(_UNKNOWN)
     if count > _MOST_SECTIONS:
-        raise ImageError(_DAMAGED)
+        raise DamagedError
     sections = [*file.rows("<8x4I16x", header + 24 + optional, count)]
+    for _, _, stored, offset in sections:
+        file.must_hold(offset, stored)
     exported, _, imported, _ = file.numbers("<4I", header + 24 + (112 if kind == _PE64 else 96))
     libraries, imports = _pe_imports(file, imported, sections, wide=kind == _PE64)
     exports = _pe_exports(file, exported, sections)
@@ -158,7 +196,7 @@ def _place(address: int, sections: list[tuple[int, ...]]) -> int:
     for _, start, stored, offset in sections:
         if start <= address < start + stored:
             return address - start + offset
-    raise ImageError(_DAMAGED)
+    raise DamagedError
 
 
 def _pe_exports(file: _File, directory: int, sections: list[tuple[int, ...]]) -> list[str]:

@@ -17,6 +17,7 @@ from .verdict import Answer, Finding, Verdict, failed, not_applicable
 # stages of a rule, each in a new process (check.stages)
 RULES: dict[str, tuple[str, ...]] = {
     "run": ("run",),
+    "guid": ("guid",),
     "finite": ("finite",),
     "replay": ("record", "replay"),
     "rollback": ("rollback",),
@@ -24,6 +25,7 @@ RULES: dict[str, tuple[str, ...]] = {
     "step splitting": ("splitting",),
     "input range": ("sweep",),
     "unusable input": ("unusable",),
+    "feedthrough": ("feedthrough",),
     "reset": ("reset",),
     "memory": ("cycles",),
     "two instances": ("interleaved",),

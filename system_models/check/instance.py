@@ -1,19 +1,19 @@
 """One instance of a co-simulation FMU, every call written down before it is made: after a crash the last one shows."""
 
+import copy
 import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from ctypes import c_void_p
 from io import FileIO
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import fmpy
 from fmpy.fmi1 import FMICallException
-from fmpy.model_description import ModelVariable
 from fmpy.simulation import instantiate_fmu
 
-from .variables import clipped, magnitude
+from .variables import base_type, clipped, magnitude
 
 Value = float | int | bytes
 Row = dict[str, str]  # outputs as text that differs where bits differ
@@ -88,11 +88,14 @@ def _experiment(experiment: Any) -> tuple[float, float]:
 class Instance:
     """An instance of an FMU, with variables by name."""
 
-    def __init__(self, fmu: Fmu):
+    def __init__(self, fmu: Fmu, guid: str | None = None):
+        """Instantiate, with a `guid` that is not the FMU's if one is given."""
         self._owner = fmu
-        fmu.note("fmi2Instantiate")
+        description = copy.copy(fmu.description)
+        description.guid = description.guid if guid is None else guid
+        fmu.note("fmi2Instantiate" + ("" if guid is None else f" with guid = {guid}"))
         self._fmu = instantiate_fmu(
-            str(fmu.folder), fmu.description, fmi_type="CoSimulation", debug_logging=True, logger=self._logged
+            str(fmu.folder), description, fmi_type="CoSimulation", debug_logging=True, logger=self._logged
         )
         self._fatal = False
         self.time = fmu.start_time
@@ -123,7 +126,7 @@ class Instance:
         """Set variables by name."""
         for name, value in values.items():
             variable = self._owner.variables[name]
-            kind = _access(variable)
+            kind = base_type(variable)
             typed = value if kind == "Real" else int(value)
             self._call(f"set{kind}", [variable.valueReference], [typed], about=f" of {name} = {value:g}")
 
@@ -132,7 +135,7 @@ class Instance:
         found = {}
         for name in names:
             variable = self._owner.variables[name]
-            found[name] = self._call(f"get{_access(variable)}", [variable.valueReference], about=f" of {name}")[0]
+            found[name] = self._call(f"get{base_type(variable)}", [variable.valueReference], about=f" of {name}")[0]
         return found
 
     def step(self, size: float | None = None, inputs: dict[str, float] | None = None) -> None:
@@ -193,8 +196,3 @@ class Instance:
         """Free the instance; after a fatal status FMI allows no further call."""
         if not self._fatal:
             self._call("freeInstance")
-
-
-def _access(variable: ModelVariable) -> Literal["Real", "Integer", "Boolean", "String"]:
-    """The type by whose functions a variable is reached."""
-    return "Integer" if variable.type == "Enumeration" else variable.type

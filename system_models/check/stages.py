@@ -20,7 +20,7 @@ from fmpy.fmi1 import FMICallException
 from lxml import etree
 
 from .instance import Fmu, Instance, Row
-from .variables import extremes, magnitude
+from .variables import elsewhere, extremes, magnitude
 from .verdict import Answer, failed, not_applicable, noted, passed, some
 
 Stage = Callable[[Fmu, Path], Answer | None]
@@ -31,6 +31,7 @@ _LEAK = 10.0  # kB per instance that are worth a note
 _SPLIT = 1e-3  # of the magnitude: a difference by the size of the step that is worth a note
 _TOLERANCE = 1e-3  # of reference results that state none
 _RELATIVE_TOLERANCE = re.compile(r"^\s*RelTol\W+([\d.eE+-]+)", re.MULTILINE)
+_OTHER_GUID = "00000000-0000-0000-0000-000000000000"
 _TRUTH = {"true": 1.0, "false": 0.0}
 
 
@@ -70,6 +71,16 @@ def run(fmu: Fmu, notebook: Path) -> Answer:
         _rows(fmu, instance)
         instance.terminate()
     return passed(f"Instantiated, initialised, {_STEPS} steps of {fmu.step:g} s, terminated, freed.")
+
+
+def guid(fmu: Fmu, notebook: Path) -> Answer:
+    """The binary takes no description that is not its own."""
+    try:
+        instance = Instance(fmu, _OTHER_GUID)
+    except Exception:  # fmpy's own, for a null pointer
+        return passed("It refuses to be instantiated with another guid.")
+    instance.free()
+    return noted("It is instantiated with another guid, too: nothing shows that description and binary do not match.")
 
 
 def finite(fmu: Fmu, notebook: Path) -> Answer:
@@ -173,9 +184,14 @@ def _distance(first: dict, second: dict, name: str) -> float:
 
 
 @contextmanager
-def _again(fmu: Fmu) -> Iterator[Callable[[], Instance]]:
-    """A way to get an instance at its start values, as often as wanted: set back, or reset where it cannot be."""
+def _again(fmu: Fmu, steps: int = 0) -> Iterator[Callable[[], Instance]]:
+    """A way to get an instance at its start values, as often as wanted: set back, or reset where it cannot be.
+
+    It has made so many steps.
+    """
     with fmu.started() as instance:
+        for _ in range(steps):
+            instance.step()
         saved = instance.save() if fmu.capabilities.canGetAndSetFMUstate else None
 
         def again() -> Instance:
@@ -184,6 +200,8 @@ def _again(fmu: Fmu) -> Iterator[Callable[[], Instance]]:
             else:
                 instance.reset()
                 instance.initialise()
+                for _ in range(steps):
+                    instance.step()
             return instance
 
         yield again
@@ -231,6 +249,32 @@ def unusable(fmu: Fmu, notebook: Path) -> Answer:
     if passing:
         return noted(f"Passed on to the outputs: {some(passing)}; a host must check what it sets.")
     return passed(f"NaN and inf in {len(fmu.inputs)} inputs: {refused} refused by status, no output spoilt.")
+
+
+def feedthrough(fmu: Fmu, notebook: Path) -> Answer:
+    """An output that moves with an input before the next step declares that it depends on it."""
+    settings = [(v.name, x) for v in fmu.inputs if v.variability == "continuous" for x in elsewhere(v)]
+    declared = {
+        u.variable.name: {v.name for v in u.dependencies}
+        for u in fmu.description.outputs
+        if u.dependencies is not None  # else on every input
+    }
+    if not settings or not declared:
+        return not_applicable("There is no continuous input, or no output that declares its dependencies.")
+    with _again(fmu, steps=1) as again:
+        for name, value in settings:
+            instance = again()
+            before = instance.row()
+            instance.put({name: value})
+            moved = [output for output, text in instance.row().items() if text != before[output]]
+            silent = [output for output in moved if name not in declared.get(output, {name})]
+            if silent:
+                return failed(
+                    f"{name} = {value:g} moves {some(silent)} without a step; its dependencies do not list it."
+                )
+    return passed(
+        f"{len(settings)} settings of inputs between steps: no output moves at once that does not declare it."
+    )
 
 
 def reset(fmu: Fmu, notebook: Path) -> Answer:
@@ -372,8 +416,8 @@ def _replayed(fmu: Fmu, results: _Table, stimuli: _Table) -> Iterator[dict[str, 
 STAGES: dict[str, Stage] = {
     stage.__name__: stage
     for stage in (
-        run, finite, record, replay, rollback, save, resume, splitting, sweep, unusable, reset, cycles, interleaved,
-        reference,
+        run, guid, finite, record, replay, rollback, save, resume, splitting, sweep, unusable, feedthrough, reset,
+        cycles, interleaved, reference,
     )
 }  # fmt: skip
 

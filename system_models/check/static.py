@@ -10,7 +10,7 @@ from functools import wraps
 from pathlib import Path, PurePosixPath
 
 import fmpy
-from fmpy.model_description import BaseUnit, ModelDescription, ModelVariable
+from fmpy.model_description import BaseUnit, DisplayUnit, ModelDescription, ModelVariable
 from fmpy.validation import validate_fmu
 from lxml import etree
 
@@ -19,7 +19,7 @@ from contact_core.errors import SceneError
 from fmu_src.native import image
 
 from .package import DESCRIPTION, Package
-from .variables import attribute, is_real
+from .variables import attribute, base_type, is_real
 from .verdict import Answer, failed, not_applicable, noted, passed, some
 
 Rule = Callable[[Package], Answer]
@@ -41,6 +41,15 @@ _CO_SIMULATION = [
 # fmt: on
 _STATE = ["GetFMUstate", "SetFMUstate", "FreeFMUstate"]
 _BYTES = ["SerializedFMUstateSize", "SerializeFMUstate", "DeSerializeFMUstate"]
+
+# FMI 3's names of what the folders of FMI 2 may hold: they name no processor
+_FOLDERS = {
+    "linux64": {"x86_64-linux", "aarch64-linux"},
+    "win64": {"x86_64-windows", "aarch64-windows"},
+    "win32": {"x86-windows"},
+}
+
+_ROUNDED = 1e-5  # relative difference of a conversion for display that was written with few digits
 
 # supplied by every ordinary Linux or Windows
 _LINUX = re.compile(r"(lib(c|m|dl|pthread|rt|gcc_s|stdc\+\+)|ld-linux.*)\.so\.\d+$")
@@ -131,31 +140,55 @@ def unit_of_reals(description: ModelDescription) -> Answer:
 
 @_described
 def unit_audit(description: ModelDescription) -> Answer:
-    """A unit with the name of an SI unit is that unit."""
-    known = 0
+    """A unit with the name of an SI unit is that unit, and one for display is converted to what it is called."""
+    known = count = 0
     for unit in description.unitDefinitions:
-        expected = _si(unit.name)
-        if expected is None or unit.baseUnit is None or unit.baseUnit.mol:  # our mol is a number
+        count += 1 + len(unit.displayUnits)
+        base, expected = unit.baseUnit, _si(unit.name)
+        if base is None or base.mol:  # our mol is a number
             continue
-        known += 1
-        factor, exponents = expected
-        base = unit.baseUnit
-        right = math.isclose(base.factor, factor, rel_tol=1e-9) and base.offset == 0.0 and not (base.A or base.cd)
-        if not right or (base.m, base.kg, base.s, base.K) != exponents:
-            m, kg, s, kelvin = exponents
-            return failed(
-                f"The unit '{unit.name}' is declared as {_base(base)}; by its name it is "
-                f"{_base(BaseUnit(m=m, kg=kg, s=s, K=kelvin, factor=factor))}."
-            )
-    count = len(description.unitDefinitions)
+        if expected is not None:
+            known += 1
+            right = math.isclose(base.factor, expected.factor, rel_tol=1e-9) and base.offset == expected.offset
+            if not right or _dimension(base) != _dimension(expected):
+                declared = f"The unit '{unit.name}' is declared as {_base(base)}"
+                return failed(f"{declared}; by its name it is {_base(expected)}.")
+        for shown in unit.displayUnits:
+            meant = _si(shown.name)
+            if meant is None or ("rad" in unit.name) != ("rad" in shown.name):  # a name cannot tell turns from radians
+                continue
+            known += 1
+            if wrong := _misconverted(base, shown, meant):
+                return failed(f"The display unit '{shown.name}' of '{unit.name}' {wrong}.")
     return passed(f"{known} of {count} unit names are known here, and mean what they say.")
 
 
-def _si(name: str) -> tuple[float, units.Dimension] | None:
+def _misconverted(base: BaseUnit, shown: DisplayUnit, meant: BaseUnit) -> str:
+    """What is wrong with display = factor * value + offset, where the display's unit is `meant`."""
+    if _dimension(base) != _dimension(meant):
+        return f"is by its name {_base(meant)}, and cannot show {_base(base)}"
+    factor, offset = base.factor / meant.factor, (base.offset - meant.offset) / meant.factor
+    if math.isclose(shown.factor, factor, rel_tol=_ROUNDED) and math.isclose(shown.offset, offset, rel_tol=_ROUNDED):
+        return ""
+    return (
+        f"has factor={shown.factor:g} offset={shown.offset:g}; by its name it has factor={factor:g} offset={offset:g}"
+    )
+
+
+def _si(name: str | None) -> BaseUnit | None:
+    """What a unit is by its name, if that is known here."""
+    if name in ("degC", "°C"):
+        return BaseUnit(K=1, offset=273.15)
     try:
-        return units.unit(name)
-    except SceneError:
+        factor, (m, kg, s, kelvin) = units.unit(name or "?")
+    except (SceneError, OverflowError):
         return None
+    return BaseUnit(m=m, kg=kg, s=s, K=kelvin, factor=factor) if 0.0 < factor < math.inf else None
+
+
+def _dimension(base: BaseUnit) -> tuple[int, ...]:
+    """Exponents of the base units but rad, which is a number."""
+    return base.kg, base.m, base.s, base.A, base.K, base.cd
 
 
 def _base(base: BaseUnit) -> str:
@@ -167,26 +200,24 @@ def _base(base: BaseUnit) -> str:
 
 @_described
 def nominals(description: ModelDescription) -> Answer:
-    """Every Real has a nominal, finite and not zero."""
+    """Every Real has a nominal, finite and above zero."""
     reals = _reals(description)
     bare = [v.name for v in reals if attribute(v, "nominal") is None]
     if bare:
         return failed(f"Without a nominal: {some(bare)}; hosts then take 1, and tolerances miss small quantities.")
-    odd = [f"{v.name} = {attribute(v, 'nominal')}" for v in reals if not _scale(attribute(v, "nominal"))]
+    odd = [f"{v.name} = {text}" for v in reals if not _is_positive(text := str(attribute(v, "nominal")))]
     if odd:
-        return failed(f"The nominal {some(odd)} must be finite and not zero.")
+        return failed(f"The nominal {some(odd)} must be finite and above zero.")
     return passed(f"{len(reals)} Reals with their magnitudes.")
+
+
+def _is_positive(text: str) -> bool:
+    return 0.0 < float(text) < math.inf
 
 
 def _reals(description: ModelDescription) -> list[ModelVariable]:
     """All Reals but time, which is in seconds by FMI."""
     return [v for v in description.modelVariables if is_real(v) and v.causality != "independent"]
-
-
-def _scale(text: str | None) -> float:
-    """A nominal value as a positive number; 0 if it cannot serve."""
-    value = abs(float(text or 0.0))
-    return value if math.isfinite(value) else 0.0
 
 
 @_described
@@ -213,6 +244,24 @@ _STARTED = ("exact", "approx")
 def _range(variable: ModelVariable) -> tuple[float, float]:
     low, high = attribute(variable, "min"), attribute(variable, "max")
     return -math.inf if low is None else float(low), math.inf if high is None else float(high)
+
+
+@_described
+def aliases(description: ModelDescription) -> Answer:
+    """Variables of one value reference have one unit, and at most one of them can be set."""
+    groups: dict[tuple[str, int], list[ModelVariable]] = {}
+    for v in description.modelVariables:
+        if v.alias is None:
+            groups.setdefault((base_type(v), v.valueReference), []).append(v)
+    shared = [group for group in groups.values() if len(group) > 1]
+    for group in shared:
+        if len({attribute(v, "unit") for v in group}) > 1:
+            different = [f"{v.name} in {attribute(v, 'unit') or 'no unit'}" for v in group]
+            return failed(f"With one valueReference, {group[0].valueReference}, but not one unit: {some(different)}.")
+        settable = [v.name for v in group if v.causality in ("input", "parameter")]
+        if len(settable) > 1:
+            return failed(f"With one valueReference, {group[0].valueReference}, but each to be set: {some(settable)}.")
+    return passed(f"{len(groups)} values, {len(shared)} of them with several names.")
 
 
 # structure
@@ -261,6 +310,22 @@ def initial_unknowns(description: ModelDescription) -> Answer:
 
 
 @_described
+def experiment(description: ModelDescription) -> Answer:
+    """A default experiment that goes forward in time."""
+    default = description.defaultExperiment
+    if default is None:
+        return noted("There is no DefaultExperiment: a host must know the step that suits.")
+    start = float(default.startTime or 0.0)
+    if default.stopTime is not None and not float(default.stopTime) > start:
+        return failed(f"stopTime = {default.stopTime} must be above startTime = {start:g}.")
+    for name in ("stepSize", "tolerance"):
+        value = getattr(default, name)
+        if value is not None and not _is_positive(value):
+            return failed(f"{name} = {value} must be finite and above zero.")
+    return passed(f"From {start:g} s to {default.stopTime or '?'} s in steps of {default.stepSize or '?'} s.")
+
+
+@_described
 def capabilities(description: ModelDescription) -> Answer:
     """What the FMU can do for a master that iterates or goes back."""
     slave = description.coSimulation
@@ -286,7 +351,7 @@ def capabilities(description: ModelDescription) -> Answer:
 
 
 def platforms(package: Package) -> Answer:
-    """A binary of the right name for every platform that has a folder."""
+    """A whole binary of the right name and kind for every platform that has a folder."""
     folders = {name.split("/")[1] for name in package.names if re.match(r"binaries/[^/]+/.*\.(so|dll|dylib)$", name)}
     found = package.binaries
     unnamed = sorted(folders - set(found))
@@ -295,8 +360,27 @@ def platforms(package: Package) -> Answer:
         return failed(f"binaries/{unnamed[0]} holds no library called {wanted}, which is its modelIdentifier.")
     if not found and not package.sources:
         return failed("There is neither a binary nor source code: no host can run it.")
+    if wrong := _misplaced(package):
+        return failed(wrong)
     text = f"Binaries for {', '.join(sorted(found)) or 'no platform'}" + (", and sources." if package.sources else ".")
     return passed(text) if package.platform in found else noted(f"{text} None for this machine, {package.platform}.")
+
+
+def _misplaced(package: Package) -> str:
+    """What is wrong with the first binary that is damaged, or that is for a platform other than its folder's."""
+    for folder, name in sorted(package.binaries.items()):
+        allowed = _FOLDERS.get(folder, {folder})
+        try:
+            data = package.archive.read(name)
+            found = image.platform(data)
+            if allowed <= image.PLATFORMS and found not in allowed:
+                return f"{name} is a library for {found or 'no platform known here'}, not for {folder}."
+            image.read(data)
+        except image.DamagedError as error:
+            return f"{name} cannot be loaded: {error}, perhaps cut short."
+        except (image.ImageError, zipfile.BadZipFile, zlib.error):
+            continue  # of a kind that is not read here, or a matter of the archive
+    return ""
 
 
 def functions(package: Package) -> Answer:
@@ -405,9 +489,11 @@ RULES: dict[str, Rule] = {
     "unit audit": unit_audit,
     "nominals": nominals,
     "starts": starts,
+    "aliases": aliases,
     "outputs": outputs,
     "dependencies": dependencies,
     "initial unknowns": initial_unknowns,
+    "experiment": experiment,
     "capabilities": capabilities,
     "platforms": platforms,
     "functions": functions,

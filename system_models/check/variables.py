@@ -1,6 +1,7 @@
 """What a variable of fmpy's model description says of itself."""
 
 import math
+from typing import Literal
 
 from fmpy.model_description import ModelVariable
 
@@ -11,6 +12,11 @@ _MILLION = 1e6
 def is_real(variable: ModelVariable) -> bool:
     """True for variables of floating-point type."""
     return variable.type in _REALS
+
+
+def base_type(variable: ModelVariable) -> Literal["Real", "Integer", "Boolean", "String"]:
+    """The type by whose functions a variable of FMI 2 is reached; value references count within it."""
+    return "Integer" if variable.type == "Enumeration" else variable.type
 
 
 def attribute(variable: ModelVariable, name: str) -> str | None:
@@ -34,6 +40,12 @@ def clipped(variable: ModelVariable, value: float) -> float:
     if low is not None:
         value = max(value, float(low))
     return value if high is None else min(value, float(high))
+
+
+def elsewhere(variable: ModelVariable) -> list[float]:
+    """The start value moved by the magnitude, up and down, within the declared range."""
+    start = float(variable.start or 0.0)
+    return sorted({clipped(variable, start + step) for step in (-magnitude(variable), magnitude(variable))} - {start})
 
 
 def extremes(variable: ModelVariable) -> list[float]:
