@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fmu_src.native import build
-from fmu_src.native.image import Image, ImageError, read
+from fmu_src.native.image import DamagedError, Image, ImageError, platform, read
 
 OURS = {name: build.FOLDER / "binaries" / name / platform.library for name, platform in build.PLATFORMS.items()}
 OTHERS = files("pythonfmu") / "resources" / "binaries"
@@ -62,6 +62,21 @@ def test_a_pe_library_of_32_bits_is_read() -> None:
     table = struct.pack("<I8xII20x", 0x1028, 0x1034, 0x1028)
     found = read(pe_of_32_bits(table + struct.pack("<III", 0x103E, 1 << 31 | 7, 0) + b"some.dll\0\0\0\0called\0"))
     assert found == Image(("some.dll",), ("#7", "called"), ())
+
+
+def test_the_platform_is_that_of_the_header() -> None:
+    found = {name: platform(library.read_bytes()) for name, library in OURS.items()}
+    assert found == {"linux64": "x86_64-linux", "win64": "x86_64-windows"}
+    assert platform(pe_of_32_bits(b"")) == ""  # of no machine
+    assert platform(b"#!/bin/sh\n") == ""
+
+
+@pytest.mark.parametrize("name", OURS)
+def test_a_library_without_its_end_is_damaged(name: str) -> None:
+    data = OURS[name].read_bytes()
+    for length in (16, *range(1000, len(data), 1000), len(data) - 1):
+        with pytest.raises(DamagedError):
+            read(data[:length])
 
 
 @pytest.mark.parametrize(

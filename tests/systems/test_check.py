@@ -81,6 +81,40 @@ def test_our_own_fmu_breaks_no_rule(fmu: Path, capsys: pytest.CaptureFixture[str
             {"unit audit"},
             "'N' is declared as kg=1 m=1 s=-1; by its name it is kg=1 m=1 s=-2",
         ),
+        (
+            replaced('offset="-273.15"', 'offset="273.15"'),
+            {"unit audit"},
+            "'degC' of 'K' has factor=1 offset=273.15; by its name it has factor=1 offset=-273.15",
+        ),
+        (
+            replaced('(<Unit name="Pa">\\s*<BaseUnit [^>]*>)', r'\1<DisplayUnit name="GPa" factor="1e9"/>'),
+            {"unit audit"},
+            "'GPa' of 'Pa' has factor=1e+09 offset=0; by its name it has factor=1e-09 offset=0",
+        ),
+        (
+            replaced('(name="um" factor=)"[^"]*"', r'\1"1000"'),
+            {"unit audit"},
+            "by its name it has factor=1e+06 offset=0",
+        ),
+        (
+            replaced('(<Unit name="N">\\s*<BaseUnit [^>]*>)', r'\1<DisplayUnit name="mm" factor="1000"/>'),
+            {"unit audit"},
+            "'mm' of 'N' is by its name m=1 factor=0.001, and cannot show kg=1 m=1 s=-2",
+        ),
+        (replaced('nominal="50.0"', 'nominal="0"'), {"nominals"}, "load = 0 must be finite and above zero"),
+        (replaced('nominal="50.0"', 'nominal="-50"'), {"nominals"}, "load = -50 must be finite and above zero"),
+        (
+            replaced('(name="speed_1" valueReference=)"1"', r'\1"0"'),
+            {"aliases"},
+            "With one valueReference, 0, but not one unit: load in N, speed_1 in m/s.",
+        ),
+        (
+            replaced('(name="speed_2" valueReference=)"2"', r'\1"1"'),
+            {"aliases"},
+            "With one valueReference, 1, but each to be set: speed_1, speed_2.",
+        ),
+        (replaced('startTime="0.0"', 'startTime="7200"'), {"experiment"}, "stopTime = 7200.0 must be above startTime"),
+        (replaced('stepSize="[^"]*"', 'stepSize="0"'), {"experiment"}, "stepSize = 0 must be finite and above zero"),
         (replaced(' nominal="[^"]*"', ""), {"nominals"}, "Without a nominal: load;"),
         (replaced('(name="load".*\\s*<Real [^>]*start=)"[^"]*"', r'\1"-5"'), {"starts"}, "load starts at -5"),
         (
@@ -173,6 +207,48 @@ def test_a_failed_rule_is_told_by_the_exit_code(fmu: Path, tmp_path: Path, capsy
 # the binaries
 
 
+def with_binary(fmu: Path, out: Path, name: str, data: bytes) -> Path:
+    """A copy with another library in it."""
+    copy = edited(fmu, out, unchanged, re.escape(name))
+    with zipfile.ZipFile(copy, "a") as archive:
+        archive.writestr(name, data)
+    return copy
+
+
+LIBRARIES = {"linux64": "binaries/linux64/MixedContact.so", "win64": "binaries/win64/MixedContact.dll"}
+
+
+@pytest.mark.parametrize(
+    ("folder", "of", "evidence"),
+    [("linux64", "win64", "a library for x86_64-windows"), ("win64", "linux64", "a library for x86_64-linux")],
+)
+def test_a_library_in_the_folder_of_another_platform_fails(
+    fmu: Path, tmp_path: Path, folder: str, of: str, evidence: str
+) -> None:
+    with zipfile.ZipFile(fmu) as archive:
+        data = archive.read(LIBRARIES[of])
+    found = static_findings(with_binary(fmu, tmp_path / "other.fmu", LIBRARIES[folder], data))
+    assert verdicts(found, Verdict.FAIL) == {"platforms"}
+    assert f"{LIBRARIES[folder]} is {evidence}, not for {folder}." in found["platforms"].evidence
+
+
+def test_a_file_that_is_no_library_fails_where_the_platform_is_known(fmu: Path, tmp_path: Path) -> None:
+    found = static_findings(with_binary(fmu, tmp_path / "script.fmu", LIBRARIES["linux64"], b"#!/bin/sh\n"))
+    assert verdicts(found, Verdict.FAIL) == {"platforms"}
+    assert "for no platform known here, not for linux64" in found["platforms"].evidence
+
+
+@pytest.mark.parametrize("folder", LIBRARIES)
+@pytest.mark.parametrize("part", [0.0005, 0.3, 0.999])
+def test_a_library_that_is_cut_short_fails(fmu: Path, tmp_path: Path, folder: str, part: float) -> None:
+    with zipfile.ZipFile(fmu) as archive:
+        data = archive.read(LIBRARIES[folder])
+    cut = data[: int(part * len(data))]
+    found = static_findings(with_binary(fmu, tmp_path / "cut.fmu", LIBRARIES[folder], cut))
+    assert verdicts(found, Verdict.FAIL) == {"platforms"}
+    assert f"{LIBRARIES[folder]} cannot be loaded: it is damaged" in found["platforms"].evidence
+
+
 @pytest.mark.parametrize(
     "data", [b"", b"#!/bin/sh\n", b"\x7fELF\x01\x01\x01" + bytes(90), b"\xcf\xfa\xed\xfe" + bytes(90)]
 )
@@ -221,9 +297,9 @@ def slave(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Path
         script.write_text(SLAVE.format(name=name, step=step, start=start, body=body))
         states = {"canGetAndSetFMUstate": True, "canSerializeFMUstate": True}
         fmu = FmuBuilder.build_FMU(script, tmp_path / f"{name}_plain.fmu", **states)
-        return edited(
-            fmu, tmp_path / f"{name}.fmu", replaced('<Real start="1.5"', '<Real start="1.5" min="-2" max="10"')
-        )
+        ranged = replaced('<Real start="1.5"', '<Real start="1.5" min="-2" max="10"')
+        independent = replaced('(<Outputs>\\s*<Unknown index="3")', r'\1 dependencies=""')
+        return edited(fmu, tmp_path / f"{name}.fmu", lambda text: independent(ranged(text)))
 
     return make
 
@@ -249,7 +325,9 @@ def test_a_good_fmu_fails_no_rule_in_processes_of_its_own(slave: Callable[..., P
     found = deep_findings(slave("good"))
     assert verdicts(found, Verdict.FAIL) == set()
     assert verdicts(found, Verdict.NOT_APPLICABLE) == {"reference results"}
-    assert verdicts(found, Verdict.NOTE) <= {"unusable input", "memory"}
+    assert verdicts(found, Verdict.NOTE) - {"memory"} == {"unusable input", "guid"}
+    assert "with another guid, too" in found["guid"].evidence  # pythonfmu's binary never looks
+    assert "2 settings of inputs" in found["feedthrough"].evidence
     assert "u = nan (into y)" in found["unusable input"].evidence
     assert "3 steps with inputs at the ends" in found["input range"].evidence
 
@@ -259,6 +337,7 @@ FORGETFUL = """
     def _fmu_state_to_bytes(state):
         return json.dumps({**state, "x": 0.0}).encode()
 """
+DIRECT = "y = property(lambda self: self.x + self.u, lambda self, value: None)"
 SHARED = 'x = property(lambda self: sys.shared_x, lambda self, value: setattr(sys, "shared_x", value))'
 
 
@@ -269,6 +348,12 @@ SHARED = 'x = property(lambda self: sys.shared_x, lambda self, value: setattr(sy
         ("hides", {"step": "self.hidden += 1.0; self.y += self.hidden"}, {"rollback", "serialise"}, "instead of"),
         ("forgets", {"body": FORGETFUL}, {"serialise"}, "bytes do not hold"),
         ("shares", {"body": SHARED}, {"two instances"}, "y is 0.0"),
+        (
+            "feeds",
+            {"body": DIRECT},
+            {"feedthrough"},
+            "u = 0 moves y without a step; its dependencies do not list it.",
+        ),
         ("dislikes", {"step": "if step < 0.01: self.y = math.inf"}, {"step splitting"}, "two steps of 0.005 s"),
         ("overflows", {"step": "if self.u == 10.0: self.y = math.inf"}, {"input range"}, "with u = 10"),
     ],
@@ -285,7 +370,7 @@ def test_what_is_worth_knowing_is_a_note(slave: Callable[..., Path], monkeypatch
     monkeypatch.setattr(sys, "hoard", [], raising=False)
     found = answers(slave("hoards", start="sys.hoard.append(b'x' * (1 << 20))", step="self.y += step * 100.0"))
     assert verdicts(found, Verdict.FAIL) == set()
-    assert verdicts(found, Verdict.NOTE) == {"unusable input", "memory", "step splitting"}
+    assert verdicts(found, Verdict.NOTE) == {"unusable input", "guid", "memory", "step splitting"}
     assert "move y by" in found["step splitting"].evidence
     grown = re.search(r"grows by (\d+) kB", found["memory"].evidence)
     assert grown is not None
@@ -294,7 +379,22 @@ def test_what_is_worth_knowing_is_a_note(slave: Callable[..., Path], monkeypatch
 
 def test_an_fmu_that_refuses_unusable_input_passes(slave: Callable[..., Path]) -> None:
     found = answers(slave("refuses", step="self.x = self.x if math.isfinite(self.x) else 0.0; self.y = self.x"))
-    assert verdicts(found, Verdict.NOTE) <= {"memory"}
+    assert verdicts(found, Verdict.NOTE) <= {"guid", "memory"}
+
+
+def test_a_dependency_that_is_declared_is_no_fault(slave: Callable[..., Path], tmp_path: Path) -> None:
+    listed = replaced('dependencies=""', 'dependencies="1"')
+    found = answers(edited(slave("declares", body=DIRECT), tmp_path / "declared.fmu", listed))
+    assert found["feedthrough"].verdict == Verdict.PASS
+    unsaid = replaced('dependencies=""', "")
+    found = answers(edited(slave("omits", body=DIRECT), tmp_path / "unsaid.fmu", unsaid))
+    assert found["feedthrough"].verdict == Verdict.NOT_APPLICABLE
+
+
+def test_feedthrough_is_seen_where_no_state_can_be_kept(slave: Callable[..., Path], tmp_path: Path) -> None:
+    stateless = replaced('canGetAndSetFMUstate="true"', 'canGetAndSetFMUstate="false"')
+    found = answers(edited(slave("feeds_on", body=DIRECT), tmp_path / "stateless.fmu", stateless))
+    assert "u = 0 moves y" in found["feedthrough"].evidence
 
 
 def test_a_reset_that_does_nothing_fails(slave: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
@@ -363,9 +463,11 @@ def test_our_own_fmu_is_rolled_back_and_restored_in_another_process(
     flavour: str, scene: Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("TRIBOFMU_PYTHON", sys.executable)
-    monkeypatch.setattr(deep, "RULES", {rule: deep.RULES[rule] for rule in ("rollback", "serialise")})
+    rules = {"rollback", "serialise", "feedthrough", "guid"}
+    monkeypatch.setattr(deep, "RULES", {rule: stages for rule, stages in deep.RULES.items() if rule in rules})
     found = deep_findings(build(scene.at_level("regression"), tmp_path / "contact.fmu", flavour))
-    assert verdicts(found, Verdict.PASS) == {"rollback", "serialise"}
+    assert verdicts(found, Verdict.NOTE) == ({"guid"} if flavour == "embedded" else set())
+    assert verdicts(found, Verdict.PASS) == rules - verdicts(found, Verdict.NOTE)
 
 
 def test_what_cannot_be_run_here_is_not_judged(fmu: Path, tmp_path: Path) -> None:
