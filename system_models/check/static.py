@@ -155,7 +155,7 @@ def unit_audit(description: ModelDescription) -> Answer:
                 return failed(f"{declared}; by its name it is {_base(expected)}.")
         for shown in unit.displayUnits:
             meant = _si(shown.name)
-            if meant is None or ("rad" in unit.name) != ("rad" in shown.name):  # a name cannot tell turns from radians
+            if meant is None or ("rad" in str(unit.name)) != ("rad" in shown.name):  # 1/min may count turns
                 continue
             known += 1
             if wrong := _misconverted(base, shown, meant):
@@ -360,13 +360,13 @@ def platforms(package: Package) -> Answer:
         return failed(f"binaries/{unnamed[0]} holds no library called {wanted}, which is its modelIdentifier.")
     if not found and not package.sources:
         return failed("There is neither a binary nor source code: no host can run it.")
-    if wrong := _misplaced(package):
+    if wrong := _unfit(package):
         return failed(wrong)
     text = f"Binaries for {', '.join(sorted(found)) or 'no platform'}" + (", and sources." if package.sources else ".")
     return passed(text) if package.platform in found else noted(f"{text} None for this machine, {package.platform}.")
 
 
-def _misplaced(package: Package) -> str:
+def _unfit(package: Package) -> str:
     """What is wrong with the first binary that is damaged, or that is for a platform other than its folder's."""
     for folder, name in sorted(package.binaries.items()):
         allowed = _FOLDERS.get(folder, {folder})
