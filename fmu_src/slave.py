@@ -328,6 +328,7 @@ class ContactSlave(Fmi2Slave):
         self.values[:] = handle.values
         self._scenes, self._state = handle.scenes, handle.state
         self.phase, self._fault = handle.phase, handle.fault
+        self._interrupted = False
 
     @staticmethod
     def parts(handle: Snapshot) -> list[bytes | memoryview]:

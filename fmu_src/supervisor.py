@@ -1,7 +1,7 @@
 """The process behind the isolated flavour on Linux: it imports the model once and forks a worker for every instance.
 
-native/channel_linux.c is the other side: orders come over a socket, each worker's messages lie in a file in memory.
-The workers end with their supervisor, and the supervisor with its host.
+native/channel_linux.c is the other side: orders come over a socket and are answered there, each worker's messages lie
+in a file in memory. The workers end with their supervisor, and the supervisor with its host.
 """
 
 import ctypes
@@ -26,7 +26,7 @@ _SIZES = struct.Struct("<QQ")  # of the file, of the message
 _SIZE = struct.Struct("<Q")
 _AT_SIZES, _AT_REASON_SIZE, _AT_REASON, _AT_MESSAGE = 8, 24, 64, 8192  # the turn comes first
 _WORKER, _HOST, _LOST = 1, 2, 3  # whose turn it is
-_REASON = _AT_MESSAGE - _AT_REASON  # bytes
+_REASON, _TRACE = _AT_MESSAGE - _AT_REASON, 6000  # bytes: the last words on a worker, and its own in them
 
 _MODULES = "\nExtension modules:"  # the end of what faulthandler says, and of no use here
 
@@ -184,8 +184,9 @@ class Supervisor:
             while (found := os.waitpid(-1, os.WNOHANG))[0]:
                 pid, status = found
                 child = self._children.pop(pid)
-                trace = os.pread(child.trace, _REASON, 0).decode("utf-8", "replace")
-                child.channel.lose(f"{_ending(status)}\n{trace.partition(_MODULES)[0]}".rstrip())
+                trace = os.pread(child.trace, _TRACE, max(0, os.fstat(child.trace).st_size - _TRACE))
+                text = trace.decode("utf-8", "replace").partition(_MODULES)[0]
+                child.channel.lose(f"{_ending(status)}\n{text}".rstrip())
                 child.channel.close()
                 os.close(child.trace)
 

@@ -135,7 +135,8 @@ class Worker:
         slave = self._slave
         match operation:
             case Operation.STEP:
-                slave.do_step(numbers[0], numbers[1])
+                if not slave.do_step(numbers[0], numbers[1]):
+                    raise ContactError("The step was interrupted. Restore a saved state, or reset the FMU.")
             case Operation.SETUP:
                 slave.setup_experiment(numbers[0], *map(_defined, numbers[1:]))
             case Operation.ENTER:
@@ -209,7 +210,6 @@ class Worker:
         self._instantiate()
 
     def _instantiate(self) -> None:
-        self._slave = None  # two at once may be too large
         self._slave = slave = slave_class(self._resources)(**self._arguments)
         outputs = [vr for vr, (_, causality) in enumerate(slave.layout) if causality == "output"]
         self._outputs = itemgetter(*outputs) if len(outputs) > 1 else lambda values: tuple(values[i] for i in outputs)

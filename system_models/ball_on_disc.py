@@ -159,7 +159,7 @@ class _Recorder:
         if missing:
             raise ContactError(
                 f"The FMU '{description.modelName}' has no {', '.join(sorted(missing))}. "
-                "Use one that build_fmu.py has made."
+                "Use one that `tribofmu build` has made."
             )
         self.inputs: list[ModelVariable] = [inputs[name] for name in _INPUTS]
         self.outputs: dict[str, list[ModelVariable]] = {

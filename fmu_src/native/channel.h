@@ -35,6 +35,9 @@ const unsigned char *channel_answer(const Channel *channel);
 /* Whether the worker has been lost since the last call, and why. */
 int channel_lost(Channel *channel, Reason *why);
 
+/* Whether the worker is this process's own, which alone may call it, not that of the one from which it was forked. */
+int channel_ours(Channel *channel, Reason *why);
+
 /* End the worker, without waiting for it, and free the channel. `message` (of `size` bytes) asks it to go. */
 void channel_close(Channel *channel, const void *message, size_t size);
 

@@ -1,9 +1,10 @@
 /* Linux: one supervisor process for this library imports the model once and forks a worker for every instance.
 
    A channel is a file in memory that host and worker share: a head, whose `turn` both wait for as a futex, a place for
-   the supervisor's last words on the worker, and room for one message. The supervisor takes orders over a socket (supervisor.py): "F", a number and the channel's file: fork a
-   worker; "K" and a number: kill it. When a worker ends, the supervisor writes why into the channel and takes its turn;
-   when the host ends, the socket closes, and the supervisor kills the workers and ends. */
+   the supervisor's last words on the worker, and room for one message. The supervisor takes orders over a socket
+   (supervisor.py): "F", a number and the channel's file: fork a worker, answered by "R", or by "E" and why not; "K" and
+   a number: kill it. When a worker ends, the supervisor writes why into the channel and takes its turn; when the host
+   ends, the socket closes, and the supervisor kills the workers and ends. */
 
 #include <dlfcn.h>
 #include <errno.h>
@@ -61,6 +62,7 @@ struct Channel {
 };
 
 static Supervisor *current;
+static Supervisor *starting; /* not ready yet; then it is `current` */
 static uint64_t channels;
 static Lock supervisor_lock = LOCK_INITIAL;
 
@@ -97,12 +99,16 @@ static void release(Supervisor *supervisor) {
 
 /* The workers are the parent's: a process that was forked from the host has none, and does not keep them alive. */
 static void after_fork(void) {
-    if (!current) return;
-    close(current->socket);
-    current->socket = -1;
-    current->process = 0;
-    current->foreign = 1;
-    current = NULL;
+    Supervisor *known[] = {current, starting};
+    for (int i = 0; i < 2; i++)
+        if (known[i]) {
+            close(known[i]->socket);
+            known[i]->socket = -1;
+            known[i]->process = 0;
+            known[i]->foreign = 1;
+        }
+    current = starting = NULL;
+    supervisor_lock = (Lock)LOCK_INITIAL; /* another thread may have held it */
 }
 
 /* What pthread_atfork calls: by itself it leaves the handler behind when this library is unloaded, unless the compiler
@@ -142,8 +148,9 @@ static int spawn(Supervisor *supervisor, const char *resources, const char *pyth
     posix_spawnattr_setpgroup(&attributes, 0);
     posix_spawnattr_setflags(&attributes,
                              POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-    errno = start && environment ? posix_spawn(&supervisor->process, python, &files, &attributes, arguments, environment)
-                                 : ENOMEM;
+    errno = ENOMEM;
+    if (start && environment)
+        errno = posix_spawn(&supervisor->process, python, &files, &attributes, arguments, environment);
     int started = errno == 0;
     if (!started) {
         supervisor->process = 0;
@@ -156,7 +163,7 @@ static int spawn(Supervisor *supervisor, const char *resources, const char *pyth
     return started;
 }
 
-enum word { AGREED, REFUSED, GONE };
+enum word { AGREED, REFUSED, GONE, LATE };
 
 /* Wait for the supervisor's "R", or for "E" and the reason. */
 static enum word heard(const Supervisor *supervisor, Reason *why) {
@@ -170,7 +177,7 @@ static enum word heard(const Supervisor *supervisor, Reason *why) {
     why->text[length > 0 ? length : 0] = 0;
     if (length > 0 && why->text[0] == 'R') return AGREED;
     if (length > 0) memmove(why->text, why->text + 1, (size_t)length);
-    return length > 0 ? REFUSED : GONE;
+    return length > 0 ? REFUSED : now() < end ? GONE : LATE;
 }
 
 /* Wait until it has imported the model. */
@@ -179,9 +186,9 @@ static int ready(const Supervisor *supervisor, const char *python, Reason *why) 
     size_t used = word == REFUSED ? strlen(why->text) : 0;
     if (word == REFUSED)
         snprintf(why->text + used, sizeof why->text - used, "\nIt was run by '%s'. %s", python, PYTHON_HINT);
-    else if (word == GONE)
-        snprintf(why->text, sizeof why->text, "'%s' ended before it was ready, or was not ready in %g s. %s", python,
-                 START_LIMIT, PYTHON_HINT);
+    else if (word != AGREED)
+        snprintf(why->text, sizeof why->text, "'%s' %s. %s", python,
+                 word == GONE ? "ended before it was ready" : "was not ready in time", PYTHON_HINT);
     return word == AGREED;
 }
 
@@ -208,10 +215,12 @@ static Supervisor *supervisor_new(const char *resources, Reason *why) {
             failed(why, "There is no socket for the model's process");
         else {
             supervisor->socket = ends[0];
+            starting = supervisor;
             started = spawn(supervisor, resources, python, ends[1], why);
         }
         if (ends[1] >= 0) close(ends[1]);
         if (started) started = ready(supervisor, python, why);
+        starting = NULL;
         if (!started) {
             release(supervisor);
             supervisor = NULL;
@@ -267,8 +276,8 @@ static int give_turn(Channel *channel, size_t size) {
 }
 
 static int lost_because(Channel *channel, Reason *why) {
-    size_t size = channel->head->reason, most = sizeof why->text - 1 < HEAD - REASON ? sizeof why->text - 1 : HEAD - REASON;
-    if (size > most) size = most;
+    enum { MOST = sizeof why->text - 1 < HEAD - REASON ? sizeof why->text - 1 : HEAD - REASON };
+    size_t size = channel->head->reason < MOST ? channel->head->reason : MOST;
     memcpy(why->text, (char *)channel->head + REASON, size);
     why->text[size] = 0;
     return 0;
@@ -281,7 +290,8 @@ static int supervisor_lost(Reason *why) {
 
 static int timed_out(Channel *channel, double limit, Reason *why) {
     snprintf(why->text, sizeof why->text,
-             "There was no answer within %g s, so it was killed. TRIBOFMU_TIMEOUT sets the limit.", limit);
+             "There was no answer within %g s, so it was killed. TRIBOFMU_TIMEOUT sets the limit; a start has 120 s.",
+             limit);
     lock(&supervisor_lock);
     order(channel->supervisor, 'K', channel->number, -1);
     unlock(&supervisor_lock);
@@ -345,21 +355,28 @@ static void channel_free(Channel *channel) {
     free(channel);
 }
 
-/* Order a worker for the channel: of a new supervisor if the present one is lost meanwhile. */
+/* Order a worker for the channel: of a new supervisor if the present one is lost meanwhile. One that does not answer is
+   killed, as what it might say later would be taken for the answer to another order. */
 static int worker_ordered(Channel *channel, const char *resources, Reason *why) {
     enum word word = GONE;
     lock(&supervisor_lock);
     channel->number = ++channels;
     for (int attempt = 0; attempt < 2 && word == GONE; attempt++) {
         channel->supervisor = supervised(resources, why);
-        if (!channel->supervisor) break;
+        if (!channel->supervisor) {
+            unlock(&supervisor_lock);
+            return 0;
+        }
         if (order(channel->supervisor, 'F', channel->number, channel->file)) word = heard(channel->supervisor, why);
+        if (word == LATE) kill(channel->supervisor->process, SIGKILL);
         if (word != AGREED) {
             release(channel->supervisor);
             channel->supervisor = NULL;
         }
     }
     unlock(&supervisor_lock);
+    if (word == GONE || word == LATE)
+        snprintf(why->text, sizeof why->text, "Its supervisor %s.", word == GONE ? "ended" : "did not answer in time");
     return word == AGREED;
 }
 
@@ -391,10 +408,6 @@ unsigned char *channel_room(Channel *channel, size_t size) {
 }
 
 int channel_call(Channel *channel, size_t *size, double limit, Reason *why) {
-    if (channel->supervisor->foreign) {
-        snprintf(why->text, sizeof why->text, "It belongs to the process from which this one was forked.");
-        return 0;
-    }
     if (!give_turn(channel, *size)) return lost_because(channel, why);
     if (!answered(channel, limit, why)) return 0;
     *size = channel->head->size;
@@ -406,6 +419,12 @@ const unsigned char *channel_answer(const Channel *channel) { return (unsigned c
 int channel_lost(Channel *channel, Reason *why) {
     if (turn_of(channel) == LOST) return !lost_because(channel, why);
     return hung_up(channel->supervisor) && !supervisor_lost(why);
+}
+
+int channel_ours(Channel *channel, Reason *why) {
+    if (!channel->supervisor->foreign) return 1;
+    snprintf(why->text, sizeof why->text, "It belongs to the process from which this one was forked.");
+    return 0;
 }
 
 void channel_close(Channel *channel, const void *message, size_t size) {

@@ -191,7 +191,9 @@ static int lost_because(Channel *channel, enum outcome outcome, double limit, Re
     DWORD code = 0;
     if (outcome == LATE)
         snprintf(why->text, sizeof why->text,
-                 "There was no answer within %g s, so it was killed. TRIBOFMU_TIMEOUT sets the limit.", limit);
+                 "There was no answer within %g s, so it was killed. TRIBOFMU_TIMEOUT sets the limit; a start has "
+                 "120 s.",
+                 limit);
     else if (outcome == TOO_LONG)
         snprintf(why->text, sizeof why->text, "There is no room for its answer, so it was killed.");
     else if (!WaitForSingleObject(channel->process, END_LIMIT) && GetExitCodeProcess(channel->process, &code))
@@ -285,6 +287,11 @@ int channel_lost(Channel *channel, Reason *why) {
     int lost = WaitForSingleObject(channel->process, 0) != WAIT_TIMEOUT ||
                !PeekNamedPipe(channel->answers, NULL, 0, NULL, NULL, NULL);
     return lost && !lost_because(channel, LOST, 0.0, why);
+}
+
+int channel_ours(Channel *channel, Reason *why) {
+    (void)channel, (void)why;
+    return 1; /* Windows has no fork */
 }
 
 /* The worker need not be asked: between two calls it has nothing to lose, and it ends with its job. */

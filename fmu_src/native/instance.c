@@ -29,6 +29,7 @@ struct Instance {
     double limit;        /* seconds for a call; 0: none */
     enum phase phase;    /* stepping: outputs stand until the next step, whatever inputs are set */
     int terminated;
+    int mending; /* a worker that turns out to be lost is replaced */
     int stale;           /* outputs are older than what they depend on */
     Variable *variables; /* by value reference */
     size_t count;
@@ -214,16 +215,21 @@ static fmi2Status lost(Instance *instance) {
                          instance->why.text);
 }
 
+static int usable(Instance *instance) {
+    if (instance->worker && !channel_ours(instance->worker, &instance->why)) lose_worker(instance);
+    return instance->worker != NULL;
+}
+
 static fmi2Status request(Instance *instance, enum operation operation, const double numbers[3], uint64_t state,
                           size_t payload, Reader *rest) {
-    if (!instance->worker) return lost(instance);
+    if (!usable(instance)) return lost(instance);
     size_t size = request_size(instance, payload);
     unsigned char *room = channel_room(instance->worker, size);
     if (!room) return instance_fail(instance, "There is no memory for a message of %zu bytes.", size);
     write_request(instance, room, operation, numbers, state, payload);
     if (channel_call(instance->worker, &size, instance->limit, &instance->why)) return answered(instance, size, rest);
     lose_worker(instance);
-    return lost(instance);
+    return instance->mending ? fmi2Error : lost(instance);
 }
 
 /* A new worker with a new model. */
@@ -256,7 +262,7 @@ static fmi2Status open_worker(Instance *instance) {
 static fmi2Status request_table(Instance *instance, enum operation operation, uint64_t state, size_t payload) {
     Reader rest;
     fmi2Status status = request(instance, operation, NONE, state, payload, &rest);
-    if (instance->worker && !take_table(instance, &rest))
+    if (instance->worker && rest.at < rest.end && !take_table(instance, &rest))
         return instance_fail(instance, "The worker's table of variables is damaged.");
     instance->stale = operation != LOOK && instance->phase != STEPPING;
     return status;
@@ -291,19 +297,29 @@ fmi2Status instance_do(Instance *instance, enum operation operation, const doubl
     return status;
 }
 
-/* A worker that was lost while nobody called is noticed here, not by the call that is to mend it. */
-static void notice_loss(Instance *instance) {
-    if (instance->worker && channel_lost(instance->worker, &instance->why)) {
+/* Let `work` be done, by a new worker if the old one was lost or turns out to be. */
+static fmi2Status renewed(Instance *instance, fmi2Status (*work)(Instance *, const State *), const State *state) {
+    instance->mending = 1;
+    int had = instance->worker != NULL;
+    if (had && channel_lost(instance->worker, &instance->why)) lose_worker(instance);
+    fmi2Status status = usable(instance) ? work(instance, state) : fmi2Error;
+    instance->mending = 0;
+    if (instance->worker) return status;
+    if (had)
         warn(instance, "The process that runs the model was lost between two calls: %s A new one takes its place.",
              instance->why.text);
-        lose_worker(instance);
-    }
+    return open_worker(instance) == fmi2OK ? work(instance, state) : fmi2Error;
+}
+
+static fmi2Status reset(Instance *instance, const State *state) {
+    (void)state;
+    return request_table(instance, RESET, 0, 0);
 }
 
 fmi2Status instance_reset(Instance *instance) {
-    notice_loss(instance);
-    instance->terminated = 0;
-    return instance->worker ? request_table(instance, RESET, 0, 0) : open_worker(instance);
+    fmi2Status status = renewed(instance, reset, NULL);
+    if (status == fmi2OK) instance->terminated = 0;
+    return status;
 }
 
 /* instances */
@@ -318,8 +334,8 @@ static int read_limit(double *limit, Reason *why) {
     *limit = whole;
     if (!*at && (whole > 0.0 || !text || !*text)) return 1;
     snprintf(why->text, sizeof why->text,
-             "TRIBOFMU_TIMEOUT = '%.100s' must be a number of seconds above 0, such as 600 or 0.5. Leave it unset for no "
-             "limit.",
+             "TRIBOFMU_TIMEOUT = '%.100s' must be a number of seconds above 0, such as 600 or 0.5. Leave it unset for "
+             "no limit.",
              text);
     return 0;
 }
@@ -508,14 +524,13 @@ fmi2Status instance_save(Instance *instance, State **state) {
     uint64_t count, number = ++instance->numbers;
     const State *before = instance->last && instance->last->life == instance->life ? instance->last : NULL;
     fmi2Status status = request(instance, SAVE, (double[3]){before != NULL, 0.0, 0.0}, number, 0, &rest);
-    if (status != fmi2OK) return status;
-    const void *head = taken(&rest, sizeof count);
+    const void *head = status == fmi2OK ? taken(&rest, sizeof count) : NULL;
     if (head) memcpy(&count, head, sizeof count);
-    if (!head || count > (size_t)(rest.end - rest.at) / sizeof(struct part))
-        return instance_fail(instance, "The worker's state is damaged.");
-    State *saved = state_taken(count, &rest, before);
+    int whole = head && count <= (size_t)(rest.end - rest.at) / sizeof(struct part);
+    State *saved = whole ? state_taken(count, &rest, before) : NULL;
     state_free(instance->last);
-    instance->last = saved ? state_shared(saved) : NULL;
+    instance->last = saved ? state_shared(saved) : NULL; /* after a failure the worker is to send all of the next one */
+    if (status != fmi2OK) return status;
     if (!saved) return instance_fail(instance, "The state could not be kept: there is no memory, or it is damaged.");
     saved->number = number;
     saved->life = instance->life;
@@ -533,12 +548,13 @@ static fmi2Status restore_bytes(Instance *instance, const State *state) {
     return request_table(instance, RESTORE, 0, payload);
 }
 
+static fmi2Status restore(Instance *instance, const State *state) {
+    return state->number && state->life == instance->life ? request_table(instance, RESTORE, state->number, 0)
+                                                          : restore_bytes(instance, state);
+}
+
 fmi2Status instance_restore(Instance *instance, State *state) {
-    notice_loss(instance);
-    if (!instance->worker && open_worker(instance) != fmi2OK) return fmi2Error;
-    fmi2Status status = state->number && state->life == instance->life
-                            ? request_table(instance, RESTORE, state->number, 0)
-                            : restore_bytes(instance, state);
+    fmi2Status status = renewed(instance, restore, state);
     if (status == fmi2OK) instance->terminated = 0;
     return status;
 }

@@ -4,8 +4,10 @@ With --pipe it serves one instance over its standard streams; else it forks a wo
 socket tells it to.
 """
 
+import contextlib
 import gc
 import os
+import signal
 import sys
 import traceback
 from pathlib import Path
@@ -46,9 +48,11 @@ def _serve_one(resources: Path) -> None:
 
 def _say(data: bytes) -> None:
     """Tell the library that all is ready (R), or why there is no worker (E)."""
-    os.write(_outgoing, len(data).to_bytes(8, "little") + data if _PIPE else data)
+    with contextlib.suppress(OSError):  # a host that is gone need not know
+        os.write(_outgoing, len(data).to_bytes(8, "little") + data if _PIPE else data)
 
 
+signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the host's
 _incoming = _outgoing = _SOCKET
 if _PIPE:  # what the model reads and prints is no message
     _incoming, _outgoing = os.dup(0), os.dup(1)
@@ -60,5 +64,5 @@ except ModuleNotFoundError as error:
     _say(f"E{error}: the Python {sys.version.split()[0]} that was found has not all packages of tribofmu.".encode())
     sys.exit(1)
 except BaseException:
-    _say(b"E" + traceback.format_exc().encode("utf-8", "backslashreplace")[:7000])
+    _say(b"E" + traceback.format_exc().encode("utf-8", "backslashreplace")[-7000:])
     sys.exit(1)

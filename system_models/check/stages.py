@@ -5,10 +5,12 @@ a new process. Every comparison is of bits.
 """
 
 import csv
+import ctypes
 import gc
 import json
 import math
 import re
+import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -435,8 +437,13 @@ def answer(folder: Path, stage: str, notebook: Path) -> Answer | None:
             return failed(" ".join(sentence.rstrip(".") + "." for sentence in sentences))
 
 
+_PR_SET_PDEATHSIG = 1
+
+
 def main(folder: str, stage: str, notebook: str) -> None:
-    """Write the answer of one stage, if it gives one."""
+    """Write the answer of one stage, if it gives one. It ends with the checker, also when that is killed."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     found = answer(Path(folder), stage, Path(notebook))
     if found is not None:
         (Path(notebook) / "answer.json").write_text(json.dumps(found))

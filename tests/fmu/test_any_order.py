@@ -6,7 +6,7 @@ import sys
 import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
-from hypothesis.stateful import Bundle, RuleBasedStateMachine, consumes, invariant, precondition, rule
+from hypothesis.stateful import Bundle, RuleBasedStateMachine, consumes, initialize, invariant, precondition, rule
 from native_host import ERROR, OK, NativeHost, plain_environment
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the processes are looked at as Linux shows them")
@@ -22,12 +22,13 @@ INPUTS = {
     "temperature": st.one_of(st.floats(340.0, 360.0), WILD),
     "spin": st.one_of(st.floats(-10.0, 10.0), WILD),
     "body_temperature_1": st.one_of(st.floats(340.0, 360.0), WILD),
+    "body_temperature_2": st.one_of(st.floats(340.0, 360.0), WILD),
     "radius_x": st.one_of(st.floats(5e-3, 2e-2), WILD),
     "radius_y": st.one_of(st.floats(5e-3, 2e-2), WILD),
 }
 STEPS = st.one_of(st.sampled_from([0.0, 1e-6, 1e-3, 1.0, 60.0, 3600.0]), WILD)
 GOOD = {"load": 40.0, "speed_1": 0.1, "speed_2": 0.09, "temperature": 353.15, "spin": 0.0, "fidelity": 1}
-GOOD |= {"body_temperature_1": 353.15, "radius_x": 9e-3, "radius_y": 9e-3}
+GOOD |= {"body_temperature_1": 353.15, "body_temperature_2": 353.15, "radius_x": 9e-3, "radius_y": 9e-3}
 PARAMETERS = st.sampled_from(["wear.bare", "boundary_friction.bare", "plasticity.hardness", "surface_1.rq"])
 
 
@@ -37,6 +38,7 @@ class Calls(RuleBasedStateMachine):
     host: NativeHost
     fmu: object
     states = Bundle("states")
+    steps: list[int]  # that could not and that could be computed, of all runs
 
     def __init__(self):
         super().__init__()
@@ -55,6 +57,16 @@ class Calls(RuleBasedStateMachine):
         answer = self.instance.ask(*words)
         assert answer.status == OK, (words, answer.log)
         return answer
+
+    @initialize(started=st.sampled_from([True, True, True, False]))
+    def start(self, started):
+        """Most runs begin with steps."""
+        if started:
+            self.begin()
+            self.end_initialisation()
+            self.instance.set(**GOOD)
+            self.called("step", 0.0, 1.0)
+            assert self.instance.outputs()["valid"]
 
     @precondition(lambda self: self.phase == "new")
     @rule()
@@ -99,6 +111,7 @@ class Calls(RuleBasedStateMachine):
         before = self.instance.outputs()
         self.called("step", 0.0, dt)
         after = self.instance.outputs()
+        Calls.steps[after["valid"]] += 1
         if not after["valid"]:
             assert after == before | {"valid": 0}
 
@@ -114,6 +127,14 @@ class Calls(RuleBasedStateMachine):
         self.called("restore", state)
         self.phase, expected = self.kept[state]
         assert self.seen() == expected
+        if self.phase == "stepping":  # and goes on as it did before
+            ends = []
+            for _ in range(2):
+                self.called("restore", state)
+                self.instance.set(**GOOD)
+                self.called("step", 0.0, 1.0)
+                ends.append(self.seen())
+            assert ends[0] == ends[1]
 
     @rule(target=states, state=states)
     def copy_by_bytes(self, state):
@@ -140,16 +161,19 @@ class Calls(RuleBasedStateMachine):
     def forget(self, state):
         self.called("freestate", state)
 
-    @rule()
-    def reset(self):
-        self.called("reset")
-        self.phase = "new"
+    @precondition(lambda self: self.phase != "new")
+    @rule(really=st.integers(0, 9))
+    def reset(self, really):
+        """One time of ten, as little can happen before the next steps."""
+        if not really:
+            self.called("reset")
+            self.phase = "new"
 
     @precondition(lambda self: self.phase == "stepping")
-    @rule()
-    def terminate_and_reset(self):
+    @rule(state=states)
+    def terminate_and_restore(self, state):
         self.called("terminate")
-        self.reset()
+        self.restore(state)
 
     @precondition(lambda self: self.phase == "stepping")
     @rule(reference=st.sampled_from([9999, 2**32 - 1]))
@@ -167,6 +191,7 @@ class Calls(RuleBasedStateMachine):
 
 def test_any_sequence_of_calls(native_program, isolated_folder, tmp_path):
     with NativeHost(native_program, plain_environment()) as host:
+        Calls.steps = [0, 0]
         Calls.host, Calls.fmu, Calls.folder = host, host.load(isolated_folder), tmp_path
         machine = Calls.TestCase()
         machine.settings = settings(
@@ -174,3 +199,4 @@ def test_any_sequence_of_calls(native_program, isolated_folder, tmp_path):
         )
         machine.runTest()
     assert host.code == 0
+    assert min(Calls.steps) > 100

@@ -97,3 +97,29 @@ assert os.waitpid(child, 0)[1] == 0
     variables = environment()
     variables["PYTHONPATH"] = os.pathsep.join([str(Path(__file__).parent), variables["PYTHONPATH"]])
     subprocess.run([sys.executable, "-c", code], env=variables, check=True)
+
+
+def test_a_forked_child_can_neither_use_nor_disturb_its_parents_instance(isolated_folder):
+    code = f"""
+import os
+from pathlib import Path
+from fmpy.fmi1 import FMICallException
+from fmu_host import hosted
+with hosted(Path({str(isolated_folder)!r})) as host:
+    host.initialise().step(1.0)
+    state = host.fmu.getFMUstate()
+    expected = host.step(1.0)
+    host.fmu.setFMUstate(state)
+    child = os.fork()
+    if not child:
+        try:
+            host.fmu.doStep(1.0, 1.0)
+        except FMICallException:
+            os._exit(0)
+        os._exit(1)
+    assert os.waitpid(child, 0)[1] == 0
+    assert host.step(1.0) == expected
+"""
+    variables = environment()
+    variables["PYTHONPATH"] = os.pathsep.join([str(Path(__file__).parent), variables["PYTHONPATH"]])
+    subprocess.run([sys.executable, "-c", code], env=variables, check=True)

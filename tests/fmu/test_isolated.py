@@ -35,17 +35,27 @@ FAULTS = {
     1008.0: ("while True: pass", "no answer within 0.5 s"),
     1009.0: ("sum(range(10**12))", "no answer within 0.5 s"),  # does not let go of the interpreter
     1010.0: ("slave.advance = None", "TypeError: 'NoneType' object is not callable"),  # within the slave's own guard
+    1011.0: ("slave.advance = interrupted", "The step was interrupted"),
 }
+UNSAVED = 2000.0  # the load at which a faulty model cannot be saved
 SCRIPT = """
 import ctypes, os
 from fmu_src import slave
 from contact_core import advance
+
+def interrupted(*arguments):
+    raise KeyboardInterrupt
 
 class MixedContact(slave.ContactSlave):
     def do_step(self, time, step):
         slave.advance = advance
         load = self.values[self._references["load"]]{faults}
         return super().do_step(time, step)
+
+    def _get_fmu_state(self):
+        if self.values[self._references["load"]] == {unsaved}:
+            raise MemoryError
+        return super()._get_fmu_state()
 """
 STEPS = [(1.0, {"load": 40.0}), (2.0, {}), (0.5, {"speed_1": 0.2, "load": 60.0})]
 
@@ -55,7 +65,7 @@ def faulty_folder(quick: Scene, isolated_folder: Path, tmp_path_factory: pytest.
     folder = tmp_path_factory.mktemp("faulty") / "fmu"
     shutil.copytree(isolated_folder, folder)
     faults = "".join(f"\n        if load == {load}:\n            {what}" for load, (what, _) in FAULTS.items())
-    (folder / "resources" / f"{module_name(quick)}.py").write_text(SCRIPT.format(faults=faults))
+    (folder / "resources" / f"{module_name(quick)}.py").write_text(SCRIPT.format(faults=faults, unsaved=UNSAVED))
     return folder
 
 
@@ -156,6 +166,34 @@ def test_bytes_of_a_state_survive_the_worker_that_wrote_them(host, faulty_folder
     assert instance.ask("deserialize", 1, file).status == OK
     assert instance.ask("restore", 1).status == OK
     assert rows(instance) == expected
+
+
+def test_a_state_saved_after_one_that_could_not_be_is_whole(host, faulty_folder, tmp_path):
+    instance, file = started(host, faulty_folder), tmp_path / "state"
+    instance.ask("save", 0)
+    instance.step(1.0)
+    instance.set(load=UNSAVED)
+    assert instance.ask("save", 1).status == ERROR
+    instance.set(load=50.0)
+    assert [instance.ask(*call).status for call in (("save", 2), ("serialize", 2, file))] == [OK] * 2
+    expected = rows(instance)
+    instance.step(1.0, load=1007.0)
+    assert [instance.ask(*call).status for call in (("deserialize", 3, file), ("restore", 3))] == [OK] * 2
+    assert rows(instance) == expected
+
+
+def test_an_interrupt_is_not_for_the_model(host, isolated_folder):
+    instance = started(host, isolated_folder)
+    (supervisor,) = children(host.process.pid)
+    (worker,) = children(supervisor)
+    for process in (supervisor, worker):
+        os.kill(process, signal.SIGINT)
+    instance.ask("save", 0)
+    first = rows(instance)
+    instance.ask("restore", 0)
+    assert rows(instance) == first
+    assert alive(supervisor)
+    assert alive(worker)
 
 
 def test_a_worker_that_ends_between_calls_is_replaced(host, isolated_folder):
