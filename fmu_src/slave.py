@@ -113,10 +113,13 @@ class ContactSlave(Fmi2Slave):
 
     @classmethod
     def warm_up(cls, folder: Path) -> None:
-        """Load what the first steps of the contact in these resources need, before processes are forked."""
+        """Load what the first steps of the contact in these resources need, before processes are forked.
+
+        Raises SceneError if they are another version's, which may speak otherwise, or were edited.
+        """
+        scene = resources.read(str(folder), cls.__module__)
+        warm_up(scene)
         with contextlib.suppress(ContactError):  # which the first instance will say
-            scene = resources.read(str(folder), cls.__module__)
-            warm_up(scene)
             # the means of the fresh surfaces, so that the processes share these
             advance(scene.at_level(LEVELS[0]), scene.operation.point, initial_state(scene), 0.0)
 

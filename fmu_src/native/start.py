@@ -63,6 +63,8 @@ try:
 except ModuleNotFoundError as error:
     _say(f"E{error}: the Python {sys.version.split()[0]} that was found has not all packages of tribofmu.".encode())
     sys.exit(1)
-except BaseException:
-    _say(b"E" + traceback.format_exc().encode("utf-8", "backslashreplace")[-7000:])
+except BaseException as error:
+    refused = any(known.__name__ == "ContactError" for known in type(error).__mro__)  # a sentence says it all
+    text = str(error) if refused else traceback.format_exc()
+    _say(b"E" + text.encode("utf-8", "backslashreplace")[-7000:])
     sys.exit(1)

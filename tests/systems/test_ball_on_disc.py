@@ -123,7 +123,7 @@ def test_an_fmu_that_is_no_contact_is_refused(fmu: Path, tmp_path: Path) -> None
     with zipfile.ZipFile(fmu) as old, zipfile.ZipFile(other, "w") as new:
         for name in old.namelist():
             new.writestr(name, old.read(name).replace(b'name="load"', b'name="weight"'))
-    with pytest.raises(ContactError, match=r"has no load\. Use one that build_fmu\.py has made"):
+    with pytest.raises(ContactError, match=r"has no load\. Use one that `tribofmu build` has made"):
         run(other, Duty.from_steps(POINT), 2.0, 1.0)
 
 
