@@ -32,6 +32,7 @@ from fmu_src.build import build
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "fmu"))
 from empty_slave import Empty, pack
 from native_host import Instance, NativeHost, compiled, embedding_environment, plain_environment
+from processes import children
 
 ROUNDS, PASSES, STEP, FIRST = 5_000, 3, 1e-3, 60.0  # -, -, s, s
 READ = ("friction_force", "friction_coefficient", "power_loss", "heat_flow_1", "heat_flow_2")
@@ -151,9 +152,7 @@ def in_c(program: Path, environment: dict[str, str], folder: Path, duty: Duty) -
 
 def family(pid: int) -> list[int]:
     """A process and all that descend from it."""
-    threads = Path(f"/proc/{pid}/task").iterdir()
-    children = [int(child) for thread in threads for child in (thread / "children").read_text().split()]
-    return [pid, *(member for child in children for member in family(child))]
+    return [pid, *(member for child in children(pid) for member in family(child))]
 
 
 def proportional_set_size(pid: int) -> float:
