@@ -7,6 +7,8 @@
 
 #include <stddef.h>
 
+#define START_LIMIT 120 /* seconds for the imports of a worker, with kernels that are not compiled yet */
+
 typedef struct Channel Channel;
 
 /* Why something failed: a sentence for the host's log, and what the worker left behind. */

@@ -38,7 +38,6 @@ enum {
 };
 
 /* seconds */
-#define START_LIMIT 120.0
 #define END_LIMIT 2.0
 #define WATCH 0.05 /* between looks at the supervisor */
 
@@ -290,11 +289,9 @@ static int supervisor_lost(Reason *why) {
 
 static int timed_out(Channel *channel, double limit, Reason *why) {
     snprintf(why->text, sizeof why->text,
-             "There was no answer within %g s, so it was killed. TRIBOFMU_TIMEOUT sets the limit; a start has 120 s.",
-             limit);
-    lock(&supervisor_lock);
+             "There was no answer within %g s, so it was killed. TRIBOFMU_TIMEOUT sets the limit; a start has %d s.",
+             limit, START_LIMIT);
     order(channel->supervisor, 'K', channel->number, -1);
-    unlock(&supervisor_lock);
     return 0;
 }
 

@@ -192,8 +192,8 @@ static int lost_because(Channel *channel, enum outcome outcome, double limit, Re
     if (outcome == LATE)
         snprintf(why->text, sizeof why->text,
                  "There was no answer within %g s, so it was killed. TRIBOFMU_TIMEOUT sets the limit; a start has "
-                 "120 s.",
-                 limit);
+                 "%d s.",
+                 limit, START_LIMIT);
     else if (outcome == TOO_LONG)
         snprintf(why->text, sizeof why->text, "There is no room for its answer, so it was killed.");
     else if (!WaitForSingleObject(channel->process, END_LIMIT) && GetExitCodeProcess(channel->process, &code))

@@ -10,8 +10,6 @@
 #include "lock.h"
 #include "state.h"
 
-#define START_LIMIT 120.0 /* seconds for the imports of a worker, with kernels that are not compiled yet */
-
 typedef struct {
     uint16_t kind, causality;
     double value;
@@ -29,7 +27,7 @@ struct Instance {
     double limit;        /* seconds for a call; 0: none */
     enum phase phase;    /* stepping: outputs stand until the next step, whatever inputs are set */
     int terminated;
-    int mending; /* a worker that turns out to be lost is replaced */
+    int mending;         /* a worker that turns out to be lost is replaced */
     int stale;           /* outputs are older than what they depend on */
     Variable *variables; /* by value reference */
     size_t count;
