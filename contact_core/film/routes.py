@@ -170,7 +170,7 @@ def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:
     """The same instant on a grid of half the nodes."""
     ease, thinned = (None if field is None else restrict(field) for field in (now.ease, now.thinned))
     instant = replace(now, heights=restrict(now.heights), limit=restrict(now.limit), ease=ease, thinned=thinned)
-    return instant, Grid(restrict(grid.x), restrict(grid.y))
+    return instant, replace(grid, x=restrict(grid.x), y=restrict(grid.y))
 
 
 def prolonged(state: FilmState, shape: tuple[int, int]) -> FilmState:

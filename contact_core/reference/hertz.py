@@ -4,6 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy  # its parts are loaded at their first use
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -19,6 +22,38 @@ class Hertz:
     def area(self) -> float:
         """Contact area [m2]."""
         return float(np.pi * self.a * self.b)
+
+    def inside(self, x: Array, y: Array, share: float) -> NDArray[np.bool_]:
+        """Which nodes at x [nx], y [ny] about the centre [m] lie within `share` of the half widths, [ny, nx]."""
+        within: NDArray[np.bool_] = (x[None, :] / self.a) ** 2 + (y[:, None] / self.b) ** 2 < share**2
+        return within
+
+
+@dataclass(frozen=True)
+class HertzLine(Hertz):
+    """Dry contact of a smooth cylinder; b is half its length."""
+
+    @property
+    def area(self) -> float:
+        """Contact area [m2]."""
+        return 4.0 * self.a * self.b
+
+    def inside(self, x: Array, y: Array, share: float) -> NDArray[np.bool_]:
+        """Which nodes at x [nx], y [ny] about the centre [m] lie within `share` of the half widths, [ny, nx]."""
+        within: NDArray[np.bool_] = (np.abs(x) < share * self.a)[None, :] & (np.abs(y) < share * self.b)[:, None]
+        return within
+
+
+def hertz_line(load: float, radius: float, length: float, reduced_modulus: float) -> HertzLine:
+    """Hertz's line contact.
+
+    load per length [N/m] > 0, radius of combined curvature [m], length [m], reduced_modulus E' = 2 / sum (1 - v^2)/E
+    [Pa]. The approach is that at the middle of an even load on the length: a^2 / (2 R) [ln(2 length / a) + 1/2].
+    Source: Johnson, Contact Mechanics, 1985, doi:10.1017/CBO9781139171731, sections 4.2 and 5.6.
+    """
+    a = float(np.sqrt(8.0 * load * radius / (np.pi * reduced_modulus)))
+    approach = a * a / (2.0 * radius) * (float(np.log(2.0 * length / a)) + 0.5)
+    return HertzLine(a, 0.5 * length, 2.0 * load / (np.pi * a), approach)
 
 
 def hertz_point(load: float, radius_x: float, radius_y: float, reduced_modulus: float) -> Hertz:

@@ -11,6 +11,14 @@ from numpy.typing import NDArray
 from .hertz import hertz_point
 
 
+def at_no_pressure(
+    viscosity: Callable[[NDArray[np.float64], float], NDArray[np.float64]], temperature: float
+) -> tuple[float, float]:
+    """Viscosity [Pa s] and pressure coefficient [1/Pa] at p = 0 of a law of pressures [Pa] and a temperature [K]."""
+    low, high = viscosity(np.array([0.0, 1e6]), temperature)
+    return float(low), max(float(np.log(high / low)) * 1e-6, 1e-12)
+
+
 @dataclass(frozen=True)
 class SmoothContact:
     """A smooth, isothermal, Newtonian, fully flooded elastohydrodynamic point contact."""
@@ -34,15 +42,19 @@ class SmoothContact:
         reduced_modulus: float,
     ) -> "SmoothContact":
         """The contact with an oil whose `viscosity` [Pa s] is a law of pressures [Pa] and a temperature [K]."""
-        low, high = viscosity(np.array([0.0, 1e6]), temperature)
-        rise = max(float(np.log(high / low)) * 1e-6, 1e-12)
-        return SmoothContact(load, abs(entrainment_speed), float(low), rise, radius_x, radius_y, reduced_modulus)
+        low, rise = at_no_pressure(viscosity, temperature)
+        return SmoothContact(load, abs(entrainment_speed), low, rise, radius_x, radius_y, reduced_modulus)
 
     @property
     def moes_parameters(self) -> tuple[float, float]:
         """Moes' parameters of load and lubricant (M, L), on the sum of surface speeds and radius_x."""
         oil, solids = (self.viscosity, self.pressure_coefficient), (self.radius_x, self.reduced_modulus)
         return _moes_numbers(self.load, self.entrainment_speed, *oil, *solids)[:2]
+
+    @property
+    def film(self) -> float:
+        """Central film [m] by `nijenbanning_venner_moes`."""
+        return nijenbanning_venner_moes(self)
 
 
 def hamrock_dowson(contact: SmoothContact) -> tuple[float, float]:
