@@ -93,6 +93,12 @@ class Scaled:
         now = self.now
         return 0.0 if now.dry or now.entrainment_speed == 0.0 else self.contact.film
 
+    @property
+    def loadedness(self) -> float:
+        """Moes' M; of a line, that of the point contact whose Hertz contact is as deep, a^2 / R, in units of U^0.5 R."""
+        load, _ = self.contact.moes_parameters
+        return load if isinstance(self.contact, SmoothContact) else (8.0 * load / np.pi) ** 1.5 / 1.5
+
     @cached_property
     def roughness(self) -> float:
         """Rms height [m] of both bodies together where they meet."""
