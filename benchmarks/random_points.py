@@ -41,7 +41,7 @@ class Point:
 
     def grid(self, nodes: int) -> Grid:
         """The grid that fits the film, entered from the side the oil comes from."""
-        found = fitted_grid(self.load, self.radius, MODULUS, self.film, nodes, nodes)
+        found = fitted_grid(self.load, self.radius, self.radius, MODULUS, self.film, nodes, nodes)
         return found if self.speed >= 0.0 else found.mirrored()
 
     def heights(self, grid: Grid, correlation: float) -> np.ndarray:

@@ -89,6 +89,15 @@ class SmoothContact:
         oil, solids = (self.viscosity, self.pressure_coefficient), (self.radius_x, self.reduced_modulus)
         return _moes_numbers(self.load, self.entrainment_speed, *oil, *solids)[:2]
 
+    @property
+    def circular_load(self) -> float:
+        """Moes' M of the circular contact that is as near to rigid: films of rigid and of elastic, isoviscous bodies
+        are alike in both at the same share of it.
+        """
+        rigid, elastic, *_ = _moes_factors(self.radius_x / self.radius_y)
+        rigid_circle, elastic_circle, *_ = _moes_factors(1.0)
+        return self.moes_parameters[0] * ((rigid_circle / elastic_circle) / (rigid / elastic)) ** (15 / 28)
+
 
 def hamrock_dowson(contact: SmoothContact) -> tuple[float, float]:
     """Central and minimum film thickness [m].

@@ -39,12 +39,11 @@ class Regime:
     algorithms: tuple[tuple[str, str], ...]
     floors: tuple[float, float] = _ALL  # formula film of smooth bodies / floor
     clearance: tuple[float, float] = _ALL  # formula film of smooth bodies / rms roughness (smooth: infinite)
-    load: tuple[float, float] = _ALL  # Moes' M
+    load: tuple[float, float] = _ALL  # Moes' M, of an ellipse as `SmoothContact.circular_load`
 
     def holds(self, scaled: Scaled) -> bool:
         """Whether a contact belongs to this row."""
-        load, _ = scaled.contact.moes_parameters
-        film = scaled.smooth_film
+        load, film = scaled.contact.circular_load, scaled.smooth_film
         clearance = film / scaled.roughness if scaled.roughness > 0.0 else math.inf
         pairs = ((self.floors, film / scaled.settings.floor), (self.clearance, clearance), (self.load, load))
         return all(low <= value <= high for (low, high), value in pairs)
@@ -139,8 +138,9 @@ class _Solver:
         if method == "multigrid":
             if not (steady and is_applicable(self.problem)):
                 return None
-            film = scaled.smooth_film / scaled.h_unit
-            return solve_smooth(self.problem, scaled.x, scaled.y, settings.fft, film, settings.tolerance, _CYCLES)[0]
+            film, shape = scaled.smooth_film / scaled.h_unit, (scaled.depth, scaled.ratio)
+            given = (self.problem, scaled.x, scaled.y, settings.fft, film)
+            return solve_smooth(*given, settings.tolerance, _CYCLES, *shape)[0]
         start = self._start(begin)
         if start is None:
             return None

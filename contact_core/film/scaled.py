@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import cached_property, lru_cache
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from ..errors import ConvergenceError
@@ -13,7 +14,7 @@ from ..kernels.dry import solve_dry
 from ..kernels.far_field import far_field
 from ..kernels.half_space import HalfSpace
 from ..kernels.mixed import Iterate, Problem, Solution
-from ..reference import SmoothContact, hertz_point, nijenbanning_venner_moes
+from ..reference import Hertz, SmoothContact, hertz_point, nijenbanning_venner_moes
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings
 
 Array = NDArray[np.float64]
@@ -25,26 +26,30 @@ _DRY_ITERATIONS = 1000
 _START_TOLERANCE = 1e-2
 _SOLID_SHARE = 0.85  # of the load in `shared_start`: the best of 0.03 to 0.95 from light contact to nearly dry
 _LEAST_EASE = 1e-6  # what flows less does not flow
-_FAR_FIELD_BELOW = 30.0  # Moes' M: above, what lies beyond a film-sized grid changes the film by less than 1 %
+_FAR_FIELD_BELOW = 30.0  # `circular_load`: above, what lies beyond a film-sized grid changes the film by less than 1 %
 
 
 class Scaled:
-    """An instant in units of l (lengths), l^2 / radius_x (gaps) and p_H a^2 / l^2 (pressures).
+    """An instant in units of l (lengths), l^2 / radius_x (gaps) and 3 load / (2 pi l m) (pressures).
 
-    l^2 = a^2 + 1.4 radius_x h is the size of what carries the load: a of Hertz's circular contact of radius_x, or the
-    extent of a film of smooth bodies h that is thicker than that contact is deep. Both keep the solution of order one.
+    l and m, l^2 = a^2 + 1.4 radius_x h and m^2 = b^2 + 1.4 radius_y h, are the half widths along x and y of what carries
+    the load: those of Hertz's contact, or of a film of smooth bodies h that is thicker than that contact is deep. They
+    keep the solution of order one.
     """
 
     def __init__(self, now: Instant, grid: Grid, settings: Settings) -> None:
         self.now, self.grid, self.settings = now, grid, settings
-        hertz = hertz_point(now.load, now.radius_x, now.radius_x, now.reduced_modulus)
-        self.a = hertz.a
-        self.size = film_size(hertz.a, now.radius_x, self.smooth_film)
-        self.p_unit = hertz.pressure_max * (self.a / self.size) ** 2
+        self.hertz = hertz_point(now.load, now.radius_x, now.radius_y, now.reduced_modulus)
+        circle = hertz_point(now.load, now.radius_x, now.radius_x, now.reduced_modulus)
+        self.size = film_size(self.hertz.a, now.radius_x, self.smooth_film)
+        self.aspect = self.size / film_size(self.hertz.b, now.radius_y, self.smooth_film)
+        self.p_unit = circle.pressure_max * (circle.a / self.size) ** 2 * self.aspect
         self.h_unit = self.size**2 / now.radius_x
         self.dx, self.floor = grid.spacing / self.size, settings.floor / self.h_unit
-        self.load = 2.0 * np.pi / 3.0 / self.dx**2
-        self.compliance = (self.a / self.size) ** 3
+        self.load = 2.0 * np.pi / 3.0 / self.aspect / self.dx**2
+        compliance = (circle.a / self.size) ** 3
+        self.compliance = compliance * self.aspect
+        self.depth = compliance ** (2.0 / 3.0) * (self.hertz.approach / circle.approach)
         self.half_space = half_space(grid.shape, self.compliance * 2.0 / np.pi**2 * self.dx, settings.fft)
         self.cap = now.limit / self.p_unit
         if self.cap.sum() <= 1.01 * self.load:
@@ -53,9 +58,10 @@ class Scaled:
                 f"{grid.shape[0] * grid.spacing:g} m can carry at the hardness. Lower the load or enlarge film.domain."
             )
         self.x, self.y = grid.x / self.size, grid.y / self.size
-        radius_2 = self.x[None, :] ** 2 + now.radius_x / now.radius_y * self.y[:, None] ** 2
-        self.smooth = np.sqrt(np.maximum(1.0 - radius_2, 0.0))
-        self.undeformed = 0.5 * radius_2 - now.heights / self.h_unit
+        self.ratio = now.radius_x / now.radius_y
+        x_2, y_2 = self.x[None, :] ** 2, self.y[:, None] ** 2
+        self.smooth = np.sqrt(np.maximum(1.0 - (x_2 + self.aspect**2 * y_2), 0.0))
+        self.undeformed = 0.5 * (x_2 + self.ratio * y_2) - now.heights / self.h_unit
 
     @cached_property
     def contact(self) -> SmoothContact:
@@ -67,7 +73,7 @@ class Scaled:
         )
         if now.ease is None and now.thinned is None:
             return smooth
-        before = self.a + inlet_length(self.a, now.radius_x, nijenbanning_venner_moes(smooth))
+        before = self.hertz.a + self._inlet_length(nijenbanning_venner_moes(smooth))
         at = np.abs(self.grid.y).argmin(), np.abs(self.grid.x + before).argmin()  # where the film builds up
         ease, thinned = self._oil(smooth.viscosity)
         return replace(smooth, viscosity=smooth.viscosity / float(ease[at] * (1.0 + thinned[at])))
@@ -89,7 +95,7 @@ class Scaled:
     @cached_property
     def roughness(self) -> float:
         """Rms height [m] of both bodies together where they meet."""
-        inside = self.grid.radius_2 < (1.5 * self.size) ** 2
+        inside = self.grid.stretched_radius_2(self.aspect) < (1.5 * self.size) ** 2
         return float(self.now.heights[inside].std()) if inside.any() else 0.0
 
     def per_dt(self, step: float) -> float:
@@ -125,8 +131,8 @@ class Scaled:
 
     @cached_property
     def _beyond(self) -> tuple[Array, Array]:
-        if self.contact.moes_parameters[0] < _FAR_FIELD_BELOW:
-            return far_field(self.x, self.y, self.smooth_film / self.h_unit)
+        if self.contact.circular_load < _FAR_FIELD_BELOW:
+            return far_field(self.x, self.y, self.smooth_film / self.h_unit, self.ratio)
         return np.zeros_like(self.cap), np.ones_like(self.cap)
 
     def iterate(self, state: FilmState) -> Iterate:
@@ -145,7 +151,8 @@ class Scaled:
         """A Hertz-like pressure under the film of smooth bodies and the highest asperities."""
         pressure = np.minimum(self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300)), self.cap)
         lift = self.smooth_film + 0.5 * max(float(self.now.heights.max()), 0.0)
-        rigid = lift / self.h_unit - self.compliance  # what that pressure deforms the centre by
+        settled = self.compliance / float(scipy.special.agm(1.0, self.aspect))  # of the centre under that pressure
+        rigid = lift / self.h_unit - settled
         return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid)
 
     def shared_start(self) -> Iterate:
@@ -218,21 +225,42 @@ class Scaled:
 
     def _inlet_nodes(self, gap: Array) -> float:
         """Nodes across the zone before the contact in which the film builds up."""
-        radius_2 = self.grid.radius_2
-        centre = radius_2 < max(4.0 / 9.0 * self.a**2, 1.01 * float(radius_2.min()))  # at least the nearest nodes
+        a = self.hertz.a
+        radius_2 = self.grid.stretched_radius_2(a / self.hertz.b)
+        centre = radius_2 < max(4.0 / 9.0 * a**2, 1.01 * float(radius_2.min()))  # at least the nearest nodes
         film = float(gap[centre].mean())
         if self.now.entrainment_speed > 0.0:  # roughness holds the gap open, yet it is the oil's own film that comes in
             film = min(film, self.smooth_film)
-        return inlet_length(self.a, self.now.radius_x, film) / self.grid.spacing
+        return self._inlet_length(film) / self.grid.spacing
+
+    def _inlet_length(self, film: float) -> float:
+        """Distance [m] before Hertz's contact in which a film [m] builds up."""
+        radius, _ = edge_radii(self.hertz, self.now.radius_x, self.now.radius_y, self.now.reduced_modulus)
+        return inlet_length(self.hertz.a, radius, film)
 
 
 def film_size(a: float, radius: float, film: float) -> float:
-    """Half width [m] of what carries the load under a film [m] of smooth bodies; a [m] of Hertz's contact if thin."""
+    """Half width [m] along an axis of what carries the load under a film [m] of smooth bodies; that of Hertz's contact,
+    a [m], if thin. `radius` [m] is that of the bodies along the axis.
+    """
     return float(np.sqrt(a**2 + 1.4 * radius * film))
 
 
+def edge_radii(hertz: Hertz, radius_x: float, radius_y: float, reduced_modulus: float) -> tuple[float, float]:
+    """Radii [m] of the circular contacts that are as Hertz's elliptical one near the ends of its axes along x and y.
+
+    The gap beside the edge only depends on the pressure behind it, p_H sqrt(2 d/a): R = a E' / (pi p_H).
+    """
+    if radius_x == radius_y:
+        return radius_x, radius_y
+    per_width = reduced_modulus / (np.pi * hertz.pressure_max)
+    return hertz.a * per_width, hertz.b * per_width
+
+
 def inlet_length(a: float, radius: float, film: float) -> float:
-    """Distance [m] before Hertz's contact at which its gap, (4 sqrt2 / 3 pi) (d/a)^1.5 a^2 / R, is the film [m]."""
+    """Distance [m] before Hertz's contact at which its gap, (4 sqrt2 / 3 pi) (d/a)^1.5 a^2 / R, is the film [m]; R of
+    `edge_radii`.
+    """
     return float(a * (film * radius / a**2 / 0.6) ** (2.0 / 3.0))
 
 
