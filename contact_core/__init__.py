@@ -30,7 +30,7 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     advance      advance: the evolution over time; uncertainty: how sure its outputs are
     warming      warm_up: loads what the first steps of a scene need
     tracks       the rubbed surfaces as they are, for profiles and pictures
-    reference    closed forms
+    reference/   closed forms: Hertz, films of points and lines, heat, wear
     data/        named oils, solids and tribofilms, and the shipped scenes
     checksum     of bytes joined from parts whose checksums are known
     errors       what can go wrong, each message with a way out

@@ -68,9 +68,7 @@ def _partner(nodes: int, ratio: float, *, mirror: bool) -> int:
     """
     intervals, wanted, halvings = nodes - 1, ratio * (nodes - 1), 0
     shorter = min(intervals, wanted)
-    while intervals % 2 ** (halvings + 1) == 0 and (
-        halvings < _HALVINGS or shorter >= _COARSEST * 2 ** (halvings + 1)
-    ):
+    while intervals % 2 ** (halvings + 1) == 0 and (halvings < _HALVINGS or shorter >= _COARSEST * 2 ** (halvings + 1)):
         halvings += 1
     step = 2 ** (halvings + 1) if mirror else 2**halvings
     return max(round(wanted / step) * step, 8 * 2**halvings if halvings else 16) + 1

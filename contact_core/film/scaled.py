@@ -26,15 +26,15 @@ _DRY_ITERATIONS = 1000
 _START_TOLERANCE = 1e-2
 _SOLID_SHARE = 0.85  # of the load in `shared_start`: the best of 0.03 to 0.95 from light contact to nearly dry
 _LEAST_EASE = 1e-6  # what flows less does not flow
-_FAR_FIELD_BELOW = 30.0  # `circular_load`: above, what lies beyond a film-sized grid changes the film by less than 1 %
+_FAR_FIELD_BELOW = 30.0  # Moes' M: above, what lies beyond a film-sized grid changes the film by less than 1 %
 
 
 class Scaled:
     """An instant in units of l (lengths), l^2 / radius_x (gaps) and 3 load / (2 pi l m) (pressures).
 
-    l and m, l^2 = a^2 + 1.4 radius_x h and m^2 = b^2 + 1.4 radius_y h, are the half widths along x and y of what carries
-    the load: those of Hertz's contact, or of a film of smooth bodies h that is thicker than that contact is deep. They
-    keep the solution of order one.
+    l and m, l^2 = a^2 + 1.4 radius_x h and m^2 = b^2 + 1.4 radius_y h, are the half widths along x and y of what
+    carries the load: those of Hertz's contact, or of a film of smooth bodies h that is thicker than that contact is
+    deep. They keep the solution of order one.
     """
 
     def __init__(self, now: Instant, grid: Grid, settings: Settings) -> None:
