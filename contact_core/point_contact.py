@@ -101,12 +101,12 @@ def point_contact(
 
     load [N]; radius_x, radius_y [m], combined, radius_y = radius_x if not given; reduced_modulus E' [Pa]; speed_1,
     speed_2 [m/s] along x relative to the contact; viscosity [Pa s] and pressure_viscosity [1/Pa] at p = 0;
-    viscosity_law "roelands" or "barus"; density_law "dowson_higginson" or "none"; heights_1, heights_2 [ny, nx] of each body [m], positive toward the other
-    one, centred on the contact, `spacing` [m] apart; hardness [Pa]: no pressure is above it (None: no limit); grid of
-    smooth bodies: nodes along x, as many along y as the film needs (the same for a circle), or (ny, nx), 129 along the
-    shorter side if not given; domain: (x_min, x_max, y_min, y_max) [m] about the contact instead of the grid that fits
-    the film; cells are square; floor [m]: gap at which solids touch; criterion: "split" for
-    fluid and solid pressure apart, "lumped" for one pressure as in Azam et al. 2019 (with floor = 0.47e-9).
+    viscosity_law "roelands" or "barus"; density_law "dowson_higginson" or "none"; heights_1, heights_2 [ny, nx] of each
+    body [m], positive toward the other one, centred on the contact, `spacing` [m] apart; hardness [Pa]: no pressure is
+    above it (None: no limit); grid of smooth bodies: nodes along x, as many along y as the film needs (the same for a
+    circle), or (ny, nx), 129 along the shorter side if not given; domain: (x_min, x_max, y_min, y_max) [m] about the
+    contact instead of the grid that fits the film; cells are square; floor [m]: gap at which solids touch; criterion:
+    "split" for fluid and solid pressure apart, "lumped" for one pressure as in Azam et al. 2019 (with floor = 0.47e-9).
 
     Raises OperatingPointError for values that cannot be used and ConvergenceError if no solution was found. A solution
     short of the tolerance says so (`converged`, `shortfall`). At rest the dry contact is the answer; the gap of solids
