@@ -104,7 +104,7 @@ def case_a(report: Report) -> None:
             return point_contact(**CASE_A, grid=nodes)
 
         def richardson(nodes=nodes):
-            grid = fitted_grid(77.85, 10e-3, 10e-3, 230.47e9, film, nodes, nodes)
+            grid = fitted_grid(Point(10e-3, 10e-3), 77.85, 230.47e9, film, nodes, nodes)
             domain = (grid.x[0], grid.x[-1], grid.y[0], grid.y[-1])
             scaled = scaled_of(CASE_A, domain, nodes, 1e-3)
             start = scaled.smooth_film / scaled.h_unit

@@ -6,6 +6,8 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     quantities   names, symbols, units, signs and averages of every input and output; ranges of every parameter
     constants    of nature
     units        "1.26 GPa" to SI, at the border
+    shapes       undeformed bodies: points, lines, rollers; their gap, Hertz's contact, film by formula
+    geometry     their records in a scene
     scene        Scene, its checks, OperatingPoint, Operation (the duty)
     reading      TOML to records and back, with did-you-mean
     state        ContactState, Outputs, RangeFlag, serialisation

@@ -13,7 +13,8 @@ from .laws.density import DowsonHigginson, Incompressible
 from .laws.viscosity import Barus, Roelands
 from .quantities import TABLE, out_of_range, parameter
 from .reading import did_you_mean
-from .reference import SmoothContact, hertz_point, nijenbanning_venner_moes
+from .reference import SmoothContact
+from .shapes import Point
 
 Array = NDArray[np.float64]
 
@@ -143,28 +144,29 @@ def point_contact(
     more = (("criterion", criterion, ("split", "lumped")), ("fft", fft, ("pyfftw", "scipy")))
     _refuse([_choice(name, value, list(known)) for name, value, known in (*choices, *more) if value not in list(known)])
     heights, speed = _heights(heights_1, heights_2), 0.5 * (numbers.speed_1 + numbers.speed_2)
-    radii = numbers.radius_x, numbers.radius_y
+    shape = Point(numbers.radius_x, numbers.radius_y)
     law = _VISCOSITY[viscosity_law](numbers.viscosity, _REFERENCE, numbers.pressure_viscosity, 0.0)
     film = 0.0
     if speed != 0.0:
         rise = max(numbers.pressure_viscosity, 1e-12)
-        smooth = SmoothContact(numbers.load, abs(speed), numbers.viscosity, rise, *radii, numbers.reduced_modulus)
-        film = nijenbanning_venner_moes(smooth)
-        if film > _THICKEST * min(radii):
-            least = "radius_x" if radii[0] <= radii[1] else "radius_y"
+        oil = numbers.viscosity, rise
+        smooth = SmoothContact(
+            numbers.load, abs(speed), *oil, shape.radius_x, shape.radius_y, numbers.reduced_modulus
+        )
+        film, (radius, least) = smooth.film, min((shape.radius_x, "radius_x"), (shape.radius_y, "radius_y"))
+        if film > _THICKEST * radius:
             _refuse(
                 [
-                    f"The oil film would be about {film:.2g} m, over {_THICKEST:g} of {least} = {min(radii):g} m: "
+                    f"The oil film would be about {film:.2g} m, over {_THICKEST:g} of {least} = {radius:g} m: "
                     "the bodies are no parabolas on its scale. Raise load, or lower speed_1, speed_2 or viscosity."
                 ]
             )
-    nodes = _grid(numbers, film, heights, spacing, grid, domain)
+    nodes = _grid(numbers, shape, film, heights, spacing, grid, domain)
     now = Instant(
         load=numbers.load,
         entrainment_speed=speed,
         temperature=_REFERENCE,
-        radius_x=numbers.radius_x,
-        radius_y=numbers.radius_y,
+        shape=shape,
         reduced_modulus=numbers.reduced_modulus,
         viscosity=law,
         density=_DENSITY[density_law](),
@@ -172,9 +174,9 @@ def point_contact(
         limit=np.full(nodes.shape, numbers.hardness),
         hardness=numbers.hardness,
     )
-    hertz = hertz_point(numbers.load, *radii, numbers.reduced_modulus)
+    hertz = shape.hertz(numbers.load, numbers.reduced_modulus)
     settings = Settings(numbers.floor, numbers.tolerance, numbers.iterations, fft, criterion == "lumped")
-    found, values, errors = solve_with_estimate(now, nodes, settings, hertz)
+    found, values, errors = solve_with_estimate(now, nodes, settings)
     state = found.state
     return PointContact(
         x=nodes.x,
@@ -251,6 +253,7 @@ def _heights(first: ArrayLike | None, second: ArrayLike | None) -> Array | None:
 
 def _grid(
     numbers: _Numbers,
+    shape: Point,
     film: float,
     heights: Array | None,
     spacing: float | None,
@@ -269,13 +272,13 @@ def _grid(
         ny, nx = heights.shape
     from .film.fitted import Extent
 
-    extent = Extent.of(numbers.load, numbers.radius_x, numbers.radius_y, numbers.reduced_modulus, film)
+    extent = Extent.of(shape, numbers.load, numbers.reduced_modulus, film)
     sides = None if domain is None else _sides(domain)
     if ny is None or nx is None:
         if sides is not None:
             nx = nx or 129
             ny = round((nx - 1) * (sides[3] - sides[2]) / (sides[1] - sides[0])) + 1
-        elif numbers.radius_x == numbers.radius_y:
+        elif shape.circular:
             ny, nx = nx or 129, nx or 129
         else:
             ny, nx = extent.shape(nx)

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..reference import hertz_point
+from ..shapes import Point
 from .instant import Grid
-from .scaled import edge_radii, film_size, inlet_length
+from .scaled import film_size, inlet_length
 
 _LEFT, _RIGHT, _SIDES = 4.5, 2.5, 3.5  # half widths of a thick film, in its size
 _INLETS_BEFORE, _INLETS_AROUND = 10.0, 6.0  # inlet lengths about Hertz's contact that a thin film needs
@@ -23,13 +23,12 @@ class Extent:
     side: float
 
     @staticmethod
-    def of(load: float, radius_x: float, radius_y: float, reduced_modulus: float, film: float) -> "Extent":
+    def of(shape: Point, load: float, reduced_modulus: float, film: float) -> "Extent":
         """What a film [m] of smooth bodies needs. SI."""
-        hertz = hertz_point(load, radius_x, radius_y, reduced_modulus)
+        hertz, turned = shape.hertz(load, reduced_modulus), Point(shape.radius_y, shape.radius_x)
         a, b = hertz.a, hertz.b
-        edge_x, edge_y = edge_radii(hertz, radius_x, radius_y, reduced_modulus)
-        size, inlet = film_size(a, radius_x, film), inlet_length(a, edge_x, film)
-        width, around = film_size(b, radius_y, film), inlet_length(b, edge_y, film)
+        size, inlet = film_size(a, shape.radius_x, film), inlet_length(a, shape, film)
+        width, around = film_size(b, turned.radius_x, film), inlet_length(b, turned, film)
         return Extent(
             left=min(_LEFT * size, 1.1 * a + _INLETS_BEFORE * inlet),
             right=min(_RIGHT * size, 1.25 * a + inlet),
@@ -74,8 +73,6 @@ def _partner(nodes: int, ratio: float, *, mirror: bool) -> int:
     return max(round(wanted / step) * step, 8 * 2**halvings if halvings else 16) + 1
 
 
-def fitted_grid(
-    load: float, radius_x: float, radius_y: float, reduced_modulus: float, film: float, ny: int, nx: int
-) -> Grid:
+def fitted_grid(shape: Point, load: float, reduced_modulus: float, film: float, ny: int, nx: int) -> Grid:
     """Grid of [ny, nx] nodes for a film [m] of smooth bodies. SI; oil comes in along +x."""
-    return Extent.of(load, radius_x, radius_y, reduced_modulus, film).grid(ny, nx)
+    return Extent.of(shape, load, reduced_modulus, film).grid(ny, nx)

@@ -39,11 +39,11 @@ class Regime:
     algorithms: tuple[tuple[str, str], ...]
     floors: tuple[float, float] = _ALL  # formula film of smooth bodies / floor
     clearance: tuple[float, float] = _ALL  # formula film of smooth bodies / rms roughness (smooth: infinite)
-    load: tuple[float, float] = _ALL  # Moes' M, of an ellipse as `SmoothContact.circular_load`
+    load: tuple[float, float] = _ALL  # Moes' M, as `Scaled.moes_load`
 
     def holds(self, scaled: Scaled) -> bool:
         """Whether a contact belongs to this row."""
-        load, film = scaled.contact.circular_load, scaled.smooth_film
+        load, film = scaled.moes_load, scaled.smooth_film
         clearance = film / scaled.roughness if scaled.roughness > 0.0 else math.inf
         pairs = ((self.floors, film / scaled.settings.floor), (self.clearance, clearance), (self.load, load))
         return all(low <= value <= high for (low, high), value in pairs)
@@ -138,7 +138,7 @@ class _Solver:
         if method == "multigrid":
             if not (steady and is_applicable(self.problem)):
                 return None
-            film, shape = scaled.smooth_film / scaled.h_unit, (scaled.depth, scaled.ratio)
+            film, shape = scaled.smooth_film / scaled.h_unit, (scaled.depth, scaled.curvature)
             given = (self.problem, scaled.x, scaled.y, settings.fft, film)
             return solve_smooth(*given, settings.tolerance, _CYCLES, *shape)[0]
         start = self._start(begin)
@@ -170,7 +170,7 @@ def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:
     """The same instant on a grid of half the nodes."""
     ease, thinned = (None if field is None else restrict(field) for field in (now.ease, now.thinned))
     instant = replace(now, heights=restrict(now.heights), limit=restrict(now.limit), ease=ease, thinned=thinned)
-    return instant, Grid(restrict(grid.x), restrict(grid.y))
+    return instant, replace(grid, x=restrict(grid.x), y=restrict(grid.y))
 
 
 def prolonged(state: FilmState, shape: tuple[int, int]) -> FilmState:

@@ -6,7 +6,6 @@ from dataclasses import replace
 from functools import cached_property, lru_cache
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 from ..errors import ConvergenceError
@@ -14,8 +13,10 @@ from ..kernels.dry import solve_dry
 from ..kernels.far_field import far_field
 from ..kernels.half_space import HalfSpace
 from ..kernels.mixed import Iterate, Problem, Solution
-from ..reference import Hertz, SmoothContact, hertz_point, nijenbanning_venner_moes
+from ..reference import SmoothContact, SmoothLine
+from ..shapes import Point, Shape
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings
+from .outputs import disc
 
 Array = NDArray[np.float64]
 
@@ -30,50 +31,47 @@ _FAR_FIELD_BELOW = 30.0  # Moes' M: above, what lies beyond a film-sized grid ch
 
 
 class Scaled:
-    """An instant in units of l (lengths), l^2 / radius_x (gaps) and 3 load / (2 pi l m) (pressures).
+    """An instant in units of l (lengths), l^2 / radius_x (gaps) and p_H (a / l)^n (pressures; n = 2, for lines 1).
 
-    l and m, l^2 = a^2 + 1.4 radius_x h and m^2 = b^2 + 1.4 radius_y h, are the half widths along x and y of what
-    carries the load: those of Hertz's contact, or of a film of smooth bodies h that is thicker than that contact is
-    deep. They keep the solution of order one.
+    l^2 = a^2 + 1.4 radius_x h is the size of what carries the load: a of Hertz's contact along x, or the extent of a
+    film of smooth bodies h that is thicker than that contact is deep. Both keep the solution of order one. What the
+    kernels get of a periodic grid has an image of its last row before the first, and of its first after the last.
     """
 
     def __init__(self, now: Instant, grid: Grid, settings: Settings) -> None:
         self.now, self.grid, self.settings = now, grid, settings
-        self.hertz = hertz_point(now.load, now.radius_x, now.radius_y, now.reduced_modulus)
-        circle = hertz_point(now.load, now.radius_x, now.radius_x, now.reduced_modulus)
-        self.size = film_size(self.hertz.a, now.radius_x, self.smooth_film)
-        self.aspect = self.size / film_size(self.hertz.b, now.radius_y, self.smooth_film)
-        self.p_unit = circle.pressure_max * (circle.a / self.size) ** 2 * self.aspect
-        self.h_unit = self.size**2 / now.radius_x
+        shape = now.shape
+        self.hertz = hertz = shape.hertz(now.load, now.reduced_modulus)
+        self.a = hertz.a
+        self.size = film_size(hertz.a, shape.radius_x, self.smooth_film)
+        thin = self.a / self.size
+        self.p_unit = hertz.pressure_max * thin**shape.order
+        self.h_unit = self.size**2 / shape.radius_x
         self.dx, self.floor = grid.spacing / self.size, settings.floor / self.h_unit
-        self.load = 2.0 * np.pi / 3.0 / self.aspect / self.dx**2
-        compliance = (circle.a / self.size) ** 3
-        self.compliance = compliance * self.aspect
-        self.depth = compliance ** (2.0 / 3.0) * (self.hertz.approach / circle.approach)
-        self.half_space = half_space(grid.shape, self.compliance * 2.0 / np.pi**2 * self.dx, settings.fft)
+        self.load = shape.carried(hertz, self.size, grid.shape[0] * grid.spacing) / self.dx**2
+        self.compliance = shape.softness(hertz, now.reduced_modulus) * thin ** (shape.order + 1)
+        scale = self.compliance * 2.0 / np.pi**2 * self.dx
+        self.half_space = half_space(grid.shape, scale, settings.fft, grid.periodic)
         self.cap = now.limit / self.p_unit
         if self.cap.sum() <= 1.01 * self.load:
             raise ConvergenceError(
                 f"{now.load:g} N are more than a grid of {grid.shape[1] * grid.spacing:g} m by "
                 f"{grid.shape[0] * grid.spacing:g} m can carry at the hardness. Lower the load or enlarge film.domain."
             )
+        self.depth = self.compliance ** (2.0 / 3.0) if shape.circular else hertz.approach / self.h_unit
         self.x, self.y = grid.x / self.size, grid.y / self.size
-        self.ratio = now.radius_x / now.radius_y
-        x_2, y_2 = self.x[None, :] ** 2, self.y[:, None] ** 2
-        self.smooth = np.sqrt(np.maximum(1.0 - (x_2 + self.aspect**2 * y_2), 0.0))
-        self.undeformed = 0.5 * (x_2 + self.ratio * y_2) - now.heights / self.h_unit
+        gap = shape.gap(self.x, self.y, self.size)
+        self.smooth = np.sqrt(np.maximum(1.0 - 2.0 * gap, 0.0))
+        self.undeformed = gap - now.heights / self.h_unit
 
     @cached_property
-    def contact(self) -> SmoothContact:
+    def contact(self) -> SmoothContact | SmoothLine:
         """The smooth contact in the terms of film formulas."""
-        now = self.now
-        oil = (now.viscosity, now.temperature)
-        smooth = SmoothContact.of(
-            now.load, now.entrainment_speed, *oil, now.radius_x, now.radius_y, now.reduced_modulus
-        )
+        now, shape = self.now, self.now.shape
+        smooth = shape.smooth(now.load, now.entrainment_speed, now.viscosity, now.temperature, now.reduced_modulus)
         if now.ease is None and now.thinned is None:
             return smooth
-        before = self.hertz.a + self._inlet_length(nijenbanning_venner_moes(smooth))
+        before = self.a + inlet_length(self.a, shape, smooth.film)
         at = np.abs(self.grid.y).argmin(), np.abs(self.grid.x + before).argmin()  # where the film builds up
         ease, thinned = self._oil(smooth.viscosity)
         return replace(smooth, viscosity=smooth.viscosity / float(ease[at] * (1.0 + thinned[at])))
@@ -90,12 +88,24 @@ class Scaled:
     def smooth_film(self) -> float:
         """Film [m] that smooth bodies would have, by formula; zero if there is none."""
         now = self.now
-        return 0.0 if now.dry or now.entrainment_speed == 0.0 else nijenbanning_venner_moes(self.contact)
+        return 0.0 if now.dry or now.entrainment_speed == 0.0 else self.contact.film
+
+    @property
+    def moes_load(self) -> float:
+        """Moes' M; of an ellipse that of the circular contact that is as near to rigid."""
+        contact = self.contact
+        return contact.circular_load if isinstance(contact, SmoothContact) else contact.moes_parameters[0]
+
+    @property
+    def curvature(self) -> float:
+        """Of the undeformed gap along y, over that along x."""
+        shape = self.now.shape
+        return shape.radius_x / shape.radius_y if isinstance(shape, Point) else 0.0
 
     @cached_property
     def roughness(self) -> float:
         """Rms height [m] of both bodies together where they meet."""
-        inside = self.grid.stretched_radius_2(self.aspect) < (1.5 * self.size) ** 2
+        inside = self.hertz.inside(self.grid.x, self.grid.y, 1.5 * self.size / self.a)
         return float(self.now.heights[inside].std()) if inside.any() else 0.0
 
     def per_dt(self, step: float) -> float:
@@ -107,7 +117,7 @@ class Scaled:
         now = self.now
         top = min(now.hardness, _TABLE_TOP)
         fluidity, density, viscosity = _tables(now.viscosity, now.density, now.temperature, top)
-        mobility = self.size**3 * self.p_unit / (12.0 * viscosity * now.entrainment_speed * now.radius_x**2)
+        mobility = self.size**3 * self.p_unit / (12.0 * viscosity * now.entrainment_speed * now.shape.radius_x**2)
         edge, weight = self._beyond
         ease, thinned = self._oil(viscosity)
         return Problem(
@@ -131,8 +141,8 @@ class Scaled:
 
     @cached_property
     def _beyond(self) -> tuple[Array, Array]:
-        if self.contact.circular_load < _FAR_FIELD_BELOW:
-            return far_field(self.x, self.y, self.smooth_film / self.h_unit, self.ratio)
+        if self.moes_load < _FAR_FIELD_BELOW:
+            return far_field(self.x, self.y, self.smooth_film / self.h_unit, self.curvature)
         return np.zeros_like(self.cap), np.ones_like(self.cap)
 
     def iterate(self, state: FilmState) -> Iterate:
@@ -151,8 +161,8 @@ class Scaled:
         """A Hertz-like pressure under the film of smooth bodies and the highest asperities."""
         pressure = np.minimum(self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300)), self.cap)
         lift = self.smooth_film + 0.5 * max(float(self.now.heights.max()), 0.0)
-        settled = self.compliance / float(scipy.special.agm(1.0, self.aspect))  # of the centre under that pressure
-        rigid = lift / self.h_unit - settled
+        settled = self.compliance if self.now.shape.circular else float(self.half_space.deform(pressure).max())
+        rigid = lift / self.h_unit - settled  # what that pressure deforms the centre by
         return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid)
 
     def shared_start(self) -> Iterate:
@@ -225,52 +235,29 @@ class Scaled:
 
     def _inlet_nodes(self, gap: Array) -> float:
         """Nodes across the zone before the contact in which the film builds up."""
-        a = self.hertz.a
-        radius_2 = self.grid.stretched_radius_2(a / self.hertz.b)
-        centre = radius_2 < max(4.0 / 9.0 * a**2, 1.01 * float(radius_2.min()))  # at least the nearest nodes
-        film = float(gap[centre].mean())
+        film = float(gap[disc(self.grid, self.hertz)].mean())
         if self.now.entrainment_speed > 0.0:  # roughness holds the gap open, yet it is the oil's own film that comes in
             film = min(film, self.smooth_film)
-        return self._inlet_length(film) / self.grid.spacing
-
-    def _inlet_length(self, film: float) -> float:
-        """Distance [m] before Hertz's contact in which a film [m] builds up."""
-        radius, _ = edge_radii(self.hertz, self.now.radius_x, self.now.radius_y, self.now.reduced_modulus)
-        return inlet_length(self.hertz.a, radius, film)
+        return inlet_length(self.a, self.now.shape, film) / self.grid.spacing
 
 
 def film_size(a: float, radius: float, film: float) -> float:
-    """Half width [m] along an axis of what carries the load under a film [m] of smooth bodies; that of Hertz's contact,
-    a [m], if thin. `radius` [m] is that of the bodies along the axis.
-    """
+    """Half width [m] of what carries the load under a film [m] of smooth bodies; a [m] of Hertz's contact if thin."""
     return float(np.sqrt(a**2 + 1.4 * radius * film))
 
 
-def edge_radii(hertz: Hertz, radius_x: float, radius_y: float, reduced_modulus: float) -> tuple[float, float]:
-    """Radii [m] of the circular contacts that are as Hertz's elliptical one near the ends of its axes along x and y.
-
-    The gap beside the edge only depends on the pressure behind it, p_H sqrt(2 d/a): R = a E' / (pi p_H).
-    """
-    if radius_x == radius_y:
-        return radius_x, radius_y
-    per_width = reduced_modulus / (np.pi * hertz.pressure_max)
-    return hertz.a * per_width, hertz.b * per_width
-
-
-def inlet_length(a: float, radius: float, film: float) -> float:
-    """Distance [m] before Hertz's contact at which its gap, (4 sqrt2 / 3 pi) (d/a)^1.5 a^2 / R, is the film [m]; R of
-    `edge_radii`.
-    """
-    return float(a * (film * radius / a**2 / 0.6) ** (2.0 / 3.0))
+def inlet_length(a: float, shape: Shape, film: float) -> float:
+    """Distance d [m] before Hertz's contact at which its gap, opening (d/a)^1.5 a^2 / R, is the film [m]."""
+    return float(a * (film * shape.radius_x / a**2 / shape.opening) ** (2.0 / 3.0))
 
 
 _LOCAL = threading.local()  # plans and scratch may not be shared between threads
 
 
-def half_space(shape: tuple[int, int], scale: float, library: str) -> HalfSpace:
+def half_space(shape: tuple[int, int], scale: float, library: str, periodic: bool = False) -> HalfSpace:
     """The half space of a grid, with plans kept from before."""
-    store: dict[tuple[tuple[int, int], float, str], HalfSpace] = _LOCAL.__dict__.setdefault("half_spaces", {})
-    key = (shape, scale, library)
+    store: dict[tuple[tuple[int, int], float, str, bool], HalfSpace] = _LOCAL.__dict__.setdefault("half_spaces", {})
+    key = (shape, scale, library, periodic)
     if key not in store:
         if len(store) >= 8:
             store.pop(next(iter(store)))

@@ -211,11 +211,11 @@ def solve_smooth(
     if not is_applicable(problem):
         raise ValueError("multigrid needs a steady problem and a grid of m 2^k + 1 nodes, m small")
     levels = _levels(problem, x, y, library, film, curvature)
-    deep = problem.compliance ** (2.0 / 3.0) if depth is None else depth
+    depth = problem.compliance ** (2.0 / 3.0) if depth is None else depth  # a^2 / R
     found, films = _failure(problem), list[LevelFilm]()
     single, spread = _damping(problem, film)
     for part in _DAMPING_PARTS:
-        solver = _Multigrid(levels, problem.load * problem.spacing**2, deep, part * single, spread)
+        solver = _Multigrid(levels, problem.load * problem.spacing**2, depth, part * single, spread)
         progress, films = solver.nested(film, tolerance, cycles)
         found = _solution(problem, levels[-1], progress, tolerance)
         if progress.change < _LOST:

@@ -1,8 +1,12 @@
 """Film thickness of smooth line contacts."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
+
+from .point_films import at_no_pressure
 
 
 @dataclass(frozen=True)
@@ -16,12 +20,30 @@ class SmoothLine:
     radius: float  # of combined curvature, along x [m]
     reduced_modulus: float  # E' = 2 / sum (1 - v^2)/E [Pa]
 
+    @staticmethod
+    def of(
+        load: float,
+        entrainment_speed: float,
+        viscosity: Callable[[NDArray[np.float64], float], NDArray[np.float64]],
+        temperature: float,
+        radius: float,
+        reduced_modulus: float,
+    ) -> "SmoothLine":
+        """The contact with an oil whose `viscosity` [Pa s] is a law of pressures [Pa] and a temperature [K]."""
+        low, rise = at_no_pressure(viscosity, temperature)
+        return SmoothLine(load, abs(entrainment_speed), low, rise, radius, reduced_modulus)
+
     @property
     def moes_parameters(self) -> tuple[float, float]:
         """Moes' parameters of load and lubricant (M, L) of line contacts, on the sum of surface speeds."""
         speed = 2.0 * self.viscosity * self.entrainment_speed / (self.reduced_modulus * self.radius)
         load = self.load / (self.reduced_modulus * self.radius)
         return load * speed**-0.5, self.pressure_coefficient * self.reduced_modulus * speed**0.25
+
+    @property
+    def film(self) -> float:
+        """Central film [m] by `moes_line`."""
+        return moes_line(self)
 
 
 def dowson_line(contact: SmoothLine) -> tuple[float, float]:

@@ -11,6 +11,14 @@ from numpy.typing import NDArray
 from .hertz import hertz_point
 
 
+def at_no_pressure(
+    viscosity: Callable[[NDArray[np.float64], float], NDArray[np.float64]], temperature: float
+) -> tuple[float, float]:
+    """Viscosity [Pa s] and pressure coefficient [1/Pa] at p = 0 of a law of pressures [Pa] and a temperature [K]."""
+    low, high = viscosity(np.array([0.0, 1e6]), temperature)
+    return float(low), max(float(np.log(high / low)) * 1e-6, 1e-12)
+
+
 @dataclass(frozen=True)
 class SmoothContact:
     """A smooth, isothermal, Newtonian, fully flooded elastohydrodynamic point contact."""
@@ -34,9 +42,8 @@ class SmoothContact:
         reduced_modulus: float,
     ) -> "SmoothContact":
         """The contact with an oil whose `viscosity` [Pa s] is a law of pressures [Pa] and a temperature [K]."""
-        low, high = viscosity(np.array([0.0, 1e6]), temperature)
-        rise = max(float(np.log(high / low)) * 1e-6, 1e-12)
-        return SmoothContact(load, abs(entrainment_speed), float(low), rise, radius_x, radius_y, reduced_modulus)
+        low, rise = at_no_pressure(viscosity, temperature)
+        return SmoothContact(load, abs(entrainment_speed), low, rise, radius_x, radius_y, reduced_modulus)
 
     @property
     def moes_parameters(self) -> tuple[float, float]:
@@ -46,12 +53,17 @@ class SmoothContact:
 
     @property
     def circular_load(self) -> float:
-        """Moes' M of the circular contact that is as near to rigid: M over that at which the films of rigid and of
-        elastic, isoviscous bodies meet is the same for both.
+        """Moes' M of the circular contact that is as near to rigid: films of rigid and of elastic, isoviscous bodies
+        differ by the same factor.
         """
         rigid, elastic, *_ = _moes_factors(self.radius_x / self.radius_y)
         rigid_circle, elastic_circle, *_ = _moes_factors(1.0)
         return self.moes_parameters[0] * ((rigid_circle / elastic_circle) / (rigid / elastic)) ** (15 / 28)
+
+    @property
+    def film(self) -> float:
+        """Central film [m] by `nijenbanning_venner_moes`."""
+        return nijenbanning_venner_moes(self)
 
 
 def hamrock_dowson(contact: SmoothContact) -> tuple[float, float]:
