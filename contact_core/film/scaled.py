@@ -15,7 +15,7 @@ from ..kernels.far_field import far_field
 from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
 from ..kernels.mixed import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
-from ..shapes import Shape
+from ..shapes import Point, Shape
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings
 from .outputs import disc
 
@@ -62,6 +62,7 @@ class Scaled:
                 f"{now.load:g} N are more than a grid of {grid.shape[1] * grid.spacing:g} m by "
                 f"{grid.shape[0] * grid.spacing:g} m can carry at the hardness. Lower the load or enlarge film.domain."
             )
+        self.depth = self.compliance ** (2.0 / 3.0) if shape.circular else hertz.approach / self.h_unit
         self.x, self.y = grid.x / self.size, grid.y / self.size
         gap = shape.gap(self.x, self.y, self.size)
         self.smooth = np.sqrt(np.maximum(1.0 - 2.0 * gap, 0.0))
@@ -94,10 +95,15 @@ class Scaled:
         return 0.0 if now.dry or now.entrainment_speed == 0.0 else self.contact.film
 
     @property
-    def loadedness(self) -> float:
-        """Moes' M; of a line, that of the point contact whose Hertz contact is as deep, a^2 / R, in units of U^0.5 R."""
-        load, _ = self.contact.moes_parameters
-        return load if isinstance(self.contact, SmoothContact) else (8.0 * load / np.pi) ** 1.5 / 1.5
+    def moes_load(self) -> float:
+        """Moes' M; of ellipses and lines that of the circular contact that is as near to rigid."""
+        return self.contact.circular_load
+
+    @property
+    def curvature(self) -> float:
+        """Of the undeformed gap along y, over that along x."""
+        shape = self.now.shape
+        return shape.radius_x / shape.radius_y if isinstance(shape, Point) else 0.0
 
     @cached_property
     def roughness(self) -> float:
@@ -147,22 +153,21 @@ class Scaled:
 
     def with_images(self, start: Iterate) -> Iterate:
         """An iterate on the rows of the kernels."""
-        fields = (self._with_images(field) for field in (start.pressure, start.fluid, start.solid))
-        return Iterate(*fields, start.rigid)
+        images = self._with_images
+        return Iterate(images(start.pressure), images(start.fluid), images(start.solid), start.rigid)
 
     def without_images(self, found: Solution) -> Solution:
         """A solution of the kernels on the rows of the grid."""
         if not self.grid.periodic:
             return found
-        it = found.iterate
-        own = (field[1:-1].copy() for field in (it.pressure, it.fluid, it.solid))
-        gap, mass = found.gap[1:-1].copy(), found.mass[1:-1].copy()
-        return replace(found, iterate=Iterate(*own, it.rigid), gap=gap, mass=mass)
+        it, own = found.iterate, np.s_[1:-1]
+        iterate = Iterate(it.pressure[own].copy(), it.fluid[own].copy(), it.solid[own].copy(), it.rigid)
+        return replace(found, iterate=iterate, gap=found.gap[own].copy(), mass=found.mass[own].copy())
 
     @cached_property
     def _beyond(self) -> tuple[Array, Array]:
-        if isinstance(self.contact, SmoothContact) and self.contact.moes_parameters[0] < _FAR_FIELD_BELOW:
-            return far_field(self.x, self.y, self.smooth_film / self.h_unit)
+        if isinstance(self.now.shape, Point) and self.moes_load < _FAR_FIELD_BELOW:
+            return far_field(self.x, self.y, self.smooth_film / self.h_unit, self.curvature)
         return np.zeros_like(self.cap), np.ones_like(self.cap)
 
     def iterate(self, state: FilmState) -> Iterate:
@@ -181,10 +186,8 @@ class Scaled:
         """A Hertz-like pressure under the film of smooth bodies and the highest asperities."""
         pressure = np.minimum(self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300)), self.cap)
         lift = self.smooth_film + 0.5 * max(float(self.now.heights.max()), 0.0)
-        deepest = self.compliance  # what that pressure deforms the centre by
-        if self.now.shape.order == 1:
-            deepest = float((self.half_space.deform(pressure) + self.undeformed).min())
-        rigid = lift / self.h_unit - deepest
+        settled = self.compliance if self.now.shape.circular else float(self.half_space.deform(pressure).max())
+        rigid = lift / self.h_unit - settled  # what that pressure deforms the centre by
         return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid)
 
     def shared_start(self) -> Iterate:

@@ -76,7 +76,7 @@ def _cells(rows: NDArray[Any], nx: int) -> NDArray[Any]:
 
 
 def _rest(distance: Array, nx: int, period: int) -> NDArray[Any]:
-    """Sum over all cells a period apart that follow, half a period on, on a distance [m]: [m, nx], less that of a line's
+    """Sum over all cells a period apart that follow, half a period on, on a distance [m], [m, nx], less a line's
     part from cell to cell up to where -ln |x| is zero.
     """
     x, y = np.arange(nx)[None, :], distance[:, None]
