@@ -15,7 +15,7 @@ from ..kernels.far_field import far_field
 from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
 from ..kernels.mixed import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
-from ..shapes import Point, Shape
+from ..shapes import Line, Point, Shape
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings
 from .outputs import disc
 
@@ -53,8 +53,8 @@ class Scaled:
         self.compliance = shape.softness(hertz, now.reduced_modulus) * thin ** (shape.order + 1)
         scale = self.compliance * 2.0 / np.pi**2 * self.dx
         self.half_space = half_space(grid.shape, scale, settings.fft)
-        if grid.periodic:  # displacements are counted from those at the distance of a face's length
-            far = max(now.shape.length / grid.spacing, grid.shape[1])
+        if isinstance(shape, Line) and grid.periodic:  # displacements are counted from those a face's length away
+            far = max(shape.length / grid.spacing, grid.shape[1])
             self.half_space = half_space(grid.shape, scale, settings.fft, far)
         self.cap = now.limit / self.p_unit
         if self.cap.sum() <= 1.01 * self.load:
