@@ -310,7 +310,7 @@ class Iteration:
         if carried is not None:
             full, flow = carried.full, (carried.full, carried.flux, carried.first)
             inlet = (carried.flux, carried.filling, carried.first)
-            cavities.close_inlet(p, f, solid, carried.first)
+            cavities.close_inlet(p, f, solid, q.first)
         gap = (q.undeformed, self.half_space.deform_padded(p), self.rigid)
         reynolds.film_pass(p, f, solid, *gap, *oil, self.h, full, self.e, q.lumped)
         if carried is not None:
@@ -354,12 +354,22 @@ class Iteration:
         iterate = Iterate(self.p, self.f, self.solid, self.rigid)
         return Solution(iterate, self.h, self.mass, not why, n, self.change, load_error, intrusion, imbalance, why)
 
+    def _owed(self) -> Array:
+        """Mass that nodes have taken in by their balance and do not hold."""
+        if not self.problem.conserving:
+            return np.where(self.solid | (self.p <= 0.0), 0.0, self.r)
+        q, carried, owed, nowhere = self.problem, self.carried, np.zeros_like(self.r), np.zeros_like(self.solid)
+        assert carried is not None
+        balance = (self.mass, q.mass_old, self.e, q.per_dt, q.spacing)
+        reynolds.residual(self.f, nowhere, *balance, owed, carried.flux, carried.filling, carried.first)
+        return owed
+
     def kept(self, found: Solution) -> Solution:
         """A copy of an assessed solution that outlives the scratch arrays."""
         mass = self.mass.copy()
         if self.problem.per_dt > 0.0:
             # what the film still lacks of its mass balance goes into its history: the next instant makes up for it
-            owed = np.where(self.solid | (self.p <= 0.0), 0.0, self.r / self.problem.per_dt)
+            owed = self._owed() / self.problem.per_dt
             mass += np.clip(owed, -0.5 * mass, 0.5 * mass)
         fluid = np.where(self.solid, 0.0, self.f) if self.problem.lumped else self.f.copy()
         iterate = Iterate(self.p.copy(), fluid, self.solid.copy(), self.rigid)
