@@ -15,6 +15,7 @@ from ..kernels.direct import solve_direct
 from ..kernels.grids import prolong, restrict
 from ..kernels.mixed import Iterate, Solution, advected, excess, solve_mixed
 from ..kernels.multigrid import is_applicable, solve_smooth
+from ..kernels.newton import is_applicable as newton_is_applicable
 from ..kernels.newton import solve_newton
 from ..shapes import Point
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings
@@ -146,6 +147,8 @@ class _Solver:
             film, shape = scaled.smooth_film / scaled.h_unit, (scaled.depth, scaled.curvature)
             given = (self.problem, scaled.x, scaled.y, settings.fft, film)
             return solve_smooth(*given, settings.tolerance, _CYCLES, *shape)[0]
+        if method == "newton" and not newton_is_applicable(self.problem):
+            return None
         start = self._start(begin)
         if start is None:
             return None

@@ -15,6 +15,7 @@ from ..kernels.far_field import far_field
 from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
 from ..kernels.mixed import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
+from ..reference.starvation import film_behind_meniscus, supplied_film
 from ..shapes import Line, Point, Shape
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings
 from .outputs import disc
@@ -92,7 +93,12 @@ class Scaled:
     def smooth_film(self) -> float:
         """Film [m] that smooth bodies would have, by formula; zero if there is none."""
         now = self.now
-        return 0.0 if now.dry or now.entrainment_speed == 0.0 else self.contact.film
+        if now.dry or now.entrainment_speed == 0.0:
+            return 0.0
+        film = self.contact.film
+        if now.meniscus is not None:
+            film = film_behind_meniscus(film, now.meniscus, self.a, now.shape.radius_x)
+        return film if now.supply is None else supplied_film(film, now.supply)
 
     @property
     def moes_load(self) -> float:
@@ -144,6 +150,9 @@ class Scaled:
             edge=images(edge),
             weight=weight,
             lumped=self.settings.lumped,
+            conserving=now.conserving,
+            supply=None if now.supply is None else now.supply / self.h_unit,
+            first=self._first,
             wrapped=self.grid.periodic,
         )
 
@@ -165,8 +174,17 @@ class Scaled:
         return replace(found, iterate=iterate, gap=found.gap[own].copy(), mass=found.mass[own].copy())
 
     @cached_property
+    def _first(self) -> int:
+        """First column in which oil has pressure: the one after the node nearest to the inlet meniscus."""
+        meniscus = self.now.meniscus
+        if meniscus is None or self.grid.x[0] > -meniscus:
+            return 0
+        return min(int(np.abs(self.grid.x + meniscus).argmin()) + 1, self.grid.x.size - 1)
+
+    @cached_property
     def _beyond(self) -> tuple[Array, Array]:
-        if isinstance(self.now.shape, Point) and self.moes_load < _FAR_FIELD_BELOW:
+        starved = self._first > 0 or self.now.supply is not None
+        if isinstance(self.now.shape, Point) and self.moes_load < _FAR_FIELD_BELOW and not starved:
             return far_field(self.x, self.y, self.smooth_film / self.h_unit, self.curvature)
         return np.zeros_like(self.cap), np.ones_like(self.cap)
 
@@ -222,6 +240,8 @@ class Scaled:
         gap = iterate.rigid + self.undeformed + self.half_space.deform(iterate.pressure)
         load_error = float(iterate.pressure.sum()) / self.load - 1.0
         mass = np.maximum(gap, self.floor)
+        if self.now.supply is not None:
+            mass = np.minimum(mass, self.now.supply / self.h_unit)
         why = "" if converged else f"dry contact short of {tolerance:g} after {iterations} iterations"
         found = Solution(iterate, gap, mass, converged, iterations, tolerance, load_error, 0.0, 0.0, why)
         return self.solution(found, route, "conjugate gradients")

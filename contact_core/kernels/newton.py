@@ -155,7 +155,7 @@ def _seek_cavity(f, p, solid, e, mass, mass_old, per_dt, dx, rigid, light, sweep
                 inflow = west * f[j, i - 1] + east * f[j, i + 1] + south * f[j - 1, i] + north * f[j + 1, i]
                 if total < rigid or (f[j, i] <= 0.0 and inflow <= 0.0):
                     continue
-                value = (inflow - reynolds.transport(mass, mass_old, per_dt, dx, j, i)) / total
+                value = (inflow - reynolds.transport(mass, None, mass_old, per_dt, dx, j, i)) / total
                 f[j, i] = min(max(f[j, i] + 1.6 * (value - f[j, i]), 0.0), light)
                 p[j, i] = f[j, i]
         if wrapped:
@@ -290,7 +290,8 @@ class _Film:
             reynolds.wrap(solid)
         settled = solid & (self.releases >= _RELEASES)
         balance = (self.mass, q.mass_old, self.e, q.per_dt, q.spacing)
-        reynolds.fluid_under_contacts(p, f, solid, self.h, *balance, _SWEEPS_UNDER_CONTACTS, *oil, q.wrapped)
+        flow = (*oil, self.mass, None, 1, q.wrapped)
+        reynolds.fluid_under_contacts(p, f, solid, self.h, *balance, _SWEEPS_UNDER_CONTACTS, *flow)
         solid |= settled
 
     def correction(self) -> tuple[Array, Array, float] | None:
@@ -395,13 +396,21 @@ class _Film:
         return Solution(iterate, self.h, self.mass, not why, n, change, load_error, intrusion, imbalance, why)
 
 
+def is_applicable(problem: Problem) -> bool:
+    """Whether a film without pressure counts as full, and may have pressure everywhere."""
+    return not problem.by_flux
+
+
 def solve_newton(
     half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int
 ) -> Solution:
     """Newton steps from `start` until a step of full length meets the rule of `shortfall` or `iterations` are spent.
 
-    Non-finite values never leave: what is returned is finite, or its `change` is infinite.
+    Non-finite values never leave: what is returned is finite, or its `change` is infinite. ValueError if not
+    `is_applicable`.
     """
+    if not is_applicable(problem):
+        raise ValueError("newton knows neither mass in cavities nor an inlet meniscus")
     film = _Film(half_space, problem, start)
     film.evaluate()
     found = film.assess(0, np.inf, False, tolerance)
