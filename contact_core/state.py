@@ -24,7 +24,7 @@ from .trends import Trends
 
 Array = NDArray[np.float64]
 _Record = TypeVar("_Record", "ContactState", "Outputs", "Mean")
-_MAGIC, _SCHEMA = b"tribofmu", 4
+_MAGIC, _SCHEMA = b"tribofmu", 5
 
 
 class RangeFlag(IntFlag):

@@ -1,5 +1,6 @@
 """An instant of the film in the dimensionless units that the kernels work in."""
 
+import math
 import threading
 from collections.abc import Callable
 from dataclasses import replace
@@ -14,7 +15,7 @@ from ..kernels.far_field import far_field
 from ..kernels.half_space import HalfSpace
 from ..kernels.mixed import Iterate, Problem, Solution
 from ..reference import SmoothContact, hertz_point, nijenbanning_venner_moes
-from .instant import FilmSolution, FilmState, Grid, Instant, Settings
+from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 
 Array = NDArray[np.float64]
 
@@ -26,6 +27,8 @@ _START_TOLERANCE = 1e-2
 _SOLID_SHARE = 0.85  # of the load in `shared_start`: the best of 0.03 to 0.95 from light contact to nearly dry
 _LEAST_EASE = 1e-6  # what flows less does not flow
 _FAR_FIELD_BELOW = 30.0  # Moes' M: above, what lies beyond a film-sized grid changes the film by less than 1 %
+_SLOWEST = 0.25  # unit of speeds, in nodes per time step: entrained more slowly, a film is a matter of squeezing
+_FASTEST_CHANGE = 2.0  # of a film in a step, up to which it is of second order
 
 
 class Scaled:
@@ -33,13 +36,27 @@ class Scaled:
 
     l^2 = a^2 + 1.4 radius_x h is the size of what carries the load: a of Hertz's circular contact of radius_x, or the
     extent of a film of smooth bodies h that is thicker than that contact is deep. Both keep the solution of order one.
+    The unit of speeds is that of entrainment; in a time `step` from a film `start` it is at least a quarter of a node
+    per step, so that the film of slow bodies and of bodies at rest is of order one, too. `closing`: speed [m/s] at which
+    the bodies come closer, for what lies beyond the grid.
     """
 
-    def __init__(self, now: Instant, grid: Grid, settings: Settings) -> None:
+    def __init__(
+        self,
+        now: Instant,
+        grid: Grid,
+        settings: Settings,
+        start: FilmState | None = None,
+        step: Step | None = None,
+        closing: float = 0.0,
+    ) -> None:
         self.now, self.grid, self.settings = now, grid, settings
+        self.closing = closing
+        self.step = step if start else None
+        self.start = start if step else None
         hertz = hertz_point(now.load, now.radius_x, now.radius_x, now.reduced_modulus)
         self.a = hertz.a
-        self.size = film_size(hertz.a, now.radius_x, self.smooth_film)
+        self.size = film_size(hertz.a, now.radius_x, self.film)
         self.p_unit = hertz.pressure_max * (self.a / self.size) ** 2
         self.h_unit = self.size**2 / now.radius_x
         self.dx, self.floor = grid.spacing / self.size, settings.floor / self.h_unit
@@ -87,21 +104,53 @@ class Scaled:
         return 0.0 if now.dry or now.entrainment_speed == 0.0 else nijenbanning_venner_moes(self.contact)
 
     @cached_property
+    def film(self) -> float:
+        """Film [m] of smooth bodies: by formula, or that of a start from which they have not come so close yet."""
+        return max(self.smooth_film, self.start.rigid_gap) if self.start else self.smooth_film
+
+    @cached_property
+    def moes_load(self) -> float:
+        """Moes' parameter of load; infinite at rest."""
+        return self.contact.moes_parameters[0] if self.now.entrainment_speed > 0.0 else math.inf
+
+    @property
+    def is_light(self) -> bool:
+        """Whether the film is so thick that what lies beyond the grid matters."""
+        return self.moes_load < _FAR_FIELD_BELOW or (self.start is not None and self.start.rigid_gap > 0.0)
+
+    @cached_property
+    def speed(self) -> float:
+        """Unit of speeds [m/s]."""
+        return max(self.now.entrainment_speed, _SLOWEST * self.grid.spacing / self.step.dt if self.step else 0.0)
+
+    @cached_property
     def roughness(self) -> float:
         """Rms height [m] of both bodies together where they meet."""
         inside = self.grid.radius_2 < (1.5 * self.size) ** 2
         return float(self.now.heights[inside].std()) if inside.any() else 0.0
 
-    def per_dt(self, step: float) -> float:
-        """1 / time step in the units at hand."""
-        return self.size / (self.now.entrainment_speed * step)
+    def _history(self) -> tuple[float, Array]:
+        """1 / time step, and the mass [m] from which the film has come in it, [ny, nx].
 
-    def problem(self, mass: Array | None = None, per_dt: float = 0.0) -> Problem:
-        """What the kernels solve; `mass` [ny, nx] is that of the instant before, None for a steady film."""
-        now = self.now
+        A second-order step replaces both by those of the backward difference over this step and the one before
+        (Hairer & Wanner, Solving Ordinary Differential Equations II, 1996, doi:10.1007/978-3-642-05221-7, V.1).
+        """
+        if self.step is None or self.start is None:
+            return 0.0, np.zeros_like(self.cap)
+        per_dt, mass = self.size / (self.speed * self.step.dt), self.start.mass
+        if self.step.order == 1 or self.start.dt == 0.0:
+            return per_dt, mass
+        ratio = self.step.dt / self.start.dt
+        own = (1.0 + 2.0 * ratio) / (1.0 + ratio)
+        old = ((1.0 + ratio) * mass - ratio**2 / (1.0 + ratio) * self.start.mass_before) / own
+        return own * per_dt, np.clip(old, mass / _FASTEST_CHANGE, mass * _FASTEST_CHANGE)
+
+    def problem(self) -> Problem:
+        """What the kernels solve."""
+        now, (per_dt, mass) = self.now, self._history()
         top = min(now.hardness, _TABLE_TOP)
         fluidity, density, viscosity = _tables(now.viscosity, now.density, now.temperature, top)
-        mobility = self.size**3 * self.p_unit / (12.0 * viscosity * now.entrainment_speed * now.radius_x**2)
+        mobility = self.size**3 * self.p_unit / (12.0 * viscosity * self.speed * now.radius_x**2)
         edge, weight = self._beyond
         ease, thinned = self._oil(viscosity)
         return Problem(
@@ -113,7 +162,8 @@ class Scaled:
             mobility=mobility * ease,
             thinned=thinned,
             per_dt=per_dt,
-            mass_old=np.zeros_like(self.cap) if mass is None else mass,
+            wedge=now.entrainment_speed / self.speed,
+            mass_old=mass / self.h_unit,
             fluidity=fluidity,
             density=density,
             step=top / self.p_unit / (_TABLE - 1),
@@ -125,16 +175,21 @@ class Scaled:
 
     @cached_property
     def _beyond(self) -> tuple[Array, Array]:
-        if self.contact.moes_parameters[0] < _FAR_FIELD_BELOW:
-            return far_field(self.x, self.y, self.smooth_film / self.h_unit)
+        if self.is_light:
+            closing = 1.25 * self.closing * self.now.radius_x / (self.speed * self.size)
+            wedge = self.now.entrainment_speed / self.speed
+            return far_field(self.x, self.y, self.film / self.h_unit, wedge, closing)
         return np.zeros_like(self.cap), np.ones_like(self.cap)
 
     def iterate(self, state: FilmState) -> Iterate:
-        """A film state in these units, scaled to carry the load."""
-        total = state.pressure.sum() / self.p_unit
-        scale = self.load / total / self.p_unit if total > 0.0 else 1.0 / self.p_unit
-        pressure = np.minimum(state.pressure * scale, self.cap)
-        fluid = np.minimum(state.fluid * scale, pressure)
+        """A film state in these units, scaled to carry the load. Bodies that have carried none are taken to begin as
+        rigid ones that sink through oil do.
+        """
+        begun = state.pressure if state.pressure.any() else self.p_unit * (state.mass.min() / state.mass) ** 2
+        total = begun.sum() / self.p_unit
+        scale = self.load / total / self.p_unit
+        pressure = np.minimum(begun * scale, self.cap)
+        fluid = np.minimum(state.fluid * scale, pressure) if begun is state.pressure else pressure.copy()
         return Iterate(pressure, fluid, state.solid.copy(), state.rigid_gap / self.h_unit)
 
     def dry_start(self) -> Iterate:
@@ -196,6 +251,8 @@ class Scaled:
             np.ones((1, 1)) if self.now.ease is None else self.now.ease,
             np.zeros((1, 1)) if self.now.thinned is None else self.now.thinned,
         )
+        if self.start and self.step and self.step.order == 2:
+            state = replace(state, mass_before=self.start.mass, dt=self.step.dt)
         capped = it.solid & (it.pressure >= self.cap)
         overlap = np.where(capped, np.maximum(self.floor - found.gap, 0.0), 0.0) * self.h_unit
         gap = np.maximum(found.gap, self.floor) * self.h_unit

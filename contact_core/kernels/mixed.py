@@ -51,6 +51,7 @@ class Problem:
     mobility: Array  # pressure flow of a unit's gap, gradient and fluidity
     thinned: Array  # what shear adds to the fluidity
     per_dt: float  # 1 / time step, 0: steady
+    wedge: float  # entrainment speed: 1, less where that would be too slow a unit for the time step
     mass_old: Array  # mass of the previous instant
     fluidity: Array  # table of 1 / viscosity
     density: Array  # table
@@ -83,7 +84,7 @@ class Solution:
     change: float  # last relative change of the pressure by an iteration
     load_error: float  # relative
     intrusion: float  # mean distance of solid contacts below the cap from the floor, weighted by pressure, in floors
-    imbalance: float  # mass that the film gains or loses unasked in l / u_e, relative, weighted by the load it carries
+    imbalance: float  # mass that the film gains or loses unasked in the unit of time, relative, weighted by the load it carries
     shortfall: str = ""  # why it is not converged, empty if it is
 
 
@@ -253,7 +254,7 @@ class Iteration:
         self._film()
         self._press()
         q, p = self.problem, self.p
-        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.spacing)
+        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.wedge, q.spacing)
         near = (self.half_space.near, self.patch_wide)
         reynolds.relax_lines(p, self.solid, self.stiff, *film, *near, q.lumped, _LINE_SWEEPS, self.dp)
         lever = (self.stiff, self.unit, self.damping, q.load, q.edge, q.weight)
@@ -284,9 +285,9 @@ class Iteration:
         reynolds.film_pass(p, f, solid, *gap, *oil, *film, q.lumped)
         balance = (self.h, self.mass, q.mass_old, self.e)
         if not q.lumped:
-            constants = (q.per_dt, q.spacing, _SWEEPS_UNDER_CONTACTS)
+            constants = (q.per_dt, q.wedge, q.spacing, _SWEEPS_UNDER_CONTACTS)
             reynolds.fluid_under_contacts(p, f, solid, *balance, *constants, *oil)
-        scales = (q.floor, q.per_dt, q.spacing, q.compliance, self.patch)
+        scales = (q.floor, q.per_dt, q.wedge, q.spacing, q.compliance, self.patch)
         out = (self.r, self.stiff, self.dh, self.sums)
         self.zone = reynolds.mend_film(p, f, q.cap, solid, *balance, *scales, self.stiff_of_unit, *out)
 
