@@ -122,8 +122,8 @@ class FilmState:
     def mirrored(self) -> "FilmState":
         """The state seen from the other side."""
         solid = np.ascontiguousarray(self.solid[:, ::-1])
-        pressure, fluid, mass, *more = (np.ascontiguousarray(f[:, ::-1]) for f in self._fields)
-        return FilmState(pressure, fluid, solid, mass, self.rigid_gap, *more, self.dt)
+        pressure, fluid, mass, ease, thinned, warmth, before = (np.ascontiguousarray(f[:, ::-1]) for f in self._fields)
+        return FilmState(pressure, fluid, solid, mass, self.rigid_gap, ease, thinned, warmth, before, self.dt)
 
 
 @dataclass(frozen=True)

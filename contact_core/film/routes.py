@@ -193,8 +193,8 @@ def prolonged(state: FilmState, shape: tuple[int, int]) -> FilmState:
     """A film state of the coarser grid on one of `shape` nodes [ny, nx]."""
     pressure, fluid, mass = (prolong(field, shape) for field in (state.pressure, state.fluid, state.mass))
     solid = prolong(state.solid.astype(np.float64), shape) > 0.5
-    oil = (field if field.size == 1 else prolong(field, shape) for field in (state.ease, state.thinned))
-    return FilmState(pressure, fluid, solid, mass, state.rigid_gap, *oil)
+    ease, thinned = (field if field.size == 1 else prolong(field, shape) for field in (state.ease, state.thinned))
+    return FilmState(pressure, fluid, solid, mass, state.rigid_gap, ease, thinned)
 
 
 def _usable(solution: Solution) -> bool:

@@ -37,8 +37,8 @@ class Scaled:
     l^2 = a^2 + 1.4 radius_x h is the size of what carries the load: a of Hertz's circular contact of radius_x, or the
     extent of a film of smooth bodies h that is thicker than that contact is deep. Both keep the solution of order one.
     The unit of speeds is that of entrainment; in a time `step` from a film `start` it is at least a quarter of a node
-    per step, so that the film of slow bodies and of bodies at rest is of order one, too. `closing`: speed [m/s] at which
-    the bodies come closer, for what lies beyond the grid.
+    per step, so that the film of slow bodies and of bodies at rest is of order one, too. `closing`: speed [m/s] at
+    which the bodies come closer, for what lies beyond the grid.
     """
 
     def __init__(

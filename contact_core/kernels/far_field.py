@@ -17,8 +17,8 @@ def far_field(x: Array, y: Array, film: float, wedge: float = 1.0, closing: floa
     """Ratio of the pressure of an edge node to that of its inner neighbour, and the weight of each node in the load.
 
     x [nx], y [ny] equally spaced; film: central film of smooth bodies; wedge, closing: u and 5/4 V R in the same unit.
-    Both results are [ny, nx]; the ratio is zero off the edge and where the flow leaves, the weight is 1 off the edge and
-    there holds what lies beyond.
+    Both results are [ny, nx]; the ratio is zero off the edge and where the flow leaves, the weight is 1 off the edge
+    and there holds what lies beyond.
     """
     spacing = x[1] - x[0]
     xx, yy = np.meshgrid(x, y)

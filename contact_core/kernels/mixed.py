@@ -84,7 +84,7 @@ class Solution:
     change: float  # last relative change of the pressure by an iteration
     load_error: float  # relative
     intrusion: float  # mean distance of solid contacts below the cap from the floor, weighted by pressure, in floors
-    imbalance: float  # mass that the film gains or loses unasked in the unit of time, relative, weighted by the load it carries
+    imbalance: float  # mass that the film gains or loses unasked in the unit of time, relative, by the load it carries
     shortfall: str = ""  # why it is not converged, empty if it is
 
 

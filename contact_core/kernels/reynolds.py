@@ -89,7 +89,7 @@ def film_pass(  # type: ignore[no-untyped-def]
 
 @_jit
 def transport(mass, mass_old, per_dt, wedge, dx, j, i):  # type: ignore[no-untyped-def]
-    """wedge d(m)/dx + d(m)/dt at a node."""
+    """Mass carried away and squeezed out at a node: wedge d(m)/dx + d(m)/dt."""
     if i > 1:
         slope = (1.5 * mass[j, i] - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2]) / dx
     else:
@@ -193,7 +193,25 @@ def imbalance(p, f, cap, solid, h, mass, r, floor, dx):  # type: ignore[no-untyp
 
 @_jit
 def mend_film(  # type: ignore[no-untyped-def]
-    p, f, cap, solid, h, mass, mass_old, e, floor, per_dt, wedge, dx, compliance, patch, stiff_before, r, stiff, dh, sums
+    p,
+    f,
+    cap,
+    solid,
+    h,
+    mass,
+    mass_old,
+    e,
+    floor,
+    per_dt,
+    wedge,
+    dx,
+    compliance,
+    patch,
+    stiff_before,
+    r,
+    stiff,
+    dh,
+    sums,
 ):
     """Residual r, the stiff zone, and the change of the gap dh in it that mends the residual, marched downstream.
 
