@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..errors import ConvergenceError
+from ..errors import ConvergenceError, FilmTooWideError
 from ..kernels.direct import solve_direct
 from ..kernels.grids import prolong, restrict
 from ..kernels.mixed import Iterate, Solution, advected, excess, solve_mixed
@@ -133,7 +133,7 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
         return scaled.solution(replace(best, iterations=spent), "mixed", used)
     if scaled.film > _FULL_FILM * scaled.roughness:  # no dry contact can stand in for that
         width, depth = (n * grid.spacing for n in reversed(grid.shape))
-        raise ConvergenceError(
+        raise (FilmTooWideError if scaled.is_light else ConvergenceError)(
             f"No solution was found for an oil film of about {scaled.film:.2g} m on a grid of {width:.3g} m by "
             f"{depth:.3g} m. Lower speed or viscosity, or enlarge the domain (film.domain) for a film that thick."
         )

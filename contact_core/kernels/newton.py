@@ -43,7 +43,7 @@ _jit = njit(cache=True, nogil=True, error_model="numpy")
 
 
 @_jit
-def _linearise(
+def _linearise(  # type: ignore[no-untyped-def]
     f, solid, h, m, e, floor, mobility, thinned, fluidity, density, step, dx, rate, wedge, slope, by_f, by_h
 ):
     """Derivatives of the net inflow by fluid pressure and by gap on the stencil: by_f, by_h [6, ny, nx]. `slope`
