@@ -6,6 +6,8 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     quantities   names, symbols, units, signs and averages of every input and output; ranges of every parameter
     constants    of nature
     units        "1.26 GPa" to SI, at the border
+    shapes       undeformed bodies: points, lines, rollers; their gap, Hertz's contact, film by formula
+    geometry     their records in a scene
     scene        Scene, its checks, OperatingPoint, Operation (the duty)
     reading      TOML to records and back, with did-you-mean
     state        ContactState, Outputs, RangeFlag, serialisation
@@ -32,7 +34,7 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     advance      advance: the evolution over time; uncertainty: how sure its outputs are
     warming      warm_up: loads what the first steps of a scene need
     tracks       the rubbed surfaces as they are, for profiles and pictures
-    reference    closed forms
+    reference/   closed forms: Hertz, films of points and lines, heat, wear
     data/        named oils, solids and tribofilms, and the shipped scenes
     checksum     of bytes joined from parts whose checksums are known
     errors       what can go wrong, each message with a way out

@@ -163,14 +163,16 @@ def has_moved(scene: Scene, op: OperatingPoint, old: OperatingPoint) -> bool:
 def _wide_enough(scene: Scene, state: ContactState) -> ContactState:
     """The state with more rows if the scar has reached the edge of the patches."""
     rows = state.rows
-    if not _worn_at_the_edge(state) or rows >= _WIDEST * scene.film.points:
+    if not _worn_at_the_edge(scene, state) or rows >= _WIDEST * scene.rows:
         return state
     more = 8 * math.ceil(rows / 64)  # an eighth on either side
     first, second = (widened(body, more) for body in state.bodies)
     return replace(state, bodies=(first, second), film=None)
 
 
-def _worn_at_the_edge(state: ContactState) -> bool:
+def _worn_at_the_edge(scene: Scene, state: ContactState) -> bool:
+    if scene.shape().periodic:
+        return False  # there is none
     rows = [*range(_EDGE), *range(-_EDGE, 0)]
     return any(body.wear[rows].max() > 1e-3 * body.wear.max() for body in state.bodies)
 
@@ -323,7 +325,7 @@ def _flags_of_motion(scene: Scene, op: OperatingPoint, state: ContactState, driv
         flags |= RangeFlag.SLOW_BODY
     if op.load > 0.0 and _stable_time(scene, op, state) < _SHORTEST * scene.control.longest:
         flags |= RangeFlag.STIFF_WEAR
-    if _worn_at_the_edge(state):
+    if _worn_at_the_edge(scene, state):
         flags |= RangeFlag.DOMAIN_EDGE
     return flags
 

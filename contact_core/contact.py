@@ -164,13 +164,11 @@ def solve(
 
 def instant_of(scene: Scene, op: OperatingPoint, heights: Array, limit: Array) -> Instant:
     """An instant of a scene with heights and largest pressures as given, [ny, nx]."""
-    radius_x, radius_y = scene.radii(op)
     return Instant(
         load=op.load,
         entrainment_speed=op.entrainment_speed,
         temperature=op.inlet_temperature,
-        radius_x=radius_x,
-        radius_y=radius_y,
+        shape=scene.shape(op),
         reduced_modulus=scene.solids.reduced_modulus,
         viscosity=scene.lubricant.viscosity,
         density=scene.lubricant.density,
@@ -182,8 +180,8 @@ def instant_of(scene: Scene, op: OperatingPoint, heights: Array, limit: Array) -
 
 def _open(scene: Scene, op: OperatingPoint, grid: Grid, heights: Array) -> FilmSolution:
     """No load: the bodies just touch and nothing presses."""
-    radius_x, radius_y = scene.radii(op)
-    shape = grid.x[None, :] ** 2 / (2 * radius_x) + grid.y[:, None] ** 2 / (2 * radius_y) - heights
+    bodies = scene.shape(op)
+    shape = bodies.gap(grid.x, grid.y, 1.0) / bodies.radius_x - heights
     rigid = scene.film.floor - float(shape.min())
     zeros, nothing = np.zeros_like(shape), np.zeros(shape.shape, np.bool_)
     return FilmSolution(

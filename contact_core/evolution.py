@@ -64,7 +64,7 @@ def sliding_on_track(scene: Scene, op: OperatingPoint, rows: int) -> float | Arr
 def area_of_node(scene: Scene, op: OperatingPoint, i: int) -> float:
     """Area [m2] for which one node of the patch stands: the patch repeats along the track of a moving body."""
     moving = speeds_of(op)[i] != 0.0
-    return scene.film.spacing**2 * (track_length(scene, i) / scene.film.domain if moving else 1.0)
+    return scene.film.spacing**2 * scene.repeats * (track_length(scene, i) / scene.film.domain if moving else 1.0)
 
 
 def across_track(scene: Scene, rows: int) -> Array:

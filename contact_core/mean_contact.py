@@ -240,11 +240,11 @@ def _thinned(
 
 
 def _smooth_film(
-    scene: Scene, radii: tuple[float, float], speed: float, load: float, viscosity: float, pressure_coefficient: float
+    scene: Scene, radii: tuple[float, ...], speed: float, load: float, viscosity: float, pressure_coefficient: float
 ) -> float:
     """The film [m] of an oil at p = 0."""
     load, speed = max(load, _LIGHTEST), max(speed, _SLOWEST)
-    return nvm_film(load, speed, viscosity, pressure_coefficient, *radii, scene.solids.reduced_modulus)
+    return nvm_film(load, speed, viscosity, pressure_coefficient, radii[0], radii[1], scene.solids.reduced_modulus)
 
 
 def _thinning(scene: Scene, temperature: float) -> float:

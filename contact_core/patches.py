@@ -1,7 +1,7 @@
 """Body-fixed patches: what a surface is now, and where it lies under the contact.
 
-A patch [rows, nx - 1] repeats along x and shares its rows with the grid of the contact [rows, nx]. All bodies start
-with as many rows as the scene has points; a scar that reaches the edge makes them more.
+A patch [rows, nx - 1] repeats along x and shares its rows with the grid of the contact [rows, nx]. A scar that reaches
+the edge makes rows more, but not on a line, which has no edge.
 """
 
 from collections.abc import Sequence
@@ -23,7 +23,8 @@ Array = NDArray[np.float64]
 
 def contact_grid(scene: Scene, rows: int) -> Grid:
     """The nodes of the contact with `rows` of them along y."""
-    return Grid.centred(rows, scene.film.points, scene.film.spacing)
+    film, periodic = scene.film, scene.shape().periodic
+    return Grid.centred(rows, film.points, film.spacing, periodic=periodic, repeats=scene.repeats)
 
 
 def patch_nodes(scene: Scene, body: Body) -> int:
@@ -44,16 +45,16 @@ def on_patch(grid: NDArray[Any], nodes: int) -> NDArray[Any]:
 
 def bare_heights(scene: Scene, rows: int) -> tuple[Array, Array]:
     """Generated heights of both bodies' patches, as new. Rows beyond the scene's own repeat them."""
-    film = scene.film
-    return _bare(scene.surface_1, film.points, film.domain, 1, rows), _bare(
-        scene.surface_2, film.points, film.domain, 2, rows
-    )
+    film, own = scene.film, scene.rows
+    period = own if scene.shape().periodic else own - 1
+    grid = (film.points, film.domain, period, own, rows)
+    return _bare(scene.surface_1, 1, *grid), _bare(scene.surface_2, 2, *grid)
 
 
 @lru_cache(maxsize=32)  # sixteen contacts in one process
-def _bare(surface: Surface, points: int, domain: float, body: int, rows: int) -> Array:
-    own = np.arange(rows) - (rows - points) // 2
-    heights = generate(surface, points, domain, body)[own % (points - 1)]
+def _bare(surface: Surface, body: int, points: int, domain: float, period: int, own: int, rows: int) -> Array:
+    at = np.arange(rows) - (rows - own) // 2
+    heights = generate(surface, points, domain, body, period)[at % period]
     heights.setflags(write=False)
     return heights
 

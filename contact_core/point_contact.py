@@ -14,6 +14,7 @@ from .laws.viscosity import Barus, Roelands
 from .quantities import TABLE, out_of_range, parameter
 from .reading import did_you_mean
 from .reference import SmoothContact, hertz_point, nijenbanning_venner_moes
+from .shapes import Point
 
 Array = NDArray[np.float64]
 
@@ -161,8 +162,7 @@ def point_contact(
         load=numbers.load,
         entrainment_speed=speed,
         temperature=_REFERENCE,
-        radius_x=radius,
-        radius_y=numbers.radius_y,
+        shape=Point(radius, numbers.radius_y),
         reduced_modulus=numbers.reduced_modulus,
         viscosity=law,
         density=_DENSITY[density_law](),
@@ -172,7 +172,7 @@ def point_contact(
     )
     hertz = hertz_point(numbers.load, radius, radius, numbers.reduced_modulus)
     settings = Settings(numbers.floor, numbers.tolerance, numbers.iterations, fft, criterion == "lumped")
-    found, values, errors = solve_with_estimate(now, nodes, settings, hertz)
+    found, values, errors = solve_with_estimate(now, nodes, settings)
     state = found.state
     return PointContact(
         x=nodes.x,

@@ -337,7 +337,7 @@ def changed(record: _Record, **values: Any) -> _Record:
 
 def initial_state(scene: Scene) -> ContactState:
     """Fresh surfaces: no film, no wear, nothing solved."""
-    shape = (scene.film.points, scene.film.points - 1)
+    shape = (scene.rows, scene.film.points - 1)
     zeros = np.zeros(shape)
     body = Body(zeros, zeros, zeros, zeros, zeros, zeros, zeros, np.full(shape, np.inf), 0.0, 0.0, 0.0, 0.0)
     return ContactState(

@@ -6,11 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .contact import ContactFields
-from .film.instant import Grid
 from .film.outputs import disc, film_outputs, open_outputs
 from .friction import Film, derivatives
-from .patches import on_patch, patch_nodes
-from .reference import SmoothContact, hamrock_dowson
+from .patches import contact_grid, on_patch, patch_nodes
+from .reference import SmoothContact, dowson_line, hamrock_dowson
 from .scene import OperatingPoint, Scene
 from .state import ContactState, RangeFlag
 
@@ -117,16 +116,15 @@ def _exposures(scene: Scene, op: OperatingPoint, fields: ContactFields) -> tuple
 
 def observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[str, float]:
     """What one instant gives to the outputs."""
-    cell = scene.film.spacing**2
+    grid = contact_grid(scene, fields.y.size)
     found, warm = fields.friction, fields.temperatures
     seen = {
         "friction_force": found.force_solid + found.force_fluid,
         "friction_solid": found.force_solid,
         "spin_torque": found.spin_torque,
         "flash_temperature_rise": warm.flash_rise,
-        "heat_flow_1": warm.into_1,
+        "heat_flow_1": warm.into_1 * grid.repeats,
     }
-    grid = Grid(fields.x, fields.y)
     formula, sigma = 0.0, 0.0
     if op.load > 0.0:
         hertz = scene.hertz_at(op)
@@ -135,7 +133,7 @@ def observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[st
         slope = np.gradient(fields.fluid_pressure, scene.film.spacing, axis=1)
         seen |= film_outputs(grid, fields.film, fields.gap, op.load, hertz)
         seen |= {
-            "rolling_resistance": float((0.5 * fields.gap * slope).sum()) * cell,
+            "rolling_resistance": float((0.5 * fields.gap * slope).sum()) * grid.cell,
             "contact_area_ratio_disc": float((fields.solid_pressure[inside] > 0.0).mean()),
             "contact_load_ratio_disc": float(fields.solid_pressure[inside].sum() / carried) if carried > 0.0 else 0.0,
         }
@@ -151,12 +149,15 @@ def observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[st
 
 
 def _formula_film(scene: Scene, op: OperatingPoint) -> float:
-    """Hamrock & Dowson's central film [m] of the smooth bodies; zero without entrainment."""
+    """Conventional central film [m] of the smooth bodies: Hamrock & Dowson's, for lines Dowson & Toyoda's; zero without
+    entrainment.
+    """
     if op.entrainment_speed == 0.0:
         return 0.0
     oil = scene.lubricant.viscosity, op.inlet_temperature
-    contact = SmoothContact.of(op.load, op.entrainment_speed, *oil, *scene.radii(op), scene.solids.reduced_modulus)
-    return hamrock_dowson(contact)[0]
+    contact = scene.shape(op).smooth(op.load, op.entrainment_speed, *oil, scene.solids.reduced_modulus)
+    formula = hamrock_dowson(contact) if isinstance(contact, SmoothContact) else dowson_line(contact)
+    return formula[0]
 
 
 def _flags(scene: Scene, op: OperatingPoint, fields: ContactFields) -> RangeFlag:
@@ -168,8 +169,10 @@ def _flags(scene: Scene, op: OperatingPoint, fields: ContactFields) -> RangeFlag
         flags |= RangeFlag.FALLBACK
     if fields.route == "mixed" and fields.inlet_nodes < 3.0:
         flags |= RangeFlag.INLET_UNRESOLVED
-    rows, columns = fields.solid_pressure[[1, -2], :], fields.solid_pressure[:, [1, -2]]
-    if max(rows.max(), columns.max()) > 0.01 * fields.pressure.max():
+    edges = [fields.solid_pressure[:, [1, -2]]]
+    if not scene.shape().periodic:
+        edges.append(fields.solid_pressure[[1, -2], :])
+    if max(edge.max() for edge in edges) > 0.01 * fields.pressure.max():
         flags |= RangeFlag.DOMAIN_EDGE
     if 2.0 * scene.hertz_at(op).a < 8.0 * scene.film.spacing:
         flags |= RangeFlag.FEW_NODES

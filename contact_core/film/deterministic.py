@@ -26,6 +26,14 @@ class Deterministic:
     floor: float = parameter(
         "m", "gap at which solids touch: thickness of the adsorbed boundary layer", above=1e-11, most=1e-7
     )
+    width: float = parameter(
+        "m",
+        "extent of the grid along y; 0: as along x, for a roller its length, for smooth lines a single row",
+        least=0.0,
+        most=1.0,
+        default=0.0,
+        shapes_arrays=True,
+    )
     tolerance: float = parameter(
         "", "pressure change at which a solution counts as converged, relative", above=0.0, most=0.1, default=3e-3
     )

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ..reference import hertz_point
+from ..shapes import Point
 from .instant import Grid
 from .scaled import film_size, inlet_length
 
@@ -16,7 +17,7 @@ def fitted_grid(load: float, radius: float, reduced_modulus: float, film: float,
     Oil comes in along +x. The wider of the two needs, along x and along y, gives the spacing.
     """
     a = hertz_point(load, radius, radius, reduced_modulus).a
-    size, inlet = film_size(a, radius, film), inlet_length(a, radius, film)
+    size, inlet = film_size(a, radius, film), inlet_length(a, Point(radius, radius), film)
     left = min(_LEFT * size, 1.1 * a + _INLETS_BEFORE * inlet)
     right = min(_RIGHT * size, 1.25 * a + inlet)
     side = min(_SIDES * size, 1.15 * a + _INLETS_AROUND * inlet)

@@ -6,6 +6,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..shapes import Shape
+
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
@@ -16,17 +18,24 @@ class Grid:
 
     x: Array  # [nx] [m]
     y: Array  # [ny] [m]
+    periodic: bool = False  # along y: the row after the last is the first
+    repeats: float = 1.0  # how many times the grid lies in the contact, side by side along y
 
     @staticmethod
-    def centred(ny: int, nx: int, spacing: float) -> "Grid":
+    def centred(ny: int, nx: int, spacing: float, *, periodic: bool = False, repeats: float = 1.0) -> "Grid":
         """A grid about the contact."""
         x, y = ((np.arange(n, dtype=np.float64) - 0.5 * (n - 1)) * spacing for n in (nx, ny))
-        return Grid(x, y)
+        return Grid(x, y, periodic, repeats)
 
     @property
     def spacing(self) -> float:
         """Distance between neighbours [m]."""
         return float(self.x[-1] - self.x[0]) / (self.x.size - 1)
+
+    @property
+    def cell(self) -> float:
+        """Area [m2] of the contact that a node stands for."""
+        return self.spacing**2 * self.repeats
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -41,18 +50,17 @@ class Grid:
 
     def mirrored(self) -> "Grid":
         """The grid of the contact seen from the other side: x becomes -x."""
-        return Grid(-self.x[::-1], self.y)
+        return replace(self, x=-self.x[::-1])
 
 
 @dataclass(frozen=True)
 class Instant:
     """One instant of a contact."""
 
-    load: float
+    load: float  # of the whole contact
     entrainment_speed: float  # of either sign
     temperature: float
-    radius_x: float
-    radius_y: float
+    shape: Shape
     reduced_modulus: float
     viscosity: Callable[[Array, float], Array]  # [Pa s] at pressures and a temperature
     density: Callable[[Array], Array]  # ratio to that at p = 0, at pressures

@@ -44,17 +44,21 @@ class Regime:
     floors: tuple[float, float] = _ALL  # formula film of smooth bodies / floor
     clearance: tuple[float, float] = _ALL  # formula film of smooth bodies / rms roughness (smooth: infinite)
     load: tuple[float, float] = _ALL  # Moes' M
+    rows: int | None = None  # of a periodic grid; None: any grid
 
     def holds(self, scaled: Scaled) -> bool:
         """Whether a contact belongs to this row."""
         load, film = scaled.moes_load, scaled.film
         clearance = film / scaled.roughness if scaled.roughness > 0.0 else math.inf
+        if self.rows is not None and (not scaled.grid.periodic or self.rows != scaled.grid.shape[0]):
+            return False
         pairs = ((self.floors, film / scaled.settings.floor), (self.clearance, clearance), (self.load, load))
         return all(low <= value <= high for (low, high), value in pairs)
 
 
 REGIMES = (
     Regime("dry", (("hybrid", "dry"), ("direct", "last")), floors=(0.0, 0.5)),
+    Regime("line", (("newton", "film"), ("newton", "dry"), ("direct", "film")), clearance=(1e3, math.inf), rows=1),
     Regime(
         "smooth",
         (("multigrid", "none"), ("hybrid", "film"), ("direct", "film"), ("direct", "dry")),
@@ -105,7 +109,7 @@ def solve_film(
         scaled = Scaled(now, grid, settings, start, step, closing)
         found = _film(scaled, start, step)
         last, closing = closing, (start.rigid_gap - found.state.rigid_gap) / step.dt
-        if at_rest or not scaled.is_light or abs(closing - last) * now.radius_x < 0.1 * pull:
+        if at_rest or not scaled.is_light or abs(closing - last) * now.shape.radius_x < 0.1 * pull:
             break
     return found
 
@@ -153,7 +157,7 @@ class _Solver:
         """What a method finds from a start; None where they do not apply."""
         scaled, settings, steady = self.scaled, self.scaled.settings, self.step is None
         if method == "multigrid":
-            if not (steady and is_applicable(self.problem)):
+            if not steady or self.problem.wrapped or not is_applicable(self.problem):
                 return None
             film = scaled.smooth_film / scaled.h_unit
             return solve_smooth(self.problem, scaled.x, scaled.y, settings.fft, film, settings.tolerance, _CYCLES)[0]
@@ -165,7 +169,8 @@ class _Solver:
             "direct": (solve_direct, _DIRECT_ITERATIONS),
             "newton": (solve_newton, _NEWTON_STEPS),
         }[method]
-        return solve(scaled.half_space, self.problem, start, settings.tolerance, min(most, settings.iterations))
+        limits = settings.tolerance, min(most, settings.iterations)
+        return scaled.without_images(solve(scaled.half_space, self.problem, scaled.with_images(start), *limits))
 
     def _start(self, name: str) -> Iterate | None:
         scaled, state = self.scaled, self.state
@@ -186,7 +191,7 @@ def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:
     """The same instant on a grid of half the nodes."""
     ease, thinned = (None if field is None else restrict(field) for field in (now.ease, now.thinned))
     instant = replace(now, heights=restrict(now.heights), limit=restrict(now.limit), ease=ease, thinned=thinned)
-    return instant, Grid(restrict(grid.x), restrict(grid.y))
+    return instant, replace(grid, x=restrict(grid.x), y=restrict(grid.y))
 
 
 def prolonged(state: FilmState, shape: tuple[int, int]) -> FilmState:

@@ -4,7 +4,8 @@ import math
 import threading
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,10 +13,12 @@ from numpy.typing import NDArray
 from ..errors import ConvergenceError
 from ..kernels.dry import solve_dry
 from ..kernels.far_field import far_field
-from ..kernels.half_space import HalfSpace
+from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
 from ..kernels.mixed import Iterate, Problem, Solution
-from ..reference import SmoothContact, hertz_point, nijenbanning_venner_moes
+from ..reference import SmoothContact, SmoothLine
+from ..shapes import Shape
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
+from .outputs import disc
 
 Array = NDArray[np.float64]
 
@@ -32,10 +35,11 @@ _FASTEST_CHANGE = 2.0  # of a film in a step, up to which it is of second order
 
 
 class Scaled:
-    """An instant in units of l (lengths), l^2 / radius_x (gaps) and p_H a^2 / l^2 (pressures).
+    """An instant in units of l (lengths), l^2 / radius_x (gaps) and p_H (a / l)^n (pressures; n = 2, for lines 1).
 
-    l^2 = a^2 + 1.4 radius_x h is the size of what carries the load: a of Hertz's circular contact of radius_x, or the
-    extent of a film of smooth bodies h that is thicker than that contact is deep. Both keep the solution of order one.
+    l^2 = a^2 + 1.4 radius_x h is the size of what carries the load: a of Hertz's contact along x, or the extent of a
+    film of smooth bodies h that is thicker than that contact is deep. Both keep the solution of order one. What the
+    kernels get of a periodic grid has an image of its last row before the first, and of its first after the last.
     The unit of speeds is that of entrainment; in a time `step` from a film `start` it is at least a quarter of a node
     per step, so that the film of slow bodies and of bodies at rest is of order one, too. `closing`: speed [m/s] at
     which the bodies come closer, for what lies beyond the grid.
@@ -54,15 +58,21 @@ class Scaled:
         self.closing = closing
         self.step = step if start else None
         self.start = start if step else None
-        hertz = hertz_point(now.load, now.radius_x, now.radius_x, now.reduced_modulus)
+        shape = now.shape
+        self.hertz = hertz = shape.hertz(now.load, now.reduced_modulus)
         self.a = hertz.a
-        self.size = film_size(hertz.a, now.radius_x, self.film)
-        self.p_unit = hertz.pressure_max * (self.a / self.size) ** 2
-        self.h_unit = self.size**2 / now.radius_x
+        self.size = film_size(hertz.a, shape.radius_x, self.film)
+        thin = self.a / self.size
+        self.p_unit = hertz.pressure_max * thin**shape.order
+        self.h_unit = self.size**2 / shape.radius_x
         self.dx, self.floor = grid.spacing / self.size, settings.floor / self.h_unit
-        self.load = 2.0 * np.pi / 3.0 / self.dx**2
-        self.compliance = (self.a / self.size) ** 3
-        self.half_space = half_space(grid.shape, self.compliance * 2.0 / np.pi**2 * self.dx, settings.fft)
+        self.load = shape.carried(hertz, self.size, grid.shape[0] * grid.spacing) / self.dx**2
+        self.compliance = shape.softness(hertz, now.reduced_modulus) * thin ** (shape.order + 1)
+        scale = self.compliance * 2.0 / np.pi**2 * self.dx
+        self.half_space = half_space(grid.shape, scale, settings.fft)
+        if grid.periodic:  # displacements are counted from those at the distance of a face's length
+            far = max(now.shape.length / grid.spacing, grid.shape[1])
+            self.half_space = half_space(grid.shape, scale, settings.fft, far)
         self.cap = now.limit / self.p_unit
         if self.cap.sum() <= 1.01 * self.load:
             raise ConvergenceError(
@@ -70,21 +80,18 @@ class Scaled:
                 f"{grid.shape[0] * grid.spacing:g} m can carry at the hardness. Lower the load or enlarge film.domain."
             )
         self.x, self.y = grid.x / self.size, grid.y / self.size
-        radius_2 = self.x[None, :] ** 2 + now.radius_x / now.radius_y * self.y[:, None] ** 2
-        self.smooth = np.sqrt(np.maximum(1.0 - radius_2, 0.0))
-        self.undeformed = 0.5 * radius_2 - now.heights / self.h_unit
+        gap = shape.gap(self.x, self.y, self.size)
+        self.smooth = np.sqrt(np.maximum(1.0 - 2.0 * gap, 0.0))
+        self.undeformed = gap - now.heights / self.h_unit
 
     @cached_property
-    def contact(self) -> SmoothContact:
+    def contact(self) -> SmoothContact | SmoothLine:
         """The smooth contact in the terms of film formulas."""
-        now = self.now
-        oil = (now.viscosity, now.temperature)
-        smooth = SmoothContact.of(
-            now.load, now.entrainment_speed, *oil, now.radius_x, now.radius_y, now.reduced_modulus
-        )
+        now, shape = self.now, self.now.shape
+        smooth = shape.smooth(now.load, now.entrainment_speed, now.viscosity, now.temperature, now.reduced_modulus)
         if now.ease is None and now.thinned is None:
             return smooth
-        before = self.a + inlet_length(self.a, now.radius_x, nijenbanning_venner_moes(smooth))
+        before = self.a + inlet_length(self.a, shape, smooth.film)
         at = np.abs(self.grid.y).argmin(), np.abs(self.grid.x + before).argmin()  # where the film builds up
         ease, thinned = self._oil(smooth.viscosity)
         return replace(smooth, viscosity=smooth.viscosity / float(ease[at] * (1.0 + thinned[at])))
@@ -101,7 +108,7 @@ class Scaled:
     def smooth_film(self) -> float:
         """Film [m] that smooth bodies would have, by formula; zero if there is none."""
         now = self.now
-        return 0.0 if now.dry or now.entrainment_speed == 0.0 else nijenbanning_venner_moes(self.contact)
+        return 0.0 if now.dry or now.entrainment_speed == 0.0 else self.contact.film
 
     @cached_property
     def film(self) -> float:
@@ -126,7 +133,7 @@ class Scaled:
     @cached_property
     def roughness(self) -> float:
         """Rms height [m] of both bodies together where they meet."""
-        inside = self.grid.radius_2 < (1.5 * self.size) ** 2
+        inside = self.hertz.inside(self.grid.x, self.grid.y, 1.5 * self.size / self.a)
         return float(self.now.heights[inside].std()) if inside.any() else 0.0
 
     def _history(self) -> tuple[float, Array]:
@@ -150,33 +157,56 @@ class Scaled:
         now, (per_dt, mass) = self.now, self._history()
         top = min(now.hardness, _TABLE_TOP)
         fluidity, density, viscosity = _tables(now.viscosity, now.density, now.temperature, top)
-        mobility = self.size**3 * self.p_unit / (12.0 * viscosity * self.speed * now.radius_x**2)
+        mobility = self.size**3 * self.p_unit / (12.0 * viscosity * self.speed * now.shape.radius_x**2)
         edge, weight = self._beyond
         ease, thinned = self._oil(viscosity)
+        images = self._with_images
+        weight = images(weight)
+        if self.grid.periodic:
+            weight[[0, -1]] = 0.0
         return Problem(
-            undeformed=self.undeformed,
-            cap=self.cap,
+            undeformed=images(self.undeformed),
+            cap=images(self.cap),
             floor=self.floor,
             spacing=self.dx,
             load=self.load,
-            mobility=mobility * ease,
-            thinned=thinned,
+            mobility=mobility * images(ease),
+            thinned=images(thinned),
             per_dt=per_dt,
             wedge=now.entrainment_speed / self.speed,
-            mass_old=mass / self.h_unit,
+            mass_old=images(mass / self.h_unit),
             fluidity=fluidity,
             density=density,
             step=top / self.p_unit / (_TABLE - 1),
             compliance=self.compliance,
-            edge=edge,
+            edge=images(edge),
             weight=weight,
             lumped=self.settings.lumped,
+            wrapped=self.grid.periodic,
         )
+
+    def _with_images(self, field: NDArray[Any]) -> NDArray[Any]:
+        """A field [ny, nx], on a periodic grid with an image of the last row before and one of the first row after."""
+        return np.concatenate([field[-1:], field, field[:1]]) if self.grid.periodic else field
+
+    def with_images(self, start: Iterate) -> Iterate:
+        """An iterate on the rows of the kernels."""
+        fields = (self._with_images(field) for field in (start.pressure, start.fluid, start.solid))
+        return Iterate(*fields, start.rigid)
+
+    def without_images(self, found: Solution) -> Solution:
+        """A solution of the kernels on the rows of the grid."""
+        if not self.grid.periodic:
+            return found
+        it = found.iterate
+        own = (field[1:-1].copy() for field in (it.pressure, it.fluid, it.solid))
+        gap, mass = found.gap[1:-1].copy(), found.mass[1:-1].copy()
+        return replace(found, iterate=Iterate(*own, it.rigid), gap=gap, mass=mass)
 
     @cached_property
     def _beyond(self) -> tuple[Array, Array]:
-        if self.is_light:
-            closing = 1.25 * self.closing * self.now.radius_x / (self.speed * self.size)
+        if self.is_light and isinstance(self.contact, SmoothContact):
+            closing = 1.25 * self.closing * self.now.shape.radius_x / (self.speed * self.size)
             wedge = self.now.entrainment_speed / self.speed
             return far_field(self.x, self.y, self.film / self.h_unit, wedge, closing)
         return np.zeros_like(self.cap), np.ones_like(self.cap)
@@ -200,7 +230,10 @@ class Scaled:
         """A Hertz-like pressure under the film of smooth bodies and the highest asperities."""
         pressure = np.minimum(self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300)), self.cap)
         lift = self.smooth_film + 0.5 * max(float(self.now.heights.max()), 0.0)
-        rigid = lift / self.h_unit - self.compliance  # what that pressure deforms the centre by
+        deepest = self.compliance  # what that pressure deforms the centre by
+        if self.now.shape.order == 1:
+            deepest = float((self.half_space.deform(pressure) + self.undeformed).min())
+        rigid = lift / self.h_unit - deepest
         return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid)
 
     def shared_start(self) -> Iterate:
@@ -275,12 +308,10 @@ class Scaled:
 
     def _inlet_nodes(self, gap: Array) -> float:
         """Nodes across the zone before the contact in which the film builds up."""
-        radius_2 = self.grid.radius_2
-        centre = radius_2 < max(4.0 / 9.0 * self.a**2, 1.01 * float(radius_2.min()))  # at least the nearest nodes
-        film = float(gap[centre].mean())
+        film = float(gap[disc(self.grid, self.hertz)].mean())
         if self.now.entrainment_speed > 0.0:  # roughness holds the gap open, yet it is the oil's own film that comes in
             film = min(film, self.smooth_film)
-        return inlet_length(self.a, self.now.radius_x, film) / self.grid.spacing
+        return inlet_length(self.a, self.now.shape, film) / self.grid.spacing
 
 
 def film_size(a: float, radius: float, film: float) -> float:
@@ -288,22 +319,24 @@ def film_size(a: float, radius: float, film: float) -> float:
     return float(np.sqrt(a**2 + 1.4 * radius * film))
 
 
-def inlet_length(a: float, radius: float, film: float) -> float:
-    """Distance [m] before Hertz's contact at which its gap, (4 sqrt2 / 3 pi) (d/a)^1.5 a^2 / R, is the film [m]."""
-    return float(a * (film * radius / a**2 / 0.6) ** (2.0 / 3.0))
+def inlet_length(a: float, shape: Shape, film: float) -> float:
+    """Distance d [m] before Hertz's contact at which its gap, opening (d/a)^1.5 a^2 / R, is the film [m]."""
+    return float(a * (film * shape.radius_x / a**2 / shape.opening) ** (2.0 / 3.0))
 
 
 _LOCAL = threading.local()  # plans and scratch may not be shared between threads
 
 
-def half_space(shape: tuple[int, int], scale: float, library: str) -> HalfSpace:
-    """The half space of a grid, with plans kept from before."""
-    store: dict[tuple[tuple[int, int], float, str], HalfSpace] = _LOCAL.__dict__.setdefault("half_spaces", {})
-    key = (shape, scale, library)
+def half_space(shape: tuple[int, int], scale: float, library: str, reference: float | None = None) -> HalfSpace:
+    """The half space of a grid, with plans kept from before; with a reference [nodes] that of a periodic grid."""
+    store: dict[tuple[tuple[int, int], float, str, float | None], HalfSpace]
+    store = _LOCAL.__dict__.setdefault("half_spaces", {})
+    key = (shape, scale, library, reference)
     if key not in store:
         if len(store) >= 8:
             store.pop(next(iter(store)))
-        store[key] = HalfSpace(*shape, scale, library)
+        made = HalfSpace if reference is None else partial(PeriodicHalfSpace, reference=reference)
+        store[key] = made(*shape, scale, library)
     return store[key]
 
 

@@ -4,7 +4,19 @@ A slot's table in a scene says `model = "<name>"`; for a law without parameters 
 class and one entry in its module's LAWS.
 """
 
-from . import boundary_friction, bulk, density, heat, load_sharing, plasticity, rheology, tribofilm, viscosity, wear
+from . import (
+    boundary_friction,
+    bulk,
+    density,
+    heat,
+    load_sharing,
+    plasticity,
+    profile,
+    rheology,
+    tribofilm,
+    viscosity,
+    wear,
+)
 
 SLOTS: dict[str, tuple[type, ...]] = {
     "viscosity": viscosity.LAWS,
@@ -17,4 +29,5 @@ SLOTS: dict[str, tuple[type, ...]] = {
     "tribofilm": tribofilm.LAWS,
     "wear": wear.LAWS,
     "sharing": load_sharing.LAWS,
+    "profile": profile.LAWS,
 }

@@ -14,6 +14,7 @@ from contact_core.kernels.multigrid import is_applicable, is_symmetric
 from contact_core.laws.density import DowsonHigginson
 from contact_core.laws.viscosity import Roelands
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
+from contact_core.shapes import Point
 
 RADIUS, MODULUS, ALPHA, HARDNESS = 10e-3, 230.47e9, 15e-9, 6e9
 SETTINGS = Settings(1e-9, 1e-4, 400, "pyfftw")
@@ -37,7 +38,7 @@ def contact(rq=0.0, load=20.0, nodes=65, viscosity=0.02, speed=1.0):
     z = gaussian_filter(np.random.Generator(np.random.Philox(1)).standard_normal(grid.shape), 1.5)
     z *= rq / z.std()
     law, limit = Roelands(viscosity, 300.0, ALPHA, 0.0), np.full(grid.shape, HARDNESS)
-    now = Instant(load, speed, 300.0, RADIUS, RADIUS, MODULUS, law, DowsonHigginson(), z, limit, HARDNESS)
+    now = Instant(load, speed, 300.0, Point(RADIUS, RADIUS), MODULUS, law, DowsonHigginson(), z, limit, HARDNESS)
     return now, grid
 
 

@@ -1,0 +1,80 @@
+"""Film thickness of smooth line contacts."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .point_films import at_no_pressure
+
+
+@dataclass(frozen=True)
+class SmoothLine:
+    """A smooth, isothermal, Newtonian, fully flooded elastohydrodynamic line contact."""
+
+    load: float  # per length [N/m]
+    entrainment_speed: float  # u_e = (u1 + u2) / 2 [m/s], along x
+    viscosity: float  # at p = 0 [Pa s]
+    pressure_coefficient: float  # d ln(viscosity)/dp at p = 0 [Pa^-1]
+    radius: float  # of combined curvature, along x [m]
+    reduced_modulus: float  # E' = 2 / sum (1 - v^2)/E [Pa]
+
+    @staticmethod
+    def of(
+        load: float,
+        entrainment_speed: float,
+        viscosity: Callable[[NDArray[np.float64], float], NDArray[np.float64]],
+        temperature: float,
+        radius: float,
+        reduced_modulus: float,
+    ) -> "SmoothLine":
+        """The contact with an oil whose `viscosity` [Pa s] is a law of pressures [Pa] and a temperature [K]."""
+        low, rise = at_no_pressure(viscosity, temperature)
+        return SmoothLine(load, abs(entrainment_speed), low, rise, radius, reduced_modulus)
+
+    @property
+    def moes_parameters(self) -> tuple[float, float]:
+        """Moes' parameters of load and lubricant (M, L) of line contacts, on the sum of surface speeds."""
+        speed = 2.0 * self.viscosity * self.entrainment_speed / (self.reduced_modulus * self.radius)
+        load = self.load / (self.reduced_modulus * self.radius)
+        return load * speed**-0.5, self.pressure_coefficient * self.reduced_modulus * speed**0.25
+
+    @property
+    def film(self) -> float:
+        """Central film [m] by `moes_line`."""
+        return moes_line(self)
+
+
+def dowson_line(contact: SmoothLine) -> tuple[float, float]:
+    """Central and minimum film thickness [m] of a line contact in the elastic-piezoviscous regime.
+
+    Source: central Dowson & Toyoda, Proc. 5th Leeds-Lyon Symposium on Tribology (1979) 60; minimum Dowson, Proc. IMechE
+    182 (1967) 151.
+    """
+    speed = contact.viscosity * contact.entrainment_speed / (contact.reduced_modulus * contact.radius)
+    material = contact.pressure_coefficient * contact.reduced_modulus
+    load = contact.load / (contact.reduced_modulus * contact.radius)
+    central = 3.06 * speed**0.69 * material**0.56 * load**-0.10
+    minimum = 2.65 * speed**0.70 * material**0.54 * load**-0.13
+    return float(central * contact.radius), float(minimum * contact.radius)
+
+
+def moes_line(contact: SmoothLine) -> float:
+    """Central film thickness [m] of a line contact, over all regimes as `moes_line_film`."""
+    speed = 2.0 * contact.viscosity * contact.entrainment_speed / (contact.reduced_modulus * contact.radius)
+    return float(moes_line_film(*contact.moes_parameters) * np.sqrt(speed) * contact.radius)
+
+
+def moes_line_film(load: float, lubricant: float) -> float:
+    """Central film thickness of a line contact in Moes' units, (h / radius) U^-0.5, of Moes' M and L.
+
+    Source: Moes, Wear 159 (1992) 57; Venner & Lubrecht, Multilevel Methods in Lubrication, Elsevier 2000.
+    """
+    rigid_iso = 3.0 / load
+    elastic_iso = 2.621 * load ** (-1 / 5)
+    rigid_piezo = 1.287 * lubricant ** (2 / 3)
+    elastic_piezo = 1.311 * load ** (-1 / 8) * lubricant**0.75
+    s = (7.0 + 8.0 * np.exp(-2.0 * elastic_iso / rigid_iso)) / 5.0
+    iso = (rigid_iso ** (7 / 3) + elastic_iso ** (7 / 3)) ** (3 * s / 7)
+    return float((iso + (rigid_piezo**-3.5 + elastic_piezo**-3.5) ** (-2 * s / 7)) ** (1.0 / s))
