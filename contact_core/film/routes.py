@@ -43,16 +43,20 @@ class Regime:
     algorithms: tuple[tuple[str, str], ...]
     floors: tuple[float, float] = _ALL  # formula film of smooth bodies / floor
     clearance: tuple[float, float] = _ALL  # formula film of smooth bodies / rms roughness (smooth: infinite)
-    load: tuple[float, float] = _ALL  # Moes' M
+    load: tuple[float, float] = _ALL  # Moes' M, see `Scaled.loadedness`
     rows: int | None = None  # of a periodic grid; None: any grid
 
     def holds(self, scaled: Scaled) -> bool:
         """Whether a contact belongs to this row."""
-        load, film = scaled.moes_load, scaled.film
+        film = scaled.film
         clearance = film / scaled.roughness if scaled.roughness > 0.0 else math.inf
         if self.rows is not None and (not scaled.grid.periodic or self.rows != scaled.grid.shape[0]):
             return False
-        pairs = ((self.floors, film / scaled.settings.floor), (self.clearance, clearance), (self.load, load))
+        pairs = (
+            (self.floors, film / scaled.settings.floor),
+            (self.clearance, clearance),
+            (self.load, scaled.loadedness),
+        )
         return all(low <= value <= high for (low, high), value in pairs)
 
 

@@ -89,7 +89,7 @@ class Scaled:
         """The smooth contact in the terms of film formulas."""
         now, shape = self.now, self.now.shape
         smooth = shape.smooth(now.load, now.entrainment_speed, now.viscosity, now.temperature, now.reduced_modulus)
-        if now.ease is None and now.thinned is None:
+        if (now.ease is None and now.thinned is None) or now.entrainment_speed == 0.0:
             return smooth
         before = self.a + inlet_length(self.a, shape, smooth.film)
         at = np.abs(self.grid.y).argmin(), np.abs(self.grid.x + before).argmin()  # where the film builds up
@@ -110,20 +110,25 @@ class Scaled:
         now = self.now
         return 0.0 if now.dry or now.entrainment_speed == 0.0 else self.contact.film
 
+    @property
+    def loadedness(self) -> float:
+        """Moes' M; of a line, that of the point contact whose Hertz contact is as deep, a^2 / R, in units of U^0.5 R.
+        Infinite at rest.
+        """
+        if self.now.entrainment_speed == 0.0:
+            return math.inf
+        load, _ = self.contact.moes_parameters
+        return load if isinstance(self.contact, SmoothContact) else (8.0 * load / np.pi) ** 1.5 / 1.5
+
     @cached_property
     def film(self) -> float:
         """Film [m] of smooth bodies: by formula, or that of a start from which they have not come so close yet."""
         return max(self.smooth_film, self.start.rigid_gap) if self.start else self.smooth_film
 
-    @cached_property
-    def moes_load(self) -> float:
-        """Moes' parameter of load; infinite at rest."""
-        return self.contact.moes_parameters[0] if self.now.entrainment_speed > 0.0 else math.inf
-
     @property
     def is_light(self) -> bool:
         """Whether the film is so thick that what lies beyond the grid matters."""
-        return self.moes_load < _FAR_FIELD_BELOW or (self.start is not None and self.start.rigid_gap > 0.0)
+        return self.loadedness < _FAR_FIELD_BELOW or (self.start is not None and self.start.rigid_gap > 0.0)
 
     @cached_property
     def speed(self) -> float:
