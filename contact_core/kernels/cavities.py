@@ -1,6 +1,7 @@
 """Oil in cavities: how much of the gap it fills, and the flow of mass through every face, marched downstream.
 
-    f >= 0, theta <= 1, f (1 - theta) = 0,   div(e grad f) - d(m)/dx - d(m)/dt = 0,   m = theta M, M = rho max(h, floor)
+    f >= 0, theta <= 1, f (1 - theta) = 0,   div(e grad f) - wedge d(m)/dx - d(m)/dt = 0,
+    m = theta M, M = rho max(h, floor)
 
 A node with pressure is full. A node without has what the balance leaves it, M at most; beyond that it is full and its
 net inflow is what its pressure has to drive out. Entrainment is along +x and carries all of the oil, so that one
@@ -32,14 +33,14 @@ def close_inlet(p, f, solid, first):  # type: ignore[no-untyped-def]
 
 
 @_jit
-def carry(f, full, mass_old, e, per_dt, dx, conserving, supply, first, mass, flux, filling):  # type: ignore[no-untyped-def]
+def carry(f, full, mass_old, e, per_dt, wedge, dx, conserving, supply, first, mass, flux, filling):  # type: ignore[no-untyped-def]
     """Filling theta, mass and flow of mass of every node, from the fluid pressure and what full nodes hold.
 
     full, mass, flux, filling [ny, nx]; supply [ny]: the flow that enters, infinite if flooded; `first`: column upstream
     of which the flow is that. Not conserving: every node is full.
     """
     ny, nx = f.shape
-    half, per_dx = 0.5 / (dx * dx), 1.0 / dx
+    half, wedge_per_dx = 0.5 / (dx * dx), wedge / dx
     for j in range(ny):
         before = 1.0
         for i in range(nx):
@@ -53,12 +54,12 @@ def carry(f, full, mass_old, e, per_dt, dx, conserving, supply, first, mass, flu
             if conserving and (i == 0 or i < first):
                 theta = min(supply[j] / most, 1.0)
             elif conserving and f[j, i] <= 0.0:
-                inflow = per_dx * flux[j, i - 1] + per_dt * mass_old[j, i]
+                inflow = wedge_per_dx * flux[j, i - 1] + per_dt * mass_old[j, i]
                 if 0 < j < ny - 1 and i < nx - 1:
                     ej = e[j, i]
                     west, east = (ej + e[j, i - 1]) * f[j, i - 1], (ej + e[j, i + 1]) * f[j, i + 1]
                     south, north = (ej + e[j - 1, i]) * f[j - 1, i], (ej + e[j + 1, i]) * f[j + 1, i]
                     inflow += half * (west + east + south + north)
-                theta = min(max(inflow / (per_dx * most + per_dt * own), 0.0), 1.0)
+                theta = min(max(inflow / (wedge_per_dx * most + per_dt * own), 0.0), 1.0)
             flux[j, i], filling[j, i], mass[j, i] = theta * most, theta, theta * own
             before = theta

@@ -7,6 +7,8 @@ and the load. It takes a few tens of iterations from light to heavy loads and fu
 some tens of those of `mixed`.
 """
 
+from typing import Any
+
 import numpy as np
 import scipy
 from numba import njit
@@ -40,6 +42,7 @@ def _response(  # type: ignore[no-untyped-def]
     step,
     mass_old,
     per_dt,
+    wedge,
     dx,
     gap,
     out,
@@ -59,12 +62,12 @@ def _response(  # type: ignore[no-untyped-def]
                 phi = reynolds.interpolate(fluidity, step, f[j, i]) + thinned[j, i]
                 e[way, j, i] = mobility[j, i] * rho * flow**3 * phi
         if supply is None:
-            reynolds.residual(f, solid, mass[way], mass_old, e[way], per_dt, dx, r[way])
+            reynolds.residual(f, solid, mass[way], mass_old, e[way], per_dt, wedge, dx, r[way])
         else:
             m, flux, filling = np.empty((ny, nx)), np.empty((ny, nx)), np.empty((ny, nx))
             inlet = (conserving, supply, first)
-            cavities.carry(f, mass[way], mass_old, e[way], per_dt, dx, *inlet, m, flux, filling)
-            reynolds.residual(f, solid, m, mass_old, e[way], per_dt, dx, r[way], flux, filling, first)
+            cavities.carry(f, mass[way], mass_old, e[way], per_dt, wedge, dx, *inlet, m, flux, filling)
+            reynolds.residual(f, solid, m, mass_old, e[way], per_dt, wedge, dx, r[way], flux, filling, first)
     for j in range(ny):
         for i in range(nx):
             out[j, i] = (r[1, j, i] - r[0, j, i]) / gap
@@ -82,6 +85,7 @@ def _equations(  # type: ignore[no-untyped-def]
     edge,
     floor,
     per_dt,
+    wedge,
     dx,
     near,
     patch_wide,
@@ -117,13 +121,13 @@ def _equations(  # type: ignore[no-untyped-def]
         reynolds.wrap(number)
     half = 0.5 / (dx * dx)
     k0, k1, k2, k3, k4 = near[0, 0], near[0, 1], near[0, 2], near[0, 3], near[0, 4]
-    wedge = np.empty(6)  # d(deformation wedge)_i / dp_(i + m), m = -3 ... 2
-    wedge[0] = (1.5 * k3 - 2.0 * k2 + 0.5 * k1) / dx
-    wedge[1] = (1.5 * k2 - 2.0 * k1 + 0.5 * k0) / dx
-    wedge[2] = (1.5 * k1 - 2.0 * k0 + 0.5 * k1) / dx
-    wedge[3] = (1.5 * k0 - 2.0 * k1 + 0.5 * k2) / dx + per_dt * patch_wide
-    wedge[4] = (1.5 * k1 - 2.0 * k2 + 0.5 * k3) / dx
-    wedge[5] = (1.5 * k2 - 2.0 * k3 + 0.5 * k4) / dx
+    lifts = np.empty(6)  # d(deformation wedge)_i / dp_(i + m), m = -3 ... 2
+    lifts[0] = wedge * ((1.5 * k3 - 2.0 * k2 + 0.5 * k1) / dx)
+    lifts[1] = wedge * ((1.5 * k2 - 2.0 * k1 + 0.5 * k0) / dx)
+    lifts[2] = wedge * ((1.5 * k1 - 2.0 * k0 + 0.5 * k1) / dx)
+    lifts[3] = wedge * ((1.5 * k0 - 2.0 * k1 + 0.5 * k2) / dx) + per_dt * patch_wide
+    lifts[4] = wedge * ((1.5 * k1 - 2.0 * k2 + 0.5 * k3) / dx)
+    lifts[5] = wedge * ((1.5 * k2 - 2.0 * k3 + 0.5 * k4) / dx)
     filled = 0
     for j in range(1, ny - 1):
         for i in range(1, nx - 1):
@@ -133,7 +137,7 @@ def _equations(  # type: ignore[no-untyped-def]
             starts[row] = filled
             rho = mass[j, i] / h[j, i] if h[j, i] > floor else 0.0  # at the floor the flow does not feel it
             asked, moved = r[j, i], response[j, i]
-            diagonal = rho * wedge[3]
+            diagonal = rho * lifts[3]
             faces = np.zeros(6)
             for side in range(4):  # south, west, east, north
                 dj, di = (-1, 0, 0, 1)[side], (0, -1, 1, 0)[side]
@@ -141,7 +145,7 @@ def _equations(  # type: ignore[no-untyped-def]
                 diagonal += face
                 if filling is not None:
                     if side == 1:
-                        diagonal -= reynolds.returned(filling, first, per_dt, dx, j, i) * face
+                        diagonal -= reynolds.returned(filling, first, per_dt, wedge, dx, j, i) * face
                 diagonal -= face * edge[j + dj, i + di]
                 if solid[j + dj, i + di] or edge[j + dj, i + di] > 0.0:  # the fluid pressure of a contact stays
                     face = 0.0
@@ -160,7 +164,7 @@ def _equations(  # type: ignore[no-untyped-def]
                     columns[filled], values[filled] = row, diagonal
                     filled += 1
                 elif 0 <= k < nx:
-                    value = rho * wedge[m] - faces[m]
+                    value = rho * lifts[m] - faces[m]
                     if number[j, k] >= 0:
                         columns[filled], values[filled] = number[j, k], value
                         filled += 1
@@ -237,12 +241,13 @@ class _Direct(Iteration):
         q, p = self.problem, self.p
         scale = _PROBE * float(np.maximum(self.h, q.floor).min())
         oil = (q.mobility, q.thinned, q.fluidity, q.density, q.step)
-        in_time = (q.mass_old, q.per_dt, q.spacing)
-        inlet, filling = (), ()
+        in_time = (q.mass_old, q.per_dt, q.wedge, q.spacing)
+        inlet: tuple[Any, ...] = ()
+        filling: tuple[Any, ...] = ()
         if (carried := self.carried) is not None:
             inlet, filling = (carried.supply, q.conserving, carried.first), (carried.filling, carried.first)
         _response(self.f, self.solid, self.h, q.floor, *oil, *in_time, scale, self.response, *inlet)
-        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.spacing)
+        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.wedge, q.spacing)
         given = (self.half_space.near, self.patch_wide, base, -self.lever, self.response)
         system = (self.number, self.starts, self.columns, self.values, self.rhs)
         n, filled = _equations(p, self.solid, self.stiff, *film, *given, q.wrapped, *system, *filling)

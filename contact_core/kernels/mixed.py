@@ -51,6 +51,7 @@ class Problem:
     mobility: Array  # pressure flow of a unit's gap, gradient and fluidity
     thinned: Array  # what shear adds to the fluidity
     per_dt: float  # 1 / time step, 0: steady
+    wedge: float  # entrainment speed: 1, less where that would be too slow a unit for the time step
     mass_old: Array  # mass of the previous instant
     fluidity: Array  # table of 1 / viscosity
     density: Array  # table
@@ -62,7 +63,7 @@ class Problem:
     # periodic along y: the first and the last row are images of the last and the first but one; edge and weight 0 there
     wrapped: bool = False
     conserving: bool = False  # cavities hold the oil that flows into them; else they count as full
-    supply: float | Array | None = None  # conserving: flow that enters [ny], in gaps of the density at p = 0; None: flooded
+    supply: float | Array | None = None  # conserving: flow that enters [ny], in gaps at p = 0; None: flooded
     first: int = 0  # first column in which oil has pressure; upstream of it none presses
 
     @property
@@ -85,7 +86,7 @@ class Carried:
         """Mass of every node, and the flow between them, of a fluid pressure and what full nodes hold."""
         q = self.problem
         inlet = (q.conserving, self.supply, self.first)
-        cavities.carry(f, self.full, q.mass_old, e, q.per_dt, q.spacing, *inlet, mass, self.flux, self.filling)
+        cavities.carry(f, self.full, q.mass_old, e, q.per_dt, q.wedge, q.spacing, *inlet, mass, self.flux, self.filling)
         if q.wrapped:
             for field in (mass, self.flux, self.filling):
                 reynolds.wrap(field)
@@ -113,7 +114,7 @@ class Solution:
     change: float  # last relative change of the pressure by an iteration
     load_error: float  # relative
     intrusion: float  # mean distance of solid contacts below the cap from the floor, weighted by pressure, in floors
-    imbalance: float  # mass that the film gains or loses unasked in l / u_e, relative, weighted by the load it carries
+    imbalance: float  # mass that the film gains or loses unasked in the unit of time, relative, by the load it carries
     shortfall: str = ""  # why it is not converged, empty if it is
 
 
@@ -292,7 +293,7 @@ class Iteration:
         self._film()
         self._press()
         q, p = self.problem, self.p
-        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.spacing)
+        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.wedge, q.spacing)
         near = (self.half_space.near, self.patch_wide)
         inlet = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
         relaxation = (q.lumped, _LINE_SWEEPS, self.dp, *inlet, q.wrapped)
@@ -330,13 +331,13 @@ class Iteration:
         if carried is not None:
             carried.carry(f, self.e, self.mass)
         if not q.lumped:
-            constants = (q.per_dt, q.spacing, _SWEEPS_UNDER_CONTACTS)
-            flow = (*constants, *oil, *flow, q.wrapped)
-            reynolds.fluid_under_contacts(p, f, solid, self.h, self.mass, q.mass_old, self.e, *flow)
+            constants = (q.per_dt, q.wedge, q.spacing, _SWEEPS_UNDER_CONTACTS)
+            given = (*constants, *oil, *flow, q.wrapped)
+            reynolds.fluid_under_contacts(p, f, solid, self.h, self.mass, q.mass_old, self.e, *given)
             if carried is not None:
                 carried.carry(f, self.e, self.mass)
         balance = (self.h, self.mass, q.mass_old, self.e)
-        scales = (q.floor, q.per_dt, q.spacing, q.compliance, self.patch)
+        scales = (q.floor, q.per_dt, q.wedge, q.spacing, q.compliance, self.patch)
         out = (self.r, self.stiff, self.dh, self.sums)
         self.zone = reynolds.mend_film(p, f, q.cap, solid, *balance, *scales, self.stiff_of_unit, *out, *inlet)
         if q.wrapped:
