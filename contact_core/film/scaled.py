@@ -3,7 +3,8 @@
 import threading
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,10 +12,10 @@ from numpy.typing import NDArray
 from ..errors import ConvergenceError
 from ..kernels.dry import solve_dry
 from ..kernels.far_field import far_field
-from ..kernels.half_space import HalfSpace
+from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
 from ..kernels.mixed import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
-from ..shapes import Shape
+from ..shapes import Line, Point, Shape
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings
 from .outputs import disc
 
@@ -51,13 +52,17 @@ class Scaled:
         self.load = shape.carried(hertz, self.size, grid.shape[0] * grid.spacing) / self.dx**2
         self.compliance = shape.softness(hertz, now.reduced_modulus) * thin ** (shape.order + 1)
         scale = self.compliance * 2.0 / np.pi**2 * self.dx
-        self.half_space = half_space(grid.shape, scale, settings.fft, grid.periodic)
+        self.half_space = half_space(grid.shape, scale, settings.fft)
+        if isinstance(shape, Line) and grid.periodic:  # displacements are counted from those a face's length away
+            far = max(shape.length / grid.spacing, grid.shape[1])
+            self.half_space = half_space(grid.shape, scale, settings.fft, far)
         self.cap = now.limit / self.p_unit
         if self.cap.sum() <= 1.01 * self.load:
             raise ConvergenceError(
                 f"{now.load:g} N are more than a grid of {grid.shape[1] * grid.spacing:g} m by "
                 f"{grid.shape[0] * grid.spacing:g} m can carry at the hardness. Lower the load or enlarge film.domain."
             )
+        self.depth = self.compliance ** (2.0 / 3.0) if shape.circular else hertz.approach / self.h_unit
         self.x, self.y = grid.x / self.size, grid.y / self.size
         gap = shape.gap(self.x, self.y, self.size)
         self.smooth = np.sqrt(np.maximum(1.0 - 2.0 * gap, 0.0))
@@ -89,6 +94,17 @@ class Scaled:
         now = self.now
         return 0.0 if now.dry or now.entrainment_speed == 0.0 else self.contact.film
 
+    @property
+    def moes_load(self) -> float:
+        """Moes' M; of ellipses and lines that of the circular contact that is as near to rigid."""
+        return self.contact.circular_load
+
+    @property
+    def curvature(self) -> float:
+        """Of the undeformed gap along y, over that along x."""
+        shape = self.now.shape
+        return shape.radius_x / shape.radius_y if isinstance(shape, Point) else 0.0
+
     @cached_property
     def roughness(self) -> float:
         """Rms height [m] of both bodies together where they meet."""
@@ -107,29 +123,51 @@ class Scaled:
         mobility = self.size**3 * self.p_unit / (12.0 * viscosity * now.entrainment_speed * now.shape.radius_x**2)
         edge, weight = self._beyond
         ease, thinned = self._oil(viscosity)
+        images = self._with_images
+        weight = images(weight)
+        if self.grid.periodic:
+            weight[[0, -1]] = 0.0
         return Problem(
-            undeformed=self.undeformed,
-            cap=self.cap,
+            undeformed=images(self.undeformed),
+            cap=images(self.cap),
             floor=self.floor,
             spacing=self.dx,
             load=self.load,
-            mobility=mobility * ease,
-            thinned=thinned,
+            mobility=mobility * images(ease),
+            thinned=images(thinned),
             per_dt=per_dt,
-            mass_old=np.zeros_like(self.cap) if mass is None else mass,
+            mass_old=images(np.zeros_like(self.cap) if mass is None else mass),
             fluidity=fluidity,
             density=density,
             step=top / self.p_unit / (_TABLE - 1),
             compliance=self.compliance,
-            edge=edge,
+            edge=images(edge),
             weight=weight,
             lumped=self.settings.lumped,
+            wrapped=self.grid.periodic,
         )
+
+    def _with_images(self, field: NDArray[Any]) -> NDArray[Any]:
+        """A field [ny, nx], on a periodic grid with an image of the last row before and one of the first row after."""
+        return np.concatenate([field[-1:], field, field[:1]]) if self.grid.periodic else field
+
+    def with_images(self, start: Iterate) -> Iterate:
+        """An iterate on the rows of the kernels."""
+        images = self._with_images
+        return Iterate(images(start.pressure), images(start.fluid), images(start.solid), start.rigid)
+
+    def without_images(self, found: Solution) -> Solution:
+        """A solution of the kernels on the rows of the grid."""
+        if not self.grid.periodic:
+            return found
+        it, own = found.iterate, np.s_[1:-1]
+        iterate = Iterate(it.pressure[own].copy(), it.fluid[own].copy(), it.solid[own].copy(), it.rigid)
+        return replace(found, iterate=iterate, gap=found.gap[own].copy(), mass=found.mass[own].copy())
 
     @cached_property
     def _beyond(self) -> tuple[Array, Array]:
-        if self.contact.moes_parameters[0] < _FAR_FIELD_BELOW:
-            return far_field(self.x, self.y, self.smooth_film / self.h_unit)
+        if isinstance(self.now.shape, Point) and self.moes_load < _FAR_FIELD_BELOW:
+            return far_field(self.x, self.y, self.smooth_film / self.h_unit, self.curvature)
         return np.zeros_like(self.cap), np.ones_like(self.cap)
 
     def iterate(self, state: FilmState) -> Iterate:
@@ -148,7 +186,8 @@ class Scaled:
         """A Hertz-like pressure under the film of smooth bodies and the highest asperities."""
         pressure = np.minimum(self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300)), self.cap)
         lift = self.smooth_film + 0.5 * max(float(self.now.heights.max()), 0.0)
-        rigid = lift / self.h_unit - self.compliance  # what that pressure deforms the centre by
+        settled = self.compliance if self.now.shape.circular else float(self.half_space.deform(pressure).max())
+        rigid = lift / self.h_unit - settled  # what that pressure deforms the centre by
         return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid)
 
     def shared_start(self) -> Iterate:
@@ -240,14 +279,16 @@ def inlet_length(a: float, shape: Shape, film: float) -> float:
 _LOCAL = threading.local()  # plans and scratch may not be shared between threads
 
 
-def half_space(shape: tuple[int, int], scale: float, library: str, periodic: bool = False) -> HalfSpace:
-    """The half space of a grid, with plans kept from before."""
-    store: dict[tuple[tuple[int, int], float, str, bool], HalfSpace] = _LOCAL.__dict__.setdefault("half_spaces", {})
-    key = (shape, scale, library, periodic)
+def half_space(shape: tuple[int, int], scale: float, library: str, reference: float | None = None) -> HalfSpace:
+    """The half space of a grid, with plans kept from before; with a reference [nodes] that of a periodic grid."""
+    store: dict[tuple[tuple[int, int], float, str, float | None], HalfSpace]
+    store = _LOCAL.__dict__.setdefault("half_spaces", {})
+    key = (shape, scale, library, reference)
     if key not in store:
         if len(store) >= 8:
             store.pop(next(iter(store)))
-        store[key] = HalfSpace(*shape, scale, library)
+        made = HalfSpace if reference is None else partial(PeriodicHalfSpace, reference=reference)
+        store[key] = made(*shape, scale, library)
     return store[key]
 
 

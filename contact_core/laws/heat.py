@@ -74,7 +74,7 @@ def _conductance(radius: Numbers, speed: Numbers, conductivity: float, diffusivi
 def _strip_conductance(a: Numbers, b: float, speed: Numbers, conductivity: float, diffusivity: float) -> Numbers:
     """Heat flux per mean rise [W/(m2 K)] under an even source on a strip |x| < a, |y| < b [m], b >> a, that moves along
     x at `speed`: at rest pi K / {2 a [ln(2 b / a) + 1/2]}, fast 3/4 K sqrt(pi u / (2 k a)), both from Jaeger's sources;
-    between them as Tian & Kennedy join those of a circle.
+    between them as Tian & Kennedy join those of a circle, up to 11 % too cool.
     """
     rest = 0.5 * math.pi / (a * (np.log(2.0 * b / a) + 0.5))
     return conductivity * sqrt(rest * rest + 9.0 / 32.0 * math.pi * abs(speed) / (diffusivity * a))
