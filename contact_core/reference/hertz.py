@@ -17,7 +17,7 @@ class Hertz:
     """Dry contact of smooth elastic bodies on an ellipse."""
 
     mean_share: ClassVar[float] = 2.0 / 3.0  # mean pressure over the largest
-    chord_share: ClassVar[float] = 0.25 * math.pi  # mean length along x of the contact's rows over 2 a
+    chord_share: ClassVar[float] = 0.25 * math.pi  # mean of `chords`
 
     a: float  # half width along x [m]
     b: float  # half width along y [m]
@@ -38,6 +38,10 @@ class Hertz:
         """Which nodes at x [nx], y [ny] about the centre [m] lie within `share` of the half widths, [ny, nx]."""
         within: NDArray[np.bool_] = (x[None, :] / self.a) ** 2 + (y[:, None] / self.b) ** 2 < share**2
         return within
+
+    def chords(self, y: Array) -> Array:
+        """Length along x of the contact's rows at y [m] over 2 a."""
+        return np.sqrt(np.maximum(1.0 - (y / self.b) ** 2, 0.0))
 
     @cached_property
     def lever_share(self) -> float:
@@ -73,6 +77,10 @@ class HertzLine(Hertz):
         """Which nodes at x [nx], y [ny] about the centre [m] lie within `share` of the half widths, [ny, nx]."""
         within: NDArray[np.bool_] = (np.abs(x) < share * self.a)[None, :] & (np.abs(y) < share * self.b)[:, None]
         return within
+
+    def chords(self, y: Array) -> Array:
+        """Length along x of the contact's rows at y [m] over 2 a."""
+        return np.where(np.abs(y) < self.b, 1.0, 0.0)
 
     @cached_property
     def lever_share(self) -> float:

@@ -204,6 +204,9 @@ def test_a_contact_under_another_load_is_known_from_one(line):
     assert (more.b, more.area) == pytest.approx((wide * one.b, root * wide * one.area), rel=1e-12)
     assert more.approach == pytest.approx(one.approach_at(23.0), rel=1e-12)
     assert one.approach_at(0.0) == 0.0
+    rows = (np.arange(20_000) + 0.5) / 20_000 * one.b
+    assert one.chords(rows).mean() == pytest.approx(one.chord_share, rel=1e-5)
+    assert 4.0 * one.a * one.b * one.chord_share == pytest.approx(one.area, rel=1e-12)
 
 
 @pytest.mark.parametrize("radius_y", [10e-3, 40e-3, 2e-3])
