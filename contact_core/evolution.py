@@ -57,7 +57,7 @@ def sliding_on_track(scene: Scene, op: OperatingPoint, rows: int) -> float | Arr
         return op.sliding_speed
     hertz, y = scene.hertz_at(op), contact_grid(scene, rows).y[:, None]
     # mean |x| over a row under Hertz's pressure is 3/8 of its length on either side
-    along = 0.375 * hertz.a * np.sqrt(np.maximum(1.0 - (y / hertz.b) ** 2, 0.0))
+    along = 0.375 * hertz.a * hertz.chords(y)
     return np.hypot(op.sliding_speed - op.spin * y, op.spin * along)
 
 

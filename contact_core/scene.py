@@ -317,6 +317,8 @@ class Scene:
 
     def unit_hertz_at(self, op: OperatingPoint) -> Hertz:
         """Hertz's contact at 1 N and the radii of an operating point."""
+        if op.radius_x is op.radius_y is None:
+            return self.unit_hertz
         return _unit_hertz(self.shape(op), self.solids.reduced_modulus)
 
     @cached_property
