@@ -200,14 +200,15 @@ def _smooth(scene: Scene, op: OperatingPoint, further: float) -> _Smooth:
     entrainment, load, slide, inlet = op.entrainment_speed, op.load, op.sliding_speed, op.inlet_temperature
     speed = abs(entrainment)
     oil, warm = _oil(scene.lubricant.viscosity, inlet)
-    radii, largest = scene.radii(op), scene.unit_hertz_at(op).pressure_max
+    radii, unit = scene.radii(op), scene.unit_hertz_at(op)
+    largest, wide = unit.pressure_max, unit.a
     thins = speed > 0.0 and (scene.heat.inlet_shear != "none" or scene.lubricant.flow == "local")
 
     def film(speed: float, load: float, slide: float, oil: tuple[float, float], temperature: float) -> float:
-        newtonian = _smooth_film(scene, radii, speed, load, *oil)
-        if not thins:
-            return newtonian
-        return newtonian * _thinned(scene, speed, largest * load ** (1 / 3), slide, oil[0], newtonian, temperature)
+        flooded = newtonian = _smooth_film(scene, radii, speed, load, *oil)
+        if thins:
+            flooded *= _thinned(scene, speed, largest * load ** (1 / 3), slide, oil[0], newtonian, temperature)
+        return scene.lubricant.supply.film(flooded, wide * load ** (1 / 3), radii[0])
 
     now = film(speed, load, slide, oil, inlet)
     by_load = film(speed, load * (1.0 + _D), slide, oil, inlet) / now - 1.0

@@ -13,7 +13,6 @@ is not: gradually, as a jump would leave nodes at which neither state fits. Sour
 doi:10.1115/1.4002215 (complementarity).
 """
 
-import numpy as np
 from numba import njit
 
 _jit = njit(cache=True, nogil=True, error_model="numpy")

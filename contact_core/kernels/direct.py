@@ -7,6 +7,8 @@ and the load. It takes a few tens of iterations from light to heavy loads and fu
 some tens of those of `mixed`.
 """
 
+from typing import Any
+
 import numpy as np
 import scipy
 from numba import njit
@@ -134,9 +136,8 @@ def _equations(  # type: ignore[no-untyped-def]
                 dj, di = (-1, 0, 0, 1)[side], (0, -1, 1, 0)[side]
                 face = half * (e[j, i] + e[j + dj, i + di])
                 diagonal += face
-                if filling is not None:
-                    if side == 1:
-                        diagonal -= reynolds.returned(filling, first, per_dt, dx, j, i) * face
+                if filling is not None and side == 1:
+                    diagonal -= reynolds.returned(filling, first, per_dt, dx, j, i) * face
                 diagonal -= face * edge[j + dj, i + di]
                 if solid[j + dj, i + di] or edge[j + dj, i + di] > 0.0:  # the fluid pressure of a contact stays
                     face = 0.0
@@ -230,7 +231,8 @@ class _Direct(Iteration):
         scale = _PROBE * float(np.maximum(self.h, q.floor).min())
         oil = (q.mobility, q.thinned, q.fluidity, q.density, q.step)
         in_time = (q.mass_old, q.per_dt, q.spacing)
-        inlet, filling = (), ()
+        inlet: tuple[Any, ...] = ()
+        filling: tuple[Any, ...] = ()
         if (carried := self.carried) is not None:
             inlet, filling = (carried.supply, q.conserving, carried.first), (carried.filling, carried.first)
         _response(self.f, self.solid, self.h, q.floor, *oil, *in_time, scale, self.response, *inlet)

@@ -7,6 +7,7 @@ accelerates it.
 """
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numba import njit
@@ -60,7 +61,7 @@ class Problem:
     weight: Array  # of each node in the load: 1, on the edge also what lies beyond it
     lumped: bool = False  # one pressure for fluid and solids, as in the unified Reynolds equation: f = p everywhere
     conserving: bool = False  # cavities hold the oil that flows into them; else they count as full
-    supply: float | Array | None = None  # conserving: flow that enters [ny], in gaps of the density at p = 0; None: flooded
+    supply: float | Array | None = None  # conserving: mass [ny] that enters, None: as much as the first column can take
     first: int = 0  # first column in which oil has pressure; upstream of it none presses
 
     @property
@@ -306,9 +307,11 @@ class Iteration:
         """Gap, contacts, fluid pressure under them, mass balance, and the change of the gap that mends it."""
         q, p, f, solid, carried = self.problem, self.p, self.f, self.solid, self.carried
         oil = (q.floor, q.mobility, q.thinned, q.fluidity, q.density, q.step)
-        full, flow, inlet = self.mass, (self.mass,), ()
+        full = self.mass
+        flow: tuple[Any, ...] = ()
+        inlet: tuple[Any, ...] = ()
         if carried is not None:
-            full, flow = carried.full, (carried.full, carried.flux, carried.first)
+            full, flow = carried.full, (carried.flux, carried.first)
             inlet = (carried.flux, carried.filling, carried.first)
             cavities.close_inlet(p, f, solid, q.first)
         gap = (q.undeformed, self.half_space.deform_padded(p), self.rigid)
@@ -317,7 +320,8 @@ class Iteration:
             carried.carry(f, self.e, self.mass)
         if not q.lumped:
             constants = (q.per_dt, q.spacing, _SWEEPS_UNDER_CONTACTS)
-            reynolds.fluid_under_contacts(p, f, solid, self.h, self.mass, q.mass_old, self.e, *constants, *oil, *flow)
+            film = (self.h, self.mass, q.mass_old, self.e)
+            reynolds.fluid_under_contacts(p, f, solid, *film, *constants, *oil, full, *flow)
             if carried is not None:
                 carried.carry(f, self.e, self.mass)
         balance = (self.h, self.mass, q.mass_old, self.e)

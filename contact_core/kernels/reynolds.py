@@ -129,8 +129,9 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
     flux=None,
     first=1,
 ):
-    """Gauss-Seidel for the fluid pressure on solid contacts; releases those the fluid alone carries. `full`: mass of the
-    contacts if they are full, which changes with it.
+    """Gauss-Seidel for the fluid pressure on solid contacts; releases those the fluid alone carries.
+
+    full: what nodes hold if they are full, which changes with that pressure; `mass` itself where none is a cavity.
     """
     ny, nx = p.shape
     count = 0
@@ -185,9 +186,8 @@ def residual(f, solid, mass, mass_old, e, per_dt, dx, r, flux=None, filling=None
     r[:] = 0.0
     for j in range(1, ny - 1):
         for i in range(first, nx - 1):
-            if filling is not None:
-                if filling[j, i] < 1.0:
-                    continue
+            if filling is not None and filling[j, i] < 1.0:
+                continue
             if not solid[j, i]:
                 here, ej = f[j, i], e[j, i]
                 flow = (
@@ -280,9 +280,8 @@ def mend_film(  # type: ignore[no-untyped-def]
                     wedge = 1.5 * m - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2] if i > 1 else m - mass[j, i - 1]
                 value = half * flow - per_dx * wedge - per_dt * (m - mass_old[j, i])
                 sinks = value < 0.0
-                if filling is not None:
-                    if filling[j, i] < 1.0 or i < first:  # nothing is unbalanced there
-                        sinks, value = True, 0.0
+                if filling is not None and (filling[j, i] < 1.0 or i < first):  # nothing is unbalanced there
+                    sinks, value = True, 0.0
                 if own < floor and sinks:
                     touches, value = True, 0.0  # the film sinks on: solids carry what it cannot
                     solid[j, i] = True

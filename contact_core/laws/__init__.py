@@ -4,12 +4,25 @@ A slot's table in a scene says `model = "<name>"`; for a law without parameters 
 class and one entry in its module's LAWS.
 """
 
-from . import boundary_friction, bulk, density, heat, load_sharing, plasticity, rheology, tribofilm, viscosity, wear
+from . import (
+    boundary_friction,
+    bulk,
+    density,
+    heat,
+    load_sharing,
+    plasticity,
+    rheology,
+    supply,
+    tribofilm,
+    viscosity,
+    wear,
+)
 
 SLOTS: dict[str, tuple[type, ...]] = {
     "viscosity": viscosity.LAWS,
     "density": density.LAWS,
     "rheology": rheology.LAWS,
+    "supply": supply.LAWS,
     "plasticity": plasticity.LAWS,
     "boundary_friction": boundary_friction.LAWS,
     "heat": heat.LAWS,
