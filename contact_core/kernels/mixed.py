@@ -261,7 +261,7 @@ class Iteration:
         self.f, self.solid = start.fluid.copy(), start.solid.copy()
         self.h, self.mass, self.e, self.r, self.dh, self.dp, self.unit = (np.zeros(shape) for _ in range(7))
         self.stiff, self.stiff_of_unit = (np.zeros(shape, np.bool_) for _ in range(2))
-        self.sums = np.zeros(5)
+        self.sums = np.zeros(7)
         self.carried = Carried(problem) if problem.by_flux else None
         near = half_space.near
         self.patch = near[0, 0] + 2 * near[0, 1] + 2 * near[1, 0] + 4 * near[1, 1]
@@ -347,10 +347,12 @@ class Iteration:
     def assess(self, n: int, tolerance: float) -> Solution:
         """How good the present pressure is; refers to the scratch arrays, so it holds until the next `correct`."""
         q = self.problem
-        wrong, film, fluid, solids, intrusion = (float(value) for value in self.sums)
+        wrong, film, fluid, solids, intrusion, gained, held = (float(value) for value in self.sums)
         load_error, share = self.load / q.load - 1.0, solids / q.load
         intrusion /= q.floor * q.load
         imbalance = wrong / max(film, 1e-300) * fluid / q.load
+        if self.carried is not None:  # cavities that fill up, too: no pressure tells of them
+            imbalance += gained / max(held, 1e-300)
         why = shortfall(tolerance, self.change, load_error, intrusion, imbalance, q.per_dt > 0.0)
         if abs(share - self.share) >= _SHARE_TOLERANCE:
             why = "; ".join(filter(None, (why, "the share of the solids still changes")))
