@@ -208,11 +208,11 @@ def _smooth(scene: Scene, op: OperatingPoint, hertz: Hertz, further: float) -> _
     thins = speed > 0.0 and (scene.heat.inlet_shear != "none" or scene.lubricant.flow == "local")
 
     def film(speed: float, load: float, slide: float, oil: tuple[float, float], temperature: float) -> float:
-        newtonian = _smooth_film(scene, shape, speed, load, *oil)
-        if not thins:
-            return newtonian
-        pressure = largest * hertz.growth(load)[0]
-        return newtonian * _thinned(scene, speed, pressure, slide, oil[0], newtonian, temperature)
+        flooded = newtonian = _smooth_film(scene, shape, speed, load, *oil)
+        grown = hertz.growth(load)[0]
+        if thins:
+            flooded *= _thinned(scene, speed, largest * grown, slide, oil[0], newtonian, temperature)
+        return scene.lubricant.supply.film(flooded, hertz.a * grown, shape.radius_x)
 
     now = film(speed, load, slide, oil, inlet)
     by_load = film(speed, load * (1.0 + _D), slide, oil, inlet) / now - 1.0
