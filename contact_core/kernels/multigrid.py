@@ -148,11 +148,11 @@ def is_symmetric(problem: Problem) -> bool:
 
 
 def is_applicable(problem: Problem) -> bool:
-    """Whether the film is steady, and its grid can be halved often enough."""
+    """Whether the film is steady and does not repeat along y, and its grid can be halved often enough."""
     (ny, nx), mirror = problem.undeformed.shape, is_symmetric(problem)
     halvings = _level_count(ny, nx, mirror) - 1
     unknowns = (ny >> halvings) * (nx >> halvings) / (2 if mirror else 1)
-    return problem.per_dt == 0.0 and halvings >= 2 and unknowns <= _DENSE
+    return problem.per_dt == 0.0 and not problem.wrapped and halvings >= 2 and unknowns <= _DENSE
 
 
 def _level_count(ny: int, nx: int, mirror: bool) -> int:
