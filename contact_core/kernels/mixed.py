@@ -7,6 +7,7 @@ accelerates it.
 """
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numba import njit
@@ -321,7 +322,9 @@ class Iteration:
         """Gap, contacts, fluid pressure under them, mass balance, and the change of the gap that mends it."""
         q, p, f, solid, carried = self.problem, self.p, self.f, self.solid, self.carried
         oil = (q.floor, q.mobility, q.thinned, q.fluidity, q.density, q.step)
-        full, flow, inlet = self.mass, (self.mass, None, 1), ()
+        full = self.mass
+        flow: tuple[Any, ...] = (self.mass, None, 1)
+        inlet: tuple[Any, ...] = ()
         if carried is not None:
             full, flow = carried.full, (carried.full, carried.flux, carried.first)
             inlet = (carried.flux, carried.filling, carried.first)

@@ -204,7 +204,7 @@ def residual(f, solid, mass, mass_old, e, per_dt, wedge, dx, r, flux=None, filli
     r[:] = 0.0
     for j in range(1, ny - 1):
         for i in range(first, nx - 1):
-            if filling is not None:
+            if filling is not None:  # noqa: SIM102 - a branch that is compiled only then
                 if filling[j, i] < 1.0:
                     continue
             if not solid[j, i]:
@@ -300,7 +300,7 @@ def mend_film(  # type: ignore[no-untyped-def]
                     rise = 1.5 * m - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2] if i > 1 else m - mass[j, i - 1]
                 value = half * flow - wedge_per_dx * rise - per_dt * (m - mass_old[j, i])
                 sinks = value < 0.0
-                if filling is not None:
+                if filling is not None:  # noqa: SIM102 - a branch that is compiled only then
                     if filling[j, i] < 1.0 or i < first:  # nothing is unbalanced there
                         sinks, value = True, 0.0
                 if own < floor and sinks:
