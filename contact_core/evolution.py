@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from .laws.tribofilm import thickness
 from .patches import bare_heights, contact_grid, heights_of, roughness_of
 from .scene import OperatingPoint, Scene
+from .shapes import Line
 from .state import Body
 from .surfaces import rms_roughness
 
@@ -67,8 +68,12 @@ def area_of_node(scene: Scene, op: OperatingPoint, i: int) -> float:
     return scene.film.spacing**2 * scene.repeats * (track_length(scene, i) / scene.film.domain if moving else 1.0)
 
 
-def across_track(scene: Scene, rows: int) -> Array:
-    """|y| / b of each of the patches' rows, [rows, 1], b being that of the reference load and the scene's radii."""
+def across_track(scene: Scene, rows: int) -> Array | None:
+    """|y| / b of each of the patches' rows, [rows, 1], b being that of the reference load and the scene's radii; None
+    for a line or a roller, along whose face nothing changes.
+    """
+    if isinstance(scene.shape(), Line):
+        return None
     across: Array = np.abs(contact_grid(scene, rows).y)[:, None] / scene.hertz(scene.operation.load).b
     return across
 

@@ -20,7 +20,6 @@ from .mean_oil import Law, MeanHeat, oil_shear
 from .mean_surfaces import Films, composite_roughness, hardness_of, mean_cover, scene_film
 from .reference import Hertz, bair_thinning_factor, inlet_shear_factor
 from .scene import OperatingPoint, Scene
-from .shapes import Shape
 
 Array = NDArray[np.float64]
 
@@ -204,11 +203,11 @@ def _smooth(scene: Scene, op: OperatingPoint, hertz: Hertz, further: float) -> _
     entrainment, load, slide, inlet = op.entrainment_speed, op.load, op.sliding_speed, op.inlet_temperature
     speed = abs(entrainment)
     oil, warm = _oil(scene.lubricant.viscosity, inlet)
-    shape, largest = scene.shape(op), hertz.pressure_max
+    shape, largest, modulus = scene.shape(op), hertz.pressure_max, scene.solids.reduced_modulus
     thins = speed > 0.0 and (scene.heat.inlet_shear != "none" or scene.lubricant.flow == "local")
 
     def film(speed: float, load: float, slide: float, oil: tuple[float, float], temperature: float) -> float:
-        flooded = newtonian = _smooth_film(scene, shape, speed, load, *oil)
+        flooded = newtonian = shape.film(max(load, _LIGHTEST), max(speed, _SLOWEST), *oil, modulus)
         grown = hertz.growth(load)[0]
         if thins:
             flooded *= _thinned(scene, speed, largest * grown, slide, oil[0], newtonian, temperature)
@@ -242,14 +241,6 @@ def _thinned(
     if scene.lubricant.flow == "local" and isinstance(law, Carreau):
         factor *= bair_thinning_factor(newtonian, speed, viscosity, law.critical_stress, law.exponent, slide / speed)
     return factor
-
-
-def _smooth_film(
-    scene: Scene, shape: Shape, speed: float, load: float, viscosity: float, pressure_coefficient: float
-) -> float:
-    """The film [m] of an oil at p = 0."""
-    load, speed = max(load, _LIGHTEST), max(speed, _SLOWEST)
-    return shape.film(load, speed, viscosity, pressure_coefficient, scene.solids.reduced_modulus)
 
 
 def _thinning(scene: Scene, temperature: float) -> float:

@@ -30,7 +30,7 @@ _PARTS, _OF_PARTS = np.polynomial.laguerre.laggauss(6)
 # rows |y| / b of the track, what they weigh in its mean, and the mean pressure on each over that
 _ROWS = 0.5 + 0.5 * np.polynomial.legendre.leggauss(6)[0]
 _OF_ROWS = 0.5 * np.polynomial.legendre.leggauss(6)[1]
-_OF_ELLIPSE, _OF_STRIP = 1.5 * (1.0 - _ROWS**2), np.ones(6)
+_ROWS_PRESSURE = 1.5 * (1.0 - _ROWS**2)
 
 
 def advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
@@ -212,9 +212,9 @@ def _abrasion(scene: Scene, op: OperatingPoint, contact: MeanContact, i: int) ->
     if not law.abrades:
         return 0.0
     felt = contact.solid_pressure * contact.area_ratio * _residence(scene, op, i)
-    shape = scene.shape()
-    across = _OF_STRIP if isinstance(shape, Line) else _OF_ELLIPSE
-    return float(_OF_ROWS @ law.abrasion(felt * across, contact.slide, None if shape.periodic else _ROWS))
+    if isinstance(scene.shape(), Line):  # even along the face
+        return float(law.abrasion(np.array([felt]), contact.slide, None)[0])
+    return float(_OF_ROWS @ law.abrasion(felt * _ROWS_PRESSURE, contact.slide, _ROWS))
 
 
 def _residence(scene: Scene, op: OperatingPoint, i: int) -> float:

@@ -68,8 +68,8 @@ class Point:
         self, load: float, speed: float, viscosity: float, pressure_coefficient: float, reduced_modulus: float
     ) -> float:
         """Central film [m] of the smooth bodies by a formula of all regimes, of plain numbers: no record to make."""
-        radii = self.radius_x, self.radius_y
-        return nvm_film(load, speed, viscosity, pressure_coefficient, *radii, reduced_modulus)
+        x, y = self.radius_x, self.radius_y
+        return nvm_film(load, speed, viscosity, pressure_coefficient, x, y, reduced_modulus)
 
 
 @dataclass(frozen=True)

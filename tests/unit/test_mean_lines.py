@@ -7,6 +7,7 @@ import pytest
 from cheap_scene import cheap
 
 from contact_core import OperatingPointError, RangeFlag, SceneError, advance, initial_state
+from contact_core.evolution import across_track
 from contact_core.laws.rheology import Newtonian
 from contact_core.mean_oil import oil_shear
 from contact_core.reference import SmoothLine, hertz_line, hertz_point, moes_line
@@ -145,3 +146,17 @@ def test_without_load_nothing_rubs():
         _, found = advance(scene, replace(op, load=0.0), state, 10.0)
         assert found.friction_force == found.wear_volume_1 == found.tribofilm_1 == 0.0
         assert np.isfinite(found.approach)
+
+
+@pytest.mark.parametrize("model", SHAPES)
+def test_along_a_face_films_are_rubbed_off_alike(model):
+    """The tension that takes more at the edges is that of a circle."""
+    films = []
+    for weight in ("0", "20"):
+        changes = {"tribofilm.set": "gosvami", "tribofilm.edge_weight": weight, "operation.temperature": "80 degC"}
+        scene, state, op = cheap(SHAPES[model] | changes)
+        films.append(advance(scene, op, state, 1800.0)[1].tribofilm_1)
+        assert across_track(scene, scene.rows) is None
+    assert films[0] == films[1] > 1e-9
+    scene, _, _ = cheap()
+    assert across_track(scene, scene.rows).shape == (33, 1)
