@@ -19,6 +19,7 @@ from contact_core.kernels.multigrid import extrapolated, solve_smooth
 from contact_core.patches import bare_heights, contact_grid
 from contact_core.point_contact import point_contact
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
+from contact_core.shapes import Point
 
 DOMAIN = (-4.5, 1.5, -3.0, 3.0)
 CASE = MoesCase(200, 10.0, "roelands", "dowson_higginson")

@@ -150,9 +150,7 @@ def point_contact(
     if speed != 0.0:
         rise = max(numbers.pressure_viscosity, 1e-12)
         oil = numbers.viscosity, rise
-        smooth = SmoothContact(
-            numbers.load, abs(speed), *oil, shape.radius_x, shape.radius_y, numbers.reduced_modulus
-        )
+        smooth = SmoothContact(numbers.load, abs(speed), *oil, shape.radius_x, shape.radius_y, numbers.reduced_modulus)
         film, (radius, least) = smooth.film, min((shape.radius_x, "radius_x"), (shape.radius_y, "radius_y"))
         if film > _THICKEST * radius:
             _refuse(

@@ -84,7 +84,7 @@ class Line:
 
     def hertz(self, load: float, reduced_modulus: float) -> Hertz:
         """Hertz's contact of the dry bodies."""
-        return hertz_line(load / self.length, self.radius_x, self.length, reduced_modulus)
+        return hertz_line(load, self.radius_x, self.length, reduced_modulus)
 
     def softness(self, hertz: Hertz, reduced_modulus: float) -> float:
         """What the half space gives in Hertz's units."""

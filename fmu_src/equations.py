@@ -119,7 +119,7 @@ LAWS: dict[tuple[str, str], tuple[Lines, str]] = {
         "A line with ends, taken back by the profile P; load and outputs are those of the whole face_width b.",
     ),
     ("profile", "rounded"): (
-        ("P = max(|y| − s/2, 0)^2/(2 R_e),   |y| ≤ b/2",),
+        ("P = R_e − [R_e^2 − max(|y| − s/2, 0)^2]^{1/2},   |y| ≤ b/2",),
         "s is the straight length, Re the radius along the axis beyond it.",
     ),
     ("profile", "logarithmic"): (

@@ -40,17 +40,21 @@ class Regime:
     floors: tuple[float, float] = _ALL  # formula film of smooth bodies / floor
     clearance: tuple[float, float] = _ALL  # formula film of smooth bodies / rms roughness (smooth: infinite)
     load: tuple[float, float] = _ALL  # Moes' M, as `Scaled.moes_load`
+    rows: int | None = None  # of a periodic grid; None: any grid
 
     def holds(self, scaled: Scaled) -> bool:
         """Whether a contact belongs to this row."""
         load, film = scaled.moes_load, scaled.smooth_film
         clearance = film / scaled.roughness if scaled.roughness > 0.0 else math.inf
+        if self.rows is not None and (not scaled.grid.periodic or self.rows != scaled.grid.shape[0]):
+            return False
         pairs = ((self.floors, film / scaled.settings.floor), (self.clearance, clearance), (self.load, load))
         return all(low <= value <= high for (low, high), value in pairs)
 
 
 REGIMES = (
     Regime("dry", (("hybrid", "dry"), ("direct", "last")), floors=(0.0, 0.5)),
+    Regime("line", (("newton", "film"), ("newton", "dry"), ("direct", "film")), clearance=(1e3, math.inf), rows=1),
     Regime(
         "smooth",
         (("multigrid", "none"), ("hybrid", "film"), ("direct", "film"), ("direct", "dry")),
@@ -136,7 +140,7 @@ class _Solver:
         """What a method finds from a start; None where they do not apply."""
         scaled, settings, steady = self.scaled, self.scaled.settings, self.follows is None
         if method == "multigrid":
-            if not (steady and is_applicable(self.problem)):
+            if not steady or self.problem.wrapped or not is_applicable(self.problem):
                 return None
             film, shape = scaled.smooth_film / scaled.h_unit, (scaled.depth, scaled.curvature)
             given = (self.problem, scaled.x, scaled.y, settings.fft, film)
@@ -149,7 +153,8 @@ class _Solver:
             "direct": (solve_direct, _DIRECT_ITERATIONS),
             "newton": (solve_newton, _NEWTON_STEPS),
         }[method]
-        return solve(scaled.half_space, self.problem, start, settings.tolerance, min(most, settings.iterations))
+        limits = settings.tolerance, min(most, settings.iterations)
+        return scaled.without_images(solve(scaled.half_space, self.problem, scaled.with_images(start), *limits))
 
     def _start(self, name: str) -> Iterate | None:
         scaled, state = self.scaled, self.state

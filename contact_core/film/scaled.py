@@ -3,7 +3,8 @@
 import threading
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 from ..errors import ConvergenceError
 from ..kernels.dry import solve_dry
 from ..kernels.far_field import far_field
-from ..kernels.half_space import HalfSpace
+from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
 from ..kernels.mixed import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
 from ..shapes import Point, Shape
@@ -51,7 +52,10 @@ class Scaled:
         self.load = shape.carried(hertz, self.size, grid.shape[0] * grid.spacing) / self.dx**2
         self.compliance = shape.softness(hertz, now.reduced_modulus) * thin ** (shape.order + 1)
         scale = self.compliance * 2.0 / np.pi**2 * self.dx
-        self.half_space = half_space(grid.shape, scale, settings.fft, grid.periodic)
+        self.half_space = half_space(grid.shape, scale, settings.fft)
+        if grid.periodic:  # displacements are counted from those at the distance of a face's length
+            far = max(now.shape.length / grid.spacing, grid.shape[1])
+            self.half_space = half_space(grid.shape, scale, settings.fft, far)
         self.cap = now.limit / self.p_unit
         if self.cap.sum() <= 1.01 * self.load:
             raise ConvergenceError(
@@ -120,28 +124,51 @@ class Scaled:
         mobility = self.size**3 * self.p_unit / (12.0 * viscosity * now.entrainment_speed * now.shape.radius_x**2)
         edge, weight = self._beyond
         ease, thinned = self._oil(viscosity)
+        images = self._with_images
+        weight = images(weight)
+        if self.grid.periodic:
+            weight[[0, -1]] = 0.0
         return Problem(
-            undeformed=self.undeformed,
-            cap=self.cap,
+            undeformed=images(self.undeformed),
+            cap=images(self.cap),
             floor=self.floor,
             spacing=self.dx,
             load=self.load,
-            mobility=mobility * ease,
-            thinned=thinned,
+            mobility=mobility * images(ease),
+            thinned=images(thinned),
             per_dt=per_dt,
-            mass_old=np.zeros_like(self.cap) if mass is None else mass,
+            mass_old=images(np.zeros_like(self.cap) if mass is None else mass),
             fluidity=fluidity,
             density=density,
             step=top / self.p_unit / (_TABLE - 1),
             compliance=self.compliance,
-            edge=edge,
+            edge=images(edge),
             weight=weight,
             lumped=self.settings.lumped,
+            wrapped=self.grid.periodic,
         )
+
+    def _with_images(self, field: NDArray[Any]) -> NDArray[Any]:
+        """A field [ny, nx], on a periodic grid with an image of the last row before and one of the first row after."""
+        return np.concatenate([field[-1:], field, field[:1]]) if self.grid.periodic else field
+
+    def with_images(self, start: Iterate) -> Iterate:
+        """An iterate on the rows of the kernels."""
+        fields = (self._with_images(field) for field in (start.pressure, start.fluid, start.solid))
+        return Iterate(*fields, start.rigid)
+
+    def without_images(self, found: Solution) -> Solution:
+        """A solution of the kernels on the rows of the grid."""
+        if not self.grid.periodic:
+            return found
+        it = found.iterate
+        own = (field[1:-1].copy() for field in (it.pressure, it.fluid, it.solid))
+        gap, mass = found.gap[1:-1].copy(), found.mass[1:-1].copy()
+        return replace(found, iterate=Iterate(*own, it.rigid), gap=gap, mass=mass)
 
     @cached_property
     def _beyond(self) -> tuple[Array, Array]:
-        if self.moes_load < _FAR_FIELD_BELOW:
+        if isinstance(self.contact, SmoothContact) and self.moes_load < _FAR_FIELD_BELOW:
             return far_field(self.x, self.y, self.smooth_film / self.h_unit, self.curvature)
         return np.zeros_like(self.cap), np.ones_like(self.cap)
 
@@ -161,8 +188,12 @@ class Scaled:
         """A Hertz-like pressure under the film of smooth bodies and the highest asperities."""
         pressure = np.minimum(self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300)), self.cap)
         lift = self.smooth_film + 0.5 * max(float(self.now.heights.max()), 0.0)
-        settled = self.compliance if self.now.shape.circular else float(self.half_space.deform(pressure).max())
-        rigid = lift / self.h_unit - settled  # what that pressure deforms the centre by
+        deepest = self.compliance  # what that pressure deforms the centre by
+        if self.now.shape.order == 1:
+            deepest = float((self.half_space.deform(pressure) + self.undeformed).min())
+        elif not self.now.shape.circular:
+            deepest = float(self.half_space.deform(pressure).max())
+        rigid = lift / self.h_unit - deepest
         return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid)
 
     def shared_start(self) -> Iterate:
@@ -254,14 +285,16 @@ def inlet_length(a: float, shape: Shape, film: float) -> float:
 _LOCAL = threading.local()  # plans and scratch may not be shared between threads
 
 
-def half_space(shape: tuple[int, int], scale: float, library: str, periodic: bool = False) -> HalfSpace:
-    """The half space of a grid, with plans kept from before."""
-    store: dict[tuple[tuple[int, int], float, str, bool], HalfSpace] = _LOCAL.__dict__.setdefault("half_spaces", {})
-    key = (shape, scale, library, periodic)
+def half_space(shape: tuple[int, int], scale: float, library: str, reference: float | None = None) -> HalfSpace:
+    """The half space of a grid, with plans kept from before; with a reference [nodes] that of a periodic grid."""
+    store: dict[tuple[tuple[int, int], float, str, float | None], HalfSpace]
+    store = _LOCAL.__dict__.setdefault("half_spaces", {})
+    key = (shape, scale, library, reference)
     if key not in store:
         if len(store) >= 8:
             store.pop(next(iter(store)))
-        store[key] = HalfSpace(*shape, scale, library)
+        made = HalfSpace if reference is None else partial(PeriodicHalfSpace, reference=reference)
+        store[key] = made(*shape, scale, library)
     return store[key]
 
 

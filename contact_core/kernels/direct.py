@@ -64,6 +64,7 @@ def _equations(  # type: ignore[no-untyped-def]
     given,
     unit,
     response,
+    wrapped,
     number,
     starts,
     columns,
@@ -71,6 +72,8 @@ def _equations(  # type: ignore[no-untyped-def]
     rhs,
 ):
     """Rows of the linearised equation for the free nodes, numbered in `number` (-1: not free). Returns how many.
+
+    An image has the number of its node: of few rows, some columns stand in a row more than once, and add up.
 
     given, unit: step of the stiff nodes and its fall with the rigid gap. rhs [2, n]: what is asked for, and its change
     with the rigid gap.
@@ -84,6 +87,8 @@ def _equations(  # type: ignore[no-untyped-def]
             if inner and not stiff[j, i] and not solid[j, i] and not (p[j, i] <= 0.0 and r[j, i] <= 0.0):
                 number[j, i] = n
                 n += 1
+    if wrapped:
+        reynolds.wrap(number)
     half = 0.5 / (dx * dx)
     k0, k1, k2, k3, k4 = near[0, 0], near[0, 1], near[0, 2], near[0, 3], near[0, 4]
     wedge = np.empty(6)  # d(deformation wedge)_i / dp_(i + m), m = -3 ... 2
@@ -146,13 +151,13 @@ def _equations(  # type: ignore[no-untyped-def]
 
 
 @_jit
-def _carried(base, lever, shift, cap, edge, weight, out):  # type: ignore[no-untyped-def]
+def _carried(base, lever, shift, cap, edge, weight, wrapped, out):  # type: ignore[no-untyped-def]
     """Put base + shift * lever within its bounds into `out`; returns the load it carries and its rate."""
     ny, nx = base.shape
     for j in range(1, ny - 1):
         for i in range(1, nx - 1):
             out[j, i] = min(max(base[j, i] + shift * lever[j, i], 0.0), cap[j, i])
-    set_edge(out, edge)
+    set_edge(out, edge, wrapped)
     total, rate = 0.0, 0.0
     for j in range(ny):
         for i in range(nx):
@@ -179,13 +184,16 @@ class _Direct(Iteration):
         bound = 0.2 + 0.5 * p
         base = np.where(self.stiff, np.clip(self.dp, -bound, bound), 0.0)
         self.lever[:] = np.where(self.stiff, -self.unit, 0.0)
+        if q.wrapped:
+            reynolds.wrap(base)
+            reynolds.wrap(self.lever)
         self._solve_free(base)
         base += p
         yields = self.stiff & (p >= q.cap) & (self.h < q.floor)  # stays at the cap until its gap opens
         base[yields], self.lever[yields] = p[yields], 0.0
         image = self._pressure_of(self.memory.image)
         shift = self._meet_load(base, image)
-        change = float(np.abs(image - p).sum()) / q.load
+        change = float(np.abs(image - p)[self.rows].sum()) / q.load
         part = min(1.0, _LARGEST_STEP / max(change, 1e-300))
         if part < 1.0:
             image[:] = p + part * (image - p)
@@ -204,7 +212,7 @@ class _Direct(Iteration):
         _response(self.f, self.solid, self.h, q.floor, *oil, *in_time, scale, self.response)
         film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.spacing)
         given = (self.half_space.near, self.patch_wide, base, -self.lever, self.response)
-        system = (self.number, self.starts, self.columns, self.values, self.rhs)
+        system = (q.wrapped, self.number, self.starts, self.columns, self.values, self.rhs)
         n, filled = _equations(p, self.solid, self.stiff, *film, *given, *system)
         if n == 0:
             return
@@ -216,8 +224,8 @@ class _Direct(Iteration):
         except RuntimeError:  # singular: no step
             base[:] = np.nan
             return
-        free = self.number >= 0
-        base[free], self.lever[free] = (factors.solve(side[:n], trans="T") for side in self.rhs)
+        free = self.number[1:-1] >= 0
+        base[1:-1][free], self.lever[1:-1][free] = (factors.solve(side[:n], trans="T") for side in self.rhs)
 
     def _meet_load(self, base: Array, image: Array) -> float:
         """The change of the rigid gap with which base + change * lever carries the load, put into `image`."""
@@ -227,11 +235,11 @@ class _Direct(Iteration):
         film = float((np.maximum(self.h[oil], q.floor) * pressure).sum() / pressure.sum()) if oil.any() else 1.0
         shift, most = 0.0, 0.3 + 0.3 * film
         for _ in range(30):
-            total, rate = _carried(base, self.lever, shift, q.cap, q.edge, q.weight, image)
+            total, rate = _carried(base, self.lever, shift, q.cap, q.edge, q.weight, q.wrapped, image)
             if abs(total - q.load) <= 1e-10 * q.load or rate >= 0.0:
                 break
             shift = min(max(shift - (total - q.load) / rate, -max(_LARGEST_FALL * film, q.floor)), most)
-        _carried(base, self.lever, shift, q.cap, q.edge, q.weight, image)
+        _carried(base, self.lever, shift, q.cap, q.edge, q.weight, q.wrapped, image)
         return shift
 
 

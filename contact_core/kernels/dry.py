@@ -5,7 +5,8 @@ between their bounds are a face. On a face conjugate gradients run, precondition
 periodic plane; then the face changes: pressures beyond a bound go to it, and nodes whose gap has the wrong sign leave
 theirs. Faces and projected gradients are those of Moré & Toraldo, SIAM J. Optim. 1 (1991) 93, doi:10.1137/0801008, the
 preconditioner that of Vollebregt, J. Comput. Phys. 257 (2014) 333, doi:10.1016/j.jcp.2013.10.005. Coarse grids give the
-start, and the transforms span only the window that holds the contact.
+start, and the transforms span only the window that holds the contact. On a half space that is periodic along y windows
+span all rows, and coarse grids of odd numbers of rows two periods.
 """
 
 from collections.abc import Sequence
@@ -17,7 +18,7 @@ import scipy
 from numba import njit
 from numpy.typing import NDArray
 
-from .half_space import Convolution, HalfSpace, influence
+from .half_space import Convolution, HalfSpace
 
 Array = NDArray[np.float64]
 States = NDArray[np.int8]
@@ -63,7 +64,7 @@ def dry_solution(
     caps must carry more than the load. `tolerance` is the largest error of the pressure, sum |p - exact p| / load.
     """
     lowest = float(gap.min())
-    grids = _grids(gap - lowest, cap, load)
+    grids = _grids(gap - lowest, cap, load, half_space.periodic)
     window, p = _coarse_solution(half_space, grids, start, iterations)
     done, whole = 0, (0, gap.shape[0], 0, gap.shape[1])
     while True:
@@ -85,7 +86,7 @@ def dry_solution(
         if outside.any():
             j0, j1, i0, i1 = _ends(outside)
             ends = (min(j0, window[0]), max(j1, window[1]), min(i0, window[2]), max(i1, window[3]))
-            window = _roomy(ends, gap.shape)
+            window = _roomy(ends, gap.shape, half_space.periodic)
     met = abs(float(p.sum()) - load) < 1e-10 * load
     return DrySolution(p, h, -part.level - lowest, error < tolerance and met, done, error)
 
@@ -99,22 +100,27 @@ class _Grid(NamedTuple):
     lowest: Array  # least gap of the nodes in each cell
 
 
-def _grids(gap: Array, cap: Array, load: float) -> list[_Grid]:
+def _grids(gap: Array, cap: Array, load: float, periodic: bool) -> list[_Grid]:
     """The grid and ever coarser ones."""
     grids = [_Grid(gap, cap, load, gap)]
-    while max(grids[-1].gap.shape) > _COARSEST and min(grids[-1].gap.shape) > _COARSEST // 4:
+    while True:
         gap, cap, load, lowest = grids[-1]
-        coarse = _halved(cap, _mean)
-        coarse *= max(1.01 * 0.25 * load / coarse.sum(), 1.0)  # cells that stick out of the grid took some of it
-        grids.append(_Grid(_halved(gap, _mean), coarse, 0.25 * load, _halved(lowest, np.minimum)))
-    return grids
+        ny, nx = gap.shape
+        if max(ny, nx) <= _COARSEST or min(nx if periodic else ny, nx) <= _COARSEST // 4:
+            return grids
+        coarse = _halved(cap, _mean, periodic)
+        load *= 0.5 if periodic and ny % 2 else 0.25
+        coarse *= max(1.01 * load / coarse.sum(), 1.0)  # cells that stick out of the grid took some of it
+        grids.append(_Grid(_halved(gap, _mean, periodic), coarse, load, _halved(lowest, np.minimum, periodic)))
 
 
 def _mean(a: Array, b: Array) -> Array:
     return 0.5 * (a + b)
 
 
-def _halved(a: Array, join) -> Array:  # type: ignore[no-untyped-def]
+def _halved(a: Array, join, periodic: bool) -> Array:  # type: ignore[no-untyped-def]
+    if periodic and len(a) % 2:
+        a = np.concatenate((a, a))
     ny, nx = a.shape
     if ny % 2 or nx % 2:
         a = np.pad(a, ((0, ny % 2), (0, nx % 2)), mode="edge")
@@ -130,7 +136,7 @@ def _coarse_solution(half_space: HalfSpace, grids: list[_Grid], start: Array, it
         return (0, shape[0], 0, shape[1]), start
     p = start
     for _ in range(depth):
-        p = _halved(p, _mean)
+        p = _halved(p, _mean, half_space.periodic)
     window = (0, p.shape[0], 0, p.shape[1])
     for level in range(depth, 0, -1):
         grid = grids[level]
@@ -142,18 +148,18 @@ def _coarse_solution(half_space: HalfSpace, grids: list[_Grid], start: Array, it
             j0, j1, i0, i1 = _ends((part.gap + deepest < 0.0) | (part.pressure > 0.0))
             j, i = window[0], window[2]
             window = (j + j0 - _MARGIN, j + j1 + _MARGIN, i + i0 - _MARGIN, i + i1 + _MARGIN)
-        window = _roomy([2 * end for end in window], grids[level - 1].gap.shape)
+        window = _roomy([2 * end for end in window], grids[level - 1].gap.shape, half_space.periodic)
         ny, nx = grids[level - 1].gap.shape
         p = np.repeat(np.repeat(p, 2, axis=0), 2, axis=1)[:ny, :nx]
     return window, p
 
 
-def _roomy(ends: Sequence[int], shape: tuple[int, ...]) -> Window:
-    """A window around `ends`, of lengths that are fast to transform."""
+def _roomy(ends: Sequence[int], shape: tuple[int, ...], periodic: bool) -> Window:
+    """A window around `ends`, of lengths that are fast to transform; of all rows if they repeat."""
     found: list[int] = []
-    for first, end, n in ((ends[0], ends[1], shape[0]), (ends[2], ends[3], shape[1])):
+    for first, end, n, whole in ((ends[0], ends[1], shape[0], periodic), (ends[2], ends[3], shape[1], False)):
         length = 2 * scipy.fft.next_fast_len((end - first + 1) // 2)
-        if length >= n:
+        if length >= n or whole:
             found += [0, n]
         else:
             at = min(max((first + end - length) // 2, 0), n - length)
@@ -195,22 +201,19 @@ def _contact(half_space: HalfSpace, grid: _Grid, window: Window, width: int) -> 
     if key not in store:
         if len(store) >= 8:
             store.pop(next(iter(store)))
-        scale, library = width * half_space.near[0, 0] / influence(1, 1)[0, 0], half_space.library
         same = width == 1 and gap.shape == half_space.shape
-        inverse = _periodic_inverse(ny, nx, scale, library)
-        store[key] = (None if same else HalfSpace(ny, nx, scale, library), inverse)
+        part = half_space if same else half_space.window(ny, nx, width)
+        store[key] = (None if same else part, _periodic_inverse(part))
     deformed, inverse = store[key]
     return _Contact(deformed or half_space, inverse, gap, cap, grid.load)
 
 
-def _periodic_inverse(ny: int, nx: int, scale: float, library: str) -> Convolution:
+def _periodic_inverse(half_space: HalfSpace) -> Convolution:
     """The inverse of the half space on the smallest periodic plane; its kernel falls like 1 / r^3."""
-    my, mx = (2 * scipy.fft.next_fast_len((n + 1) // 2) for n in (ny, nx))
-    j, i = np.arange(my), np.arange(mx)
-    kernel = scale * influence(my // 2 + 1, mx // 2 + 1)[np.minimum(j, my - j)][:, np.minimum(i, mx - i)]
-    spectrum = scipy.fft.rfft2(kernel).real
+    ny, nx = half_space.shape
+    spectrum = half_space.spectrum(half_space.plane(ny, nx))
     spectrum[0, 0] = spectrum[0, 1]  # the mean belongs to the load
-    return Convolution(ny, 1.0 / np.maximum(spectrum, 1e-3 * spectrum.max()), library)
+    return Convolution(ny, 1.0 / np.maximum(spectrum, 1e-3 * spectrum.max()), half_space.library)
 
 
 class _Contact:

@@ -1,7 +1,8 @@
-"""Elastic half space under a pressure that is constant on square cells.
+"""Elastic half space under a pressure that is constant on square cells, alone or repeated for ever along y.
 
 Source of the coefficients: Love, Phil. Trans. R. Soc. A 228 (1929) 377, doi:10.1098/rsta.1929.0009; of the zero-padded
-convolution: Liu, Wang & Liu, Wear 243 (2000) 101, doi:10.1016/S0043-1648(00)00427-0.
+convolution: Liu, Wang & Liu, Wear 243 (2000) 101, doi:10.1016/S0043-1648(00)00427-0; of the line load: Johnson, Contact
+Mechanics, 1985, doi:10.1017/CBO9781139171731, section 2.3.
 """
 
 from collections.abc import Callable
@@ -15,6 +16,11 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 _MARGIN = 16
+_LOVE_UP_TO = 64  # cells, from where on two terms of the expansion of a cell's potential are as exact
+_PERIODS = 12  # on either side that are summed one by one
+# distance from a line, in periods, at which it displaces as much as one of its periods does, alone, at a distance from
+# a cell of it that is small against the period; and in cells, where the period is not longer than that
+_LOCAL, _LEAST_LOCAL = 2.0 * np.exp(-np.euler_gamma), 3.0
 
 
 @lru_cache(maxsize=16)
@@ -39,6 +45,48 @@ def influence(ny: int, nx: int) -> Array:
     return coefficients
 
 
+@lru_cache(maxsize=16)
+def periodic_influence(ny: int, nx: int) -> Array:
+    """Coefficients [ny // 2 + 1, nx] as those of `influence` for cells that are repeated every ny rows.
+
+    The sum over all rows is that of a line load, the integral of -2 ln |x| over a cell: the displacement, which has no
+    limit far away, is counted from that at the distance of one cell from a line. Periods beyond the first few are
+    summed by the midpoint rule of Euler and Maclaurin.
+    """
+    j = np.arange(ny // 2 + 1)
+    most = max(_PERIODS, -(-_LOVE_UP_TO // ny))
+    total = _cells(j, nx)
+    for period in range(ny, (most + 1) * ny, ny):
+        total = total + _cells(period + j, nx) + _cells(period - j, nx)
+    end = (most + 0.5) * ny
+    total = total + _rest(end + j, nx, ny) + _rest(end - j, nx, ny)
+    total.setflags(write=False)
+    return total
+
+
+def _cells(rows: NDArray[Any], nx: int) -> NDArray[Any]:
+    """Rows of `influence` at any whole distances."""
+    x, y = np.arange(nx)[None, :], rows[:, None]
+    far = y[:, 0] >= _LOVE_UP_TO
+    out = np.empty((rows.size, nx))
+    out[~far] = influence(_LOVE_UP_TO, nx)[rows[~far]]
+    r = np.hypot(x, y[far])
+    out[far] = 1.0 / r + 1.0 / (24.0 * r**3)
+    return out
+
+
+def _rest(distance: Array, nx: int, period: int) -> NDArray[Any]:
+    """Sum over all cells a period apart that follow, half a period on, on a distance [m]: [m, nx], less that of a line's
+    part from cell to cell up to where -ln |x| is zero.
+    """
+    x, y = np.arange(nx)[None, :], distance[:, None]
+    r = np.hypot(x, y)
+    integral = 1.0 / (24.0 * r * (r + y)) - np.log(r + y)
+    slope = -y / r**3 - y / (8.0 * r**5)
+    third = (9.0 * x**2 * y - 6.0 * y**3) / r**7
+    return integral / period + period / 24.0 * slope - 7.0 / 5760.0 * period**3 * third
+
+
 class Convolution:
     """Filter of fields [ny, nx] by a real, even spectrum on the plane [my, mx] that they are padded to by zeros.
 
@@ -60,13 +108,35 @@ class HalfSpace:
     Holds plans and scratch: one instance per thread.
     """
 
+    periodic = False  # along y, with the period of its rows
+
     def __init__(self, ny: int, nx: int, scale: float, library: str) -> None:
         self.shape = (ny, nx)
         self.scale, self.library = scale, library
-        self._padded = (_even_fast_length(2 * (ny - 1)), _even_fast_length(2 * (nx - 1)))
-        self._part = (_even_fast_length(ny - 1), _even_fast_length(nx - 1))
-        self.near = scale * influence(ny, nx)[:9, :9]
-        self._deform = Convolution(ny, _spectrum(self._padded, scale), library)
+        self._padded = self.plane(2 * (ny - 1), 2 * (nx - 1))
+        self._part = self.plane(ny - 1, nx - 1)
+        self.near = scale * self._nearest()
+        self._deform = Convolution(ny, self.spectrum(self._padded), library)
+
+    def window(self, ny: int, nx: int, width: int) -> "HalfSpace":
+        """That of a part of the grid, or of one whose cells are `width` of its nodes wide."""
+        scale = width * self.near[0, 0] / influence(1, 1)[0, 0]
+        return HalfSpace(ny, nx, scale, self.library)
+
+    def plane(self, ny: int, nx: int) -> tuple[int, int]:
+        """Sides of a periodic plane for at least ny rows and nx columns, fast to transform."""
+        return _even_fast_length(ny), _even_fast_length(nx)
+
+    def spectrum(self, plane: tuple[int, int]) -> Array:
+        """Transform [my, mx // 2 + 1] of the kernel up to half the sides of a plane; real, since it is even."""
+        my, mx = plane
+        return _spectrum(self._coefficients(my // 2 + 1, mx // 2 + 1), plane)
+
+    def _coefficients(self, ny: int, nx: int) -> Array:
+        return self.scale * influence(ny, nx)
+
+    def _nearest(self) -> Array:
+        return influence(*self.shape)[:9, :9]
 
     def deform(self, pressure: Array) -> Array:
         """Deformation [ny, nx] under a pressure [ny, nx]."""
@@ -96,25 +166,69 @@ class HalfSpace:
 
     @cached_property
     def _press(self) -> Convolution:
-        return Convolution(self.shape[0], _inverse(_spectrum(self._padded, self.scale)), self.library)
+        return Convolution(self.shape[0], _inverse(self.spectrum(self._padded)), self.library)
 
     @cached_property
     def _press_part(self) -> Convolution:
-        return Convolution(self._part[0], _inverse(_spectrum(self._part, self.scale)), self.library)
+        return Convolution(self._part[0], _inverse(self.spectrum(self._part)), self.library)
+
+
+class PeriodicHalfSpace(HalfSpace):
+    """The same, repeated along y with the period of its rows and free along x.
+
+    A field has these rows [ny, nx], or two more [ny + 2, nx] that are images: the first of the last but one and the
+    last of the second. Displacements are counted from that which a line load, in place of the pressure of a column, has
+    at a distance of `reference` cells from it; that of `near` is the local one, where one period acts as if alone.
+    """
+
+    periodic = True
+
+    def __init__(self, ny: int, nx: int, scale: float, library: str, reference: float | None = None) -> None:
+        self.reference = float(nx) if reference is None else reference
+        super().__init__(ny, nx, scale, library)
+        self._wrapped = np.empty((ny + 2, self._padded[1]))
+
+    def window(self, ny: int, nx: int, width: int) -> "PeriodicHalfSpace":
+        """That of columns of the grid, or of one whose cells are `width` of its nodes wide."""
+        return PeriodicHalfSpace(ny, nx, width * self.scale, self.library, self.reference / width)
+
+    def plane(self, ny: int, nx: int) -> tuple[int, int]:
+        """Sides of a periodic plane for at least nx columns: its rows are the period."""
+        return self.shape[0], _even_fast_length(nx)
+
+    def deform_padded(self, pressure: Array) -> Array:
+        """Deformation under a pressure in the first nx columns of scratch of as many rows that the next call uses."""
+        if pressure.shape[0] == self.shape[0]:
+            return super().deform_padded(pressure)
+        self._wrapped[1:-1] = super().deform_padded(pressure[1:-1])
+        self._wrapped[0], self._wrapped[-1] = self._wrapped[-2], self._wrapped[1]
+        return self._wrapped
+
+    def _coefficients(self, ny: int, nx: int) -> Array:
+        rows = self.shape[0]
+        return self.scale * (periodic_influence(rows, nx)[:ny] + 2.0 / rows * np.log(self.reference))
+
+    def _nearest(self) -> Array:
+        """Coefficients of the nodes around one, such that sums over a patch count none twice."""
+        ny = self.shape[0]
+        near, rows = np.zeros((9, 9)), min(ny // 2 + 1, 9)
+        near[:rows] = periodic_influence(ny, 9)[:rows] + 2.0 / ny * np.log(max(_LOCAL * ny, _LEAST_LOCAL))
+        if ny % 2 == 0 and ny // 2 < 9:
+            near[ny // 2] *= 0.5  # half a period on either side: the same node
+        return near
 
 
 def _even_fast_length(least: int) -> int:
     return 2 * scipy.fft.next_fast_len(max((least + 1) // 2, 1), real=False)
 
 
-def _spectrum(padded: tuple[int, int], scale: float) -> Array:
-    """Transform of the kernel up to half the even lengths of the plane; real, since it is even in both directions."""
-    my, mx = padded
-    ny, nx = my // 2 + 1, mx // 2 + 1
+def _spectrum(quarter: Array, plane: tuple[int, int]) -> Array:
+    """Real transform on a periodic plane of an even kernel, given up to half its sides."""
+    my, mx = plane
+    ny, nx = quarter.shape
     kernel = np.zeros((my, mx))
-    quarter = scale * influence(ny, nx)
     kernel[:ny, :nx] = quarter
-    kernel[ny:, :nx] = quarter[-2:0:-1, :]
+    kernel[ny:, :nx] = quarter[(my - 1) // 2 : 0 : -1, :]
     kernel[:, nx:] = kernel[:, nx - 2 : 0 : -1]
     return np.asarray(scipy.fft.rfft2(kernel).real)
 

@@ -59,6 +59,8 @@ class Problem:
     edge: Array  # ratio of the pressure on an edge node to that of its inner neighbour; zero elsewhere
     weight: Array  # of each node in the load: 1, on the edge also what lies beyond it
     lumped: bool = False  # one pressure for fluid and solids, as in the unified Reynolds equation: f = p everywhere
+    # periodic along y: the first and the last row are images of the last and the first but one; edge and weight 0 there
+    wrapped: bool = False
 
 
 @dataclass(frozen=True)
@@ -132,12 +134,15 @@ def _begin(stiff, pressed, top, left, part, dp):  # type: ignore[no-untyped-def]
 
 
 @_jit
-def set_edge(p, edge):  # type: ignore[no-untyped-def]
-    """Edge nodes follow their inner neighbours."""
+def set_edge(p, edge, wrapped):  # type: ignore[no-untyped-def]
+    """Edge nodes follow their inner neighbours, or what they are images of."""
     ny, nx = p.shape
     for j in range(ny):
         p[j, 0] = edge[j, 0] * p[j, 1]
         p[j, nx - 1] = edge[j, nx - 1] * p[j, nx - 2]
+    if wrapped:
+        reynolds.wrap(p)
+        return
     for i in range(nx):
         p[0, i] = edge[0, i] * p[1, i]
         p[ny - 1, i] = edge[ny - 1, i] * p[ny - 2, i]
@@ -156,7 +161,9 @@ def _load_beyond(p, weight):  # type: ignore[no-untyped-def]
 
 
 @_jit
-def _next_pressure(p, cap, h, floor, stiff, unit, damping, load, edge, weight, dp, image):  # type: ignore[no-untyped-def]
+def _next_pressure(  # type: ignore[no-untyped-def]
+    p, cap, h, floor, stiff, unit, damping, load, edge, weight, wrapped, dp, image
+):
     """Damp and bound the corrections dp, meet the load. Returns the rigid gap's change and sum |image - p|."""
     ny, nx = p.shape
     size = 0.0
@@ -183,7 +190,7 @@ def _next_pressure(p, cap, h, floor, stiff, unit, damping, load, edge, weight, d
                 rest += value
                 change += abs(value - p[j, i])
             image[j, i] = value
-    set_edge(image, edge)
+    set_edge(image, edge, wrapped)
     rest += _load_beyond(image, weight)
     values, caps, units, old = image.ravel(), cap.ravel(), unit.ravel(), p.ravel()
     shift = 0.0
@@ -202,11 +209,13 @@ def _next_pressure(p, cap, h, floor, stiff, unit, damping, load, edge, weight, d
         k = nodes[n]
         values[k] = min(max(values[k] - shift * units[k], 0.0), caps[k])
         change += abs(values[k] - old[k])
+    if wrapped:
+        reynolds.wrap(image)
     return shift, change
 
 
 @_jit
-def _bounded(p, image, cap, edge, weight):  # type: ignore[no-untyped-def]
+def _bounded(p, image, cap, edge, weight, wrapped):  # type: ignore[no-untyped-def]
     """Keep a mixed pressure within its bounds; returns the load.
 
     What the image has at the cap stays there: mixed below it, it would be pushed against its overlap again.
@@ -218,7 +227,7 @@ def _bounded(p, image, cap, edge, weight):  # type: ignore[no-untyped-def]
             value = cap[j, i] if image[j, i] >= cap[j, i] else min(max(p[j, i], 0.0), cap[j, i])
             p[j, i] = value
             total += value
-    set_edge(p, edge)
+    set_edge(p, edge, wrapped)
     return total + _load_beyond(p, weight)
 
 
@@ -241,7 +250,8 @@ class Iteration:
         self.patch_wide = 4 * near.sum() - 2 * near[0].sum() - 2 * near[:, 0].sum() + near[0, 0]
         self.share = self.change = self.least = np.inf
         self.damping = 1.0
-        self.load = _bounded(self.p, self.p, problem.cap, problem.edge, problem.weight)
+        self.rows = slice(1, -1) if problem.wrapped else slice(None)  # that are no images
+        self.load = _bounded(self.p, self.p, problem.cap, problem.edge, problem.weight, problem.wrapped)
 
     @property
     def rigid(self) -> float:
@@ -255,8 +265,8 @@ class Iteration:
         q, p = self.problem, self.p
         film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.spacing)
         near = (self.half_space.near, self.patch_wide)
-        reynolds.relax_lines(p, self.solid, self.stiff, *film, *near, q.lumped, _LINE_SWEEPS, self.dp)
-        lever = (self.stiff, self.unit, self.damping, q.load, q.edge, q.weight)
+        reynolds.relax_lines(p, self.solid, self.stiff, *film, *near, q.lumped, _LINE_SWEEPS, self.dp, q.wrapped)
+        lever = (self.stiff, self.unit, self.damping, q.load, q.edge, q.weight, q.wrapped)
         vector = self.memory.image
         shift, change = _next_pressure(p, q.cap, self.h, q.floor, *lever, self.dp, self._pressure_of(vector))
         vector[-1] = self.x[-1] + self.weight * shift
@@ -270,7 +280,7 @@ class Iteration:
         """The next iterate."""
         q, image = self.problem, self._pressure_of(self.memory.image)
         self.memory.mix(self.x)
-        self.load = _bounded(self.p, image, q.cap, q.edge, q.weight)
+        self.load = _bounded(self.p, image, q.cap, q.edge, q.weight, q.wrapped)
 
     def _pressure_of(self, vector: Array) -> Array:
         return vector[:-1].reshape(self.p.shape)
@@ -285,10 +295,12 @@ class Iteration:
         balance = (self.h, self.mass, q.mass_old, self.e)
         if not q.lumped:
             constants = (q.per_dt, q.spacing, _SWEEPS_UNDER_CONTACTS)
-            reynolds.fluid_under_contacts(p, f, solid, *balance, *constants, *oil)
+            reynolds.fluid_under_contacts(p, f, solid, *balance, *constants, *oil, q.wrapped)
         scales = (q.floor, q.per_dt, q.spacing, q.compliance, self.patch)
         out = (self.r, self.stiff, self.dh, self.sums)
         self.zone = reynolds.mend_film(p, f, q.cap, solid, *balance, *scales, self.stiff_of_unit, *out)
+        if q.wrapped:
+            reynolds.wrap(solid)
 
     def _press(self) -> None:
         """Pressure that mends the film of the stiff zone into `dp`, and the lever of the load."""
@@ -326,6 +338,8 @@ class Iteration:
             # what the film still lacks of its mass balance goes into its history: the next instant makes up for it
             owed = np.where(self.solid | (self.p <= 0.0), 0.0, self.r / self.problem.per_dt)
             mass += np.clip(owed, -0.5 * mass, 0.5 * mass)
+            if self.problem.wrapped:
+                reynolds.wrap(mass)
         fluid = np.where(self.solid, 0.0, self.f) if self.problem.lumped else self.f.copy()
         iterate = Iterate(self.p.copy(), fluid, self.solid.copy(), self.rigid)
         return replace(found, iterate=iterate, gap=self.h.copy(), mass=mass)

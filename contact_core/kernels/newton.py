@@ -99,8 +99,11 @@ def _product(by_f, by_h, scale, nodes, solid, df, dh, out):  # type: ignore[no-u
 
 
 @_jit
-def _assemble(by_f, by_h, scale, patch, nodes, column, solid, edge, start, index, value):  # type: ignore[no-untyped-def]
-    """Compressed rows of the local Jacobian of `nodes`; patch [10, 6]: deformation of the stencil by the patch."""
+def _assemble(by_f, by_h, scale, patch, nodes, column, solid, edge, wrapped, start, index, value):  # type: ignore[no-untyped-def]
+    """Compressed rows of the local Jacobian of `nodes`; patch [10, 6]: deformation of the stencil by the patch.
+
+    An image has the column of its node: of few rows, some columns stand in a row more than once, and add up.
+    """
     ny, nx = solid.shape
     row = np.empty(10)
     count = 0
@@ -117,14 +120,14 @@ def _assemble(by_f, by_h, scale, patch, nodes, column, solid, edge, start, index
         if not solid[j, i]:
             for n in range(6 if i > 1 else 5):
                 jn, im = j + _DJ[n], i + _DI[n]
-                if 0 < jn < ny - 1 and 0 < im < nx - 1:
+                if (wrapped or 0 < jn < ny - 1) and 0 < im < nx - 1:
                     if not solid[jn, im]:
                         row[n] += by_f[n, j, i]
                 else:  # an edge follows its inner neighbour
                     row[1 if n == 5 else 0] += by_f[n, j, i] * edge[jn, im]
         for o in range(10):
             jn, im = j + _DJ[o], i + _DI[o]
-            if 0 < jn < ny - 1 and 0 < im < nx - 1 and column[jn, im] >= 0 and row[o] != 0.0:
+            if (wrapped or 0 < jn < ny - 1) and 0 < im < nx - 1 and column[jn, im] >= 0 and row[o] != 0.0:
                 index[count], value[count] = column[jn, im], row[o] * scale[j, i]
                 count += 1
         start[k + 1] = count
@@ -132,7 +135,7 @@ def _assemble(by_f, by_h, scale, patch, nodes, column, solid, edge, start, index
 
 
 @_jit
-def _seek_cavity(f, p, solid, e, mass, mass_old, per_dt, dx, rigid, light, sweeps):  # type: ignore[no-untyped-def]
+def _seek_cavity(f, p, solid, e, mass, mass_old, per_dt, dx, rigid, light, sweeps, wrapped):  # type: ignore[no-untyped-def]
     """Projected over-relaxation of light pressures on a given film: moves the edge of the cavity by many nodes, where a
     Newton step frees one row.
     """
@@ -154,35 +157,45 @@ def _seek_cavity(f, p, solid, e, mass, mass_old, per_dt, dx, rigid, light, sweep
                 value = (inflow - reynolds.transport(mass, mass_old, per_dt, dx, j, i)) / total
                 f[j, i] = min(max(f[j, i] + 1.6 * (value - f[j, i]), 0.0), light)
                 p[j, i] = f[j, i]
+        if wrapped:
+            reynolds.wrap(f)
 
 
 @lru_cache(maxsize=8)
-def _elimination_order(ny: int, nx: int) -> Indices:
-    """Nodes of a grid by nested dissection; separators are two nodes thick as the stencil reaches two nodes west."""
+def _elimination_order(ny: int, nx: int, wrapped: bool) -> Indices:
+    """Nodes of a grid by nested dissection; separators are two nodes thick as the stencil reaches two nodes west.
+    `wrapped`: the last inner row neighbours the first.
+    """
     order: list[int] = []
 
-    def dissect(j0: int, j1: int, i0: int, i1: int) -> None:
+    def dissect(j0: int, j1: int, i0: int, i1: int, ring: bool = False) -> None:
         if (j1 - j0) * (i1 - i0) <= 24:
             order.extend(j * nx + i for i in range(i0, i1) for j in range(j0, j1))
         elif i1 - i0 >= j1 - j0:
             middle = (i0 + i1) // 2
-            dissect(j0, j1, i0, middle)
-            dissect(j0, j1, middle + 2, i1)
+            dissect(j0, j1, i0, middle, ring)
+            dissect(j0, j1, middle + 2, i1, ring)
             order.extend(j * nx + i for j in range(j0, j1) for i in range(middle, middle + 2))
+        elif ring:  # cut open
+            dissect(j0 + 1, j1, i0, i1)
+            order.extend(j0 * nx + i for i in range(i0, i1))
         else:
             middle = (j0 + j1) // 2
             dissect(j0, middle, i0, i1)
             dissect(middle + 1, j1, i0, i1)
             order.extend(middle * nx + i for i in range(i0, i1))
 
-    dissect(1, ny - 1, 1, nx - 1)
+    dissect(1, ny - 1, 1, nx - 1, wrapped)
     return np.array(order)
 
 
-def _follow_edge(field: Array, edge: Array) -> None:
-    """Put on the edge what follows from the inner neighbours."""
+def _follow_edge(field: Array, edge: Array, wrapped: bool) -> None:
+    """Put on the edge what follows from the inner neighbours, or what it is an image of."""
     field[:, 0], field[:, -1] = edge[:, 0] * field[:, 1], edge[:, -1] * field[:, -2]
-    field[0], field[-1] = edge[0] * field[1], edge[-1] * field[-2]
+    if wrapped:
+        reynolds.wrap(field)
+    else:
+        field[0], field[-1] = edge[0] * field[1], edge[-1] * field[-2]
 
 
 def _inner_weight(weight: Array, edge: Array) -> Array:
@@ -229,12 +242,13 @@ class _Film:
         self.half_space, self.problem = half_space, problem
         self.p, self.f = np.clip(start.pressure, 0.0, problem.cap), start.fluid.copy()
         self.solid, self.rigid = start.solid.copy(), start.rigid
-        _follow_edge(self.p, problem.edge)
+        _follow_edge(self.p, problem.edge, problem.wrapped)
         shape = self.p.shape
         self.h, self.mass, self.e, self.r, self.scale = (np.zeros(shape) for _ in range(5))
         self.slope, self.by_f, self.by_h = np.zeros((4, *shape)), np.zeros((6, *shape)), np.zeros((6, *shape))
         self.inner_weight = _inner_weight(problem.weight, problem.edge)
-        self.order = _elimination_order(*shape)
+        self.order = _elimination_order(*shape, problem.wrapped)
+        self.rows = slice(1, -1) if problem.wrapped else slice(None)  # that are no images
         self.inner = np.zeros(shape, np.bool_)
         self.inner[1:-1, 1:-1] = True
         self.releases = np.zeros(shape, np.int64)
@@ -248,9 +262,9 @@ class _Film:
         self._pass()
         rigid = 30.0 * self.half_space.near[0, 0] / q.spacing  # there the gap does not feel light pressures
         balance = (self.e, self.mass, q.mass_old, q.per_dt, q.spacing)
-        _seek_cavity(self.f, self.p, self.solid, *balance, rigid, _LIGHT * self.p.max(), _SWEEPS_AT_CAVITY)
-        _follow_edge(self.p, q.edge)
-        self.sought = float(np.abs(self.p - old).sum())
+        _seek_cavity(self.f, self.p, self.solid, *balance, rigid, _LIGHT * self.p.max(), _SWEEPS_AT_CAVITY, q.wrapped)
+        _follow_edge(self.p, q.edge, q.wrapped)
+        self.sought = float(np.abs(self.p - old)[self.rows].sum())
         self._pass()
         reynolds.residual(self.f, self.solid, self.mass, q.mass_old, self.e, q.per_dt, q.spacing, self.r)
         self.releases += before & ~self.solid
@@ -260,11 +274,15 @@ class _Film:
         oil = (q.floor, q.mobility, q.thinned, q.fluidity, q.density, q.step)
         deformation = self.half_space.deform(p)
         solid |= self.inner & (self.rigid + q.undeformed + deformation < _TOUCH * q.floor)
+        if q.wrapped:
+            reynolds.wrap(solid)
         reynolds.film_pass(p, f, solid, q.undeformed, deformation, self.rigid, *oil, self.h, self.mass, self.e)
         solid &= self.inner  # the edge does not touch
+        if q.wrapped:
+            reynolds.wrap(solid)
         settled = solid & (self.releases >= _RELEASES)
         balance = (self.mass, q.mass_old, self.e, q.per_dt, q.spacing)
-        reynolds.fluid_under_contacts(p, f, solid, self.h, *balance, _SWEEPS_UNDER_CONTACTS, *oil)
+        reynolds.fluid_under_contacts(p, f, solid, self.h, *balance, _SWEEPS_UNDER_CONTACTS, *oil, q.wrapped)
         solid |= settled
 
     def correction(self) -> tuple[Array, Array, float] | None:
@@ -283,8 +301,10 @@ class _Film:
         scale[:] = np.where(solid, -1.0 / near[0, 0], 1.0 / np.maximum(own, -by_f[0] + 1e-300))
         column = np.full(shape, -1, np.int32)
         column.ravel()[nodes] = np.arange(size)
+        if q.wrapped:
+            reynolds.wrap(column)
         start, index, value = np.empty(size + 1, np.int32), np.empty(10 * size, np.int32), np.empty(10 * size)
-        args = (by_f, by_h, scale, self.patch, nodes, column, solid, q.edge)
+        args = (by_f, by_h, scale, self.patch, nodes, column, solid, q.edge, q.wrapped)
         count = _assemble(*args, start, index, value)
         # the transpose, by columns
         rows = scipy.sparse.csc_matrix((value[:count], index[:count], start), shape=(size, size))
@@ -303,7 +323,7 @@ class _Film:
         def spread(x: Array) -> tuple[Array, Array]:
             dp = np.zeros(shape)
             dp.ravel()[nodes] = x[:-1]
-            _follow_edge(dp, q.edge)
+            _follow_edge(dp, q.edge, q.wrapped)
             return dp, self.half_space.deform(dp) + x[-1]
 
         def operator(x: Array) -> Array:
@@ -333,10 +353,10 @@ class _Film:
         rise = float((np.where(wet, np.minimum(dp, q.cap - old), 0.0) / (_RISE[0] + _RISE[1] * old)).max())
         share = 1.0 / max(fall, rise, 1.0)
         self.p = np.clip(old + share * dp, 0.0, q.cap)
-        _follow_edge(self.p, q.edge)
+        _follow_edge(self.p, q.edge, q.wrapped)
         self.rigid += share * d_rigid
         self.solid &= self.p > 0.0
-        return float(np.abs(self.p - old).sum()) / q.load, share
+        return float(np.abs(self.p - old)[self.rows].sum()) / q.load, share
 
     def assess(self, n: int, change: float, whole: bool, tolerance: float) -> Solution:
         """How good the present pressure is, `change` that of the last step and `whole` if that was not cut short."""

@@ -87,6 +87,15 @@ def film_pass(  # type: ignore[no-untyped-def]
 
 
 @_jit
+def wrap(field):  # type: ignore[no-untyped-def]
+    """Make the first and the last row images of the last and the first but one."""
+    ny, nx = field.shape
+    for i in range(nx):
+        field[0, i] = field[ny - 2, i]
+        field[ny - 1, i] = field[1, i]
+
+
+@_jit
 def transport(mass, mass_old, per_dt, dx, j, i):  # type: ignore[no-untyped-def]
     """d(m)/dx + d(m)/dt at a node."""
     if i > 1:
@@ -98,7 +107,23 @@ def transport(mass, mass_old, per_dt, dx, j, i):  # type: ignore[no-untyped-def]
 
 @_jit
 def fluid_under_contacts(  # type: ignore[no-untyped-def]
-    p, f, solid, h, mass, mass_old, e, per_dt, dx, sweeps, floor, mobility, thinned, fluidity, density, step
+    p,
+    f,
+    solid,
+    h,
+    mass,
+    mass_old,
+    e,
+    per_dt,
+    dx,
+    sweeps,
+    floor,
+    mobility,
+    thinned,
+    fluidity,
+    density,
+    step,
+    wrapped=False,
 ):
     """Gauss-Seidel for the fluid pressure on solid contacts; releases those the fluid alone carries."""
     ny, nx = p.shape
@@ -136,6 +161,8 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
             if last and value > pp[k] and hh[k] > _DEEP * floor:
                 ss[k] = False
             ff[k] = min(max(value, 0.0), pp[k])
+        if wrapped:
+            wrap(f)
     cube, per_step = floor * floor * floor, 1.0 / step
     for n in range(count):
         k = at[n]
@@ -144,6 +171,11 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
         rho, fluid = _properties(ff[k], per_step, density, fluidity)
         mm[k] = rho * floor
         ee[k] = ease[k] * cube * rho * (fluid + more[k]) + 1e-300
+    if wrapped:
+        wrap(f)
+        wrap(mass)
+        wrap(e)
+        wrap(solid)
 
 
 @_jit
@@ -267,7 +299,9 @@ def mend_film(  # type: ignore[no-untyped-def]
 
 
 @_jit
-def relax_lines(p, solid, stiff, h, mass, e, r, edge, floor, per_dt, dx, near, patch_wide, lumped, sweeps, dp):  # type: ignore[no-untyped-def]
+def relax_lines(  # type: ignore[no-untyped-def]
+    p, solid, stiff, h, mass, e, r, edge, floor, per_dt, dx, near, patch_wide, lumped, sweeps, dp, wrapped=False
+):
     """Line over-relaxation of the linearised equation outside the stiff zone, dp given inside it. Updates dp, p +
     dp >= 0.
     """
@@ -282,6 +316,10 @@ def relax_lines(p, solid, stiff, h, mass, e, r, edge, floor, per_dt, dx, near, p
     w1 = (1.5 * k1 - 2.0 * k2 + 0.5 * k3) / dx
     w2 = (1.5 * k2 - 2.0 * k3 + 0.5 * k4) / dx
     ratio, known, free = np.zeros(nx), np.zeros(nx), np.zeros(nx, np.bool_)
+    alone = wrapped and ny == 3  # a row that is its own neighbour
+    over = 1.0 if alone else _OVER
+    if wrapped:
+        wrap(dp)
     for sweep in range(sweeps):
         for row in range(1, ny - 1):
             j = row if sweep % 2 == 0 else ny - 1 - row
@@ -297,6 +335,8 @@ def relax_lines(p, solid, stiff, h, mass, e, r, edge, floor, per_dt, dx, near, p
                 ej = e[j, i]
                 west, east = half * (ej + e[j, i - 1]), half * (ej + e[j, i + 1])
                 south, north = half * (ej + e[j - 1, i]), half * (ej + e[j + 1, i])
+                if alone:
+                    south, north = 0.0, 0.0
                 # at the floor the flow does not feel the deformation
                 rho = mass[j, i] / h[j, i] if h[j, i] > floor else 0.0
                 far = w2 * dp[j, i + 2] if i < nx - 2 else 0.0
@@ -329,4 +369,6 @@ def relax_lines(p, solid, stiff, h, mass, e, r, edge, floor, per_dt, dx, near, p
             for i in range(last, first - 1, -1):
                 value = known[i] - ratio[i] * value
                 if free[i]:
-                    dp[j, i] = max(dp[j, i] + _OVER * (value - dp[j, i]), -p[j, i])
+                    dp[j, i] = max(dp[j, i] + over * (value - dp[j, i]), -p[j, i])
+            if wrapped and (j == 1 or j == ny - 2):
+                wrap(dp)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..quantities import parameter
+from ..reference import logarithmic_drop, rounded_drop
 
 Array = NDArray[np.float64]
 
@@ -16,16 +17,14 @@ class Rounded:
     """Straight in the middle, a circle of a radius along the axis on either side."""
 
     name: ClassVar[str] = "rounded"
-    source: ClassVar[str] = "geometry: the circle's parabola"
+    source: ClassVar[str] = ""
 
     straight: float = parameter("m", "length of the straight part", least=0.0, most=10.0)
     radius: float = parameter("m", "radius along the axis beyond the straight part", above=0.0, most=1e4)
 
     def drop(self, y: Array, length: float) -> Array:
         """Material taken away [m] at y [m] from the middle of a face of a length [m]; inf beyond its ends."""
-        across = np.abs(y)
-        beyond = np.maximum(across - 0.5 * self.straight, 0.0)
-        return np.where(across <= 0.5 * length, beyond**2 / (2.0 * self.radius), np.inf)
+        return rounded_drop(y, length, self.straight, self.radius)
 
 
 @dataclass(frozen=True)
@@ -39,8 +38,7 @@ class Logarithmic:
 
     def drop(self, y: Array, length: float) -> Array:
         """Material taken away [m] at y [m] from the middle of a face of a length [m]; inf beyond its ends."""
-        rest = 1.0 - (2.0 * y / length) ** 2
-        return np.where(rest > 0.0, -self.depth * np.log(np.maximum(rest, 1e-300)), np.inf)
+        return logarithmic_drop(y, length, self.depth)
 
 
 LAWS = (Rounded, Logarithmic)

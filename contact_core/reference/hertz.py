@@ -1,7 +1,9 @@
 """Hertz: dry contact of smooth elastic bodies."""
 
+import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import ClassVar
 
 import numpy as np
 import scipy  # its parts are loaded at their first use
@@ -12,27 +14,40 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Hertz:
-    """Dry contact of smooth elastic bodies."""
+    """Dry contact of smooth elastic bodies on an ellipse."""
+
+    mean_share: ClassVar[float] = 2.0 / 3.0  # mean pressure over the largest
+    exponent: ClassVar[float] = 1.0 / 3.0  # a and the pressures grow with this power of the load
+    across: ClassVar[float] = 1.0 / 3.0  # and b with this one
 
     a: float  # half width along x [m]
     b: float  # half width along y [m]
     pressure_max: float  # [Pa]
-    approach: float  # [m]
+    approach: float  # of points far away [m]
 
     @property
     def area(self) -> float:
         """Contact area [m2]."""
-        return float(np.pi * self.a * self.b)
+        return math.pi * self.a * self.b
 
     def inside(self, x: Array, y: Array, share: float) -> NDArray[np.bool_]:
         """Which nodes at x [nx], y [ny] about the centre [m] lie within `share` of the half widths, [ny, nx]."""
         within: NDArray[np.bool_] = (x[None, :] / self.a) ** 2 + (y[:, None] / self.b) ** 2 < share**2
         return within
 
+    @property
+    def pressure_mean(self) -> float:
+        """Mean pressure over the contact area [Pa]."""
+        return self.mean_share * self.pressure_max
+
 
 @dataclass(frozen=True)
 class HertzLine(Hertz):
-    """Dry contact of a smooth cylinder; b is half its length."""
+    """Dry contact of smooth cylinders with parallel axes: a strip of half width a and half length b."""
+
+    mean_share: ClassVar[float] = math.pi / 4.0
+    exponent: ClassVar[float] = 0.5
+    across: ClassVar[float] = 0.0
 
     @property
     def area(self) -> float:
@@ -43,18 +58,6 @@ class HertzLine(Hertz):
         """Which nodes at x [nx], y [ny] about the centre [m] lie within `share` of the half widths, [ny, nx]."""
         within: NDArray[np.bool_] = (np.abs(x) < share * self.a)[None, :] & (np.abs(y) < share * self.b)[:, None]
         return within
-
-
-def hertz_line(load: float, radius: float, length: float, reduced_modulus: float) -> HertzLine:
-    """Hertz's line contact.
-
-    load per length [N/m] > 0, radius of combined curvature [m], length [m], reduced_modulus E' = 2 / sum (1 - v^2)/E
-    [Pa]. The approach is that at the middle of an even load on the length: a^2 / (2 R) [ln(2 length / a) + 1/2].
-    Source: Johnson, Contact Mechanics, 1985, doi:10.1017/CBO9781139171731, sections 4.2 and 5.6.
-    """
-    a = float(np.sqrt(8.0 * load * radius / (np.pi * reduced_modulus)))
-    approach = a * a / (2.0 * radius) * (float(np.log(2.0 * length / a)) + 0.5)
-    return HertzLine(a, 0.5 * length, 2.0 * load / (np.pi * a), approach)
 
 
 def hertz_point(load: float, radius_x: float, radius_y: float, reduced_modulus: float) -> Hertz:
@@ -91,3 +94,45 @@ def _ellipse(ratio: float) -> tuple[float, float, float]:
     # Carlson's integrals, because E/k^2 - K and K - E lose their digits near the circle
     k = float(np.exp(scipy.optimize.brentq(mismatch, np.log(1e-12), 0.0, xtol=1e-15)))
     return k, float(special.elliprf(0.0, k * k, 1.0)), 2.0 * float(special.elliprg(0.0, k * k, 1.0))
+
+
+def hertz_line(load: float, radius: float, length: float, reduced_modulus: float) -> HertzLine:
+    """Hertz's line contact under a load [N] > 0 that is spread evenly over a length [m].
+
+    radius of combined curvature [m], reduced_modulus E' = 2 / sum (1 - v^2)/E [Pa]. The approach is that of points far
+    below the middle of the length, 2 w / (pi E') [2 ln(2 length / a) + 1] with the load per length w, up to terms of
+    (a / length)^2: what half spaces yield there under Hertz's pressure. A line without end has none.
+    Source: Johnson, Contact Mechanics, 1985, doi:10.1017/CBO9781139171731, section 4.2; approach: Lundberg, Forsch.
+    Ing.-Wes. 10 (1939) 201.
+    """
+    per_length = load / length
+    a = math.sqrt(8.0 * per_length * radius / (math.pi * reduced_modulus))
+    approach = 2.0 * per_length / (math.pi * reduced_modulus) * (2.0 * math.log(2.0 * length / a) + 1.0)
+    return HertzLine(a, 0.5 * length, 2.0 * per_length / (math.pi * a), approach)
+
+
+def palmgren_approach(load: float, length: float, reduced_modulus: float) -> float:
+    """Approach [m] of a crowned roller and a raceway under a load [N], 1.36 (2 load / E')^0.9 / length^0.8.
+
+    A fit to measurements, in which the radii do not appear; for steel it is 3.84e-5 load^0.9 / length^0.8 in mm.
+    Source: Palmgren, Ball and Roller Bearing Engineering, 3rd ed., 1959, in the form of Eschmann, Hasbargen & Weigand,
+    Ball and Roller Bearings, 1985.
+    """
+    return 1.36 * (2.0 * load / reduced_modulus) ** 0.9 / length**0.8
+
+
+def brewe_hamrock(load: float, radius_x: float, radius_y: float, reduced_modulus: float) -> Hertz:
+    """`hertz_point` by powers and logarithms in place of elliptic integrals, to check with.
+
+    For radii in a ratio of up to 100 half widths are within 4.5 % of the exact ones, the pressure within 2.5 %, the
+    approach within 5.5 %, least sure near the circle; half widths and pressure are within 2 % from 1.3 to 50.
+    Source: Brewe & Hamrock, J. Lubr. Technol. 99 (1977) 485, doi:10.1115/1.3453245.
+    """
+    small, large = sorted((radius_x, radius_y))
+    ratio, curvature = large / small, 1.0 / small + 1.0 / large
+    k = 1.0339 * ratio**0.636  # long half width over the short one
+    ellipe, ellipk = 1.0003 + 0.5968 / ratio, 1.5277 + 0.6023 * math.log(ratio)
+    long = (6.0 * k * k * ellipe * load / (math.pi * reduced_modulus * curvature)) ** (1 / 3)
+    approach = ellipk * (4.5 * curvature / ellipe * (load / (math.pi * k * reduced_modulus)) ** 2) ** (1 / 3)
+    a, b = (long / k, long) if radius_x == small else (long, long / k)
+    return Hertz(a, b, 1.5 * load / (math.pi * a * b), approach)

@@ -82,6 +82,22 @@ def hamrock_dowson(contact: SmoothContact) -> tuple[float, float]:
     return float(central * contact.radius_x), float(minimum * contact.radius_x)
 
 
+def chittenden(contact: SmoothContact) -> tuple[float, float]:
+    """Central and minimum film thickness [m] of ellipses with either axis along the entrainment.
+
+    Source: Chittenden, Dowson, Dunn & Taylor, Proc. R. Soc. A 397 (1985) 245 and 271.
+    """
+    speed = contact.viscosity * contact.entrainment_speed / (contact.reduced_modulus * contact.radius_x)
+    material = contact.pressure_coefficient * contact.reduced_modulus
+    load = contact.load / (contact.reduced_modulus * contact.radius_x**2)
+    unleaked = speed**0.68 * material**0.49 * load**-0.073 * contact.radius_x
+    width = (contact.radius_y / contact.radius_x) ** (2 / 3)
+    return (
+        4.31 * unleaked * (1.0 - math.exp(-1.23 * width)),
+        3.68 * unleaked * (1.0 - math.exp(-0.67 * width)),
+    )
+
+
 def nijenbanning_venner_moes(contact: SmoothContact) -> float:
     """Central film thickness [m], over all regimes from rigid-isoviscous to elastic-piezoviscous.
 
