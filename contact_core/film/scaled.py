@@ -65,7 +65,11 @@ class Scaled:
         self.depth = self.compliance ** (2.0 / 3.0) if shape.circular else hertz.approach / self.h_unit
         self.x, self.y = grid.x / self.size, grid.y / self.size
         gap = shape.gap(self.x, self.y, self.size)
-        self.smooth = np.sqrt(np.maximum(1.0 - 2.0 * gap, 0.0))
+        reach = 2.0 * gap
+        if isinstance(shape, Point) and not shape.circular:  # Hertz's ellipse is slimmer than a line of equal gap
+            slim = self.size / film_size(hertz.b, shape.radius_y, self.smooth_film)
+            reach = self.x[None, :] ** 2 + (slim * self.y[:, None]) ** 2
+        self.smooth = np.sqrt(np.maximum(1.0 - reach, 0.0))
         self.undeformed = gap - now.heights / self.h_unit
 
     @cached_property
