@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from contact_core import Scene
 from contact_core.contact import instant_of
 from contact_core.film.fitted import fitted_grid
-from contact_core.film.instant import FilmState, Instant, Settings
+from contact_core.film.instant import FilmState, Instant, Settings, Step
 from contact_core.film.outputs import at_centre
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
@@ -148,8 +148,8 @@ def march(scene: Scene) -> Iterator[tuple[Instant, float]]:
 
 def posed(scene: Scene, now: Instant, step: float, before: FilmState) -> tuple[Scaled, Problem]:
     """A step from the film before."""
-    scaled = Scaled(now, contact_grid(scene, scene.film.points), settings_of(scene, 0.0, 0))
-    return scaled, scaled.problem(before.mass / scaled.h_unit, scaled.per_dt(step))
+    scaled = Scaled(now, contact_grid(scene, scene.film.points), settings_of(scene, 0.0, 0), before, Step(step, 1))
+    return scaled, scaled.problem()
 
 
 def warm(scene: Scene, now: Instant, step: float, before: FilmState, iterations: int) -> tuple[Scaled, Solution]:

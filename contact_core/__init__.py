@@ -21,8 +21,10 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     oil          what heat and shear make of the oil, and how it then flows
     patches      body-fixed surfaces: what they are now, where they lie under the contact
     contact      solve: one instant of a scene in a state
+    following    one instant after another: what moves on, what film it starts from
     sweep        what a block's instants add up to
     block        when and at which instants the contact is solved, and by which driver
+    march        load, speeds and radii that change within a run: instant after instant, and cycles of them
     evolution    tribofilm and wear between two solutions, in closed form
     trends       outputs without their noise, errors of time steps and of sampling
     means        the fast level: the means of both surfaces over time
@@ -37,8 +39,9 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     checksum     of bytes joined from parts whose checksums are known
     errors       what can go wrong, each message with a way out
 
-Imports run one way: kernels <- laws <- film <- friction <- oil <- patches <- evolution <- contact <- sweep <- block
-<- advance; of the fast level, means stands beside block, mean_outputs beside sweep and mean_contact beside contact.
+Imports run one way: kernels <- laws <- film <- friction <- oil <- patches <- evolution <- contact <- following
+<- sweep <- block <- march, advance; of the fast level, means stands beside block, mean_outputs beside sweep and
+mean_contact beside contact.
 Everything inside is SI; heights are metres above a body's mean plane, positive toward the other body; arrays are
 [ny, nx], x along entrainment.
 """
@@ -46,7 +49,9 @@ Everything inside is SI; heights are metres above a body's mean plane, positive 
 from .advance import advance, uncertainty
 from .contact import ContactFields, Transient, solve
 from .dry_contact import DryContact, dry_contact
-from .errors import ContactError, ConvergenceError, OperatingPointError, SceneError, StateError
+from .errors import ContactError, ConvergenceError, FilmTooWideError, OperatingPointError, SceneError, StateError
+from .following import parted
+from .march import Moment, march, run_cycle
 from .point_contact import PointContact, point_contact
 from .reading import shipped_scenes
 from .scene import OperatingPoint, Scene
@@ -62,6 +67,8 @@ __all__ = [
     "ContactState",
     "ConvergenceError",
     "DryContact",
+    "FilmTooWideError",
+    "Moment",
     "OperatingPoint",
     "OperatingPointError",
     "Outputs",
@@ -75,7 +82,10 @@ __all__ = [
     "advance",
     "dry_contact",
     "initial_state",
+    "march",
+    "parted",
     "point_contact",
+    "run_cycle",
     "shipped_scenes",
     "solve",
     "track_of",

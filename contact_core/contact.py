@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from .errors import OperatingPointError, SceneError
 from .film import Deterministic
-from .film.instant import FilmSolution, FilmState, Grid, Instant
+from .film.instant import FilmSolution, FilmState, Grid, Instant, Step
 from .friction import Film, Friction, friction
 from .laws.heat import Temperatures
 from .laws.tribofilm import thickness
@@ -27,6 +27,7 @@ class Transient:
     moved: int  # nodes by which the rougher surface has moved along +x since then
     iterations: int  # at most
     heated: bool = True  # False: nobody asks for temperatures; the film stays as warm as it was
+    order: int = 1  # of the squeeze term in time, 1 or 2
 
 
 @dataclass(frozen=True)
@@ -113,7 +114,7 @@ def solve(
     if op.load == 0.0:
         film = _open(scene, op, grid, heights)
     else:
-        follows = (transient.dt, transient.moved) if transient and before else None
+        step = Step(transient.dt, transient.moved, transient.order) if transient and before else None
         most = transient.iterations if transient else None
         film = solve_flow(
             scene,
@@ -122,7 +123,7 @@ def solve(
             cover,
             now,
             before,
-            lambda now, start: level.solve(now, grid, start, follows, most),
+            lambda now, start: level.solve(now, grid, start, step, most),
             level.tolerance,
         )
     found, stress, warm, shortfall = warmed(

@@ -4,6 +4,7 @@ A patch [rows, nx - 1] repeats along x and shares its rows with the grid of the 
 the edge makes rows more, but not on a line, which has no edge.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 from .film.instant import Grid
 from .laws.tribofilm import thickness
 from .scene import Scene, Surface
-from .state import Body
+from .state import Body, ContactState
 from .surfaces import generate, groove_free
 
 Array = NDArray[np.float64]
@@ -76,3 +77,29 @@ def widened(body: Body, more: int) -> Body:
 
     arrays: dict[str, Any] = {name: fresh(name) for name in Body.ARRAYS}
     return replace(body, **arrays)
+
+
+def rolled(scene: Scene, state: ContactState, steps: Sequence[float]) -> ContactState:
+    """The state after both bodies have moved along +x, each by its step [m]."""
+    first, second = (
+        replace(body, offset=(body.offset + step) % scene.film.domain)
+        for body, step in zip(state.bodies, steps, strict=True)
+    )
+    return replace(state, bodies=(first, second))
+
+
+def yielded(scene: Scene, state: ContactState, overlap: Array) -> ContactState:
+    """The state after half of the overlap has been pressed into each body, for good."""
+    if not overlap.any():
+        return state
+    first, second = (
+        replace(body, plastic=body.plastic + 0.5 * on_patch(overlap, patch_nodes(scene, body))) for body in state.bodies
+    )
+    return replace(state, bodies=(first, second))
+
+
+def moved_nodes(scene: Scene, before: ContactState, after: ContactState) -> int:
+    """Whole nodes by which the rougher body has moved along +x, by half a patch at most."""
+    rougher, columns = 0 if scene.surface_1.rq > scene.surface_2.rq else 1, scene.film.points - 1
+    early, late = (patch_nodes(scene, state.bodies[rougher]) for state in (before, after))
+    return (late - early + columns // 2) % columns - columns // 2

@@ -95,6 +95,13 @@ class Control:
         default=0,
     )
     longest: float = parameter("s", "longest block", above=0.0, most=1e9, default=120.0)
+    inputs: str = parameter(
+        "",
+        "what a change of load, speeds or radii finds: quasi_steady, a film that has long settled; transient, the one "
+        "that was there, which follows",
+        choices=("quasi_steady", "transient"),
+        default="quasi_steady",
+    )
 
 
 @dataclass(frozen=True)

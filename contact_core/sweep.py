@@ -65,7 +65,7 @@ class Sweep:
         for i, body in enumerate(state.bodies):
             self.pressures[i][:] += on_patch(fields.solid_pressure, patch_nodes(scene, body))
             self.exposures[i][:] += exposures[i]
-        self.outputs.append(_observed(scene, op, fields))
+        self.outputs.append(observed(scene, op, fields))
         self.sheared = fields.sheared
         self.iterations += fields.iterations
         self.mixed += fields.route == "mixed"
@@ -114,8 +114,8 @@ def _exposures(scene: Scene, op: OperatingPoint, fields: ContactFields) -> tuple
     return first, first if alike else scene.tribofilm.exposure(*stresses, warm_2)
 
 
-def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[str, float]:
-    """The outputs of one instant."""
+def observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[str, float]:
+    """What one instant gives to the outputs."""
     grid = contact_grid(scene, fields.y.size)
     found, warm = fields.friction, fields.temperatures
     seen = {

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..quantities import parameter
-from .instant import FilmSolution, FilmState, Grid, Instant, Settings
+from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class Deterministic:
         now: Instant,
         grid: Grid,
         start: FilmState | None = None,
-        follows: tuple[float, int] | None = None,
+        step: Step | None = None,
         iterations: int | None = None,
     ) -> FilmSolution:
         """Solve one instant as `routes.solve_film`; `iterations`: fewer than the scene allows."""
@@ -70,4 +70,4 @@ class Deterministic:
 
         most = min(iterations or self.iterations, self.iterations)
         settings = Settings(self.floor, self.tolerance, most, self.fft, self.criterion == "lumped")
-        return solve_film(now, grid, settings, start, follows)
+        return solve_film(now, grid, settings, start, step)

@@ -76,6 +76,9 @@ class Instant:
     solid_share: float = 1.0  # of the load of such a contact; the rest lies on oil, spread as in Hertz's contact
     ease: Array | None = None  # how many times easier oil flows at a node than `viscosity` says: by warmth
     thinned: Array | None = None  # fluidity [1/(Pa s)] that shear adds to that at a node
+    conserving: bool = False  # cavities hold the oil that flows into them; else they count as full
+    supply: float | None = None  # oil film [m] on both surfaces together before the contact; None: all it can take
+    meniscus: float | None = None  # distance [m] before the centre at which the inlet begins to fill; None: nowhere
 
     def mirrored(self) -> "Instant":
         """The instant seen from the other side: entrained the other way."""
@@ -83,6 +86,19 @@ class Instant:
         ease, thinned = (None if f is None else np.ascontiguousarray(f[:, ::-1]) for f in (self.ease, self.thinned))
         back = replace(self, entrainment_speed=-self.entrainment_speed, heights=heights, limit=limit)
         return replace(back, ease=ease, thinned=thinned)
+
+
+@dataclass(frozen=True)
+class Step:
+    """How an instant follows from the film solution that it starts from."""
+
+    dt: float  # time since then [s]
+    moved: int = 0  # nodes by which the rough surfaces have moved along +x since then
+    order: int = 1  # of the squeeze term in time: 1, backward Euler; 2, backward differences over two steps
+
+    def mirrored(self) -> "Step":
+        """The step seen from the other side."""
+        return replace(self, moved=-self.moved)
 
 
 @dataclass(frozen=True)
@@ -108,16 +124,22 @@ class FilmState:
     ease: Array = field(default_factory=lambda: np.ones((1, 1)))  # `Instant.ease`, [1, 1] if there is none
     thinned: Array = field(default_factory=lambda: np.zeros((1, 1)))  # `Instant.thinned`, as well
     warmth: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of the film above the inlet [K], as well
+    mass_before: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of a step of second order, where it began
+    dt: float = 0.0  # [s] since then
 
     def __post_init__(self) -> None:
-        for array in (self.pressure, self.fluid, self.solid, self.mass, self.ease, self.thinned, self.warmth):
+        for array in (self.solid, *self._fields):
             array.setflags(write=False)
+
+    @property
+    def _fields(self) -> tuple[Array, ...]:
+        return self.pressure, self.fluid, self.mass, self.ease, self.thinned, self.warmth, self.mass_before
 
     def mirrored(self) -> "FilmState":
         """The state seen from the other side."""
-        fields = (self.pressure, self.fluid, self.mass, self.ease, self.thinned, self.warmth)
-        pressure, fluid, mass, *oil = (np.ascontiguousarray(f[:, ::-1]) for f in fields)
-        return FilmState(pressure, fluid, np.ascontiguousarray(self.solid[:, ::-1]), mass, self.rigid_gap, *oil)
+        solid = np.ascontiguousarray(self.solid[:, ::-1])
+        pressure, fluid, mass, ease, thinned, warmth, before = (np.ascontiguousarray(f[:, ::-1]) for f in self._fields)
+        return FilmState(pressure, fluid, solid, mass, self.rigid_gap, ease, thinned, warmth, before, self.dt)
 
 
 @dataclass(frozen=True)

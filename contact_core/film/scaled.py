@@ -1,5 +1,6 @@
 """An instant of the film in the dimensionless units that the kernels work in."""
 
+import math
 import threading
 from collections.abc import Callable
 from dataclasses import replace
@@ -15,8 +16,9 @@ from ..kernels.far_field import far_field
 from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
 from ..kernels.mixed import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
-from ..shapes import Point, Shape
-from .instant import FilmSolution, FilmState, Grid, Instant, Settings
+from ..reference.starvation import film_behind_meniscus, supplied_film
+from ..shapes import Line, Point, Shape
+from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .outputs import disc
 
 Array = NDArray[np.float64]
@@ -29,6 +31,8 @@ _START_TOLERANCE = 1e-2
 _SOLID_SHARE = 0.85  # of the load in `shared_start`: the best of 0.03 to 0.95 from light contact to nearly dry
 _LEAST_EASE = 1e-6  # what flows less does not flow
 _FAR_FIELD_BELOW = 30.0  # Moes' M: above, what lies beyond a film-sized grid changes the film by less than 1 %
+_SLOWEST = 0.25  # unit of speeds, in nodes per time step: entrained more slowly, a film is a matter of squeezing
+_FASTEST_CHANGE = 2.0  # of a film in a step, up to which it is of second order
 
 
 class Scaled:
@@ -37,14 +41,28 @@ class Scaled:
     l^2 = a^2 + 1.4 radius_x h is the size of what carries the load: a of Hertz's contact along x, or the extent of a
     film of smooth bodies h that is thicker than that contact is deep. Both keep the solution of order one. What the
     kernels get of a periodic grid has an image of its last row before the first, and of its first after the last.
+    The unit of speeds is that of entrainment; in a time `step` from a film `start` it is at least a quarter of a node
+    per step, so that the film of slow bodies and of bodies at rest is of order one, too. `closing`: speed [m/s] at
+    which the bodies come closer, for what lies beyond the grid.
     """
 
-    def __init__(self, now: Instant, grid: Grid, settings: Settings) -> None:
+    def __init__(
+        self,
+        now: Instant,
+        grid: Grid,
+        settings: Settings,
+        start: FilmState | None = None,
+        step: Step | None = None,
+        closing: float = 0.0,
+    ) -> None:
         self.now, self.grid, self.settings = now, grid, settings
+        self.closing = closing
+        self.step = step if start else None
+        self.start = start if step else None
         shape = now.shape
         self.hertz = hertz = shape.hertz(now.load, now.reduced_modulus)
         self.a = hertz.a
-        self.size = film_size(hertz.a, shape.radius_x, self.smooth_film)
+        self.size = film_size(hertz.a, shape.radius_x, self.film)
         thin = self.a / self.size
         self.p_unit = hertz.pressure_max * thin**shape.order
         self.h_unit = self.size**2 / shape.radius_x
@@ -53,8 +71,8 @@ class Scaled:
         self.compliance = shape.softness(hertz, now.reduced_modulus) * thin ** (shape.order + 1)
         scale = self.compliance * 2.0 / np.pi**2 * self.dx
         self.half_space = half_space(grid.shape, scale, settings.fft)
-        if grid.periodic:  # displacements are counted from those at the distance of a face's length
-            far = max(now.shape.length / grid.spacing, grid.shape[1])
+        if isinstance(shape, Line) and grid.periodic:  # displacements are counted from those a face's length away
+            far = max(shape.length / grid.spacing, grid.shape[1])
             self.half_space = half_space(grid.shape, scale, settings.fft, far)
         self.cap = now.limit / self.p_unit
         if self.cap.sum() <= 1.01 * self.load:
@@ -77,7 +95,7 @@ class Scaled:
         """The smooth contact in the terms of film formulas."""
         now, shape = self.now, self.now.shape
         smooth = shape.smooth(now.load, now.entrainment_speed, now.viscosity, now.temperature, now.reduced_modulus)
-        if now.ease is None and now.thinned is None:
+        if (now.ease is None and now.thinned is None) or now.entrainment_speed == 0.0:
             return smooth
         before = self.a + inlet_length(self.a, shape, smooth.film)
         at = np.abs(self.grid.y).argmin(), np.abs(self.grid.x + before).argmin()  # where the film builds up
@@ -96,13 +114,17 @@ class Scaled:
     def smooth_film(self) -> float:
         """Film [m] that smooth bodies would have, by formula; zero if there is none."""
         now = self.now
-        return 0.0 if now.dry or now.entrainment_speed == 0.0 else self.contact.film
+        if now.dry or now.entrainment_speed == 0.0:
+            return 0.0
+        film = self.contact.film
+        if now.meniscus is not None:
+            film = film_behind_meniscus(film, now.meniscus, self.a, now.shape.radius_x)
+        return film if now.supply is None else supplied_film(film, now.supply)
 
     @property
     def moes_load(self) -> float:
-        """Moes' M; of an ellipse that of the circular contact that is as near to rigid."""
-        contact = self.contact
-        return contact.circular_load if isinstance(contact, SmoothContact) else contact.moes_parameters[0]
+        """Moes' M; of ellipses and lines that of the circular contact that is as near to rigid. Infinite at rest."""
+        return self.contact.circular_load if self.now.entrainment_speed > 0.0 else math.inf
 
     @property
     def curvature(self) -> float:
@@ -111,21 +133,48 @@ class Scaled:
         return shape.radius_x / shape.radius_y if isinstance(shape, Point) else 0.0
 
     @cached_property
+    def film(self) -> float:
+        """Film [m] of smooth bodies: by formula, or that of a start from which they have not come so close yet."""
+        return max(self.smooth_film, self.start.rigid_gap) if self.start else self.smooth_film
+
+    @property
+    def is_light(self) -> bool:
+        """Whether the film is so thick that what lies beyond the grid matters."""
+        return self.moes_load < _FAR_FIELD_BELOW or (self.start is not None and self.start.rigid_gap > 0.0)
+
+    @cached_property
+    def speed(self) -> float:
+        """Unit of speeds [m/s]."""
+        return max(self.now.entrainment_speed, _SLOWEST * self.grid.spacing / self.step.dt if self.step else 0.0)
+
+    @cached_property
     def roughness(self) -> float:
         """Rms height [m] of both bodies together where they meet."""
         inside = self.hertz.inside(self.grid.x, self.grid.y, 1.5 * self.size / self.a)
         return float(self.now.heights[inside].std()) if inside.any() else 0.0
 
-    def per_dt(self, step: float) -> float:
-        """1 / time step in the units at hand."""
-        return self.size / (self.now.entrainment_speed * step)
+    def _history(self) -> tuple[float, Array]:
+        """1 / time step, and the mass [m] from which the film has come in it, [ny, nx].
 
-    def problem(self, mass: Array | None = None, per_dt: float = 0.0) -> Problem:
-        """What the kernels solve; `mass` [ny, nx] is that of the instant before, None for a steady film."""
-        now = self.now
+        A second-order step replaces both by those of the backward difference over this step and the one before
+        (Hairer & Wanner, Solving Ordinary Differential Equations II, 1996, doi:10.1007/978-3-642-05221-7, V.1).
+        """
+        if self.step is None or self.start is None:
+            return 0.0, np.zeros_like(self.cap)
+        per_dt, mass = self.size / (self.speed * self.step.dt), self.start.mass
+        if self.step.order == 1 or self.start.dt == 0.0:
+            return per_dt, mass
+        ratio = self.step.dt / self.start.dt
+        own = (1.0 + 2.0 * ratio) / (1.0 + ratio)
+        old = ((1.0 + ratio) * mass - ratio**2 / (1.0 + ratio) * self.start.mass_before) / own
+        return own * per_dt, np.clip(old, mass / _FASTEST_CHANGE, mass * _FASTEST_CHANGE)
+
+    def problem(self) -> Problem:
+        """What the kernels solve."""
+        now, (per_dt, mass) = self.now, self._history()
         top = min(now.hardness, _TABLE_TOP)
         fluidity, density, viscosity = _tables(now.viscosity, now.density, now.temperature, top)
-        mobility = self.size**3 * self.p_unit / (12.0 * viscosity * now.entrainment_speed * now.shape.radius_x**2)
+        mobility = self.size**3 * self.p_unit / (12.0 * viscosity * self.speed * now.shape.radius_x**2)
         edge, weight = self._beyond
         ease, thinned = self._oil(viscosity)
         images = self._with_images
@@ -141,7 +190,8 @@ class Scaled:
             mobility=mobility * images(ease),
             thinned=images(thinned),
             per_dt=per_dt,
-            mass_old=images(np.zeros_like(self.cap) if mass is None else mass),
+            wedge=now.entrainment_speed / self.speed,
+            mass_old=images(mass / self.h_unit),
             fluidity=fluidity,
             density=density,
             step=top / self.p_unit / (_TABLE - 1),
@@ -149,6 +199,9 @@ class Scaled:
             edge=images(edge),
             weight=weight,
             lumped=self.settings.lumped,
+            conserving=now.conserving,
+            supply=None if now.supply is None else now.supply / self.h_unit,
+            first=self._first,
             wrapped=self.grid.periodic,
         )
 
@@ -158,30 +211,43 @@ class Scaled:
 
     def with_images(self, start: Iterate) -> Iterate:
         """An iterate on the rows of the kernels."""
-        fields = (self._with_images(field) for field in (start.pressure, start.fluid, start.solid))
-        return Iterate(*fields, start.rigid)
+        images = self._with_images
+        return Iterate(images(start.pressure), images(start.fluid), images(start.solid), start.rigid)
 
     def without_images(self, found: Solution) -> Solution:
         """A solution of the kernels on the rows of the grid."""
         if not self.grid.periodic:
             return found
-        it = found.iterate
-        own = (field[1:-1].copy() for field in (it.pressure, it.fluid, it.solid))
-        gap, mass = found.gap[1:-1].copy(), found.mass[1:-1].copy()
-        return replace(found, iterate=Iterate(*own, it.rigid), gap=gap, mass=mass)
+        it, own = found.iterate, np.s_[1:-1]
+        iterate = Iterate(it.pressure[own].copy(), it.fluid[own].copy(), it.solid[own].copy(), it.rigid)
+        return replace(found, iterate=iterate, gap=found.gap[own].copy(), mass=found.mass[own].copy())
+
+    @cached_property
+    def _first(self) -> int:
+        """First column in which oil has pressure: the one after the node nearest to the inlet meniscus."""
+        meniscus = self.now.meniscus
+        if meniscus is None or self.grid.x[0] > -meniscus:
+            return 0
+        return min(int(np.abs(self.grid.x + meniscus).argmin()) + 1, self.grid.x.size - 1)
 
     @cached_property
     def _beyond(self) -> tuple[Array, Array]:
-        if isinstance(self.contact, SmoothContact) and self.moes_load < _FAR_FIELD_BELOW:
-            return far_field(self.x, self.y, self.smooth_film / self.h_unit, self.curvature)
+        starved = self._first > 0 or self.now.supply is not None
+        if self.is_light and isinstance(self.now.shape, Point) and not starved:
+            closing = 1.25 * self.closing * self.now.shape.radius_x / (self.speed * self.size)
+            wedge = self.now.entrainment_speed / self.speed
+            return far_field(self.x, self.y, self.film / self.h_unit, self.curvature, wedge, closing)
         return np.zeros_like(self.cap), np.ones_like(self.cap)
 
     def iterate(self, state: FilmState) -> Iterate:
-        """A film state in these units, scaled to carry the load."""
-        total = state.pressure.sum() / self.p_unit
-        scale = self.load / total / self.p_unit if total > 0.0 else 1.0 / self.p_unit
-        pressure = np.minimum(state.pressure * scale, self.cap)
-        fluid = np.minimum(state.fluid * scale, pressure)
+        """A film state in these units, scaled to carry the load. Bodies that have carried none are taken to begin as
+        rigid ones that sink through oil do.
+        """
+        begun = state.pressure if state.pressure.any() else self.p_unit * (state.mass.min() / state.mass) ** 2
+        total = begun.sum() / self.p_unit
+        scale = self.load / total / self.p_unit
+        pressure = np.minimum(begun * scale, self.cap)
+        fluid = np.minimum(state.fluid * scale, pressure) if begun is state.pressure else pressure.copy()
         return Iterate(pressure, fluid, state.solid.copy(), state.rigid_gap / self.h_unit)
 
     def dry_start(self) -> Iterate:
@@ -192,12 +258,8 @@ class Scaled:
         """A Hertz-like pressure under the film of smooth bodies and the highest asperities."""
         pressure = np.minimum(self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300)), self.cap)
         lift = self.smooth_film + 0.5 * max(float(self.now.heights.max()), 0.0)
-        deepest = self.compliance  # what that pressure deforms the centre by
-        if self.now.shape.order == 1:
-            deepest = float((self.half_space.deform(pressure) + self.undeformed).min())
-        elif not self.now.shape.circular:
-            deepest = float(self.half_space.deform(pressure).max())
-        rigid = lift / self.h_unit - deepest
+        settled = self.compliance if self.now.shape.circular else float(self.half_space.deform(pressure).max())
+        rigid = lift / self.h_unit - settled  # what that pressure deforms the centre by
         return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid)
 
     def shared_start(self) -> Iterate:
@@ -232,6 +294,8 @@ class Scaled:
         gap = iterate.rigid + self.undeformed + self.half_space.deform(iterate.pressure)
         load_error = float(iterate.pressure.sum()) / self.load - 1.0
         mass = np.maximum(gap, self.floor)
+        if self.now.supply is not None:
+            mass = np.minimum(mass, self.now.supply / self.h_unit)
         why = "" if converged else f"dry contact short of {tolerance:g} after {iterations} iterations"
         found = Solution(iterate, gap, mass, converged, iterations, tolerance, load_error, 0.0, 0.0, why)
         return self.solution(found, route, "conjugate gradients")
@@ -248,6 +312,8 @@ class Scaled:
             np.ones((1, 1)) if self.now.ease is None else self.now.ease,
             np.zeros((1, 1)) if self.now.thinned is None else self.now.thinned,
         )
+        if self.start and self.step and self.step.order == 2:
+            state = replace(state, mass_before=self.start.mass, dt=self.step.dt)
         capped = it.solid & (it.pressure >= self.cap)
         overlap = np.where(capped, np.maximum(self.floor - found.gap, 0.0), 0.0) * self.h_unit
         gap = np.maximum(found.gap, self.floor) * self.h_unit

@@ -148,11 +148,11 @@ def is_symmetric(problem: Problem) -> bool:
 
 
 def is_applicable(problem: Problem) -> bool:
-    """Whether the film is steady, and its grid can be halved often enough."""
+    """Whether the film is steady and full where it has no pressure, and its grid can be halved often enough."""
     (ny, nx), mirror = problem.undeformed.shape, is_symmetric(problem)
     halvings = _level_count(ny, nx, mirror) - 1
     unknowns = (ny >> halvings) * (nx >> halvings) / (2 if mirror else 1)
-    return problem.per_dt == 0.0 and halvings >= 2 and unknowns <= _DENSE
+    return problem.per_dt == 0.0 and not problem.by_flux and halvings >= 2 and unknowns <= _DENSE
 
 
 def _level_count(ny: int, nx: int, mirror: bool) -> int:
@@ -211,7 +211,7 @@ def solve_smooth(
     ValueError if not `is_applicable`.
     """
     if not is_applicable(problem):
-        raise ValueError("multigrid needs a steady problem and a grid of m 2^k + 1 nodes, m small")
+        raise ValueError("multigrid needs a steady problem, full cavities and a grid of m 2^k + 1 nodes, m small")
     levels = _levels(problem, x, y, library, film, curvature)
     depth = problem.compliance ** (2.0 / 3.0) if depth is None else depth  # a^2 / R
     found, films = _failure(problem), list[LevelFilm]()

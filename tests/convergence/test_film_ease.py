@@ -7,7 +7,7 @@ import pytest
 from scipy.ndimage import gaussian_filter
 
 from contact_core.film.fitted import fitted_grid
-from contact_core.film.instant import Instant, Settings
+from contact_core.film.instant import Instant, Settings, Step
 from contact_core.film.routes import _Solver, coarser, solve_film
 from contact_core.film.scaled import Scaled
 from contact_core.kernels.multigrid import is_applicable, is_symmetric
@@ -79,9 +79,9 @@ def test_an_easier_flow_is_that_of_a_thinner_oil_to_the_last_bit(method, start, 
 def test_a_time_step_feels_it_the_same_way(method, rq):
     now, grid = contact(rq)
     start = solve_film(now, grid, SETTINGS).state
-    instants = (*two_ways(now), now)
+    instants, step = (*two_ways(now), now), Step(2e-6, 1)
     eased, thinner, plain = (
-        _Solver(Scaled(each, grid, SETTINGS), start, (2e-6, 1)).run(method, "before") for each in instants
+        _Solver(Scaled(each, grid, SETTINGS, start, step), start, step).run(method, "before") for each in instants
     )
     assert np.isfinite(eased.change)
     assert (eased.iterate.pressure == thinner.iterate.pressure).all()
