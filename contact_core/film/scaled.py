@@ -234,7 +234,8 @@ class Scaled:
     def _beyond(self) -> tuple[Array, Array]:
         starved = self._first > 0 or self.now.supply is not None
         if self.is_light and isinstance(self.now.shape, Point) and not starved:
-            closing = 1.25 * self.closing * self.now.shape.radius_x / (self.speed * self.size)
+            by_wedge = (3.0 + 2.0 * self.curvature) / (2.0 + 2.0 * self.curvature)  # see `far_field`
+            closing = by_wedge * self.closing * self.now.shape.radius_x / (self.speed * self.size)
             wedge = self.now.entrainment_speed / self.speed
             return far_field(self.x, self.y, self.film / self.h_unit, self.curvature, wedge, closing)
         return np.zeros_like(self.cap), np.ones_like(self.cap)
