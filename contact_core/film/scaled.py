@@ -83,7 +83,11 @@ class Scaled:
         self.depth = self.compliance ** (2.0 / 3.0) if shape.circular else hertz.approach / self.h_unit
         self.x, self.y = grid.x / self.size, grid.y / self.size
         gap = shape.gap(self.x, self.y, self.size)
-        self.smooth = np.sqrt(np.maximum(1.0 - 2.0 * gap, 0.0))
+        reach = 2.0 * gap
+        if isinstance(shape, Point) and not shape.circular:  # Hertz's ellipse is slimmer than a line of equal gap
+            slim = self.size / film_size(hertz.b, shape.radius_y, self.smooth_film)
+            reach = self.x[None, :] ** 2 + (slim * self.y[:, None]) ** 2
+        self.smooth = np.sqrt(np.maximum(1.0 - reach, 0.0))
         self.undeformed = gap - now.heights / self.h_unit
 
     @cached_property
@@ -230,7 +234,8 @@ class Scaled:
     def _beyond(self) -> tuple[Array, Array]:
         starved = self._first > 0 or self.now.supply is not None
         if self.is_light and isinstance(self.now.shape, Point) and not starved:
-            closing = 1.25 * self.closing * self.now.shape.radius_x / (self.speed * self.size)
+            by_wedge = (3.0 + 2.0 * self.curvature) / (2.0 + 2.0 * self.curvature)  # see `far_field`
+            closing = by_wedge * self.closing * self.now.shape.radius_x / (self.speed * self.size)
             wedge = self.now.entrainment_speed / self.speed
             return far_field(self.x, self.y, self.film / self.h_unit, self.curvature, wedge, closing)
         return np.zeros_like(self.cap), np.ones_like(self.cap)
