@@ -203,7 +203,7 @@ class RoughCase:
     @property
     def domain(self) -> tuple[float, ...]:
         """The domain that fits the film."""
-        grid = fitted_grid(self.load, self.radius, self.modulus, self.film, 129, 129)
+        grid = fitted_grid(Point(self.radius, self.radius), self.load, self.modulus, self.film, 129, 129)
         return tuple(float(side) for axis in (grid.x, grid.y) for side in (axis[0], axis[-1]))
 
     def heights(self, nodes: int) -> Array:

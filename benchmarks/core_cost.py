@@ -19,6 +19,7 @@ from contact_core.kernels.multigrid import extrapolated, solve_smooth
 from contact_core.patches import bare_heights, contact_grid
 from contact_core.point_contact import point_contact
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
+from contact_core.shapes import Point
 
 DOMAIN = (-4.5, 1.5, -3.0, 3.0)
 CASE = MoesCase(200, 10.0, "roelands", "dowson_higginson")
@@ -104,7 +105,7 @@ def case_a(report: Report) -> None:
             return point_contact(**CASE_A, grid=nodes)
 
         def richardson(nodes=nodes):
-            grid = fitted_grid(77.85, 10e-3, 230.47e9, film, nodes, nodes)
+            grid = fitted_grid(Point(10e-3, 10e-3), 77.85, 230.47e9, film, nodes, nodes)
             domain = (grid.x[0], grid.x[-1], grid.y[0], grid.y[-1])
             scaled = scaled_of(CASE_A, domain, nodes, 1e-3)
             start = scaled.smooth_film / scaled.h_unit

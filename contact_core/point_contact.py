@@ -1,4 +1,4 @@
-"""One call, SI, arrays in and arrays out: a lubricated, circular point contact at one instant."""
+"""One call, SI, arrays in and arrays out: a lubricated, circular or elliptical point contact at one instant."""
 
 from dataclasses import dataclass
 from operator import index
@@ -13,14 +13,15 @@ from .laws.density import DowsonHigginson, Incompressible
 from .laws.viscosity import Barus, Roelands
 from .quantities import TABLE, out_of_range, parameter
 from .reading import did_you_mean
-from .reference import SmoothContact, hertz_point, nijenbanning_venner_moes
+from .reference import SmoothContact
 from .shapes import Point
 
 Array = NDArray[np.float64]
 
 _REFERENCE = 300.0  # K: the laws of temperature play no part here
 _UNLIMITED = 1e12  # Pa
-_THICKEST = 0.01  # film over radius
+_THICKEST = 0.01  # film over the smaller radius
+_SLIMMEST = 30.0  # ratio of the radii, either way
 _VISCOSITY = {law.name: law for law in (Roelands, Barus)}
 _DENSITY = {law.name: law for law in (DowsonHigginson, Incompressible)}
 
@@ -97,15 +98,16 @@ def point_contact(
     iterations: int = 2000,
     fft: str = "pyfftw",
 ) -> PointContact:
-    """Steady mixed lubrication of a circular point contact, from full film to dry.
+    """Steady mixed lubrication of a point contact, from full film to dry.
 
-    load [N]; radius_x = radius_y [m], combined; reduced_modulus E' [Pa]; speed_1, speed_2 [m/s] along x relative to
-    the contact; viscosity [Pa s] and pressure_viscosity [1/Pa] at p = 0; viscosity_law "roelands" or "barus";
-    density_law "dowson_higginson" or "none"; heights_1, heights_2 [ny, nx] of each body [m], positive toward the other
-    one, centred on the contact, `spacing` [m] apart; hardness [Pa]: no pressure is above it (None: no limit); grid:
-    nodes along both axes or (ny, nx) of smooth bodies, 129 if not given; domain: (x_min, x_max, y_min, y_max) [m] about
-    the contact instead of the grid that fits the film; floor [m]: gap at which solids touch; criterion: "split" for
-    fluid and solid pressure apart, "lumped" for one pressure as in Azam et al. 2019 (with floor = 0.47e-9).
+    load [N]; radius_x, radius_y [m], combined, radius_y = radius_x if not given; reduced_modulus E' [Pa]; speed_1,
+    speed_2 [m/s] along x relative to the contact; viscosity [Pa s] and pressure_viscosity [1/Pa] at p = 0;
+    viscosity_law "roelands" or "barus"; density_law "dowson_higginson" or "none"; heights_1, heights_2 [ny, nx] of each
+    body [m], positive toward the other one, centred on the contact, `spacing` [m] apart; hardness [Pa]: no pressure is
+    above it (None: no limit); grid of smooth bodies: nodes along x, as many along y as the film needs (the same for a
+    circle), or (ny, nx), 129 along the shorter side if not given; domain: (x_min, x_max, y_min, y_max) [m] about the
+    contact instead of the grid that fits the film; cells are square; floor [m]: gap at which solids touch; criterion:
+    "split" for fluid and solid pressure apart, "lumped" for one pressure as in Azam et al. 2019 (with floor = 0.47e-9).
 
     Raises OperatingPointError for values that cannot be used and ConvergenceError if no solution was found. A solution
     short of the tolerance says so (`converged`, `shortfall`). At rest the dry contact is the answer; the gap of solids
@@ -137,32 +139,32 @@ def point_contact(
         tolerance=float(tolerance),
         iterations=int(iterations),
     )
-    _refuse([*out_of_range(numbers, ""), *_circular(numbers)])
+    _refuse([*out_of_range(numbers, ""), *_too_slim(numbers)])
     choices = (("viscosity_law", viscosity_law, _VISCOSITY), ("density_law", density_law, _DENSITY))
     more = (("criterion", criterion, ("split", "lumped")), ("fft", fft, ("pyfftw", "scipy")))
     _refuse([_choice(name, value, list(known)) for name, value, known in (*choices, *more) if value not in list(known)])
-    heights, radius, speed = _heights(heights_1, heights_2), numbers.radius_x, 0.5 * (numbers.speed_1 + numbers.speed_2)
+    heights, speed = _heights(heights_1, heights_2), 0.5 * (numbers.speed_1 + numbers.speed_2)
+    shape = Point(numbers.radius_x, numbers.radius_y)
     law = _VISCOSITY[viscosity_law](numbers.viscosity, _REFERENCE, numbers.pressure_viscosity, 0.0)
     film = 0.0
     if speed != 0.0:
         rise = max(numbers.pressure_viscosity, 1e-12)
-        smooth = SmoothContact(
-            numbers.load, abs(speed), numbers.viscosity, rise, radius, radius, numbers.reduced_modulus
-        )
-        film = nijenbanning_venner_moes(smooth)
+        oil = numbers.viscosity, rise
+        smooth = SmoothContact(numbers.load, abs(speed), *oil, shape.radius_x, shape.radius_y, numbers.reduced_modulus)
+        film, (radius, least) = smooth.film, min((shape.radius_x, "radius_x"), (shape.radius_y, "radius_y"))
         if film > _THICKEST * radius:
             _refuse(
                 [
-                    f"The oil film would be about {film:.2g} m, over {_THICKEST:g} of radius_x = {radius:g} m: "
+                    f"The oil film would be about {film:.2g} m, over {_THICKEST:g} of {least} = {radius:g} m: "
                     "the bodies are no parabolas on its scale. Raise load, or lower speed_1, speed_2 or viscosity."
                 ]
             )
-    nodes = _grid(numbers, film, heights, spacing, grid, domain)
+    nodes = _grid(numbers, shape, film, heights, spacing, grid, domain)
     now = Instant(
         load=numbers.load,
         entrainment_speed=speed,
         temperature=_REFERENCE,
-        shape=Point(radius, numbers.radius_y),
+        shape=shape,
         reduced_modulus=numbers.reduced_modulus,
         viscosity=law,
         density=_DENSITY[density_law](),
@@ -170,7 +172,7 @@ def point_contact(
         limit=np.full(nodes.shape, numbers.hardness),
         hardness=numbers.hardness,
     )
-    hertz = hertz_point(numbers.load, radius, radius, numbers.reduced_modulus)
+    hertz = shape.hertz(numbers.load, numbers.reduced_modulus)
     settings = Settings(numbers.floor, numbers.tolerance, numbers.iterations, fft, criterion == "lumped")
     found, values, errors = solve_with_estimate(now, nodes, settings)
     state = found.state
@@ -192,7 +194,7 @@ def point_contact(
         complementarity=found.complementarity,
         imbalance=found.imbalance,
         error_estimate=errors,
-        warnings=tuple(_warnings(found, nodes, hertz.a)),
+        warnings=tuple(_warnings(found, nodes, min(hertz.a, hertz.b))),
     )
 
 
@@ -214,13 +216,13 @@ def _choice(name: str, value: Any, known: list[str]) -> str:
     return f"{name} = {value!r} is not one of {', '.join(known)}.{did_you_mean(str(value), known)}"
 
 
-def _circular(numbers: _Numbers) -> list[str]:
-    if numbers.radius_y == numbers.radius_x:
-        return []
-    return [
-        f"radius_y = {numbers.radius_y:g} m differs from radius_x = {numbers.radius_x:g} m: only circular contacts are "
-        "solved by this call. Leave radius_y out, or use a Scene, which takes elliptical ones."
-    ]
+def _too_slim(numbers: _Numbers) -> list[str]:
+    if not 1.0 / _SLIMMEST <= numbers.radius_y / numbers.radius_x <= _SLIMMEST:
+        return [
+            f"radius_y = {numbers.radius_y:g} m is not within 1/{_SLIMMEST:g} and {_SLIMMEST:g} times radius_x = "
+            f"{numbers.radius_x:g} m. Take the nearest ratio that is, or a line contact."
+        ]
+    return []
 
 
 def _heights(first: ArrayLike | None, second: ArrayLike | None) -> Array | None:
@@ -249,6 +251,7 @@ def _heights(first: ArrayLike | None, second: ArrayLike | None) -> Array | None:
 
 def _grid(
     numbers: _Numbers,
+    shape: Point,
     film: float,
     heights: Array | None,
     spacing: float | None,
@@ -256,38 +259,55 @@ def _grid(
     domain: tuple[float, float, float, float] | None,
 ) -> Grid:
     """The nodes that the arguments ask for."""
-    try:
-        shape = (129, 129) if grid is None else tuple(index(n) for n in np.broadcast_to(np.asarray(grid), 2).tolist())
-    except (TypeError, ValueError):
-        _refuse([f"grid = {grid!r} must be one whole number or (ny, nx)."])
+    ny, nx = _asked(grid)
     if heights is not None:
         if heights.shape[0] < 17 or heights.shape[1] < 17:
             _refuse([f"heights of {heights.shape} nodes [ny, nx] are too few: 17 along each axis are the least."])
-        if grid is not None and shape != heights.shape:
+        if nx is not None and (ny or nx, nx) != heights.shape:
             _refuse(
                 [f"grid = {grid} does not fit heights of {heights.shape} nodes. Leave grid out: heights decide it."]
             )
-        shape = heights.shape
-    if len(shape) != 2 or min(shape) < 17 or max(shape) > 4097:
-        _refuse([f"grid = {shape} must be one number or (ny, nx), from 17 to 4097 nodes along each axis."])
-    ny, nx = shape
-    if domain is not None:
-        return _grid_of_domain(numbers, spacing, domain, ny, nx)
+        ny, nx = heights.shape
+    from .film.fitted import Extent
+
+    extent = Extent.of(shape, numbers.load, numbers.reduced_modulus, film)
+    sides = None if domain is None else _sides(domain)
+    if ny is None or nx is None:
+        if sides is not None:
+            nx = nx or 129
+            ny = round((nx - 1) * (sides[3] - sides[2]) / (sides[1] - sides[0])) + 1
+        elif shape.circular:
+            ny, nx = nx or 129, nx or 129
+        else:
+            ny, nx = extent.shape(nx)
+    if min(ny, nx) < 17 or max(ny, nx) > 4097:
+        _refuse([f"grid = {(ny, nx)} must be one number or (ny, nx), from 17 to 4097 nodes along each axis."])
+    if sides is not None:
+        return _grid_of_sides(sides, spacing, ny, nx)
     if heights is not None and spacing is None:
         _refuse(["spacing = None: heights need the distance between their nodes in metres."])
     if spacing is not None:
         if not (np.isfinite(spacing) and spacing > 0.0):
             _refuse([f"spacing = {spacing:g} m must be finite and above 0."])
         return Grid.centred(ny, nx, spacing)
-    from .film.fitted import fitted_grid
-
-    found = fitted_grid(numbers.load, numbers.radius_x, numbers.reduced_modulus, film, ny, nx)
+    found = extent.grid(ny, nx)
     return found if numbers.speed_1 + numbers.speed_2 >= 0.0 else found.mirrored()
 
 
-def _grid_of_domain(
-    numbers: _Numbers, spacing: float | None, domain: tuple[float, float, float, float], ny: int, nx: int
-) -> Grid:
+def _asked(grid: int | tuple[int, int] | None) -> tuple[int | None, int | None]:
+    """Nodes (ny, nx) that `grid` names; None where it leaves them open."""
+    if grid is None:
+        return None, None
+    try:
+        nodes = [index(n) for n in np.atleast_1d(np.asarray(grid)).tolist()]
+    except (TypeError, ValueError):
+        nodes = []
+    if len(nodes) not in (1, 2):
+        _refuse([f"grid = {grid!r} must be one whole number or (ny, nx)."])
+    return (None, nodes[0]) if len(nodes) == 1 else (nodes[0], nodes[1])
+
+
+def _sides(domain: tuple[float, float, float, float]) -> tuple[float, float, float, float]:
     try:
         x_min, x_max, y_min, y_max = (float(value) for value in domain)
         about = x_min < 0.0 < x_max and y_min < 0.0 < y_max and bool(np.isfinite(domain).all())
@@ -295,12 +315,16 @@ def _grid_of_domain(
         about = False
     if not about:
         _refuse([f"domain = {domain!r} must be (x_min, x_max, y_min, y_max) in metres about the contact at (0, 0)."])
-    x, y = np.linspace(domain[0], domain[1], nx), np.linspace(domain[2], domain[3], ny)
+    return x_min, x_max, y_min, y_max
+
+
+def _grid_of_sides(sides: tuple[float, float, float, float], spacing: float | None, ny: int, nx: int) -> Grid:
+    x, y = np.linspace(sides[0], sides[1], nx), np.linspace(sides[2], sides[3], ny)
     dx, dy = x[1] - x[0], y[1] - y[0]
     if abs(dx - dy) > 1e-6 * dx or (spacing is not None and abs(spacing - dx) > 1e-6 * dx):
         _refuse(
             [
-                f"domain = {domain} on {ny} by {nx} nodes gives distances of {dx:.6g} m along x and {dy:.6g} m along y"
+                f"domain = {sides} on {ny} by {nx} nodes gives distances of {dx:.6g} m along x and {dy:.6g} m along y"
                 f"{'' if spacing is None else f', spacing says {spacing:.6g} m'}; they must be the same. "
                 "Change grid or domain."
             ]

@@ -25,10 +25,19 @@ class Point:
     periodic: ClassVar[bool] = False
     power: ClassVar[float] = 1 / 3  # of load and radii in Hertz's half widths
     order: ClassVar[int] = 2  # of the size in the area that carries the load
-    opening: ClassVar[float] = 0.6  # gap at a distance d before Hertz's contact, over (d / a)^1.5 a^2 / radius_x
 
     radius_x: float  # of combined curvature [m]
     radius_y: float
+
+    @property
+    def circular(self) -> bool:
+        """Whether it is that of a ball."""
+        return self.radius_x == self.radius_y
+
+    @property
+    def opening(self) -> float:
+        """Gap at a distance d before Hertz's contact, over (d / a)^1.5 a^2 / radius_x: it goes with p_H a."""
+        return 0.6 * self.softness(self.hertz(1.0, 1.0), 1.0)
 
     def gap(self, x: Array, y: Array, unit: float) -> Array:
         """Gap [ny, nx] of the touching bodies in unit^2 / radius_x at x [nx], y [ny] in `unit` [m]."""
@@ -41,7 +50,7 @@ class Point:
 
     def softness(self, hertz: Hertz, reduced_modulus: float) -> float:
         """Pi radius_x p_H / (E' a): what the half space gives in Hertz's units; 1 for a circle."""
-        if self.radius_x == self.radius_y:
+        if self.circular:
             return 1.0
         return np.pi * self.radius_x * hertz.pressure_max / (reduced_modulus * hertz.a)
 
@@ -63,6 +72,7 @@ class Line:
     periodic: ClassVar[bool] = True
     power: ClassVar[float] = 1 / 2
     order: ClassVar[int] = 1
+    circular: ClassVar[bool] = False
     opening: ClassVar[float] = 2.0 * np.sqrt(2.0) / 3.0
 
     radius_x: float  # of combined curvature [m]

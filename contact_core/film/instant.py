@@ -48,6 +48,11 @@ class Grid:
         distance_2: Array = self.x[None, :] ** 2 + self.y[:, None] ** 2
         return distance_2
 
+    def stretched_radius_2(self, stretch: float) -> Array:
+        """As `radius_2`, of the grid with y stretched by a factor."""
+        distance_2: Array = self.x[None, :] ** 2 + (stretch * self.y[:, None]) ** 2
+        return distance_2
+
     def mirrored(self) -> "Grid":
         """The grid of the contact seen from the other side: x becomes -x."""
         return replace(self, x=-self.x[::-1])
@@ -71,6 +76,9 @@ class Instant:
     solid_share: float = 1.0  # of the load of such a contact; the rest lies on oil, spread as in Hertz's contact
     ease: Array | None = None  # how many times easier oil flows at a node than `viscosity` says: by warmth
     thinned: Array | None = None  # fluidity [1/(Pa s)] that shear adds to that at a node
+    conserving: bool = False  # cavities hold the oil that flows into them; else they count as full
+    supply: float | None = None  # oil film [m] on both surfaces together before the contact; None: all it can take
+    meniscus: float | None = None  # distance [m] before the centre at which the inlet begins to fill; None: nowhere
 
     def mirrored(self) -> "Instant":
         """The instant seen from the other side: entrained the other way."""

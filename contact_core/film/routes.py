@@ -15,7 +15,9 @@ from ..kernels.direct import solve_direct
 from ..kernels.grids import prolong, restrict
 from ..kernels.mixed import Iterate, Solution, advected, excess, solve_mixed
 from ..kernels.multigrid import is_applicable, solve_smooth
+from ..kernels.newton import is_applicable as newton_is_applicable
 from ..kernels.newton import solve_newton
+from ..shapes import Point
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .scaled import Scaled
 
@@ -40,20 +42,16 @@ class Regime:
     algorithms: tuple[tuple[str, str], ...]
     floors: tuple[float, float] = _ALL  # formula film of smooth bodies / floor
     clearance: tuple[float, float] = _ALL  # formula film of smooth bodies / rms roughness (smooth: infinite)
-    load: tuple[float, float] = _ALL  # Moes' M, see `Scaled.loadedness`
+    load: tuple[float, float] = _ALL  # Moes' M, as `Scaled.moes_load`
     rows: int | None = None  # of a periodic grid; None: any grid
 
     def holds(self, scaled: Scaled) -> bool:
         """Whether a contact belongs to this row."""
-        film = scaled.film
+        load, film = scaled.moes_load, scaled.film
         clearance = film / scaled.roughness if scaled.roughness > 0.0 else math.inf
         if self.rows is not None and (not scaled.grid.periodic or self.rows != scaled.grid.shape[0]):
             return False
-        pairs = (
-            (self.floors, film / scaled.settings.floor),
-            (self.clearance, clearance),
-            (self.load, scaled.loadedness),
-        )
+        pairs = ((self.floors, film / scaled.settings.floor), (self.clearance, clearance), (self.load, load))
         return all(low <= value <= high for (low, high), value in pairs)
 
 
@@ -166,10 +164,13 @@ class _Solver:
         """What a method finds from a start; None where they do not apply."""
         scaled, settings, steady = self.scaled, self.scaled.settings, self.step is None
         if method == "multigrid":
-            if not steady or self.problem.wrapped or not is_applicable(self.problem):
+            if not (steady and isinstance(scaled.now.shape, Point) and is_applicable(self.problem)):
                 return None
-            film = scaled.smooth_film / scaled.h_unit
-            return solve_smooth(self.problem, scaled.x, scaled.y, settings.fft, film, settings.tolerance, _CYCLES)[0]
+            film, shape = scaled.smooth_film / scaled.h_unit, (scaled.depth, scaled.curvature)
+            given = (self.problem, scaled.x, scaled.y, settings.fft, film)
+            return solve_smooth(*given, settings.tolerance, _CYCLES, *shape)[0]
+        if method == "newton" and not newton_is_applicable(self.problem):
+            return None
         start = self._start(begin)
         if start is None:
             return None

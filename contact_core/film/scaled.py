@@ -16,7 +16,8 @@ from ..kernels.far_field import far_field
 from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
 from ..kernels.mixed import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
-from ..shapes import Shape
+from ..reference.starvation import film_behind_meniscus, supplied_film
+from ..shapes import Line, Point, Shape
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .outputs import disc
 
@@ -70,8 +71,8 @@ class Scaled:
         self.compliance = shape.softness(hertz, now.reduced_modulus) * thin ** (shape.order + 1)
         scale = self.compliance * 2.0 / np.pi**2 * self.dx
         self.half_space = half_space(grid.shape, scale, settings.fft)
-        if grid.periodic:  # displacements are counted from those at the distance of a face's length
-            far = max(now.shape.length / grid.spacing, grid.shape[1])
+        if isinstance(shape, Line) and grid.periodic:  # displacements are counted from those a face's length away
+            far = max(shape.length / grid.spacing, grid.shape[1])
             self.half_space = half_space(grid.shape, scale, settings.fft, far)
         self.cap = now.limit / self.p_unit
         if self.cap.sum() <= 1.01 * self.load:
@@ -79,6 +80,7 @@ class Scaled:
                 f"{now.load:g} N are more than a grid of {grid.shape[1] * grid.spacing:g} m by "
                 f"{grid.shape[0] * grid.spacing:g} m can carry at the hardness. Lower the load or enlarge film.domain."
             )
+        self.depth = self.compliance ** (2.0 / 3.0) if shape.circular else hertz.approach / self.h_unit
         self.x, self.y = grid.x / self.size, grid.y / self.size
         gap = shape.gap(self.x, self.y, self.size)
         self.smooth = np.sqrt(np.maximum(1.0 - 2.0 * gap, 0.0))
@@ -108,17 +110,23 @@ class Scaled:
     def smooth_film(self) -> float:
         """Film [m] that smooth bodies would have, by formula; zero if there is none."""
         now = self.now
-        return 0.0 if now.dry or now.entrainment_speed == 0.0 else self.contact.film
+        if now.dry or now.entrainment_speed == 0.0:
+            return 0.0
+        film = self.contact.film
+        if now.meniscus is not None:
+            film = film_behind_meniscus(film, now.meniscus, self.a, now.shape.radius_x)
+        return film if now.supply is None else supplied_film(film, now.supply)
 
     @property
-    def loadedness(self) -> float:
-        """Moes' M; of a line, that of the point contact whose Hertz contact is as deep, a^2 / R, in units of U^0.5 R.
-        Infinite at rest.
-        """
-        if self.now.entrainment_speed == 0.0:
-            return math.inf
-        load, _ = self.contact.moes_parameters
-        return load if isinstance(self.contact, SmoothContact) else (8.0 * load / np.pi) ** 1.5 / 1.5
+    def moes_load(self) -> float:
+        """Moes' M; of ellipses and lines that of the circular contact that is as near to rigid. Infinite at rest."""
+        return self.contact.circular_load if self.now.entrainment_speed > 0.0 else math.inf
+
+    @property
+    def curvature(self) -> float:
+        """Of the undeformed gap along y, over that along x."""
+        shape = self.now.shape
+        return shape.radius_x / shape.radius_y if isinstance(shape, Point) else 0.0
 
     @cached_property
     def film(self) -> float:
@@ -133,7 +141,7 @@ class Scaled:
     @property
     def is_light(self) -> bool:
         """Whether the film is so thick that what lies beyond the grid matters."""
-        return self.loadedness < _FAR_FIELD_BELOW or self._gap_before > 0.0
+        return self.moes_load < _FAR_FIELD_BELOW or self._gap_before > 0.0
 
     @cached_property
     def speed(self) -> float:
@@ -192,6 +200,9 @@ class Scaled:
             edge=images(edge),
             weight=weight,
             lumped=self.settings.lumped,
+            conserving=now.conserving,
+            supply=None if now.supply is None else now.supply / self.h_unit,
+            first=self._first,
             wrapped=self.grid.periodic,
         )
 
@@ -201,24 +212,32 @@ class Scaled:
 
     def with_images(self, start: Iterate) -> Iterate:
         """An iterate on the rows of the kernels."""
-        fields = (self._with_images(field) for field in (start.pressure, start.fluid, start.solid))
-        return Iterate(*fields, start.rigid)
+        images = self._with_images
+        return Iterate(images(start.pressure), images(start.fluid), images(start.solid), start.rigid)
 
     def without_images(self, found: Solution) -> Solution:
         """A solution of the kernels on the rows of the grid."""
         if not self.grid.periodic:
             return found
-        it = found.iterate
-        own = (field[1:-1].copy() for field in (it.pressure, it.fluid, it.solid))
-        gap, mass = found.gap[1:-1].copy(), found.mass[1:-1].copy()
-        return replace(found, iterate=Iterate(*own, it.rigid), gap=gap, mass=mass)
+        it, own = found.iterate, np.s_[1:-1]
+        iterate = Iterate(it.pressure[own].copy(), it.fluid[own].copy(), it.solid[own].copy(), it.rigid)
+        return replace(found, iterate=iterate, gap=found.gap[own].copy(), mass=found.mass[own].copy())
+
+    @cached_property
+    def _first(self) -> int:
+        """First column in which oil has pressure: the one after the node nearest to the inlet meniscus."""
+        meniscus = self.now.meniscus
+        if meniscus is None or self.grid.x[0] > -meniscus:
+            return 0
+        return min(int(np.abs(self.grid.x + meniscus).argmin()) + 1, self.grid.x.size - 1)
 
     @cached_property
     def _beyond(self) -> tuple[Array, Array]:
-        if self.is_light and isinstance(self.contact, SmoothContact):
+        starved = self._first > 0 or self.now.supply is not None
+        if self.is_light and isinstance(self.now.shape, Point) and not starved:
             closing = 1.25 * self.closing * self.now.shape.radius_x / (self.speed * self.size)
             wedge = self.now.entrainment_speed / self.speed
-            return far_field(self.x, self.y, self.film / self.h_unit, wedge, closing)
+            return far_field(self.x, self.y, self.film / self.h_unit, self.curvature, wedge, closing)
         return np.zeros_like(self.cap), np.ones_like(self.cap)
 
     def iterate(self, state: FilmState) -> Iterate:
@@ -240,10 +259,8 @@ class Scaled:
         """A Hertz-like pressure under the film of smooth bodies and the highest asperities."""
         pressure = np.minimum(self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300)), self.cap)
         lift = self.smooth_film + 0.5 * max(float(self.now.heights.max()), 0.0)
-        deepest = self.compliance  # what that pressure deforms the centre by
-        if self.now.shape.order == 1:
-            deepest = float((self.half_space.deform(pressure) + self.undeformed).min())
-        rigid = lift / self.h_unit - deepest
+        settled = self.compliance if self.now.shape.circular else float(self.half_space.deform(pressure).max())
+        rigid = lift / self.h_unit - settled  # what that pressure deforms the centre by
         return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid)
 
     def shared_start(self) -> Iterate:
@@ -278,6 +295,8 @@ class Scaled:
         gap = iterate.rigid + self.undeformed + self.half_space.deform(iterate.pressure)
         load_error = float(iterate.pressure.sum()) / self.load - 1.0
         mass = np.maximum(gap, self.floor)
+        if self.now.supply is not None:
+            mass = np.minimum(mass, self.now.supply / self.h_unit)
         why = "" if converged else f"dry contact short of {tolerance:g} after {iterations} iterations"
         found = Solution(iterate, gap, mass, converged, iterations, tolerance, load_error, 0.0, 0.0, why)
         return self.solution(found, route, "conjugate gradients")

@@ -7,12 +7,14 @@ and the load. It takes a few tens of iterations from light to heavy loads and fu
 some tens of those of `mixed`.
 """
 
+from typing import Any
+
 import numpy as np
 import scipy
 from numba import njit
 from numpy.typing import NDArray
 
-from . import reynolds
+from . import cavities, reynolds
 from .half_space import HalfSpace
 from .mixed import Iterate, Iteration, Problem, Solution, iterate_on, set_edge
 
@@ -28,7 +30,26 @@ _PROBE = 1e-6  # part of a film by which the rigid gap is moved to see what flow
 
 
 @_jit
-def _response(f, solid, h, floor, mobility, thinned, fluidity, density, step, mass_old, per_dt, wedge, dx, gap, out):  # type: ignore[no-untyped-def]
+def _response(  # type: ignore[no-untyped-def]
+    f,
+    solid,
+    h,
+    floor,
+    mobility,
+    thinned,
+    fluidity,
+    density,
+    step,
+    mass_old,
+    per_dt,
+    wedge,
+    dx,
+    gap,
+    out,
+    supply=None,
+    conserving=False,
+    first=1,
+):
     """Change of the net inflow of mass of every fluid node with the rigid gap; `gap` is the change that is tried."""
     ny, nx = f.shape
     mass, e, r = np.empty((2, ny, nx)), np.empty((2, ny, nx)), np.zeros((2, ny, nx))
@@ -40,7 +61,13 @@ def _response(f, solid, h, floor, mobility, thinned, fluidity, density, step, ma
                 mass[way, j, i] = rho * flow
                 phi = reynolds.interpolate(fluidity, step, f[j, i]) + thinned[j, i]
                 e[way, j, i] = mobility[j, i] * rho * flow**3 * phi
-        reynolds.residual(f, solid, mass[way], mass_old, e[way], per_dt, wedge, dx, r[way])
+        if supply is None:
+            reynolds.residual(f, solid, mass[way], mass_old, e[way], per_dt, wedge, dx, r[way])
+        else:
+            m, flux, filling = np.empty((ny, nx)), np.empty((ny, nx)), np.empty((ny, nx))
+            inlet = (conserving, supply, first)
+            cavities.carry(f, mass[way], mass_old, e[way], per_dt, wedge, dx, *inlet, m, flux, filling)
+            reynolds.residual(f, solid, m, mass_old, e[way], per_dt, wedge, dx, r[way], flux, filling, first)
     for j in range(ny):
         for i in range(nx):
             out[j, i] = (r[1, j, i] - r[0, j, i]) / gap
@@ -71,6 +98,8 @@ def _equations(  # type: ignore[no-untyped-def]
     columns,
     values,
     rhs,
+    filling=None,
+    first=1,
 ):
     """Rows of the linearised equation for the free nodes, numbered in `number` (-1: not free). Returns how many.
 
@@ -114,6 +143,9 @@ def _equations(  # type: ignore[no-untyped-def]
                 dj, di = (-1, 0, 0, 1)[side], (0, -1, 1, 0)[side]
                 face = half * (e[j, i] + e[j + dj, i + di])
                 diagonal += face
+                if filling is not None:
+                    if side == 1:
+                        diagonal -= reynolds.returned(filling, first, per_dt, wedge, dx, j, i) * face
                 diagonal -= face * edge[j + dj, i + di]
                 if solid[j + dj, i + di] or edge[j + dj, i + di] > 0.0:  # the fluid pressure of a contact stays
                     face = 0.0
@@ -210,11 +242,15 @@ class _Direct(Iteration):
         scale = _PROBE * float(np.maximum(self.h, q.floor).min())
         oil = (q.mobility, q.thinned, q.fluidity, q.density, q.step)
         in_time = (q.mass_old, q.per_dt, q.wedge, q.spacing)
-        _response(self.f, self.solid, self.h, q.floor, *oil, *in_time, scale, self.response)
+        inlet: tuple[Any, ...] = ()
+        filling: tuple[Any, ...] = ()
+        if (carried := self.carried) is not None:
+            inlet, filling = (carried.supply, q.conserving, carried.first), (carried.filling, carried.first)
+        _response(self.f, self.solid, self.h, q.floor, *oil, *in_time, scale, self.response, *inlet)
         film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.wedge, q.spacing)
         given = (self.half_space.near, self.patch_wide, base, -self.lever, self.response)
-        system = (q.wrapped, self.number, self.starts, self.columns, self.values, self.rhs)
-        n, filled = _equations(p, self.solid, self.stiff, *film, *given, *system)
+        system = (self.number, self.starts, self.columns, self.values, self.rhs)
+        n, filled = _equations(p, self.solid, self.stiff, *film, *given, q.wrapped, *system, *filling)
         if n == 0:
             return
         rows = (self.values[:filled], self.columns[:filled], self.starts[: n + 1])

@@ -75,9 +75,9 @@ def _cells(rows: NDArray[Any], nx: int) -> NDArray[Any]:
     return out
 
 
-def _rest(distance: Array, nx: int, period: int) -> NDArray[Any]:
-    """Sum over all cells a period apart that follow, half a period on, on a distance [m]: [m, nx], less that of a line's
-    part from cell to cell up to where -ln |x| is zero.
+def _rest(distance: NDArray[Any], nx: int, period: int) -> NDArray[Any]:
+    """Sums [m, nx] over cells from `distance` [m] and half a period on, a period apart, for ever. They have no limit:
+    what is left out is that of a line, ln |y| / period.
     """
     x, y = np.arange(nx)[None, :], distance[:, None]
     r = np.hypot(x, y)

@@ -4,7 +4,7 @@ Unknowns are the total pressure of every node and the rigid gap; equations are t
 fluid carries the load (p > 0), the gap at the floor on solid contacts, the load. Sets (cavity, contacts, cap) are
 guessed anew in every step. A step solves the linear system by GMRES with the full elastic coupling (FFT); it is
 preconditioned by a sparse LU of the local part: Reynolds' equation and a 3 x 3 patch of the deformation, bordered by
-rigid gap and load.
+rigid gap and load. A contact of one row, repeated for ever, has a band instead (`band`).
 
 Sources: active sets: Hintermueller, Ito & Kunisch, SIAM J. Optim. 13 (2003) 865, doi:10.1137/S1052623401383558;
 elimination order: George, SIAM J. Numer. Anal. 10 (1973) 345, doi:10.1137/0710032.
@@ -19,6 +19,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from . import reynolds
+from .band import band_inverse
 from .half_space import HalfSpace
 from .mixed import Iterate, Problem, Solution, shortfall
 
@@ -159,7 +160,7 @@ def _seek_cavity(  # type: ignore[no-untyped-def]
                 inflow = west * f[j, i - 1] + east * f[j, i + 1] + south * f[j - 1, i] + north * f[j + 1, i]
                 if total < rigid or (f[j, i] <= 0.0 and inflow <= 0.0):
                     continue
-                value = (inflow - reynolds.transport(mass, mass_old, per_dt, wedge, dx, j, i)) / total
+                value = (inflow - reynolds.transport(mass, None, mass_old, per_dt, wedge, dx, j, i)) / total
                 f[j, i] = min(max(f[j, i] + 1.6 * (value - f[j, i]), 0.0), light)
                 p[j, i] = f[j, i]
         if wrapped:
@@ -169,8 +170,10 @@ def _seek_cavity(  # type: ignore[no-untyped-def]
 @lru_cache(maxsize=8)
 def _elimination_order(ny: int, nx: int, wrapped: bool) -> Indices:
     """Nodes of a grid by nested dissection; separators are two nodes thick as the stencil reaches two nodes west.
-    `wrapped`: the last inner row neighbours the first.
+    `wrapped`: the last inner row neighbours the first. A single row is in order.
     """
+    if wrapped and ny == 3:
+        return np.arange(nx + 1, 2 * nx - 1)
     order: list[int] = []
 
     def dissect(j0: int, j1: int, i0: int, i1: int, ring: bool = False) -> None:
@@ -257,6 +260,11 @@ class _Film:
         self.inner = np.zeros(shape, np.bool_)
         self.inner[1:-1, 1:-1] = True
         self.releases = np.zeros(shape, np.int64)
+        self.response: Array | None = None  # of a single row, by distance
+        if problem.wrapped and shape[0] == 3:
+            unit = np.zeros(shape)
+            unit[:, 0] = 1.0
+            self.response = half_space.deform(unit)[1]
         near = half_space.near
         apart_j, apart_i = (np.abs(d[:, None] - d[None, :6]) for d in (_DJ, _DI))
         self.patch = np.where((apart_j < 2) & (apart_i < 2), near[np.minimum(apart_j, 1), np.minimum(apart_i, 1)], 0.0)
@@ -287,7 +295,8 @@ class _Film:
             reynolds.wrap(solid)
         settled = solid & (self.releases >= _RELEASES)
         balance = (self.mass, q.mass_old, self.e, q.per_dt, q.wedge, q.spacing)
-        reynolds.fluid_under_contacts(p, f, solid, self.h, *balance, _SWEEPS_UNDER_CONTACTS, *oil, q.wrapped)
+        flow = (*oil, self.mass, None, 1, q.wrapped)
+        reynolds.fluid_under_contacts(p, f, solid, self.h, *balance, _SWEEPS_UNDER_CONTACTS, *flow)
         solid |= settled
 
     def correction(self) -> tuple[Array, Array, float] | None:
@@ -304,24 +313,13 @@ class _Film:
             return None
         own = -(by_f[0] + by_h[0] * near[0, 0] + by_h[1] * near[0, 1])
         scale[:] = np.where(solid, -1.0 / near[0, 0], 1.0 / np.maximum(own, -by_f[0] + 1e-300))
-        column = np.full(shape, -1, np.int32)
-        column.ravel()[nodes] = np.arange(size)
-        if q.wrapped:
-            reynolds.wrap(column)
-        start, index, value = np.empty(size + 1, np.int32), np.empty(10 * size, np.int32), np.empty(10 * size)
-        args = (by_f, by_h, scale, self.patch, nodes, column, solid, q.edge, q.wrapped)
-        count = _assemble(*args, start, index, value)
-        # the transpose, by columns
-        rows = scipy.sparse.csc_matrix((value[:count], index[:count], start), shape=(size, size))
-        how = {"SymmetricMode": True}
-        try:
-            lu = scipy.sparse.linalg.splu(rows, permc_spec="NATURAL", diag_pivot_thresh=0.01, options=how)
-        except RuntimeError:  # singular
+        inverse = self._local_inverse(nodes)
+        if inverse is None:
             return None
 
         lift = np.empty(size)
         _product(by_f, by_h, scale, nodes, solid, np.zeros(shape), np.ones(shape), lift)
-        lifted = lu.solve(lift, "T")
+        lifted = inverse(lift)
         weight = self.inner_weight.ravel()[nodes] / np.sqrt(q.load)
         lever = weight @ lifted
 
@@ -339,7 +337,7 @@ class _Film:
             return out
 
         def invert(b: Array) -> Array:
-            y = lu.solve(b[:-1], "T")
+            y = inverse(b[:-1])
             rigid = (weight @ y - b[-1]) / lever
             return np.append(y - rigid * lifted, rigid)
 
@@ -347,6 +345,29 @@ class _Film:
         short = (q.load - float((q.weight * self.p).sum())) / np.sqrt(q.load)
         x = _gmres(operator, invert, np.append(wanted, short))
         return *spread(x), float(x[-1])
+
+    def _local_inverse(self, nodes: Indices) -> Callable[[Array], Array] | None:
+        """What solves the local system of the nodes; None if it is singular."""
+        q, solid, by_f, by_h, scale = self.problem, self.solid, self.by_f, self.by_h, self.scale
+        size, shape = nodes.size, solid.shape
+        if self.response is not None:
+            row = (by_f[:, 1], by_h[:, 1], scale[1], self.response, nodes - shape[1], solid[1], q.edge[1])
+            return band_inverse(*row)
+        column = np.full(shape, -1, np.int32)
+        column.ravel()[nodes] = np.arange(size)
+        if q.wrapped:
+            reynolds.wrap(column)
+        start, index, value = np.empty(size + 1, np.int32), np.empty(10 * size, np.int32), np.empty(10 * size)
+        args = (by_f, by_h, scale, self.patch, nodes, column, solid, q.edge, q.wrapped)
+        count = _assemble(*args, start, index, value)
+        # the transpose, by columns
+        rows = scipy.sparse.csc_matrix((value[:count], index[:count], start), shape=(size, size))
+        how = {"SymmetricMode": True}
+        try:
+            lu = scipy.sparse.linalg.splu(rows, permc_spec="NATURAL", diag_pivot_thresh=0.01, options=how)
+        except RuntimeError:  # singular
+            return None
+        return lambda b: np.asarray(lu.solve(b, "T"))
 
     def advance(self, dp: Array, dh: Array, d_rigid: float) -> tuple[float, float]:
         """Take as much of a correction as is safe; return the relative change of the pressure and that share."""
@@ -380,13 +401,21 @@ class _Film:
         return Solution(iterate, self.h, self.mass, not why, n, change, load_error, intrusion, imbalance, why)
 
 
+def is_applicable(problem: Problem) -> bool:
+    """Whether a film without pressure counts as full, and may have pressure everywhere."""
+    return not problem.by_flux
+
+
 def solve_newton(
     half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int
 ) -> Solution:
     """Newton steps from `start` until a step of full length meets the rule of `shortfall` or `iterations` are spent.
 
-    Non-finite values never leave: what is returned is finite, or its `change` is infinite.
+    Non-finite values never leave: what is returned is finite, or its `change` is infinite. ValueError if not
+    `is_applicable`.
     """
+    if not is_applicable(problem):
+        raise ValueError("newton knows neither mass in cavities nor an inlet meniscus")
     film = _Film(half_space, problem, start)
     film.evaluate()
     found = film.assess(0, np.inf, False, tolerance)

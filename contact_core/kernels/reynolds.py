@@ -8,6 +8,9 @@ where a time step is so short that squeezing rules, 0 at rest. Second order: cen
 0.5) in the wedge. On nodes in solid contact (solid[j, i]) the gap is the floor and the total pressure p is at least
 f; elsewhere p = f. Viscosity and density come as tables over pressure (relative to those at p = 0). All arrays are
 [ny, nx] unless said otherwise.
+
+`flux`, `filling`: of `cavities.carry`, whose masses are less than m where the film is not full; None: it is full
+everywhere. With them, `first` is the first column in which the oil has pressure.
 """
 
 import numpy as np
@@ -97,13 +100,21 @@ def wrap(field):  # type: ignore[no-untyped-def]
 
 
 @_jit
-def transport(mass, mass_old, per_dt, wedge, dx, j, i):  # type: ignore[no-untyped-def]
+def transport(mass, flux, mass_old, per_dt, wedge, dx, j, i):  # type: ignore[no-untyped-def]
     """Mass carried away and squeezed out at a node: wedge d(m)/dx + d(m)/dt."""
-    if i > 1:
+    if flux is not None:
+        slope = (flux[j, i] - flux[j, i - 1]) / dx
+    elif i > 1:
         slope = (1.5 * mass[j, i] - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2]) / dx
     else:
         slope = (mass[j, i] - mass[j, i - 1]) / dx
     return wedge * slope + (mass[j, i] - mass_old[j, i]) * per_dt
+
+
+@_jit
+def returned(filling, first, per_dt, wedge, dx, j, i):  # type: ignore[no-untyped-def]
+    """Share that comes back of what a node's pressure drives upstream: all of it, in time, from a cavity."""
+    return wedge / (wedge + per_dt * dx) if i > first and filling[j, i - 1] < 1.0 else 0.0
 
 
 @_jit
@@ -125,19 +136,24 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
     fluidity,
     density,
     step,
+    full,
+    flux=None,
+    first=1,
     wrapped=False,
 ):
-    """Gauss-Seidel for the fluid pressure on solid contacts; releases those the fluid alone carries."""
+    """Gauss-Seidel for the fluid pressure on solid contacts; releases those the fluid alone carries. `full`: mass of
+    the contacts if they are full, which changes with it.
+    """
     ny, nx = p.shape
     count = 0
     for j in range(1, ny - 1):
-        for i in range(1, nx - 1):
+        for i in range(first, nx - 1):
             if solid[j, i]:
                 count += 1
     at, c = np.empty(count, np.int64), np.empty((count, 5))
     half, n = 0.5 / (dx * dx), 0
     for j in range(1, ny - 1):
-        for i in range(1, nx - 1):
+        for i in range(first, nx - 1):
             if solid[j, i]:
                 here = e[j, i]
                 west, east, south, north = (
@@ -149,9 +165,9 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
                 part = 1.0 / (west + east + south + north)
                 at[n] = j * nx + i
                 c[n, 0], c[n, 1], c[n, 2], c[n, 3] = west * part, east * part, south * part, north * part
-                c[n, 4] = -transport(mass, mass_old, per_dt, wedge, dx, j, i) * part / half
+                c[n, 4] = -transport(mass, flux, mass_old, per_dt, wedge, dx, j, i) * part / half
                 n += 1
-    pp, ff, hh, ee, mm, ss = p.ravel(), f.ravel(), h.ravel(), e.ravel(), mass.ravel(), solid.ravel()
+    pp, ff, hh, ee, mm, ss = p.ravel(), f.ravel(), h.ravel(), e.ravel(), full.ravel(), solid.ravel()
     ease, more = mobility.ravel(), thinned.ravel()
     for sweep in range(sweeps):
         last = sweep == sweeps - 1
@@ -181,13 +197,16 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
 
 
 @_jit
-def residual(f, solid, mass, mass_old, e, per_dt, wedge, dx, r):  # type: ignore[no-untyped-def]
-    """Net inflow of mass per area at every interior node, zero on solid contacts and on the edge."""
+def residual(f, solid, mass, mass_old, e, per_dt, wedge, dx, r, flux=None, filling=None, first=1):  # type: ignore[no-untyped-def]
+    """Net inflow of mass per area at every interior node, zero on solid contacts, in cavities and on the edge."""
     ny, nx = f.shape
     half = 0.5 / (dx * dx)
     r[:] = 0.0
     for j in range(1, ny - 1):
-        for i in range(1, nx - 1):
+        for i in range(first, nx - 1):
+            if filling is not None:
+                if filling[j, i] < 1.0:
+                    continue
             if not solid[j, i]:
                 here, ej = f[j, i], e[j, i]
                 flow = (
@@ -196,7 +215,7 @@ def residual(f, solid, mass, mass_old, e, per_dt, wedge, dx, r):  # type: ignore
                     + (ej + e[j - 1, i]) * (f[j - 1, i] - here)
                     + (ej + e[j + 1, i]) * (f[j + 1, i] - here)
                 )
-                r[j, i] = half * flow - transport(mass, mass_old, per_dt, wedge, dx, j, i)
+                r[j, i] = half * flow - transport(mass, flux, mass_old, per_dt, wedge, dx, j, i)
 
 
 @_jit
@@ -245,6 +264,9 @@ def mend_film(  # type: ignore[no-untyped-def]
     stiff,
     dh,
     sums,
+    flux=None,
+    filling=None,
+    first=1,
 ):
     """Residual r, the stiff zone, and the change of the gap dh in it that mends the residual, marched downstream.
 
@@ -272,9 +294,16 @@ def mend_film(  # type: ignore[no-untyped-def]
                 ej, west, east, south, north = e[j, i], e[j, i - 1], e[j, i + 1], e[j - 1, i], e[j + 1, i]
                 flow = (ej + west) * (f[j, i - 1] - here) + (ej + east) * (f[j, i + 1] - here)
                 flow += (ej + south) * (f[j - 1, i] - here) + (ej + north) * (f[j + 1, i] - here)
-                rise = 1.5 * m - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2] if i > 1 else m - mass[j, i - 1]
+                if flux is not None:
+                    rise = flux[j, i] - flux[j, i - 1]
+                else:
+                    rise = 1.5 * m - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2] if i > 1 else m - mass[j, i - 1]
                 value = half * flow - wedge_per_dx * rise - per_dt * (m - mass_old[j, i])
-                if own < floor and value < 0.0:
+                sinks = value < 0.0
+                if filling is not None:
+                    if filling[j, i] < 1.0 or i < first:  # nothing is unbalanced there
+                        sinks, value = True, 0.0
+                if own < floor and sinks:
                     touches, value = True, 0.0  # the film sinks on: solids carry what it cannot
                     solid[j, i] = True
             if touches:
@@ -285,7 +314,7 @@ def mend_film(  # type: ignore[no-untyped-def]
                     ej, west, east, south, north = e[j, i], e[j, i - 1], e[j, i + 1], e[j - 1, i], e[j + 1, i]
                     flow = (ej + west) * (f[j, i - 1] - here) + (ej + east) * (f[j, i + 1] - here)
                     flow += (ej + south) * (f[j - 1, i] - here) + (ej + north) * (f[j + 1, i] - here)
-                    wrong += max(half * flow - transport(mass, mass_old, per_dt, wedge, dx, j, i), 0.0) * here
+                    wrong += max(half * flow - transport(mass, flux, mass_old, per_dt, wedge, dx, j, i), 0.0) * here
                 if here < cap[j, i]:
                     intrusion += here * abs(change)
                 elif change > 0.0:
@@ -320,7 +349,26 @@ def mend_film(  # type: ignore[no-untyped-def]
 
 @_jit
 def relax_lines(  # type: ignore[no-untyped-def]
-    p, solid, stiff, h, mass, e, r, edge, floor, per_dt, wedge, dx, near, patch_wide, lumped, sweeps, dp, wrapped=False
+    p,
+    solid,
+    stiff,
+    h,
+    mass,
+    e,
+    r,
+    edge,
+    floor,
+    per_dt,
+    wedge,
+    dx,
+    near,
+    patch_wide,
+    lumped,
+    sweeps,
+    dp,
+    filling=None,
+    first=1,
+    wrapped=False,
 ):
     """Line over-relaxation of the linearised equation outside the stiff zone, dp given inside it. Updates dp, p +
     dp >= 0.
@@ -363,6 +411,8 @@ def relax_lines(  # type: ignore[no-untyped-def]
                 far += w_2 * dp[j, i - 2] if i > 1 else 0.0
                 far += w_3 * dp[j, i - 3] if i > 2 else 0.0
                 diag = west + east + south + north + rho * w0
+                if filling is not None:
+                    diag -= returned(filling, first, per_dt, wedge, dx, j, i) * west
                 lower, upper = rho * w_1, rho * w1
                 rhs = r[j, i] - rho * far
                 # the fluid pressure of a solid contact stays in this step

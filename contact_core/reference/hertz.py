@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
@@ -69,16 +70,7 @@ def hertz_point(load: float, radius_x: float, radius_y: float, reduced_modulus: 
         a = (1.5 * load * radius_x / reduced_modulus) ** (1 / 3)
         return Hertz(a, a, 1.5 * load / (np.pi * a * a), a * a / radius_x)
     small, large = sorted((radius_x, radius_y))
-
-    special = scipy.special
-
-    def mismatch(log_ratio: float) -> float:
-        k2 = np.exp(2.0 * log_ratio)  # (short half width / long half width)^2
-        return float(special.elliprd(0.0, 1.0, k2) / special.elliprd(0.0, k2, 1.0) - large / small)
-
-    # Carlson's integrals, because E/k^2 - K and K - E lose their digits near the circle
-    k = float(np.exp(scipy.optimize.brentq(mismatch, np.log(1e-12), 0.0, xtol=1e-15)))
-    ellipk, ellipe = float(special.elliprf(0.0, k * k, 1.0)), 2.0 * float(special.elliprg(0.0, k * k, 1.0))
+    k, ellipk, ellipe = _ellipse(large / small)
     curvature = 0.5 * (1.0 / small + 1.0 / large)
     long = (3.0 * load * ellipe / (np.pi * k * k * reduced_modulus * curvature)) ** (1 / 3)
     short = k * long
@@ -86,6 +78,22 @@ def hertz_point(load: float, radius_x: float, radius_y: float, reduced_modulus: 
     approach = 2.0 * pressure * short * ellipk / reduced_modulus
     a, b = (short, long) if radius_x == small else (long, short)
     return Hertz(float(a), float(b), float(pressure), float(approach))
+
+
+@lru_cache(maxsize=64)
+def _ellipse(ratio: float) -> tuple[float, float, float]:
+    """Short over long half width of Hertz's ellipse, and the complete elliptic integrals K and E of its eccentricity,
+    for a ratio > 1 of the radii.
+    """
+    special = scipy.special
+
+    def mismatch(log_ratio: float) -> float:
+        k2 = np.exp(2.0 * log_ratio)  # (short half width / long half width)^2
+        return float(special.elliprd(0.0, 1.0, k2) / special.elliprd(0.0, k2, 1.0) - ratio)
+
+    # Carlson's integrals, because E/k^2 - K and K - E lose their digits near the circle
+    k = float(np.exp(scipy.optimize.brentq(mismatch, np.log(1e-12), 0.0, xtol=1e-15)))
+    return k, float(special.elliprf(0.0, k * k, 1.0)), 2.0 * float(special.elliprg(0.0, k * k, 1.0))
 
 
 def hertz_line(load: float, radius: float, length: float, reduced_modulus: float) -> HertzLine:

@@ -41,6 +41,12 @@ class SmoothLine:
         return load * speed**-0.5, self.pressure_coefficient * self.reduced_modulus * speed**0.25
 
     @property
+    def circular_load(self) -> float:
+        """Moes' M of the circular point contact whose Hertz contact is as deep, a^2 / R, in units of U^0.5 R."""
+        load, _ = self.moes_parameters
+        return float((8.0 * load / np.pi) ** 1.5 / 1.5)
+
+    @property
     def film(self) -> float:
         """Central film [m] by `moes_line`."""
         return moes_line(self)

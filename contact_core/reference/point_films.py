@@ -52,6 +52,15 @@ class SmoothContact:
         return _moes_numbers(self.load, self.entrainment_speed, *oil, *solids)[:2]
 
     @property
+    def circular_load(self) -> float:
+        """Moes' M of the circular contact that is as near to rigid: films of rigid and of elastic, isoviscous bodies
+        differ by the same factor.
+        """
+        rigid, elastic, *_ = _moes_factors(self.radius_x / self.radius_y)
+        rigid_circle, elastic_circle, *_ = _moes_factors(1.0)
+        return self.moes_parameters[0] * ((rigid_circle / elastic_circle) / (rigid / elastic)) ** (15 / 28)
+
+    @property
     def film(self) -> float:
         """Central film [m] by `nijenbanning_venner_moes`."""
         return nijenbanning_venner_moes(self)

@@ -34,7 +34,7 @@ class Thinner:
 
 def contact(rq=0.0, load=20.0, nodes=65, viscosity=0.02, speed=1.0):
     film = nijenbanning_venner_moes(SmoothContact(load, speed, viscosity, ALPHA, RADIUS, RADIUS, MODULUS))
-    grid = fitted_grid(load, RADIUS, MODULUS, film, nodes, nodes)
+    grid = fitted_grid(Point(RADIUS, RADIUS), load, MODULUS, film, nodes, nodes)
     z = gaussian_filter(np.random.Generator(np.random.Philox(1)).standard_normal(grid.shape), 1.5)
     z *= rq / z.std()
     law, limit = Roelands(viscosity, 300.0, ALPHA, 0.0), np.full(grid.shape, HARDNESS)

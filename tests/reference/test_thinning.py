@@ -27,7 +27,7 @@ STRESS = 1e6  # Pa, of an Eyring oil that thins in the inlet
 
 def contact(nodes=NODES, rq=0.0, load=LOAD, speed=SPEED, viscosity=VISCOSITY):
     film = nijenbanning_venner_moes(SmoothContact(load, speed, viscosity, ALPHA, RADIUS, RADIUS, MODULUS))
-    grid = fitted_grid(load, RADIUS, MODULUS, film, nodes, nodes)
+    grid = fitted_grid(Point(RADIUS, RADIUS), load, MODULUS, film, nodes, nodes)
     z = gaussian_filter(np.random.Generator(np.random.Philox(1)).standard_normal(grid.shape), 1.5, mode="wrap")
     law, limit = Barus(viscosity, 300.0, ALPHA, 0.0), np.full(grid.shape, 6e9)
     z *= rq / z.std()

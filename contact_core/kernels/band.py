@@ -1,0 +1,65 @@
+"""Local inverse of the Jacobian of `newton` where the contact is one row, repeated for ever: a smooth line.
+
+The deformation by a node of a line falls so slowly that a patch of three nodes says little of it; a band of a few tens
+leaves so little to GMRES that a few steps do. LAPACK's band factorisation costs no more than the patch's.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+import scipy
+from numba import njit
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+_WIDE = 64  # nodes on either side that a node is coupled to
+
+_jit = njit(cache=True, nogil=True, error_model="numpy")
+
+
+@_jit
+def _assemble(by_f, by_h, scale, kernel, nodes, column, solid, edge, wide, band):  # type: ignore[no-untyped-def]
+    nx = solid.size
+    for k in range(nodes.size):
+        i, factor = nodes[k], scale[nodes[k]]
+        for m in range(max(k - wide, 0), min(k + wide + 1, nodes.size)):
+            at = nodes[m]
+            if solid[i]:
+                value = kernel[abs(i - at)]
+            else:
+                value = by_h[0, i] * kernel[abs(i - at)] + by_h[1, i] * kernel[abs(i - 1 - at)]
+                value += by_h[2, i] * kernel[abs(i + 1 - at)] + by_h[5, i] * kernel[abs(i - 2 - at)]
+            band[2 * wide + k - m, m] = value * factor
+        if solid[i]:
+            continue
+        for n in range(6 if i > 1 else 5):
+            at, part = i + (0, -1, 1, 0, 0, -2)[n], by_f[n, i]
+            if at == 0 or at == nx - 1:  # an edge follows its inner neighbour
+                part *= edge[at]
+                at = min(max(at, 1), nx - 2)
+            m = column[at]
+            if m >= 0 and not solid[at]:
+                band[2 * wide + k - m, m] += part * factor
+
+
+def band_inverse(
+    by_f: Array, by_h: Array, scale: Array, response: Array, nodes: NDArray[np.int64], solid: Array, edge: Array
+) -> Callable[[Array], Array] | None:
+    """What solves the local system of the `nodes`, ascending, of a row; None if it is singular.
+
+    by_f, by_h [6, nx]: derivatives of the net inflow on the stencil; scale [nx] of the equations; response [nx]:
+    deformation by the unit pressure of a node at a distance; solid, edge [nx] as in `mixed`.
+    """
+    size = nodes.size
+    wide = max(min(_WIDE, size - 1), 2)
+    kernel = response - response[min(wide, response.size - 1)]  # what is constant belongs to the rigid gap
+    column = np.full(solid.size, -1)
+    column[nodes] = np.arange(size)
+    band = np.zeros((3 * wide + 1, size), order="F")
+    _assemble(by_f, by_h, scale, kernel, nodes, column, solid, edge, wide, band)
+    lapack = scipy.linalg.lapack
+    factors, pivots, fault = lapack.dgbtrf(band, wide, wide, overwrite_ab=1)
+    if fault:
+        return None
+    return lambda b: np.asarray(lapack.dgbtrs(factors, wide, wide, b, pivots)[0])
