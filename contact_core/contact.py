@@ -115,7 +115,9 @@ def solve(
     if op.load == 0.0:
         film = _open(scene, op, grid, heights)
     else:
-        step = Step(transient.dt, transient.moved, transient.order, transient.thorough) if transient and before else None
+        step = None
+        if transient and before:
+            step = Step(transient.dt, transient.moved, transient.order, transient.thorough)
         most = transient.iterations if transient else None
         film = solve_flow(
             scene,
