@@ -383,7 +383,7 @@ class Iteration:
             return np.where(self.solid | (self.p <= 0.0), 0.0, self.r)
         q, carried, owed, nowhere = self.problem, self.carried, np.zeros_like(self.r), np.zeros_like(self.solid)
         assert carried is not None
-        balance = (self.mass, q.mass_old, self.e, q.per_dt, q.spacing)
+        balance = (self.mass, q.mass_old, self.e, q.per_dt, q.wedge, q.spacing)
         reynolds.residual(self.f, nowhere, *balance, owed, carried.flux, carried.filling, carried.first)
         return owed
 
