@@ -14,12 +14,14 @@ from .laws.viscosity import Barus, Roelands
 from .quantities import TABLE, out_of_range, parameter
 from .reading import did_you_mean
 from .reference import SmoothContact, hertz_point, nijenbanning_venner_moes
+from .reference_starvation import supplied_film
 
 Array = NDArray[np.float64]
 
 _REFERENCE = 300.0  # K: the laws of temperature play no part here
 _UNLIMITED = 1e12  # Pa
 _THICKEST = 0.01  # film over radius
+_MOST_SUPPLY, _MOST_INLET = 0.01, 1.0  # m
 _VISCOSITY = {law.name: law for law in (Roelands, Barus)}
 _DENSITY = {law.name: law for law in (DowsonHigginson, Incompressible)}
 
@@ -67,6 +69,8 @@ class _Numbers:
     viscosity: float = parameter("Pa s", "viscosity at p = 0", least=1e-4, most=1e3)
     pressure_viscosity: float = parameter("Pa^-1", "d ln(viscosity)/dp at p = 0", least=0.0, most=1e-7)
     hardness: float = parameter("Pa", "largest pressure", above=1e6, most=_UNLIMITED)
+    supply: float = parameter("m", "oil on both surfaces together before the contact", above=0.0, most=_MOST_SUPPLY)
+    meniscus: float = parameter("m", "distance of the inlet meniscus before the centre", above=0.0, most=_MOST_INLET)
     floor: float = parameter("m", "gap at which solids touch", above=1e-11, most=1e-6)
     tolerance: float = parameter("", "relative pressure change that counts as converged", above=0.0, most=0.1)
     iterations: int = parameter("", "most iterations", least=1, most=100_000)
@@ -92,6 +96,9 @@ def point_contact(
     domain: tuple[float, float, float, float] | None = None,
     floor: float = 1e-9,
     criterion: str = "split",
+    cavitation: str = "reynolds",
+    supply: float | None = None,
+    meniscus: float | None = None,
     tolerance: float = 1e-3,
     iterations: int = 2000,
     fft: str = "pyfftw",
@@ -104,7 +111,10 @@ def point_contact(
     one, centred on the contact, `spacing` [m] apart; hardness [Pa]: no pressure is above it (None: no limit); grid:
     nodes along both axes or (ny, nx) of smooth bodies, 129 if not given; domain: (x_min, x_max, y_min, y_max) [m] about
     the contact instead of the grid that fits the film; floor [m]: gap at which solids touch; criterion: "split" for
-    fluid and solid pressure apart, "lumped" for one pressure as in Azam et al. 2019 (with floor = 0.47e-9).
+    fluid and solid pressure apart, "lumped" for one pressure as in Azam et al. 2019 (with floor = 0.47e-9); cavitation:
+    "reynolds", or "mass_conserving" as Elrod, Jakobsson, Floberg and Olsson; supply [m]: oil on both surfaces together
+    before the contact, which needs mass conservation (None: flooded); meniscus [m]: distance before the centre at which
+    the inlet begins to be full (None: at the edge of the grid).
 
     Raises OperatingPointError for values that cannot be used and ConvergenceError if no solution was found. A solution
     short of the tolerance says so (`converged`, `shortfall`). At rest the dry contact is the answer; the gap of solids
@@ -118,7 +128,13 @@ def point_contact(
         "iterations": iterations,
     } | {
         name: value
-        for name, value in (("radius_y", radius_y), ("hardness", hardness), ("spacing", spacing))
+        for name, value in (
+            ("radius_y", radius_y),
+            ("hardness", hardness),
+            ("spacing", spacing),
+            ("supply", supply),
+            ("meniscus", meniscus),
+        )
         if value is not None
     }  # fmt: skip
     _refuse(_no_numbers(given))
@@ -132,14 +148,22 @@ def point_contact(
         viscosity=float(viscosity),
         pressure_viscosity=float(pressure_viscosity),
         hardness=_UNLIMITED if hardness is None else float(hardness),
+        supply=_MOST_SUPPLY if supply is None else float(supply),
+        meniscus=_MOST_INLET if meniscus is None else float(meniscus),
         floor=float(floor),
         tolerance=float(tolerance),
         iterations=int(iterations),
     )
     _refuse([*out_of_range(numbers, ""), *_circular(numbers)])
     choices = (("viscosity_law", viscosity_law, _VISCOSITY), ("density_law", density_law, _DENSITY))
-    more = (("criterion", criterion, ("split", "lumped")), ("fft", fft, ("pyfftw", "scipy")))
+    more = (
+        ("criterion", criterion, ("split", "lumped")),
+        ("fft", fft, ("pyfftw", "scipy")),
+        ("cavitation", cavitation, ("reynolds", "mass_conserving")),
+    )
     _refuse([_choice(name, value, list(known)) for name, value, known in (*choices, *more) if value not in list(known)])
+    if supply is not None and cavitation != "mass_conserving":
+        _refuse([f"supply = {supply:g} m needs cavitation = 'mass_conserving': else every gap counts as full. Set it."])
     heights, radius, speed = _heights(heights_1, heights_2), numbers.radius_x, 0.5 * (numbers.speed_1 + numbers.speed_2)
     law = _VISCOSITY[viscosity_law](numbers.viscosity, _REFERENCE, numbers.pressure_viscosity, 0.0)
     film = 0.0
@@ -149,6 +173,8 @@ def point_contact(
             numbers.load, abs(speed), numbers.viscosity, rise, radius, radius, numbers.reduced_modulus
         )
         film = nijenbanning_venner_moes(smooth)
+        if supply is not None:
+            film = supplied_film(film, numbers.supply)
         if film > _THICKEST * radius:
             _refuse(
                 [
@@ -169,6 +195,9 @@ def point_contact(
         heights=np.zeros(nodes.shape) if heights is None else heights,
         limit=np.full(nodes.shape, numbers.hardness),
         hardness=numbers.hardness,
+        conserving=cavitation == "mass_conserving",
+        supply=None if supply is None else numbers.supply,
+        meniscus=None if meniscus is None else numbers.meniscus,
     )
     hertz = hertz_point(numbers.load, radius, radius, numbers.reduced_modulus)
     settings = Settings(numbers.floor, numbers.tolerance, numbers.iterations, fft, criterion == "lumped")
