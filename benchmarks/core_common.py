@@ -21,6 +21,7 @@ from contact_core.kernels.newton import solve_newton
 from contact_core.laws.density import DowsonHigginson, Incompressible
 from contact_core.laws.viscosity import Barus, Roelands
 from contact_core.reference import Hertz, SmoothContact, hertz_point, nijenbanning_venner_moes
+from contact_core.shapes import Point
 
 DOCS = Path(__file__).parent.parent / "docs"
 Array = np.ndarray
@@ -148,8 +149,7 @@ def instant_of(arguments: dict[str, Any], heights: Array, hardness: float = 1e12
         load=arguments["load"],
         entrainment_speed=0.5 * (arguments["speed_1"] + arguments["speed_2"]),
         temperature=300.0,
-        radius_x=arguments["radius_x"],
-        radius_y=arguments["radius_x"],
+        shape=Point(arguments["radius_x"], arguments["radius_x"]),
         reduced_modulus=arguments["reduced_modulus"],
         viscosity=viscosity(arguments["viscosity"], 300.0, arguments["pressure_viscosity"], 0.0),
         density=laws[arguments.get("density_law", "dowson_higginson")](),
@@ -203,7 +203,7 @@ class RoughCase:
     @property
     def domain(self) -> tuple[float, ...]:
         """The domain that fits the film."""
-        grid = fitted_grid(self.load, self.radius, self.modulus, self.film, 129, 129)
+        grid = fitted_grid(Point(self.radius, self.radius), self.load, self.modulus, self.film, 129, 129)
         return tuple(float(side) for axis in (grid.x, grid.y) for side in (axis[0], axis[-1]))
 
     def heights(self, nodes: int) -> Array:

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from contact_core import Scene
 from contact_core.contact import instant_of
 from contact_core.film.fitted import fitted_grid
-from contact_core.film.instant import FilmState, Instant, Settings
+from contact_core.film.instant import FilmState, Instant, Settings, Step
 from contact_core.film.outputs import at_centre
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
@@ -19,6 +19,7 @@ from contact_core.kernels.multigrid import extrapolated, solve_smooth
 from contact_core.patches import bare_heights, contact_grid
 from contact_core.point_contact import point_contact
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
+from contact_core.shapes import Point
 
 DOMAIN = (-4.5, 1.5, -3.0, 3.0)
 CASE = MoesCase(200, 10.0, "roelands", "dowson_higginson")
@@ -104,7 +105,7 @@ def case_a(report: Report) -> None:
             return point_contact(**CASE_A, grid=nodes)
 
         def richardson(nodes=nodes):
-            grid = fitted_grid(77.85, 10e-3, 230.47e9, film, nodes, nodes)
+            grid = fitted_grid(Point(10e-3, 10e-3), 77.85, 230.47e9, film, nodes, nodes)
             domain = (grid.x[0], grid.x[-1], grid.y[0], grid.y[-1])
             scaled = scaled_of(CASE_A, domain, nodes, 1e-3)
             start = scaled.smooth_film / scaled.h_unit
@@ -147,8 +148,8 @@ def march(scene: Scene) -> Iterator[tuple[Instant, float]]:
 
 def posed(scene: Scene, now: Instant, step: float, before: FilmState) -> tuple[Scaled, Problem]:
     """A step from the film before."""
-    scaled = Scaled(now, contact_grid(scene, scene.film.points), settings_of(scene, 0.0, 0))
-    return scaled, scaled.problem(before.mass / scaled.h_unit, scaled.per_dt(step))
+    scaled = Scaled(now, contact_grid(scene, scene.film.points), settings_of(scene, 0.0, 0), before, Step(step, 1))
+    return scaled, scaled.problem()
 
 
 def warm(scene: Scene, now: Instant, step: float, before: FilmState, iterations: int) -> tuple[Scaled, Solution]:

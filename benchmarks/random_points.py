@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from contact_core import shapes
 from contact_core.film.fitted import fitted_grid
 from contact_core.film.instant import Grid
 from contact_core.reference import SmoothContact, hertz_point, nijenbanning_venner_moes
@@ -41,7 +42,7 @@ class Point:
 
     def grid(self, nodes: int) -> Grid:
         """The grid that fits the film, entered from the side the oil comes from."""
-        found = fitted_grid(self.load, self.radius, MODULUS, self.film, nodes, nodes)
+        found = fitted_grid(shapes.Point(self.radius, self.radius), self.load, MODULUS, self.film, nodes, nodes)
         return found if self.speed >= 0.0 else found.mirrored()
 
     def heights(self, grid: Grid, correlation: float) -> np.ndarray:

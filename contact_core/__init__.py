@@ -6,6 +6,8 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     quantities   names, symbols, units, signs and averages of every input and output; ranges of every parameter
     constants    of nature
     units        "1.26 GPa" to SI, at the border
+    shapes       undeformed bodies: points, lines, rollers; their gap, Hertz's contact, film by formula
+    geometry     their records in a scene
     scene        Scene, its checks, OperatingPoint, Operation (the duty)
     reading      TOML to records and back, with did-you-mean
     state        ContactState, Outputs, RangeFlag, serialisation
@@ -14,13 +16,15 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
                  load sharing of the fast level
     film/        fluid and solid pressure of one instant: units, grids, the table of algorithms (routes), error estimate
     kernels/     numba and FFT: arrays in, arrays out
-    point_contact, dry_contact   one call each, without a scene
+    point_contact, line_contact, dry_contact   one call each, without a scene; call: what they share
     friction     shear of solids and oil, forces, power, derivatives at a held film
     oil          what heat and shear make of the oil, and how it then flows
     patches      body-fixed surfaces: what they are now, where they lie under the contact
     contact      solve: one instant of a scene in a state
+    following    one instant after another: what moves on, what film it starts from
     sweep        what a block's instants add up to
     block        when and at which instants the contact is solved, and by which driver
+    march        load, speeds and radii that change within a run: instant after instant, and cycles of them
     evolution    tribofilm and wear between two solutions, in closed form
     trends       outputs without their noise, errors of time steps and of sampling
     means        the fast level: the means of both surfaces over time
@@ -30,13 +34,14 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     advance      advance: the evolution over time; uncertainty: how sure its outputs are
     warming      warm_up: loads what the first steps of a scene need
     tracks       the rubbed surfaces as they are, for profiles and pictures
-    reference    closed forms
+    reference/   closed forms: Hertz, films of points and lines, heat, wear
     data/        named oils, solids and tribofilms, and the shipped scenes
     checksum     of bytes joined from parts whose checksums are known
     errors       what can go wrong, each message with a way out
 
-Imports run one way: kernels <- laws <- film <- friction <- oil <- patches <- evolution <- contact <- sweep <- block
-<- advance; of the fast level, means stands beside block, mean_outputs beside sweep and mean_contact beside contact.
+Imports run one way: kernels <- laws <- film <- friction <- oil <- patches <- evolution <- contact <- following
+<- sweep <- block <- march, advance; of the fast level, means stands beside block, mean_outputs beside sweep and
+mean_contact beside contact.
 Everything inside is SI; heights are metres above a body's mean plane, positive toward the other body; arrays are
 [ny, nx], x along entrainment.
 """
@@ -44,7 +49,11 @@ Everything inside is SI; heights are metres above a body's mean plane, positive 
 from .advance import advance, uncertainty
 from .contact import ContactFields, Transient, solve
 from .dry_contact import DryContact, dry_contact
-from .errors import ContactError, ConvergenceError, OperatingPointError, SceneError, StateError
+from .errors import ContactError, ConvergenceError, FilmTooWideError, OperatingPointError, SceneError, StateError
+from .following import parted
+from .laws.profile import Logarithmic, Rounded
+from .line_contact import LineContact, line_contact
+from .march import Moment, march, run_cycle
 from .point_contact import PointContact, point_contact
 from .reading import shipped_scenes
 from .scene import OperatingPoint, Scene
@@ -60,11 +69,16 @@ __all__ = [
     "ContactState",
     "ConvergenceError",
     "DryContact",
+    "FilmTooWideError",
+    "LineContact",
+    "Logarithmic",
+    "Moment",
     "OperatingPoint",
     "OperatingPointError",
     "Outputs",
     "PointContact",
     "RangeFlag",
+    "Rounded",
     "Scene",
     "SceneError",
     "StateError",
@@ -73,7 +87,11 @@ __all__ = [
     "advance",
     "dry_contact",
     "initial_state",
+    "line_contact",
+    "march",
+    "parted",
     "point_contact",
+    "run_cycle",
     "shipped_scenes",
     "solve",
     "track_of",

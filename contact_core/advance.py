@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .block import has_moved, is_due, solve_block
+from .block import has_moved, instant_time, is_due, is_marching, solve_block, solve_instant
 from .errors import OperatingPointError
 from .evolution import area_of_node, evolved, track_rows, wear_speed
 from .folding import folded
@@ -52,11 +52,16 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
     given, left = op, dt
     while True:
         op = _with_bodies(scene, given, state)
-        if is_due(scene, op, state):
+        marching = is_marching(scene, op, state)
+        if not marching and is_due(scene, op, state):
             state = solve_block(scene, op, state)
         if left <= 0.0:
             break
-        step, change = _longest_step(scene, op, state, left)
+        if marching:
+            step, change = min(left, instant_time(scene, op)), 0.0
+            state = solve_instant(scene, op, state, step)
+        else:
+            step, change = _longest_step(scene, op, state, left)
         left -= step
         flash = state.outputs.flash_temperature_rise
         first, second = (evolved(scene, op, body, i, step, flash) for i, body in enumerate(state.bodies))
@@ -79,7 +84,8 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
 
 def _advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
     """`advance` at the fast level; where the bodies warm up, in steps in which neither oil nor surfaces change much."""
-    pressure = scene.unit_hertz_at(op).pressure_max * op.load ** (1 / 3)
+    hertz = scene.unit_hertz_at(op)
+    pressure = hertz.pressure_max * hertz.growth(op.load)[0]
     if pressure > scene.plasticity.hardness:
         raise OperatingPointError(
             f"load = {op.load:g} N presses smooth bodies together with {pressure:.3g} Pa, above plasticity.hardness = "

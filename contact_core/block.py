@@ -29,8 +29,9 @@ from .evolution import (
     wear_rate,
     wear_speed,
 )
+from .following import follow
 from .laws.tribofilm import thickness
-from .patches import on_patch, patch_nodes, widened
+from .patches import moved_nodes, rolled, widened, yielded
 from .scene import OperatingPoint, Scene
 from .state import Body, ContactState, RangeFlag
 from .surfaces import groove_free
@@ -58,6 +59,7 @@ _CALMING = 24  # transient steps after a jump of a rougher one, or from a dry co
 _SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most
 # what a march tells stays true of the dry contact that takes its share
 _OF_FILM = RangeFlag.INLET_UNRESOLVED | RangeFlag.NOT_CONVERGED
+_SMOOTH_STEP = 4.0  # nodes that smooth bodies move on by in an instant of a march, at most
 _SHORTEST = 0.05  # of control.longest: no block need be shorter to keep wear stable; a flag says where it should
 _LONGER = 2.0  # a block may be so much longer than the one before
 _EDGE = 3  # rows at the edge into which the scar may not come
@@ -71,9 +73,43 @@ def is_due(scene: Scene, op: OperatingPoint, state: ContactState) -> bool:
     return state.solved_for is None or used_up or other_law or has_moved(scene, op, state.solved_for)
 
 
+def is_marching(scene: Scene, op: OperatingPoint, state: ContactState) -> bool:
+    """Whether the film follows inputs that change, instant by instant, instead of blocks."""
+    asked = scene.control.inputs == "transient" and scene.control.driver != "dry" and op.load > 0.0
+    if not asked or state.solved_for is None:
+        return False
+    return state.settling > 0.0 or has_moved(scene, op, state.solved_for)
+
+
+def instant_time(scene: Scene, op: OperatingPoint) -> float:
+    """Longest time [s] of an instant of such a march, infinite at rest."""
+    fastest = max(abs(speed) for speed in speeds_of(op))
+    rough = scene.surface_1.rq > 0.0 or scene.surface_2.rq > 0.0
+    return scene.film.spacing * (1.0 if rough else _SMOOTH_STEP) / fastest if fastest > 0.0 else math.inf
+
+
+def solve_instant(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> ContactState:
+    """Solve the contact `dt` [s] later, the bodies moved on; store what the surfaces feel there and what it gives."""
+    since = state.solved_for
+    if since is None or has_moved(scene, op, since):
+        fastest = max(abs(speed) for speed in speeds_of(op))
+        passage = _settling_instants(scene, op) * scene.film.spacing / fastest if fastest > 0.0 else math.inf
+        state, since = replace(state, settling=passage, share=1.0, dry_blocks_left=0), op
+    steps = [speed * dt for speed in speeds_of(op)]
+    passes = (abs(steps[0]) / scene.film.domain, abs(steps[1]) / scene.film.domain)
+    state, fields = follow(scene, op, state, dt, steps)
+    sweep = Sweep.before(state)
+    sweep.add(scene, op, state, fields, passes)
+    state = _stored(scene, op, replace(state, trends=state.trends.restarted()), sweep, blocks=0)
+    left = max(state.settling - dt, 0.0)
+    hold = dt + min(instant_time(scene, op), left)
+    return replace(state, solved_for=since, settling=left, hold=hold)
+
+
 def solve_block(scene: Scene, op: OperatingPoint, state: ContactState) -> ContactState:
     """Solve the contact for one block; time stands still. Store what the surfaces feel and what the contact gives."""
     same = state.solved_for is not None and not has_moved(scene, op, state.solved_for)
+    state = replace(state, settling=0.0)
     if not same:
         state = replace(state, dry_blocks_left=0, share=1.0, trends=state.trends.restarted(), held=0.0)
     state = _wide_enough(scene, state)
@@ -127,14 +163,16 @@ def has_moved(scene: Scene, op: OperatingPoint, old: OperatingPoint) -> bool:
 def _wide_enough(scene: Scene, state: ContactState) -> ContactState:
     """The state with more rows if the scar has reached the edge of the patches."""
     rows = state.rows
-    if not _worn_at_the_edge(state) or rows >= _WIDEST * scene.film.points:
+    if not _worn_at_the_edge(scene, state) or rows >= _WIDEST * scene.rows:
         return state
     more = 8 * math.ceil(rows / 64)  # an eighth on either side
     first, second = (widened(body, more) for body in state.bodies)
     return replace(state, bodies=(first, second), film=None)
 
 
-def _worn_at_the_edge(state: ContactState) -> bool:
+def _worn_at_the_edge(scene: Scene, state: ContactState) -> bool:
+    if scene.shape().periodic:
+        return False  # there is none
     rows = [*range(_EDGE), *range(-_EDGE, 0)]
     return any(body.wear[rows].max() > 1e-3 * body.wear.max() for body in state.bodies)
 
@@ -143,10 +181,10 @@ def sweep_dry(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Swee
     """Add the instants of a dry block to `sweep`; return the state after them."""
     jumps = _dry_jumps(scene, op)
     for _ in range(scene.control.dry_instants):
-        state = _moved(scene, state, jumps)
+        state = rolled(scene, state, jumps)
         fields = solve(scene, op, state, dry=True, solid_share=state.share)
         sweep.add(scene, op, state, fields, (1.0 / _DRY_PASS, 1.0 / _DRY_PASS))
-        state = _yielded(scene, replace(state, film=None), fields.overlap)
+        state = yielded(scene, replace(state, film=None), fields.overlap)
     return state
 
 
@@ -170,38 +208,43 @@ def sweep_mixed(
 
     `same`: the march goes on, at the same operating point. `jumping` False: all bodies roll on as they are.
     """
-    columns = scene.film.points - 1
     dt = scene.film.spacing / max(abs(speed) for speed in speeds_of(op))
     steps = [speed * dt for speed in speeds_of(op)]
     passes = (abs(steps[0]) / scene.film.domain, abs(steps[1]) / scene.film.domain)
     rougher = 0 if scene.surface_1.rq > scene.surface_2.rq else 1
     jumps = _jumps(scene, op, 1 - rougher, _SMOOTHER if jumping else -1.0)
-    ahead = max(abs(speed) for speed in speeds_of(op)) / abs(op.entrainment_speed)
-    across = max(_SETTLING, math.ceil(_PASSAGE * scene.hertz_at(op).a / scene.film.spacing))
-    passage = across if ahead <= _AHEAD else min(math.ceil(across * ahead), _MOST_SETTLING)
-    unsampled = passage
+    passage = unsampled = _settling_instants(scene, op)
     if state.film is None:
         state = replace(state, film=solve(scene, op, state, dry=True, solid_share=state.share).film)
         unsampled = passage if state.share == 1.0 else _CALMING
     elif same and (any(jumps) or not jumping):
         unsampled = 0
     elif same:
-        state, unsampled = _moved(scene, state, _jumps(scene, op, 1 - rougher, 1.0)), _CALMING
+        state, unsampled = rolled(scene, state, _jumps(scene, op, 1 - rougher, 1.0)), _CALMING
     length = (scene.surface_1, scene.surface_2)[rougher].correlation_length / scene.film.spacing
     stride = max(1, round((0.5 * length) ** 2))  # instants in which oil between asperities gets used to a jump
     for k in range(-unsampled, _mixed_instants(scene)):
-        before = patch_nodes(scene, state.bodies[rougher])
+        before = state
         jump_now = k % stride == 0
-        state = _moved(scene, state, [step + jump * jump_now for step, jump in zip(steps, jumps, strict=True)])
-        moved = (patch_nodes(scene, state.bodies[rougher]) - before + columns // 2) % columns - columns // 2
+        state = rolled(scene, state, [step + jump * jump_now for step, jump in zip(steps, jumps, strict=True)])
+        moved = moved_nodes(scene, before, state)
         settled = 2 * k >= -unsampled  # enough to tell which points are touched, and how warm they are
         fields = solve(scene, op, state, Transient(dt, moved, _ITERATIONS, heated=settled))
         if k >= 0:
             sweep.add(scene, op, state, fields, passes)
         elif settled:
             sweep.touch(scene, op, state, fields, passes)
-        state = _yielded(scene, replace(state, film=fields.film), fields.overlap)
+        state = yielded(scene, replace(state, film=fields.film), fields.overlap)
     return state
+
+
+def _settling_instants(scene: Scene, op: OperatingPoint) -> int:
+    """Instants, a node of the faster body apart, until the film has settled."""
+    fastest, entrained = max(abs(speed) for speed in speeds_of(op)), abs(op.entrainment_speed)
+    across = max(_SETTLING, math.ceil(_PASSAGE * scene.hertz_at(op).a / scene.film.spacing))
+    if fastest <= _AHEAD * entrained:
+        return across
+    return min(math.ceil(across * fastest / entrained), _MOST_SETTLING) if entrained > 0.0 else _MOST_SETTLING
 
 
 def _mixed_instants(scene: Scene) -> int:
@@ -216,25 +259,7 @@ def _jumps(scene: Scene, op: OperatingPoint, i: int, most: float) -> list[float]
     return [scene.film.domain * _GOLDEN * (jumping and k == i) for k in (0, 1)]
 
 
-def _moved(scene: Scene, state: ContactState, steps: list[float]) -> ContactState:
-    first, second = (
-        replace(body, offset=(body.offset + step) % scene.film.domain)
-        for body, step in zip(state.bodies, steps, strict=True)
-    )
-    return replace(state, bodies=(first, second))
-
-
-def _yielded(scene: Scene, state: ContactState, overlap: Array) -> ContactState:
-    """The state after half of the overlap has been pressed into each body, for good."""
-    if not overlap.any():
-        return state
-    first, second = (
-        replace(body, plastic=body.plastic + 0.5 * on_patch(overlap, patch_nodes(scene, body))) for body in state.bodies
-    )
-    return replace(state, bodies=(first, second))
-
-
-def _feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, i: int, alike: float) -> Body:
+def feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, i: int, alike: float) -> Body:
     """A body with what the block makes it feel: mean pressure over its track, abrasion by that, and exposure per test
     time by the dose that the constants of the tribofilm law were fitted with.
     """
@@ -300,17 +325,17 @@ def _flags_of_motion(scene: Scene, op: OperatingPoint, state: ContactState, driv
         flags |= RangeFlag.SLOW_BODY
     if op.load > 0.0 and _stable_time(scene, op, state) < _SHORTEST * scene.control.longest:
         flags |= RangeFlag.STIFF_WEAR
-    if _worn_at_the_edge(state):
+    if _worn_at_the_edge(scene, state):
         flags |= RangeFlag.DOMAIN_EDGE
     return flags
 
 
-def _stored(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep) -> ContactState:
+def _stored(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, blocks: int = 1) -> ContactState:
     """The state with a block's results: exposure of the surfaces, outputs, and what decides about the next block."""
     driver = "fallback" if 2 * sweep.fallbacks > sweep.count else "mixed" if sweep.mixed else "dry"
     sweep.flags = sweep.all_flags | _flags_of_motion(scene, op, state, driver)
     alike = _ALIKE["dry" if driver == "dry" else "mixed"]
-    bodies = (_feeling(scene, op, state, sweep, 0, alike), _feeling(scene, op, state, sweep, 1, alike))
+    bodies = (feeling(scene, op, state, sweep, 0, alike), feeling(scene, op, state, sweep, 1, alike))
     seen, spread = sweep.means(), sweep.spread(apart=driver == "dry")
     state = replace(state, bodies=bodies)
     share = seen["contact_load_ratio"]
@@ -321,11 +346,11 @@ def _stored(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep)
         film = thickness(body.growth, body.removal)[track_rows(scene, state.rows)]
         seen |= {f"roughness_{i + 1}": roughness_now(scene, body, i), f"tribofilm_{i + 1}": float(film.mean())}
     trends = state.trends.followed(seen, spread, _MEMORY["dry" if driver == "dry" else "mixed"], _lag(scene, driver))
-    smooth, blocks = trends.values(), f"blocks_{driver}"
+    smooth, count = trends.values(), f"blocks_{driver}"
     outputs = replace(
         state.outputs,
         **smooth,
-        **{blocks: getattr(state.outputs, blocks) + 1.0},
+        **{count: getattr(state.outputs, count) + blocks},
         **sweep.slopes(scene, op),
         friction_coefficient=abs(smooth["friction_force"]) / op.load if op.load > 0.0 else 0.0,
         range_flags=int(sweep.flags),

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from .errors import OperatingPointError, SceneError
 from .film import Deterministic
-from .film.instant import FilmSolution, FilmState, Grid, Instant
+from .film.instant import FilmSolution, FilmState, Grid, Instant, Step
 from .friction import Film, Friction, friction
 from .laws.heat import Temperatures
 from .laws.tribofilm import thickness
@@ -27,6 +27,8 @@ class Transient:
     moved: int  # nodes by which the rougher surface has moved along +x since then
     iterations: int  # at most
     heated: bool = True  # False: nobody asks for temperatures; the film stays as warm as it was
+    order: int = 1  # of the squeeze term in time, 1 or 2
+    thorough: bool = False  # True: each algorithm has its turn; False: what the film lacks, the next instant pays
 
 
 @dataclass(frozen=True)
@@ -113,7 +115,9 @@ def solve(
     if op.load == 0.0:
         film = _open(scene, op, grid, heights)
     else:
-        follows = (transient.dt, transient.moved) if transient and before else None
+        step = None
+        if transient and before:
+            step = Step(transient.dt, transient.moved, transient.order, transient.thorough)
         most = transient.iterations if transient else None
         film = solve_flow(
             scene,
@@ -122,7 +126,7 @@ def solve(
             cover,
             now,
             before,
-            lambda now, start: level.solve(now, grid, start, follows, most),
+            lambda now, start: level.solve(now, grid, start, step, most),
             level.tolerance,
         )
     found, stress, warm, shortfall = warmed(
@@ -163,26 +167,27 @@ def solve(
 
 def instant_of(scene: Scene, op: OperatingPoint, heights: Array, limit: Array) -> Instant:
     """An instant of a scene with heights and largest pressures as given, [ny, nx]."""
-    radius_x, radius_y = scene.radii(op)
     return Instant(
         load=op.load,
         entrainment_speed=op.entrainment_speed,
         temperature=op.inlet_temperature,
-        radius_x=radius_x,
-        radius_y=radius_y,
+        shape=scene.shape(op),
         reduced_modulus=scene.solids.reduced_modulus,
         viscosity=scene.lubricant.viscosity,
         density=scene.lubricant.density,
         heights=heights,
         limit=limit,
         hardness=scene.plasticity.hardness,
+        conserving=scene.lubricant.cavitation == "mass_conserving",
+        supply=scene.lubricant.supply.layer,
+        meniscus=scene.lubricant.supply.inlet,
     )
 
 
 def _open(scene: Scene, op: OperatingPoint, grid: Grid, heights: Array) -> FilmSolution:
     """No load: the bodies just touch and nothing presses."""
-    radius_x, radius_y = scene.radii(op)
-    shape = grid.x[None, :] ** 2 / (2 * radius_x) + grid.y[:, None] ** 2 / (2 * radius_y) - heights
+    bodies = scene.shape(op)
+    shape = bodies.gap(grid.x, grid.y, 1.0) / bodies.radius_x - heights
     rigid = scene.film.floor - float(shape.min())
     zeros, nothing = np.zeros_like(shape), np.zeros(shape.shape, np.bool_)
     return FilmSolution(

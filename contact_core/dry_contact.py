@@ -41,6 +41,7 @@ class _Numbers:
 
     spacing: float = parameter("m", "distance between nodes along x and y", above=0.0, most=1.0)
     radius: float = parameter("m", "combined radius of curvature, inf for flat bodies", above=0.0, most=1e3)
+    radius_y: float = parameter("m", "combined radius of curvature along y, inf with radius", above=0.0, most=1e3)
     load: float = parameter("N", "normal load", above=0.0, most=1e9)
     reduced_modulus: float = parameter("Pa", "E' = 2 / [(1 - v1^2)/E1 + (1 - v2^2)/E2]", above=1e3, most=1e13)
     hardness: float = parameter("Pa", "largest pressure, None for elastic bodies", above=0.0, most=1e13)
@@ -57,15 +58,18 @@ def dry_contact(
     hardness: float | None = None,
     tolerance: float = 1e-8,
     *,
+    radius_y: float | None = None,
     fft: str = "pyfftw",
 ) -> DryContact:
     """Press two rough bodies together: no fluid, no friction, elastic half spaces that yield at the hardness.
 
-    The gap at distance r from the centre of the array is r^2 / (2 radius) - heights + deformation - approach.
+    The gap at (x, y) from the centre of the array is x^2 / (2 radius) + y^2 / (2 radius_y) - heights + deformation -
+    approach.
 
     heights: [ny, nx] of both bodies together [m], positive toward the other body, any sizes from 2 on.
     spacing: distance between nodes along x and y [m].
     radius: combined radius of curvature [m], 1 / (1/R1 + 1/R2); inf for flat bodies that end with the array.
+    radius_y: that along y [m] where it differs; then both are finite.
     load: [N]. reduced_modulus: E' = 2 / [(1 - v1^2)/E1 + (1 - v2^2)/E2] [Pa].
     hardness: largest pressure [Pa]; None for elastic bodies.
     tolerance: largest relative error of the pressure, sum |p - exact p| / sum p, by estimate.
@@ -78,20 +82,23 @@ def dry_contact(
     from .kernels.dry import dry_solution
 
     z = _heights(heights)
-    numbers = _numbers(spacing, radius, load, reduced_modulus, hardness, tolerance, fft)
+    numbers = _numbers(spacing, radius, radius_y, load, reduced_modulus, hardness, tolerance, fft)
     spacing, load, radius = numbers.spacing, numbers.load, float(radius)
+    radius_y = radius if radius_y is None else float(radius_y)
     _check_capacity(z, spacing, load, hardness)
     ny, nx = z.shape
     # pressures by their mean over the array; gaps by what gives the kernel a factor of one
     p_unit = load / (spacing**2 * z.size)
     h_unit = 2.0 * spacing * p_unit / (math.pi * numbers.reduced_modulus)
     x, y = (spacing * (np.arange(n) - 0.5 * (n - 1)) for n in (nx, ny))
-    radius_2 = x[None, :] ** 2 + y[:, None] ** 2
+    ratio = 1.0 if radius == radius_y else radius / radius_y
+    radius_2 = x[None, :] ** 2 + ratio * y[:, None] ** 2
     cap = np.full(z.shape, np.inf if hardness is None else float(hardness) / p_unit)
     start, area = np.ones(z.shape), spacing**2 * z.size
     if math.isfinite(radius):
-        hertz = hertz_point(load, radius, radius, numbers.reduced_modulus)
-        start, area = np.sqrt(np.maximum(1.0 - radius_2 / hertz.a**2, 0.0)), hertz.area
+        hertz = hertz_point(load, radius, radius_y, numbers.reduced_modulus)
+        ellipse = x[None, :] ** 2 + (hertz.a / hertz.b) ** 2 * y[:, None] ** 2
+        start, area = np.sqrt(np.maximum(1.0 - ellipse / hertz.a**2, 0.0)), hertz.area
     found = dry_solution(
         half_space((ny, nx), 1.0, fft),
         (radius_2 / (2.0 * radius) - z) / h_unit,
@@ -140,11 +147,12 @@ def _heights(heights: ArrayLike) -> Array:
 
 
 def _numbers(
-    spacing: Any, radius: Any, load: Any, reduced_modulus: Any, hardness: Any, tolerance: Any, fft: str
+    spacing: Any, radius: Any, radius_y: Any, load: Any, reduced_modulus: Any, hardness: Any, tolerance: Any, fft: str
 ) -> _Numbers:
     given = {
         "spacing": spacing,
         "radius": radius,
+        "radius_y": radius if radius_y is None else radius_y,
         "load": load,
         "reduced_modulus": reduced_modulus,
         "hardness": 1.0 if hardness is None else hardness,
@@ -156,9 +164,11 @@ def _numbers(
         except (TypeError, ValueError):
             text = next(f.metadata["text"] for f in fields(_Numbers) if f.name == name)
             raise OperatingPointError(f"{name} = {value!r} ({text}) must be a number in SI units.") from None
-    flat = given["radius"] == math.inf
-    numbers = _Numbers(**(given | ({"radius": 1.0} if flat else {})), fft=fft)
+    flat = given["radius"] == given["radius_y"] == math.inf
+    numbers = _Numbers(**(given | ({"radius": 1.0, "radius_y": 1.0} if flat else {})), fft=fft)
     sentences = list(out_of_range(numbers, ""))
+    if radius_y is None:  # the same fault once
+        sentences = [sentence for sentence in sentences if not sentence.startswith("radius_y")]
     if sentences:
         raise OperatingPointError(" ".join(sentences))
     return numbers

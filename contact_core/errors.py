@@ -19,3 +19,7 @@ class StateError(ContactError):
 
 class ConvergenceError(ContactError):
     """No solution exists or none was found, also not by the fallback."""
+
+
+class FilmTooWideError(ConvergenceError):
+    """An oil film so thick, for its load, that it does not fit on the grid."""

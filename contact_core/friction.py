@@ -82,7 +82,7 @@ def shear(scene: Scene, op: OperatingPoint, film: Film) -> Shear:
 
 def friction(stress: Shear, grid: Grid) -> Friction:
     """What the stresses add up to."""
-    cell, total = grid.spacing**2, stress.total
+    cell, total = grid.cell, stress.total
     lever = grid.x[None, :] * stress.along_y - grid.y[:, None] * stress.along_x if np.ndim(stress.speed) else 0.0
     power, pull = float((total * stress.speed).sum()), float(total.sum())
     return Friction(
@@ -114,7 +114,7 @@ def derivatives(scene: Scene, op: OperatingPoint, film: Film) -> dict[str, float
         scene.boundary_friction(film.solid, film.cover, speed),
         scene.boundary_friction.slope(film.solid, film.cover, speed),
     )
-    cell = grid.spacing**2
+    cell = grid.cell
 
     def force(stress: Array) -> float:
         return -float((stress * along_x).sum()) * cell

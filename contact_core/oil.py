@@ -108,7 +108,7 @@ def solve_flow(
     inlet = inlet_ease(scene, op)
     if inlet != 1.0:
         now = replace(now, ease=np.full(grid.shape, inlet))
-    if scene.lubricant.flow == "newtonian" or now.dry or op.entrainment_speed == 0.0:
+    if scene.lubricant.flow == "newtonian" or now.dry or (op.entrainment_speed == 0.0 and before is None):
         return solve(now, before)
     if before is not None:
         return solve(recalled(now, before), before)

@@ -11,6 +11,7 @@ from typing import Any, get_args, get_origin, get_type_hints
 from . import units
 from .errors import SceneError
 from .film import FILMS
+from .geometry import GEOMETRIES
 from .laws import SLOTS
 
 
@@ -47,6 +48,11 @@ def did_you_mean(word: str, choices: list[str]) -> str:
     """Return " Did you mean ...?" if one of the choices looks like the word, else nothing."""
     close = difflib.get_close_matches(word, choices, n=1, cutoff=0.5)
     return f" Did you mean '{close[0]}'?" if close else ""
+
+
+def models_of(path: str) -> tuple[type, ...]:
+    """The records that a table at a dotted path may be, told apart by its `model`; none if there is one kind only."""
+    return {"film": FILMS, "geometry": GEOMETRIES}.get(path) or SLOTS.get(path.rpartition(".")[2], ())
 
 
 def override(table: dict[str, Any], key: str, value: str) -> None:
@@ -94,11 +100,11 @@ def build(cls: type, table: Any, path: str) -> Any:
 
 
 def _value(hint: Any, raw: Any, full: str, f: "Field[Any]") -> Any:
-    slot = full.rpartition(".")[2]
-    models = None if f.metadata else SLOTS.get(slot) or (FILMS if slot == "film" else None)
+    models = () if f.metadata else models_of(full)
     if models:
-        if isinstance(raw, Mapping) and not {"model", "set"} & set(raw) and hasattr(f.default, "name"):
-            raw = {"model": f.default.name, **raw}
+        usual = models[0].name if full == "geometry" else getattr(f.default, "name", None)  # type: ignore[attr-defined]
+        if isinstance(raw, Mapping) and not {"model", "set"} & set(raw) and usual:
+            raw = {"model": usual, **raw}
         return _build_law(models, raw, full)
     if is_dataclass(hint):
         return build(hint, raw, full)  # type: ignore[arg-type]
@@ -156,9 +162,7 @@ def _with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
 
 def _for_model(table: Mapping[str, Any], path: str, model: str) -> dict[str, Any]:
     """The keys of a law's table that the law `model` in its place has, too."""
-    slot = path.rpartition(".")[2]
-    models = FILMS if path == "film" else SLOTS.get(slot, ())
-    shared = {f.name for law in models if law.name == model for f in fields(law)}  # type: ignore[attr-defined]
+    shared = {f.name for law in models_of(path) if law.name == model for f in fields(law)}  # type: ignore[attr-defined]
     return {name: item for name, item in table.items() if name in shared}
 
 
@@ -174,7 +178,7 @@ def _merged(base: Mapping[str, Any], over: Mapping[str, Any], path: str) -> dict
 
 def _hint(f: "Field[Any]") -> str:
     if "unit" not in f.metadata:
-        models = ", ".join(law.name for law in SLOTS.get(f.name, ()))  # type: ignore[attr-defined]
+        models = ", ".join(law.name for law in models_of(f.name))  # type: ignore[attr-defined]
         return f"Add the table, with a 'model': {models}." if models else "Add the table."
     return f"It is the {f.metadata['text']}" + (f" [{f.metadata['unit']}]." if f.metadata["unit"] else ".")
 
@@ -198,4 +202,4 @@ def unbuild(record: Any) -> dict[str, Any]:
 
 
 def _all_models() -> set[type]:
-    return {model for models in (*SLOTS.values(), FILMS) for model in models}
+    return {model for models in (*SLOTS.values(), FILMS, GEOMETRIES) for model in models}

@@ -5,7 +5,7 @@ import json
 import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import Field, dataclass, fields, is_dataclass, replace
+from dataclasses import Field, dataclass, field, fields, is_dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import pairwise
 from pathlib import Path
@@ -13,38 +13,26 @@ from typing import Any
 
 from .errors import OperatingPointError, SceneError
 from .film import FILMS, Deterministic, Regression
-from .laws import SLOTS
+from .geometry import Geometry, LineGeometry, PointGeometry, RollerGeometry
 from .laws.boundary_friction import FilmBlend
 from .laws.density import DowsonHigginson, Incompressible
 from .laws.heat import FlashTemperature, NoHeat, TemperatureField
 from .laws.plasticity import ElasticPerfectlyPlastic
 from .laws.rheology import Carreau, Eyring, Newtonian
+from .laws.supply import Flooded, Meniscus, SupplyFilm
 from .laws.tribofilm import Andersson, Combined, Ghanbarzadeh, Gosvami, NoTribofilm, ZhangSpikes
 from .laws.viscosity import AstmD341, Barus, Modulus, Roelands
 from .laws.wear import Archard, NoWear
 from .quantities import TABLE, input_parameter, out_of_range, parameter
-from .reading import build, did_you_mean, override, read_table, unbuild
-from .reference import Hertz, hertz_point
+from .reading import build, did_you_mean, models_of, override, read_table, unbuild
+from .reference import Hertz
+from .shapes import Shape
 
 _SEEDS = 2**31  # of a surface: what FMI's integers can tell apart
 _SEED_STEP = 1_327_217_885  # the odd number nearest to _SEEDS over the golden ratio
 _ROOM = 2.4  # side of the grid over the half width of Hertz's contact, at least
+_BESIDE = 1.02  # side of the grid over the length of a roller
 _INPUTS_ANYWAY = ("geometry.radius_x", "geometry.radius_y")
-
-
-@dataclass(frozen=True)
-class Geometry:
-    """Undeformed shape and the way a surface point travels between two passes through the contact."""
-
-    radius_x: float = input_parameter("radius_x")  # where an operating point says nothing else
-    radius_y: float = input_parameter("radius_y")
-    track_length_1: float = parameter("m", "travel of a point of body 1 between two passes", above=0.0, most=1e3)
-    track_length_2: float = parameter("m", "travel of a point of body 2 between two passes", above=0.0, most=1e3)
-
-    @property
-    def radii(self) -> tuple[float, float]:
-        """Combined radii of curvature [m] along x and y."""
-        return self.radius_x, self.radius_y
 
 
 @dataclass(frozen=True)
@@ -80,6 +68,14 @@ class Lubricant:
         choices=("newtonian", "local"),
         default="newtonian",
     )
+    cavitation: str = parameter(
+        "",
+        "where oil would be under tension: reynolds, it has no pressure and its gap counts as full; mass_conserving, "
+        "the gap holds what flows in, and is full where that is more than it can hold",
+        choices=("reynolds", "mass_conserving"),
+        default="reynolds",
+    )
+    supply: Flooded | SupplyFilm | Meniscus = field(default=Flooded())
 
 
 @dataclass(frozen=True)
@@ -108,6 +104,13 @@ class Control:
         default=0,
     )
     longest: float = parameter("s", "longest block", above=0.0, most=1e9, default=120.0)
+    inputs: str = parameter(
+        "",
+        "what a change of load, speeds or radii finds: quasi_steady, a film that has long settled; transient, the one "
+        "that was there, which follows",
+        choices=("quasi_steady", "transient"),
+        default="quasi_steady",
+    )
 
 
 @dataclass(frozen=True)
@@ -208,8 +211,7 @@ class Operation:
 
 def _full_key(key: str, value: str) -> str:
     """`heat.bulk=oil` is short for `heat.bulk.model=oil`."""
-    laws = FILMS if key == "film" else SLOTS.get(key.rpartition(".")[2], ())
-    return f"{key}.model" if value in {law.name for law in laws} else key  # type: ignore[attr-defined]
+    return f"{key}.model" if value in {law.name for law in models_of(key)} else key  # type: ignore[attr-defined]
 
 
 def _rank(item: tuple[str, str]) -> int:
@@ -295,18 +297,27 @@ class Scene:
         )
         return replace(self, surface_1=first, surface_2=second)
 
+    def shape(self, op: OperatingPoint | None = None) -> Shape:
+        """The undeformed bodies, at an operating point or at the scene's own radii."""
+        if op is None or op.radius_x is op.radius_y is None:
+            return self._own_shape
+        return self.geometry.shape(op.radius_x, op.radius_y)
+
+    @cached_property
+    def _own_shape(self) -> Shape:
+        return self.geometry.shape()
+
+    def radii(self, op: OperatingPoint) -> tuple[float, ...]:
+        """Combined radii of curvature [m] along x and, for points, along y at an operating point."""
+        return tuple(value for _, value in _radii(self.shape(op)))
+
     def hertz(self, load: float) -> Hertz:
         """Hertz's contact of the smooth, dry bodies at a load [N] above zero."""
-        return hertz_point(load, *self.geometry.radii, self.solids.reduced_modulus)
-
-    def radii(self, op: OperatingPoint) -> tuple[float, float]:
-        """Combined radii of curvature [m] along x and y at an operating point."""
-        x, y = op.radius_x, op.radius_y
-        return self.geometry.radius_x if x is None else x, self.geometry.radius_y if y is None else y
+        return self.shape().hertz(load, self.solids.reduced_modulus)
 
     def hertz_at(self, op: OperatingPoint) -> Hertz:
         """Hertz's contact of the smooth, dry bodies at an operating point with a load."""
-        return hertz_point(op.load, *self.radii(op), self.solids.reduced_modulus)
+        return self.shape(op).hertz(op.load, self.solids.reduced_modulus)
 
     @cached_property
     def unit_hertz(self) -> Hertz:
@@ -315,30 +326,74 @@ class Scene:
 
     def unit_hertz_at(self, op: OperatingPoint) -> Hertz:
         """Hertz's contact at 1 N and the radii of an operating point."""
-        return _unit_hertz(*self.radii(op), self.solids.reduced_modulus)
+        if op.radius_x is op.radius_y is None:
+            return self.unit_hertz
+        return _unit_hertz(self.shape(op), self.solids.reduced_modulus)
+
+    @cached_property
+    def rows(self) -> int:
+        """Rows of nodes that the contact has along y before a scar makes them more."""
+        film, shape = self.film, self._own_shape
+        if shape.periodic:
+            smooth = self.surface_1.rq == self.surface_2.rq == 0.0
+            if film.width == 0.0 and smooth:
+                return 1  # all are alike
+            pairs = round(0.5 * (film.width or film.domain) / film.spacing)
+            return max(2 * pairs, 1)  # a grid of half as many rows has the same period
+        if film.width > 0.0:
+            return round(film.width / film.spacing) + 1
+        if isinstance(self.geometry, RollerGeometry):
+            return 16 * math.ceil(_BESIDE * self.geometry.face_width / film.spacing / 16.0) + 1
+        return film.points
+
+    @property
+    def repeats(self) -> float:
+        """How many times the grid lies in the contact, side by side along y."""
+        if not isinstance(self.geometry, LineGeometry):
+            return 1.0
+        return self.geometry.face_width / (self.rows * self.film.spacing)
 
     def refusal(self, op: OperatingPoint) -> str:
-        """Why the grid cannot hold the contact that an operating point's radii make; "" if it can, or without them."""
-        if self.film.name != "deterministic" or op.load == 0.0 or self.radii(op) == self.geometry.radii:
+        """Why the scene cannot have an operating point: of radii that make a contact that its grid cannot hold, or of
+        a motion that its shape does not allow. "" if it can.
+        """
+        if not isinstance(self.geometry, PointGeometry):
+            if op.radius_y is not None:
+                return f"radius_y = {op.radius_y:g} m: geometry.model = '{self.geometry.name}' has none. Leave it out."
+            if op.spin != 0.0 and self._own_shape.periodic:
+                return (
+                    f"spin = {op.spin:g} rad/s must be 0 where geometry.model = 'line': each part of the face would "
+                    "slide otherwise. Use geometry.model = 'roller'."
+                )
+        if self.film.name != "deterministic" or op.load == 0.0 or self.shape(op) == self._own_shape:
             return ""
-        own, hertz, (x, y) = self.hertz(op.load), self.hertz_at(op), self.radii(op)
-        said, wide = f"At {op.load:g} N radius_x = {x:g} m and radius_y = {y:g} m", max(hertz.a, hertz.b)
-        room = self.film.domain / _ROOM
-        if wide > max(room, own.a, own.b):  # a and b grow with the cube root of both radii
-            most = (room / wide) ** 3
-            return (
-                f"{said} make a Hertz contact of {2 * hertz.a:.3g} m by {2 * hertz.b:.3g} m, too large for "
-                f"film.domain = {self.film.domain:g} m. Use at most {most * x:.3g} m and {most * y:.3g} m, less load, "
-                f"or a scene with a domain of at least {2.9 * wide:.2g} m."
-            )
+        own, hertz, shape = self.hertz(op.load), self.hertz_at(op), self.shape(op)
+        radii = " and ".join(f"{name} = {value:g} m" for name, value in _radii(shape))
+        said = f"At {op.load:g} N {radii} make a Hertz"
+        for half, before, room in zip((hertz.a, hertz.b), (own.a, own.b), self._room(), strict=True):
+            if half > max(room, before):  # in proportion to the radii's power `power`
+                most = (room / half) ** (1.0 / shape.power)
+                return (
+                    f"{said} contact of {2 * hertz.a:.3g} m by {2 * hertz.b:.3g} m, too large for "
+                    f"film.domain = {self.film.domain:g} m. Use at most "
+                    f"{' and '.join(f'{most * value:.3g} m' for _, value in _radii(shape))}, less load, "
+                    f"or a scene with a domain of at least {1.2 * _ROOM * half:.2g} m."
+                )
         hardness = self.plasticity.hardness
-        if hertz.pressure_max > max(hardness, own.pressure_max):  # in proportion to the radii's power -2/3
-            least = (hertz.pressure_max / hardness) ** 1.5
+        if hertz.pressure_max > max(hardness, own.pressure_max):
+            least = (hertz.pressure_max / hardness) ** (1.0 / (1.0 - shape.power))
             return (
-                f"{said} make a Hertz pressure of {hertz.pressure_max:.3g} Pa, above plasticity.hardness = "
-                f"{hardness:g} Pa. Use at least {least * x:.3g} m and {least * y:.3g} m, or less load."
+                f"{said} pressure of {hertz.pressure_max:.3g} Pa, above plasticity.hardness = {hardness:g} Pa. Use at "
+                f"least {' and '.join(f'{least * value:.3g} m' for _, value in _radii(shape))}, or less load."
             )
         return ""
+
+    def _room(self) -> tuple[float, float]:
+        """Largest half widths [m] of Hertz's contact along x and y that the grid has room for."""
+        across = (
+            math.inf if not isinstance(self.geometry, PointGeometry) else (self.rows - 1) * self.film.spacing / _ROOM
+        )
+        return self.film.domain / _ROOM, across
 
     @property
     def largest_load(self) -> float:
@@ -354,7 +409,7 @@ class Scene:
     def _digest(self) -> str:
         table = self.to_dict()
         parts = {key: table[key] for key in ("geometry", "surface_1", "surface_2")}
-        parts["grid"] = [self.film.points, self.film.domain]
+        parts["grid"] = [self.film.points, self.film.domain, self.rows]
         return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:16]
 
     def check(self) -> list[tuple[str, str]]:
@@ -369,13 +424,24 @@ class Scene:
     def _shape_errors(self) -> Iterator[tuple[str, str]]:
         load, plasticity = self.largest_load, self.plasticity
         hertz = self.hertz(load)
-        wide = max(hertz.a, hertz.b)
-        if self.film.domain < _ROOM * wide:
+        for name, half, room in zip(("domain", "width"), (hertz.a, hertz.b), self._room(), strict=True):
+            if half > room:
+                name = name if self.film.width > 0.0 else "domain"
+                yield (
+                    name,
+                    f"film.{name} = {getattr(self.film, name):g} m is too small: at {load:g} N the Hertz contact is "
+                    f"{2 * hertz.a:.3g} m by {2 * hertz.b:.3g} m. Use at least {1.2 * _ROOM * half:.2g} m.",
+                )
+                break
+        depth = (self.rows - 1) * self.film.spacing
+        if isinstance(self.geometry, RollerGeometry) and depth < self.geometry.face_width:
             yield (
-                "domain",
-                f"film.domain = {self.film.domain:g} m is too small: at {load:g} N the Hertz contact is "
-                f"{2 * hertz.a:.3g} m by {2 * hertz.b:.3g} m. Use at least {2.9 * wide:.2g} m.",
+                "width",
+                f"film.width = {self.film.width:g} m is too small: the ends of geometry.face_width = "
+                f"{self.geometry.face_width:g} m must lie on the grid. Use at least {_BESIDE:g} times that, or 0.",
             )
+        if isinstance(self.geometry, LineGeometry) and self.heat.name == "field":
+            yield "heat", "heat.model = 'field' knows no line that repeats itself. Use 'flash', or a roller."
         if hertz.pressure_max >= plasticity.hardness:
             yield (
                 "hardness",
@@ -421,6 +487,14 @@ class Scene:
                 "viscosity",
                 f"lubricant.viscosity.viscosity_100 = {oil.viscosity_100:g} m2/s must be below viscosity_40 = "
                 f"{oil.viscosity_40:g} m2/s: oils thin when they warm. Exchange the two if they were mixed up.",
+            )
+
+        if self.lubricant.supply.layer is not None and self.lubricant.cavitation != "mass_conserving":
+            yield (
+                "supply",
+                f"lubricant.supply.thickness = {self.lubricant.supply.layer:g} m needs lubricant.cavitation = "
+                f"'mass_conserving': with '{self.lubricant.cavitation}' every gap counts as full. Set it, or use the "
+                "supply 'meniscus'.",
             )
 
     def _duty_errors(self) -> Iterator[tuple[str, str]]:
@@ -483,8 +557,13 @@ class Scene:
 
 
 @lru_cache(maxsize=64)
-def _unit_hertz(radius_x: float, radius_y: float, reduced_modulus: float) -> Hertz:
-    return hertz_point(1.0, radius_x, radius_y, reduced_modulus)
+def _unit_hertz(shape: Shape, reduced_modulus: float) -> Hertz:
+    return shape.hertz(1.0, reduced_modulus)
+
+
+def _radii(shape: Shape) -> list[tuple[str, float]]:
+    """Names and values [m] of a shape's radii."""
+    return [(name, getattr(shape, name)) for name in ("radius_x", "radius_y") if hasattr(shape, name)]
 
 
 def with_bodies(scene: Scene, op: OperatingPoint, stored: tuple[float, float] | None) -> OperatingPoint:

@@ -24,7 +24,7 @@ from .trends import Trends
 
 Array = NDArray[np.float64]
 _Record = TypeVar("_Record", "ContactState", "Outputs", "Mean")
-_MAGIC, _SCHEMA = b"tribofmu", 4
+_MAGIC, _SCHEMA = b"tribofmu", 5
 
 
 class RangeFlag(IntFlag):
@@ -178,6 +178,7 @@ class ContactState:
     change: float  # geometry change since the last block [m]
     held: float  # time since the last block [s]
     hold: float  # longest time until the next block [s]
+    settling: float  # time [s] for which the film still follows inputs that have changed (control.inputs)
     dry_blocks_left: int  # blocks until the share of the solids is measured again
     share: float  # of the load on the solids of a dry contact
     trends: Trends
@@ -314,6 +315,7 @@ def _unpack_state(tree: dict[str, Any], arrays: Any) -> ContactState:
         change=float.fromhex(tree["change"]),
         held=float.fromhex(tree["held"]),
         hold=float.fromhex(tree["hold"]),
+        settling=float.fromhex(tree["settling"]),
         dry_blocks_left=tree["dry_blocks_left"],
         share=float.fromhex(tree["share"]),
         trends=record(Trends, tree["trends"]),
@@ -335,9 +337,9 @@ def changed(record: _Record, **values: Any) -> _Record:
 
 def initial_state(scene: Scene) -> ContactState:
     """Fresh surfaces: no film, no wear, nothing solved."""
-    shape = (scene.film.points, scene.film.points - 1)
+    shape = (scene.rows, scene.film.points - 1)
     zeros = np.zeros(shape)
     body = Body(zeros, zeros, zeros, zeros, zeros, zeros, zeros, np.full(shape, np.inf), 0.0, 0.0, 0.0, 0.0)
     return ContactState(
-        scene.digest(), 0.0, (body, body), None, "", None, 0.0, 0.0, 0.0, 0, 1.0, Trends.fresh(), None, Outputs()
+        scene.digest(), 0.0, (body, body), None, "", None, 0.0, 0.0, 0.0, 0.0, 0, 1.0, Trends.fresh(), None, Outputs()
     )

@@ -6,11 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .contact import ContactFields
-from .film.instant import Grid
 from .film.outputs import disc, film_outputs, open_outputs
 from .friction import Film, derivatives
-from .patches import on_patch, patch_nodes
-from .reference import SmoothContact, hamrock_dowson
+from .patches import contact_grid, on_patch, patch_nodes
+from .reference import SmoothContact, dowson_line, hamrock_dowson
 from .scene import OperatingPoint, Scene
 from .state import ContactState, RangeFlag
 
@@ -66,7 +65,7 @@ class Sweep:
         for i, body in enumerate(state.bodies):
             self.pressures[i][:] += on_patch(fields.solid_pressure, patch_nodes(scene, body))
             self.exposures[i][:] += exposures[i]
-        self.outputs.append(_observed(scene, op, fields))
+        self.outputs.append(observed(scene, op, fields))
         self.sheared = fields.sheared
         self.iterations += fields.iterations
         self.mixed += fields.route == "mixed"
@@ -115,18 +114,17 @@ def _exposures(scene: Scene, op: OperatingPoint, fields: ContactFields) -> tuple
     return first, first if alike else scene.tribofilm.exposure(*stresses, warm_2)
 
 
-def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[str, float]:
-    """The outputs of one instant."""
-    cell = scene.film.spacing**2
+def observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[str, float]:
+    """What one instant gives to the outputs."""
+    grid = contact_grid(scene, fields.y.size)
     found, warm = fields.friction, fields.temperatures
     seen = {
         "friction_force": found.force_solid + found.force_fluid,
         "friction_solid": found.force_solid,
         "spin_torque": found.spin_torque,
         "flash_temperature_rise": warm.flash_rise,
-        "heat_flow_1": warm.into_1,
+        "heat_flow_1": warm.into_1 * grid.repeats,
     }
-    grid = Grid(fields.x, fields.y)
     formula, sigma = 0.0, 0.0
     if op.load > 0.0:
         hertz = scene.hertz_at(op)
@@ -135,7 +133,7 @@ def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[s
         slope = np.gradient(fields.fluid_pressure, scene.film.spacing, axis=1)
         seen |= film_outputs(grid, fields.film, fields.gap, op.load, hertz)
         seen |= {
-            "rolling_resistance": float((0.5 * fields.gap * slope).sum()) * cell,
+            "rolling_resistance": float((0.5 * fields.gap * slope).sum()) * grid.cell,
             "contact_area_ratio_disc": float((fields.solid_pressure[inside] > 0.0).mean()),
             "contact_load_ratio_disc": float(fields.solid_pressure[inside].sum() / carried) if carried > 0.0 else 0.0,
         }
@@ -151,12 +149,15 @@ def _observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[s
 
 
 def _formula_film(scene: Scene, op: OperatingPoint) -> float:
-    """Hamrock & Dowson's central film [m] of the smooth bodies; zero without entrainment."""
+    """Conventional central film [m] of the smooth bodies: Hamrock & Dowson's, for lines Dowson & Toyoda's; zero without
+    entrainment.
+    """
     if op.entrainment_speed == 0.0:
         return 0.0
     oil = scene.lubricant.viscosity, op.inlet_temperature
-    contact = SmoothContact.of(op.load, op.entrainment_speed, *oil, *scene.radii(op), scene.solids.reduced_modulus)
-    return hamrock_dowson(contact)[0]
+    contact = scene.shape(op).smooth(op.load, op.entrainment_speed, *oil, scene.solids.reduced_modulus)
+    formula = hamrock_dowson(contact) if isinstance(contact, SmoothContact) else dowson_line(contact)
+    return formula[0]
 
 
 def _flags(scene: Scene, op: OperatingPoint, fields: ContactFields) -> RangeFlag:
@@ -168,8 +169,10 @@ def _flags(scene: Scene, op: OperatingPoint, fields: ContactFields) -> RangeFlag
         flags |= RangeFlag.FALLBACK
     if fields.route == "mixed" and fields.inlet_nodes < 3.0:
         flags |= RangeFlag.INLET_UNRESOLVED
-    rows, columns = fields.solid_pressure[[1, -2], :], fields.solid_pressure[:, [1, -2]]
-    if max(rows.max(), columns.max()) > 0.01 * fields.pressure.max():
+    edges = [fields.solid_pressure[:, [1, -2]]]
+    if not scene.shape().periodic:
+        edges.append(fields.solid_pressure[[1, -2], :])
+    if max(edge.max() for edge in edges) > 0.01 * fields.pressure.max():
         flags |= RangeFlag.DOMAIN_EDGE
     if 2.0 * scene.hertz_at(op).a < 8.0 * scene.film.spacing:
         flags |= RangeFlag.FEW_NODES

@@ -11,7 +11,6 @@ import numpy as np
 import contact_core
 from contact_core.film import Deterministic, Regression
 from contact_core.laws.load_sharing import flattening_of, rms_slope
-from contact_core.reference import SmoothContact, nijenbanning_venner_moes
 from contact_core.scene import Scene
 from contact_core.state import RangeFlag
 
@@ -103,7 +102,7 @@ def _numbers(factor: float, values: Iterable[float], unit: str) -> str:
 
 
 def _contact(scene: Scene) -> Iterator[str]:
-    shape, point, hertz = scene.geometry, scene.operation.point, scene.hertz(scene.operation.load)
+    bodies, point, hertz = scene.geometry, scene.operation.point, scene.hertz(scene.operation.load)
     yield paragraph(
         "Two rough bodies roll and slide on each other in oil under a normal load. The FMU computes film, pressure and "
         "real contact, friction, the growth of a tribofilm where they rub, wear, and the roughness that results. "
@@ -116,14 +115,14 @@ def _contact(scene: Scene) -> Iterator[str]:
         + f" The parameter {FIDELITY} changes the level at any step; this page is about the one at the start."
     )
     rows = [
-        ("radii of combined curvature along x and y", _numbers(1e3, (shape.radius_x, shape.radius_y), "mm")),
+        ("radii of combined curvature along x and y", _numbers(1e3, scene.radii(point), "mm")),
         ("reduced modulus E′ = 2/[(1 − ν₁²)/E₁ + (1 − ν₂²)/E₂]", _number(1e-9 * scene.solids.reduced_modulus, "GPa")),
         *(
             (
                 f"body {i}: rms roughness, correlation length; way between two passes",
                 f"{_number(1e9 * s.rq, 'nm')}, {_number(1e6 * s.correlation_length, 'µm')}; {_number(1e3 * way, 'mm')}",
             )
-            for i, s, way in ((1, scene.surface_1, shape.track_length_1), (2, scene.surface_2, shape.track_length_2))
+            for i, s, way in ((1, scene.surface_1, bodies.track_length_1), (2, scene.surface_2, bodies.track_length_2))
         ),
         ("point of reference: load", _number(point.load, "N")),
         ("speeds of body 1 and 2", _numbers(1.0, (point.speed_1, point.speed_2), "m/s")),
@@ -233,20 +232,13 @@ def _standing(scene: Scene) -> Iterator[tuple[str, str, str]]:
 
 
 def _smooth_film(scene: Scene) -> Iterator[tuple[str, str, str]]:
-    point, shape = scene.operation.point, scene.geometry
-    smooth = SmoothContact.of(
-        scene.operation.load,
-        point.entrainment_speed,
-        scene.lubricant.viscosity,
-        point.inlet_temperature,
-        shape.radius_x,
-        shape.radius_y,
-        scene.solids.reduced_modulus,
-    )
+    point, modulus = scene.operation.point, scene.solids.reduced_modulus
+    oil = scene.lubricant.viscosity, point.inlet_temperature
+    smooth = scene.shape().smooth(scene.operation.load, point.entrainment_speed, *oil, modulus)
     if smooth.entrainment_speed == 0.0:
         yield "film of the smooth bodies", "none", "nothing entrains oil: the contact is dry"
         return
-    film = nijenbanning_venner_moes(smooth)
+    film = smooth.film
     yield "Moes' M and L", ", ".join(map(_number, smooth.moes_parameters)), "numbers of load and lubricant"
     yield "film of the smooth bodies", _number(1e9 * film, "nm"), "by the formula of Nijenbanning, Venner and Moes"
     sigma = math.hypot(scene.surface_1.rq, scene.surface_2.rq)

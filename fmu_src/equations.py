@@ -15,8 +15,9 @@ GOVERNING: dict[str, tuple[tuple[str, Lines, str], ...]] = {
         ),
         (
             "Gap",
-            ("h = h_0 + x^2/(2 R_x) + y^2/(2 R_y) − z_1 − z_2 + d",),
-            "z are the heights of both surfaces as they are now, tribofilm, wear and plastic depth included.",
+            ("h = h_0 + g(x, y) − z_1 − z_2 + d",),
+            "g is the gap of the undeformed bodies (geometry), z are the heights of both surfaces as they are now, "
+            "tribofilm, wear and plastic depth included.",
         ),
         (
             "Elastic deformation (half space)",
@@ -107,6 +108,30 @@ LAWS: dict[tuple[str, str], tuple[Lines, str]] = {
         ("τ_{oil} = τ_N [1 + (τ_N/G)^2]^{(n − 1)/2},   at most Λ p_f",),
         "Λ: limiting_coefficient; 0 means no limit.",
     ),
+    ("geometry", "point"): (("g = x^2/(2 R_x) + y^2/(2 R_y)",), "A circular or elliptical contact."),
+    ("geometry", "line"): (
+        ("g = x^2/(2 R_x)",),
+        "A line without ends. One period across is solved and stands for all of face_width, over which load and "
+        "outputs are meant.",
+    ),
+    ("geometry", "roller"): (
+        ("g = x^2/(2 R_x) + P(y)",),
+        "A line with ends, taken back by the profile P; load and outputs are those of the whole face_width b.",
+    ),
+    ("profile", "rounded"): (
+        ("P = R_e − [R_e^2 − max(|y| − s/2, 0)^2]^{1/2},   |y| ≤ b/2",),
+        "s is the straight length, Re the radius along the axis beyond it.",
+    ),
+    ("profile", "logarithmic"): (
+        ("P = d ln{1/[1 − (2 y/b)^2]},   |y| < b/2",),
+        "d is depth.",
+    ),
+    ("supply", "flooded"): (("p_f = 0 at the edge of the grid",), "The inlet is as full as the grid is wide."),
+    ("supply", "film"): (
+        ("ρ h θ = ρ_0 h_{oil} where oil comes in",),
+        "h oil: thickness. Pressure begins where the gap has become full.",
+    ),
+    ("supply", "meniscus"): (("p_f = 0 for x < −d",), "d: distance. The gap is full from there on."),
     ("plasticity", "elastic_perfectly_plastic"): (
         ("p ≤ H(c),   H(c) = H_{steel} − (H_{steel} − H_{film}) c",),
         "c is how much of its full thickness the tribofilm that is met has; plastic depth is shared in halves.",

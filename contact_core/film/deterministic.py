@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..quantities import parameter
-from .instant import FilmSolution, FilmState, Grid, Instant, Settings
+from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 
 
 @dataclass(frozen=True)
@@ -25,6 +25,14 @@ class Deterministic:
     )
     floor: float = parameter(
         "m", "gap at which solids touch: thickness of the adsorbed boundary layer", above=1e-11, most=1e-7
+    )
+    width: float = parameter(
+        "m",
+        "extent of the grid along y; 0: as along x, for a roller its length, for smooth lines a single row",
+        least=0.0,
+        most=1.0,
+        default=0.0,
+        shapes_arrays=True,
     )
     tolerance: float = parameter(
         "", "pressure change at which a solution counts as converged, relative", above=0.0, most=0.1, default=3e-3
@@ -54,7 +62,7 @@ class Deterministic:
         now: Instant,
         grid: Grid,
         start: FilmState | None = None,
-        follows: tuple[float, int] | None = None,
+        step: Step | None = None,
         iterations: int | None = None,
     ) -> FilmSolution:
         """Solve one instant as `routes.solve_film`; `iterations`: fewer than the scene allows."""
@@ -62,4 +70,4 @@ class Deterministic:
 
         most = min(iterations or self.iterations, self.iterations)
         settings = Settings(self.floor, self.tolerance, most, self.fft, self.criterion == "lumped")
-        return solve_film(now, grid, settings, start, follows)
+        return solve_film(now, grid, settings, start, step)

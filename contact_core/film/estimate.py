@@ -1,6 +1,5 @@
 """How far the numbers of a grid are from those of a fine one, told from the grid of half its nodes."""
 
-from ..reference import Hertz
 from .instant import FilmSolution, Grid, Instant, Settings
 from .outputs import film_outputs
 from .routes import coarser, prolonged, solve_film
@@ -14,7 +13,7 @@ _RESOLVED = 3.0  # nodes across the inlet, from which on a grid knows the film
 
 
 def solve_with_estimate(
-    now: Instant, grid: Grid, settings: Settings, hertz: Hertz
+    now: Instant, grid: Grid, settings: Settings
 ) -> tuple[FilmSolution, dict[str, float], dict[str, float]]:
     """Steady film, its outputs, and the half width of the error of each, in its unit.
 
@@ -22,10 +21,11 @@ def solve_with_estimate(
     grid, which the estimate needs, is also where that of the finer one may begin.
     """
     instant, coarse = coarser(now, grid)
+    bodies = now.load, now.shape.hertz(now.load, now.reduced_modulus)
     before = solve_film(instant, coarse, settings)
     found = solve_film(now, grid, settings, prolonged(before.state, grid.shape))
-    values = film_outputs(grid, found.state, found.gap, now.load, hertz)
-    less = film_outputs(coarse, before.state, before.gap, now.load, hertz)
+    values = film_outputs(grid, found.state, found.gap, *bodies)
+    less = film_outputs(coarse, before.state, before.gap, *bodies)
     errors = {
         name: _FACTORS.get(name, _FACTOR) * abs(value - less[name]) + settings.tolerance * abs(value)
         for name, value in values.items()

@@ -1,26 +1,85 @@
 """Grids that fit a film: wide enough for the oil to come in and go out, and no wider, so that the nodes are close."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from ..reference import hertz_point
+from ..shapes import Line, Point
 from .instant import Grid
 from .scaled import film_size, inlet_length
 
 _LEFT, _RIGHT, _SIDES = 4.5, 2.5, 3.5  # half widths of a thick film, in its size
 _INLETS_BEFORE, _INLETS_AROUND = 10.0, 6.0  # inlet lengths about Hertz's contact that a thin film needs
+_NODES = 129  # along the shorter side if nothing else is asked for
+_COARSEST, _HALVINGS = 6.5, 2  # multigrid: intervals along the shorter side of its coarsest level; least halvings
 
 
-def fitted_grid(load: float, radius: float, reduced_modulus: float, film: float, ny: int, nx: int) -> Grid:
-    """Grid of [ny, nx] nodes for a film [m] of smooth bodies. SI; the centre of the contact is a node for even nx - 1.
+@dataclass(frozen=True)
+class Extent:
+    """How far a film reaches about the contact [m]; oil comes in along +x."""
 
-    Oil comes in along +x. The wider of the two needs, along x and along y, gives the spacing.
+    left: float
+    right: float
+    side: float
+
+    @staticmethod
+    def of(shape: Point, load: float, reduced_modulus: float, film: float) -> "Extent":
+        """What a film [m] of smooth bodies needs. SI."""
+        hertz, turned = shape.hertz(load, reduced_modulus), Point(shape.radius_y, shape.radius_x)
+        a, b = hertz.a, hertz.b
+        size, inlet = film_size(a, shape.radius_x, film), inlet_length(a, shape, film)
+        width, around = film_size(b, turned.radius_x, film), inlet_length(b, turned, film)
+        return Extent(
+            left=min(_LEFT * size, 1.1 * a + _INLETS_BEFORE * inlet),
+            right=min(_RIGHT * size, 1.25 * a + inlet),
+            side=min(_SIDES * width, 1.15 * b + _INLETS_AROUND * around),
+        )
+
+    @property
+    def ratio(self) -> float:
+        """Width along y over length along x."""
+        return 2.0 * self.side / (self.left + self.right)
+
+    def shape(self, nx: int | None = None) -> tuple[int, int]:
+        """Nodes (ny, nx) of about square cells that halve for multigrid: for `nx` along x, or 129 along the shorter
+        side.
+        """
+        if nx is not None:
+            return _partner(nx, self.ratio, mirror=True), nx
+        if self.ratio >= 1.0:
+            return _partner(_NODES, self.ratio, mirror=True), _NODES
+        return _NODES, _partner(_NODES, 1.0 / self.ratio, mirror=False)
+
+    def grid(self, ny: int, nx: int) -> Grid:
+        """Grid of [ny, nx] nodes; the centre of the contact is a node for even nx - 1.
+
+        The wider of the two needs, along x and along y, gives the spacing.
+        """
+        spacing = max((self.left + self.right) / (nx - 1), 2.0 * self.side / (ny - 1))
+        before = round((nx - 1) * self.left / (self.left + self.right))  # a node lies on the centre
+        x, y = np.arange(nx, dtype=np.float64) - before, np.arange(ny, dtype=np.float64) - 0.5 * (ny - 1)
+        return Grid(x * spacing, y * spacing)
+
+
+def line_extent(shape: Line, load: float, reduced_modulus: float, film: float) -> tuple[float, float]:
+    """How far before and behind the contact [m] a film [m] of smooth bodies needs a grid. SI."""
+    a = shape.hertz(load, reduced_modulus).a
+    size, inlet = film_size(a, shape.radius_x, film), inlet_length(a, shape, film)
+    return min(_LEFT * size, 1.1 * a + _INLETS_BEFORE * inlet), min(_RIGHT * size, 1.25 * a + inlet)
+
+
+def _partner(nodes: int, ratio: float, *, mirror: bool) -> int:
+    """Nodes of a side `ratio` times as long as one of `nodes`, nearest of those that halve as often. `mirror`: its
+    middle node stays a node.
     """
-    a = hertz_point(load, radius, radius, reduced_modulus).a
-    size, inlet = film_size(a, radius, film), inlet_length(a, radius, film)
-    left = min(_LEFT * size, 1.1 * a + _INLETS_BEFORE * inlet)
-    right = min(_RIGHT * size, 1.25 * a + inlet)
-    side = min(_SIDES * size, 1.15 * a + _INLETS_AROUND * inlet)
-    spacing = max((left + right) / (nx - 1), 2.0 * side / (ny - 1))
-    before = round((nx - 1) * left / (left + right))  # a node lies on the centre
-    x, y = np.arange(nx, dtype=np.float64) - before, np.arange(ny, dtype=np.float64) - 0.5 * (ny - 1)
-    return Grid(x * spacing, y * spacing)
+    intervals, wanted, halvings = nodes - 1, ratio * (nodes - 1), 0
+    shorter = min(intervals, wanted)
+    while intervals % 2 ** (halvings + 1) == 0 and (halvings < _HALVINGS or shorter >= _COARSEST * 2 ** (halvings + 1)):
+        halvings += 1
+    step = 2 ** (halvings + 1) if mirror else 2**halvings
+    return max(round(wanted / step) * step, 8 * 2**halvings if halvings else 16) + 1
+
+
+def fitted_grid(shape: Point, load: float, reduced_modulus: float, film: float, ny: int, nx: int) -> Grid:
+    """Grid of [ny, nx] nodes for a film [m] of smooth bodies. SI; oil comes in along +x."""
+    return Extent.of(shape, load, reduced_modulus, film).grid(ny, nx)

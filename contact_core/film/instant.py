@@ -6,6 +6,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..shapes import Shape
+
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
@@ -16,17 +18,24 @@ class Grid:
 
     x: Array  # [nx] [m]
     y: Array  # [ny] [m]
+    periodic: bool = False  # along y: the row after the last is the first
+    repeats: float = 1.0  # how many times the grid lies in the contact, side by side along y
 
     @staticmethod
-    def centred(ny: int, nx: int, spacing: float) -> "Grid":
+    def centred(ny: int, nx: int, spacing: float, *, periodic: bool = False, repeats: float = 1.0) -> "Grid":
         """A grid about the contact."""
         x, y = ((np.arange(n, dtype=np.float64) - 0.5 * (n - 1)) * spacing for n in (nx, ny))
-        return Grid(x, y)
+        return Grid(x, y, periodic, repeats)
 
     @property
     def spacing(self) -> float:
         """Distance between neighbours [m]."""
         return float(self.x[-1] - self.x[0]) / (self.x.size - 1)
+
+    @property
+    def cell(self) -> float:
+        """Area [m2] of the contact that a node stands for."""
+        return self.spacing**2 * self.repeats
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -39,20 +48,24 @@ class Grid:
         distance_2: Array = self.x[None, :] ** 2 + self.y[:, None] ** 2
         return distance_2
 
+    def stretched_radius_2(self, stretch: float) -> Array:
+        """As `radius_2`, of the grid with y stretched by a factor."""
+        distance_2: Array = self.x[None, :] ** 2 + (stretch * self.y[:, None]) ** 2
+        return distance_2
+
     def mirrored(self) -> "Grid":
         """The grid of the contact seen from the other side: x becomes -x."""
-        return Grid(-self.x[::-1], self.y)
+        return replace(self, x=-self.x[::-1])
 
 
 @dataclass(frozen=True)
 class Instant:
     """One instant of a contact."""
 
-    load: float
+    load: float  # of the whole contact
     entrainment_speed: float  # of either sign
     temperature: float
-    radius_x: float
-    radius_y: float
+    shape: Shape
     reduced_modulus: float
     viscosity: Callable[[Array, float], Array]  # [Pa s] at pressures and a temperature
     density: Callable[[Array], Array]  # ratio to that at p = 0, at pressures
@@ -63,6 +76,9 @@ class Instant:
     solid_share: float = 1.0  # of the load of such a contact; the rest lies on oil, spread as in Hertz's contact
     ease: Array | None = None  # how many times easier oil flows at a node than `viscosity` says: by warmth
     thinned: Array | None = None  # fluidity [1/(Pa s)] that shear adds to that at a node
+    conserving: bool = False  # cavities hold the oil that flows into them; else they count as full
+    supply: float | None = None  # oil film [m] on both surfaces together before the contact; None: all it can take
+    meniscus: float | None = None  # distance [m] before the centre at which the inlet begins to fill; None: nowhere
 
     def mirrored(self) -> "Instant":
         """The instant seen from the other side: entrained the other way."""
@@ -70,6 +86,20 @@ class Instant:
         ease, thinned = (None if f is None else np.ascontiguousarray(f[:, ::-1]) for f in (self.ease, self.thinned))
         back = replace(self, entrainment_speed=-self.entrainment_speed, heights=heights, limit=limit)
         return replace(back, ease=ease, thinned=thinned)
+
+
+@dataclass(frozen=True)
+class Step:
+    """How an instant follows from the film solution that it starts from."""
+
+    dt: float  # time since then [s]
+    moved: int = 0  # nodes by which the rough surfaces have moved along +x since then
+    order: int = 1  # of the squeeze term in time: 1, backward Euler; 2, backward differences over two steps
+    thorough: bool = False  # True: each algorithm has its turn; False: what a film lacks, the next instant pays
+
+    def mirrored(self) -> "Step":
+        """The step seen from the other side."""
+        return replace(self, moved=-self.moved)
 
 
 @dataclass(frozen=True)
@@ -95,16 +125,22 @@ class FilmState:
     ease: Array = field(default_factory=lambda: np.ones((1, 1)))  # `Instant.ease`, [1, 1] if there is none
     thinned: Array = field(default_factory=lambda: np.zeros((1, 1)))  # `Instant.thinned`, as well
     warmth: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of the film above the inlet [K], as well
+    mass_before: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of a step of second order, where it began
+    dt: float = 0.0  # [s] since then
 
     def __post_init__(self) -> None:
-        for array in (self.pressure, self.fluid, self.solid, self.mass, self.ease, self.thinned, self.warmth):
+        for array in (self.solid, *self._fields):
             array.setflags(write=False)
+
+    @property
+    def _fields(self) -> tuple[Array, ...]:
+        return self.pressure, self.fluid, self.mass, self.ease, self.thinned, self.warmth, self.mass_before
 
     def mirrored(self) -> "FilmState":
         """The state seen from the other side."""
-        fields = (self.pressure, self.fluid, self.mass, self.ease, self.thinned, self.warmth)
-        pressure, fluid, mass, *oil = (np.ascontiguousarray(f[:, ::-1]) for f in fields)
-        return FilmState(pressure, fluid, np.ascontiguousarray(self.solid[:, ::-1]), mass, self.rigid_gap, *oil)
+        solid = np.ascontiguousarray(self.solid[:, ::-1])
+        pressure, fluid, mass, ease, thinned, warmth, before = (np.ascontiguousarray(f[:, ::-1]) for f in self._fields)
+        return FilmState(pressure, fluid, solid, mass, self.rigid_gap, ease, thinned, warmth, before, self.dt)
 
 
 @dataclass(frozen=True)

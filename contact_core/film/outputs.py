@@ -11,15 +11,17 @@ Mask = NDArray[np.bool_]
 
 
 def disc(grid: Grid, hertz: Hertz) -> Mask:
-    """Nodes that h_c is a mean over, r < 2a/3 (an ellipse with Hertz's); at least the nearest ones."""
+    """Nodes that h_c is a mean over, within 2/3 of Hertz's half widths; at least the nearest ones."""
     radius_2 = grid.radius_2
     nearest = radius_2 <= radius_2.min() * (1.0 + 1e-9)
-    inside: Mask = (grid.x[None, :] / hertz.a) ** 2 + (grid.y[:, None] / hertz.b) ** 2 < 4.0 / 9.0
-    return nearest | inside
+    inside: Mask = nearest | hertz.inside(grid.x, grid.y, 2.0 / 3.0)
+    return inside
 
 
 def at_centre(grid: Grid, field: Array) -> float:
-    """Bilinear interpolation of a field [ny, nx] at the centre of the contact."""
+    """Bilinear interpolation of a field [ny, nx] at the centre of the contact; a mean along a line."""
+    if grid.periodic:  # all rows are alike
+        return float(np.interp(0.0, grid.x, field.mean(axis=0)))
     i, j = (min(max(int(np.searchsorted(axis, 0.0, "right")) - 1, 0), axis.size - 2) for axis in (grid.x, grid.y))
     u, v = -grid.x[i] / grid.spacing, -grid.y[j] / grid.spacing
     rows = field[j : j + 2, i : i + 2] @ np.array([1.0 - u, u])
@@ -29,7 +31,7 @@ def at_centre(grid: Grid, field: Array) -> float:
 def film_outputs(grid: Grid, state: FilmState, gap: Array, load: float, hertz: Hertz) -> dict[str, float]:
     """h_central, h_c, h_min, contact_area_ratio, contact_load_ratio, pressure_max and approach of a loaded contact."""
     solid_pressure = np.where(state.solid, state.pressure - state.fluid, 0.0)
-    cell = grid.spacing**2
+    cell = grid.cell
     return {
         "h_central": at_centre(grid, gap),
         "h_c": float(gap[disc(grid, hertz)].mean()),

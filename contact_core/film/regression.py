@@ -30,6 +30,14 @@ class Regression:
     floor: float = parameter(
         "m", "gap at which solids touch: thickness of the adsorbed boundary layer", above=1e-11, most=1e-7, default=1e-9
     )
+    width: float = parameter(
+        "m",
+        "extent of the grid along y; 0: as along x, for a roller its length, for smooth lines a single row",
+        least=0.0,
+        most=1.0,
+        default=0.0,
+        shapes_arrays=True,
+    )
     sharing: FittedSharing = field(default=FittedSharing())
     smoothing: float = parameter(
         "",

@@ -2,7 +2,7 @@
 
 A steady film goes to the first row of REGIMES that it fits; the algorithms of that row are tried in turn until one
 meets the stopping rule (`kernels.mixed.shortfall`). An instant that follows from another one is marched from it, and
-that film serves if it can be used at all.
+that film serves if it can be used at all, unless the step is to be thorough.
 """
 
 import math
@@ -10,13 +10,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..errors import ConvergenceError
+from ..errors import ConvergenceError, FilmTooWideError
 from ..kernels.direct import solve_direct
 from ..kernels.grids import prolong, restrict
 from ..kernels.mixed import Iterate, Solution, advected, excess, solve_mixed
 from ..kernels.multigrid import is_applicable, solve_smooth
+from ..kernels.newton import is_applicable as newton_is_applicable
 from ..kernels.newton import solve_newton
-from .instant import FilmSolution, FilmState, Grid, Instant, Settings
+from ..shapes import Point
+from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .scaled import Scaled
 
 _ALL = (0.0, math.inf)
@@ -25,6 +27,8 @@ _MOST_BEYOND = 0.3  # share of the load that may lie beyond the grid
 _NESTED_FROM = 65  # nodes along an axis from which on a film begins on the grid of half of them
 _HYBRID_ITERATIONS, _DIRECT_ITERATIONS = 150, 80  # of one try at a steady film
 _CYCLES, _NEWTON_STEPS = 15, 30
+_DAMPED = 0.5  # multigrid's second try: rigid bodies under a thickening oil bear no more
+_CLOSINGS = 4  # solutions of a light film, at most, until what lies beyond the grid knows how fast the bodies close
 # a film short of its tolerance is still better than the dry contact within these
 _LOAD_ACCEPTED = 1e-3
 _CHANGE_ACCEPTED = 0.1
@@ -39,22 +43,31 @@ class Regime:
     algorithms: tuple[tuple[str, str], ...]
     floors: tuple[float, float] = _ALL  # formula film of smooth bodies / floor
     clearance: tuple[float, float] = _ALL  # formula film of smooth bodies / rms roughness (smooth: infinite)
-    load: tuple[float, float] = _ALL  # Moes' M
+    load: tuple[float, float] = _ALL  # Moes' M, as `Scaled.moes_load`
+    rows: int | None = None  # of a periodic grid; None: any grid
 
     def holds(self, scaled: Scaled) -> bool:
         """Whether a contact belongs to this row."""
-        load, _ = scaled.contact.moes_parameters
-        film = scaled.smooth_film
+        load, film = scaled.moes_load, scaled.film
         clearance = film / scaled.roughness if scaled.roughness > 0.0 else math.inf
+        if self.rows is not None and (not scaled.grid.periodic or self.rows != scaled.grid.shape[0]):
+            return False
         pairs = ((self.floors, film / scaled.settings.floor), (self.clearance, clearance), (self.load, load))
         return all(low <= value <= high for (low, high), value in pairs)
 
 
 REGIMES = (
     Regime("dry", (("hybrid", "dry"), ("direct", "last")), floors=(0.0, 0.5)),
+    Regime("line", (("newton", "film"), ("newton", "dry"), ("direct", "film")), clearance=(1e3, math.inf), rows=1),
     Regime(
         "smooth",
-        (("multigrid", "none"), ("hybrid", "film"), ("direct", "film"), ("direct", "dry")),
+        (
+            ("multigrid", "none"),
+            ("hybrid", "film"),
+            ("multigrid", "none, damped"),
+            ("direct", "film"),
+            ("direct", "dry"),
+        ),
         clearance=(1e3, math.inf),
     ),
     Regime(
@@ -80,24 +93,39 @@ def solve_film(
     grid: Grid,
     settings: Settings,
     start: FilmState | None = None,
-    follows: tuple[float, int] | None = None,
+    step: Step | None = None,
 ) -> FilmSolution:
     """Solve one instant on a grid.
 
-    start: a solution nearby, or None. follows: time [s] since `start` and the nodes by which the rough surfaces have
-    moved along +x since then, or None for a steady film. Entrainment along -x is solved in the mirror. A film that
-    cannot be had is replaced by the dry contact, which says so (`route`); raises ConvergenceError if that has no
-    solution, or no meaning because the film clears the roughness.
+    start: a solution nearby, or None. step: how the instant follows from it in time, or None for a steady film.
+    Entrainment along -x is solved in the mirror; without any, only a film that was there before can be one, squeezed
+    out. A film that cannot be had is replaced by the dry contact, which says so (`route`); raises ConvergenceError if
+    that has no solution, or no meaning because the film clears the roughness.
     """
     if now.entrainment_speed < 0.0:
-        back = follows and (follows[0], -follows[1])
-        return solve_film(now.mirrored(), grid.mirrored(), settings, start and start.mirrored(), back).mirrored()
-    scaled = Scaled(now, grid, settings)
-    if now.dry or now.entrainment_speed == 0.0:
-        return scaled.dry("dry", now.solid_share)
+        back = start and start.mirrored(), step and step.mirrored()
+        return solve_film(now.mirrored(), grid.mirrored(), settings, *back).mirrored()
+    if now.dry or (now.entrainment_speed == 0.0 and not (start and step)):
+        return Scaled(now, grid, settings).dry("dry", now.solid_share)
+    if start is None or step is None:
+        return _film(Scaled(now, grid, settings), start, None)
+    at_rest = now.entrainment_speed == 0.0
+    closing, pull = float(at_rest), now.entrainment_speed * grid.spacing  # at rest its amount does not matter
+    for _ in range(_CLOSINGS):
+        scaled = Scaled(now, grid, settings, start, step, closing)
+        found = _film(scaled, start, step)
+        last, closing = closing, (start.rigid_gap - found.state.rigid_gap) / step.dt
+        if at_rest or not step.thorough or not scaled.is_light or abs(closing - last) * now.shape.radius_x < 0.1 * pull:
+            break
+    return found
+
+
+def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSolution:
+    """The film of an instant, entrained along +x or not at all."""
+    grid, settings = scaled.grid, scaled.settings
     regime = next(row for row in REGIMES if row.holds(scaled))
-    tries = (("hybrid", "before"), *regime.algorithms) if follows else regime.algorithms
-    solver, used, spent, least = _Solver(scaled, start, follows), "", 0, math.inf
+    tries = (*_begun(scaled, step), *regime.algorithms) if step else regime.algorithms
+    solver, used, spent, least = _Solver(scaled, start, step), "", 0, math.inf
     for method, begin in tries:
         if settings.lumped and method != "hybrid":  # the others know the split criterion alone
             continue
@@ -105,42 +133,52 @@ def solve_film(
         if found is None:
             continue
         spent += found.iterations
-        worst = excess(found, settings.tolerance, follows is not None)
+        worst = excess(found, settings.tolerance, step is not None)
         if _usable(found) and (found.converged or worst < least):
             solver.best, used, least = found, f"{regime.name}: {method} from {begin}", worst
-        if found.converged or (follows and solver.best is found):  # the next instant pays the debt of this one
+        if found.converged or (step and not step.thorough and solver.best is found):
             break
     best = solver.best
     if best is not None and 1.0 - float(best.iterate.pressure.sum()) / scaled.load < _MOST_BEYOND:
         return scaled.solution(replace(best, iterations=spent), "mixed", used)
-    if scaled.smooth_film > _FULL_FILM * scaled.roughness:  # no dry contact can stand in for that
+    if scaled.film > _FULL_FILM * scaled.roughness:  # no dry contact can stand in for that
         width, depth = (n * grid.spacing for n in reversed(grid.shape))
-        raise ConvergenceError(
-            f"No solution was found for an oil film of about {scaled.smooth_film:.2g} m on a grid of {width:.3g} m by "
+        raise (FilmTooWideError if scaled.is_light else ConvergenceError)(
+            f"No solution was found for an oil film of about {scaled.film:.2g} m on a grid of {width:.3g} m by "
             f"{depth:.3g} m. Lower speed or viscosity, or enlarge the domain (film.domain) for a film that thick."
         )
     why = "no mixed solution was found; the dry contact stands in"
     return replace(scaled.dry("fallback"), converged=False, shortfall=why, iterations=spent)
 
 
+def _begun(scaled: Scaled, step: Step) -> tuple[tuple[str, str], ...]:
+    """What an instant that follows from another one tries before its row of the table."""
+    hybrid, direct, newton = (("hybrid", "before"),), (("direct", "before"),), (("newton", "before"),)
+    if not step.thorough:
+        return hybrid
+    return (*newton, *hybrid, *direct) if scaled.is_light else (*hybrid, *direct, *newton)
+
+
 class _Solver:
     """The algorithms and the starts of the table, for one instant."""
 
-    def __init__(self, scaled: Scaled, start: FilmState | None, follows: tuple[float, int] | None) -> None:
-        self.scaled, self.state, self.follows = scaled, start, follows
+    def __init__(self, scaled: Scaled, start: FilmState | None, step: Step | None) -> None:
+        self.scaled, self.state, self.step = scaled, start, step
         self.best: Solution | None = None
         self.problem = scaled.problem()
-        if start is not None and follows is not None:
-            self.problem = scaled.problem(start.mass / scaled.h_unit, scaled.per_dt(follows[0]))
 
     def run(self, method: str, begin: str) -> Solution | None:
         """What a method finds from a start; None where they do not apply."""
-        scaled, settings, steady = self.scaled, self.scaled.settings, self.follows is None
+        scaled, settings, steady = self.scaled, self.scaled.settings, self.step is None
         if method == "multigrid":
-            if not (steady and is_applicable(self.problem)):
+            if not (steady and isinstance(scaled.now.shape, Point) and is_applicable(self.problem)):
                 return None
-            film = scaled.smooth_film / scaled.h_unit
-            return solve_smooth(self.problem, scaled.x, scaled.y, settings.fft, film, settings.tolerance, _CYCLES)[0]
+            film, shape = scaled.smooth_film / scaled.h_unit, (scaled.depth, scaled.curvature)
+            given = (self.problem, scaled.x, scaled.y, settings.fft, film)
+            part = 1.0 if begin == "none" else _DAMPED
+            return solve_smooth(*given, settings.tolerance, _CYCLES, *shape, part)[0]
+        if method == "newton" and not newton_is_applicable(self.problem):
+            return None
         start = self._start(begin)
         if start is None:
             return None
@@ -149,13 +187,14 @@ class _Solver:
             "direct": (solve_direct, _DIRECT_ITERATIONS),
             "newton": (solve_newton, _NEWTON_STEPS),
         }[method]
-        return solve(scaled.half_space, self.problem, start, settings.tolerance, min(most, settings.iterations))
+        limits = settings.tolerance, min(most, settings.iterations)
+        return scaled.without_images(solve(scaled.half_space, self.problem, scaled.with_images(start), *limits))
 
     def _start(self, name: str) -> Iterate | None:
         scaled, state = self.scaled, self.state
-        if name == "before" and state is not None and self.follows is not None:
-            return advected(scaled.iterate(state), scaled.smooth, self.follows[1])
-        if name == "nested" and self.follows is None:
+        if name == "before" and state is not None and self.step is not None:
+            return advected(scaled.iterate(state), scaled.smooth, self.step.moved)
+        if name == "nested" and self.step is None:
             if state is None and min(scaled.grid.shape) >= _NESTED_FROM:
                 now, grid = coarser(scaled.now, scaled.grid)
                 state = prolonged(solve_film(now, grid, scaled.settings).state, scaled.grid.shape)
@@ -170,15 +209,15 @@ def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:
     """The same instant on a grid of half the nodes."""
     ease, thinned = (None if field is None else restrict(field) for field in (now.ease, now.thinned))
     instant = replace(now, heights=restrict(now.heights), limit=restrict(now.limit), ease=ease, thinned=thinned)
-    return instant, Grid(restrict(grid.x), restrict(grid.y))
+    return instant, replace(grid, x=restrict(grid.x), y=restrict(grid.y))
 
 
 def prolonged(state: FilmState, shape: tuple[int, int]) -> FilmState:
     """A film state of the coarser grid on one of `shape` nodes [ny, nx]."""
     pressure, fluid, mass = (prolong(field, shape) for field in (state.pressure, state.fluid, state.mass))
     solid = prolong(state.solid.astype(np.float64), shape) > 0.5
-    oil = (field if field.size == 1 else prolong(field, shape) for field in (state.ease, state.thinned))
-    return FilmState(pressure, fluid, solid, mass, state.rigid_gap, *oil)
+    ease, thinned = (field if field.size == 1 else prolong(field, shape) for field in (state.ease, state.thinned))
+    return FilmState(pressure, fluid, solid, mass, state.rigid_gap, ease, thinned)
 
 
 def _usable(solution: Solution) -> bool:

@@ -1,9 +1,11 @@
 """An instant of the film in the dimensionless units that the kernels work in."""
 
+import math
 import threading
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,10 +13,13 @@ from numpy.typing import NDArray
 from ..errors import ConvergenceError
 from ..kernels.dry import solve_dry
 from ..kernels.far_field import far_field
-from ..kernels.half_space import HalfSpace
+from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
 from ..kernels.mixed import Iterate, Problem, Solution
-from ..reference import SmoothContact, hertz_point, nijenbanning_venner_moes
-from .instant import FilmSolution, FilmState, Grid, Instant, Settings
+from ..reference import SmoothContact, SmoothLine
+from ..reference.starvation import film_behind_meniscus, supplied_film
+from ..shapes import Line, Point, Shape
+from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
+from .outputs import disc
 
 Array = NDArray[np.float64]
 
@@ -26,48 +31,73 @@ _START_TOLERANCE = 1e-2
 _SOLID_SHARE = 0.85  # of the load in `shared_start`: the best of 0.03 to 0.95 from light contact to nearly dry
 _LEAST_EASE = 1e-6  # what flows less does not flow
 _FAR_FIELD_BELOW = 30.0  # Moes' M: above, what lies beyond a film-sized grid changes the film by less than 1 %
+_SLOWEST = 0.25  # unit of speeds, in nodes per time step: entrained more slowly, a film is a matter of squeezing
+_FASTEST_CHANGE = 2.0  # of a film in a step, up to which it is of second order
 
 
 class Scaled:
-    """An instant in units of l (lengths), l^2 / radius_x (gaps) and p_H a^2 / l^2 (pressures).
+    """An instant in units of l (lengths), l^2 / radius_x (gaps) and p_H (a / l)^n (pressures; n = 2, for lines 1).
 
-    l^2 = a^2 + 1.4 radius_x h is the size of what carries the load: a of Hertz's circular contact of radius_x, or the
-    extent of a film of smooth bodies h that is thicker than that contact is deep. Both keep the solution of order one.
+    l^2 = a^2 + 1.4 radius_x h is the size of what carries the load: a of Hertz's contact along x, or the extent of a
+    film of smooth bodies h that is thicker than that contact is deep. Both keep the solution of order one. What the
+    kernels get of a periodic grid has an image of its last row before the first, and of its first after the last.
+    The unit of speeds is that of entrainment; in a time `step` from a film `start` it is at least a quarter of a node
+    per step, so that the film of slow bodies and of bodies at rest is of order one, too. `closing`: speed [m/s] at
+    which the bodies come closer, for what lies beyond the grid.
     """
 
-    def __init__(self, now: Instant, grid: Grid, settings: Settings) -> None:
+    def __init__(
+        self,
+        now: Instant,
+        grid: Grid,
+        settings: Settings,
+        start: FilmState | None = None,
+        step: Step | None = None,
+        closing: float = 0.0,
+    ) -> None:
         self.now, self.grid, self.settings = now, grid, settings
-        hertz = hertz_point(now.load, now.radius_x, now.radius_x, now.reduced_modulus)
+        self.closing = closing
+        self.step = step if start else None
+        self.start = start if step else None
+        shape = now.shape
+        self.hertz = hertz = shape.hertz(now.load, now.reduced_modulus)
         self.a = hertz.a
-        self.size = film_size(hertz.a, now.radius_x, self.smooth_film)
-        self.p_unit = hertz.pressure_max * (self.a / self.size) ** 2
-        self.h_unit = self.size**2 / now.radius_x
+        self.size = film_size(hertz.a, shape.radius_x, self.film)
+        thin = self.a / self.size
+        self.p_unit = hertz.pressure_max * thin**shape.order
+        self.h_unit = self.size**2 / shape.radius_x
         self.dx, self.floor = grid.spacing / self.size, settings.floor / self.h_unit
-        self.load = 2.0 * np.pi / 3.0 / self.dx**2
-        self.compliance = (self.a / self.size) ** 3
-        self.half_space = half_space(grid.shape, self.compliance * 2.0 / np.pi**2 * self.dx, settings.fft)
+        self.load = shape.carried(hertz, self.size, grid.shape[0] * grid.spacing) / self.dx**2
+        self.compliance = shape.softness(hertz, now.reduced_modulus) * thin ** (shape.order + 1)
+        scale = self.compliance * 2.0 / np.pi**2 * self.dx
+        self.half_space = half_space(grid.shape, scale, settings.fft)
+        if isinstance(shape, Line) and grid.periodic:  # displacements are counted from those a face's length away
+            far = max(shape.length / grid.spacing, grid.shape[1])
+            self.half_space = half_space(grid.shape, scale, settings.fft, far)
         self.cap = now.limit / self.p_unit
         if self.cap.sum() <= 1.01 * self.load:
             raise ConvergenceError(
                 f"{now.load:g} N are more than a grid of {grid.shape[1] * grid.spacing:g} m by "
                 f"{grid.shape[0] * grid.spacing:g} m can carry at the hardness. Lower the load or enlarge film.domain."
             )
+        self.depth = self.compliance ** (2.0 / 3.0) if shape.circular else hertz.approach / self.h_unit
         self.x, self.y = grid.x / self.size, grid.y / self.size
-        radius_2 = self.x[None, :] ** 2 + now.radius_x / now.radius_y * self.y[:, None] ** 2
-        self.smooth = np.sqrt(np.maximum(1.0 - radius_2, 0.0))
-        self.undeformed = 0.5 * radius_2 - now.heights / self.h_unit
+        gap = shape.gap(self.x, self.y, self.size)
+        reach = 2.0 * gap
+        if isinstance(shape, Point) and not shape.circular:  # Hertz's ellipse is slimmer than a line of equal gap
+            slim = self.size / film_size(hertz.b, shape.radius_y, self.smooth_film)
+            reach = self.x[None, :] ** 2 + (slim * self.y[:, None]) ** 2
+        self.smooth = np.sqrt(np.maximum(1.0 - reach, 0.0))
+        self.undeformed = gap - now.heights / self.h_unit
 
     @cached_property
-    def contact(self) -> SmoothContact:
+    def contact(self) -> SmoothContact | SmoothLine:
         """The smooth contact in the terms of film formulas."""
-        now = self.now
-        oil = (now.viscosity, now.temperature)
-        smooth = SmoothContact.of(
-            now.load, now.entrainment_speed, *oil, now.radius_x, now.radius_y, now.reduced_modulus
-        )
-        if now.ease is None and now.thinned is None:
+        now, shape = self.now, self.now.shape
+        smooth = shape.smooth(now.load, now.entrainment_speed, now.viscosity, now.temperature, now.reduced_modulus)
+        if (now.ease is None and now.thinned is None) or now.entrainment_speed == 0.0:
             return smooth
-        before = self.a + inlet_length(self.a, now.radius_x, nijenbanning_venner_moes(smooth))
+        before = self.a + inlet_length(self.a, shape, smooth.film)
         at = np.abs(self.grid.y).argmin(), np.abs(self.grid.x + before).argmin()  # where the film builds up
         ease, thinned = self._oil(smooth.viscosity)
         return replace(smooth, viscosity=smooth.viscosity / float(ease[at] * (1.0 + thinned[at])))
@@ -84,57 +114,146 @@ class Scaled:
     def smooth_film(self) -> float:
         """Film [m] that smooth bodies would have, by formula; zero if there is none."""
         now = self.now
-        return 0.0 if now.dry or now.entrainment_speed == 0.0 else nijenbanning_venner_moes(self.contact)
+        if now.dry or now.entrainment_speed == 0.0:
+            return 0.0
+        film = self.contact.film
+        if now.meniscus is not None:
+            film = film_behind_meniscus(film, now.meniscus, self.a, now.shape.radius_x)
+        return film if now.supply is None else supplied_film(film, now.supply)
+
+    @property
+    def moes_load(self) -> float:
+        """Moes' M; of ellipses and lines that of the circular contact that is as near to rigid. Infinite at rest."""
+        return self.contact.circular_load if self.now.entrainment_speed > 0.0 else math.inf
+
+    @property
+    def curvature(self) -> float:
+        """Of the undeformed gap along y, over that along x."""
+        shape = self.now.shape
+        return shape.radius_x / shape.radius_y if isinstance(shape, Point) else 0.0
+
+    @cached_property
+    def film(self) -> float:
+        """Film [m] of smooth bodies: by formula, or that of a start from which they have not come so close yet."""
+        return max(self.smooth_film, self._gap_before)
+
+    @property
+    def _gap_before(self) -> float:
+        """Gap [m] of undeformed bodies from which a thorough step starts, 0 where there is none or they overlap."""
+        return max(self.start.rigid_gap, 0.0) if self.start and self.step and self.step.thorough else 0.0
+
+    @property
+    def is_light(self) -> bool:
+        """Whether the film is so thick that what lies beyond the grid matters."""
+        return self.moes_load < _FAR_FIELD_BELOW or self._gap_before > 0.0
+
+    @cached_property
+    def speed(self) -> float:
+        """Unit of speeds [m/s]."""
+        return max(self.now.entrainment_speed, _SLOWEST * self.grid.spacing / self.step.dt if self.step else 0.0)
 
     @cached_property
     def roughness(self) -> float:
         """Rms height [m] of both bodies together where they meet."""
-        inside = self.grid.radius_2 < (1.5 * self.size) ** 2
+        inside = self.hertz.inside(self.grid.x, self.grid.y, 1.5 * self.size / self.a)
         return float(self.now.heights[inside].std()) if inside.any() else 0.0
 
-    def per_dt(self, step: float) -> float:
-        """1 / time step in the units at hand."""
-        return self.size / (self.now.entrainment_speed * step)
+    def _history(self) -> tuple[float, Array]:
+        """1 / time step, and the mass [m] from which the film has come in it, [ny, nx].
 
-    def problem(self, mass: Array | None = None, per_dt: float = 0.0) -> Problem:
-        """What the kernels solve; `mass` [ny, nx] is that of the instant before, None for a steady film."""
-        now = self.now
+        A second-order step replaces both by those of the backward difference over this step and the one before
+        (Hairer & Wanner, Solving Ordinary Differential Equations II, 1996, doi:10.1007/978-3-642-05221-7, V.1).
+        """
+        if self.step is None or self.start is None:
+            return 0.0, np.zeros_like(self.cap)
+        per_dt, mass = self.size / (self.speed * self.step.dt), self.start.mass
+        if self.step.order == 1 or self.start.dt == 0.0:
+            return per_dt, mass
+        ratio = self.step.dt / self.start.dt
+        own = (1.0 + 2.0 * ratio) / (1.0 + ratio)
+        old = ((1.0 + ratio) * mass - ratio**2 / (1.0 + ratio) * self.start.mass_before) / own
+        return own * per_dt, np.clip(old, mass / _FASTEST_CHANGE, mass * _FASTEST_CHANGE)
+
+    def problem(self) -> Problem:
+        """What the kernels solve."""
+        now, (per_dt, mass) = self.now, self._history()
         top = min(now.hardness, _TABLE_TOP)
         fluidity, density, viscosity = _tables(now.viscosity, now.density, now.temperature, top)
-        mobility = self.size**3 * self.p_unit / (12.0 * viscosity * now.entrainment_speed * now.radius_x**2)
+        mobility = self.size**3 * self.p_unit / (12.0 * viscosity * self.speed * now.shape.radius_x**2)
         edge, weight = self._beyond
         ease, thinned = self._oil(viscosity)
+        images = self._with_images
+        weight = images(weight)
+        if self.grid.periodic:
+            weight[[0, -1]] = 0.0
         return Problem(
-            undeformed=self.undeformed,
-            cap=self.cap,
+            undeformed=images(self.undeformed),
+            cap=images(self.cap),
             floor=self.floor,
             spacing=self.dx,
             load=self.load,
-            mobility=mobility * ease,
-            thinned=thinned,
+            mobility=mobility * images(ease),
+            thinned=images(thinned),
             per_dt=per_dt,
-            mass_old=np.zeros_like(self.cap) if mass is None else mass,
+            wedge=now.entrainment_speed / self.speed,
+            mass_old=images(mass / self.h_unit),
             fluidity=fluidity,
             density=density,
             step=top / self.p_unit / (_TABLE - 1),
             compliance=self.compliance,
-            edge=edge,
+            edge=images(edge),
             weight=weight,
             lumped=self.settings.lumped,
+            conserving=now.conserving,
+            supply=None if now.supply is None else now.supply / self.h_unit,
+            first=self._first,
+            wrapped=self.grid.periodic,
         )
+
+    def _with_images(self, field: NDArray[Any]) -> NDArray[Any]:
+        """A field [ny, nx], on a periodic grid with an image of the last row before and one of the first row after."""
+        return np.concatenate([field[-1:], field, field[:1]]) if self.grid.periodic else field
+
+    def with_images(self, start: Iterate) -> Iterate:
+        """An iterate on the rows of the kernels."""
+        images = self._with_images
+        return Iterate(images(start.pressure), images(start.fluid), images(start.solid), start.rigid)
+
+    def without_images(self, found: Solution) -> Solution:
+        """A solution of the kernels on the rows of the grid."""
+        if not self.grid.periodic:
+            return found
+        it, own = found.iterate, np.s_[1:-1]
+        iterate = Iterate(it.pressure[own].copy(), it.fluid[own].copy(), it.solid[own].copy(), it.rigid)
+        return replace(found, iterate=iterate, gap=found.gap[own].copy(), mass=found.mass[own].copy())
+
+    @cached_property
+    def _first(self) -> int:
+        """First column in which oil has pressure: the one after the node nearest to the inlet meniscus."""
+        meniscus = self.now.meniscus
+        if meniscus is None or self.grid.x[0] > -meniscus:
+            return 0
+        return min(int(np.abs(self.grid.x + meniscus).argmin()) + 1, self.grid.x.size - 1)
 
     @cached_property
     def _beyond(self) -> tuple[Array, Array]:
-        if self.contact.moes_parameters[0] < _FAR_FIELD_BELOW:
-            return far_field(self.x, self.y, self.smooth_film / self.h_unit)
+        starved = self._first > 0 or self.now.supply is not None
+        if self.is_light and isinstance(self.now.shape, Point) and not starved:
+            by_wedge = (3.0 + 2.0 * self.curvature) / (2.0 + 2.0 * self.curvature)  # see `far_field`
+            closing = by_wedge * self.closing * self.now.shape.radius_x / (self.speed * self.size)
+            wedge = self.now.entrainment_speed / self.speed
+            return far_field(self.x, self.y, self.film / self.h_unit, self.curvature, wedge, closing)
         return np.zeros_like(self.cap), np.ones_like(self.cap)
 
     def iterate(self, state: FilmState) -> Iterate:
-        """A film state in these units, scaled to carry the load."""
-        total = state.pressure.sum() / self.p_unit
-        scale = self.load / total / self.p_unit if total > 0.0 else 1.0 / self.p_unit
-        pressure = np.minimum(state.pressure * scale, self.cap)
-        fluid = np.minimum(state.fluid * scale, pressure)
+        """A film state in these units, scaled to carry the load. Bodies that have carried none are taken to begin as
+        rigid ones that sink through oil do.
+        """
+        begun = state.pressure if state.pressure.any() else self.p_unit * (state.mass.min() / state.mass) ** 2
+        total = begun.sum() / self.p_unit
+        scale = self.load / total / self.p_unit
+        pressure = np.minimum(begun * scale, self.cap)
+        fluid = np.minimum(state.fluid * scale, pressure) if begun is state.pressure else pressure.copy()
         return Iterate(pressure, fluid, state.solid.copy(), state.rigid_gap / self.h_unit)
 
     def dry_start(self) -> Iterate:
@@ -145,7 +264,8 @@ class Scaled:
         """A Hertz-like pressure under the film of smooth bodies and the highest asperities."""
         pressure = np.minimum(self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300)), self.cap)
         lift = self.smooth_film + 0.5 * max(float(self.now.heights.max()), 0.0)
-        rigid = lift / self.h_unit - self.compliance  # what that pressure deforms the centre by
+        settled = self.compliance if self.now.shape.circular else float(self.half_space.deform(pressure).max())
+        rigid = lift / self.h_unit - settled  # what that pressure deforms the centre by
         return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid)
 
     def shared_start(self) -> Iterate:
@@ -180,6 +300,8 @@ class Scaled:
         gap = iterate.rigid + self.undeformed + self.half_space.deform(iterate.pressure)
         load_error = float(iterate.pressure.sum()) / self.load - 1.0
         mass = np.maximum(gap, self.floor)
+        if self.now.supply is not None:
+            mass = np.minimum(mass, self.now.supply / self.h_unit)
         why = "" if converged else f"dry contact short of {tolerance:g} after {iterations} iterations"
         found = Solution(iterate, gap, mass, converged, iterations, tolerance, load_error, 0.0, 0.0, why)
         return self.solution(found, route, "conjugate gradients")
@@ -196,6 +318,8 @@ class Scaled:
             np.ones((1, 1)) if self.now.ease is None else self.now.ease,
             np.zeros((1, 1)) if self.now.thinned is None else self.now.thinned,
         )
+        if self.start and self.step and self.step.order == 2:
+            state = replace(state, mass_before=self.start.mass, dt=self.step.dt)
         capped = it.solid & (it.pressure >= self.cap)
         overlap = np.where(capped, np.maximum(self.floor - found.gap, 0.0), 0.0) * self.h_unit
         gap = np.maximum(found.gap, self.floor) * self.h_unit
@@ -218,12 +342,10 @@ class Scaled:
 
     def _inlet_nodes(self, gap: Array) -> float:
         """Nodes across the zone before the contact in which the film builds up."""
-        radius_2 = self.grid.radius_2
-        centre = radius_2 < max(4.0 / 9.0 * self.a**2, 1.01 * float(radius_2.min()))  # at least the nearest nodes
-        film = float(gap[centre].mean())
+        film = float(gap[disc(self.grid, self.hertz)].mean())
         if self.now.entrainment_speed > 0.0:  # roughness holds the gap open, yet it is the oil's own film that comes in
             film = min(film, self.smooth_film)
-        return inlet_length(self.a, self.now.radius_x, film) / self.grid.spacing
+        return inlet_length(self.a, self.now.shape, film) / self.grid.spacing
 
 
 def film_size(a: float, radius: float, film: float) -> float:
@@ -231,22 +353,24 @@ def film_size(a: float, radius: float, film: float) -> float:
     return float(np.sqrt(a**2 + 1.4 * radius * film))
 
 
-def inlet_length(a: float, radius: float, film: float) -> float:
-    """Distance [m] before Hertz's contact at which its gap, (4 sqrt2 / 3 pi) (d/a)^1.5 a^2 / R, is the film [m]."""
-    return float(a * (film * radius / a**2 / 0.6) ** (2.0 / 3.0))
+def inlet_length(a: float, shape: Shape, film: float) -> float:
+    """Distance d [m] before Hertz's contact at which its gap, opening (d/a)^1.5 a^2 / R, is the film [m]."""
+    return float(a * (film * shape.radius_x / a**2 / shape.opening) ** (2.0 / 3.0))
 
 
 _LOCAL = threading.local()  # plans and scratch may not be shared between threads
 
 
-def half_space(shape: tuple[int, int], scale: float, library: str) -> HalfSpace:
-    """The half space of a grid, with plans kept from before."""
-    store: dict[tuple[tuple[int, int], float, str], HalfSpace] = _LOCAL.__dict__.setdefault("half_spaces", {})
-    key = (shape, scale, library)
+def half_space(shape: tuple[int, int], scale: float, library: str, reference: float | None = None) -> HalfSpace:
+    """The half space of a grid, with plans kept from before; with a reference [nodes] that of a periodic grid."""
+    store: dict[tuple[tuple[int, int], float, str, float | None], HalfSpace]
+    store = _LOCAL.__dict__.setdefault("half_spaces", {})
+    key = (shape, scale, library, reference)
     if key not in store:
         if len(store) >= 8:
             store.pop(next(iter(store)))
-        store[key] = HalfSpace(*shape, scale, library)
+        made = HalfSpace if reference is None else partial(PeriodicHalfSpace, reference=reference)
+        store[key] = made(*shape, scale, library)
     return store[key]
 
 

@@ -7,12 +7,14 @@ and the load. It takes a few tens of iterations from light to heavy loads and fu
 some tens of those of `mixed`.
 """
 
+from typing import Any
+
 import numpy as np
 import scipy
 from numba import njit
 from numpy.typing import NDArray
 
-from . import reynolds
+from . import cavities, reynolds
 from .half_space import HalfSpace
 from .mixed import Iterate, Iteration, Problem, Solution, iterate_on, set_edge
 
@@ -28,7 +30,26 @@ _PROBE = 1e-6  # part of a film by which the rigid gap is moved to see what flow
 
 
 @_jit
-def _response(f, solid, h, floor, mobility, thinned, fluidity, density, step, mass_old, per_dt, dx, gap, out):  # type: ignore[no-untyped-def]
+def _response(  # type: ignore[no-untyped-def]
+    f,
+    solid,
+    h,
+    floor,
+    mobility,
+    thinned,
+    fluidity,
+    density,
+    step,
+    mass_old,
+    per_dt,
+    wedge,
+    dx,
+    gap,
+    out,
+    supply=None,
+    conserving=False,
+    first=1,
+):
     """Change of the net inflow of mass of every fluid node with the rigid gap; `gap` is the change that is tried."""
     ny, nx = f.shape
     mass, e, r = np.empty((2, ny, nx)), np.empty((2, ny, nx)), np.zeros((2, ny, nx))
@@ -40,7 +61,13 @@ def _response(f, solid, h, floor, mobility, thinned, fluidity, density, step, ma
                 mass[way, j, i] = rho * flow
                 phi = reynolds.interpolate(fluidity, step, f[j, i]) + thinned[j, i]
                 e[way, j, i] = mobility[j, i] * rho * flow**3 * phi
-        reynolds.residual(f, solid, mass[way], mass_old, e[way], per_dt, dx, r[way])
+        if supply is None:
+            reynolds.residual(f, solid, mass[way], mass_old, e[way], per_dt, wedge, dx, r[way])
+        else:
+            m, flux, filling = np.empty((ny, nx)), np.empty((ny, nx)), np.empty((ny, nx))
+            inlet = (conserving, supply, first)
+            cavities.carry(f, mass[way], mass_old, e[way], per_dt, wedge, dx, *inlet, m, flux, filling)
+            reynolds.residual(f, solid, m, mass_old, e[way], per_dt, wedge, dx, r[way], flux, filling, first)
     for j in range(ny):
         for i in range(nx):
             out[j, i] = (r[1, j, i] - r[0, j, i]) / gap
@@ -58,6 +85,7 @@ def _equations(  # type: ignore[no-untyped-def]
     edge,
     floor,
     per_dt,
+    wedge,
     dx,
     near,
     patch_wide,
@@ -70,6 +98,8 @@ def _equations(  # type: ignore[no-untyped-def]
     columns,
     values,
     rhs,
+    filling=None,
+    first=1,
 ):
     """Rows of the linearised equation for the free nodes, numbered in `number` (-1: not free). Returns how many.
 
@@ -91,13 +121,13 @@ def _equations(  # type: ignore[no-untyped-def]
         reynolds.wrap(number)
     half = 0.5 / (dx * dx)
     k0, k1, k2, k3, k4 = near[0, 0], near[0, 1], near[0, 2], near[0, 3], near[0, 4]
-    wedge = np.empty(6)  # d(deformation wedge)_i / dp_(i + m), m = -3 ... 2
-    wedge[0] = (1.5 * k3 - 2.0 * k2 + 0.5 * k1) / dx
-    wedge[1] = (1.5 * k2 - 2.0 * k1 + 0.5 * k0) / dx
-    wedge[2] = (1.5 * k1 - 2.0 * k0 + 0.5 * k1) / dx
-    wedge[3] = (1.5 * k0 - 2.0 * k1 + 0.5 * k2) / dx + per_dt * patch_wide
-    wedge[4] = (1.5 * k1 - 2.0 * k2 + 0.5 * k3) / dx
-    wedge[5] = (1.5 * k2 - 2.0 * k3 + 0.5 * k4) / dx
+    lifts = np.empty(6)  # d(deformation wedge)_i / dp_(i + m), m = -3 ... 2
+    lifts[0] = wedge * ((1.5 * k3 - 2.0 * k2 + 0.5 * k1) / dx)
+    lifts[1] = wedge * ((1.5 * k2 - 2.0 * k1 + 0.5 * k0) / dx)
+    lifts[2] = wedge * ((1.5 * k1 - 2.0 * k0 + 0.5 * k1) / dx)
+    lifts[3] = wedge * ((1.5 * k0 - 2.0 * k1 + 0.5 * k2) / dx) + per_dt * patch_wide
+    lifts[4] = wedge * ((1.5 * k1 - 2.0 * k2 + 0.5 * k3) / dx)
+    lifts[5] = wedge * ((1.5 * k2 - 2.0 * k3 + 0.5 * k4) / dx)
     filled = 0
     for j in range(1, ny - 1):
         for i in range(1, nx - 1):
@@ -107,12 +137,14 @@ def _equations(  # type: ignore[no-untyped-def]
             starts[row] = filled
             rho = mass[j, i] / h[j, i] if h[j, i] > floor else 0.0  # at the floor the flow does not feel it
             asked, moved = r[j, i], response[j, i]
-            diagonal = rho * wedge[3]
+            diagonal = rho * lifts[3]
             faces = np.zeros(6)
             for side in range(4):  # south, west, east, north
                 dj, di = (-1, 0, 0, 1)[side], (0, -1, 1, 0)[side]
                 face = half * (e[j, i] + e[j + dj, i + di])
                 diagonal += face
+                if filling is not None and side == 1:
+                    diagonal -= reynolds.returned(filling, first, per_dt, wedge, dx, j, i) * face
                 diagonal -= face * edge[j + dj, i + di]
                 if solid[j + dj, i + di] or edge[j + dj, i + di] > 0.0:  # the fluid pressure of a contact stays
                     face = 0.0
@@ -131,7 +163,7 @@ def _equations(  # type: ignore[no-untyped-def]
                     columns[filled], values[filled] = row, diagonal
                     filled += 1
                 elif 0 <= k < nx:
-                    value = rho * wedge[m] - faces[m]
+                    value = rho * lifts[m] - faces[m]
                     if number[j, k] >= 0:
                         columns[filled], values[filled] = number[j, k], value
                         filled += 1
@@ -208,12 +240,16 @@ class _Direct(Iteration):
         q, p = self.problem, self.p
         scale = _PROBE * float(np.maximum(self.h, q.floor).min())
         oil = (q.mobility, q.thinned, q.fluidity, q.density, q.step)
-        in_time = (q.mass_old, q.per_dt, q.spacing)
-        _response(self.f, self.solid, self.h, q.floor, *oil, *in_time, scale, self.response)
-        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.spacing)
+        in_time = (q.mass_old, q.per_dt, q.wedge, q.spacing)
+        inlet: tuple[Any, ...] = ()
+        filling: tuple[Any, ...] = ()
+        if (carried := self.carried) is not None:
+            inlet, filling = (carried.supply, q.conserving, carried.first), (carried.filling, carried.first)
+        _response(self.f, self.solid, self.h, q.floor, *oil, *in_time, scale, self.response, *inlet)
+        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.wedge, q.spacing)
         given = (self.half_space.near, self.patch_wide, base, -self.lever, self.response)
-        system = (q.wrapped, self.number, self.starts, self.columns, self.values, self.rhs)
-        n, filled = _equations(p, self.solid, self.stiff, *film, *given, *system)
+        system = (self.number, self.starts, self.columns, self.values, self.rhs)
+        n, filled = _equations(p, self.solid, self.stiff, *film, *given, q.wrapped, *system, *filling)
         if n == 0:
             return
         rows = (self.values[:filled], self.columns[:filled], self.starts[: n + 1])

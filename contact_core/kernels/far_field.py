@@ -1,7 +1,9 @@
 """What lies beyond the edge of the grid: the decay of the inlet pressure and the load it still carries.
 
-Far in the inlet the film is rigid, h = h0 + r^2 / 2, and the pressure goes like g = -x / h^2 for x < 0 and is zero
-behind: p = (4/5) (...) -x / h^2 is Kapitza's exact solution of the rigid, isoviscous half-flooded ball.
+Far in the inlet the film is rigid, h = h0 + (x^2 + k y^2) / 2, and the pressure goes like g = -x / h^2 for x < 0 and is
+zero behind: p ~ -x / h^2 is Kapitza's exact solution of the rigid, isoviscous half-flooded ellipsoid. Where bodies come
+closer at a speed V beside an entrainment speed u, g = (-u x + c V R) / h^2, c = (3 + 2 k) / (2 + 2 k), or zero, by the
+same equation.
 Source: Kapitza, Zh. Tekh. Fiz. 25 (1955) 747; Brewe, Hamrock & Taylor, J. Lubr. Technol. 101 (1979) 231,
 doi:10.1115/1.3453329. Lengths in the unit of the problem, gaps in its square over the radius.
 """
@@ -12,26 +14,40 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-def far_field(x: Array, y: Array, film: float) -> tuple[Array, Array]:
+def far_field(
+    x: Array, y: Array, film: float, curvature: float = 1.0, wedge: float = 1.0, closing: float = 0.0
+) -> tuple[Array, Array]:
     """Ratio of the pressure of an edge node to that of its inner neighbour, and the weight of each node in the load.
 
-    x [nx], y [ny] equally spaced; film: central film of smooth bodies. Both results are [ny, nx]; the ratio is zero
-    off the edge and where the flow leaves, the weight is 1 off the edge and there holds what lies beyond.
+    x [nx], y [ny] equally spaced; film: central film of smooth bodies; curvature: k, that along y over that along x;
+    wedge, closing: u and c V R in the same unit.
+
+    Both results are [ny, nx]; the ratio is zero off the edge and where the flow leaves, the weight is 1 off the edge
+    and there holds what lies beyond.
     """
     spacing = x[1] - x[0]
     xx, yy = np.meshgrid(x, y)
     r2 = xx**2 + yy**2
-    decay = np.where(xx < 0.0, -xx, 0.0) / (film + 0.5 * r2) ** 2
+    rise = xx**2 + curvature * yy**2  # of the gap, twice
+    decay = np.maximum(closing - wedge * xx, 0.0) / (film + 0.5 * rise) ** 2
     ratio, weight = np.zeros_like(decay), np.ones_like(decay)
-    inner = ((np.s_[:, 0], np.s_[:, 1]), (np.s_[0, :], np.s_[1, :]), (np.s_[-1, :], np.s_[-2, :]))
+    inner = (
+        (np.s_[:, 0], np.s_[:, 1]),
+        (np.s_[:, -1], np.s_[:, -2]),
+        (np.s_[0, :], np.s_[1, :]),
+        (np.s_[-1, :], np.s_[-2, :]),
+    )
     for edge, neighbour in inner:
         ratio[edge] = np.where(decay[neighbour] > 0.0, decay[edge] / np.maximum(decay[neighbour], 1e-300), 0.0)
     # load of the sectors from behind the cells of the edge nodes to infinity, over the pressure at these nodes
-    cosine = np.where(xx < 0.0, -xx, 0.0) / np.sqrt(np.maximum(r2, 1e-300))
-    for edge, distance in ((np.s_[:, 0], np.abs(xx)), (np.s_[0, :], np.abs(yy)), (np.s_[-1, :], np.abs(yy))):
+    cosine = -wedge * xx / np.sqrt(np.maximum(r2, 1e-300))
+    along, across = np.abs(xx), np.abs(yy)
+    for edge, distance in ((np.s_[:, 0], along), (np.s_[:, -1], along), (np.s_[0, :], across), (np.s_[-1, :], across)):
         d, r = distance[edge], np.sqrt(r2[edge])
-        s = r * (1.0 + 0.5 * spacing / d) / np.sqrt(2.0 * film)
-        radial = np.sqrt(2.0 / film) * (0.5 * np.pi - np.arctan(s) + s / (1.0 + s * s))
+        bent = rise[edge] / r2[edge]  # curvature of the gap along the ray
+        s = np.sqrt(bent) * r * (1.0 + 0.5 * spacing / d) / np.sqrt(2.0 * film)
+        radial = np.sqrt(2.0 / film) * (0.5 * np.pi - np.arctan(s) + s / (1.0 + s * s)) / bent**1.5
         beyond = spacing * d / r**2 * cosine[edge] * radial / spacing**2  # over the angle of the cell
-        weight[edge] += np.where(ratio[edge] > 0.0, beyond / np.maximum(decay[edge], 1e-300), 0.0)
+        beyond += spacing * d / r**2 * closing / (film * (1.0 + s * s)) / bent / spacing**2
+        weight[edge] += np.where(ratio[edge] > 0.0, np.maximum(beyond, 0.0) / np.maximum(decay[edge], 1e-300), 0.0)
     return ratio, weight

@@ -20,6 +20,8 @@ def restrict(field: NDArray[Any]) -> NDArray[Any]:
 def prolong(field: NDArray[Any], shape: tuple[int, int]) -> Array:
     """A field of the coarser grid on one of `shape` [ny, nx], linear in between."""
     for axis, n in enumerate(shape):
+        if field.shape[axis] == n:
+            continue
         coarse = np.arange(field.shape[axis]) * 2.0 + (0.0 if n % 2 else 0.5)
         at = np.clip(np.arange(n), coarse[0], coarse[-1])
         low = np.minimum(((at - coarse[0]) / 2.0).astype(np.int64), field.shape[axis] - 2)

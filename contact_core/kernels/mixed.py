@@ -7,12 +7,13 @@ accelerates it.
 """
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from . import reynolds
+from . import cavities, reynolds
 from .anderson import Anderson
 from .half_space import HalfSpace
 
@@ -31,6 +32,7 @@ _LOAD_TOLERANCE = 1e-4
 _INTRUSION_TOLERANCE = 0.2
 _IMBALANCE_PER_TOLERANCE = 100.0  # what a time step still owes is made up for in the next one...
 _STEADY_IMBALANCE_PER_TOLERANCE = 5.0  # ...but a steady film has no next one
+_LEAST_PART = 0.1  # of the load, that the balance of a film that conserves its mass counts with
 _SHARE_TOLERANCE = 0.02  # nodes at the floor whose fluid pressure is about p change sides for ever, p unchanged
 
 
@@ -51,6 +53,7 @@ class Problem:
     mobility: Array  # pressure flow of a unit's gap, gradient and fluidity
     thinned: Array  # what shear adds to the fluidity
     per_dt: float  # 1 / time step, 0: steady
+    wedge: float  # entrainment speed: 1, less where that would be too slow a unit for the time step
     mass_old: Array  # mass of the previous instant
     fluidity: Array  # table of 1 / viscosity
     density: Array  # table
@@ -61,6 +64,34 @@ class Problem:
     lumped: bool = False  # one pressure for fluid and solids, as in the unified Reynolds equation: f = p everywhere
     # periodic along y: the first and the last row are images of the last and the first but one; edge and weight 0 there
     wrapped: bool = False
+    conserving: bool = False  # cavities hold the oil that flows into them; else they count as full
+    supply: float | Array | None = None  # conserving: mass [ny] that enters, None: as much as the first column can take
+    first: int = 0  # first column in which oil has pressure; upstream of it none presses
+
+    @property
+    def by_flux(self) -> bool:
+        """Whether the film is balanced by its flow through faces, as cavities and an inlet meniscus need it."""
+        return self.conserving or self.first > 1
+
+
+class Carried:
+    """Oil of a film that cavities and an inlet meniscus leave not full: `cavities.carry` and its scratch arrays."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem, shape = problem, problem.cap.shape
+        self.full, self.flux, self.filling = np.zeros(shape), np.zeros(shape), np.ones(shape)
+        supply = np.inf if problem.supply is None else problem.supply
+        self.supply: Array = np.broadcast_to(np.asarray(supply, np.float64), shape[:1]).copy()
+        self.first = max(problem.first, 1)
+
+    def carry(self, f: Array, e: Array, mass: Array) -> None:
+        """Mass of every node, and the flow between them, of a fluid pressure and what full nodes hold."""
+        q = self.problem
+        inlet = (q.conserving, self.supply, self.first)
+        cavities.carry(f, self.full, q.mass_old, e, q.per_dt, q.wedge, q.spacing, *inlet, mass, self.flux, self.filling)
+        if q.wrapped:
+            for field in (mass, self.flux, self.filling):
+                reynolds.wrap(field)
 
 
 @dataclass(frozen=True)
@@ -85,7 +116,7 @@ class Solution:
     change: float  # last relative change of the pressure by an iteration
     load_error: float  # relative
     intrusion: float  # mean distance of solid contacts below the cap from the floor, weighted by pressure, in floors
-    imbalance: float  # mass that the film gains or loses unasked in l / u_e, relative, weighted by the load it carries
+    imbalance: float  # mass that the film gains or loses unasked in the unit of time, relative, by the load it carries
     shortfall: str = ""  # why it is not converged, empty if it is
 
 
@@ -244,7 +275,8 @@ class Iteration:
         self.f, self.solid = start.fluid.copy(), start.solid.copy()
         self.h, self.mass, self.e, self.r, self.dh, self.dp, self.unit = (np.zeros(shape) for _ in range(7))
         self.stiff, self.stiff_of_unit = (np.zeros(shape, np.bool_) for _ in range(2))
-        self.sums = np.zeros(5)
+        self.sums = np.zeros(7)
+        self.carried = Carried(problem) if problem.by_flux else None
         near = half_space.near
         self.patch = near[0, 0] + 2 * near[0, 1] + 2 * near[1, 0] + 4 * near[1, 1]
         self.patch_wide = 4 * near.sum() - 2 * near[0].sum() - 2 * near[:, 0].sum() + near[0, 0]
@@ -263,9 +295,11 @@ class Iteration:
         self._film()
         self._press()
         q, p = self.problem, self.p
-        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.spacing)
+        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.wedge, q.spacing)
         near = (self.half_space.near, self.patch_wide)
-        reynolds.relax_lines(p, self.solid, self.stiff, *film, *near, q.lumped, _LINE_SWEEPS, self.dp, q.wrapped)
+        inlet = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
+        relaxation = (q.lumped, _LINE_SWEEPS, self.dp, *inlet, q.wrapped)
+        reynolds.relax_lines(p, self.solid, self.stiff, *film, *near, *relaxation)
         lever = (self.stiff, self.unit, self.damping, q.load, q.edge, q.weight, q.wrapped)
         vector = self.memory.image
         shift, change = _next_pressure(p, q.cap, self.h, q.floor, *lever, self.dp, self._pressure_of(vector))
@@ -287,18 +321,29 @@ class Iteration:
 
     def _film(self) -> None:
         """Gap, contacts, fluid pressure under them, mass balance, and the change of the gap that mends it."""
-        q, p, f, solid = self.problem, self.p, self.f, self.solid
+        q, p, f, solid, carried = self.problem, self.p, self.f, self.solid, self.carried
         oil = (q.floor, q.mobility, q.thinned, q.fluidity, q.density, q.step)
-        film = (self.h, self.mass, self.e)
+        full = self.mass
+        flow: tuple[Any, int] = (None, 1)
+        inlet: tuple[Any, ...] = ()
+        if carried is not None:
+            full, flow = carried.full, (carried.flux, carried.first)
+            inlet = (carried.flux, carried.filling, carried.first)
+            cavities.close_inlet(p, f, solid, q.first)
         gap = (q.undeformed, self.half_space.deform_padded(p), self.rigid)
-        reynolds.film_pass(p, f, solid, *gap, *oil, *film, q.lumped)
-        balance = (self.h, self.mass, q.mass_old, self.e)
+        reynolds.film_pass(p, f, solid, *gap, *oil, self.h, full, self.e, q.lumped)
+        if carried is not None:
+            carried.carry(f, self.e, self.mass)
         if not q.lumped:
-            constants = (q.per_dt, q.spacing, _SWEEPS_UNDER_CONTACTS)
-            reynolds.fluid_under_contacts(p, f, solid, *balance, *constants, *oil, q.wrapped)
-        scales = (q.floor, q.per_dt, q.spacing, q.compliance, self.patch)
+            constants = (q.per_dt, q.wedge, q.spacing, _SWEEPS_UNDER_CONTACTS)
+            film = (self.h, self.mass, q.mass_old, self.e)
+            reynolds.fluid_under_contacts(p, f, solid, *film, *constants, *oil, full, *flow, q.wrapped)
+            if carried is not None:
+                carried.carry(f, self.e, self.mass)
+        balance = (self.h, self.mass, q.mass_old, self.e)
+        scales = (q.floor, q.per_dt, q.wedge, q.spacing, q.compliance, self.patch)
         out = (self.r, self.stiff, self.dh, self.sums)
-        self.zone = reynolds.mend_film(p, f, q.cap, solid, *balance, *scales, self.stiff_of_unit, *out)
+        self.zone = reynolds.mend_film(p, f, q.cap, solid, *balance, *scales, self.stiff_of_unit, *out, *inlet)
         if q.wrapped:
             reynolds.wrap(solid)
 
@@ -320,10 +365,12 @@ class Iteration:
     def assess(self, n: int, tolerance: float) -> Solution:
         """How good the present pressure is; refers to the scratch arrays, so it holds until the next `correct`."""
         q = self.problem
-        wrong, film, fluid, solids, intrusion = (float(value) for value in self.sums)
+        wrong, film, fluid, solids, intrusion, gained, held = (float(value) for value in self.sums)
         load_error, share = self.load / q.load - 1.0, solids / q.load
         intrusion /= q.floor * q.load
         imbalance = wrong / max(film, 1e-300) * fluid / q.load
+        if q.conserving:  # pockets that still fill up carry little yet, but will
+            imbalance = wrong / max(film, 1e-300) * max(fluid / q.load, _LEAST_PART) + gained / max(held, 1e-300)
         why = shortfall(tolerance, self.change, load_error, intrusion, imbalance, q.per_dt > 0.0)
         if abs(share - self.share) >= _SHARE_TOLERANCE:
             why = "; ".join(filter(None, (why, "the share of the solids still changes")))
@@ -331,12 +378,22 @@ class Iteration:
         iterate = Iterate(self.p, self.f, self.solid, self.rigid)
         return Solution(iterate, self.h, self.mass, not why, n, self.change, load_error, intrusion, imbalance, why)
 
+    def _owed(self) -> Array:
+        """Mass that nodes have taken in by their balance and do not hold."""
+        if not self.problem.conserving:
+            return np.where(self.solid | (self.p <= 0.0), 0.0, self.r)
+        q, carried, owed, nowhere = self.problem, self.carried, np.zeros_like(self.r), np.zeros_like(self.solid)
+        assert carried is not None
+        balance = (self.mass, q.mass_old, self.e, q.per_dt, q.wedge, q.spacing)
+        reynolds.residual(self.f, nowhere, *balance, owed, carried.flux, carried.filling, carried.first)
+        return owed
+
     def kept(self, found: Solution) -> Solution:
         """A copy of an assessed solution that outlives the scratch arrays."""
         mass = self.mass.copy()
         if self.problem.per_dt > 0.0:
             # what the film still lacks of its mass balance goes into its history: the next instant makes up for it
-            owed = np.where(self.solid | (self.p <= 0.0), 0.0, self.r / self.problem.per_dt)
+            owed = self._owed() / self.problem.per_dt
             mass += np.clip(owed, -0.5 * mass, 0.5 * mass)
             if self.problem.wrapped:
                 reynolds.wrap(mass)

@@ -58,8 +58,8 @@ class _Progress:
 class _Multigrid:
     """Levels from the coarsest to the finest, and how their changes are damped."""
 
-    def __init__(self, levels: list[Level], load: float, single: float, spread: float) -> None:
-        self.levels, self.load, self.damping = levels, load, (single, spread)
+    def __init__(self, levels: list[Level], load: float, depth: float, single: float, spread: float) -> None:
+        self.levels, self.load, self.depth, self.damping = levels, load, depth, (single, spread)
         self._found: tuple[Array, float] | None = None  # pressure and rigid gap of the last level but one
 
     def nested(self, film: float, tolerance: float, cycles: int) -> tuple[_Progress, list[LevelFilm]]:
@@ -83,7 +83,7 @@ class _Multigrid:
         level.state_problem(self.load)
         level.p[:] = np.sqrt(np.maximum(1.0 - 2.0 * level.undeformed, 0.0))
         level.p *= self.load / max(level.load(), 1e-300)
-        level.rigid = film - level.compliance ** (2.0 / 3.0)  # the contact is a^2 / R deep
+        level.rigid = film - self.depth
         level.set_edges()
 
     def _refine(self, k: int) -> None:
@@ -148,11 +148,14 @@ def is_symmetric(problem: Problem) -> bool:
 
 
 def is_applicable(problem: Problem) -> bool:
-    """Whether the film is steady and does not repeat along y, and its grid can be halved often enough."""
+    """Whether the film is steady, full where it has no pressure and without a period, and its grid can be halved often
+    enough.
+    """
     (ny, nx), mirror = problem.undeformed.shape, is_symmetric(problem)
     halvings = _level_count(ny, nx, mirror) - 1
     unknowns = (ny >> halvings) * (nx >> halvings) / (2 if mirror else 1)
-    return problem.per_dt == 0.0 and not problem.wrapped and halvings >= 2 and unknowns <= _DENSE
+    plain = not (problem.per_dt > 0.0 or problem.by_flux or problem.wrapped)
+    return plain and halvings >= 2 and unknowns <= _DENSE
 
 
 def _level_count(ny: int, nx: int, mirror: bool) -> int:
@@ -170,7 +173,7 @@ def _damping(problem: Problem, film: float) -> tuple[float, float]:
     return float(np.clip(1.0 - 0.15 * depth - 0.2 * thickening, 0.4, 0.95)), 0.4
 
 
-def _levels(problem: Problem, x: Array, y: Array, library: str, film: float) -> list[Level]:
+def _levels(problem: Problem, x: Array, y: Array, library: str, film: float, curvature: float) -> list[Level]:
     mirror, far = is_symmetric(problem), bool(problem.edge.any())
     surface = problem.undeformed - problem.undeformed.min()
     levels: list[Level] = []
@@ -180,7 +183,7 @@ def _levels(problem: Problem, x: Array, y: Array, library: str, film: float) -> 
         edge, weight = problem.edge, problem.weight
         if k > 0:
             shape = (yk.size, xk.size)
-            edge, weight = far_field(xk, yk, film) if far else (np.zeros(shape), np.ones(shape))
+            edge, weight = far_field(xk, yk, film, curvature) if far else (np.zeros(shape), np.ones(shape))
         every = np.s_[:: 2**k, :: 2**k]
         level.set_bodies(surface[every], edge, weight)
         level.set_oil(problem.mobility[every], problem.thinned[every])
@@ -189,23 +192,35 @@ def _levels(problem: Problem, x: Array, y: Array, library: str, film: float) -> 
 
 
 def solve_smooth(
-    problem: Problem, x: Array, y: Array, library: str, film: float, tolerance: float, cycles: int
+    problem: Problem,
+    x: Array,
+    y: Array,
+    library: str,
+    film: float,
+    tolerance: float,
+    cycles: int,
+    depth: float | None = None,
+    curvature: float = 1.0,
+    damping: float = 1.0,
 ) -> tuple[Solution, list[LevelFilm]]:
     """Steady film of smooth bodies on the nodes x [nx], y [ny], from nothing.
 
-    `film`: central film by a formula, for the first guess and the far field that `problem.edge` was made for. Ends
-    after `cycles` on the finest grid, or when one of them changes the pressure by less than `tolerance` and load and
-    mass balance are met. Floor and cap are not imposed: a film that violates them is not converged. Non-finite values
-    never leave: where there are any, the change is infinite. The second result tells what the levels found, from
-    coarse to fine. ValueError if not `is_applicable`.
+    `film`: central film by a formula, for the first guess and the far field that `problem.edge` was made for; `depth`:
+    approach of the dry bodies, for the same guess, that of a ball if not given; `curvature`: of the gap along y over
+    that along x, for the same far field; `damping`: of all changes, beside the usual one. Ends after `cycles` on the
+    finest grid, or when one of them changes the pressure by less than `tolerance` and load and mass balance are met.
+    Floor and cap are not imposed: a film that violates them is not converged. Non-finite values never leave: where
+    there are any, the change is infinite. The second result tells what the levels found, from coarse to fine.
+    ValueError if not `is_applicable`.
     """
     if not is_applicable(problem):
-        raise ValueError("multigrid needs a steady problem and a grid of m 2^k + 1 nodes, m small")
-    levels = _levels(problem, x, y, library, film)
+        raise ValueError("multigrid needs a steady problem, full cavities and a grid of m 2^k + 1 nodes, m small")
+    levels = _levels(problem, x, y, library, film, curvature)
+    depth = problem.compliance ** (2.0 / 3.0) if depth is None else depth  # a^2 / R
     found, films = _failure(problem), list[LevelFilm]()
-    single, spread = _damping(problem, film)
+    single, spread = (damping * part for part in _damping(problem, film))
     for part in _DAMPING_PARTS:
-        solver = _Multigrid(levels, problem.load * problem.spacing**2, part * single, spread)
+        solver = _Multigrid(levels, problem.load * problem.spacing**2, depth, part * single, spread)
         progress, films = solver.nested(film, tolerance, cycles)
         found = _solution(problem, levels[-1], progress, tolerance)
         if progress.change < _LOST:

@@ -44,7 +44,9 @@ _jit = njit(cache=True, nogil=True, error_model="numpy")
 
 
 @_jit
-def _linearise(f, solid, h, m, e, floor, mobility, thinned, fluidity, density, step, dx, rate, slope, by_f, by_h):  # type: ignore[no-untyped-def]
+def _linearise(  # type: ignore[no-untyped-def]
+    f, solid, h, m, e, floor, mobility, thinned, fluidity, density, step, dx, rate, wedge, slope, by_f, by_h
+):
     """Derivatives of the net inflow by fluid pressure and by gap on the stencil: by_f, by_h [6, ny, nx]. `slope`
     [4, ny, nx] is scratch: dm/df, dm/dh, de/df, de/dh.
     """
@@ -65,6 +67,7 @@ def _linearise(f, solid, h, m, e, floor, mobility, thinned, fluidity, density, s
     for j in range(1, ny - 1):
         for i in range(1, nx - 1):
             a0, a1, a2 = (1.5 / dx, -2.0 / dx, 0.5 / dx) if i > 1 else (1.0 / dx, -1.0 / dx, 0.0)
+            a0, a1, a2 = wedge * a0, wedge * a1, wedge * a2
             faces, fall = 0.0, 0.0
             for n in range(1, 5):
                 jn, im = j + _DJ[n], i + _DI[n]
@@ -136,7 +139,9 @@ def _assemble(by_f, by_h, scale, patch, nodes, column, solid, edge, wrapped, sta
 
 
 @_jit
-def _seek_cavity(f, p, solid, e, mass, mass_old, per_dt, dx, rigid, light, sweeps, wrapped):  # type: ignore[no-untyped-def]
+def _seek_cavity(  # type: ignore[no-untyped-def]
+    f, p, solid, e, mass, mass_old, per_dt, wedge, dx, rigid, light, sweeps, wrapped
+):
     """Projected over-relaxation of light pressures on a given film: moves the edge of the cavity by many nodes, where a
     Newton step frees one row.
     """
@@ -155,7 +160,7 @@ def _seek_cavity(f, p, solid, e, mass, mass_old, per_dt, dx, rigid, light, sweep
                 inflow = west * f[j, i - 1] + east * f[j, i + 1] + south * f[j - 1, i] + north * f[j + 1, i]
                 if total < rigid or (f[j, i] <= 0.0 and inflow <= 0.0):
                     continue
-                value = (inflow - reynolds.transport(mass, mass_old, per_dt, dx, j, i)) / total
+                value = (inflow - reynolds.transport(mass, None, mass_old, per_dt, wedge, dx, j, i)) / total
                 f[j, i] = min(max(f[j, i] + 1.6 * (value - f[j, i]), 0.0), light)
                 p[j, i] = f[j, i]
         if wrapped:
@@ -269,12 +274,12 @@ class _Film:
         q, before, old = self.problem, self.solid.copy(), self.p.copy()
         self._pass()
         rigid = 30.0 * self.half_space.near[0, 0] / q.spacing  # there the gap does not feel light pressures
-        balance = (self.e, self.mass, q.mass_old, q.per_dt, q.spacing)
+        balance = (self.e, self.mass, q.mass_old, q.per_dt, q.wedge, q.spacing)
         _seek_cavity(self.f, self.p, self.solid, *balance, rigid, _LIGHT * self.p.max(), _SWEEPS_AT_CAVITY, q.wrapped)
         _follow_edge(self.p, q.edge, q.wrapped)
         self.sought = float(np.abs(self.p - old)[self.rows].sum())
         self._pass()
-        reynolds.residual(self.f, self.solid, self.mass, q.mass_old, self.e, q.per_dt, q.spacing, self.r)
+        reynolds.residual(self.f, self.solid, self.mass, q.mass_old, self.e, q.per_dt, q.wedge, q.spacing, self.r)
         self.releases += before & ~self.solid
 
     def _pass(self) -> None:
@@ -289,8 +294,9 @@ class _Film:
         if q.wrapped:
             reynolds.wrap(solid)
         settled = solid & (self.releases >= _RELEASES)
-        balance = (self.mass, q.mass_old, self.e, q.per_dt, q.spacing)
-        reynolds.fluid_under_contacts(p, f, solid, self.h, *balance, _SWEEPS_UNDER_CONTACTS, *oil, q.wrapped)
+        balance = (self.mass, q.mass_old, self.e, q.per_dt, q.wedge, q.spacing)
+        flow = (*oil, self.mass, None, 1, q.wrapped)
+        reynolds.fluid_under_contacts(p, f, solid, self.h, *balance, _SWEEPS_UNDER_CONTACTS, *flow)
         solid |= settled
 
     def correction(self) -> tuple[Array, Array, float] | None:
@@ -298,7 +304,7 @@ class _Film:
         q, solid, near = self.problem, self.solid, self.half_space.near
         oil = (q.floor, q.mobility, q.thinned, q.fluidity, q.density, q.step)
         by_f, by_h, scale = self.by_f, self.by_h, self.scale
-        _linearise(self.f, solid, self.h, self.mass, self.e, *oil, q.spacing, q.per_dt, self.slope, by_f, by_h)
+        _linearise(self.f, solid, self.h, self.mass, self.e, *oil, q.spacing, q.per_dt, q.wedge, self.slope, by_f, by_h)
         yields = solid & (self.p >= q.cap) & (self.h < q.floor)
         wet = ((self.p > 0.0) | (self.r > 0.0)) & ~((self.p >= q.cap) & (self.r >= 0.0))
         nodes = self.order[np.where(solid, ~yields, wet).ravel()[self.order]]
@@ -386,7 +392,7 @@ class _Film:
         total = max(float(p.sum()), 1e-300)
         intrusion = float((p * np.abs(q.floor - self.h))[below_cap].sum()) / (q.floor * total)
         inflow, nowhere = np.zeros_like(p), np.zeros_like(self.solid)
-        reynolds.residual(self.f, nowhere, self.mass, q.mass_old, self.e, q.per_dt, q.spacing, inflow)
+        reynolds.residual(self.f, nowhere, self.mass, q.mass_old, self.e, q.per_dt, q.wedge, q.spacing, inflow)
         film = (self.solid, self.h, self.mass, inflow, q.floor, q.spacing)
         imbalance = float(reynolds.imbalance(p, self.f, q.cap, *film))
         change += self.sought / q.load
@@ -395,13 +401,21 @@ class _Film:
         return Solution(iterate, self.h, self.mass, not why, n, change, load_error, intrusion, imbalance, why)
 
 
+def is_applicable(problem: Problem) -> bool:
+    """Whether a film without pressure counts as full, and may have pressure everywhere."""
+    return not problem.by_flux
+
+
 def solve_newton(
     half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int
 ) -> Solution:
     """Newton steps from `start` until a step of full length meets the rule of `shortfall` or `iterations` are spent.
 
-    Non-finite values never leave: what is returned is finite, or its `change` is infinite.
+    Non-finite values never leave: what is returned is finite, or its `change` is infinite. ValueError if not
+    `is_applicable`.
     """
+    if not is_applicable(problem):
+        raise ValueError("newton knows neither mass in cavities nor an inlet meniscus")
     film = _Film(half_space, problem, start)
     film.evaluate()
     found = film.assess(0, np.inf, False, tolerance)

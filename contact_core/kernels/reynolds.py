@@ -1,12 +1,16 @@
 """Passes over the film, in the units of `mixed.Problem`.
 
-    div(e grad f) - d(m)/dx - d(m)/dt = 0,   m = rho max(h, floor),
+    div(e grad f) - wedge d(m)/dx - d(m)/dt = 0,   m = rho max(h, floor),
     e = mobility rho max(h, floor)^3 (1 / eta(f) + thinned)
 
-f is the fluid pressure, solved everywhere; entrainment is along +x. Second order: central in pressure, upwind (1.5, -2,
+f is the fluid pressure, solved everywhere; entrainment is along +x, `wedge` its speed in the unit of speeds: 1, less
+where a time step is so short that squeezing rules, 0 at rest. Second order: central in pressure, upwind (1.5, -2,
 0.5) in the wedge. On nodes in solid contact (solid[j, i]) the gap is the floor and the total pressure p is at least
 f; elsewhere p = f. Viscosity and density come as tables over pressure (relative to those at p = 0). All arrays are
 [ny, nx] unless said otherwise.
+
+`flux`, `filling`: of `cavities.carry`, whose masses are less than m where the film is not full; None: it is full
+everywhere. With them, `first` is the first column in which the oil has pressure.
 """
 
 import numpy as np
@@ -96,13 +100,21 @@ def wrap(field):  # type: ignore[no-untyped-def]
 
 
 @_jit
-def transport(mass, mass_old, per_dt, dx, j, i):  # type: ignore[no-untyped-def]
-    """d(m)/dx + d(m)/dt at a node."""
-    if i > 1:
-        wedge = (1.5 * mass[j, i] - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2]) / dx
+def transport(mass, flux, mass_old, per_dt, wedge, dx, j, i):  # type: ignore[no-untyped-def]
+    """Mass carried away and squeezed out at a node: wedge d(m)/dx + d(m)/dt."""
+    if flux is not None:
+        slope = (flux[j, i] - flux[j, i - 1]) / dx
+    elif i > 1:
+        slope = (1.5 * mass[j, i] - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2]) / dx
     else:
-        wedge = (mass[j, i] - mass[j, i - 1]) / dx
-    return wedge + (mass[j, i] - mass_old[j, i]) * per_dt
+        slope = (mass[j, i] - mass[j, i - 1]) / dx
+    return wedge * slope + (mass[j, i] - mass_old[j, i]) * per_dt
+
+
+@_jit
+def returned(filling, first, per_dt, wedge, dx, j, i):  # type: ignore[no-untyped-def]
+    """Share that comes back of what a node's pressure drives upstream: all of it, in time, from a cavity."""
+    return wedge / (wedge + per_dt * dx) if i > first and filling[j, i - 1] < 1.0 else 0.0
 
 
 @_jit
@@ -115,6 +127,7 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
     mass_old,
     e,
     per_dt,
+    wedge,
     dx,
     sweeps,
     floor,
@@ -123,19 +136,25 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
     fluidity,
     density,
     step,
+    full,
+    flux=None,
+    first=1,
     wrapped=False,
 ):
-    """Gauss-Seidel for the fluid pressure on solid contacts; releases those the fluid alone carries."""
+    """Gauss-Seidel for the fluid pressure on solid contacts; releases those the fluid alone carries.
+
+    full: what nodes hold if they are full, which changes with that pressure; `mass` itself where none is a cavity.
+    """
     ny, nx = p.shape
     count = 0
     for j in range(1, ny - 1):
-        for i in range(1, nx - 1):
+        for i in range(first, nx - 1):
             if solid[j, i]:
                 count += 1
     at, c = np.empty(count, np.int64), np.empty((count, 5))
     half, n = 0.5 / (dx * dx), 0
     for j in range(1, ny - 1):
-        for i in range(1, nx - 1):
+        for i in range(first, nx - 1):
             if solid[j, i]:
                 here = e[j, i]
                 west, east, south, north = (
@@ -147,9 +166,9 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
                 part = 1.0 / (west + east + south + north)
                 at[n] = j * nx + i
                 c[n, 0], c[n, 1], c[n, 2], c[n, 3] = west * part, east * part, south * part, north * part
-                c[n, 4] = -transport(mass, mass_old, per_dt, dx, j, i) * part / half
+                c[n, 4] = -transport(mass, flux, mass_old, per_dt, wedge, dx, j, i) * part / half
                 n += 1
-    pp, ff, hh, ee, mm, ss = p.ravel(), f.ravel(), h.ravel(), e.ravel(), mass.ravel(), solid.ravel()
+    pp, ff, hh, ee, mm, ss = p.ravel(), f.ravel(), h.ravel(), e.ravel(), full.ravel(), solid.ravel()
     ease, more = mobility.ravel(), thinned.ravel()
     for sweep in range(sweeps):
         last = sweep == sweeps - 1
@@ -179,13 +198,15 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
 
 
 @_jit
-def residual(f, solid, mass, mass_old, e, per_dt, dx, r):  # type: ignore[no-untyped-def]
-    """Net inflow of mass per area at every interior node, zero on solid contacts and on the edge."""
+def residual(f, solid, mass, mass_old, e, per_dt, wedge, dx, r, flux=None, filling=None, first=1):  # type: ignore[no-untyped-def]
+    """Net inflow of mass per area at every interior node, zero on solid contacts, in cavities and on the edge."""
     ny, nx = f.shape
     half = 0.5 / (dx * dx)
     r[:] = 0.0
     for j in range(1, ny - 1):
-        for i in range(1, nx - 1):
+        for i in range(first, nx - 1):
+            if filling is not None and filling[j, i] < 1.0:
+                continue
             if not solid[j, i]:
                 here, ej = f[j, i], e[j, i]
                 flow = (
@@ -194,7 +215,7 @@ def residual(f, solid, mass, mass_old, e, per_dt, dx, r):  # type: ignore[no-unt
                     + (ej + e[j - 1, i]) * (f[j - 1, i] - here)
                     + (ej + e[j + 1, i]) * (f[j + 1, i] - here)
                 )
-                r[j, i] = half * flow - transport(mass, mass_old, per_dt, dx, j, i)
+                r[j, i] = half * flow - transport(mass, flux, mass_old, per_dt, wedge, dx, j, i)
 
 
 @_jit
@@ -224,7 +245,28 @@ def imbalance(p, f, cap, solid, h, mass, r, floor, dx):  # type: ignore[no-untyp
 
 @_jit
 def mend_film(  # type: ignore[no-untyped-def]
-    p, f, cap, solid, h, mass, mass_old, e, floor, per_dt, dx, compliance, patch, stiff_before, r, stiff, dh, sums
+    p,
+    f,
+    cap,
+    solid,
+    h,
+    mass,
+    mass_old,
+    e,
+    floor,
+    per_dt,
+    wedge,
+    dx,
+    compliance,
+    patch,
+    stiff_before,
+    r,
+    stiff,
+    dh,
+    sums,
+    flux=None,
+    filling=None,
+    first=1,
 ):
     """Residual r, the stiff zone, and the change of the gap dh in it that mends the residual, marched downstream.
 
@@ -233,15 +275,16 @@ def mend_film(  # type: ignore[no-untyped-def]
     off the stiff zone. `patch`: opening of a gap by a unit pressure on it and its eight neighbours.
 
     Returns the first row, the row after the last, first column and column after the last of dh, and how many nodes are
-    stiff and how many of them differ from `stiff_before`. sums [5]: of |r| p, m p and p over nodes that fluid alone
-    carries; of p - f and, below the cap, of p |floor - h| over solid contacts.
+    stiff and how many of them differ from `stiff_before`. sums [7]: of |r| p, m p and p over nodes that fluid alone
+    carries; of p - f and, below the cap, of p |floor - h| over solid contacts; with `flux`, of r over nodes that are
+    full and have no pressure yet, and of m over nodes that have some.
     """
     ny, nx = p.shape
-    half, per_dx = 0.5 / (dx * dx), 1.0 / dx
+    half, per_dx, wedge_per_dx = 0.5 / (dx * dx), 1.0 / dx, wedge / dx
     limit = 2.0 * dx * dx * compliance
-    a0, a1, a2 = 1.5 * per_dx + per_dt, -2.0 * per_dx, 0.5 * per_dx
+    a0, a1, a2 = 1.5 * wedge_per_dx + per_dt, -2.0 * wedge_per_dx, 0.5 * wedge_per_dx
     per_patch, per_floor = half / patch, 1.0 / floor
-    wrong, film, fluid, solids, intrusion = 0.0, 0.0, 0.0, 0.0, 0.0
+    wrong, film, fluid, solids, intrusion, gained, held = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     top, bottom, left, right, count, changed = ny, 0, nx, 0, 0, 0
     for j in range(1, ny - 1):
         before, before_2 = 0.0, 0.0  # change of the film that flows at the two nodes upstream
@@ -252,9 +295,15 @@ def mend_film(  # type: ignore[no-untyped-def]
                 ej, west, east, south, north = e[j, i], e[j, i - 1], e[j, i + 1], e[j - 1, i], e[j + 1, i]
                 flow = (ej + west) * (f[j, i - 1] - here) + (ej + east) * (f[j, i + 1] - here)
                 flow += (ej + south) * (f[j - 1, i] - here) + (ej + north) * (f[j + 1, i] - here)
-                wedge = 1.5 * m - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2] if i > 1 else m - mass[j, i - 1]
-                value = half * flow - per_dx * wedge - per_dt * (m - mass_old[j, i])
-                if own < floor and value < 0.0:
+                if flux is not None:
+                    rise = flux[j, i] - flux[j, i - 1]
+                else:
+                    rise = 1.5 * m - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2] if i > 1 else m - mass[j, i - 1]
+                value = half * flow - wedge_per_dx * rise - per_dt * (m - mass_old[j, i])
+                sinks = value < 0.0
+                if filling is not None and (filling[j, i] < 1.0 or i < first):  # nothing is unbalanced there
+                    sinks, value = True, 0.0
+                if own < floor and sinks:
                     touches, value = True, 0.0  # the film sinks on: solids carry what it cannot
                     solid[j, i] = True
             if touches:
@@ -265,7 +314,7 @@ def mend_film(  # type: ignore[no-untyped-def]
                     ej, west, east, south, north = e[j, i], e[j, i - 1], e[j, i + 1], e[j - 1, i], e[j + 1, i]
                     flow = (ej + west) * (f[j, i - 1] - here) + (ej + east) * (f[j, i + 1] - here)
                     flow += (ej + south) * (f[j - 1, i] - here) + (ej + north) * (f[j + 1, i] - here)
-                    wrong += max(half * flow - transport(mass, mass_old, per_dt, dx, j, i), 0.0) * here
+                    wrong += max(half * flow - transport(mass, flux, mass_old, per_dt, wedge, dx, j, i), 0.0) * here
                 if here < cap[j, i]:
                     intrusion += here * abs(change)
                 elif change > 0.0:
@@ -285,6 +334,11 @@ def mend_film(  # type: ignore[no-untyped-def]
                     change = max(change, min(floor - own, 0.0))  # solids stop it there
                     if here >= cap[j, i]:
                         change = min(change, 0.0)  # the solids yield, the gap does not open
+            if flux is not None:
+                if here > 0.0:
+                    held += m
+                elif value > 0.0:
+                    gained += value
             r[j, i], stiff[j, i], dh[j, i] = value, is_stiff, change
             before_2 = before
             before = 0.0 if solid[j, i] else max(h[j, i] + change, floor) - max(h[j, i], floor)
@@ -294,13 +348,32 @@ def mend_film(  # type: ignore[no-untyped-def]
                 left, right = min(left, i), max(right, i + 1)
             if is_stiff != stiff_before[j, i]:
                 changed += 1
-    sums[0], sums[1], sums[2], sums[3], sums[4] = wrong, film, fluid, solids, intrusion
+    sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6] = wrong, film, fluid, solids, intrusion, gained, held
     return top, bottom, left, right, count, changed
 
 
 @_jit
 def relax_lines(  # type: ignore[no-untyped-def]
-    p, solid, stiff, h, mass, e, r, edge, floor, per_dt, dx, near, patch_wide, lumped, sweeps, dp, wrapped=False
+    p,
+    solid,
+    stiff,
+    h,
+    mass,
+    e,
+    r,
+    edge,
+    floor,
+    per_dt,
+    wedge,
+    dx,
+    near,
+    patch_wide,
+    lumped,
+    sweeps,
+    dp,
+    filling=None,
+    first=1,
+    wrapped=False,
 ):
     """Line over-relaxation of the linearised equation outside the stiff zone, dp given inside it. Updates dp, p +
     dp >= 0.
@@ -309,12 +382,12 @@ def relax_lines(  # type: ignore[no-untyped-def]
     half = 0.5 / (dx * dx)
     k0, k1, k2, k3, k4 = near[0, 0], near[0, 1], near[0, 2], near[0, 3], near[0, 4]
     # d(deformation wedge)_i / dp_(i + m)
-    w_3 = (1.5 * k3 - 2.0 * k2 + 0.5 * k1) / dx
-    w_2 = (1.5 * k2 - 2.0 * k1 + 0.5 * k0) / dx
-    w_1 = (1.5 * k1 - 2.0 * k0 + 0.5 * k1) / dx
-    w0 = (1.5 * k0 - 2.0 * k1 + 0.5 * k2) / dx + per_dt * patch_wide
-    w1 = (1.5 * k1 - 2.0 * k2 + 0.5 * k3) / dx
-    w2 = (1.5 * k2 - 2.0 * k3 + 0.5 * k4) / dx
+    w_3 = wedge * ((1.5 * k3 - 2.0 * k2 + 0.5 * k1) / dx)
+    w_2 = wedge * ((1.5 * k2 - 2.0 * k1 + 0.5 * k0) / dx)
+    w_1 = wedge * ((1.5 * k1 - 2.0 * k0 + 0.5 * k1) / dx)
+    w0 = wedge * ((1.5 * k0 - 2.0 * k1 + 0.5 * k2) / dx) + per_dt * patch_wide
+    w1 = wedge * ((1.5 * k1 - 2.0 * k2 + 0.5 * k3) / dx)
+    w2 = wedge * ((1.5 * k2 - 2.0 * k3 + 0.5 * k4) / dx)
     ratio, known, free = np.zeros(nx), np.zeros(nx), np.zeros(nx, np.bool_)
     alone = wrapped and ny == 3  # a row that is its own neighbour
     over = 1.0 if alone else _OVER
@@ -343,6 +416,8 @@ def relax_lines(  # type: ignore[no-untyped-def]
                 far += w_2 * dp[j, i - 2] if i > 1 else 0.0
                 far += w_3 * dp[j, i - 3] if i > 2 else 0.0
                 diag = west + east + south + north + rho * w0
+                if filling is not None:
+                    diag -= returned(filling, first, per_dt, wedge, dx, j, i) * west
                 lower, upper = rho * w_1, rho * w1
                 rhs = r[j, i] - rho * far
                 # the fluid pressure of a solid contact stays in this step

@@ -4,12 +4,26 @@ A slot's table in a scene says `model = "<name>"`; for a law without parameters 
 class and one entry in its module's LAWS.
 """
 
-from . import boundary_friction, bulk, density, heat, load_sharing, plasticity, rheology, tribofilm, viscosity, wear
+from . import (
+    boundary_friction,
+    bulk,
+    density,
+    heat,
+    load_sharing,
+    plasticity,
+    profile,
+    rheology,
+    supply,
+    tribofilm,
+    viscosity,
+    wear,
+)
 
 SLOTS: dict[str, tuple[type, ...]] = {
     "viscosity": viscosity.LAWS,
     "density": density.LAWS,
     "rheology": rheology.LAWS,
+    "supply": supply.LAWS,
     "plasticity": plasticity.LAWS,
     "boundary_friction": boundary_friction.LAWS,
     "heat": heat.LAWS,
@@ -17,4 +31,5 @@ SLOTS: dict[str, tuple[type, ...]] = {
     "tribofilm": tribofilm.LAWS,
     "wear": wear.LAWS,
     "sharing": load_sharing.LAWS,
+    "profile": profile.LAWS,
 }

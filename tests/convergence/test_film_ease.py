@@ -7,13 +7,14 @@ import pytest
 from scipy.ndimage import gaussian_filter
 
 from contact_core.film.fitted import fitted_grid
-from contact_core.film.instant import Instant, Settings
+from contact_core.film.instant import Instant, Settings, Step
 from contact_core.film.routes import _Solver, coarser, solve_film
 from contact_core.film.scaled import Scaled
 from contact_core.kernels.multigrid import is_applicable, is_symmetric
 from contact_core.laws.density import DowsonHigginson
 from contact_core.laws.viscosity import Roelands
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
+from contact_core.shapes import Point
 
 RADIUS, MODULUS, ALPHA, HARDNESS = 10e-3, 230.47e9, 15e-9, 6e9
 SETTINGS = Settings(1e-9, 1e-4, 400, "pyfftw")
@@ -33,11 +34,11 @@ class Thinner:
 
 def contact(rq=0.0, load=20.0, nodes=65, viscosity=0.02, speed=1.0):
     film = nijenbanning_venner_moes(SmoothContact(load, speed, viscosity, ALPHA, RADIUS, RADIUS, MODULUS))
-    grid = fitted_grid(load, RADIUS, MODULUS, film, nodes, nodes)
+    grid = fitted_grid(Point(RADIUS, RADIUS), load, MODULUS, film, nodes, nodes)
     z = gaussian_filter(np.random.Generator(np.random.Philox(1)).standard_normal(grid.shape), 1.5)
     z *= rq / z.std()
     law, limit = Roelands(viscosity, 300.0, ALPHA, 0.0), np.full(grid.shape, HARDNESS)
-    now = Instant(load, speed, 300.0, RADIUS, RADIUS, MODULUS, law, DowsonHigginson(), z, limit, HARDNESS)
+    now = Instant(load, speed, 300.0, Point(RADIUS, RADIUS), MODULUS, law, DowsonHigginson(), z, limit, HARDNESS)
     return now, grid
 
 
@@ -78,9 +79,9 @@ def test_an_easier_flow_is_that_of_a_thinner_oil_to_the_last_bit(method, start, 
 def test_a_time_step_feels_it_the_same_way(method, rq):
     now, grid = contact(rq)
     start = solve_film(now, grid, SETTINGS).state
-    instants = (*two_ways(now), now)
+    instants, step = (*two_ways(now), now), Step(2e-6, 1)
     eased, thinner, plain = (
-        _Solver(Scaled(each, grid, SETTINGS), start, (2e-6, 1)).run(method, "before") for each in instants
+        _Solver(Scaled(each, grid, SETTINGS, start, step), start, step).run(method, "before") for each in instants
     )
     assert np.isfinite(eased.change)
     assert (eased.iterate.pressure == thinner.iterate.pressure).all()

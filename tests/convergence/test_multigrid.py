@@ -54,6 +54,7 @@ class Case:
             mobility=np.full_like(undeformed, s * mobility),
             thinned=np.zeros_like(undeformed),
             per_dt=0.0,
+            wedge=1.0,
             mass_old=np.zeros_like(undeformed),
             fluidity=np.exp(-np.minimum(exponent, 500.0)),
             density=density,

@@ -19,6 +19,7 @@ from fmu_host import SMALL, hosted, unpacked
 
 from contact_core import ConvergenceError, RangeFlag, Scene
 from contact_core.film import FILMS
+from contact_core.geometry import GEOMETRIES
 from contact_core.laws import SLOTS
 from fmu_src import evidence, icon, measured, packages
 from fmu_src.build import build
@@ -168,7 +169,8 @@ def test_the_page_names_every_law_in_use_with_its_source(contact, changes):
 
 
 def test_every_law_and_film_has_equations():
-    assert set(LAWS) == {(slot, law.name) for slot, known in SLOTS.items() for law in known}
+    slots = {**SLOTS, "geometry": GEOMETRIES}
+    assert set(LAWS) == {(slot, law.name) for slot, known in slots.items() for law in known}
     assert set(GOVERNING) == {film.name for film in FILMS}
     doses = {choice for law in SLOTS["tribofilm"] for choice in choices(law, "dose")}
     assert set(DOSES) == doses

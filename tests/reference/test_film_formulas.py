@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from contact_core import Scene
-from contact_core.reference import SmoothContact, hamrock_dowson, moes_film, nijenbanning_venner_moes
+from contact_core.reference import SmoothContact, chittenden, hamrock_dowson, moes_film, nijenbanning_venner_moes
 
 
 def smooth(name: str) -> SmoothContact:
@@ -14,12 +14,12 @@ def smooth(name: str) -> SmoothContact:
     )  # fmt: skip
 
 
-def of_moes(load: float, lubricant: float, speed: float = 1e-11) -> SmoothContact:
-    """A circular contact with given M and L; the speed parameter is of the sum of surface speeds."""
+def of_moes(load: float, lubricant: float, speed: float = 1e-11, ratio: float = 1.0) -> SmoothContact:
+    """A contact with given M, L and radius_x / radius_y; the speed parameter is of the sum of surface speeds."""
     radius, modulus, viscosity = 0.01, 230e9, 0.01
     return SmoothContact(
         load * speed**0.75 * modulus * radius**2, 0.5 * speed * modulus * radius / viscosity, viscosity,
-        lubricant * speed**-0.25 / modulus, radius, radius, modulus,
+        lubricant * speed**-0.25 / modulus, radius, radius / ratio, modulus,
     )  # fmt: skip
 
 
@@ -88,11 +88,7 @@ def test_heavy_load_and_thick_oil_reach_the_elastic_piezoviscous_limit():
 
 @pytest.mark.parametrize("ratio", [1.0, 2.0, 5.0])
 def test_the_two_formulas_agree_for_ellipses_across_the_entrainment(ratio):
-    circle = of_moes(200.0, 10.0)
-    contact = SmoothContact(
-        circle.load, circle.entrainment_speed, circle.viscosity, circle.pressure_coefficient, circle.radius_x,
-        ratio * circle.radius_x, circle.reduced_modulus,
-    )  # fmt: skip
+    contact = of_moes(200.0, 10.0, ratio=1.0 / ratio)
     assert nijenbanning_venner_moes(contact) == pytest.approx(hamrock_dowson(contact)[0], rel=0.15, abs=0.0)
 
 
@@ -101,3 +97,17 @@ def test_a_very_wide_ellipse_at_constant_load_per_length_is_a_line_contact(load,
     # the contact's width grows with the root of the load and of radius_y: load ~ radius_y^(1/2)
     films = [moes_film(load * ratio**-0.5, lubricant, ratio) for ratio in (1e-4, 1e-6, 1e-8)]
     assert films == pytest.approx([films[0]] * 3, rel=0.05)
+
+
+@pytest.mark.parametrize("ratio", [0.1, 0.2, 0.5, 1.0])
+def test_chittenden_agrees_with_hamrock_and_dowson_for_ellipses_across_the_entrainment(ratio):
+    contact = of_moes(200.0, 10.0, ratio=ratio)
+    (central, minimum), (other, least) = chittenden(contact), hamrock_dowson(contact)
+    assert minimum == pytest.approx(least, rel=0.02)
+    assert central == pytest.approx(other, rel=0.06)
+
+
+@pytest.mark.parametrize("ratio", [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0])
+def test_chittenden_agrees_with_nijenbanning_for_either_axis_along_the_entrainment_under_a_light_load(ratio):
+    contact = of_moes(20.0, 10.0, ratio=ratio)
+    assert chittenden(contact)[0] == pytest.approx(nijenbanning_venner_moes(contact), rel=0.1)

@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.optimize import brentq
 
-from contact_core.reference import Hertz, hertz_point
+from contact_core.reference import Hertz, brewe_hamrock, hertz_line, hertz_point, palmgren_approach
 
 E = 230.47e9
 
@@ -72,3 +73,158 @@ def test_pressure_grows_with_the_cube_root_of_load(radius_y):
     assert eight.pressure_max / one.pressure_max == pytest.approx(2.0, rel=1e-12)
     assert eight.a / one.a == pytest.approx(2.0, rel=1e-12)
     assert eight.approach / one.approach == pytest.approx(4.0, rel=1e-12)
+
+
+def bearing_ellipse(load: float, radius_x: float, radius_y: float) -> tuple[float, float, float, float]:
+    """Long and short half width, largest pressure and approach by the textbook's elliptic integrals, by quadrature.
+
+    F(k) = [(k^2 + 1) E - 2 K] / [(k^2 - 1) E] is the difference of curvatures over their sum, k long over short.
+    """
+    curvatures = sorted((1.0 / radius_x, 1.0 / radius_y))
+    total, difference = sum(curvatures), (curvatures[1] - curvatures[0]) / sum(curvatures)
+
+    def integrals(k: float) -> tuple[float, float]:
+        def root(angle: float) -> float:
+            return np.sqrt(np.cos(angle) ** 2 + (np.sin(angle) / k) ** 2)
+
+        first, _ = quad(lambda angle: 1.0 / root(angle), 0.0, np.pi / 2, epsrel=1e-12, limit=400)
+        second, _ = quad(root, 0.0, np.pi / 2, epsrel=1e-12, limit=400)
+        return first, second
+
+    def missing(log_k: float) -> float:
+        k2, (first, second) = np.exp(2.0 * log_k), integrals(np.exp(log_k))
+        return ((k2 + 1.0) * second - 2.0 * first) / ((k2 - 1.0) * second) - difference
+
+    k = np.exp(brentq(missing, 1e-4, 8.0, xtol=1e-13))
+    first, second = integrals(k)
+    size = (3.0 * load / (total * E)) ** (1.0 / 3.0)
+    long, short = (2.0 * k * k * second / np.pi) ** (1 / 3) * size, (2.0 * second / (np.pi * k)) ** (1 / 3) * size
+    approach = 2.0 * first / np.pi * (np.pi / (2.0 * k * k * second)) ** (1 / 3) * size**2 * total / 2.0
+    return long, short, 1.5 * load / (np.pi * long * short), approach
+
+
+@pytest.mark.parametrize("ratio", [0.01, 0.03, 0.1, 0.5, 0.9, 1.1, 2.0, 8.0, 10.0, 40.0, 100.0])
+def test_ellipses_are_those_of_the_elliptic_integrals_to_a_millionth(ratio):
+    hertz = hertz_point(70.0, 8e-3, 8e-3 * ratio, E)
+    long, short, pressure, approach = bearing_ellipse(70.0, 8e-3, 8e-3 * ratio)
+    assert sorted((hertz.a, hertz.b)) == pytest.approx([short, long], rel=1e-6, abs=0.0)
+    assert (hertz.a < hertz.b) == (ratio > 1.0)
+    assert hertz.pressure_max == pytest.approx(pressure, rel=1e-6)
+    assert hertz.approach == pytest.approx(approach, rel=1e-6)
+    assert hertz.pressure_mean * hertz.area == pytest.approx(70.0, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("sign", "total", "difference", "stiffness", "long", "short", "pressure"),
+    [
+        (1.0, 0.20178, 0.93996, 1.0184e6, 2.548, 0.2744, 3091.0),
+        (-1.0, 0.13780, 0.91209, 1.0766e6, 2.471, 0.3387, 2582.0),
+    ],
+)
+def test_the_most_loaded_ball_of_a_209_bearing(sign, total, difference, stiffness, long, short, pressure):
+    """Rows of rolling bearing analysis in N and mm: ball 12.7 mm, pitch 65 mm, grooves of 0.52 balls, 4526.6 N."""
+    ball, shrink = 12.7e-3, 12.7 / 65.0
+    along = 2.0 / ball * (1.0 + sign * shrink / (1.0 - sign * shrink))
+    across = (2.0 - 1.0 / 0.52) / ball
+    assert (along + across) * 1e-3 == pytest.approx(total, rel=5e-5)
+    assert (along - across) / (along + across) == pytest.approx(difference, rel=1e-5)
+    hertz = hertz_point(4526.6, 1.0 / along, 1.0 / across, 206.84e9 / (1.0 - 0.3**2))
+    assert 4526.6 / (hertz.approach * 1e3) ** 1.5 == pytest.approx(stiffness, rel=1e-4)
+    assert (hertz.b * 1e3, hertz.a * 1e3) == pytest.approx((long, short), rel=2e-4)
+    assert hertz.pressure_max * 1e-6 == pytest.approx(pressure, rel=2e-4)
+
+
+def test_a_218_bearing_under_thrust():
+    """Ball 22.225 mm, pitch 125.26 mm, grooves of 0.5232 balls, contact angle 41.5 degrees, 1679 N: 1525, 1348 MPa."""
+    ball, shrink = 22.225e-3, 22.225 * np.cos(np.radians(41.5)) / 125.26
+    across, modulus, softness = (2.0 - 1.0 / 0.5232) / ball, 206.84e9 / (1.0 - 0.3**2), 0.0
+    for sign, pressure in ((1.0, 1525.0), (-1.0, 1348.0)):
+        along = 2.0 / ball * (1.0 + sign * shrink / (1.0 - sign * shrink))
+        hertz = hertz_point(1679.0, 1.0 / along, 1.0 / across, modulus)
+        assert hertz.pressure_max * 1e-6 == pytest.approx(pressure, rel=2e-3)
+        softness += hertz.approach * 1e3 / 1679.0 ** (2 / 3)
+    assert softness**-1.5 == pytest.approx(4.659e5, rel=3e-4)
+
+
+def test_brewe_and_hamrock_are_as_near_as_said():
+    for ratio in np.logspace(0.0, 2.0, 41):
+        for swapped in (False, True):
+            radii = (8e-3 * ratio, 8e-3) if swapped else (8e-3, 8e-3 * ratio)
+            exact, near = hertz_point(70.0, *radii, E), brewe_hamrock(70.0, *radii, E)
+            assert (near.a, near.b) == pytest.approx((exact.a, exact.b), rel=0.045)
+            assert near.pressure_max == pytest.approx(exact.pressure_max, rel=0.025)
+            assert near.approach == pytest.approx(exact.approach, rel=0.055)
+            if 1.3 < ratio < 50.0:
+                assert (near.a, near.b, near.pressure_max) == pytest.approx(
+                    (exact.a, exact.b, exact.pressure_max), rel=0.02
+                )
+
+
+def strip_settlement(pressure: float, a: float, length: float, x: float, y: float) -> float:
+    """Displacement of both half spaces at (x, y) under pressure (1 - x^2 / a^2)^0.5 on |y| < length / 2."""
+
+    def of_column(s: float) -> float:  # a column of the strip at x = s; its integral along y in closed form
+        away = max(abs(x - s), 1e-300)
+        ends = np.arcsinh((0.5 * length - y) / away) + np.arcsinh((0.5 * length + y) / away)
+        return np.sqrt(max(1.0 - (s / a) ** 2, 0.0)) * ends
+
+    value, _ = quad(of_column, -a, a, points=[x] if abs(x) < a else None, epsrel=1e-11, limit=800)
+    return 2.0 * pressure / (np.pi * E) * value
+
+
+def test_a_strip_of_pressure_flattens_cylinders_onto_each_other():
+    radius, length = 10e-3, 12e-3
+    hertz = hertz_line(3000.0, radius, length, E)
+    assert hertz.a == pytest.approx(np.sqrt(8.0 * 3000.0 * radius / (length * np.pi * E)), rel=1e-14)
+    assert hertz.b == 0.5 * length
+    assert hertz.pressure_mean * hertz.area == pytest.approx(3000.0, rel=1e-12)
+    assert hertz.pressure_mean == pytest.approx(np.pi / 4.0 * hertz.pressure_max)
+    for x in (0.0, 0.3, 0.8, -1.0):
+        x *= hertz.a
+        gap = strip_settlement(hertz.pressure_max, hertz.a, length, x, 0.0) + x * x / (2.0 * radius)
+        assert gap == pytest.approx(hertz.approach, rel=2.0 * (hertz.a / length) ** 2, abs=0.0)
+
+
+def test_a_line_is_the_limit_of_a_long_ellipse():
+    """The largest pressure of a long ellipse is that of the line under the load per length of its middle."""
+    ellipse = hertz_point(100.0, 5e-3, 5e3, E)
+    per_length = 1.5 * 100.0 / (2.0 * ellipse.b)
+    line = hertz_line(per_length, 5e-3, 1.0, E)
+    assert (line.a, line.pressure_max) == pytest.approx((ellipse.a, ellipse.pressure_max), rel=1e-4)
+
+
+@pytest.mark.parametrize("line", [False, True])
+def test_a_contact_under_another_load_is_known_from_one(line):
+    def of_load(load):
+        return hertz_line(load, 10e-3, 8e-3, E) if line else hertz_point(load, 10e-3, 25e-3, E)
+
+    one, more = of_load(10.0), of_load(230.0)
+    root, wide = one.growth(23.0)
+    assert (more.a, more.pressure_max) == pytest.approx((root * one.a, root * one.pressure_max), rel=1e-12)
+    assert (more.b, more.area) == pytest.approx((wide * one.b, root * wide * one.area), rel=1e-12)
+    assert more.approach == pytest.approx(one.approach_at(23.0), rel=1e-12)
+    assert one.approach_at(0.0) == 0.0
+    rows = (np.arange(20_000) + 0.5) / 20_000 * one.b
+    assert one.chords(rows).mean() == pytest.approx(one.chord_share, rel=1e-5)
+    assert 4.0 * one.a * one.b * one.chord_share == pytest.approx(one.area, rel=1e-12)
+
+
+@pytest.mark.parametrize("radius_y", [10e-3, 40e-3, 2e-3])
+def test_the_lever_of_friction_is_the_mean_distance_under_the_pressure(radius_y):
+    hertz = hertz_point(50.0, 10e-3, radius_y, E)
+    angle, part = np.meshgrid((np.arange(400) + 0.5) * np.pi / 800, (np.arange(4000) + 0.5) / 4000)
+    weight = part * np.sqrt(1.0 - part**2)
+    away = part * np.hypot(hertz.a * np.cos(angle), hertz.b * np.sin(angle))
+    assert hertz.lever_share * hertz.b == pytest.approx((weight * away).sum() / weight.sum(), rel=1e-5)
+    strip = hertz_line(50.0, 1e-3, 8e-3, E)
+    x, y = np.meshgrid((np.arange(200) + 0.5) / 200 * strip.a, (np.arange(200) + 0.5) / 200 * strip.b)
+    weight = np.sqrt(1.0 - (x / strip.a) ** 2)
+    assert strip.lever_share * strip.b == pytest.approx((weight * np.hypot(x, y)).sum() / weight.sum(), rel=1e-3)
+
+
+def test_palmgrens_rollers_approach_as_half_spaces_do_to_15_percent():
+    """Measured on crowned rollers: the two are alike, not the same."""
+    for load in (1000.0, 5000.0, 20000.0):
+        measured = palmgren_approach(load, 12e-3, E)
+        assert measured == pytest.approx(3.84e-5 * load**0.9 / 12.0**0.8 * 1e-3, rel=0.02)  # as printed, N and mm
+        assert measured == pytest.approx(hertz_line(load, 5e-3, 12e-3, E).approach, rel=0.15)

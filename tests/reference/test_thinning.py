@@ -17,6 +17,7 @@ from contact_core.laws.density import Incompressible
 from contact_core.laws.rheology import Carreau, Eyring, Newtonian
 from contact_core.laws.viscosity import Barus
 from contact_core.reference import SmoothContact, hertz_point, nijenbanning_venner_moes
+from contact_core.shapes import Point
 
 RADIUS, MODULUS, ALPHA, VISCOSITY = 10e-3, 230.47e9, 20e-9, 0.1
 LOAD, SPEED, NODES = 100.0, 0.5, 129
@@ -26,11 +27,11 @@ STRESS = 1e6  # Pa, of an Eyring oil that thins in the inlet
 
 def contact(nodes=NODES, rq=0.0, load=LOAD, speed=SPEED, viscosity=VISCOSITY):
     film = nijenbanning_venner_moes(SmoothContact(load, speed, viscosity, ALPHA, RADIUS, RADIUS, MODULUS))
-    grid = fitted_grid(load, RADIUS, MODULUS, film, nodes, nodes)
+    grid = fitted_grid(Point(RADIUS, RADIUS), load, MODULUS, film, nodes, nodes)
     z = gaussian_filter(np.random.Generator(np.random.Philox(1)).standard_normal(grid.shape), 1.5, mode="wrap")
     law, limit = Barus(viscosity, 300.0, ALPHA, 0.0), np.full(grid.shape, 6e9)
     z *= rq / z.std()
-    return Instant(load, speed, 300.0, RADIUS, RADIUS, MODULUS, law, Incompressible(), z, limit, 6e9), grid
+    return Instant(load, speed, 300.0, Point(RADIUS, RADIUS), MODULUS, law, Incompressible(), z, limit, 6e9), grid
 
 
 @lru_cache(maxsize=16)

@@ -55,6 +55,7 @@ def contact(load, oil, points=65, rough=0.0, floor=1e-3, cap=30.0, wide=1.0):
         mobility=np.full(shape, 1.0 / (np.pi * (128.0 / (3.0 * load**4)) ** (1.0 / 3.0)) / shrink),
         thinned=np.zeros(shape),
         per_dt=0.0,
+        wedge=1.0,
         mass_old=np.zeros(shape),
         fluidity=np.exp(-np.minimum(thickening * pressures, 200.0)),
         density=(1.0 + 0.5 * pressures / cap),

@@ -73,13 +73,14 @@ def test_pressure_approach_and_film_of_smooth_bodies_go_with_the_radii_as_the_fo
         formula = nijenbanning_venner_moes(SmoothContact.of(op.load, op.entrainment_speed, *oil))
         return found.gap[64, 64] / formula
 
-    assert film_over_formulas(*radii) == pytest.approx(film_over_formulas(*scene.geometry.radii), rel=0.06)
+    own = scene.radii(scene.operation.point)
+    assert film_over_formulas(*radii) == pytest.approx(film_over_formulas(*own), rel=0.06)
 
 
 @pytest.mark.parametrize("level", LEVELS)
 def test_the_scenes_own_radii_are_as_good_as_none(level):
     scene, fresh, op = at_level(level)
-    named = at(op, *scene.geometry.radii)
+    named = at(op, *scene.radii(scene.operation.point))
     one, other = fresh, fresh
     for dt, load in ((0.0, 70.0), (20.0, 70.0), (20.0, 40.0)):
         one, said = advance(scene, replace(op, load=load), one, dt)
@@ -106,7 +107,7 @@ def test_a_contact_is_solved_again_when_radii_have_changed_by_more_than_the_scen
     scene, fresh, op = cheap()
     tolerated = scene.control.input_change
     state, before = advance(scene, op, fresh, 0.0)
-    for name, radius in zip(("radius_x", "radius_y"), scene.geometry.radii, strict=True):
+    for name, radius in zip(("radius_x", "radius_y"), scene.radii(scene.operation.point), strict=True):
         for factor in (1.0 + 0.9 * tolerated, 1.0 - 0.9 * tolerated):
             assert advance(scene, replace(op, **{name: factor * radius}), state, 0.0)[1] == before
         for factor in (1.0 + 1.1 * tolerated, 1.0 - 1.1 * tolerated):
@@ -118,7 +119,7 @@ def test_a_contact_is_solved_again_when_radii_have_changed_by_more_than_the_scen
 def test_the_march_goes_on_through_a_jump_of_the_radii(factor):
     scene, fresh, op = cheap()
     state, _ = advance(scene, op, fresh, 20.0)
-    radii = (factor * radius for radius in scene.geometry.radii)
+    radii = (factor * radius for radius in scene.radii(scene.operation.point))
     state, jumped = advance(scene, at(op, *radii), state, 20.0)
     back = advance(scene, op, state, 20.0)[1]
     assert jumped.unconverged == jumped.blocks_fallback == back.unconverged == back.blocks_fallback == 0.0

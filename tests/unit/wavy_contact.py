@@ -29,6 +29,7 @@ def problem(ny, nx, wave=0.0, length=0.3, library="scipy", mobility=20.0, **chan
         mobility=np.full((ny, nx), mobility),
         thinned=zeros,
         per_dt=0.0,
+        wedge=1.0,
         mass_old=zeros,
         fluidity=np.exp(-BARUS * table),
         density=np.ones_like(table),

@@ -1,0 +1,60 @@
+"""Closed forms, as library code: what solvers are tested against and what engineers compare with.
+
+    hertz         dry contact of smooth bodies: points, lines
+    point_films   film of smooth point contacts by formula
+    line_films    film of smooth line contacts
+    sliders       pressure and cavitation of a rigid roller
+    squeeze       rigid bodies that approach each other through oil
+    profiles      of rollers
+    oil           what heat and shear of the oil make of a film
+    evolution     tribofilm and wear over time
+    heat          temperature under moving sources
+
+SI throughout, and scipy's parts are loaded at their first use.
+"""
+
+from .evolution import archard_depth, ghanbarzadeh_thickness, load_cycles
+from .heat import jaeger_band, jaeger_circle, tian_kennedy_circle
+from .hertz import Hertz, HertzLine, brewe_hamrock, hertz_line, hertz_point, palmgren_approach
+from .line_films import SmoothLine, dowson_line, line_film, moes_line, moes_line_film
+from .oil import bair_thinning_factor, inlet_shear_factor
+from .point_films import SmoothContact, chittenden, hamrock_dowson, moes_film, nijenbanning_venner_moes, nvm_film
+from .profiles import logarithmic_drop, lundberg_depth, rounded_drop
+from .sliders import ParabolicSlider
+from .squeeze import squeeze_line, squeeze_point, squeezed_line, squeezed_point
+
+__all__ = [
+    "Hertz",
+    "HertzLine",
+    "ParabolicSlider",
+    "SmoothContact",
+    "SmoothLine",
+    "archard_depth",
+    "bair_thinning_factor",
+    "brewe_hamrock",
+    "chittenden",
+    "dowson_line",
+    "ghanbarzadeh_thickness",
+    "hamrock_dowson",
+    "hertz_line",
+    "hertz_point",
+    "inlet_shear_factor",
+    "jaeger_band",
+    "jaeger_circle",
+    "line_film",
+    "load_cycles",
+    "logarithmic_drop",
+    "lundberg_depth",
+    "moes_film",
+    "moes_line",
+    "moes_line_film",
+    "nijenbanning_venner_moes",
+    "nvm_film",
+    "palmgren_approach",
+    "rounded_drop",
+    "squeeze_line",
+    "squeeze_point",
+    "squeezed_line",
+    "squeezed_point",
+    "tian_kennedy_circle",
+]

@@ -1,0 +1,37 @@
+"""Tribofilm and wear over time."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..constants import BOLTZMANN, PLANCK
+
+
+def ghanbarzadeh_thickness(
+    time: float | NDArray[np.float64],
+    temperature: float,
+    full_thickness: float,
+    rate_factor: float,
+    removal_thickness: float,
+    removal_rate: float,
+) -> NDArray[np.float64]:
+    """Tribofilm [m] on a point rubbed for `time` [s] from bare: h_max (1 - e^-kt) - C3 (1 - e^-C4 t).
+
+    k = (k_B T / h) rate_factor [1/s] at `temperature` [K]; h_max and C3 [m]; C4 = removal_rate [1/s].
+    Source: Ghanbarzadeh et al., Tribol. Int. 93 (2016) 573, doi:10.1016/j.triboint.2014.12.018.
+    """
+    rate = BOLTZMANN * temperature / PLANCK * rate_factor
+    formed = full_thickness * (1.0 - np.exp(-rate * np.asarray(time)))
+    return formed - removal_thickness * (1.0 - np.exp(-removal_rate * np.asarray(time)))
+
+
+def archard_depth(coefficient: float, hardness: float, pressure: float, sliding_distance: float) -> float:
+    """Wear depth [m], K p s / H, under a pressure [Pa] over a sliding distance [m]; K dimensionless, H [Pa].
+
+    Source: Archard, J. Appl. Phys. 24 (1953) 981, doi:10.1063/1.1721448.
+    """
+    return coefficient * pressure * sliding_distance / hardness
+
+
+def load_cycles(speed: float, time: float, track_length: float) -> float:
+    """Passes of a surface point through the contact in `time` [s]: |speed| [m/s] time / track length [m]."""
+    return abs(speed) * time / track_length

@@ -1,0 +1,177 @@
+"""Hertz: dry contact of smooth elastic bodies."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import ClassVar
+
+import numpy as np
+import scipy  # its parts are loaded at their first use
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Hertz:
+    """Dry contact of smooth elastic bodies on an ellipse."""
+
+    mean_share: ClassVar[float] = 2.0 / 3.0  # mean pressure over the largest
+    chord_share: ClassVar[float] = 0.25 * math.pi  # mean of `chords`
+
+    a: float  # half width along x [m]
+    b: float  # half width along y [m]
+    pressure_max: float  # [Pa]
+    approach: float  # of points far away [m]
+
+    @property
+    def area(self) -> float:
+        """Contact area [m2]."""
+        return math.pi * self.a * self.b
+
+    @property
+    def pressure_mean(self) -> float:
+        """Mean pressure over the contact area [Pa]."""
+        return self.mean_share * self.pressure_max
+
+    def inside(self, x: Array, y: Array, share: float) -> NDArray[np.bool_]:
+        """Which nodes at x [nx], y [ny] about the centre [m] lie within `share` of the half widths, [ny, nx]."""
+        within: NDArray[np.bool_] = (x[None, :] / self.a) ** 2 + (y[:, None] / self.b) ** 2 < share**2
+        return within
+
+    def chords(self, y: Array) -> Array:
+        """Length along x of the contact's rows at y [m] over 2 a."""
+        return np.sqrt(np.maximum(1.0 - (y / self.b) ** 2, 0.0))
+
+    @cached_property
+    def lever_share(self) -> float:
+        """Mean distance from the centre, weighted with the pressure, over b."""
+        if self.a == self.b:
+            return 3.0 * math.pi / 16.0
+        return 0.75 * float(scipy.special.elliprg(0.0, 1.0, (self.a / self.b) ** 2))
+
+    def growth(self, times: float) -> tuple[float, float]:
+        """By how much `times` the load makes a and the pressure larger, and b."""
+        root = times ** (1 / 3)
+        return root, root
+
+    def approach_at(self, times: float) -> float:
+        """Approach [m] under `times` this load."""
+        root = times ** (1 / 3)
+        return self.approach * root * root
+
+
+@dataclass(frozen=True)
+class HertzLine(Hertz):
+    """Dry contact of smooth cylinders with parallel axes: a strip of half width a and half length b."""
+
+    mean_share: ClassVar[float] = 0.25 * math.pi
+    chord_share: ClassVar[float] = 1.0
+
+    @property
+    def area(self) -> float:
+        """Contact area [m2]."""
+        return 4.0 * self.a * self.b
+
+    def inside(self, x: Array, y: Array, share: float) -> NDArray[np.bool_]:
+        """Which nodes at x [nx], y [ny] about the centre [m] lie within `share` of the half widths, [ny, nx]."""
+        within: NDArray[np.bool_] = (np.abs(x) < share * self.a)[None, :] & (np.abs(y) < share * self.b)[:, None]
+        return within
+
+    def chords(self, y: Array) -> Array:
+        """Length along x of the contact's rows at y [m] over 2 a."""
+        return np.where(np.abs(y) < self.b, 1.0, 0.0)
+
+    @cached_property
+    def lever_share(self) -> float:
+        """Mean distance from the centre over b, for a strip much longer than wide."""
+        return 0.5
+
+    def growth(self, times: float) -> tuple[float, float]:
+        """By how much `times` the load makes a and the pressure larger, and b."""
+        return math.sqrt(times), 1.0
+
+    def approach_at(self, times: float) -> float:
+        """Approach [m] under `times` this load: the logarithm of `hertz_line` falls with a."""
+        if times == 0.0:
+            return 0.0
+        slower = math.log(times) / (2.0 * math.log(4.0 * self.b / self.a) + 1.0)
+        return self.approach * times * (1.0 - slower)
+
+
+def hertz_point(load: float, radius_x: float, radius_y: float, reduced_modulus: float) -> Hertz:
+    """Hertz's point contact, circular or elliptical.
+
+    load [N] > 0, radii of combined curvature [m], reduced_modulus E' = 2 / sum (1 - v^2)/E [Pa].
+    Source: Johnson, Contact Mechanics, 1985, doi:10.1017/CBO9781139171731, section 4.2.
+    """
+    if radius_x == radius_y:
+        a = (1.5 * load * radius_x / reduced_modulus) ** (1 / 3)
+        return Hertz(a, a, 1.5 * load / (np.pi * a * a), a * a / radius_x)
+    small, large = sorted((radius_x, radius_y))
+    k, ellipk, ellipe = _ellipse(large / small)
+    curvature = 0.5 * (1.0 / small + 1.0 / large)
+    long = (3.0 * load * ellipe / (np.pi * k * k * reduced_modulus * curvature)) ** (1 / 3)
+    short = k * long
+    pressure = 1.5 * load / (np.pi * long * short)
+    approach = 2.0 * pressure * short * ellipk / reduced_modulus
+    a, b = (short, long) if radius_x == small else (long, short)
+    return Hertz(float(a), float(b), float(pressure), float(approach))
+
+
+@lru_cache(maxsize=64)
+def _ellipse(ratio: float) -> tuple[float, float, float]:
+    """Short over long half width of Hertz's ellipse, and the complete elliptic integrals K and E of its eccentricity,
+    for a ratio > 1 of the radii.
+    """
+    special = scipy.special
+
+    def mismatch(log_ratio: float) -> float:
+        k2 = np.exp(2.0 * log_ratio)  # (short half width / long half width)^2
+        return float(special.elliprd(0.0, 1.0, k2) / special.elliprd(0.0, k2, 1.0) - ratio)
+
+    # Carlson's integrals, because E/k^2 - K and K - E lose their digits near the circle
+    k = float(np.exp(scipy.optimize.brentq(mismatch, np.log(1e-12), 0.0, xtol=1e-15)))
+    return k, float(special.elliprf(0.0, k * k, 1.0)), 2.0 * float(special.elliprg(0.0, k * k, 1.0))
+
+
+def hertz_line(load: float, radius: float, length: float, reduced_modulus: float) -> HertzLine:
+    """Hertz's line contact under a load [N] > 0 that is spread evenly over a length [m].
+
+    radius of combined curvature [m], reduced_modulus E' = 2 / sum (1 - v^2)/E [Pa]. The approach is that of points far
+    below the middle of the length, 2 w / (pi E') [2 ln(2 length / a) + 1] with the load per length w, up to terms of
+    (a / length)^2: what half spaces yield there under Hertz's pressure. A line without end has none.
+    Source: Johnson, Contact Mechanics, 1985, doi:10.1017/CBO9781139171731, section 4.2; approach: Lundberg, Forsch.
+    Ing.-Wes. 10 (1939) 201.
+    """
+    per_length = load / length
+    a = math.sqrt(8.0 * per_length * radius / (math.pi * reduced_modulus))
+    approach = 2.0 * per_length / (math.pi * reduced_modulus) * (2.0 * math.log(2.0 * length / a) + 1.0)
+    return HertzLine(a, 0.5 * length, 2.0 * per_length / (math.pi * a), approach)
+
+
+def palmgren_approach(load: float, length: float, reduced_modulus: float) -> float:
+    """Approach [m] of a crowned roller and a raceway under a load [N], 1.36 (2 load / E')^0.9 / length^0.8.
+
+    A fit to measurements, in which the radii do not appear; for steel it is 3.84e-5 load^0.9 / length^0.8 in mm.
+    Source: Palmgren, Ball and Roller Bearing Engineering, 3rd ed., 1959, in the form of Eschmann, Hasbargen & Weigand,
+    Ball and Roller Bearings, 1985.
+    """
+    return 1.36 * (2.0 * load / reduced_modulus) ** 0.9 / length**0.8
+
+
+def brewe_hamrock(load: float, radius_x: float, radius_y: float, reduced_modulus: float) -> Hertz:
+    """`hertz_point` by powers and logarithms in place of elliptic integrals, to check with.
+
+    For radii in a ratio of up to 100 half widths are within 4.5 % of the exact ones, the pressure within 2.5 %, the
+    approach within 5.5 %, least sure near the circle; half widths and pressure are within 2 % from 1.3 to 50.
+    Source: Brewe & Hamrock, J. Lubr. Technol. 99 (1977) 485, doi:10.1115/1.3453245.
+    """
+    small, large = sorted((radius_x, radius_y))
+    ratio, curvature = large / small, 1.0 / small + 1.0 / large
+    k = 1.0339 * ratio**0.636  # long half width over the short one
+    ellipe, ellipk = 1.0003 + 0.5968 / ratio, 1.5277 + 0.6023 * math.log(ratio)
+    long = (6.0 * k * k * ellipe * load / (math.pi * reduced_modulus * curvature)) ** (1 / 3)
+    approach = ellipk * (4.5 * curvature / ellipe * (load / (math.pi * k * reduced_modulus)) ** 2) ** (1 / 3)
+    a, b = (long / k, long) if radius_x == small else (long, long / k)
+    return Hertz(a, b, 1.5 * load / (math.pi * a * b), approach)
