@@ -175,6 +175,9 @@ def instant_of(scene: Scene, op: OperatingPoint, heights: Array, limit: Array) -
         heights=heights,
         limit=limit,
         hardness=scene.plasticity.hardness,
+        conserving=scene.lubricant.cavitation == "mass_conserving",
+        supply=scene.lubricant.supply.layer,
+        meniscus=scene.lubricant.supply.inlet,
     )
 
 

@@ -122,11 +122,8 @@ def _grid(
         if shape.periodic and ny > 1 and ny % 2:
             refuse([f"heights of {ny} rows: a line without ends needs an even number of rows, or one."])
         if not shape.periodic and (ny - 1) * numbers.spacing < numbers.length:
-            refuse(
-                [
-                    f"heights are {(ny - 1) * numbers.spacing:g} m long; they must reach over length = {shape.length:g} m."
-                ]
-            )
+            reach = (ny - 1) * numbers.spacing
+            refuse([f"heights are {reach:g} m long; they must reach over length = {shape.length:g} m."])
     nx = nx or _NODES
     if not 17 <= nx <= 8193 or (ny is not None and ny > 8193):
         refuse([f"grid = {grid} must have from 17 to 8193 nodes along x, and at most as many along y."])
