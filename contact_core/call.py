@@ -14,6 +14,7 @@ from .laws.density import DowsonHigginson, Incompressible
 from .laws.viscosity import Barus, Roelands
 from .quantities import TABLE, out_of_range, parameter
 from .reading import did_you_mean
+from .reference.starvation import supplied_film
 from .shapes import Shape
 
 Array = NDArray[np.float64]
@@ -120,13 +121,15 @@ def refuse(sentences: list[str]) -> None:
         raise OperatingPointError(" ".join(sentences))
 
 
-def film_of(shape: Shape, load: float, numbers: Numbers) -> float:
-    """Film [m] of smooth bodies by formula, 0 at rest; refused if it is too thick for bodies of that shape."""
+def film_of(shape: Shape, load: float, numbers: Numbers, supply: float | None) -> float:
+    """Film [m] of smooth bodies by formula, of an oil layer [m] or flooded, 0 at rest; refused if it is too thick for bodies of that shape."""
     if numbers.entrainment_speed == 0.0:
         return 0.0
     oil = _VISCOSITY["barus"](numbers.viscosity, _REFERENCE, numbers.pressure_viscosity, 0.0), _REFERENCE
     smooth = shape.smooth(load, abs(numbers.entrainment_speed), *oil, numbers.reduced_modulus)
     film = replace(smooth, pressure_coefficient=max(numbers.pressure_viscosity, 1e-12)).film
+    if supply is not None:
+        film = supplied_film(film, supply)
     radius, least = min((getattr(shape, name), name) for name in ("radius_x", "radius_y") if hasattr(shape, name))
     if film > _THICKEST * radius:
         refuse(

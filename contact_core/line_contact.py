@@ -91,7 +91,7 @@ def line_contact(
     if profile is not None:
         shape = Roller(numbers.radius, numbers.length, profile)
     total = numbers.load * numbers.length
-    film = film_of(shape, total, numbers)
+    film = film_of(shape, total, numbers, supply)
     nodes = _grid(numbers, shape, total, film, heights, spacing, grid, domain)
     starved = (supply, meniscus)
     return solve_call(LineContact, shape, total, numbers, nodes, heights, starved, options)

@@ -28,7 +28,6 @@ _WARMER = np.array([0.0, 0.0, 0.0, 0.0, _KELVIN, 0.0])
 _PROBE = 1e6  # Pa: pressure that tells the pressure coefficient
 _THICKEST = 0.01  # of the radius: thicker a film, and the bodies are no parabolas on its scale
 _SLOWEST, _LIGHTEST = 1e-30, 1e-9  # m/s, N: less makes no other film, and would divide by zero
-_THINNEST = 1e-30  # m: of a contact that no oil reaches; for the same reason
 
 
 class Fit(NamedTuple):
@@ -205,15 +204,14 @@ def _smooth(scene: Scene, op: OperatingPoint, hertz: Hertz, further: float) -> _
     speed = abs(entrainment)
     oil, warm = _oil(scene.lubricant.viscosity, inlet)
     shape, largest, modulus = scene.shape(op), hertz.pressure_max, scene.solids.reduced_modulus
-    supply = scene.lubricant.supply
     thins = speed > 0.0 and (scene.heat.inlet_shear != "none" or scene.lubricant.flow == "local")
 
     def film(speed: float, load: float, slide: float, oil: tuple[float, float], temperature: float) -> float:
-        newtonian = flooded = shape.film(max(load, _LIGHTEST), max(speed, _SLOWEST), *oil, modulus)
+        flooded = newtonian = shape.film(max(load, _LIGHTEST), max(speed, _SLOWEST), *oil, modulus)
         grown = hertz.growth(load)[0]
         if thins:
             flooded *= _thinned(scene, speed, largest * grown, slide, oil[0], newtonian, temperature)
-        return max(supply.film(flooded, hertz.a * grown, shape.radius_x), _THINNEST)
+        return scene.lubricant.supply.film(flooded, hertz.a * grown, shape.radius_x)
 
     now = film(speed, load, slide, oil, inlet)
     by_load = film(speed, load * (1.0 + _D), slide, oil, inlet) / now - 1.0

@@ -89,7 +89,7 @@ def point_contact(
     }  # fmt: skip
     check_choices(options)
     heights, shape = heights_of(heights_1, heights_2), Point(numbers.radius_x, numbers.radius_y)
-    film = film_of(shape, numbers.load, numbers)
+    film = film_of(shape, numbers.load, numbers, supply)
     nodes = _grid(numbers, shape, film, heights, spacing, grid, domain)
     starved = (supply, meniscus)
     return solve_call(PointContact, shape, numbers.load, numbers, nodes, heights, starved, options)

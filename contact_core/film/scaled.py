@@ -83,7 +83,11 @@ class Scaled:
         self.depth = self.compliance ** (2.0 / 3.0) if shape.circular else hertz.approach / self.h_unit
         self.x, self.y = grid.x / self.size, grid.y / self.size
         gap = shape.gap(self.x, self.y, self.size)
-        self.smooth = np.sqrt(np.maximum(1.0 - 2.0 * gap, 0.0))
+        reach = 2.0 * gap
+        if isinstance(shape, Point) and not shape.circular:  # Hertz's ellipse is slimmer than a line of equal gap
+            slim = self.size / film_size(hertz.b, shape.radius_y, self.smooth_film)
+            reach = self.x[None, :] ** 2 + (slim * self.y[:, None]) ** 2
+        self.smooth = np.sqrt(np.maximum(1.0 - reach, 0.0))
         self.undeformed = gap - now.heights / self.h_unit
 
     @cached_property
@@ -131,12 +135,17 @@ class Scaled:
     @cached_property
     def film(self) -> float:
         """Film [m] of smooth bodies: by formula, or that of a start from which they have not come so close yet."""
-        return max(self.smooth_film, self.start.rigid_gap) if self.start else self.smooth_film
+        return max(self.smooth_film, self._gap_before)
+
+    @property
+    def _gap_before(self) -> float:
+        """Gap [m] of undeformed bodies from which a thorough step starts, 0 where there is none or they overlap."""
+        return max(self.start.rigid_gap, 0.0) if self.start and self.step and self.step.thorough else 0.0
 
     @property
     def is_light(self) -> bool:
         """Whether the film is so thick that what lies beyond the grid matters."""
-        return self.moes_load < _FAR_FIELD_BELOW or (self.start is not None and self.start.rigid_gap > 0.0)
+        return self.moes_load < _FAR_FIELD_BELOW or self._gap_before > 0.0
 
     @cached_property
     def speed(self) -> float:
@@ -230,7 +239,8 @@ class Scaled:
     def _beyond(self) -> tuple[Array, Array]:
         starved = self._first > 0 or self.now.supply is not None
         if self.is_light and isinstance(self.now.shape, Point) and not starved:
-            closing = 1.25 * self.closing * self.now.shape.radius_x / (self.speed * self.size)
+            by_wedge = (3.0 + 2.0 * self.curvature) / (2.0 + 2.0 * self.curvature)  # see `far_field`
+            closing = by_wedge * self.closing * self.now.shape.radius_x / (self.speed * self.size)
             wedge = self.now.entrainment_speed / self.speed
             return far_field(self.x, self.y, self.film / self.h_unit, self.curvature, wedge, closing)
         return np.zeros_like(self.cap), np.ones_like(self.cap)

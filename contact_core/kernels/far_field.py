@@ -2,7 +2,8 @@
 
 Far in the inlet the film is rigid, h = h0 + (x^2 + k y^2) / 2, and the pressure goes like g = -x / h^2 for x < 0 and is
 zero behind: p ~ -x / h^2 is Kapitza's exact solution of the rigid, isoviscous half-flooded ellipsoid. Where bodies come
-closer at a speed V beside an entrainment speed u, g = (-u x + 5/4 V R) / h^2, or zero, by the same equation of a ball.
+closer at a speed V beside an entrainment speed u, g = (-u x + c V R) / h^2, c = (3 + 2 k) / (2 + 2 k), or zero, by the
+same equation.
 Source: Kapitza, Zh. Tekh. Fiz. 25 (1955) 747; Brewe, Hamrock & Taylor, J. Lubr. Technol. 101 (1979) 231,
 doi:10.1115/1.3453329. Lengths in the unit of the problem, gaps in its square over the radius.
 """
@@ -19,7 +20,8 @@ def far_field(
     """Ratio of the pressure of an edge node to that of its inner neighbour, and the weight of each node in the load.
 
     x [nx], y [ny] equally spaced; film: central film of smooth bodies; curvature: k, that along y over that along x;
-    wedge, closing: u and 5/4 V R in the same unit.
+    wedge, closing: u and c V R in the same unit.
+
     Both results are [ny, nx]; the ratio is zero off the edge and where the flow leaves, the weight is 1 off the edge
     and there holds what lies beyond.
     """
@@ -46,6 +48,6 @@ def far_field(
         s = np.sqrt(bent) * r * (1.0 + 0.5 * spacing / d) / np.sqrt(2.0 * film)
         radial = np.sqrt(2.0 / film) * (0.5 * np.pi - np.arctan(s) + s / (1.0 + s * s)) / bent**1.5
         beyond = spacing * d / r**2 * cosine[edge] * radial / spacing**2  # over the angle of the cell
-        beyond += spacing * d / r**2 * closing / (film * (1.0 + s * s)) / spacing**2
+        beyond += spacing * d / r**2 * closing / (film * (1.0 + s * s)) / bent / spacing**2
         weight[edge] += np.where(ratio[edge] > 0.0, np.maximum(beyond, 0.0) / np.maximum(decay[edge], 1e-300), 0.0)
     return ratio, weight

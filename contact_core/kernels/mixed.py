@@ -32,6 +32,7 @@ _LOAD_TOLERANCE = 1e-4
 _INTRUSION_TOLERANCE = 0.2
 _IMBALANCE_PER_TOLERANCE = 100.0  # what a time step still owes is made up for in the next one...
 _STEADY_IMBALANCE_PER_TOLERANCE = 5.0  # ...but a steady film has no next one
+_LEAST_PART = 0.1  # of the load, that the balance of a film that conserves its mass counts with
 _SHARE_TOLERANCE = 0.02  # nodes at the floor whose fluid pressure is about p change sides for ever, p unchanged
 
 
@@ -368,8 +369,8 @@ class Iteration:
         load_error, share = self.load / q.load - 1.0, solids / q.load
         intrusion /= q.floor * q.load
         imbalance = wrong / max(film, 1e-300) * fluid / q.load
-        if self.carried is not None:  # cavities that fill up, too: no pressure tells of them
-            imbalance += gained / max(held, 1e-300)
+        if q.conserving:  # pockets that still fill up carry little yet, but will
+            imbalance = wrong / max(film, 1e-300) * max(fluid / q.load, _LEAST_PART) + gained / max(held, 1e-300)
         why = shortfall(tolerance, self.change, load_error, intrusion, imbalance, q.per_dt > 0.0)
         if abs(share - self.share) >= _SHARE_TOLERANCE:
             why = "; ".join(filter(None, (why, "the share of the solids still changes")))
@@ -383,7 +384,7 @@ class Iteration:
             return np.where(self.solid | (self.p <= 0.0), 0.0, self.r)
         q, carried, owed, nowhere = self.problem, self.carried, np.zeros_like(self.r), np.zeros_like(self.solid)
         assert carried is not None
-        balance = (self.mass, q.mass_old, self.e, q.per_dt, q.spacing)
+        balance = (self.mass, q.mass_old, self.e, q.per_dt, q.wedge, q.spacing)
         reynolds.residual(self.f, nowhere, *balance, owed, carried.flux, carried.filling, carried.first)
         return owed
 

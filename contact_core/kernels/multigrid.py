@@ -201,22 +201,24 @@ def solve_smooth(
     cycles: int,
     depth: float | None = None,
     curvature: float = 1.0,
+    damping: float = 1.0,
 ) -> tuple[Solution, list[LevelFilm]]:
     """Steady film of smooth bodies on the nodes x [nx], y [ny], from nothing.
 
     `film`: central film by a formula, for the first guess and the far field that `problem.edge` was made for; `depth`:
     approach of the dry bodies, for the same guess, that of a ball if not given; `curvature`: of the gap along y over
-    that along x, for the same far field. Ends after `cycles` on the finest grid, or when one of them changes the
-    pressure by less than `tolerance` and load and mass balance are met. Floor and cap are not imposed: a film that
-    violates them is not converged. Non-finite values never leave: where there are any, the change is infinite. The
-    second result tells what the levels found, from coarse to fine. ValueError if not `is_applicable`.
+    that along x, for the same far field; `damping`: of all changes, beside the usual one. Ends after `cycles` on the
+    finest grid, or when one of them changes the pressure by less than `tolerance` and load and mass balance are met.
+    Floor and cap are not imposed: a film that violates them is not converged. Non-finite values never leave: where
+    there are any, the change is infinite. The second result tells what the levels found, from coarse to fine.
+    ValueError if not `is_applicable`.
     """
     if not is_applicable(problem):
         raise ValueError("multigrid needs a steady problem, full cavities and a grid of m 2^k + 1 nodes, m small")
     levels = _levels(problem, x, y, library, film, curvature)
     depth = problem.compliance ** (2.0 / 3.0) if depth is None else depth  # a^2 / R
     found, films = _failure(problem), list[LevelFilm]()
-    single, spread = _damping(problem, film)
+    single, spread = (damping * part for part in _damping(problem, film))
     for part in _DAMPING_PARTS:
         solver = _Multigrid(levels, problem.load * problem.spacing**2, depth, part * single, spread)
         progress, films = solver.nested(film, tolerance, cycles)
