@@ -204,6 +204,7 @@ def _smooth(scene: Scene, op: OperatingPoint, hertz: Hertz, further: float) -> _
     speed = abs(entrainment)
     oil, warm = _oil(scene.lubricant.viscosity, inlet)
     shape, largest, modulus = scene.shape(op), hertz.pressure_max, scene.solids.reduced_modulus
+    supply = scene.lubricant.supply
     thins = speed > 0.0 and (scene.heat.inlet_shear != "none" or scene.lubricant.flow == "local")
 
     def film(speed: float, load: float, slide: float, oil: tuple[float, float], temperature: float) -> float:
@@ -211,7 +212,7 @@ def _smooth(scene: Scene, op: OperatingPoint, hertz: Hertz, further: float) -> _
         grown = hertz.growth(load)[0]
         if thins:
             flooded *= _thinned(scene, speed, largest * grown, slide, oil[0], newtonian, temperature)
-        return scene.lubricant.supply.film(flooded, hertz.a * grown, shape.radius_x)
+        return supply.film(flooded, hertz.a * grown, shape.radius_x, shape.side_resistance)
 
     now = film(speed, load, slide, oil, inlet)
     by_load = film(speed, load * (1.0 + _D), slide, oil, inlet) / now - 1.0
