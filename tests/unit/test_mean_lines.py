@@ -162,7 +162,7 @@ def test_along_a_face_films_are_rubbed_off_alike(model):
     assert across_track(scene, scene.rows).shape == (33, 1)
 
 
-@pytest.mark.parametrize("share", [0.1, 0.6, 1.5])
+@pytest.mark.parametrize("share", [0.3, 0.6, 1.0])
 def test_a_line_short_of_oil_has_the_film_that_comes_in(share):
     """Nothing flows to the sides of a line; a circular contact loses some."""
     kept = []
@@ -174,4 +174,4 @@ def test_a_line_short_of_oil_has_the_film_that_comes_in(share):
         short, _, _ = cheap(changes | SMOOTH | oil | {"lubricant.cavitation": "mass_conserving"})
         kept.append(now(short, op, state).h_c / film)
     assert kept[0] > kept[1]
-    assert kept[0] == pytest.approx(min(share, 1.0), rel=0.02)
+    assert kept[0] == pytest.approx(share, rel=0.01)
