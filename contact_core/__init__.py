@@ -16,7 +16,7 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
                  load sharing of the fast level
     film/        fluid and solid pressure of one instant: units, grids, the table of algorithms (routes), error estimate
     kernels/     numba and FFT: arrays in, arrays out
-    point_contact, dry_contact   one call each, without a scene
+    point_contact, line_contact, dry_contact   one call each, without a scene; call: what they share
     friction     shear of solids and oil, forces, power, derivatives at a held film
     oil          what heat and shear make of the oil, and how it then flows
     patches      body-fixed surfaces: what they are now, where they lie under the contact
@@ -51,6 +51,8 @@ from .contact import ContactFields, Transient, solve
 from .dry_contact import DryContact, dry_contact
 from .errors import ContactError, ConvergenceError, FilmTooWideError, OperatingPointError, SceneError, StateError
 from .following import parted
+from .laws.profile import Logarithmic, Rounded
+from .line_contact import LineContact, line_contact
 from .march import Moment, march, run_cycle
 from .point_contact import PointContact, point_contact
 from .reading import shipped_scenes
@@ -68,12 +70,15 @@ __all__ = [
     "ConvergenceError",
     "DryContact",
     "FilmTooWideError",
+    "LineContact",
+    "Logarithmic",
     "Moment",
     "OperatingPoint",
     "OperatingPointError",
     "Outputs",
     "PointContact",
     "RangeFlag",
+    "Rounded",
     "Scene",
     "SceneError",
     "StateError",
@@ -82,6 +87,7 @@ __all__ = [
     "advance",
     "dry_contact",
     "initial_state",
+    "line_contact",
     "march",
     "parted",
     "point_contact",

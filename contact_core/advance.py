@@ -84,7 +84,8 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
 
 def _advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
     """`advance` at the fast level; where the bodies warm up, in steps in which neither oil nor surfaces change much."""
-    pressure = scene.unit_hertz_at(op).pressure_max * op.load ** (1 / 3)
+    hertz = scene.unit_hertz_at(op)
+    pressure = hertz.pressure_max * hertz.growth(op.load)[0]
     if pressure > scene.plasticity.hardness:
         raise OperatingPointError(
             f"load = {op.load:g} N presses smooth bodies together with {pressure:.3g} Pa, above plasticity.hardness = "

@@ -28,6 +28,7 @@ class Transient:
     iterations: int  # at most
     heated: bool = True  # False: nobody asks for temperatures; the film stays as warm as it was
     order: int = 1  # of the squeeze term in time, 1 or 2
+    thorough: bool = False  # True: each algorithm has its turn; False: what the film lacks, the next instant pays
 
 
 @dataclass(frozen=True)
@@ -114,7 +115,9 @@ def solve(
     if op.load == 0.0:
         film = _open(scene, op, grid, heights)
     else:
-        step = Step(transient.dt, transient.moved, transient.order) if transient and before else None
+        step = None
+        if transient and before:
+            step = Step(transient.dt, transient.moved, transient.order, transient.thorough)
         most = transient.iterations if transient else None
         film = solve_flow(
             scene,
@@ -175,6 +178,9 @@ def instant_of(scene: Scene, op: OperatingPoint, heights: Array, limit: Array) -
         heights=heights,
         limit=limit,
         hardness=scene.plasticity.hardness,
+        conserving=scene.lubricant.cavitation == "mass_conserving",
+        supply=scene.lubricant.supply.layer,
+        meniscus=scene.lubricant.supply.inlet,
     )
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from .laws.tribofilm import thickness
 from .patches import bare_heights, contact_grid, heights_of, roughness_of
 from .scene import OperatingPoint, Scene
+from .shapes import Line
 from .state import Body
 from .surfaces import rms_roughness
 
@@ -57,7 +58,7 @@ def sliding_on_track(scene: Scene, op: OperatingPoint, rows: int) -> float | Arr
         return op.sliding_speed
     hertz, y = scene.hertz_at(op), contact_grid(scene, rows).y[:, None]
     # mean |x| over a row under Hertz's pressure is 3/8 of its length on either side
-    along = 0.375 * hertz.a * np.sqrt(np.maximum(1.0 - (y / hertz.b) ** 2, 0.0))
+    along = 0.375 * hertz.a * hertz.chords(y)
     return np.hypot(op.sliding_speed - op.spin * y, op.spin * along)
 
 
@@ -67,8 +68,12 @@ def area_of_node(scene: Scene, op: OperatingPoint, i: int) -> float:
     return scene.film.spacing**2 * scene.repeats * (track_length(scene, i) / scene.film.domain if moving else 1.0)
 
 
-def across_track(scene: Scene, rows: int) -> Array:
-    """|y| / b of each of the patches' rows, [rows, 1], b being that of the reference load and the scene's radii."""
+def across_track(scene: Scene, rows: int) -> Array | None:
+    """|y| / b of each of the patches' rows, [rows, 1], b being that of the reference load and the scene's radii; None
+    for a line or a roller, along whose face nothing changes.
+    """
+    if isinstance(scene.shape(), Line):
+        return None
     across: Array = np.abs(contact_grid(scene, rows).y)[:, None] / scene.hertz(scene.operation.load).b
     return across
 

@@ -41,7 +41,7 @@ def follow(
         return begin(scene, op, state)
     moved = moved_nodes(scene, before, state)
     try:
-        fields = solve(scene, op, state, Transient(dt, moved, iterations, order=order))
+        fields = solve(scene, op, state, Transient(dt, moved, iterations, order=order, thorough=True))
     except FilmTooWideError as error:
         return _open(scene, op, state, str(error))
     return yielded(scene, replace(state, film=fields.film), fields.overlap), fields

@@ -18,16 +18,14 @@ from .laws.load_sharing import flattening_of, rms_slope
 from .laws.rheology import Carreau
 from .mean_oil import Law, MeanHeat, oil_shear
 from .mean_surfaces import Films, composite_roughness, hardness_of, mean_cover, scene_film
-from .reference import Hertz, bair_thinning_factor, inlet_shear_factor, nvm_film
+from .reference import Hertz, bair_thinning_factor, inlet_shear_factor
 from .scene import OperatingPoint, Scene
 
 Array = NDArray[np.float64]
 
 _D, _KELVIN = 1e-6, 1e-4  # how far the points lie apart, relative and in temperature
 _WARMER = np.array([0.0, 0.0, 0.0, 0.0, _KELVIN, 0.0])
-_ROOT = (1.0 + _D) ** (1 / 3)  # by which more load makes Hertz's contact larger
 _PROBE = 1e6  # Pa: pressure that tells the pressure coefficient
-_SPIN = 3.0 * math.pi / 16.0  # mean lever of friction under Hertz's pressure, over a
 _THICKEST = 0.01  # of the radius: thicker a film, and the bodies are no parabolas on its scale
 _SLOWEST, _LIGHTEST = 1e-30, 1e-9  # m/s, N: less makes no other film, and would divide by zero
 
@@ -121,16 +119,17 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
         return MeanContact(films, sigma, cover, _UNFITTED, gap, *(0.0,) * 4, (0.0,) * 4, *(0.0,) * 8)
     sliding = op.sliding_speed
     further = _D * math.copysign(max(abs(sliding), scene.boundary_friction.slip_speed), sliding)
-    smooth = _smooth(scene, op, further)
-    points = _points(scene, op, _surfaces(scene, films, sigma, cover), smooth.film, further)
-    fluid, heat = _oil_friction(scene, op, points, further)
+    hertz = scene.unit_hertz_at(op)
+    smooth = _smooth(scene, op, hertz, further)
+    points = _points(scene, op, hertz, _surfaces(scene, hertz, films, sigma, cover), smooth.film, further)
+    fluid, heat = _oil_friction(scene, op, hertz, points, further)
     now, slide, pull = points[0], abs(points[0].rubbing), abs(points[0].solid + fluid[0])
     if heat is None:
         rise, into_1 = _flash_rise(scene, abs(now.shear), slide), 0.5 * pull * slide
     else:
         rise, into_1 = heat.surface(pull * slide)
     forces = [(point.solid + oil) * point.along for point, oil in zip(points, fluid, strict=True)]
-    lever = _SPIN * scene.unit_hertz_at(op).a * op.load ** (1 / 3)
+    lever = hertz.lever_share * hertz.b * hertz.growth(op.load)[1]
     return MeanContact(
         films,
         sigma,
@@ -153,19 +152,23 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
     )
 
 
-def _points(scene: Scene, op: OperatingPoint, surfaces: _Surfaces, film: float, further: float) -> list[_Point]:
-    """The operating point, and those with more sliding (by `further` [m/s]), film, load and temperature."""
-    root, slide = op.load ** (1 / 3), op.sliding_speed
-    more, hertz = root * _ROOT, scene.unit_hertz_at(op)
+def _points(
+    scene: Scene, op: OperatingPoint, hertz: Hertz, surfaces: _Surfaces, film: float, further: float
+) -> list[_Point]:
+    """The operating point, and those with more sliding (by `further` [m/s]), film, load and temperature; `hertz` is the
+    contact at 1 N.
+    """
+    (root, wide), (longer, wider), slide = hertz.growth(op.load), hertz.growth(1.0 + _D), op.sliding_speed
+    grown, more = (root, wide), (root * longer, wide * wider)
     largest = hertz.pressure_max
     shares = _shared(scene, surfaces, film, root * largest)
     thicker = _shared(scene, surfaces, film * (1.0 + _D), root * largest)
-    heavier = _shared(scene, surfaces, film, more * largest)
-    now = _point(scene, hertz, surfaces, shares, root, slide, op.spin)
+    heavier = _shared(scene, surfaces, film, more[0] * largest)
+    now = _point(scene, hertz, surfaces, shares, grown, slide, op.spin)
     points = [
         now,
-        _point(scene, hertz, surfaces, shares, root, slide + further, op.spin),
-        _point(scene, hertz, surfaces, thicker, root, slide, op.spin),
+        _point(scene, hertz, surfaces, shares, grown, slide + further, op.spin),
+        _point(scene, hertz, surfaces, thicker, grown, slide, op.spin),
         _point(scene, hertz, surfaces, heavier, more, slide, op.spin),
         now,
     ]
@@ -195,19 +198,20 @@ def _derivatives(
 # the film of smooth bodies
 
 
-def _smooth(scene: Scene, op: OperatingPoint, further: float) -> _Smooth:
-    """Nijenbanning, Venner & Moes' central film of the smooth bodies, and what the inputs do to it."""
+def _smooth(scene: Scene, op: OperatingPoint, hertz: Hertz, further: float) -> _Smooth:
+    """Central film of the smooth bodies by the formula of their shape, and what the inputs do to it."""
     entrainment, load, slide, inlet = op.entrainment_speed, op.load, op.sliding_speed, op.inlet_temperature
     speed = abs(entrainment)
     oil, warm = _oil(scene.lubricant.viscosity, inlet)
-    radii, largest = scene.radii(op), scene.unit_hertz_at(op).pressure_max
+    shape, largest, modulus = scene.shape(op), hertz.pressure_max, scene.solids.reduced_modulus
     thins = speed > 0.0 and (scene.heat.inlet_shear != "none" or scene.lubricant.flow == "local")
 
     def film(speed: float, load: float, slide: float, oil: tuple[float, float], temperature: float) -> float:
-        newtonian = _smooth_film(scene, radii, speed, load, *oil)
-        if not thins:
-            return newtonian
-        return newtonian * _thinned(scene, speed, largest * load ** (1 / 3), slide, oil[0], newtonian, temperature)
+        flooded = newtonian = shape.film(max(load, _LIGHTEST), max(speed, _SLOWEST), *oil, modulus)
+        grown = hertz.growth(load)[0]
+        if thins:
+            flooded *= _thinned(scene, speed, largest * grown, slide, oil[0], newtonian, temperature)
+        return scene.lubricant.supply.film(flooded, hertz.a * grown, shape.radius_x)
 
     now = film(speed, load, slide, oil, inlet)
     by_load = film(speed, load * (1.0 + _D), slide, oil, inlet) / now - 1.0
@@ -215,7 +219,7 @@ def _smooth(scene: Scene, op: OperatingPoint, further: float) -> _Smooth:
     by_speed = film(speed * (1.0 + _D), load, slide, oil, inlet) / now - 1.0
     by_sliding = film(speed, load, slide + further, oil, inlet) / now - 1.0 if thins else 0.0
     return _Smooth(
-        min(now, _THICKEST * radii[0]),
+        min(now, _THICKEST * shape.radius_x),
         by_sliding / further,
         by_speed / (_D * entrainment) if speed > 0.0 else 0.0,
         by_load / (_D * load),
@@ -239,14 +243,6 @@ def _thinned(
     return factor
 
 
-def _smooth_film(
-    scene: Scene, radii: tuple[float, ...], speed: float, load: float, viscosity: float, pressure_coefficient: float
-) -> float:
-    """The film [m] of an oil at p = 0."""
-    load, speed = max(load, _LIGHTEST), max(speed, _SLOWEST)
-    return nvm_film(load, speed, viscosity, pressure_coefficient, radii[0], radii[1], scene.solids.reduced_modulus)
-
-
 def _thinning(scene: Scene, temperature: float) -> float:
     """-d ln(viscosity)/dT [1/K] at p = 0."""
     (eta, _), (thin, _) = _oil(scene.lubricant.viscosity, temperature)
@@ -267,12 +263,11 @@ def _thin(viscosity: Law, temperature: float) -> tuple[float, float]:
 # how rough bodies share the load
 
 
-def _surfaces(scene: Scene, films: Films, sigma: float, cover: float) -> _Surfaces:
+def _surfaces(scene: Scene, hertz: Hertz, films: Films, sigma: float, cover: float) -> _Surfaces:
     first, second = scene.surface_1, scene.surface_2
     slope = rms_slope(films[0].both, first.correlation_length, films[1].both, second.correlation_length)
     rougher = first if first.rq > second.rq else second
-    # Hertz's mean pressure is two thirds of his largest
-    per_pressure = flattening_of(2.0 / 3.0, scene.solids.reduced_modulus, slope) if slope > 0.0 else math.inf
+    per_pressure = flattening_of(hertz.mean_share, scene.solids.reduced_modulus, slope) if slope > 0.0 else math.inf
     resolution = rougher.correlation_length / scene.film.spacing
     return _Surfaces(sigma, cover, hardness_of(scene, films), per_pressure, resolution)
 
@@ -294,18 +289,25 @@ def _shared(scene: Scene, surfaces: _Surfaces, film: float, pressure: float) -> 
 
 
 def _point(
-    scene: Scene, hertz: Hertz, surfaces: _Surfaces, shares: _Shares, root: float, slide: float, spin: float
+    scene: Scene,
+    hertz: Hertz,
+    surfaces: _Surfaces,
+    shares: _Shares,
+    grown: tuple[float, float],
+    slide: float,
+    spin: float,
 ) -> _Point:
-    """What the solids do at a sliding speed [m/s], spin [rad/s] and load [N], whose cubic `root` is given; `hertz` is
-    the contact at 1 N.
+    """What the solids do at a sliding speed [m/s], spin [rad/s] and the load at which the contact at 1 N, `hertz`, has
+    `grown` by so much.
     """
-    largest, area = hertz.pressure_max * root, math.pi * hertz.a * hertz.b * root * root
-    carried = 2.0 / 3.0 * shares.load * largest  # mean over the Hertz area
+    root, wide = grown
+    largest, area = hertz.pressure_max * root, hertz.area * root * wide
+    carried = hertz.mean_share * shares.load * largest  # mean over the Hertz area
     touching = max(shares.area, carried / surfaces.hardness)  # the hardness allows no smaller contact
     pressure = carried / (touching + 1e-300)
     rubbing, along = slide, 1.0
     if spin != 0.0:
-        rubbing = math.hypot(slide, _SPIN * spin * hertz.a * root)
+        rubbing = math.hypot(slide, hertz.lever_share * spin * hertz.b * wide)
         along = slide / max(rubbing, _SLOWEST)
     boundary: Law = scene.boundary_friction
     shear = boundary(pressure, surfaces.cover, rubbing)
@@ -327,7 +329,7 @@ def _point(
 
 
 def _oil_friction(
-    scene: Scene, op: OperatingPoint, points: list[_Point], further: float
+    scene: Scene, op: OperatingPoint, hertz: Hertz, points: list[_Point], further: float
 ) -> tuple[list[float], MeanHeat | None]:
     """Friction of the oil [N] at the points, and the heat where it warms the film."""
     oily, pressures, rates, grips = np.array([point[-4:] for point in points]).T
@@ -335,7 +337,7 @@ def _oil_friction(
     start = op.inlet_temperature + warmer
 
     def friction(warm: Array) -> Array:
-        return oily * oil_shear(scene, pressures, rates, grips, warm)
+        return oily * oil_shear(scene, hertz, pressures, rates, grips, warm)
 
     if not isinstance(scene.heat, TemperatureField):
         return friction(start).tolist(), None
@@ -345,7 +347,7 @@ def _oil_friction(
     first[5], second[5] = op.speed_1 + _faster(op), op.speed_2 + _faster(op)
     one, two = op.bodies
     bodies = (one + warmer, two + warmer)
-    heat = MeanHeat.of(scene.heat, (first, second), bodies, areas, gaps, scene.lubricant.conductivity)
+    heat = MeanHeat.of(scene.heat, hertz, (first, second), bodies, areas, gaps, scene.lubricant.conductivity)
     warm = heat.film(start, lambda film: np.abs((solid + friction(film)) * rubbing))
     return friction(warm).tolist(), heat
 

@@ -1,4 +1,4 @@
-"""Friction and warmth of the oil under a Hertzian mean contact, for several operating points at once."""
+"""Friction and warmth of the oil in a Hertzian mean contact, for several operating points at once."""
 
 import math
 from collections.abc import Callable
@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from .errors import ConvergenceError
 from .laws.heat import TemperatureField
+from .reference import Hertz, HertzLine
 from .scene import Scene
 
 Array = NDArray[np.float64]
@@ -16,26 +17,31 @@ Pair = tuple[Array, Array]  # of body 1 and 2
 # laws take anything that broadcasts: plain floats, which are faster than arrays of one, and arrays of temperatures
 Law = Callable[..., Any]
 
-# quadrature over the Hertz ellipse: at the distance sqrt(1 - t^2) from its centre p is in proportion to t, dA to t dt
-_T = 0.5 + 0.5 * np.polynomial.legendre.leggauss(10)[0][:, None]
-_WEIGHTS = _T[:, 0] * np.polynomial.legendre.leggauss(10)[1]  # of the mean over the ellipse
+# pressures over the largest, and what they weigh in the mean over Hertz's contact. On an ellipse p is proportional to t
+# at the distance sqrt(1 - t^2) from its centre, dA to t dt; on a strip to cos(s) at x = a sin(s), dA to cos(s) ds
+_NODES, _OF_NODES = np.polynomial.legendre.leggauss(10)
+_T = 0.5 + 0.5 * _NODES[:, None]
+_ON_ELLIPSE = _T, _T[:, 0] * _OF_NODES
+_COS = np.cos(0.25 * math.pi * (1.0 + _NODES))
+_ON_STRIP = _COS[:, None], 0.25 * math.pi * _COS * _OF_NODES
 _ROUNDS = 100  # of the oil's temperature, at most
 _SETTLED = 1e-8  # misfit that ends them, over the rise and 1 K
 
 
-def oil_shear(scene: Scene, pressures: Array, rates: Array, grips: Array, temperatures: Array) -> Array:
-    """Mean shear stress [Pa] of oil under Hertz's semi-ellipsoids of largest `pressures`, one for each point; `grips`
+def oil_shear(scene: Scene, hertz: Hertz, pressures: Array, rates: Array, grips: Array, temperatures: Array) -> Array:
+    """Mean shear stress [Pa] of oil under Hertz's pressure, of which `pressures` are the largest at each point; `grips`
     are the shares of the limiting stress (`FilmBlend.grip`).
     """
-    local = _T * pressures
+    parts, weights = _ON_STRIP if isinstance(hertz, HertzLine) else _ON_ELLIPSE
+    local = parts * pressures
     viscosity: Law = scene.lubricant.viscosity
     newtonian = viscosity(local, temperatures) * rates
-    shear: Array = _WEIGHTS @ scene.lubricant.rheology(newtonian, local * grips)
+    shear: Array = weights @ scene.lubricant.rheology(newtonian, local * grips)
     return shear
 
 
 class MeanHeat(NamedTuple):
-    """Heat of friction that leaves through the Hertz ellipse; both surfaces as warm. Arrays have one row per point."""
+    """Heat of friction that leaves through Hertz's contact; both surfaces as warm. Arrays have one row per point."""
 
     conductance_1: Array  # of the bodies [W/(m2 K)]
     conductance_2: Array
@@ -46,12 +52,21 @@ class MeanHeat(NamedTuple):
 
     @staticmethod
     def of(
-        law: TemperatureField, speeds: Pair, bodies: Pair, areas: Array, gaps: Array, oil_conductivity: float
+        law: TemperatureField,
+        hertz: Hertz,
+        speeds: Pair,
+        bodies: Pair,
+        areas: Array,
+        gaps: Array,
+        oil_conductivity: float,
     ) -> "MeanHeat":
         """Both bodies as half spaces at their speeds [m/s] under an even source that holds still, on a circle as large
-        as the ellipse.
+        as the ellipse, or on the strip.
         """
-        first, second = law.conductances(np.sqrt(areas / math.pi), speeds)
+        if isinstance(hertz, HertzLine):
+            first, second = law.strip_conductances(0.25 * areas / hertz.b, hertz.b, speeds)
+        else:
+            first, second = law.conductances(np.sqrt(areas / math.pi), speeds)
         return MeanHeat(first, second, *bodies, areas, gaps / (12.0 * oil_conductivity))
 
     def _surfaces(self, power: Array) -> Array:

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from .geometry import PointGeometry
 from .laws.load_sharing import FittedSharing
 from .mean_contact import MeanContact
 from .mean_surfaces import Films, Means, scene_film
@@ -28,8 +29,6 @@ def outputs_of(
 ) -> Outputs:
     """What this level can tell; the rest stays zero. Counters of solved blocks go on."""
     force = contact.solid + contact.fluid
-    scale = op.load ** (1 / 3)
-    hertz = scene.unit_hertz_at(op)
     hot_1, hot_2 = op.bodies
     first, second = means
     longest = _LONGEST * scene.operation.duration
@@ -67,7 +66,7 @@ def outputs_of(
         heat_flow_1=contact.into_1,
         heat_flow_2=contact.power - contact.into_1,
         spin_torque=contact.spin_torque,
-        approach=hertz.approach * scale * scale - contact.gap,
+        approach=scene.unit_hertz_at(op).approach_at(op.load) - contact.gap,
         range_flags=_flags(scene, op, contact),
         suggested_step=min(scene.control.change / speed, longest) if speed > 0.0 else longest,
         load_cycles_1=first.cycles,
@@ -96,7 +95,7 @@ def _flags(scene: Scene, op: OperatingPoint, contact: MeanContact) -> int:
     flags = 0
     if contact.sigma == 0.0 or op.load == 0.0:
         flags |= _LAMBDA_CAPPED
-    elif not scene_film(scene).sharing.covers(*contact.fit):
+    elif not (isinstance(scene.geometry, PointGeometry) and scene_film(scene).sharing.covers(*contact.fit)):
         flags |= _OUTSIDE_FIT
     one, two = op.bodies
     if not (scene.tribofilm.covers(one) and scene.tribofilm.covers(two)):

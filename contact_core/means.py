@@ -20,6 +20,7 @@ from .mean_oil import Law
 from .mean_outputs import outputs_of
 from .mean_surfaces import Films, Means, composite_roughness, films_of, hardness_of, mean_cover, scene_film
 from .scene import OperatingPoint, Scene
+from .shapes import Line
 from .state import ContactState, Mean, Outputs, changed
 
 _SAME = 1e-4  # a contact evaluated before the surfaces changed by less, relative, is the contact after it
@@ -145,16 +146,16 @@ def _wear_rate(scene: Scene, op: OperatingPoint, contact: MeanContact, i: int, f
 
 def _track_area(scene: Scene, i: int, moving: bool) -> float:
     """Area [m2] of a body's track |y| < b; at rest, of the patch's part of it."""
-    b = scene.operation.load ** (1 / 3) * scene.unit_hertz.b
-    return _track_width(scene.film.points, scene.film.domain, b) * (
-        track_length(scene, i) if moving else scene.film.domain
-    )
+    hertz, shape = scene.unit_hertz, scene.shape()
+    b = hertz.growth(scene.operation.load)[1] * hertz.b
+    width = 2.0 * b if shape.periodic else _track_width(scene.rows, scene.film.spacing, b)
+    return width * (track_length(scene, i) if moving else scene.film.domain)
 
 
 @lru_cache(maxsize=64)
-def _track_width(points: int, domain: float, b: float) -> float:
+def _track_width(rows: int, spacing: float, b: float) -> float:
     """Width [m] of a patch's rows with |y| < b, at least the middle one."""
-    grid = Grid.centred(points, points, domain / (points - 1))
+    grid = Grid.centred(rows, rows, spacing)
     return grid.spacing * int((np.abs(grid.y) < max(b, 0.51 * grid.spacing)).sum())
 
 
@@ -200,8 +201,8 @@ def _dose(
     if scene.tribofilm.dose == "clock" and moving:
         return coverage, (met * touching + (1.0 - met) * oiled) / coverage
     mean = contact.area_ratio * touching + (1.0 - contact.area_ratio) * oiled
-    # contact_length: a mean chord of the Hertz ellipse over 2a
-    stay = 0.25 * math.pi if scene.tribofilm.dose == "contact_length" else _residence(scene, op, i)
+    chord = scene.tribofilm.dose == "contact_length"
+    stay = scene.unit_hertz_at(op).chord_share if chord else _residence(scene, op, i)
     return coverage, mean * stay / coverage
 
 
@@ -211,10 +212,13 @@ def _abrasion(scene: Scene, op: OperatingPoint, contact: MeanContact, i: int) ->
     if not law.abrades:
         return 0.0
     felt = contact.solid_pressure * contact.area_ratio * _residence(scene, op, i)
+    if isinstance(scene.shape(), Line):  # even along the face
+        return float(law.abrasion(np.array([felt]), contact.slide, None)[0])
     return float(_OF_ROWS @ law.abrasion(felt * _ROWS_PRESSURE, contact.slide, _ROWS))
 
 
 def _residence(scene: Scene, op: OperatingPoint, i: int) -> float:
-    """Share of its time that a point of the track |y| < b is under the Hertz ellipse."""
+    """Share of its time that a point of the track |y| < b is in Hertz's contact."""
     way = track_length(scene, i) if (op.speed_1, op.speed_2)[i] != 0.0 else scene.film.domain
-    return 0.5 * math.pi * scene.unit_hertz_at(op).a * op.load ** (1 / 3) / way
+    hertz = scene.unit_hertz_at(op)
+    return 2.0 * hertz.chord_share * hertz.a * hertz.growth(op.load)[0] / way

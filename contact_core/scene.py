@@ -5,7 +5,7 @@ import json
 import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import Field, dataclass, fields, is_dataclass, replace
+from dataclasses import Field, dataclass, field, fields, is_dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import pairwise
 from pathlib import Path
@@ -19,6 +19,7 @@ from .laws.density import DowsonHigginson, Incompressible
 from .laws.heat import FlashTemperature, NoHeat, TemperatureField
 from .laws.plasticity import ElasticPerfectlyPlastic
 from .laws.rheology import Carreau, Eyring, Newtonian
+from .laws.supply import Flooded, Meniscus, SupplyFilm
 from .laws.tribofilm import Andersson, Combined, Ghanbarzadeh, Gosvami, NoTribofilm, ZhangSpikes
 from .laws.viscosity import AstmD341, Barus, Modulus, Roelands
 from .laws.wear import Archard, NoWear
@@ -67,6 +68,14 @@ class Lubricant:
         choices=("newtonian", "local"),
         default="newtonian",
     )
+    cavitation: str = parameter(
+        "",
+        "where oil would be under tension: reynolds, it has no pressure and its gap counts as full; mass_conserving, "
+        "the gap holds what flows in, and is full where that is more than it can hold",
+        choices=("reynolds", "mass_conserving"),
+        default="reynolds",
+    )
+    supply: Flooded | SupplyFilm | Meniscus = field(default=Flooded())
 
 
 @dataclass(frozen=True)
@@ -317,6 +326,8 @@ class Scene:
 
     def unit_hertz_at(self, op: OperatingPoint) -> Hertz:
         """Hertz's contact at 1 N and the radii of an operating point."""
+        if op.radius_x is op.radius_y is None:
+            return self.unit_hertz
         return _unit_hertz(self.shape(op), self.solids.reduced_modulus)
 
     @cached_property
@@ -476,6 +487,14 @@ class Scene:
                 "viscosity",
                 f"lubricant.viscosity.viscosity_100 = {oil.viscosity_100:g} m2/s must be below viscosity_40 = "
                 f"{oil.viscosity_40:g} m2/s: oils thin when they warm. Exchange the two if they were mixed up.",
+            )
+
+        if self.lubricant.supply.layer is not None and self.lubricant.cavitation != "mass_conserving":
+            yield (
+                "supply",
+                f"lubricant.supply.thickness = {self.lubricant.supply.layer:g} m needs lubricant.cavitation = "
+                f"'mass_conserving': with '{self.lubricant.cavitation}' every gap counts as full. Set it, or use the "
+                "supply 'meniscus'.",
             )
 
     def _duty_errors(self) -> Iterator[tuple[str, str]]:

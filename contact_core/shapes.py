@@ -10,7 +10,7 @@ from typing import ClassVar, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from .reference import Hertz, SmoothContact, SmoothLine, hertz_line, hertz_point
+from .reference import Hertz, SmoothContact, SmoothLine, hertz_line, hertz_point, line_film, nvm_film
 
 Array = NDArray[np.float64]
 Viscosity = Callable[[Array, float], Array]  # [Pa s] at pressures [Pa] and a temperature [K]
@@ -64,6 +64,13 @@ class Point:
         """The smooth contact in the terms of film formulas, at an entrainment speed [m/s]."""
         return SmoothContact.of(load, speed, viscosity, temperature, self.radius_x, self.radius_y, reduced_modulus)
 
+    def film(
+        self, load: float, speed: float, viscosity: float, pressure_coefficient: float, reduced_modulus: float
+    ) -> float:
+        """Central film [m] of the smooth bodies by a formula of all regimes, of plain numbers: no record to make."""
+        x, y = self.radius_x, self.radius_y
+        return nvm_film(load, speed, viscosity, pressure_coefficient, x, y, reduced_modulus)
+
 
 @dataclass(frozen=True)
 class Line:
@@ -99,6 +106,12 @@ class Line:
     ) -> SmoothLine:
         """The smooth contact in the terms of film formulas."""
         return SmoothLine.of(load / self.length, speed, viscosity, temperature, self.radius_x, reduced_modulus)
+
+    def film(
+        self, load: float, speed: float, viscosity: float, pressure_coefficient: float, reduced_modulus: float
+    ) -> float:
+        """Central film [m] of the smooth bodies."""
+        return line_film(load / self.length, speed, viscosity, pressure_coefficient, self.radius_x, reduced_modulus)
 
 
 class Profile(Protocol):

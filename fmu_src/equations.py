@@ -126,6 +126,12 @@ LAWS: dict[tuple[str, str], tuple[Lines, str]] = {
         ("P = d ln{1/[1 − (2 y/b)^2]},   |y| < b/2",),
         "d is depth.",
     ),
+    ("supply", "flooded"): (("p_f = 0 at the edge of the grid",), "The inlet is as full as the grid is wide."),
+    ("supply", "film"): (
+        ("ρ h θ = ρ_0 h_{oil} where oil comes in",),
+        "h oil: thickness. Pressure begins where the gap has become full.",
+    ),
+    ("supply", "meniscus"): (("p_f = 0 for x < −d",), "d: distance. The gap is full from there on."),
     ("plasticity", "elastic_perfectly_plastic"): (
         ("p ≤ H(c),   H(c) = H_{steel} − (H_{steel} − H_{film}) c",),
         "c is how much of its full thickness the tribofilm that is met has; plastic depth is shared in halves.",

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..shapes import Point
+from ..shapes import Line, Point
 from .instant import Grid
 from .scaled import film_size, inlet_length
 
@@ -59,6 +59,13 @@ class Extent:
         before = round((nx - 1) * self.left / (self.left + self.right))  # a node lies on the centre
         x, y = np.arange(nx, dtype=np.float64) - before, np.arange(ny, dtype=np.float64) - 0.5 * (ny - 1)
         return Grid(x * spacing, y * spacing)
+
+
+def line_extent(shape: Line, load: float, reduced_modulus: float, film: float) -> tuple[float, float]:
+    """How far before and behind the contact [m] a film [m] of smooth bodies needs a grid. SI."""
+    a = shape.hertz(load, reduced_modulus).a
+    size, inlet = film_size(a, shape.radius_x, film), inlet_length(a, shape, film)
+    return min(_LEFT * size, 1.1 * a + _INLETS_BEFORE * inlet), min(_RIGHT * size, 1.25 * a + inlet)
 
 
 def _partner(nodes: int, ratio: float, *, mirror: bool) -> int:

@@ -95,6 +95,7 @@ class Step:
     dt: float  # time since then [s]
     moved: int = 0  # nodes by which the rough surfaces have moved along +x since then
     order: int = 1  # of the squeeze term in time: 1, backward Euler; 2, backward differences over two steps
+    thorough: bool = False  # True: each algorithm has its turn; False: what a film lacks, the next instant pays
 
     def mirrored(self) -> "Step":
         """The step seen from the other side."""

@@ -2,7 +2,7 @@
 
 A steady film goes to the first row of REGIMES that it fits; the algorithms of that row are tried in turn until one
 meets the stopping rule (`kernels.mixed.shortfall`). An instant that follows from another one is marched from it, and
-that film serves if it can be used at all.
+that film serves if it can be used at all, unless the step is to be thorough.
 """
 
 import math
@@ -29,9 +29,6 @@ _HYBRID_ITERATIONS, _DIRECT_ITERATIONS = 150, 80  # of one try at a steady film
 _CYCLES, _NEWTON_STEPS = 15, 30
 _DAMPED = ((0.5, 15), (0.25, 40))  # multigrid's next tries, and cycles: nearly rigid bodies under thickening oil
 _CLOSINGS = 4  # solutions of a light film, at most, until what lies beyond the grid knows how fast the bodies close
-# an instant that follows from another one: what comes before its row of the table
-_STEP = (("hybrid", "before"),)
-_LIGHT_STEP = (("newton", "before"), ("hybrid", "before"), ("direct", "before"))
 # a film short of its tolerance is still better than the dry contact within these
 _LOAD_ACCEPTED = 1e-3
 _CHANGE_ACCEPTED = 0.1
@@ -118,16 +115,16 @@ def solve_film(
         scaled = Scaled(now, grid, settings, start, step, closing)
         found = _film(scaled, start, step)
         last, closing = closing, (start.rigid_gap - found.state.rigid_gap) / step.dt
-        if at_rest or not scaled.is_light or abs(closing - last) * now.shape.radius_x < 0.1 * pull:
+        if at_rest or not step.thorough or not scaled.is_light or abs(closing - last) * now.shape.radius_x < 0.1 * pull:
             break
     return found
 
 
 def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSolution:
     """The film of an instant, entrained along +x or not at all."""
-    grid, settings, follows = scaled.grid, scaled.settings, step is not None
+    grid, settings = scaled.grid, scaled.settings
     regime = next(row for row in REGIMES if row.holds(scaled))
-    tries = (*(_LIGHT_STEP if scaled.is_light else _STEP), *regime.algorithms) if follows else regime.algorithms
+    tries = (*_begun(scaled, step), *regime.algorithms) if step else regime.algorithms
     solver, used, spent, least = _Solver(scaled, start, step), "", 0, math.inf
     for method, begin in tries:
         if settings.lumped and method != "hybrid":  # the others know the split criterion alone
@@ -136,10 +133,10 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
         if found is None:
             continue
         spent += found.iterations
-        worst = excess(found, settings.tolerance, follows)
+        worst = excess(found, settings.tolerance, step is not None)
         if _usable(found) and (found.converged or worst < least):
             solver.best, used, least = found, f"{regime.name}: {method} from {begin}", worst
-        if found.converged or (follows and solver.best is found):  # the next instant pays the debt of this one
+        if found.converged or (step and not step.thorough and solver.best is found):
             break
     best = solver.best
     if best is not None and 1.0 - float(best.iterate.pressure.sum()) / scaled.load < _MOST_BEYOND:
@@ -152,6 +149,14 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
         )
     why = "no mixed solution was found; the dry contact stands in"
     return replace(scaled.dry("fallback"), converged=False, shortfall=why, iterations=spent)
+
+
+def _begun(scaled: Scaled, step: Step) -> tuple[tuple[str, str], ...]:
+    """What an instant that follows from another one tries before its row of the table."""
+    hybrid, direct, newton = (("hybrid", "before"),), (("direct", "before"),), (("newton", "before"),)
+    if not step.thorough:
+        return hybrid
+    return (*newton, *hybrid, *direct) if scaled.is_light else (*hybrid, *direct, *newton)
 
 
 class _Solver:

@@ -135,12 +135,17 @@ class Scaled:
     @cached_property
     def film(self) -> float:
         """Film [m] of smooth bodies: by formula, or that of a start from which they have not come so close yet."""
-        return max(self.smooth_film, self.start.rigid_gap) if self.start else self.smooth_film
+        return max(self.smooth_film, self._gap_before)
+
+    @property
+    def _gap_before(self) -> float:
+        """Gap [m] of undeformed bodies from which a thorough step starts, 0 where there is none or they overlap."""
+        return max(self.start.rigid_gap, 0.0) if self.start and self.step and self.step.thorough else 0.0
 
     @property
     def is_light(self) -> bool:
         """Whether the film is so thick that what lies beyond the grid matters."""
-        return self.moes_load < _FAR_FIELD_BELOW or (self.start is not None and self.start.rigid_gap > 0.0)
+        return self.moes_load < _FAR_FIELD_BELOW or self._gap_before > 0.0
 
     @cached_property
     def speed(self) -> float:

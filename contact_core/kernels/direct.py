@@ -143,9 +143,8 @@ def _equations(  # type: ignore[no-untyped-def]
                 dj, di = (-1, 0, 0, 1)[side], (0, -1, 1, 0)[side]
                 face = half * (e[j, i] + e[j + dj, i + di])
                 diagonal += face
-                if filling is not None:
-                    if side == 1:
-                        diagonal -= reynolds.returned(filling, first, per_dt, wedge, dx, j, i) * face
+                if filling is not None and side == 1:
+                    diagonal -= reynolds.returned(filling, first, per_dt, wedge, dx, j, i) * face
                 diagonal -= face * edge[j + dj, i + di]
                 if solid[j + dj, i + di] or edge[j + dj, i + di] > 0.0:  # the fluid pressure of a contact stays
                     face = 0.0

@@ -18,8 +18,7 @@ Array = NDArray[np.float64]
 _MARGIN = 16
 _LOVE_UP_TO = 64  # cells, from where on two terms of the expansion of a cell's potential are as exact
 _PERIODS = 12  # on either side that are summed one by one
-# distance from a line, in periods, at which it displaces as much as one of its periods does, alone, at a distance from
-# a cell of it that is small against the period; and in cells, where the period is not longer than that
+# datum of `near`: in periods, that with which the images of a node displace it by nothing; and at least so many nodes
 _LOCAL, _LEAST_LOCAL = 2.0 * np.exp(-np.euler_gamma), 3.0
 
 
@@ -161,7 +160,7 @@ class HalfSpace:
         The inverse kernel falls like 1 / r^3: the images on a periodic plane half as wide do no harm if they stay
         `_MARGIN` nodes away. `field` is all of that plane, or that of `press` if the gap does not fit.
         """
-        fits = height + _MARGIN <= self._part[0] and width + _MARGIN <= self._part[1]
+        fits = (self.periodic or height + _MARGIN <= self._part[0]) and width + _MARGIN <= self._part[1]
         return self._press_part if fits else self._press
 
     @cached_property
@@ -176,9 +175,10 @@ class HalfSpace:
 class PeriodicHalfSpace(HalfSpace):
     """The same, repeated along y with the period of its rows and free along x.
 
-    A field has these rows [ny, nx], or two more [ny + 2, nx] that are images: the first of the last but one and the
-    last of the second. Displacements are counted from that which a line load, in place of the pressure of a column, has
-    at a distance of `reference` cells from it; that of `near` is the local one, where one period acts as if alone.
+    A pressure has these rows [ny, nx], or two more [ny + 2, nx] that are images: the first of the last but one and the
+    last of the second; so has its deformation. A line load displaces by -(4 / (pi E')) ln(r / d) per unit, zero at the
+    distance d of `reference` nodes, by default the width of the grid, so that all coefficients on it are positive.
+    `near` has a datum of its own, for which the first period acts all but alone.
     """
 
     periodic = True

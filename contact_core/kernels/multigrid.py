@@ -148,11 +148,14 @@ def is_symmetric(problem: Problem) -> bool:
 
 
 def is_applicable(problem: Problem) -> bool:
-    """Whether the film is steady and full where it has no pressure, and its grid can be halved often enough."""
+    """Whether the film is steady, full where it has no pressure and without a period, and its grid can be halved often
+    enough.
+    """
     (ny, nx), mirror = problem.undeformed.shape, is_symmetric(problem)
     halvings = _level_count(ny, nx, mirror) - 1
     unknowns = (ny >> halvings) * (nx >> halvings) / (2 if mirror else 1)
-    return problem.per_dt == 0.0 and not problem.by_flux and halvings >= 2 and unknowns <= _DENSE
+    plain = not (problem.per_dt > 0.0 or problem.by_flux or problem.wrapped)
+    return plain and halvings >= 2 and unknowns <= _DENSE
 
 
 def _level_count(ny: int, nx: int, mirror: bool) -> int:

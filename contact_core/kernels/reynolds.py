@@ -141,8 +141,9 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
     first=1,
     wrapped=False,
 ):
-    """Gauss-Seidel for the fluid pressure on solid contacts; releases those the fluid alone carries. `full`: mass of
-    the contacts if they are full, which changes with it.
+    """Gauss-Seidel for the fluid pressure on solid contacts; releases those the fluid alone carries.
+
+    full: what nodes hold if they are full, which changes with that pressure; `mass` itself where none is a cavity.
     """
     ny, nx = p.shape
     count = 0
@@ -204,9 +205,8 @@ def residual(f, solid, mass, mass_old, e, per_dt, wedge, dx, r, flux=None, filli
     r[:] = 0.0
     for j in range(1, ny - 1):
         for i in range(first, nx - 1):
-            if filling is not None:
-                if filling[j, i] < 1.0:
-                    continue
+            if filling is not None and filling[j, i] < 1.0:
+                continue
             if not solid[j, i]:
                 here, ej = f[j, i], e[j, i]
                 flow = (
@@ -275,15 +275,16 @@ def mend_film(  # type: ignore[no-untyped-def]
     off the stiff zone. `patch`: opening of a gap by a unit pressure on it and its eight neighbours.
 
     Returns the first row, the row after the last, first column and column after the last of dh, and how many nodes are
-    stiff and how many of them differ from `stiff_before`. sums [5]: of |r| p, m p and p over nodes that fluid alone
-    carries; of p - f and, below the cap, of p |floor - h| over solid contacts.
+    stiff and how many of them differ from `stiff_before`. sums [7]: of |r| p, m p and p over nodes that fluid alone
+    carries; of p - f and, below the cap, of p |floor - h| over solid contacts; with `flux`, of r over nodes that are
+    full and have no pressure yet, and of m over nodes that have some.
     """
     ny, nx = p.shape
     half, per_dx, wedge_per_dx = 0.5 / (dx * dx), 1.0 / dx, wedge / dx
     limit = 2.0 * dx * dx * compliance
     a0, a1, a2 = 1.5 * wedge_per_dx + per_dt, -2.0 * wedge_per_dx, 0.5 * wedge_per_dx
     per_patch, per_floor = half / patch, 1.0 / floor
-    wrong, film, fluid, solids, intrusion = 0.0, 0.0, 0.0, 0.0, 0.0
+    wrong, film, fluid, solids, intrusion, gained, held = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     top, bottom, left, right, count, changed = ny, 0, nx, 0, 0, 0
     for j in range(1, ny - 1):
         before, before_2 = 0.0, 0.0  # change of the film that flows at the two nodes upstream
@@ -300,9 +301,8 @@ def mend_film(  # type: ignore[no-untyped-def]
                     rise = 1.5 * m - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2] if i > 1 else m - mass[j, i - 1]
                 value = half * flow - wedge_per_dx * rise - per_dt * (m - mass_old[j, i])
                 sinks = value < 0.0
-                if filling is not None:
-                    if filling[j, i] < 1.0 or i < first:  # nothing is unbalanced there
-                        sinks, value = True, 0.0
+                if filling is not None and (filling[j, i] < 1.0 or i < first):  # nothing is unbalanced there
+                    sinks, value = True, 0.0
                 if own < floor and sinks:
                     touches, value = True, 0.0  # the film sinks on: solids carry what it cannot
                     solid[j, i] = True
@@ -334,6 +334,11 @@ def mend_film(  # type: ignore[no-untyped-def]
                     change = max(change, min(floor - own, 0.0))  # solids stop it there
                     if here >= cap[j, i]:
                         change = min(change, 0.0)  # the solids yield, the gap does not open
+            if flux is not None:
+                if here > 0.0:
+                    held += m
+                elif value > 0.0:
+                    gained += value
             r[j, i], stiff[j, i], dh[j, i] = value, is_stiff, change
             before_2 = before
             before = 0.0 if solid[j, i] else max(h[j, i] + change, floor) - max(h[j, i], floor)
@@ -343,7 +348,7 @@ def mend_film(  # type: ignore[no-untyped-def]
                 left, right = min(left, i), max(right, i + 1)
             if is_stiff != stiff_before[j, i]:
                 changed += 1
-    sums[0], sums[1], sums[2], sums[3], sums[4] = wrong, film, fluid, solids, intrusion
+    sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6] = wrong, film, fluid, solids, intrusion, gained, held
     return top, bottom, left, right, count, changed
 
 

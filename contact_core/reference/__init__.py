@@ -16,7 +16,7 @@ SI throughout, and scipy's parts are loaded at their first use.
 from .evolution import archard_depth, ghanbarzadeh_thickness, load_cycles
 from .heat import jaeger_band, jaeger_circle, tian_kennedy_circle
 from .hertz import Hertz, HertzLine, brewe_hamrock, hertz_line, hertz_point, palmgren_approach
-from .line_films import SmoothLine, dowson_line, moes_line, moes_line_film
+from .line_films import SmoothLine, dowson_line, line_film, moes_line, moes_line_film
 from .oil import bair_thinning_factor, inlet_shear_factor
 from .point_films import SmoothContact, chittenden, hamrock_dowson, moes_film, nijenbanning_venner_moes, nvm_film
 from .profiles import logarithmic_drop, lundberg_depth, rounded_drop
@@ -41,6 +41,7 @@ __all__ = [
     "inlet_shear_factor",
     "jaeger_band",
     "jaeger_circle",
+    "line_film",
     "load_cycles",
     "logarithmic_drop",
     "lundberg_depth",

@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import ClassVar
 
 import numpy as np
@@ -17,8 +17,7 @@ class Hertz:
     """Dry contact of smooth elastic bodies on an ellipse."""
 
     mean_share: ClassVar[float] = 2.0 / 3.0  # mean pressure over the largest
-    exponent: ClassVar[float] = 1.0 / 3.0  # a and the pressures grow with this power of the load
-    across: ClassVar[float] = 1.0 / 3.0  # and b with this one
+    chord_share: ClassVar[float] = 0.25 * math.pi  # mean of `chords`
 
     a: float  # half width along x [m]
     b: float  # half width along y [m]
@@ -30,24 +29,44 @@ class Hertz:
         """Contact area [m2]."""
         return math.pi * self.a * self.b
 
+    @property
+    def pressure_mean(self) -> float:
+        """Mean pressure over the contact area [Pa]."""
+        return self.mean_share * self.pressure_max
+
     def inside(self, x: Array, y: Array, share: float) -> NDArray[np.bool_]:
         """Which nodes at x [nx], y [ny] about the centre [m] lie within `share` of the half widths, [ny, nx]."""
         within: NDArray[np.bool_] = (x[None, :] / self.a) ** 2 + (y[:, None] / self.b) ** 2 < share**2
         return within
 
-    @property
-    def pressure_mean(self) -> float:
-        """Mean pressure over the contact area [Pa]."""
-        return self.mean_share * self.pressure_max
+    def chords(self, y: Array) -> Array:
+        """Length along x of the contact's rows at y [m] over 2 a."""
+        return np.sqrt(np.maximum(1.0 - (y / self.b) ** 2, 0.0))
+
+    @cached_property
+    def lever_share(self) -> float:
+        """Mean distance from the centre, weighted with the pressure, over b."""
+        if self.a == self.b:
+            return 3.0 * math.pi / 16.0
+        return 0.75 * float(scipy.special.elliprg(0.0, 1.0, (self.a / self.b) ** 2))
+
+    def growth(self, times: float) -> tuple[float, float]:
+        """By how much `times` the load makes a and the pressure larger, and b."""
+        root = times ** (1 / 3)
+        return root, root
+
+    def approach_at(self, times: float) -> float:
+        """Approach [m] under `times` this load."""
+        root = times ** (1 / 3)
+        return self.approach * root * root
 
 
 @dataclass(frozen=True)
 class HertzLine(Hertz):
     """Dry contact of smooth cylinders with parallel axes: a strip of half width a and half length b."""
 
-    mean_share: ClassVar[float] = math.pi / 4.0
-    exponent: ClassVar[float] = 0.5
-    across: ClassVar[float] = 0.0
+    mean_share: ClassVar[float] = 0.25 * math.pi
+    chord_share: ClassVar[float] = 1.0
 
     @property
     def area(self) -> float:
@@ -58,6 +77,26 @@ class HertzLine(Hertz):
         """Which nodes at x [nx], y [ny] about the centre [m] lie within `share` of the half widths, [ny, nx]."""
         within: NDArray[np.bool_] = (np.abs(x) < share * self.a)[None, :] & (np.abs(y) < share * self.b)[:, None]
         return within
+
+    def chords(self, y: Array) -> Array:
+        """Length along x of the contact's rows at y [m] over 2 a."""
+        return np.where(np.abs(y) < self.b, 1.0, 0.0)
+
+    @cached_property
+    def lever_share(self) -> float:
+        """Mean distance from the centre over b, for a strip much longer than wide."""
+        return 0.5
+
+    def growth(self, times: float) -> tuple[float, float]:
+        """By how much `times` the load makes a and the pressure larger, and b."""
+        return math.sqrt(times), 1.0
+
+    def approach_at(self, times: float) -> float:
+        """Approach [m] under `times` this load: the logarithm of `hertz_line` falls with a."""
+        if times == 0.0:
+            return 0.0
+        slower = math.log(times) / (2.0 * math.log(4.0 * self.b / self.a) + 1.0)
+        return self.approach * times * (1.0 - slower)
 
 
 def hertz_point(load: float, radius_x: float, radius_y: float, reduced_modulus: float) -> Hertz:

@@ -1,5 +1,6 @@
 """Film thickness of smooth line contacts."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -36,9 +37,8 @@ class SmoothLine:
     @property
     def moes_parameters(self) -> tuple[float, float]:
         """Moes' parameters of load and lubricant (M, L) of line contacts, on the sum of surface speeds."""
-        speed = 2.0 * self.viscosity * self.entrainment_speed / (self.reduced_modulus * self.radius)
-        load = self.load / (self.reduced_modulus * self.radius)
-        return load * speed**-0.5, self.pressure_coefficient * self.reduced_modulus * speed**0.25
+        oil, solids = (self.viscosity, self.pressure_coefficient), (self.radius, self.reduced_modulus)
+        return _moes_numbers(self.load, self.entrainment_speed, *oil, *solids)[:2]
 
     @property
     def circular_load(self) -> float:
@@ -68,8 +68,31 @@ def dowson_line(contact: SmoothLine) -> tuple[float, float]:
 
 def moes_line(contact: SmoothLine) -> float:
     """Central film thickness [m] of a line contact, over all regimes as `moes_line_film`."""
-    speed = 2.0 * contact.viscosity * contact.entrainment_speed / (contact.reduced_modulus * contact.radius)
-    return float(moes_line_film(*contact.moes_parameters) * np.sqrt(speed) * contact.radius)
+    c = contact
+    return line_film(c.load, c.entrainment_speed, c.viscosity, c.pressure_coefficient, c.radius, c.reduced_modulus)
+
+
+def line_film(
+    load: float,
+    entrainment_speed: float,
+    viscosity: float,
+    pressure_coefficient: float,
+    radius: float,
+    reduced_modulus: float,
+) -> float:
+    """`moes_line` of plain numbers, as in `SmoothLine`: no record to make."""
+    m, lubricant, speed = _moes_numbers(
+        load, entrainment_speed, viscosity, pressure_coefficient, radius, reduced_modulus
+    )
+    return moes_line_film(m, lubricant) * math.sqrt(speed) * radius
+
+
+def _moes_numbers(
+    load: float, speed: float, viscosity: float, pressure_coefficient: float, radius: float, modulus: float
+) -> tuple[float, float, float]:
+    """Moes' load M, lubricant L and speed U of line contacts, on the sum of surface speeds."""
+    u = 2.0 * viscosity * speed / (modulus * radius)
+    return load / (modulus * radius) * u**-0.5, pressure_coefficient * modulus * u**0.25, u
 
 
 def moes_line_film(load: float, lubricant: float) -> float:
@@ -81,6 +104,6 @@ def moes_line_film(load: float, lubricant: float) -> float:
     elastic_iso = 2.621 * load ** (-1 / 5)
     rigid_piezo = 1.287 * lubricant ** (2 / 3)
     elastic_piezo = 1.311 * load ** (-1 / 8) * lubricant**0.75
-    s = (7.0 + 8.0 * np.exp(-2.0 * elastic_iso / rigid_iso)) / 5.0
+    s = (7.0 + 8.0 * math.exp(-2.0 * elastic_iso / rigid_iso)) / 5.0
     iso = (rigid_iso ** (7 / 3) + elastic_iso ** (7 / 3)) ** (3 * s / 7)
-    return float((iso + (rigid_piezo**-3.5 + elastic_piezo**-3.5) ** (-2 * s / 7)) ** (1.0 / s))
+    return (iso + (rigid_piezo**-3.5 + elastic_piezo**-3.5) ** (-2 * s / 7)) ** (1.0 / s)

@@ -1,6 +1,7 @@
 """Closed forms of starved films: how much of the flooded film is left when oil is short before the contact."""
 
 _SIDE_FLOW = 3.0  # resistance to side flow of circular contacts
+_NEAREST = 1e-9  # of a meniscus before Hertz's contact, in its half width: what lies nearer leaves as much
 
 
 def supplied_film(flooded: float, supply: float, density: float = 1.0, resistance: float = _SIDE_FLOW) -> float:
@@ -31,4 +32,4 @@ def film_behind_meniscus(flooded: float, distance: float, half_width: float, rad
     short = distance / half_width - 1.0
     if short >= enough:
         return flooded
-    return flooded * float((max(short, 0.0) / enough) ** 0.29)
+    return flooded * float((max(short, _NEAREST) / enough) ** 0.29)

@@ -193,13 +193,33 @@ def test_a_line_is_the_limit_of_a_long_ellipse():
     assert (line.a, line.pressure_max) == pytest.approx((ellipse.a, ellipse.pressure_max), rel=1e-4)
 
 
-def test_a_contact_grows_with_its_own_powers_of_the_load():
-    for of_load in (lambda load: hertz_point(load, 10e-3, 25e-3, E), lambda load: hertz_line(load, 10e-3, 8e-3, E)):
-        one, more = of_load(10.0), of_load(80.0)
-        assert more.a / one.a == pytest.approx(8.0**one.exponent, rel=1e-12)
-        assert more.pressure_max / one.pressure_max == pytest.approx(8.0**one.exponent, rel=1e-12)
-        assert more.b / one.b == pytest.approx(8.0**one.across, rel=1e-12)
-        assert one.exponent + one.across + one.exponent == pytest.approx(1.0)
+@pytest.mark.parametrize("line", [False, True])
+def test_a_contact_under_another_load_is_known_from_one(line):
+    def of_load(load):
+        return hertz_line(load, 10e-3, 8e-3, E) if line else hertz_point(load, 10e-3, 25e-3, E)
+
+    one, more = of_load(10.0), of_load(230.0)
+    root, wide = one.growth(23.0)
+    assert (more.a, more.pressure_max) == pytest.approx((root * one.a, root * one.pressure_max), rel=1e-12)
+    assert (more.b, more.area) == pytest.approx((wide * one.b, root * wide * one.area), rel=1e-12)
+    assert more.approach == pytest.approx(one.approach_at(23.0), rel=1e-12)
+    assert one.approach_at(0.0) == 0.0
+    rows = (np.arange(20_000) + 0.5) / 20_000 * one.b
+    assert one.chords(rows).mean() == pytest.approx(one.chord_share, rel=1e-5)
+    assert 4.0 * one.a * one.b * one.chord_share == pytest.approx(one.area, rel=1e-12)
+
+
+@pytest.mark.parametrize("radius_y", [10e-3, 40e-3, 2e-3])
+def test_the_lever_of_friction_is_the_mean_distance_under_the_pressure(radius_y):
+    hertz = hertz_point(50.0, 10e-3, radius_y, E)
+    angle, part = np.meshgrid((np.arange(400) + 0.5) * np.pi / 800, (np.arange(4000) + 0.5) / 4000)
+    weight = part * np.sqrt(1.0 - part**2)
+    away = part * np.hypot(hertz.a * np.cos(angle), hertz.b * np.sin(angle))
+    assert hertz.lever_share * hertz.b == pytest.approx((weight * away).sum() / weight.sum(), rel=1e-5)
+    strip = hertz_line(50.0, 1e-3, 8e-3, E)
+    x, y = np.meshgrid((np.arange(200) + 0.5) / 200 * strip.a, (np.arange(200) + 0.5) / 200 * strip.b)
+    weight = np.sqrt(1.0 - (x / strip.a) ** 2)
+    assert strip.lever_share * strip.b == pytest.approx((weight * np.hypot(x, y)).sum() / weight.sum(), rel=1e-3)
 
 
 def test_palmgrens_rollers_approach_as_half_spaces_do_to_15_percent():

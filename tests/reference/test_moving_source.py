@@ -7,6 +7,7 @@ from scipy.special import k0
 
 from contact_core.kernels.half_space import influence
 from contact_core.kernels.moving_source import MovingSurface, moving_influence
+from contact_core.laws.heat import TemperatureField
 from contact_core.reference import jaeger_band, jaeger_circle, tian_kennedy_circle
 
 CONDUCTIVITY, DIFFUSIVITY = 46.0, 1.25e-5
@@ -163,3 +164,37 @@ def test_heat_at_rest_spreads_alike_in_all_directions():
     rise = MovingSurface((9, 9), 1e-6, CONDUCTIVITY, DIFFUSIVITY, 0.0).rise(source)
     assert rise == pytest.approx(rise.T, rel=1e-12)
     assert rise == pytest.approx(rise[::-1, ::-1], rel=1e-12)
+
+
+def strip_rise(a: float, b: float, speed: float) -> float:
+    """Mean rise by the law, per flux, of body 1 under a strip."""
+    law = TemperatureField(CONDUCTIVITY, 1.0, DIFFUSIVITY, 1.0)
+    return 1.0 / float(law.strip_conductances(np.array(a), b, (np.array(speed), np.array(0.0)))[0])
+
+
+@pytest.mark.parametrize("ratio", [20.0, 100.0])
+def test_a_long_strip_at_rest_is_as_warm_in_the_mean_as_its_point_sources_make_it(ratio):
+    def column(distance: float) -> float:  # mean along y of the integral of 1 / r over y
+        return 2.0 * (np.arcsinh(2.0 * ratio / distance) - (np.hypot(2.0 * ratio, distance) - distance) / 2.0 / ratio)
+
+    mean = quad(lambda distance: (2.0 - distance) * column(distance), 0.0, 2.0)[0] / (2.0 * np.pi)
+    assert strip_rise(1e-4, 1e-4 * ratio, 0.0) == pytest.approx(mean * 1e-4 / CONDUCTIVITY, rel=0.02)
+
+
+@pytest.mark.parametrize("peclet", [30.0, 300.0])
+def test_a_fast_strip_is_as_warm_in_the_mean_as_jaegers_band(peclet):
+    mean = quad(lambda x: jaeger_band(x, peclet), -1.0, 1.0, limit=400)[0] / 2.0
+    speed = 2.0 * peclet * DIFFUSIVITY / 1e-4
+    assert strip_rise(1e-4, 5e-3, speed) == pytest.approx(mean * 1e-4 / CONDUCTIVITY, rel=0.01)
+
+
+@pytest.mark.parametrize("peclet", [0.01, 0.1, 0.5, 1.0, 3.0, 10.0])
+def test_between_rest_and_speed_the_mean_of_a_strip_is_met_to_a_ninth(peclet):
+    nx, ny = 16, 160  # cells of a strip ten times as long as wide; mean over pairs of cells
+    cells = moving_influence(ny, nx, peclet / (0.5 * nx))
+    along, across = nx - np.abs(np.arange(1 - nx, nx)), ny - np.arange(ny)
+    pairs = along[None, :] * (np.where(np.arange(ny) == 0, 1, 2) * across)[:, None]
+    mean = (cells * pairs).sum() / (nx * ny) * (2.0 / nx) / (2.0 * np.pi)
+    found = strip_rise(1e-4, 1e-3, 2.0 * peclet * DIFFUSIVITY / 1e-4) * CONDUCTIVITY / 1e-4
+    assert found == pytest.approx(mean, rel=0.11)
+    assert found < mean

@@ -55,6 +55,7 @@ def used(scene: Scene) -> ContactState:
         change=1e-9 / 3.0,
         held=1.0 / 3.0,
         hold=np.inf,
+        settling=3e-4,
         dry_blocks_left=4,
         share=6.0 / 7.0,
         trends=replace(Trends.fresh().followed(dict.fromkeys(NAMES, 1.0 / 3.0), {}, 0.5, 2.5), gain=2.0 / 3.0),

@@ -172,7 +172,8 @@ def test_everything_out_of_range_is_said_at_once():
 def test_an_unknown_scene_is_refused_with_the_shipped_ones():
     with pytest.raises(SceneError) as error:
         Scene.from_toml("mtm_zdpp")
-    assert "no scene 'mtm_zdpp'. Did you mean 'mtm_zddp'? Shipped are azam_case_a, mtm_zddp" in str(error.value)
+    said = str(error.value)
+    assert "no scene 'mtm_zdpp'. Did you mean 'mtm_zddp'? Shipped are azam_case_a, fzg_flank, mtm_zddp" in said
 
 
 def test_a_missing_file_is_named(tmp_path: Path):

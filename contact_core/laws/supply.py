@@ -1,0 +1,69 @@
+"""How much oil waits before the contact."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ..quantities import parameter
+from ..reference.starvation import film_behind_meniscus, supplied_film
+
+
+@dataclass(frozen=True)
+class Flooded:
+    """As much oil as the contact can take, from the edge of the grid on."""
+
+    name: ClassVar[str] = "flooded"
+    source: ClassVar[str] = "assumed: the inlet is full as far as it makes pressure"
+
+    layer: ClassVar[None] = None
+    inlet: ClassVar[None] = None
+
+    def film(self, flooded: float, half_width: float, radius: float) -> float:
+        """Central film [m] of smooth bodies with this supply, from that of a flooded contact [m]."""
+        return flooded
+
+
+@dataclass(frozen=True)
+class SupplyFilm:
+    """A layer of oil that comes in with the surfaces: the flow of oil is that thickness times the entrainment speed."""
+
+    name: ClassVar[str] = "film"
+    source: ClassVar[str] = "Chevalier et al. 1998, doi:10.1115/1.2834175"
+
+    thickness: float = parameter("m", "oil on both surfaces together before the contact", above=0.0, most=1e-2)
+
+    inlet: ClassVar[None] = None
+
+    @property
+    def layer(self) -> float:
+        """Oil on both surfaces together before the contact [m]."""
+        return self.thickness
+
+    def film(self, flooded: float, half_width: float, radius: float) -> float:
+        """Central film [m] of smooth bodies with this supply, from that of a flooded contact [m]."""
+        return supplied_film(flooded, self.thickness)
+
+
+@dataclass(frozen=True)
+class Meniscus:
+    """The gap is full from the inlet meniscus on; before it nothing presses."""
+
+    name: ClassVar[str] = "meniscus"
+    source: ClassVar[str] = "Hamrock & Dowson 1977, doi:10.1115/1.3453285"
+
+    distance: float = parameter("m", "distance of the inlet meniscus before the centre", above=0.0, most=1.0)
+
+    layer: ClassVar[None] = None
+
+    @property
+    def inlet(self) -> float:
+        """Distance of the inlet meniscus before the centre [m]."""
+        return self.distance
+
+    def film(self, flooded: float, half_width: float, radius: float) -> float:
+        """Central film [m] of smooth bodies with this supply, from that of a flooded contact [m], the half width of
+        Hertz's contact and the radius along entrainment [m].
+        """
+        return film_behind_meniscus(flooded, self.distance, half_width, radius)
+
+
+LAWS = (Flooded, SupplyFilm, Meniscus)

@@ -1,0 +1,162 @@
+"""The fast level on lines and rollers: what changes with the shape, and what must not."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from cheap_scene import cheap
+
+from contact_core import OperatingPointError, RangeFlag, SceneError, advance, initial_state
+from contact_core.evolution import across_track
+from contact_core.laws.rheology import Newtonian
+from contact_core.mean_oil import oil_shear
+from contact_core.reference import SmoothLine, hertz_line, hertz_point, moes_line
+
+FACE, LOAD = 8e-3, 2000.0
+LINE = {"film.model": "regression", "geometry.model": "line", "geometry.face_width": "8 mm", "operation.load": "2 kN"}
+ROLLER = LINE | {
+    "geometry.model": "roller", "geometry.profile.model": "logarithmic", "geometry.profile.depth": "3.5 um",
+    "film.width": "10 mm", "film.points": "17", "surface_1.correlation_length": "80 um",
+    "surface_2.correlation_length": "80 um",
+}  # fmt: skip
+SMOOTH = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm"}
+SHAPES = {"line": LINE, "roller": ROLLER}
+
+
+def now(scene, op, state):
+    return advance(scene, op, state, 0.0)[1]
+
+
+def point(op, entrainment, sliding, **changes):
+    return replace(op, speed_1=entrainment + 0.5 * sliding, speed_2=entrainment - 0.5 * sliding, **changes)
+
+
+def smooth_film(scene, op) -> float:
+    oil, shape = scene.lubricant.viscosity, scene.geometry
+    return moes_line(
+        SmoothLine.of(
+            op.load / FACE, op.entrainment_speed, oil, op.temperature, shape.radius_x, scene.solids.reduced_modulus
+        )
+    )
+
+
+@pytest.mark.parametrize("model", SHAPES)
+def test_smooth_bodies_have_the_film_of_lines_and_the_oils_friction_under_hertzs_strip(model):
+    scene, state, op = cheap(SHAPES[model] | SMOOTH)
+    scene = replace(scene, lubricant=replace(scene.lubricant, rheology=Newtonian()))
+    op = point(op, 5.0, 1e-9, load=100.0)
+    found, hertz = now(scene, op, state), hertz_line(100.0, scene.geometry.radius_x, FACE, scene.solids.reduced_modulus)
+    film = scene.film.sharing.film_factor * smooth_film(scene, op)
+    x = (np.arange(20_000) + 0.5) / 20_000
+    shear = scene.lubricant.viscosity(hertz.pressure_max * np.sqrt(1.0 - x**2), op.temperature) * 1e-9 / film
+    assert found.contact_load_ratio < 1e-9
+    assert found.h_c == pytest.approx(film, rel=1e-4)
+    assert found.friction_force == pytest.approx(-4.0 * hertz.a * hertz.b * float(shear.mean()), rel=1e-4)
+    assert found.approach == pytest.approx(hertz.approach - found.h_c, rel=1e-12)
+
+
+def test_the_mean_over_a_strip_is_that_of_many_nodes():
+    scene, _, op = cheap(LINE)
+    pressures, rates, grips = np.array([2e8, 9e8]), np.array([1e3, 1e6]), np.array([1.0, 0.3])
+    strip, ellipse = hertz_line(LOAD, 0.01, FACE, 230e9), hertz_point(LOAD, 0.01, 0.02, 230e9)
+    warm = np.full(2, op.temperature)
+    part = (np.arange(50_000) + 0.5) / 50_000
+    for hertz, weight in ((strip, np.ones_like(part)), (ellipse, 2.0 * part)):
+        local = np.sqrt(1.0 - part[:, None] ** 2) * pressures
+        shear = scene.lubricant.rheology(scene.lubricant.viscosity(local, warm) * rates, local * grips)
+        assert oil_shear(scene, hertz, pressures, rates, grips, warm) == pytest.approx(
+            (weight[:, None] * shear).mean(axis=0), rel=1e-2
+        )
+
+
+@pytest.mark.parametrize("heat", ["flash", "field"])
+def test_a_face_twice_as_long_under_twice_the_load_has_the_same_contact(heat):
+    """A smooth roller that conducts heat loses the less of it the longer it is."""
+    model, near = (LINE, 1e-9) if heat == "flash" else (ROLLER, 4e-2)
+    changes = model | {"heat.model": heat} | (SMOOTH | {"film.width": "20 mm"} if heat == "field" else {})
+    one, _, op = cheap(changes)
+    two, _, _ = cheap(changes | {"geometry.face_width": "16 mm", "operation.load": "4 kN"})
+    _, first = advance(one, op, initial_state(one), 600.0)
+    _, second = advance(two, two.operation.point, initial_state(two), 600.0)
+    for name in ("friction_coefficient", "h_c", "contact_load_ratio", "contact_area_ratio", "wear_depth_1",
+                 "tribofilm_1", "coverage_2", "lambda_ratio", "error_friction"):  # fmt: skip
+        assert getattr(second, name) == pytest.approx(getattr(first, name), rel=near, abs=0.0), name
+    for name in ("friction_force", "wear_volume_1", "wear_volume_2", "dfriction_dspeed_1", "power_loss"):
+        assert getattr(second, name) == pytest.approx(2.0 * getattr(first, name), rel=near, abs=0.0), name
+
+
+@pytest.mark.parametrize("model", SHAPES)
+@pytest.mark.parametrize("changes", [{}, {"heat.model": "field"}, {"heat.inlet_shear": "gupta"}], ids=str)
+def test_derivatives_are_total(model, changes):
+    if model == "line" and "heat.model" in changes:
+        with pytest.raises(SceneError, match="heat"):
+            cheap(LINE | changes)
+        return
+    scene, state, op = cheap(SHAPES[model] | changes)
+    state, _ = advance(scene, op, state, 1800.0)
+    for entrainment, sliding in ((0.4, 0.02), (2.0, -0.3)):
+        at = point(op, entrainment, sliding)
+        found = now(scene, at, state)
+        for name, step in (("speed_1", 1e-7), ("speed_2", 1e-7), ("load", 2e-2), ("temperature", 4e-3)):
+            up, down = (
+                now(scene, replace(at, **{name: getattr(at, name) + s * step}), state).friction_force for s in (1, -1)
+            )
+            size = max(abs(up - down) / (2.0 * step), 1e-3 * abs(found.friction_force) / getattr(at, name))
+            assert getattr(found, f"dfriction_d{name}") == pytest.approx((up - down) / (2.0 * step), abs=2e-3 * size)
+
+
+def test_wear_is_archards_on_the_whole_face():
+    for changes in SHAPES.values():
+        scene, state, op = cheap(changes | {"tribofilm.model": "none"})
+        state, found = advance(scene, op, state, 1e-3)
+        volume = scene.wear.bare * found.contact_load_ratio * LOAD * abs(op.sliding_speed) / scene.plasticity.hardness
+        assert found.wear_rate_1 == pytest.approx(volume, rel=1e-9)
+        track = FACE * scene.geometry.track_length_1
+        near = 1e-9 if changes is LINE else scene.film.spacing / FACE  # whole rows
+        assert found.wear_depth_1 == pytest.approx(found.wear_volume_1 / track, rel=near)
+
+
+def test_a_spinning_roller_rubs_over_half_its_half_length():
+    scene, state, op = cheap(ROLLER | {"tribofilm.model": "none"})
+    found = now(scene, point(op, 0.0, 0.0, spin=10.0), state)
+    assert found.contact_load_ratio == pytest.approx(1.0, abs=1e-9)
+    assert found.spin_torque == pytest.approx(-scene.boundary_friction.bare * LOAD * 0.25 * FACE, rel=1e-2)
+    assert found.power_loss == pytest.approx(-10.0 * found.spin_torque, rel=1e-9)
+
+
+def test_sharing_fitted_to_circles_is_told_by_a_flag():
+    for changes, flagged in (({"film.model": "regression"}, False), (LINE, True), (ROLLER, True)):
+        scene, state, op = cheap(changes)
+        found = now(scene, replace(op, load=op.load if flagged else 40.0), state)
+        assert bool(found.range_flags & RangeFlag.OUTSIDE_FIT) is flagged
+
+
+def test_a_load_above_the_hardness_is_refused_by_the_pressure_of_lines():
+    scene, state, op = cheap(LINE)
+    hertz = hertz_line(1.0, scene.geometry.radius_x, FACE, scene.solids.reduced_modulus)
+    most = (scene.plasticity.hardness / hertz.pressure_max) ** 2
+    now(scene, replace(op, load=0.999 * most), state)
+    with pytest.raises(OperatingPointError, match="hardness"):
+        now(scene, replace(op, load=1.001 * most), state)
+
+
+def test_without_load_nothing_rubs():
+    for changes in SHAPES.values():
+        scene, state, op = cheap(changes)
+        _, found = advance(scene, replace(op, load=0.0), state, 10.0)
+        assert found.friction_force == found.wear_volume_1 == found.tribofilm_1 == 0.0
+        assert np.isfinite(found.approach)
+
+
+@pytest.mark.parametrize("model", SHAPES)
+def test_along_a_face_films_are_rubbed_off_alike(model):
+    """The tension that takes more at the edges is that of a circle."""
+    films = []
+    for weight in ("0", "20"):
+        changes = {"tribofilm.set": "gosvami", "tribofilm.edge_weight": weight, "operation.temperature": "80 degC"}
+        scene, state, op = cheap(SHAPES[model] | changes)
+        films.append(advance(scene, op, state, 1800.0)[1].tribofilm_1)
+        assert across_track(scene, scene.rows) is None
+    assert films[0] == films[1] > 1e-9
+    scene, _, _ = cheap()
+    assert across_track(scene, scene.rows).shape == (33, 1)
