@@ -122,8 +122,8 @@ def refuse(sentences: list[str]) -> None:
 
 
 def film_of(shape: Shape, load: float, numbers: Numbers, supply: float | None) -> float:
-    """Film [m] of smooth bodies by formula, behind an oil layer [m] or flooded, 0 at rest; refused if it is too thick for
-    bodies of that shape.
+    """Film [m] of smooth bodies by formula, behind an oil layer [m] or flooded, 0 at rest; refused if it is too thick
+    for bodies of that shape.
     """
     if numbers.entrainment_speed == 0.0:
         return 0.0
