@@ -2,13 +2,14 @@
 
 from collections.abc import Iterator
 
+import core_common
 import numpy as np
-from core_common import MoesCase, Report, domain_of, scaled_of, timed, unit_of
+from core_common import MoesCase, Report, domain_of, scaled_of, timed, unit_of, waves
 from matplotlib.figure import Figure
 
 from contact_core import Scene
 from contact_core.contact import instant_of
-from contact_core.film.fitted import fitted_grid
+from contact_core.film.fitted import Extent, fitted_grid
 from contact_core.film.instant import FilmState, Instant, Settings, Step
 from contact_core.film.outputs import at_centre
 from contact_core.film.routes import solve_film
@@ -44,6 +45,8 @@ DRY_ITERATIONS = (20, 40, 60, 80, 100, 120, 160)
 TOLERANCES = (0.1, 6e-2, 3e-2, 1e-2, 3e-3)
 LEAD, STEPS, MANY = 30, 6, 400  # steps before the measured ones, measured ones, iterations of a reference
 ERROR = 0.02
+RATIOS = (1.0, 0.2, 5.0)  # radius along y over that along x
+SETTINGS = Settings(1e-9, 1e-3, 2000, "pyfftw")
 
 
 def smooth(report: Report) -> None:
@@ -270,8 +273,37 @@ def cold_films(report: Report, scene: Scene, correlation: str, unit: float) -> t
     return costs, errors
 
 
+def shapes(report: Report) -> None:
+    report.say(
+        "### Shapes\n\nSteady films from nothing by `film/routes.py`, tolerance 1e-3, 129 nodes along the shorter side of a "
+        "grid that fits the film. Smooth: Moes' M = 100, L = 10 on R_x. Rough: case A (77.85 N, R_x 10 mm, 4 mPa s, 0.25 "
+        "m/s, cap 6 GPa) under waves of Rq 127 nm and correlation 20 um. A work unit here is that of 129 x 129 nodes, "
+        "times nodes / 129^2."
+    )
+    report.header("R_y/R_x", "bodies", "nodes [ny, nx]", "ms", "WU", "ns / node", "converged", "algorithm")
+    unit = unit_of(129)
+    for ratio in RATIOS:
+        bodies = Point(10e-3, ratio * 10e-3)
+        for name, given, rq in (
+            ("smooth", MoesCase(100.0, 10.0, ratio=ratio).arguments(), 0.0),
+            ("rough", CASE_A | {"radius_y": bodies.radius_y}, 127e-9),
+        ):
+            oil = given["viscosity"], given["pressure_viscosity"]
+            contact = SmoothContact(
+                given["load"], given["speed_1"], *oil, bodies.radius_x, bodies.radius_y, given["reduced_modulus"]
+            )
+            extent = Extent.of(bodies, given["load"], given["reduced_modulus"], contact.film)
+            grid = extent.grid(*((129, 129) if ratio == 1.0 else extent.shape()))
+            heights = waves(grid.x, grid.y, rq, 20e-6, 1)
+            now = core_common.instant_of(given, heights, 6e9)
+            film, seconds = timed(lambda now=now, grid=grid: solve_film(now, grid, SETTINGS), 3)
+            share = heights.size / 129**2
+            cost = 1e3 * seconds, seconds / unit / share, 1e9 * seconds / heights.size
+            report.row(ratio, name, grid.shape, *cost, film.converged, film.algorithm)
+
+
 def run() -> None:
     report = Report("cost", "Cost of solutions")
-    for part in (smooth, case_a, rough):
+    for part in (smooth, case_a, rough, shapes):
         part(report)
     report.write()

@@ -27,7 +27,8 @@ _MOST_BEYOND = 0.3  # share of the load that may lie beyond the grid
 _NESTED_FROM = 65  # nodes along an axis from which on a film begins on the grid of half of them
 _HYBRID_ITERATIONS, _DIRECT_ITERATIONS = 150, 80  # of one try at a steady film
 _CYCLES, _NEWTON_STEPS = 15, 30
-_DAMPED = 0.5  # multigrid's second try: rigid bodies under a thickening oil bear no more
+_DAMPED = ((0.5, 15), (0.25, 40))  # multigrid's next tries, and cycles: nearly rigid bodies under thickening oil
+_OWED = 10.0  # times the stopping rule's limits, by which a thorough step over roughness may miss them
 _CLOSINGS = 4  # solutions of a light film, at most, until what lies beyond the grid knows how fast the bodies close
 # a film short of its tolerance is still better than the dry contact within these
 _LOAD_ACCEPTED = 1e-3
@@ -136,7 +137,7 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
         worst = excess(found, settings.tolerance, step is not None)
         if _usable(found) and (found.converged or worst < least):
             solver.best, used, least = found, f"{regime.name}: {method} from {begin}", worst
-        if found.converged or (step and not step.thorough and solver.best is found):
+        if found.converged or (step and solver.best is found and worst < _owing(scaled, step)):
             break
     best = solver.best
     if best is not None and 1.0 - float(best.iterate.pressure.sum()) / scaled.load < _MOST_BEYOND:
@@ -159,6 +160,13 @@ def _begun(scaled: Scaled, step: Step) -> tuple[tuple[str, str], ...]:
     return (*newton, *hybrid, *direct) if scaled.is_light else (*hybrid, *direct, *newton)
 
 
+def _owing(scaled: Scaled, step: Step) -> float:
+    """How many times above the limits of the stopping rule a time step may stay: the next one pays its debt."""
+    if not step.thorough:
+        return math.inf
+    return _OWED if scaled.roughness > 0.0 else 0.0
+
+
 class _Solver:
     """The algorithms and the starts of the table, for one instant."""
 
@@ -175,8 +183,12 @@ class _Solver:
                 return None
             film, shape = scaled.smooth_film / scaled.h_unit, (scaled.depth, scaled.curvature)
             given = (self.problem, scaled.x, scaled.y, settings.fft, film)
-            part = 1.0 if begin == "none" else _DAMPED
-            return solve_smooth(*given, settings.tolerance, _CYCLES, *shape, part)[0]
+            tries = ((1.0, _CYCLES),) if begin == "none" else _DAMPED
+            for part, cycles in tries:
+                found = solve_smooth(*given, settings.tolerance, cycles, *shape, part)[0]
+                if found.converged:
+                    break
+            return found
         if method == "newton" and not newton_is_applicable(self.problem):
             return None
         start = self._start(begin)
