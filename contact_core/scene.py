@@ -441,8 +441,6 @@ class Scene:
                 f"film.width = {self.film.width:g} m is too small: the ends of geometry.face_width = "
                 f"{self.geometry.face_width:g} m must lie on the grid. Use at least {_BESIDE:g} times that, or 0.",
             )
-        if isinstance(self.geometry, LineGeometry) and self.heat.name == "field":
-            yield "heat", "heat.model = 'field' knows no line that repeats itself. Use 'flash', or a roller."
         if hertz.pressure_max >= plasticity.hardness:
             yield (
                 "hardness",
