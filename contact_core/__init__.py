@@ -10,8 +10,8 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     reading      TOML to records and back, with did-you-mean
     state        ContactState, Outputs, RangeFlag, serialisation
     surfaces     roughness: generation and statistics
-    laws/        viscosity, density, rheology, plasticity, boundary friction, heat, bulk temperature, tribofilm, wear,
-                 load sharing of the fast level
+    laws/        viscosity, density, rheology, supply of oil, plasticity, boundary friction, heat, bulk temperature,
+                 tribofilm, wear, load sharing of the fast level
     film/        fluid and solid pressure of one instant: units, grids, the table of algorithms (routes), error estimate
     kernels/     numba and FFT: arrays in, arrays out
     point_contact, dry_contact   one call each, without a scene
@@ -31,6 +31,7 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     warming      warm_up: loads what the first steps of a scene need
     tracks       the rubbed surfaces as they are, for profiles and pictures
     reference    closed forms
+    reference_starvation   those of starved films
     data/        named oils, solids and tribofilms, and the shipped scenes
     checksum     of bytes joined from parts whose checksums are known
     errors       what can go wrong, each message with a way out
