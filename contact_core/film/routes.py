@@ -46,6 +46,7 @@ class Regime:
     clearance: tuple[float, float] = _ALL  # formula film of smooth bodies / rms roughness (smooth: infinite)
     load: tuple[float, float] = _ALL  # Moes' M, as `Scaled.moes_load`
     rows: int | None = None  # of a periodic grid; None: any grid
+    by_flux: tuple[tuple[str, str], ...] = ()  # algorithms for cavities that conserve mass or a meniscus, if not those
 
     def holds(self, scaled: Scaled) -> bool:
         """Whether a contact belongs to this row."""
@@ -70,11 +71,21 @@ REGIMES = (
             ("direct", "dry"),
         ),
         clearance=(1e3, math.inf),
+        by_flux=(
+            ("hybrid", "flooded"),
+            ("direct", "flooded"),
+            ("hybrid", "nested"),
+            ("hybrid", "last"),
+            ("direct", "last"),
+            ("direct", "film"),
+            ("direct", "dry"),
+        ),
     ),
     Regime(
         "light",
         (("newton", "film"), ("newton", "dry"), ("direct", "film"), ("direct", "dry")),
         load=(0.0, 50.0),
+        by_flux=(("hybrid", "flooded"), ("direct", "flooded"), ("direct", "film"), ("direct", "dry")),
     ),
     Regime("boundary", (("hybrid", "dry"), ("direct", "last"), ("direct", "shared")), clearance=(0.0, 0.03)),
     Regime(
@@ -125,7 +136,9 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
     """The film of an instant, entrained along +x or not at all."""
     grid, settings = scaled.grid, scaled.settings
     regime = next(row for row in REGIMES if row.holds(scaled))
-    tries = (*_begun(scaled, step), *regime.algorithms) if step else regime.algorithms
+    by_flux = scaled.now.conserving or scaled.now.meniscus is not None
+    algorithms = regime.by_flux if by_flux and regime.by_flux else regime.algorithms
+    tries = (*_begun(scaled, step), *algorithms) if step else algorithms
     solver, used, spent, least = _Solver(scaled, start, step), "", 0, math.inf
     for method, begin in tries:
         if settings.lumped and method != "hybrid":  # the others know the split criterion alone
@@ -211,6 +224,9 @@ class _Solver:
                 now, grid = coarser(scaled.now, scaled.grid)
                 state = prolonged(solve_film(now, grid, scaled.settings).state, scaled.grid.shape)
             return scaled.dry_start() if state is None else scaled.iterate(state)
+        if name == "flooded" and self.problem.supply is None and self.problem.first == 0:
+            now = replace(scaled.now, conserving=False, meniscus=None)
+            return scaled.iterate(solve_film(now, scaled.grid, scaled.settings, state, self.follows).state)
         if name == "last" and self.best is not None:
             return self.best.iterate
         starts = {"dry": scaled.dry_start, "shared": scaled.shared_start, "film": scaled.lifted_start}
