@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-import numpy as np
 import core_common
+import numpy as np
 from core_common import MoesCase, Report, domain_of, scaled_of, timed, unit_of, waves
 from matplotlib.figure import Figure
 
