@@ -62,3 +62,9 @@ def _open(scene: Scene, op: OperatingPoint, state: ContactState, why: str) -> tu
     """Bodies apart, and why if there is a load."""
     fields = solve(scene, replace(op, load=0.0), state)
     return replace(state, film=None), replace(fields, converged=not why, shortfall=why)
+
+
+def rough_speed(scene: Scene, op: OperatingPoint) -> float:
+    """Speed [m/s] of the faster rough body, 0 of smooth ones."""
+    pairs = ((scene.surface_1, op.speed_1), (scene.surface_2, op.speed_2))
+    return max((abs(speed) for surface, speed in pairs if surface.rq > 0.0), default=0.0)

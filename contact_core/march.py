@@ -18,7 +18,7 @@ from .block import feeling
 from .contact import ContactFields
 from .errors import OperatingPointError
 from .evolution import area_of_node, speeds_of, track_length, wear_speed
-from .following import begin, follow
+from .following import begin, follow, rough_speed
 from .laws.tribofilm import thickness
 from .scene import OperatingPoint, Scene
 from .state import Body, ContactState
@@ -70,10 +70,8 @@ def march(scene: Scene, state: ContactState, duty: Duty, times: Sequence[float],
 
 
 def _instants(scene: Scene, early: OperatingPoint, late: OperatingPoint, dt: float) -> int:
-    """Into how many instants a time [s] is cut: one, of smooth bodies."""
-    if scene.surface_1.rq == scene.surface_2.rq == 0.0:
-        return 1
-    fastest = max(abs(speed) for op in (early, late) for speed in speeds_of(op))
+    """Into how many instants a time [s] is cut, so that no rough body moves on by more than a node in one."""
+    fastest = max(rough_speed(scene, op) for op in (early, late))
     return max(1, math.ceil(fastest * dt / scene.film.spacing - _ROUNDING))
 
 

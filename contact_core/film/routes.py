@@ -28,6 +28,7 @@ _NESTED_FROM = 65  # nodes along an axis from which on a film begins on the grid
 _HYBRID_ITERATIONS, _DIRECT_ITERATIONS = 150, 80  # of one try at a steady film
 _CYCLES, _NEWTON_STEPS = 15, 30
 _DAMPED = ((0.5, 15), (0.25, 40))  # multigrid's next tries, and cycles: nearly rigid bodies under thickening oil
+_OWED = 10.0  # times the stopping rule's limits, by which a thorough step over roughness may miss them
 _CLOSINGS = 4  # solutions of a light film, at most, until what lies beyond the grid knows how fast the bodies close
 # a film short of its tolerance is still better than the dry contact within these
 _LOAD_ACCEPTED = 1e-3
@@ -136,7 +137,7 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
         worst = excess(found, settings.tolerance, step is not None)
         if _usable(found) and (found.converged or worst < least):
             solver.best, used, least = found, f"{regime.name}: {method} from {begin}", worst
-        if found.converged or (step and not step.thorough and solver.best is found):
+        if found.converged or (step and solver.best is found and worst < _owing(scaled, step)):
             break
     best = solver.best
     if best is not None and 1.0 - float(best.iterate.pressure.sum()) / scaled.load < _MOST_BEYOND:
@@ -157,6 +158,13 @@ def _begun(scaled: Scaled, step: Step) -> tuple[tuple[str, str], ...]:
     if not step.thorough:
         return hybrid
     return (*newton, *hybrid, *direct) if scaled.is_light else (*hybrid, *direct, *newton)
+
+
+def _owing(scaled: Scaled, step: Step) -> float:
+    """How many times above the limits of the stopping rule a time step may stay: the next one pays its debt."""
+    if not step.thorough:
+        return math.inf
+    return _OWED if scaled.roughness > 0.0 else 0.0
 
 
 class _Solver:
