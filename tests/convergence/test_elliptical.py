@@ -43,7 +43,8 @@ def films(given, grids):
     found = []
     for nodes in grids:
         factor = (nodes - 1) // (grids[0] - 1)
-        answer = point_contact(**given, grid=((ny - 1) * factor + 1, (nx - 1) * factor + 1), tolerance=1e-3, floor=1e-10)
+        shape = (ny - 1) * factor + 1, (nx - 1) * factor + 1
+        answer = point_contact(**given, grid=shape, tolerance=1e-3, floor=1e-10)
         assert answer.converged
         found.append(answer.h_central)
     return np.array(found)
