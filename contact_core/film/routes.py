@@ -17,7 +17,7 @@ from ..kernels.mixed import Iterate, Solution, advected, excess, solve_mixed
 from ..kernels.multigrid import is_applicable, solve_smooth
 from ..kernels.newton import is_applicable as newton_is_applicable
 from ..kernels.newton import solve_newton
-from ..shapes import Point
+from ..shapes import Roller
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .scaled import Scaled
 
@@ -47,12 +47,15 @@ class Regime:
     load: tuple[float, float] = _ALL  # Moes' M, as `Scaled.moes_load`
     rows: int | None = None  # of a periodic grid; None: any grid
     by_flux: tuple[tuple[str, str], ...] = ()  # algorithms for cavities that conserve mass or a meniscus, if not those
+    ends: bool = False  # whether it is for rollers alone
 
     def holds(self, scaled: Scaled) -> bool:
         """Whether a contact belongs to this row."""
         load, film = scaled.moes_load, scaled.film
         clearance = film / scaled.roughness if scaled.roughness > 0.0 else math.inf
         if self.rows is not None and (not scaled.grid.periodic or self.rows != scaled.grid.shape[0]):
+            return False
+        if self.ends and not isinstance(scaled.now.shape, Roller):
             return False
         pairs = ((self.floors, film / scaled.settings.floor), (self.clearance, clearance), (self.load, load))
         return all(low <= value <= high for (low, high), value in pairs)
@@ -61,6 +64,13 @@ class Regime:
 REGIMES = (
     Regime("dry", (("hybrid", "dry"), ("direct", "last")), floors=(0.0, 0.5)),
     Regime("line", (("newton", "film"), ("newton", "dry"), ("direct", "film")), clearance=(1e3, math.inf), rows=1),
+    Regime(
+        "roller",
+        (("multigrid", "none"), ("hybrid", "film"), ("hybrid", "nested"), ("hybrid", "last")),
+        clearance=(1e3, math.inf),
+        load=(50.0, math.inf),
+        ends=True,
+    ),
     Regime(
         "smooth",
         (
@@ -192,7 +202,7 @@ class _Solver:
         """What a method finds from a start; None where they do not apply."""
         scaled, settings, steady = self.scaled, self.scaled.settings, self.step is None
         if method == "multigrid":
-            if not (steady and isinstance(scaled.now.shape, Point) and is_applicable(self.problem)):
+            if not (steady and is_applicable(self.problem)):
                 return None
             film, shape = scaled.smooth_film / scaled.h_unit, (scaled.depth, scaled.curvature)
             given = (self.problem, scaled.x, scaled.y, settings.fft, film)
