@@ -15,7 +15,6 @@ from ..kernels.direct import solve_direct
 from ..kernels.grids import prolong, restrict
 from ..kernels.mixed import Iterate, Solution, advected, excess, solve_mixed
 from ..kernels.multigrid import is_applicable, solve_smooth
-from ..kernels.newton import is_applicable as newton_is_applicable
 from ..kernels.newton import solve_newton
 from ..shapes import Roller
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
@@ -63,7 +62,12 @@ class Regime:
 
 REGIMES = (
     Regime("dry", (("hybrid", "dry"), ("direct", "last")), floors=(0.0, 0.5)),
-    Regime("line", (("newton", "film"), ("newton", "dry"), ("direct", "film")), clearance=(1e3, math.inf), rows=1),
+    Regime(
+        "line",
+        (("newton", "nested"), ("newton", "film"), ("newton", "dry"), ("direct", "film")),
+        clearance=(1e3, math.inf),
+        rows=1,
+    ),
     Regime(
         "roller",
         (("multigrid", "none"), ("hybrid", "film"), ("hybrid", "nested"), ("hybrid", "last")),
@@ -212,8 +216,6 @@ class _Solver:
                 if found.converged:
                     break
             return found
-        if method == "newton" and not newton_is_applicable(self.problem):
-            return None
         start = self._start(begin)
         if start is None:
             return None
@@ -230,7 +232,7 @@ class _Solver:
         if name == "before" and state is not None and self.step is not None:
             return advected(scaled.iterate(state), scaled.smooth, self.step.moved)
         if name == "nested" and self.step is None:
-            if state is None and min(scaled.grid.shape) >= _NESTED_FROM:
+            if state is None and _is_nested(scaled.grid):
                 now, grid = coarser(scaled.now, scaled.grid)
                 state = prolonged(solve_film(now, grid, scaled.settings).state, scaled.grid.shape)
             return scaled.dry_start() if state is None else scaled.iterate(state)
@@ -247,7 +249,17 @@ def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:
     """The same instant on a grid of half the nodes."""
     ease, thinned = (None if field is None else restrict(field) for field in (now.ease, now.thinned))
     instant = replace(now, heights=restrict(now.heights), limit=restrict(now.limit), ease=ease, thinned=thinned)
-    return instant, replace(grid, x=restrict(grid.x), y=restrict(grid.y))
+    alone = grid.periodic and grid.shape[0] == 1  # such a row stands for twice as much of a line
+    repeats = 0.5 * grid.repeats if alone else grid.repeats
+    return instant, replace(grid, x=restrict(grid.x), y=restrict(grid.y), repeats=repeats)
+
+
+def _is_nested(grid: Grid) -> bool:
+    """Whether a film on the grid begins on that of half its nodes."""
+    ny, nx = grid.shape
+    if grid.periodic and ny % 2:  # only a row alone has half its period
+        return ny == 1 and nx >= _NESTED_FROM
+    return min(ny, nx) >= _NESTED_FROM
 
 
 def prolonged(state: FilmState, shape: tuple[int, int]) -> FilmState:
