@@ -209,7 +209,7 @@ def test_the_loads_that_the_page_names_bring_hertz_to_the_hardness_and_to_the_ed
     name, changes = SHAPES[shape]
     scene = Scene.from_toml(name, changes)
     page = Page(documentation(scene, "isolated", reference=False))
-    rows = dict(zip(page.cells, page.cells[1:], strict=False))
+    rows = dict(reversed(list(pairwise(page.cells))))  # the first of each name
     hardest = float(rows["load"].removeprefix("below ").removesuffix(" N"))
     assert scene.hertz(hardest).pressure_max == pytest.approx(scene.plasticity.hardness, rel=1e-3)
     few, wide = (float(word) for word in rows["load on this grid"].removesuffix(" N").split(" to "))
