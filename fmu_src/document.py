@@ -166,9 +166,7 @@ def _signs(scene: Scene) -> Iterator[str]:
             "friction_force acts on body 1 along +x, the opposite on body 2. friction_coefficient is its size over the "
             "load, 0 without load.",
             *(
-                [
-                    "spin is that of body 1 relative to body 2 and turns x towards y; spin_torque acts on it that way."
-                ]
+                ["spin is that of body 1 relative to body 2 and turns x towards y; spin_torque acts on it that way."]
                 if spins
                 else []
             ),
