@@ -146,3 +146,30 @@ def test_what_a_scene_resolves_badly_is_warned_about_and_invalid_steps_give_code
     out, err = capsys.readouterr()
     assert "warning: surface_1 has 1.28 nodes per correlation length" in err
     assert "1 of 3 rows are INVALID" in out
+
+
+def test_a_gear_flank_runs_to_the_end(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    settings = ["film.points=33", "film.width=0.2 mm", "surface_1.correlation_length=50 um"]
+    settings += ["surface_2.correlation_length=50 um", "tribofilm.model=none", "wear.model=none"]
+    assert main(["run", "fzg_flank", "--set", *settings, "--hours", "0.01", "--out", str(tmp_path)]) == 0
+    out = capsys.readouterr().out
+    assert "Load cycles: 1 302 of body 1, 867 of body 2." in out
+    with xr.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as dataset:
+        assert not {"radius_y", "spin", "spin_torque"} & set(dataset)
+        assert dataset["radius_x"].values == pytest.approx(8.729e-3)
+
+
+def test_the_stribeck_curves_of_a_line_are_swept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    options = ["--set", "film.model=regression", "--times", "0,10", "--points", "3", "--out", str(tmp_path)]
+    assert main(["stribeck", "fzg_flank", *options]) == 0
+    assert "Validity: all 6 points are valid." in capsys.readouterr().out
+
+
+def test_a_duty_of_what_a_line_does_not_have_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    duty = tmp_path / "duty.csv"
+    duty.write_text("time [s],spin [rad/s]\n0,0\n10,5\n")
+    assert main(["run", "fzg_flank", "--duty", str(duty), "--out", str(tmp_path)]) == 2
+    assert "spin = 5 rad/s must be 0 where geometry.model = 'line'" in capsys.readouterr().err
+    duty.write_text("time [s],radius_y [mm]\n0,10\n")
+    assert main(["run", "fzg_flank", "--duty", str(duty), "--out", str(tmp_path)]) == 2
+    assert "radius_y = 0.01 m: geometry.model = 'line' has none." in capsys.readouterr().err
