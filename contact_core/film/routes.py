@@ -15,9 +15,8 @@ from ..kernels.direct import solve_direct
 from ..kernels.grids import prolong, restrict
 from ..kernels.mixed import Iterate, Solution, advected, excess, solve_mixed
 from ..kernels.multigrid import is_applicable, solve_smooth
-from ..kernels.newton import is_applicable as newton_is_applicable
 from ..kernels.newton import solve_newton
-from ..shapes import Point
+from ..shapes import Roller
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .scaled import Scaled
 
@@ -46,6 +45,8 @@ class Regime:
     clearance: tuple[float, float] = _ALL  # formula film of smooth bodies / rms roughness (smooth: infinite)
     load: tuple[float, float] = _ALL  # Moes' M, as `Scaled.moes_load`
     rows: int | None = None  # of a periodic grid; None: any grid
+    by_flux: tuple[tuple[str, str], ...] = ()  # algorithms for cavities that conserve mass or a meniscus, if not those
+    ends: bool = False  # whether it is for rollers alone
 
     def holds(self, scaled: Scaled) -> bool:
         """Whether a contact belongs to this row."""
@@ -53,13 +54,27 @@ class Regime:
         clearance = film / scaled.roughness if scaled.roughness > 0.0 else math.inf
         if self.rows is not None and (not scaled.grid.periodic or self.rows != scaled.grid.shape[0]):
             return False
+        if self.ends and not isinstance(scaled.now.shape, Roller):
+            return False
         pairs = ((self.floors, film / scaled.settings.floor), (self.clearance, clearance), (self.load, load))
         return all(low <= value <= high for (low, high), value in pairs)
 
 
 REGIMES = (
     Regime("dry", (("hybrid", "dry"), ("direct", "last")), floors=(0.0, 0.5)),
-    Regime("line", (("newton", "film"), ("newton", "dry"), ("direct", "film")), clearance=(1e3, math.inf), rows=1),
+    Regime(
+        "line",
+        (("newton", "nested"), ("newton", "film"), ("newton", "dry"), ("direct", "film")),
+        clearance=(1e3, math.inf),
+        rows=1,
+    ),
+    Regime(
+        "roller",
+        (("multigrid", "none"), ("hybrid", "film"), ("hybrid", "nested"), ("hybrid", "last")),
+        clearance=(1e3, math.inf),
+        load=(50.0, math.inf),
+        ends=True,
+    ),
     Regime(
         "smooth",
         (
@@ -70,11 +85,21 @@ REGIMES = (
             ("direct", "dry"),
         ),
         clearance=(1e3, math.inf),
+        by_flux=(
+            ("hybrid", "flooded"),
+            ("direct", "flooded"),
+            ("hybrid", "nested"),
+            ("hybrid", "last"),
+            ("direct", "last"),
+            ("direct", "film"),
+            ("direct", "dry"),
+        ),
     ),
     Regime(
         "light",
         (("newton", "film"), ("newton", "dry"), ("direct", "film"), ("direct", "dry")),
         load=(0.0, 50.0),
+        by_flux=(("hybrid", "flooded"), ("direct", "flooded"), ("direct", "film"), ("direct", "dry")),
     ),
     Regime("boundary", (("hybrid", "dry"), ("direct", "last"), ("direct", "shared")), clearance=(0.0, 0.03)),
     Regime(
@@ -125,7 +150,9 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
     """The film of an instant, entrained along +x or not at all."""
     grid, settings = scaled.grid, scaled.settings
     regime = next(row for row in REGIMES if row.holds(scaled))
-    tries = (*_begun(scaled, step), *regime.algorithms) if step else regime.algorithms
+    by_flux = scaled.now.conserving or scaled.now.meniscus is not None
+    algorithms = regime.by_flux if by_flux and regime.by_flux else regime.algorithms
+    tries = (*_begun(scaled, step), *algorithms) if step else algorithms
     solver, used, spent, least = _Solver(scaled, start, step), "", 0, math.inf
     for method, begin in tries:
         if settings.lumped and method != "hybrid":  # the others know the split criterion alone
@@ -179,7 +206,7 @@ class _Solver:
         """What a method finds from a start; None where they do not apply."""
         scaled, settings, steady = self.scaled, self.scaled.settings, self.step is None
         if method == "multigrid":
-            if not (steady and isinstance(scaled.now.shape, Point) and is_applicable(self.problem)):
+            if not (steady and is_applicable(self.problem)):
                 return None
             film, shape = scaled.smooth_film / scaled.h_unit, (scaled.depth, scaled.curvature)
             given = (self.problem, scaled.x, scaled.y, settings.fft, film)
@@ -189,8 +216,6 @@ class _Solver:
                 if found.converged:
                     break
             return found
-        if method == "newton" and not newton_is_applicable(self.problem):
-            return None
         start = self._start(begin)
         if start is None:
             return None
@@ -207,10 +232,13 @@ class _Solver:
         if name == "before" and state is not None and self.step is not None:
             return advected(scaled.iterate(state), scaled.smooth, self.step.moved)
         if name == "nested" and self.step is None:
-            if state is None and min(scaled.grid.shape) >= _NESTED_FROM:
+            if state is None and _is_nested(scaled.grid):
                 now, grid = coarser(scaled.now, scaled.grid)
                 state = prolonged(solve_film(now, grid, scaled.settings).state, scaled.grid.shape)
             return scaled.dry_start() if state is None else scaled.iterate(state)
+        if name == "flooded" and self.problem.supply is None and self.problem.first == 0:
+            now = replace(scaled.now, conserving=False, meniscus=None)
+            return scaled.iterate(solve_film(now, scaled.grid, scaled.settings, state, self.follows).state)
         if name == "last" and self.best is not None:
             return self.best.iterate
         starts = {"dry": scaled.dry_start, "shared": scaled.shared_start, "film": scaled.lifted_start}
@@ -221,7 +249,17 @@ def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:
     """The same instant on a grid of half the nodes."""
     ease, thinned = (None if field is None else restrict(field) for field in (now.ease, now.thinned))
     instant = replace(now, heights=restrict(now.heights), limit=restrict(now.limit), ease=ease, thinned=thinned)
-    return instant, replace(grid, x=restrict(grid.x), y=restrict(grid.y))
+    alone = grid.periodic and grid.shape[0] == 1  # such a row stands for twice as much of a line
+    repeats = 0.5 * grid.repeats if alone else grid.repeats
+    return instant, replace(grid, x=restrict(grid.x), y=restrict(grid.y), repeats=repeats)
+
+
+def _is_nested(grid: Grid) -> bool:
+    """Whether a film on the grid begins on that of half its nodes."""
+    ny, nx = grid.shape
+    if grid.periodic and ny % 2:  # only a row alone has half its period
+        return ny == 1 and nx >= _NESTED_FROM
+    return min(ny, nx) >= _NESTED_FROM
 
 
 def prolonged(state: FilmState, shape: tuple[int, int]) -> FilmState:

@@ -18,7 +18,7 @@ STILL = [  # nothing grows or wears: one solution serves for ever
 def test_list_names_the_shipped_scenes(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["list"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert [line.split()[0] for line in lines] == ["azam_case_a", "mtm_zddp"]
+    assert [line.split()[0] for line in lines] == ["azam_case_a", "ball_209_inner", "fzg_flank", "mtm_zddp"]
     assert all(text in line for text, line in zip(shipped_scenes().values(), lines, strict=True))
 
 
@@ -51,7 +51,7 @@ def test_a_run_prints_a_table_and_writes_three_files(
 def test_a_run_of_the_fast_level_says_what_it_knows(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main(["run", "azam_case_a", "--set", "film.model=regression", "--hours", "2", "--out", str(tmp_path)]) == 0
     out = capsys.readouterr().out
-    assert "Load cycles: ball 28 361, disc 7 419." in out
+    assert "Load cycles: 28 361 of body 1, 7 419 of body 2." in out
     assert "Blocks" not in out
     assert (tmp_path / "overview.png").stat().st_size > 10_000
 
@@ -61,7 +61,7 @@ def test_case_a_counts_the_load_cycles_of_two_hours(
 ) -> None:
     settings = [*coarse, *STILL, "--set", "operation.interval=1 h", "--hours", "2"]
     assert main(["run", "azam_case_a", *settings, "--out", str(tmp_path)]) == 0
-    assert "Load cycles: ball 28 361, disc 7 419." in capsys.readouterr().out
+    assert "Load cycles: 28 361 of body 1, 7 419 of body 2." in capsys.readouterr().out
 
 
 def test_a_duty_on_the_command_line_reaches_the_result(
