@@ -281,7 +281,7 @@ def _smooth_film(scene: Scene) -> Iterator[tuple[str, str, str]]:
         yield "film of the smooth bodies", "none", "nothing entrains oil: the contact is dry"
         return
     hertz, supply = scene.hertz(scene.operation.load), scene.lubricant.supply
-    film = supply.film(smooth.film, hertz.a, scene.geometry.radius_x)
+    film = supply.film(smooth.film, hertz.a, scene.geometry.radius_x, scene.shape().side_resistance)
     by = "Nijenbanning, Venner and Moes" if _is_point(scene) else "Moes for lines"
     yield "Moes' M and L", ", ".join(map(_number, smooth.moes_parameters)), "numbers of load and lubricant"
     yield "flooded film of the smooth bodies", _number(1e9 * smooth.film, "nm"), f"by the formula of {by}"

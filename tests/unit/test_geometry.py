@@ -5,7 +5,7 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 
-from contact_core import ContactState, OperatingPointError, Scene, SceneError, advance, initial_state
+from contact_core import ContactState, OperatingPointError, Scene, SceneError, advance, initial_state, solve
 from contact_core.geometry import LineGeometry, PointGeometry, RollerGeometry
 from contact_core.scene import tunables, with_values
 
@@ -96,7 +96,9 @@ def test_an_unknown_geometry_or_profile_is_refused_with_the_one_that_was_meant()
     profile = {key.replace(".", "__"): value for key, value in ROLLER.items()} | {
         "geometry__profile__model": "logaritmic"
     }
-    assert "[geometry.profile] has no model 'logaritmic'. Did you mean 'logarithmic'?" in refusal("fzg_flank", **profile)
+    assert "[geometry.profile] has no model 'logaritmic'. Did you mean 'logarithmic'?" in refusal(
+        "fzg_flank", **profile
+    )
 
 
 def test_a_key_of_another_geometry_is_told_whose_it_is():
@@ -124,7 +126,7 @@ def test_a_roller_has_spin_but_no_second_radius():
     state, point = initial_state(scene), scene.operation.point
     _, spun = advance(scene, replace(point, spin=100.0), state, 1.0)
     assert spun.spin_torque < 0.0
-    with pytest.raises(OperatingPointError, match="radius_y = 0.01 m: geometry.model = 'roller' has none"):
+    with pytest.raises(OperatingPointError, match=r"radius_y = 0.01 m: geometry.model = 'roller' has none"):
         advance(scene, replace(point, radius_y=0.01), state, 1.0)
 
 
@@ -187,24 +189,37 @@ def line(request) -> Scene:
     return Scene.from_toml("fzg_flank", LINE).at_level(request.param)
 
 
-@pytest.fixture(scope="module")
-def found(line) -> dict[str, float]:
-    return rubbed(line)[1]
+def doubled(scene: Scene) -> Scene:
+    """The same load on every millimetre of twice the face."""
+    table = scene.to_dict()
+    wider, heavier = ({"face_width": "28 mm"}, {"load": "8000 N"})
+    return Scene.from_dict(table | {"geometry": table["geometry"] | wider, "operation": table["operation"] | heavier})
 
 
-def test_a_face_twice_as_wide_under_twice_the_load_is_two_of_them(line, found):
-    wide = Scene.from_dict(
-        line.to_dict()
-        | {"geometry": line.to_dict()["geometry"] | {"face_width": "28 mm"}}
-        | {"operation": line.to_dict()["operation"] | {"load": "8000 N"}}
-    )
-    double = rubbed(wide)[1]
+def test_a_face_twice_as_wide_under_twice_the_load_is_two_of_them():
+    line = Scene.from_toml("fzg_flank", LINE).at_level("regression")
+    found, double = rubbed(line)[1], rubbed(doubled(line))[1]
     for name in IN_NEWTONS:
-        assert double[name] == pytest.approx(2.0 * found[name], rel=1e-6), name
+        assert double[name] == pytest.approx(2.0 * found[name], rel=1e-9), name
     for name in THE_SAME:
-        assert double[name] == pytest.approx(found[name], rel=1e-6), name
+        assert double[name] == pytest.approx(found[name], rel=1e-9), name
     assert found["friction_force"] != 0.0
     assert found["wear_volume_1"] > 0.0
+
+
+@pytest.mark.parametrize("heat", ["flash", "field"])
+def test_the_fields_of_a_line_do_not_know_how_long_its_face_is(heat):
+    """But for the datum of the deformation, and the ends of the face that bodies at rest would feel."""
+    film = {"surface_1.rq": "20 nm", "surface_2.rq": "20 nm", "film.tolerance": "1e-5", "heat.model": heat}
+    line = Scene.from_toml("fzg_flank", LINE | film)
+    found, double = (solve(scene, scene.operation.point, initial_state(scene)) for scene in (line, doubled(line)))
+    assert found.converged
+    assert double.pressure == pytest.approx(found.pressure, rel=1e-3, abs=1e-3 * found.pressure.max())
+    assert double.gap == pytest.approx(found.gap, rel=1e-3)
+    assert double.friction.power == pytest.approx(2.0 * found.friction.power, rel=1e-3)
+    assert double.friction.force_fluid == pytest.approx(2.0 * found.friction.force_fluid, rel=1e-3)
+    warm = [part.temperatures.into_1 * repeats for part, repeats in ((found, line.repeats), (double, 2 * line.repeats))]
+    assert warm[1] == pytest.approx(2.0 * warm[0], rel=1e-3)
 
 
 def test_a_state_of_a_line_goes_on_bit_for_bit(line):
