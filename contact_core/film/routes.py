@@ -238,7 +238,7 @@ class _Solver:
             return scaled.dry_start() if state is None else scaled.iterate(state)
         if name == "flooded" and self.problem.supply is None and self.problem.first == 0:
             now = replace(scaled.now, conserving=False, meniscus=None)
-            return scaled.iterate(solve_film(now, scaled.grid, scaled.settings, state, self.follows).state)
+            return scaled.iterate(solve_film(now, scaled.grid, scaled.settings, state, self.step).state)
         if name == "last" and self.best is not None:
             return self.best.iterate
         starts = {"dry": scaled.dry_start, "shared": scaled.shared_start, "film": scaled.lifted_start}

@@ -434,9 +434,10 @@ class _Film:
         self._residual(nowhere, inflow)
         film = (self.solid, self.h, self.mass, inflow, q.floor, q.spacing)
         imbalance = float(reynolds.imbalance(p, self.f, q.cap, *film))
-        if q.conserving:  # pockets that still fill up
-            held = float(self.mass[self.rows][p[self.rows] > 0.0].sum())
-            imbalance += float(np.maximum(self.r, 0.0)[self.rows][p[self.rows] <= 0.0].sum()) / max(held, 1e-300)
+        if q.conserving:  # where the film forms, it carries nothing yet
+            light = np.abs(self.r[self.rows][p[self.rows] < _LIGHT * p.max()]).sum()
+            mean = float((p * self.mass).sum()) / total
+            imbalance += float(light) * q.spacing / (mean * self.r[self.rows].shape[0])
         change += self.sought / q.load
         why = shortfall(tolerance, change if whole else np.inf, load_error, intrusion, imbalance, q.per_dt > 0.0)
         iterate = Iterate(p, self.f, self.solid, self.rigid)
