@@ -61,7 +61,7 @@ class Regime:
 
 REGIMES = (
     Regime("dry", (("hybrid", "dry"), ("direct", "last")), floors=(0.0, 0.5)),
-    Regime("line", (("newton", "film"), ("newton", "dry"), ("direct", "film")), clearance=(1e3, math.inf), rows=1),
+    Regime("line", (("newton", "film"), ("newton", "nested"), ("newton", "dry"), ("direct", "film")), clearance=(1e3, math.inf), rows=1),
     Regime(
         "roller",
         (
@@ -210,7 +210,7 @@ class _Solver:
         if name == "before" and state is not None and self.step is not None:
             return advected(scaled.iterate(state), scaled.smooth, self.step.moved)
         if name == "nested" and self.step is None:
-            if state is None and min(scaled.grid.shape) >= _NESTED_FROM:
+            if state is None and min(n for n in scaled.grid.shape if n > 1) >= _NESTED_FROM:
                 now, grid = coarser(scaled.now, scaled.grid)
                 state = prolonged(solve_film(now, grid, scaled.settings).state, scaled.grid.shape)
             return scaled.dry_start() if state is None else scaled.iterate(state)
