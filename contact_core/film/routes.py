@@ -61,7 +61,12 @@ class Regime:
 
 REGIMES = (
     Regime("dry", (("hybrid", "dry"), ("direct", "last")), floors=(0.0, 0.5)),
-    Regime("line", (("newton", "film"), ("newton", "nested"), ("newton", "dry"), ("direct", "film")), clearance=(1e3, math.inf), rows=1),
+    Regime(
+        "line",
+        (("newton", "film"), ("newton", "nested"), ("newton", "dry"), ("direct", "film")),
+        clearance=(1e3, math.inf),
+        rows=1,
+    ),
     Regime(
         "roller",
         (
