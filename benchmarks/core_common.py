@@ -84,13 +84,16 @@ class Report:
 
 @dataclass(frozen=True)
 class MoesCase:
-    """A smooth circular contact given by Moes' numbers of load and lubricant (M, L); the rest is steel and oil."""
+    """A smooth contact given by Moes' numbers of load and lubricant (M, L), on its radius along x; the rest is steel
+    and oil.
+    """
 
     load: float
     lubricant: float
     viscosity_law: str = "barus"
     density_law: str = "none"
     radius: float = 10e-3
+    ratio: float = 1.0  # radius along y over that along x
     modulus: float = 2.26e11
     viscosity: float = 0.04
     alpha: float = 2.2e-8
@@ -111,14 +114,26 @@ class MoesCase:
         return self.load * self.speed_number**0.75 * self.modulus * self.radius**2
 
     @property
+    def hertz(self) -> Hertz:
+        """The dry contact."""
+        return hertz_point(self.newtons, self.radius, self.ratio * self.radius, self.modulus)
+
+    @property
     def a(self) -> float:
-        """Hertz's half width [m]."""
-        return hertz_point(self.newtons, self.radius, self.radius, self.modulus).a
+        """Hertz's half width along x [m]."""
+        return self.hertz.a
 
     @property
     def pressure(self) -> float:
         """Hertz's pressure [Pa]."""
-        return hertz_point(self.newtons, self.radius, self.radius, self.modulus).pressure_max
+        return self.hertz.pressure_max
+
+    @property
+    def smooth(self) -> SmoothContact:
+        """In the terms of film formulas."""
+        given = self.arguments()
+        oil = self.viscosity, given["pressure_viscosity"]
+        return SmoothContact(self.newtons, given["speed_1"], *oil, self.radius, self.ratio * self.radius, self.modulus)
 
     def arguments(self) -> dict[str, Any]:
         """Of `point_contact`."""
@@ -126,6 +141,7 @@ class MoesCase:
         return {
             "load": self.newtons,
             "radius_x": self.radius,
+            "radius_y": self.ratio * self.radius,
             "reduced_modulus": self.modulus,
             "speed_1": speed,
             "speed_2": speed,
@@ -149,7 +165,7 @@ def instant_of(arguments: dict[str, Any], heights: Array, hardness: float = 1e12
         load=arguments["load"],
         entrainment_speed=0.5 * (arguments["speed_1"] + arguments["speed_2"]),
         temperature=300.0,
-        shape=Point(arguments["radius_x"], arguments["radius_x"]),
+        shape=Point(arguments["radius_x"], arguments.get("radius_y", arguments["radius_x"])),
         reduced_modulus=arguments["reduced_modulus"],
         viscosity=viscosity(arguments["viscosity"], 300.0, arguments["pressure_viscosity"], 0.0),
         density=laws[arguments.get("density_law", "dowson_higginson")](),

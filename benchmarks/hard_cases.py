@@ -1,11 +1,12 @@
 """Hard cases: random operating points and the rows of a list, each held against the equations written once more.
 
-    python benchmarks/hard_cases.py random [--from N] [--to N] [--part K/N]
+    python benchmarks/hard_cases.py random [--shape circle|ellipse] [--from N] [--to N] [--part K/N] [--nodes N]
     python benchmarks/hard_cases.py rows [--nodes N]
     python benchmarks/hard_cases.py report
 
 `random` solves 2000 points of `random_points.py` with `point_contact` on 129x129 nodes at a tolerance of 3e-3 and adds
-a line for each to results/hard_cases/random_K_of_N.csv; what stands there already is not solved again. `rows` solves
+a line for each to results/hard_cases/random_K_of_N.csv; what stands there already is not solved again. Of ellipses,
+whose radii are in a ratio of 0.1 to 10, the nodes are those along the shorter side. `rows` solves
 the listed cases on three grids. `report` writes docs/hard_cases.md and docs/hard_cases.png from those files.
 """
 
@@ -55,7 +56,8 @@ class Answer:
     rigid: float
     heights: Array
     load: float
-    radius: float
+    radius: float  # along x
+    radius_y: float
     modulus: float
     speed: float
     hardness: float | Array
@@ -124,7 +126,7 @@ def roelands(viscosity: float, alpha: float) -> Callable[[Array], Array]:
 
 
 def load_beyond(at: Answer, gap: Array) -> float:
-    """Force [N] beyond the inlet edges: p goes on like -x / h^2 under a rigid parabola, ray by ray from the contact."""
+    """Force [N] beyond the inlet edges: p goes on like -x / h^2 under rigid parabolas, ray by ray from the contact."""
     dx, total = at.x[1] - at.x[0], 0.0
     nodes, weights = np.polynomial.legendre.leggauss(60)
     t, weights = 0.5 * (nodes + 1.0), 0.5 * weights
@@ -134,7 +136,8 @@ def load_beyond(at: Answer, gap: Array) -> float:
         radius, distance = np.hypot(x, yy[edge]), np.abs(normal[edge])
         begin = radius * (1.0 + 0.5 * dx / distance)  # the cells of the edge reach half a spacing beyond their nodes
         r = begin[:, None] / t
-        film = h[:, None] + (r**2 - radius[:, None] ** 2) / (2.0 * at.radius)
+        curvature = ((x / radius) ** 2 / at.radius + (yy[edge] / radius) ** 2 / at.radius_y)[:, None]
+        film = h[:, None] + 0.5 * curvature * (r**2 - radius[:, None] ** 2)
         decay = r / radius[:, None] * (h[:, None] / film) ** 2
         ray = (decay * r * begin[:, None] / t**2) @ weights
         total += float((p * ray * dx * distance / radius**2)[x < 0.0].sum())
@@ -164,8 +167,8 @@ def judge(at: Answer) -> Judgement:
     if at.speed < 0.0:
         at = at.mirrored()
     dx, p, f, solid = at.x[1] - at.x[0], at.pressure, at.fluid, at.solid
-    hertz = hertz_point(at.load, at.radius, at.radius, at.modulus)
-    gap = at.rigid + (at.x[None, :] ** 2 + at.y[:, None] ** 2) / (2.0 * at.radius) - at.heights
+    hertz = hertz_point(at.load, at.radius, at.radius_y, at.modulus)
+    gap = at.rigid + at.x[None, :] ** 2 / (2.0 * at.radius) + at.y[:, None] ** 2 / (2.0 * at.radius_y) - at.heights
     gap = gap + deformation(p, dx, at.modulus)
     below, total = p < at.hardness * (1.0 - 1e-12), p.sum()
     beyond = load_beyond(at, gap + at.heights) / at.load if at.speed != 0.0 else 0.0
@@ -204,15 +207,15 @@ def film_of(given: dict[str, Any]) -> tuple[float, float]:
     speed = 0.5 * abs(given["speed_1"] + given["speed_2"])
     if speed == 0.0:
         return np.inf, 0.0
-    names = ("viscosity", "pressure_viscosity", "radius_x", "radius_x", "reduced_modulus")
+    names = ("viscosity", "pressure_viscosity", "radius_x", "radius_y", "reduced_modulus")
     contact = SmoothContact(given["load"], speed, *(given[name] for name in names))
     return contact.moes_parameters[0], nijenbanning_venner_moes(contact)
 
 
 def answer(given: dict[str, Any], found: PointContact) -> Answer:
     """What `point_contact` found of its arguments."""
-    load, radius, modulus = given["load"], given["radius_x"], given["reduced_modulus"]
-    size = np.sqrt(hertz_point(load, radius, radius, modulus).a ** 2 + 1.4 * radius * film_of(given)[1])
+    load, radius, radius_y, modulus = (given[name] for name in ("load", "radius_x", "radius_y", "reduced_modulus"))
+    size = np.sqrt(hertz_point(load, radius, radius_y, modulus).a ** 2 + 1.4 * radius * film_of(given)[1])
     return Answer(
         x=found.x,
         y=found.y,
@@ -224,6 +227,7 @@ def answer(given: dict[str, Any], found: PointContact) -> Answer:
         heights=given["heights_2"],
         load=load,
         radius=radius,
+        radius_y=radius_y,
         modulus=modulus,
         speed=0.5 * (given["speed_1"] + given["speed_2"]),
         hardness=given["hardness"],
@@ -248,19 +252,19 @@ def solved(given: dict[str, Any]) -> dict[str, Any]:
     return row | {"converged": int(found.converged)} | numbers | asdict(judge(answer(given, found)))
 
 
-def random(first: int, last: int, part: int, parts: int) -> None:
+def random(shape: str, first: int, last: int, part: int, parts: int, nodes: int) -> None:
     """Solve points `first` to `last` of those drawn, every `parts`-th, and add them to a file."""
-    path = RESULTS / f"random_{part}_of_{parts}.csv"
+    path = RESULTS / f"{'random' if shape == 'circle' else shape}_{part}_of_{parts}.csv"
     done = {int(row["case"]) for row in _read(path)}
-    for case, point in enumerate(islice(_kept(), last), 1):
+    for case, point in enumerate(islice(_kept(elliptical=shape == "ellipse"), last), 1):
         if case < first or case % parts != part % parts or case in done:
             continue
-        drawn = {"case": case} | asdict(point)
-        _add(path, drawn | solved(point.arguments(NODES)))
+        drawn = {"case": case, "nodes": nodes} | asdict(point)
+        _add(path, drawn | solved(point.arguments(nodes)))
 
 
-def _kept() -> Iterator[Point]:
-    return (point for point in draw(SEED) if point is not None)
+def _kept(*, elliptical: bool) -> Iterator[Point]:
+    return (point for point in draw(SEED, elliptical=elliptical) if point is not None)
 
 
 def _read(path: Path) -> list[dict[str, str]]:
@@ -404,6 +408,7 @@ def _answer_of(scene: Scene, op: OperatingPoint, found: ContactFields, before: A
         heights=found.heights,
         load=op.load,
         radius=scene.geometry.radius_x,
+        radius_y=scene.geometry.radius_y,
         modulus=scene.solids.reduced_modulus,
         speed=op.entrainment_speed,
         hardness=scene.plasticity.limit(found.cover_1, found.cover_2, 0.0, 1.0),
@@ -540,6 +545,7 @@ def report() -> None:
     """Write the tables and the map from what has been solved."""
     found = {int(line["case"]): line for path in sorted(RESULTS.glob("random_*.csv")) for line in _read(path)}
     drawn = [found[case] for case in sorted(found)]
+    ellipses = [line for path in sorted(RESULTS.glob("ellipse_*.csv")) for line in _read(path)]
     listed = [line for nodes in GRIDS for line in _read(RESULTS / f"rows_{nodes}.csv")]
     text = [
         "# Hard cases",
@@ -559,6 +565,10 @@ def report() -> None:
             "",
         ]
         _map(drawn, DOCS / "hard_cases.png")
+    if ellipses:
+        nodes = ", ".join(sorted({line["nodes"] for line in ellipses}))
+        ellipses.sort(key=lambda line: int(line["case"]))
+        text += ["## Random ellipses", "", ELLIPSE_NOTE.format(nodes=nodes), "", *_random_tables(ellipses), ""]
     if listed:
         text += ["## Rows", ROWS_NOTE, "", *_row_table(listed), ""]
     (DOCS / "hard_cases.md").write_text("\n".join(text))
@@ -576,11 +586,14 @@ gained or lost in l / u by the film, weighted by pressure. cavity: load that nod
 their inflow were dammed up. complementarity: distance of contacts from the floor, overlap of others, in floors.
 beneath: as imbalance, of the fluid under contacts, per floor. gap: between the film reported and that of the pressure,
 in floors. bounds: 0 <= fluid <= total <= hardness, fluid = total off contact, in Hertz pressures."""
+ELLIPSE_NOTE = """
+The same points with the radius along y in a ratio of 0.1 to 10, log-uniform, to the one along x, on grids of {nodes}
+nodes along the shorter side. M is that of R_x."""
 ROWS_NOTE = """
 Case A of the thesis (77.85 N, R 10 mm, 4 mPa s, 15 GPa^-1, 0.25 m/s, Rq 127 nm, cap 6 GPa) unless the row says
 otherwise; steady rows by `point_contact`, those in time by `solve` with `Transient` (the scene azam_case_a; W_c and h_c
 of the last step, ms the mean of the steps). imbalance and floors (complementarity) are the worst of all grids and steps
-by the check; a time step may owe more, because the next one makes up for it. Elliptical contacts: not yet."""
+by the check; a time step may owe more, because the next one makes up for it."""
 
 
 def main() -> None:
@@ -589,11 +602,12 @@ def main() -> None:
     parser.add_argument("--from", dest="first", type=int, default=1)
     parser.add_argument("--to", dest="last", type=int, default=POINTS)
     parser.add_argument("--part", default="1/1", help="k/n: every n-th point, from the k-th")
-    parser.add_argument("--nodes", type=int, choices=GRIDS, help="only this grid of the rows")
+    parser.add_argument("--nodes", type=int, choices=GRIDS, help="of the random points; only this grid of the rows")
+    parser.add_argument("--shape", choices=("circle", "ellipse"), default="circle", help="of the random points")
     args = parser.parse_args()
     if args.what == "random":
         part, parts = map(int, args.part.split("/"))
-        random(args.first, args.last, part, parts)
+        random(args.shape, args.first, args.last, part, parts, args.nodes or NODES)
     elif args.what == "rows":
         rows((args.nodes,) if args.nodes else GRIDS)
     else:

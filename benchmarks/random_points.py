@@ -9,11 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_core import shapes
-from contact_core.film.fitted import fitted_grid
+from contact_core.film.fitted import Extent
 from contact_core.film.instant import Grid
-from contact_core.reference import SmoothContact, hertz_point, nijenbanning_venner_moes
+from contact_core.reference import SmoothContact, nijenbanning_venner_moes
 
 MODULUS, ALPHA, HARDNESS, CORRELATION = 230.47e9, 15e-9, 6e9, 20e-6
+SLIMMEST = 10.0  # ratio of the radii, either way
 LARGEST_HERTZ = 4e9
 WAVES = 400
 
@@ -23,17 +24,24 @@ class Point:
     """A contact and what is asked of it, in SI."""
 
     number: int
-    radius: float
+    radius: float  # along x
     load: float
     speed: float  # entrainment, of either sign
     viscosity: float
     rq: float
+    ratio: float = 1.0  # radius along y over that along x
+
+    @property
+    def shape(self) -> shapes.Point:
+        """The undeformed bodies."""
+        return shapes.Point(self.radius, self.ratio * self.radius)
 
     @property
     def contact(self) -> SmoothContact:
         """As the film formulas take it."""
         speed = abs(self.speed)
-        return SmoothContact(self.load, speed, self.viscosity, ALPHA, self.radius, self.radius, MODULUS)
+        radii = self.shape.radius_x, self.shape.radius_y
+        return SmoothContact(self.load, speed, self.viscosity, ALPHA, *radii, MODULUS)
 
     @property
     def film(self) -> float:
@@ -41,8 +49,10 @@ class Point:
         return nijenbanning_venner_moes(self.contact) if self.speed != 0.0 else 0.0
 
     def grid(self, nodes: int) -> Grid:
-        """The grid that fits the film, entered from the side the oil comes from."""
-        found = fitted_grid(shapes.Point(self.radius, self.radius), self.load, MODULUS, self.film, nodes, nodes)
+        """The grid that fits the film, `nodes` along its shorter side, entered from the side the oil comes from."""
+        extent = Extent.of(self.shape, self.load, MODULUS, self.film)
+        ny, nx = (nodes, nodes) if self.ratio == 1.0 else extent.shape(shorter=nodes)
+        found = extent.grid(ny, nx)
         return found if self.speed >= 0.0 else found.mirrored()
 
     def heights(self, grid: Grid, correlation: float) -> np.ndarray:
@@ -61,6 +71,7 @@ class Point:
         return {
             "load": self.load,
             "radius_x": self.radius,
+            "radius_y": self.shape.radius_y,
             "reduced_modulus": MODULUS,
             "speed_1": self.speed,
             "speed_2": self.speed,
@@ -72,9 +83,11 @@ class Point:
         }
 
 
-def draw(seed: int) -> Iterator[Point | None]:
-    """Points for ever; None where the film by formula is thicker than a hundredth of the radius or p_H above 4 GPa."""
-    random = np.random.Generator(np.random.Philox(key=[seed, 1]))
+def draw(seed: int, *, elliptical: bool = False) -> Iterator[Point | None]:
+    """Points for ever, the same ones with another radius along y if `elliptical`; None where the film by formula is
+    thicker than a hundredth of a radius or p_H above 4 GPa.
+    """
+    random, ratios = (np.random.Generator(np.random.Philox(key=[seed, stream])) for stream in (1, 4))
 
     def logarithmic(low: float, high: float) -> float:
         return float(np.exp(random.uniform(np.log(low), np.log(high))))
@@ -86,6 +99,7 @@ def draw(seed: int) -> Iterator[Point | None]:
         speed, viscosity = logarithmic(1e-6, 20.0), logarithmic(1e-4, 10.0)
         rq, smooth, standing = logarithmic(1e-9, 1.5e-6), random.uniform() < 0.2, random.uniform() < 0.05
         sign = random.choice([-1.0, 1.0])
-        point = Point(number, radius, load, 0.0 if standing else sign * speed, viscosity, 0.0 if smooth else rq)
-        too_high = hertz_point(load, radius, radius, MODULUS).pressure_max > LARGEST_HERTZ
-        yield None if too_high or point.film > 0.01 * radius else point
+        ratio = float(SLIMMEST ** ratios.uniform(-1.0, 1.0)) if elliptical else 1.0
+        point = Point(number, radius, load, 0.0 if standing else sign * speed, viscosity, 0.0 if smooth else rq, ratio)
+        too_high = point.shape.hertz(load, MODULUS).pressure_max > LARGEST_HERTZ
+        yield None if too_high or point.film > 0.01 * radius * min(ratio, 1.0) else point

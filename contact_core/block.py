@@ -29,7 +29,7 @@ from .evolution import (
     wear_rate,
     wear_speed,
 )
-from .following import follow
+from .following import follow, rough_speed
 from .laws.tribofilm import thickness
 from .patches import moved_nodes, rolled, widened, yielded
 from .scene import OperatingPoint, Scene
@@ -84,9 +84,8 @@ def is_marching(scene: Scene, op: OperatingPoint, state: ContactState) -> bool:
 
 def instant_time(scene: Scene, op: OperatingPoint) -> float:
     """Longest time [s] of an instant of such a march, infinite at rest."""
-    fastest = max(abs(speed) for speed in speeds_of(op))
-    rough = scene.surface_1.rq > 0.0 or scene.surface_2.rq > 0.0
-    return scene.film.spacing * (1.0 if rough else _SMOOTH_STEP) / fastest if fastest > 0.0 else math.inf
+    fastest = max(rough_speed(scene, op), max(abs(speed) for speed in speeds_of(op)) / _SMOOTH_STEP)
+    return scene.film.spacing / fastest if fastest > 0.0 else math.inf
 
 
 def solve_instant(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> ContactState:

@@ -122,8 +122,8 @@ def refuse(sentences: list[str]) -> None:
 
 
 def film_of(shape: Shape, load: float, numbers: Numbers, supply: float | None) -> float:
-    """Film [m] of smooth bodies by formula, behind an oil layer [m] or flooded, 0 at rest; refused if it is too thick for
-    bodies of that shape.
+    """Film [m] of smooth bodies by formula, behind an oil layer [m] or flooded, 0 at rest; refused if it is too thick
+    for bodies of that shape.
     """
     if numbers.entrainment_speed == 0.0:
         return 0.0
@@ -131,7 +131,7 @@ def film_of(shape: Shape, load: float, numbers: Numbers, supply: float | None) -
     smooth = shape.smooth(load, abs(numbers.entrainment_speed), *oil, numbers.reduced_modulus)
     film = replace(smooth, pressure_coefficient=max(numbers.pressure_viscosity, 1e-12)).film
     if supply is not None:
-        film = supplied_film(film, supply)
+        film = supplied_film(film, supply, resistance=shape.side_resistance)
     radius, least = min((getattr(shape, name), name) for name in ("radius_x", "radius_y") if hasattr(shape, name))
     if film > _THICKEST * radius:
         refuse(

@@ -43,6 +43,8 @@ def follow(
     try:
         fields = solve(scene, op, state, Transient(dt, moved, iterations, order=order, thorough=True))
     except FilmTooWideError as error:
+        if op.entrainment_speed == 0.0:  # nothing would bring the oil back
+            raise
         return _open(scene, op, state, str(error))
     return yielded(scene, replace(state, film=fields.film), fields.overlap), fields
 
@@ -62,3 +64,9 @@ def _open(scene: Scene, op: OperatingPoint, state: ContactState, why: str) -> tu
     """Bodies apart, and why if there is a load."""
     fields = solve(scene, replace(op, load=0.0), state)
     return replace(state, film=None), replace(fields, converged=not why, shortfall=why)
+
+
+def rough_speed(scene: Scene, op: OperatingPoint) -> float:
+    """Speed [m/s] of the faster rough body, 0 of smooth ones."""
+    pairs = ((scene.surface_1, op.speed_1), (scene.surface_2, op.speed_2))
+    return max((abs(speed) for surface, speed in pairs if surface.rq > 0.0), default=0.0)

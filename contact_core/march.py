@@ -18,7 +18,7 @@ from .block import feeling
 from .contact import ContactFields
 from .errors import OperatingPointError
 from .evolution import area_of_node, speeds_of, track_length, wear_speed
-from .following import begin, follow
+from .following import begin, follow, rough_speed
 from .laws.tribofilm import thickness
 from .scene import OperatingPoint, Scene
 from .state import Body, ContactState
@@ -48,6 +48,7 @@ def march(scene: Scene, state: ContactState, duty: Duty, times: Sequence[float],
     as keep them from moving on by more than a node. The first instant is the film of `state` where it has one, else a
     steady film, or a dry contact at rest. Without a load, and where a film would be too wide for the grid, the contact
     is open, says so (`fields.route`, `fields.shortfall`) and forgets its film; the next load begins anew.
+    Bodies at rest whose film is too wide raise FilmTooWideError, since nothing would bring the oil back.
 
     order: of the squeeze term in time. Raises OperatingPointError for values that cannot be used.
     """
@@ -70,10 +71,8 @@ def march(scene: Scene, state: ContactState, duty: Duty, times: Sequence[float],
 
 
 def _instants(scene: Scene, early: OperatingPoint, late: OperatingPoint, dt: float) -> int:
-    """Into how many instants a time [s] is cut: one, of smooth bodies."""
-    if scene.surface_1.rq == scene.surface_2.rq == 0.0:
-        return 1
-    fastest = max(abs(speed) for op in (early, late) for speed in speeds_of(op))
+    """Into how many instants a time [s] is cut, so that no rough body moves on by more than a node in one."""
+    fastest = max(rough_speed(scene, op) for op in (early, late))
     return max(1, math.ceil(fastest * dt / scene.film.spacing - _ROUNDING))
 
 

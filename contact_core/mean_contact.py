@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from .laws.heat import FlashTemperature, TemperatureField
 from .laws.load_sharing import flattening_of, rms_slope
 from .laws.rheology import Carreau
+from .laws.supply import Flooded
 from .mean_oil import Law, MeanHeat, oil_shear
 from .mean_surfaces import Films, composite_roughness, hardness_of, mean_cover, scene_film
 from .reference import Hertz, bair_thinning_factor, inlet_shear_factor
@@ -204,14 +205,18 @@ def _smooth(scene: Scene, op: OperatingPoint, hertz: Hertz, further: float) -> _
     speed = abs(entrainment)
     oil, warm = _oil(scene.lubricant.viscosity, inlet)
     shape, largest, modulus = scene.shape(op), hertz.pressure_max, scene.solids.reduced_modulus
+    supply = scene.lubricant.supply
     thins = speed > 0.0 and (scene.heat.inlet_shear != "none" or scene.lubricant.flow == "local")
+    starves = not isinstance(supply, Flooded)
 
     def film(speed: float, load: float, slide: float, oil: tuple[float, float], temperature: float) -> float:
-        flooded = newtonian = shape.film(max(load, _LIGHTEST), max(speed, _SLOWEST), *oil, modulus)
-        grown = hertz.growth(load)[0]
+        newtonian = shape.film(max(load, _LIGHTEST), max(speed, _SLOWEST), *oil, modulus)
+        if not (thins or starves):
+            return newtonian
+        grown, flooded = hertz.growth(load)[0], newtonian
         if thins:
             flooded *= _thinned(scene, speed, largest * grown, slide, oil[0], newtonian, temperature)
-        return scene.lubricant.supply.film(flooded, hertz.a * grown, shape.radius_x)
+        return supply.film(flooded, hertz.a * grown, shape.radius_x, shape.side_resistance)
 
     now = film(speed, load, slide, oil, inlet)
     by_load = film(speed, load * (1.0 + _D), slide, oil, inlet) / now - 1.0

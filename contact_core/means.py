@@ -148,14 +148,15 @@ def _track_area(scene: Scene, i: int, moving: bool) -> float:
     """Area [m2] of a body's track |y| < b; at rest, of the patch's part of it."""
     hertz, shape = scene.unit_hertz, scene.shape()
     b = hertz.growth(scene.operation.load)[1] * hertz.b
-    width = 2.0 * b if shape.periodic else _track_width(scene.rows, scene.film.spacing, b)
-    return width * (track_length(scene, i) if moving else scene.film.domain)
+    film = scene.film
+    width = 2.0 * b if shape.periodic else _track_width(scene.rows, film.points, film.domain, b)
+    return width * (track_length(scene, i) if moving else film.domain)
 
 
 @lru_cache(maxsize=64)
-def _track_width(rows: int, spacing: float, b: float) -> float:
+def _track_width(rows: int, points: int, domain: float, b: float) -> float:
     """Width [m] of a patch's rows with |y| < b, at least the middle one."""
-    grid = Grid.centred(rows, rows, spacing)
+    grid = Grid.centred(rows, rows, domain / (points - 1))
     return grid.spacing * int((np.abs(grid.y) < max(b, 0.51 * grid.spacing)).sum())
 
 

@@ -25,6 +25,7 @@ class Point:
     periodic: ClassVar[bool] = False
     power: ClassVar[float] = 1 / 3  # of load and radii in Hertz's half widths
     order: ClassVar[int] = 2  # of the size in the area that carries the load
+    side_resistance: ClassVar[float] = 3.0  # to side flow of starved films, see `reference.supplied_film`
 
     radius_x: float  # of combined curvature [m]
     radius_y: float
@@ -79,6 +80,7 @@ class Line:
     periodic: ClassVar[bool] = True
     power: ClassVar[float] = 1 / 2
     order: ClassVar[int] = 1
+    side_resistance: ClassVar[float] = np.inf
     circular: ClassVar[bool] = False
     opening: ClassVar[float] = 2.0 * np.sqrt(2.0) / 3.0
 
@@ -126,6 +128,7 @@ class Roller(Line):
     """A cylinder with ends. Methods as in `Point`; formulas and Hertz's contact are those of a line as long."""
 
     periodic: ClassVar[bool] = False
+    side_resistance: ClassVar[float] = 15.0  # as of a wide ellipse
 
     profile: Profile
 

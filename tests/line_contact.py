@@ -67,6 +67,7 @@ def line(load, oil, nx, heights=None, left=2.5, right=1.5, floor=1e-3, cap=30.0)
         mobility=np.full(z.shape, moes * a2 / 24.0),
         thinned=zeros,
         per_dt=0.0,
+        wedge=1.0,
         mass_old=zeros,
         fluidity=np.exp(-np.minimum(0.25 * oil * a2 / np.sqrt(moes) * table, 200.0)),
         density=1.0 + 0.3 * table / (table + 5.0),

@@ -41,15 +41,15 @@ class Extent:
         """Width along y over length along x."""
         return 2.0 * self.side / (self.left + self.right)
 
-    def shape(self, nx: int | None = None) -> tuple[int, int]:
-        """Nodes (ny, nx) of about square cells that halve for multigrid: for `nx` along x, or 129 along the shorter
-        side.
+    def shape(self, nx: int | None = None, *, shorter: int = _NODES) -> tuple[int, int]:
+        """Nodes (ny, nx) of about square cells that halve for multigrid: for `nx` along x, or for those along the
+        shorter side.
         """
         if nx is not None:
             return _partner(nx, self.ratio, mirror=True), nx
         if self.ratio >= 1.0:
-            return _partner(_NODES, self.ratio, mirror=True), _NODES
-        return _NODES, _partner(_NODES, 1.0 / self.ratio, mirror=False)
+            return _partner(shorter, self.ratio, mirror=True), shorter
+        return shorter, _partner(shorter, 1.0 / self.ratio, mirror=False)
 
     def grid(self, ny: int, nx: int) -> Grid:
         """Grid of [ny, nx] nodes; the centre of the contact is a node for even nx - 1.

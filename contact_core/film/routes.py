@@ -15,7 +15,6 @@ from ..kernels.direct import solve_direct
 from ..kernels.grids import prolong, restrict
 from ..kernels.mixed import Iterate, Solution, advected, excess, solve_mixed
 from ..kernels.multigrid import is_applicable, solve_smooth
-from ..kernels.newton import is_applicable as newton_is_applicable
 from ..kernels.newton import solve_newton
 from ..shapes import Roller
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
@@ -27,7 +26,8 @@ _MOST_BEYOND = 0.3  # share of the load that may lie beyond the grid
 _NESTED_FROM = 65  # nodes along an axis from which on a film begins on the grid of half of them
 _HYBRID_ITERATIONS, _DIRECT_ITERATIONS = 150, 80  # of one try at a steady film
 _CYCLES, _NEWTON_STEPS = 15, 30
-_DAMPED = 0.5  # multigrid's second try: rigid bodies under a thickening oil bear no more
+_DAMPED = ((0.5, 15), (0.25, 40))  # multigrid's next tries, and cycles: nearly rigid bodies under thickening oil
+_OWED = 10.0  # times the stopping rule's limits, by which a thorough step over roughness may miss them
 _CLOSINGS = 4  # solutions of a light film, at most, until what lies beyond the grid knows how fast the bodies close
 # a film short of its tolerance is still better than the dry contact within these
 _LOAD_ACCEPTED = 1e-3
@@ -45,6 +45,7 @@ class Regime:
     clearance: tuple[float, float] = _ALL  # formula film of smooth bodies / rms roughness (smooth: infinite)
     load: tuple[float, float] = _ALL  # Moes' M, as `Scaled.moes_load`
     rows: int | None = None  # of a periodic grid; None: any grid
+    by_flux: tuple[tuple[str, str], ...] = ()  # algorithms for cavities that conserve mass or a meniscus, if not those
     ends: bool = False  # whether it is for rollers alone
 
     def holds(self, scaled: Scaled) -> bool:
@@ -63,7 +64,7 @@ REGIMES = (
     Regime("dry", (("hybrid", "dry"), ("direct", "last")), floors=(0.0, 0.5)),
     Regime(
         "line",
-        (("newton", "film"), ("newton", "nested"), ("newton", "dry"), ("direct", "film")),
+        (("newton", "nested"), ("newton", "film"), ("newton", "dry"), ("direct", "film")),
         clearance=(1e3, math.inf),
         rows=1,
     ),
@@ -89,11 +90,21 @@ REGIMES = (
             ("direct", "dry"),
         ),
         clearance=(1e3, math.inf),
+        by_flux=(
+            ("hybrid", "flooded"),
+            ("direct", "flooded"),
+            ("hybrid", "nested"),
+            ("hybrid", "last"),
+            ("direct", "last"),
+            ("direct", "film"),
+            ("direct", "dry"),
+        ),
     ),
     Regime(
         "light",
         (("newton", "film"), ("newton", "dry"), ("direct", "film"), ("direct", "dry")),
         load=(0.0, 50.0),
+        by_flux=(("hybrid", "flooded"), ("direct", "flooded"), ("direct", "film"), ("direct", "dry")),
     ),
     Regime("boundary", (("hybrid", "dry"), ("direct", "last"), ("direct", "shared")), clearance=(0.0, 0.03)),
     Regime(
@@ -144,7 +155,9 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
     """The film of an instant, entrained along +x or not at all."""
     grid, settings = scaled.grid, scaled.settings
     regime = next(row for row in REGIMES if row.holds(scaled))
-    tries = (*_begun(scaled, step), *regime.algorithms) if step else regime.algorithms
+    by_flux = scaled.now.conserving or scaled.now.meniscus is not None
+    algorithms = regime.by_flux if by_flux and regime.by_flux else regime.algorithms
+    tries = (*_begun(scaled, step), *algorithms) if step else algorithms
     solver, used, spent, least = _Solver(scaled, start, step), "", 0, math.inf
     for method, begin in tries:
         if settings.lumped and method != "hybrid":  # the others know the split criterion alone
@@ -156,7 +169,7 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
         worst = excess(found, settings.tolerance, step is not None)
         if _usable(found) and (found.converged or worst < least):
             solver.best, used, least = found, f"{regime.name}: {method} from {begin}", worst
-        if found.converged or (step and not step.thorough and solver.best is found):
+        if found.converged or (step and solver.best is found and worst < _owing(scaled, step)):
             break
     best = solver.best
     if best is not None and 1.0 - float(best.iterate.pressure.sum()) / scaled.load < _MOST_BEYOND:
@@ -179,6 +192,13 @@ def _begun(scaled: Scaled, step: Step) -> tuple[tuple[str, str], ...]:
     return (*newton, *hybrid, *direct) if scaled.is_light else (*hybrid, *direct, *newton)
 
 
+def _owing(scaled: Scaled, step: Step) -> float:
+    """How many times above the limits of the stopping rule a time step may stay: the next one pays its debt."""
+    if not step.thorough:
+        return math.inf
+    return _OWED if scaled.roughness > 0.0 else 0.0
+
+
 class _Solver:
     """The algorithms and the starts of the table, for one instant."""
 
@@ -195,10 +215,12 @@ class _Solver:
                 return None
             film, shape = scaled.smooth_film / scaled.h_unit, (scaled.depth, scaled.curvature)
             given = (self.problem, scaled.x, scaled.y, settings.fft, film)
-            part = 1.0 if begin == "none" else _DAMPED
-            return solve_smooth(*given, settings.tolerance, _CYCLES, *shape, part)[0]
-        if method == "newton" and not newton_is_applicable(self.problem):
-            return None
+            tries = ((1.0, _CYCLES),) if begin == "none" else _DAMPED
+            for part, cycles in tries:
+                found = solve_smooth(*given, settings.tolerance, cycles, *shape, part)[0]
+                if found.converged:
+                    break
+            return found
         start = self._start(begin)
         if start is None:
             return None
@@ -215,10 +237,13 @@ class _Solver:
         if name == "before" and state is not None and self.step is not None:
             return advected(scaled.iterate(state), scaled.smooth, self.step.moved)
         if name == "nested" and self.step is None:
-            if state is None and min(n for n in scaled.grid.shape if n > 1) >= _NESTED_FROM:
+            if state is None and _is_nested(scaled.grid):
                 now, grid = coarser(scaled.now, scaled.grid)
                 state = prolonged(solve_film(now, grid, scaled.settings).state, scaled.grid.shape)
             return scaled.dry_start() if state is None else scaled.iterate(state)
+        if name == "flooded" and self.problem.supply is None and self.problem.first == 0:
+            now = replace(scaled.now, conserving=False, meniscus=None)
+            return scaled.iterate(solve_film(now, scaled.grid, scaled.settings, state, self.step).state)
         if name == "last" and self.best is not None:
             return self.best.iterate
         starts = {"dry": scaled.dry_start, "shared": scaled.shared_start, "film": scaled.lifted_start}
@@ -229,7 +254,17 @@ def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:
     """The same instant on a grid of half the nodes."""
     ease, thinned = (None if field is None else restrict(field) for field in (now.ease, now.thinned))
     instant = replace(now, heights=restrict(now.heights), limit=restrict(now.limit), ease=ease, thinned=thinned)
-    return instant, replace(grid, x=restrict(grid.x), y=restrict(grid.y))
+    alone = grid.periodic and grid.shape[0] == 1  # such a row stands for twice as much of a line
+    repeats = 0.5 * grid.repeats if alone else grid.repeats
+    return instant, replace(grid, x=restrict(grid.x), y=restrict(grid.y), repeats=repeats)
+
+
+def _is_nested(grid: Grid) -> bool:
+    """Whether a film on the grid begins on that of half its nodes."""
+    ny, nx = grid.shape
+    if grid.periodic and ny % 2:  # only a row alone has half its period
+        return ny == 1 and nx >= _NESTED_FROM
+    return min(ny, nx) >= _NESTED_FROM
 
 
 def prolonged(state: FilmState, shape: tuple[int, int]) -> FilmState:

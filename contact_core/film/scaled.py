@@ -119,7 +119,7 @@ class Scaled:
         film = self.contact.film
         if now.meniscus is not None:
             film = film_behind_meniscus(film, now.meniscus, self.a, now.shape.radius_x)
-        return film if now.supply is None else supplied_film(film, now.supply)
+        return film if now.supply is None else supplied_film(film, now.supply, resistance=now.shape.side_resistance)
 
     @property
     def moes_load(self) -> float:

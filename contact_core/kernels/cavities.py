@@ -18,8 +18,10 @@ from numba import njit
 
 _jit = njit(cache=True, nogil=True, error_model="numpy")
 
-_FADE = 4.0  # how fast the second order fades with the emptiness of the node upstream
-_LEAST = 0.5  # of a node's own mass that flows on at least: films that halve from node to node have no second order
+FADE = 4.0  # how fast the second order fades with the emptiness of the node upstream
+# of a node's mass that flows on at least: second order would let oil flow back where a film falls to under half of
+# itself from node to node. Limited next to cavities alone, nodes change sides for ever
+LEAST = 0.5
 
 
 @_jit
@@ -48,8 +50,8 @@ def carry(f, full, mass_old, e, per_dt, wedge, dx, conserving, supply, first, ma
             if i == 0:
                 most = 0.5 * (own + full[j, 1])
             else:
-                order = max(1.0 - _FADE * (1.0 - before), 0.0)
-                most = max(own + 0.5 * order * (own - full[j, i - 1]), _LEAST * own)
+                order = max(1.0 - FADE * (1.0 - before), 0.0)
+                most = max(own + 0.5 * order * (own - full[j, i - 1]), LEAST * own)
             theta = 1.0
             if conserving and (i == 0 or i < first):
                 theta = min(supply[j] / most, 1.0)

@@ -276,6 +276,8 @@ class _Direct(Iteration):
                 break
             shift = min(max(shift - (total - q.load) / rate, -max(_LARGEST_FALL * film, q.floor)), most)
         _carried(base, self.lever, shift, q.cap, q.edge, q.weight, q.wrapped, image)
+        if self.carried is not None and not image.any():  # nothing is full: the bodies approach until something is
+            shift = -_LARGEST_FALL * float(self.h.min())
         return shift
 
 

@@ -48,9 +48,9 @@ def influence(ny: int, nx: int) -> Array:
 def periodic_influence(ny: int, nx: int) -> Array:
     """Coefficients [ny // 2 + 1, nx] as those of `influence` for cells that are repeated every ny rows.
 
-    The sum over all rows is that of a line load, the integral of -2 ln |x| over a cell: the displacement, which has no
-    limit far away, is counted from that at the distance of one cell from a line. Periods beyond the first few are
-    summed by the midpoint rule of Euler and Maclaurin.
+    The sum over all rows is that of a line load, the integral of -2 ln |x| over a cell: displacements, which have no
+    limit far away, are counted from that at the distance of one cell from a line. The periods that are not summed one
+    by one follow from the midpoint rule of Euler and Maclaurin, to 1e-8.
     """
     j = np.arange(ny // 2 + 1)
     most = max(_PERIODS, -(-_LOVE_UP_TO // ny))
@@ -75,8 +75,9 @@ def _cells(rows: NDArray[Any], nx: int) -> NDArray[Any]:
 
 
 def _rest(distance: NDArray[Any], nx: int, period: int) -> NDArray[Any]:
-    """Sums [m, nx] over cells from `distance` [m] and half a period on, a period apart, for ever. They have no limit:
-    what is left out is that of a line, ln |y| / period.
+    """Sums [m, nx] of g = 1 / r + 1 / (24 r^3) over rows that lie 1/2, 3/2, ... periods beyond a `distance` [m]:
+    integral, first and third derivative. They grow like the logarithm of where they end; ln(twice that) / period is
+    left out.
     """
     x, y = np.arange(nx)[None, :], distance[:, None]
     r = np.hypot(x, y)

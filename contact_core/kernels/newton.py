@@ -12,18 +12,20 @@ elimination order: George, SIAM J. Numer. Anal. 10 (1973) 345, doi:10.1137/07100
 
 from collections.abc import Callable
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 import scipy
 from numba import njit
 from numpy.typing import NDArray
 
-from . import reynolds
+from . import cavities, reynolds, streaming
 from .band import band_inverse
 from .half_space import HalfSpace
-from .mixed import Iterate, Problem, Solution, shortfall
+from .mixed import Carried, Iterate, Problem, Solution, shortfall
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 Indices = NDArray[np.int64]
 
 _LINEAR_TOLERANCE = 1e-2
@@ -44,12 +46,8 @@ _jit = njit(cache=True, nogil=True, error_model="numpy")
 
 
 @_jit
-def _linearise(  # type: ignore[no-untyped-def]
-    f, solid, h, m, e, floor, mobility, thinned, fluidity, density, step, dx, rate, wedge, slope, by_f, by_h
-):
-    """Derivatives of the net inflow by fluid pressure and by gap on the stencil: by_f, by_h [6, ny, nx]. `slope`
-    [4, ny, nx] is scratch: dm/df, dm/dh, de/df, de/dh.
-    """
+def _slopes(f, solid, h, floor, mobility, thinned, fluidity, density, step, slope):  # type: ignore[no-untyped-def]
+    """Derivatives of what a full node holds and of its mobility, slope [4, ny, nx]: dm/df, dm/dh, de/df, de/dh."""
     ny, nx = f.shape
     for j in range(ny):
         for i in range(nx):
@@ -62,6 +60,12 @@ def _linearise(  # type: ignore[no-untyped-def]
             slope[0, j, i], slope[1, j, i] = d_rho * flow, rho * lift
             slope[2, j, i] = mobility[j, i] * flow**3 * (d_rho * phi + rho * d_phi)
             slope[3, j, i] = 3.0 * mobility[j, i] * rho * flow**2 * phi * lift
+
+
+@_jit
+def _linearise(f, e, dx, rate, wedge, slope, by_f, by_h):  # type: ignore[no-untyped-def]
+    """Derivatives of the net inflow by fluid pressure and by gap on the stencil: by_f, by_h [6, ny, nx]."""
+    ny, nx = f.shape
     half = 0.5 / (dx * dx)
     by_f[:], by_h[:] = 0.0, 0.0
     for j in range(1, ny - 1):
@@ -248,6 +252,7 @@ class _Film:
 
     def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate) -> None:
         self.half_space, self.problem = half_space, problem
+        self.carried = Carried(problem) if problem.by_flux else None
         self.p, self.f = np.clip(start.pressure, 0.0, problem.cap), start.fluid.copy()
         self.solid, self.rigid = start.solid.copy(), start.rigid
         _follow_edge(self.p, problem.edge, problem.wrapped)
@@ -273,14 +278,26 @@ class _Film:
         """Gap, contacts, fluid pressure under them, edge of the cavity and mass balance of the present pressure."""
         q, before, old = self.problem, self.solid.copy(), self.p.copy()
         self._pass()
-        rigid = 30.0 * self.half_space.near[0, 0] / q.spacing  # there the gap does not feel light pressures
-        balance = (self.e, self.mass, q.mass_old, q.per_dt, q.wedge, q.spacing)
-        _seek_cavity(self.f, self.p, self.solid, *balance, rigid, _LIGHT * self.p.max(), _SWEEPS_AT_CAVITY, q.wrapped)
-        _follow_edge(self.p, q.edge, q.wrapped)
+        if self.carried is None:
+            rigid = 30.0 * self.half_space.near[0, 0] / q.spacing  # there the gap does not feel light pressures
+            balance = (self.e, self.mass, q.mass_old, q.per_dt, q.wedge, q.spacing)
+            light = _LIGHT * self.p.max()
+            _seek_cavity(self.f, self.p, self.solid, *balance, rigid, light, _SWEEPS_AT_CAVITY, q.wrapped)
+            _follow_edge(self.p, q.edge, q.wrapped)
+            self._pass()
         self.sought = float(np.abs(self.p - old)[self.rows].sum())
-        self._pass()
-        reynolds.residual(self.f, self.solid, self.mass, q.mass_old, self.e, q.per_dt, q.wedge, q.spacing, self.r)
+        self._residual(self.solid, self.r)
         self.releases += before & ~self.solid
+
+    def _residual(self, solid: Mask, out: Array) -> None:
+        """Net inflow of every node that is full and not `solid`."""
+        q, flow = self.problem, self._flow
+        reynolds.residual(self.f, solid, self.mass, q.mass_old, self.e, q.per_dt, q.wedge, q.spacing, out, *flow)
+
+    @property
+    def _flow(self) -> tuple[Any, ...]:
+        carried = self.carried
+        return () if carried is None else (carried.flux, carried.filling, carried.first)
 
     def _pass(self) -> None:
         q, p, f, solid = self.problem, self.p, self.f, self.solid
@@ -289,26 +306,40 @@ class _Film:
         solid |= self.inner & (self.rigid + q.undeformed + deformation < _TOUCH * q.floor)
         if q.wrapped:
             reynolds.wrap(solid)
-        reynolds.film_pass(p, f, solid, q.undeformed, deformation, self.rigid, *oil, self.h, self.mass, self.e)
+        full, flux, first = self.mass, None, 1
+        if (carried := self.carried) is not None:
+            full, flux, first = carried.full, carried.flux, carried.first
+            cavities.close_inlet(p, f, solid, q.first)
+        reynolds.film_pass(p, f, solid, q.undeformed, deformation, self.rigid, *oil, self.h, full, self.e)
         solid &= self.inner  # the edge does not touch
         if q.wrapped:
             reynolds.wrap(solid)
         settled = solid & (self.releases >= _RELEASES)
+        if carried is not None:
+            carried.carry(f, self.e, self.mass)
         balance = (self.mass, q.mass_old, self.e, q.per_dt, q.wedge, q.spacing)
-        flow = (*oil, self.mass, None, 1, q.wrapped)
+        flow = (*oil, full, flux, first, q.wrapped)
         reynolds.fluid_under_contacts(p, f, solid, self.h, *balance, _SWEEPS_UNDER_CONTACTS, *flow)
+        if carried is not None:
+            carried.carry(f, self.e, self.mass)
         solid |= settled
 
     def correction(self) -> tuple[Array, Array, float] | None:
         """Newton's changes of pressure, gap [ny, nx] and rigid gap; None if there are none."""
         q, solid, near = self.problem, self.solid, self.half_space.near
         oil = (q.floor, q.mobility, q.thinned, q.fluidity, q.density, q.step)
-        by_f, by_h, scale = self.by_f, self.by_h, self.scale
-        _linearise(self.f, solid, self.h, self.mass, self.e, *oil, q.spacing, q.per_dt, q.wedge, self.slope, by_f, by_h)
+        by_f, by_h, scale, carried = self.by_f, self.by_h, self.scale, self.carried
+        _slopes(self.f, solid, self.h, *oil, self.slope)
+        if carried is None:
+            _linearise(self.f, self.e, q.spacing, q.per_dt, q.wedge, self.slope, by_f, by_h)
+        else:
+            film = (self.f, carried.full, self.e, self.slope)
+            in_time = (q.per_dt, q.wedge, q.spacing)
+            streaming.linearise(*film, carried.filling, *in_time, carried.first, by_f, by_h)
         yields = solid & (self.p >= q.cap) & (self.h < q.floor)
         wet = ((self.p > 0.0) | (self.r > 0.0)) & ~((self.p >= q.cap) & (self.r >= 0.0))
         nodes = self.order[np.where(solid, ~yields, wet).ravel()[self.order]]
-        size, shape = nodes.size, solid.shape
+        size, shape, change = nodes.size, solid.shape, np.empty(solid.shape)
         if size == 0:
             return None
         own = -(by_f[0] + by_h[0] * near[0, 0] + by_h[1] * near[0, 1])
@@ -317,8 +348,16 @@ class _Film:
         if inverse is None:
             return None
 
+        def product(df: Array, dh: Array, out: Array) -> None:
+            if carried is None:
+                _product(by_f, by_h, scale, nodes, solid, df, dh, out)
+                return
+            flow = (carried.flux, carried.filling, df, dh)
+            streaming.change(*film, *flow, *in_time, q.conserving, carried.first, change)
+            out[:] = (np.where(solid, dh, change) * scale).ravel()[nodes]
+
         lift = np.empty(size)
-        _product(by_f, by_h, scale, nodes, solid, np.zeros(shape), np.ones(shape), lift)
+        product(np.zeros(shape), np.ones(shape), lift)
         lifted = inverse(lift)
         weight = self.inner_weight.ravel()[nodes] / np.sqrt(q.load)
         lever = weight @ lifted
@@ -332,7 +371,7 @@ class _Film:
         def operator(x: Array) -> Array:
             dp, dh = spread(x)
             out = np.empty(size + 1)
-            _product(by_f, by_h, scale, nodes, solid, np.where(solid, 0.0, dp), dh, out)
+            product(np.where(solid, 0.0, dp), dh, out[:-1])
             out[-1] = weight @ x[:-1]
             return out
 
@@ -392,18 +431,17 @@ class _Film:
         total = max(float(p.sum()), 1e-300)
         intrusion = float((p * np.abs(q.floor - self.h))[below_cap].sum()) / (q.floor * total)
         inflow, nowhere = np.zeros_like(p), np.zeros_like(self.solid)
-        reynolds.residual(self.f, nowhere, self.mass, q.mass_old, self.e, q.per_dt, q.wedge, q.spacing, inflow)
+        self._residual(nowhere, inflow)
         film = (self.solid, self.h, self.mass, inflow, q.floor, q.spacing)
         imbalance = float(reynolds.imbalance(p, self.f, q.cap, *film))
+        if q.conserving:  # where the film forms, it carries nothing yet
+            light = np.abs(self.r[self.rows][p[self.rows] < _LIGHT * p.max()]).sum()
+            mean = float((p * self.mass).sum()) / total
+            imbalance += float(light) * q.spacing / (mean * self.r[self.rows].shape[0])
         change += self.sought / q.load
         why = shortfall(tolerance, change if whole else np.inf, load_error, intrusion, imbalance, q.per_dt > 0.0)
         iterate = Iterate(p, self.f, self.solid, self.rigid)
         return Solution(iterate, self.h, self.mass, not why, n, change, load_error, intrusion, imbalance, why)
-
-
-def is_applicable(problem: Problem) -> bool:
-    """Whether a film without pressure counts as full, and may have pressure everywhere."""
-    return not problem.by_flux
 
 
 def solve_newton(
@@ -411,11 +449,8 @@ def solve_newton(
 ) -> Solution:
     """Newton steps from `start` until a step of full length meets the rule of `shortfall` or `iterations` are spent.
 
-    Non-finite values never leave: what is returned is finite, or its `change` is infinite. ValueError if not
-    `is_applicable`.
+    Non-finite values never leave: what is returned is finite, or its `change` is infinite.
     """
-    if not is_applicable(problem):
-        raise ValueError("newton knows neither mass in cavities nor an inlet meniscus")
     film = _Film(half_space, problem, start)
     film.evaluate()
     found = film.assess(0, np.inf, False, tolerance)

@@ -17,8 +17,10 @@ class Flooded:
     layer: ClassVar[None] = None
     inlet: ClassVar[None] = None
 
-    def film(self, flooded: float, half_width: float, radius: float) -> float:
-        """Central film [m] of smooth bodies with this supply, from that of a flooded contact [m]."""
+    def film(self, flooded: float, half_width: float, radius: float, resistance: float) -> float:
+        """Central film [m] of smooth bodies with this supply, from that of a flooded contact [m], the half width of
+        Hertz's contact and the radius along entrainment [m], and the resistance to side flow (`supplied_film`).
+        """
         return flooded
 
 
@@ -38,9 +40,9 @@ class SupplyFilm:
         """Oil on both surfaces together before the contact [m]."""
         return self.thickness
 
-    def film(self, flooded: float, half_width: float, radius: float) -> float:
+    def film(self, flooded: float, half_width: float, radius: float, resistance: float) -> float:
         """Central film [m] of smooth bodies with this supply, from that of a flooded contact [m]."""
-        return supplied_film(flooded, self.thickness)
+        return supplied_film(flooded, self.thickness, resistance=resistance)
 
 
 @dataclass(frozen=True)
@@ -59,10 +61,8 @@ class Meniscus:
         """Distance of the inlet meniscus before the centre [m]."""
         return self.distance
 
-    def film(self, flooded: float, half_width: float, radius: float) -> float:
-        """Central film [m] of smooth bodies with this supply, from that of a flooded contact [m], the half width of
-        Hertz's contact and the radius along entrainment [m].
-        """
+    def film(self, flooded: float, half_width: float, radius: float, resistance: float) -> float:
+        """Central film [m] of smooth bodies with this supply, from that of a flooded contact [m]."""
         return film_behind_meniscus(flooded, self.distance, half_width, radius)
 
 

@@ -3,6 +3,7 @@
     hertz         dry contact of smooth bodies: points, lines
     point_films   film of smooth point contacts by formula
     line_films    film of smooth line contacts
+    starvation    film of contacts that are short of oil
     sliders       pressure and cavitation of a rigid roller
     squeeze       rigid bodies that approach each other through oil
     profiles      of rollers
@@ -22,6 +23,7 @@ from .point_films import SmoothContact, chittenden, hamrock_dowson, moes_film, n
 from .profiles import logarithmic_drop, lundberg_depth, rounded_drop
 from .sliders import ParabolicSlider
 from .squeeze import squeeze_line, squeeze_point, squeezed_line, squeezed_point
+from .starvation import film_behind_meniscus, supplied_film
 
 __all__ = [
     "Hertz",
@@ -34,6 +36,7 @@ __all__ = [
     "brewe_hamrock",
     "chittenden",
     "dowson_line",
+    "film_behind_meniscus",
     "ghanbarzadeh_thickness",
     "hamrock_dowson",
     "hertz_line",
@@ -56,5 +59,6 @@ __all__ = [
     "squeeze_point",
     "squeezed_line",
     "squeezed_point",
+    "supplied_film",
     "tian_kennedy_circle",
 ]

@@ -24,7 +24,7 @@ class Hertz:
     pressure_max: float  # [Pa]
     approach: float  # of points far away [m]
 
-    @property
+    @cached_property
     def area(self) -> float:
         """Contact area [m2]."""
         return math.pi * self.a * self.b
@@ -68,7 +68,7 @@ class HertzLine(Hertz):
     mean_share: ClassVar[float] = 0.25 * math.pi
     chord_share: ClassVar[float] = 1.0
 
-    @property
+    @cached_property
     def area(self) -> float:
         """Contact area [m2]."""
         return 4.0 * self.a * self.b

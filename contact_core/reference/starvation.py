@@ -1,5 +1,7 @@
 """Closed forms of starved films: how much of the flooded film is left when oil is short before the contact."""
 
+import math
+
 _SIDE_FLOW = 3.0  # resistance to side flow of circular contacts
 _NEAREST = 1e-9  # of a meniscus before Hertz's contact, in its half width: what lies nearer leaves as much
 
@@ -8,7 +10,8 @@ def supplied_film(flooded: float, supply: float, density: float = 1.0, resistanc
     """Central film [m] of a contact before which an oil layer [m] lies evenly on both surfaces together.
 
     h / h_flooded = r / (1 + r^g)^(1/g) with r = supply / (density h_flooded), density that at the centre relative to
-    p = 0, g the resistance to side flow: about 3 for circular contacts (2 to 5), up to 15 for wide ellipses.
+    p = 0, g the resistance to side flow: about 3 for circular contacts (2 to 5), up to 15 for wide ellipses. It is
+    infinite where none can flow there, of lines: what comes in goes through, up to the flooded film.
 
     Sources: Chevalier, Lubrecht, Cann, Colin & Dalmaz, J. Tribol. 120 (1998) 126, doi:10.1115/1.2834175; Damiens,
     Venner, Cann & Lubrecht, J. Tribol. 126 (2004) 105, doi:10.1115/1.1631020; g as in Lugt, Grease Lubrication in
@@ -16,6 +19,8 @@ def supplied_film(flooded: float, supply: float, density: float = 1.0, resistanc
     """
     if flooded <= 0.0:
         return 0.0
+    if resistance == math.inf:
+        return min(supply / density, flooded)
     r = supply / (density * flooded)
     return flooded * r * float((1.0 + r**resistance) ** (-1.0 / resistance)) if r < 1e3 else flooded
 

@@ -5,11 +5,14 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
+from contact_core import line_contact
+from contact_core.laws.density import DowsonHigginson
 from contact_core.laws.rheology import Carreau
 from contact_core.reference import (
     SmoothLine,
     bair_thinning_factor,
     dowson_line,
+    hertz_line,
     hertz_point,
     inlet_shear_factor,
     moes_film,
@@ -72,6 +75,22 @@ def test_two_formulas_of_line_contacts_agree_to_two_percent_where_bodies_deform_
     assert moes_line(contact) == pytest.approx(central, rel=0.02)
     assert moes_line(contact) / contact.radius / np.sqrt(1e-11) == pytest.approx(moes_line_film(load, lubricant))
     assert 0.65 < minimum / central < 0.8
+
+
+@pytest.mark.parametrize(("load", "speed"), [(2e5, 1.0), (5e5, 1.0), (2e5, 0.2)])
+def test_the_formula_is_that_of_incompressible_oils_and_compressed_ones_are_thinner_by_their_density(load, speed):
+    contact = SmoothLine(load, speed, 0.03, 18e-9, 0.01, 230e9)
+    case = {
+        "load": load, "radius": 0.01, "reduced_modulus": 230e9, "speed_1": speed, "speed_2": speed,
+        "viscosity": 0.03, "pressure_viscosity": 18e-9, "viscosity_law": "barus", "grid": 513,
+    }  # fmt: skip
+    full = line_contact(**case, density_law="none").h_central
+    dense = line_contact(**case, density_law="dowson_higginson").h_central
+    density = float(DowsonHigginson()(hertz_line(load, 0.01, 1.0, 230e9).pressure_max))
+    print(f"M, L = {contact.moes_parameters}: solved / formula {full / moes_line(contact):.3f}")
+    assert full == pytest.approx(moes_line(contact), rel=0.03)
+    assert full == pytest.approx(dowson_line(contact)[0], rel=0.03)
+    assert dense * density == pytest.approx(full, rel=0.04)
 
 
 @pytest.mark.parametrize(("load", "lubricant"), [(20.0, 5.0), (100.0, 10.0)])

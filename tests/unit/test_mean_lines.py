@@ -160,3 +160,18 @@ def test_along_a_face_films_are_rubbed_off_alike(model):
     assert films[0] == films[1] > 1e-9
     scene, _, _ = cheap()
     assert across_track(scene, scene.rows).shape == (33, 1)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.6, 1.0])
+def test_a_line_short_of_oil_has_the_film_that_comes_in(share):
+    """Nothing flows to the sides of a line; a circular contact loses some."""
+    kept = []
+    for changes in (LINE, {"film.model": "regression"}):
+        full, state, op = cheap(changes | SMOOTH)
+        film = now(full, op, state).h_c
+        layer = share * film / full.film.sharing.film_factor
+        oil = {"lubricant.supply.model": "film", "lubricant.supply.thickness": f"{layer!r} m"}
+        short, _, _ = cheap(changes | SMOOTH | oil | {"lubricant.cavitation": "mass_conserving"})
+        kept.append(now(short, op, state).h_c / film)
+    assert kept[0] > kept[1]
+    assert kept[0] == pytest.approx(share, rel=0.01)

@@ -108,6 +108,18 @@ def test_films_satisfy_the_equations(method, load, oil, rms, rows):
     assert (p * np.abs(found.gap[1:-1] - q.floor))[solid].sum() < 0.2 * q.floor * p.sum()
 
 
+@pytest.mark.parametrize("method", ["hybrid", "direct"])
+def test_cavities_that_hold_their_oil_move_with_the_roughness(method):
+    z = 0.3 * roughness(8, NX)
+    rough = (z, np.roll(z, 3, axis=0), np.tile(z, (2, 1)))
+    one, moved, twice = (solve(method, line(60.0, 8.0, NX, part), tolerance=1e-5, conserving=True) for part in rough)
+    cavity, mass = inner(one) <= 0.0, one.mass[1:-1]
+    assert (mass[cavity] < 0.9 * one.gap[1:-1][cavity]).any()  # not full
+    assert apart(np.roll(inner(one), 3, axis=0), inner(moved)) < 3e-5
+    assert apart(np.roll(mass, 3, axis=0), moved.mass[1:-1]) < 3e-5
+    assert apart(np.tile(mass, (2, 1)), twice.mass[1:-1]) < 3e-5
+
+
 def test_three_methods_agree_on_a_rough_film():
     case = line(20.0, 5.0, NX, 0.3 * roughness(4, NX))
     found = [solve(method, case) for method in ("newton", "hybrid", "direct")]
