@@ -70,9 +70,14 @@ REGIMES = (
     ),
     Regime(
         "roller",
-        (("multigrid", "none"), ("hybrid", "film"), ("hybrid", "nested"), ("hybrid", "last")),
+        (
+            ("multigrid", "none"),
+            ("multigrid", "none, damped"),
+            ("hybrid", "film"),
+            ("hybrid", "nested"),
+            ("hybrid", "last"),
+        ),
         clearance=(1e3, math.inf),
-        load=(50.0, math.inf),
         ends=True,
     ),
     Regime(
