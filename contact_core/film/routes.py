@@ -94,6 +94,20 @@ REGIMES = (
         rows=_SEVERAL,
     ),
     Regime(
+        "moderate line",
+        (
+            ("hybrid", "shared"),
+            ("newton", "film"),
+            ("hybrid", "smooth"),
+            ("newton", "last"),
+            *_LASTING,
+            ("direct", "film"),
+        ),
+        clearance=(0.03, math.inf),
+        load=(0.0, 300.0),
+        rows=_SEVERAL,
+    ),
+    Regime(
         "mixed line",
         (("hybrid", "shared"), ("hybrid", "smooth"), *_LASTING, ("direct", "film")),
         clearance=(0.03, math.inf),
