@@ -21,6 +21,8 @@ from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .scaled import Scaled
 
 _ALL = (0.0, math.inf)
+_SEVERAL = (2, math.inf)
+_LASTING = 4 * (("hybrid", "last"),)  # contacts that a log law ties together far across settle slowly
 _FULL_FILM = 3.0  # formula film over rms roughness from which on a dry contact means nothing
 _MOST_BEYOND = 0.3  # share of the load that may lie beyond the grid
 _NESTED_FROM = 65  # nodes along an axis from which on a film begins on the grid of half of them
@@ -44,7 +46,7 @@ class Regime:
     floors: tuple[float, float] = _ALL  # formula film of smooth bodies / floor
     clearance: tuple[float, float] = _ALL  # formula film of smooth bodies / rms roughness (smooth: infinite)
     load: tuple[float, float] = _ALL  # Moes' M, as `Scaled.moes_load`
-    rows: int | None = None  # of a periodic grid; None: any grid
+    rows: tuple[float, float] | None = None  # of a periodic grid; None: any grid
     by_flux: tuple[tuple[str, str], ...] = ()  # algorithms for cavities that conserve mass or a meniscus, if not those
     ends: bool = False  # whether it is for rollers alone
 
@@ -52,11 +54,12 @@ class Regime:
         """Whether a contact belongs to this row."""
         load, film = scaled.moes_load, scaled.film
         clearance = film / scaled.roughness if scaled.roughness > 0.0 else math.inf
-        if self.rows is not None and (not scaled.grid.periodic or self.rows != scaled.grid.shape[0]):
+        if self.rows is not None and not scaled.grid.periodic:
             return False
         if self.ends and not isinstance(scaled.now.shape, Roller):
             return False
-        pairs = ((self.floors, film / scaled.settings.floor), (self.clearance, clearance), (self.load, load))
+        rows = (self.rows or _ALL, scaled.grid.shape[0])
+        pairs = ((self.floors, film / scaled.settings.floor), (self.clearance, clearance), (self.load, load), rows)
         return all(low <= value <= high for (low, high), value in pairs)
 
 
@@ -64,9 +67,55 @@ REGIMES = (
     Regime("dry", (("hybrid", "dry"), ("direct", "last")), floors=(0.0, 0.5)),
     Regime(
         "line",
-        (("newton", "nested"), ("newton", "film"), ("newton", "dry"), ("direct", "film")),
-        clearance=(1e3, math.inf),
-        rows=1,
+        (
+            ("newton", "nested"),
+            ("newton", "film"),
+            ("newton", "dry"),
+            ("newton", "last"),
+            ("hybrid", "shared"),
+            ("direct", "film"),
+        ),
+        rows=(1, 1),
+    ),
+    Regime(
+        "clear line",
+        (("hybrid", "smooth"), ("newton", "film"), ("hybrid", "shared"), ("hybrid", "last"), ("direct", "film")),
+        clearance=(1.5, math.inf),
+        rows=_SEVERAL,
+    ),
+    Regime(
+        "light line",
+        (("newton", "film"), ("hybrid", "dry"), ("direct", "film"), ("direct", "shared")),
+        clearance=(0.03, math.inf),
+        load=(0.0, 50.0),
+        rows=_SEVERAL,
+    ),
+    Regime(
+        "rough line",
+        (("hybrid", "dry"), ("hybrid", "shared"), *_LASTING, ("direct", "film")),
+        clearance=(0.03, 0.2),
+        load=(0.0, 2000.0),
+        rows=_SEVERAL,
+    ),
+    Regime(
+        "moderate line",
+        (
+            ("hybrid", "shared"),
+            ("newton", "film"),
+            ("hybrid", "smooth"),
+            ("newton", "last"),
+            *_LASTING,
+            ("direct", "film"),
+        ),
+        clearance=(0.03, math.inf),
+        load=(0.0, 300.0),
+        rows=_SEVERAL,
+    ),
+    Regime(
+        "mixed line",
+        (("hybrid", "shared"), ("hybrid", "smooth"), *_LASTING, ("direct", "film")),
+        clearance=(0.03, math.inf),
+        rows=_SEVERAL,
     ),
     Regime(
         "roller",
@@ -244,10 +293,28 @@ class _Solver:
         if name == "flooded" and self.problem.supply is None and self.problem.first == 0:
             now = replace(scaled.now, conserving=False, meniscus=None)
             return scaled.iterate(solve_film(now, scaled.grid, scaled.settings, state, self.step).state)
+        if name == "smooth" and scaled.grid.periodic:
+            return self._above_smooth()
         if name == "last" and self.best is not None:
             return self.best.iterate
         starts = {"dry": scaled.dry_start, "shared": scaled.shared_start, "film": scaled.lifted_start}
         return starts[name]() if name in starts else None
+
+    def _above_smooth(self) -> Iterate | None:
+        """The film of smooth bodies, which are one row, in every row of rough ones."""
+        scaled, now = self.scaled, self.scaled.now
+        ny, nx = scaled.grid.shape
+        ease, thinned = (None if field is None else field.mean(axis=0)[None] for field in (now.ease, now.thinned))
+        row = replace(now, heights=np.zeros((1, nx)), limit=now.limit.max(axis=0)[None], ease=ease, thinned=thinned)
+        grid = replace(scaled.grid, y=np.zeros(1), repeats=scaled.grid.repeats * ny)
+        found = solve_film(row, grid, scaled.settings)
+        if found.route != "mixed":
+            return None
+        state = found.state
+        pressure, fluid, mass = (np.tile(field, (ny, 1)) for field in (state.pressure, state.fluid, state.mass))
+        nowhere = np.zeros((ny, nx), np.bool_)
+        rigid = state.rigid_gap
+        return scaled.iterate(FilmState(pressure, fluid, nowhere, mass, rigid))
 
 
 def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:
