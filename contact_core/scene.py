@@ -343,7 +343,8 @@ class Scene:
         if film.width > 0.0:
             return round(film.width / film.spacing) + 1
         if isinstance(self.geometry, RollerGeometry):
-            return 16 * math.ceil(_BESIDE * self.geometry.face_width / film.spacing / 16.0) + 1
+            step = max(16, (film.points - 1) // 4)  # such rows halve about as often as the nodes along x
+            return step * math.ceil(_BESIDE * self.geometry.face_width / film.spacing / step) + 1
         return film.points
 
     @property

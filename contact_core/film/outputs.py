@@ -39,7 +39,8 @@ def film_outputs(grid: Grid, state: FilmState, gap: Array, load: float, hertz: H
         "contact_area_ratio": float((solid_pressure > 0.0).sum()) * cell / hertz.area,
         "contact_load_ratio": float(solid_pressure.sum()) * cell / load,
         "pressure_max": float(state.pressure.max()),
-        "approach": -state.rigid_gap,
+        # the film of a periodic grid counts displacements from those a grid's length away
+        "approach": -state.rigid_gap + (hertz.approach_beyond(grid.x[-1] - grid.x[0]) if grid.periodic else 0.0),
     }
 
 

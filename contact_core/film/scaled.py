@@ -17,7 +17,7 @@ from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
 from ..kernels.mixed import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
 from ..reference.starvation import film_behind_meniscus, supplied_film
-from ..shapes import Line, Point, Roller, Shape
+from ..shapes import Point, Roller, Shape
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .outputs import disc
 
@@ -71,9 +71,8 @@ class Scaled:
         self.compliance = shape.softness(hertz, now.reduced_modulus) * thin ** (shape.order + 1)
         scale = self.compliance * 2.0 / np.pi**2 * self.dx
         self.half_space = half_space(grid.shape, scale, settings.fft)
-        if isinstance(shape, Line) and grid.periodic:  # displacements are counted from those a face's length away
-            far = max(shape.length / grid.spacing, grid.shape[1])
-            self.half_space = half_space(grid.shape, scale, settings.fft, far)
+        if grid.periodic:  # displacements are counted from those a grid's length away: the same on coarser grids
+            self.half_space = half_space(grid.shape, scale, settings.fft, float(grid.shape[1] - 1))
         self.cap = now.limit / self.p_unit
         if self.cap.sum() <= 1.01 * self.load:
             raise ConvergenceError(

@@ -55,6 +55,10 @@ class Hertz:
         root = times ** (1 / 3)
         return root, root
 
+    def approach_beyond(self, distance: float) -> float:
+        """Part of the approach [m] from beyond a distance [m] of the contact that a line makes: none of a point."""
+        return 0.0
+
     def approach_at(self, times: float) -> float:
         """Approach [m] under `times` this load."""
         root = times ** (1 / 3)
@@ -90,6 +94,10 @@ class HertzLine(Hertz):
     def growth(self, times: float) -> tuple[float, float]:
         """By how much `times` the load makes a and the pressure larger, and b."""
         return math.sqrt(times), 1.0
+
+    def approach_beyond(self, distance: float) -> float:
+        """Part of the approach [m] that an unending line makes beyond a distance [m] and up to its length."""
+        return self.approach * math.log(2.0 * self.b / distance) / (math.log(4.0 * self.b / self.a) + 0.5)
 
     def approach_at(self, times: float) -> float:
         """Approach [m] under `times` this load: the logarithm of `hertz_line` falls with a."""
