@@ -1,6 +1,7 @@
 """What solutions cost: smooth films cold, a warm step of moving roughness, the same cold."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import core_common
 import numpy as np
@@ -9,18 +10,19 @@ from matplotlib.figure import Figure
 
 from contact_core import Scene
 from contact_core.contact import instant_of
-from contact_core.film.fitted import Extent, fitted_grid
-from contact_core.film.instant import FilmState, Instant, Settings, Step
+from contact_core.film.fitted import Extent, fitted_grid, line_extent
+from contact_core.film.instant import FilmState, Grid, Instant, Settings, Step
 from contact_core.film.outputs import at_centre
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
 from contact_core.kernels.direct import solve_direct
 from contact_core.kernels.mixed import Iterate, Problem, Solution, advected, solve_mixed
 from contact_core.kernels.multigrid import extrapolated, solve_smooth
+from contact_core.laws.profile import Logarithmic, Rounded
 from contact_core.patches import bare_heights, contact_grid
 from contact_core.point_contact import point_contact
-from contact_core.reference import SmoothContact, nijenbanning_venner_moes
-from contact_core.shapes import Point
+from contact_core.reference import SmoothContact, hertz_point, nijenbanning_venner_moes
+from contact_core.shapes import Line, Point, Roller
 
 DOMAIN = (-4.5, 1.5, -3.0, 3.0)
 CASE = MoesCase(200, 10.0, "roelands", "dowson_higginson")
@@ -276,17 +278,18 @@ def cold_films(report: Report, scene: Scene, correlation: str, unit: float) -> t
 def shapes(report: Report) -> None:
     report.say(
         "### Shapes\n\nSteady films from nothing by `film/routes.py`, tolerance 1e-3, 129 nodes along the shorter side of a "
-        "grid that fits the film. Smooth: Moes' M = 100, L = 10 on R_x. Rough: case A (77.85 N, R_x 10 mm, 4 mPa s, 0.25 "
-        "m/s, cap 6 GPa) under waves of Rq 127 nm and correlation 20 um. A work unit here is that of 129 x 129 nodes, "
-        "times nodes / 129^2."
+        "grid that fits the film. Smooth: Moes' M = 100, L = 10 on R_x. Rough: case A (77.85 N, R_x 10 mm, 4 mPa s, "
+        "cap 6 GPa) at 1 m/s under waves of Rq 30 nm and correlation 40 um. Lines and rollers: case A's load on its "
+        "diameter, at 1 m/s; lines on a single row or 64 that repeat, rollers of 2 mm. A work unit here is that of "
+        "129 x 129 nodes, times nodes / 129^2."
     )
-    report.header("R_y/R_x", "bodies", "nodes [ny, nx]", "ms", "WU", "ns / node", "converged", "algorithm")
+    report.header("shape", "bodies", "nodes [ny, nx]", "ms", "WU", "ns / node", "converged", "algorithm")
     unit = unit_of(129)
     for ratio in RATIOS:
         bodies = Point(10e-3, ratio * 10e-3)
         for name, given, rq in (
             ("smooth", MoesCase(100.0, 10.0, ratio=ratio).arguments(), 0.0),
-            ("rough", CASE_A | {"radius_y": bodies.radius_y}, 127e-9),
+            ("rough", CASE_A | {"radius_y": bodies.radius_y, "speed_1": 1.0, "speed_2": 1.0}, 30e-9),
         ):
             oil = given["viscosity"], given["pressure_viscosity"]
             contact = SmoothContact(
@@ -294,12 +297,50 @@ def shapes(report: Report) -> None:
             )
             extent = Extent.of(bodies, given["load"], given["reduced_modulus"], contact.film)
             grid = extent.grid(*((129, 129) if ratio == 1.0 else extent.shape()))
-            heights = waves(grid.x, grid.y, rq, 20e-6, 1)
-            now = core_common.instant_of(given, heights, 6e9)
-            film, seconds = timed(lambda now=now, grid=grid: solve_film(now, grid, SETTINGS), 3)
-            share = heights.size / 129**2
-            cost = 1e3 * seconds, seconds / unit / share, 1e9 * seconds / heights.size
-            report.row(ratio, name, grid.shape, *cost, film.converged, film.algorithm)
+            heights = waves(grid.x, grid.y, rq, 40e-6, 1)
+            cost_of_shape(report, f"R_y/R_x = {ratio:g}", name, core_common.instant_of(given, heights, 6e9), grid, unit)
+    per_length = 77.85 / 2.0 / hertz_point(77.85, 10e-3, 10e-3, 230.47e9).a  # that of case A, on its diameter
+    for name, rows, nodes, rq in (("smooth", 1, 257, 0.0), ("rough", 64, 129, 30e-9)):
+        line = Line(10e-3, 10e-3)
+        load = per_length * line.length
+        given = CASE_A | {"speed_1": 1.0, "speed_2": 1.0}
+        left, right = line_extent(line, load, 230.47e9, line.film(load, 1.0, 0.004, 14.94e-9, 230.47e9))
+        spacing = (left + right) / (nodes - 1)
+        x = np.arange(nodes) * spacing - left
+        grid = Grid(x, np.arange(rows) * spacing, periodic=True, repeats=line.length / (rows * spacing))
+        now = core_common.instant_of(given, repeating(grid, rq), 6e9)
+        cost_of_shape(report, "line", name, replace(now, shape=line, load=load), grid, unit)
+    for name, profile in (("logarithmic", Logarithmic(3e-6)), ("rounded", Rounded(1.5e-3, 20e-3))):
+        roller = Roller(10e-3, 2e-3, profile)
+        spacing = (left + right) / 128.0
+        x, y = np.arange(129) * spacing - left, (np.arange(16 * round(2.04e-3 / spacing / 16) + 1)) * spacing
+        grid = Grid(x, y - 0.5 * y[-1])
+        now = core_common.instant_of(given, np.zeros(grid.shape), 6e9)
+        now = replace(now, shape=roller, load=per_length * roller.length)
+        cost_of_shape(report, "roller, smooth", name, now, grid, unit)
+
+
+def repeating(grid: Grid, rq: float) -> np.ndarray:
+    """Heights of an rms [m] in waves of 40 um that fit the period of the grid's rows."""
+    if rq == 0.0:
+        return np.zeros(grid.shape)
+    period, random = grid.spacing * grid.shape[0], np.random.default_rng(1)
+    heights = np.zeros(grid.shape)
+    for k in range(round(2.0 * period / 40e-6) + 1):
+        for kx in random.normal(0.0, np.sqrt(2.0) / 40e-6, 20):
+            weight = np.exp(-((np.pi * k * 40e-6 / period) ** 2) / 2.0)
+            across = 2.0 * np.pi * k * grid.y / period + random.uniform(0.0, 2.0 * np.pi)
+            heights += weight * np.cos(kx * grid.x[None, :] + across[:, None])
+    return rq * heights / heights.std()
+
+
+def cost_of_shape(report: Report, shape: str, name: str, now: Instant, grid: Grid, unit: float) -> None:
+    """A row of the table of shapes."""
+    solve_film(now, grid, SETTINGS)  # plans and compiled code
+    film, seconds = timed(lambda: solve_film(now, grid, SETTINGS), 3)
+    nodes = now.heights.size
+    cost = 1e3 * seconds, seconds / unit / (nodes / 129**2), 1e9 * seconds / nodes
+    report.row(shape, name, grid.shape, *cost, film.converged, film.algorithm)
 
 
 def run() -> None:

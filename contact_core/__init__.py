@@ -12,8 +12,8 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     reading      TOML to records and back, with did-you-mean
     state        ContactState, Outputs, RangeFlag, serialisation
     surfaces     roughness: generation and statistics
-    laws/        viscosity, density, rheology, plasticity, boundary friction, heat, bulk temperature, tribofilm, wear,
-                 load sharing of the fast level
+    laws/        viscosity, density, rheology, supply of oil, plasticity, boundary friction, heat, bulk temperature,
+                 tribofilm, wear, load sharing of the fast level
     film/        fluid and solid pressure of one instant: units, grids, the table of algorithms (routes), error estimate
     kernels/     numba and FFT: arrays in, arrays out
     point_contact, line_contact, dry_contact   one call each, without a scene; call: what they share
@@ -34,7 +34,7 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     advance      advance: the evolution over time; uncertainty: how sure its outputs are
     warming      warm_up: loads what the first steps of a scene need
     tracks       the rubbed surfaces as they are, for profiles and pictures
-    reference/   closed forms: Hertz, films of points and lines, heat, wear
+    reference/   closed forms: Hertz, films of points and lines, starvation, heat, wear
     data/        named oils, solids and tribofilms, and the shipped scenes
     checksum     of bytes joined from parts whose checksums are known
     errors       what can go wrong, each message with a way out

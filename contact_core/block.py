@@ -33,6 +33,7 @@ from .following import follow, rough_speed
 from .laws.tribofilm import thickness
 from .patches import moved_nodes, rolled, widened, yielded
 from .scene import OperatingPoint, Scene
+from .shapes import Line
 from .state import Body, ContactState, RangeFlag
 from .surfaces import groove_free
 from .sweep import Sweep
@@ -170,8 +171,8 @@ def _wide_enough(scene: Scene, state: ContactState) -> ContactState:
 
 
 def _worn_at_the_edge(scene: Scene, state: ContactState) -> bool:
-    if scene.shape().periodic:
-        return False  # there is none
+    if isinstance(scene.shape(), Line):
+        return False  # there is none, or it lies beyond the roller's ends
     rows = [*range(_EDGE), *range(-_EDGE, 0)]
     return any(body.wear[rows].max() > 1e-3 * body.wear.max() for body in state.bodies)
 

@@ -43,6 +43,8 @@ def follow(
     try:
         fields = solve(scene, op, state, Transient(dt, moved, iterations, order=order, thorough=True))
     except FilmTooWideError as error:
+        if op.entrainment_speed == 0.0:  # nothing would bring the oil back
+            raise
         return _open(scene, op, state, str(error))
     return yielded(scene, replace(state, film=fields.film), fields.overlap), fields
 

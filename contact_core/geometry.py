@@ -23,6 +23,7 @@ class PointGeometry(_Bodies):
 
     name: ClassVar[str] = "point"
     source: ClassVar[str] = ""
+    lacks: ClassVar[frozenset[str]] = frozenset()  # quantities that mean nothing to it
 
     radius_y: float = input_parameter("radius_y")
 
@@ -37,6 +38,7 @@ class LineGeometry(_Bodies):
 
     name: ClassVar[str] = "line"
     source: ClassVar[str] = ""
+    lacks: ClassVar[frozenset[str]] = frozenset({"radius_y", "spin", "spin_torque"})
 
     face_width: float = parameter("m", "length of the line that carries the load", above=0.0, most=10.0)
 
@@ -51,8 +53,9 @@ class RollerGeometry(_Bodies):
 
     name: ClassVar[str] = "roller"
     source: ClassVar[str] = ""
+    lacks: ClassVar[frozenset[str]] = frozenset({"radius_y"})
 
-    face_width: float = parameter("m", "length of the roller, ends included", above=0.0, most=10.0)
+    face_width: float = parameter("m", "length of the roller, ends included", above=0.0, most=10.0, shapes_arrays=True)
     profile: Rounded | Logarithmic
 
     def shape(self, radius_x: float | None = None, radius_y: float | None = None) -> Shape:

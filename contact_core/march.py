@@ -48,6 +48,7 @@ def march(scene: Scene, state: ContactState, duty: Duty, times: Sequence[float],
     as keep them from moving on by more than a node. The first instant is the film of `state` where it has one, else a
     steady film, or a dry contact at rest. Without a load, and where a film would be too wide for the grid, the contact
     is open, says so (`fields.route`, `fields.shortfall`) and forgets its film; the next load begins anew.
+    Bodies at rest whose film is too wide raise FilmTooWideError, since nothing would bring the oil back.
 
     order: of the squeeze term in time. Raises OperatingPointError for values that cannot be used.
     """

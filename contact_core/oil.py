@@ -57,6 +57,7 @@ def warmed(
             speeds=(op.speed_1, op.speed_2),
             bodies=op.bodies,
             oil_conductivity=scene.lubricant.conductivity,
+            face=film.grid.repeats * film.grid.shape[0] * film.grid.spacing if film.grid.periodic else None,
         )
         warm = law.temperatures(rubbing)
         if not law.warms_film:

@@ -85,9 +85,8 @@ def build(cls: type, table: Any, path: str) -> Any:
     for key in table:
         if key not in known:
             where = f"[{path}]" if path else "The scene"
-            raise SceneError(
-                f"{where} has no key '{key}'.{did_you_mean(key, list(known))} Known are {', '.join(known)}."
-            )
+            hint = _elsewhere(cls, key, path) or did_you_mean(key, list(known))
+            raise SceneError(f"{where} has no key '{key}'.{hint} Known are {', '.join(known)}.")
     values = {}
     for name, f in known.items():
         full = f"{path}.{name}" if path else name
@@ -97,6 +96,12 @@ def build(cls: type, table: Any, path: str) -> Any:
             raise SceneError(f"'{full}' is missing. {_hint(f)}")
         values[name] = _value(hints[name], table[name], full, f)
     return cls(**values)
+
+
+def _elsewhere(cls: type, key: str, path: str) -> str:
+    """Which other models of a table have a key that `cls` does not have."""
+    others = [f"'{law.name}'" for law in models_of(path) if key in {f.name for f in fields(law)}]  # type: ignore[attr-defined]
+    return f" It belongs to model = {' or '.join(others)}, not to '{cls.name}'." if others else ""  # type: ignore[attr-defined]
 
 
 def _value(hint: Any, raw: Any, full: str, f: "Field[Any]") -> Any:

@@ -370,7 +370,7 @@ class Scene:
         own, hertz, shape = self.hertz(op.load), self.hertz_at(op), self.shape(op)
         radii = " and ".join(f"{name} = {value:g} m" for name, value in _radii(shape))
         said = f"At {op.load:g} N {radii} make a Hertz"
-        for half, before, room in zip((hertz.a, hertz.b), (own.a, own.b), self._room(), strict=True):
+        for half, before, room in zip((hertz.a, hertz.b), (own.a, own.b), self.room, strict=True):
             if half > max(room, before):  # in proportion to the radii's power `power`
                 most = (room / half) ** (1.0 / shape.power)
                 return (
@@ -388,7 +388,8 @@ class Scene:
             )
         return ""
 
-    def _room(self) -> tuple[float, float]:
+    @property
+    def room(self) -> tuple[float, float]:
         """Largest half widths [m] of Hertz's contact along x and y that the grid has room for."""
         across = (
             math.inf if not isinstance(self.geometry, PointGeometry) else (self.rows - 1) * self.film.spacing / _ROOM
@@ -424,7 +425,7 @@ class Scene:
     def _shape_errors(self) -> Iterator[tuple[str, str]]:
         load, plasticity = self.largest_load, self.plasticity
         hertz = self.hertz(load)
-        for name, half, room in zip(("domain", "width"), (hertz.a, hertz.b), self._room(), strict=True):
+        for name, half, room in zip(("domain", "width"), (hertz.a, hertz.b), self.room, strict=True):
             if half > room:
                 name = name if self.film.width > 0.0 else "domain"
                 yield (
@@ -440,8 +441,6 @@ class Scene:
                 f"film.width = {self.film.width:g} m is too small: the ends of geometry.face_width = "
                 f"{self.geometry.face_width:g} m must lie on the grid. Use at least {_BESIDE:g} times that, or 0.",
             )
-        if isinstance(self.geometry, LineGeometry) and self.heat.name == "field":
-            yield "heat", "heat.model = 'field' knows no line that repeats itself. Use 'flash', or a roller."
         if hertz.pressure_max >= plasticity.hardness:
             yield (
                 "hardness",

@@ -10,6 +10,7 @@ import numpy as np
 
 import contact_core
 from contact_core.film import Deterministic, Regression
+from contact_core.geometry import LineGeometry, PointGeometry, RollerGeometry
 from contact_core.laws.load_sharing import flattening_of, rms_slope
 from contact_core.scene import Scene
 from contact_core.state import RangeFlag
@@ -108,14 +109,19 @@ def _contact(scene: Scene) -> Iterator[str]:
         "real contact, friction, the growth of a tribofilm where they rub, wear, and the roughness that results. "
         f"It starts at the level film.model = '{scene.film.name}': "
         + (
-            f"fields on {scene.film.points} x {scene.film.points} nodes over {_number(1e3 * scene.film.domain, 'mm')}."
+            f"fields on {scene.film.points} nodes along x and {scene.rows} along y, "
+            f"{_number(1e6 * scene.film.spacing, 'µm')} apart."
             if scene.film.name == "deterministic"
             else "means of both surfaces, with curves of load sharing fitted to the deterministic level."
         )
         + f" The parameter {FIDELITY} changes the level at any step; this page is about the one at the start."
     )
     rows = [
-        ("radii of combined curvature along x and y", _numbers(1e3, scene.radii(point), "mm")),
+        *(
+            (f"radius of combined curvature along {axis}", _number(1e3 * radius, "mm"))
+            for axis, radius in zip("xy", scene.radii(point), strict=False)
+        ),
+        *_face(scene),
         ("reduced modulus E′ = 2/[(1 − ν₁²)/E₁ + (1 − ν₂²)/E₂]", _number(1e-9 * scene.solids.reduced_modulus, "GPa")),
         *(
             (
@@ -127,7 +133,8 @@ def _contact(scene: Scene) -> Iterator[str]:
         ("point of reference: load", _number(point.load, "N")),
         ("speeds of body 1 and 2", _numbers(1.0, (point.speed_1, point.speed_2), "m/s")),
         ("oil temperature", _number(point.temperature - _CELSIUS, "°C")),
-        ("Hertz: half widths along x and y", _numbers(1e6, (hertz.a, hertz.b), "µm")),
+        ("Hertz: half width along x", _number(1e6 * hertz.a, "µm")),
+        *([("Hertz: half width along y", _number(1e6 * hertz.b, "µm"))] if _is_point(scene) else []),
         ("Hertz: largest pressure", _number(1e-9 * hertz.pressure_max, "GPa")),
     ]  # fmt: skip
     yield table(("", "this scene"), rows)
@@ -136,16 +143,35 @@ def _contact(scene: Scene) -> Iterator[str]:
         yield from bullets(scene.warnings())
 
 
+def _is_point(scene: Scene) -> bool:
+    return isinstance(scene.geometry, PointGeometry)
+
+
+def _face(scene: Scene) -> Iterator[tuple[str, str]]:
+    """What the loads and outputs of a line contact are meant for."""
+    if isinstance(scene.geometry, PointGeometry):
+        return
+    yield "face width, on all of which load and outputs lie", _number(1e3 * scene.geometry.face_width, "mm")
+    if isinstance(scene.geometry, LineGeometry) and scene.film.name == "deterministic":
+        period = _number(1e3 * scene.rows * scene.film.spacing, "mm")
+        yield "part of it that is solved and repeats itself", period
+
+
 def _signs(scene: Scene) -> Iterator[str]:
     yield drawings.SIGNS
+    spins = "spin" not in scene.geometry.lacks
     yield from bullets(
         (
             "x is the direction of entrainment. Speeds are those of the surfaces along x, relative to the contact.",
             "friction_force acts on body 1 along +x, the opposite on body 2. friction_coefficient is its size over the "
             "load, 0 without load.",
-            "spin is that of body 1 relative to body 2 and turns x towards y; spin_torque acts on body 1 that way.",
-            "power_loss = −friction_force (speed_1 − speed_2) − spin_torque spin. It is never negative, and the bodies "
-            "take it up: heat_flow_1 + heat_flow_2.",
+            *(
+                ["spin is that of body 1 relative to body 2 and turns x towards y; spin_torque acts on it that way."]
+                if spins
+                else []
+            ),
+            f"power_loss = −friction_force (speed_1 − speed_2){' − spin_torque spin' if spins else ''}. It is never "
+            "negative, and the bodies take it up: heat_flow_1 + heat_flow_2.",
             "The derivatives of friction_force are total."
             if isinstance(scene.film, Regression)
             else "The derivatives of friction_force are those at a held film: pressures grow with the load, the gap "
@@ -157,10 +183,14 @@ def _signs(scene: Scene) -> Iterator[str]:
 def _equations(scene: Scene) -> Iterator[str]:
     yield paragraph("The laws in use, each with its source. Symbols of a law are named with its parameters below.")
     level, film = scene.film.name, scene.film
-    for title, lines, sentence in equations.GOVERNING[level]:
+    governing = equations.GOVERNING[level] + equations.OF_SHAPE[level, scene.geometry.name]
+    for title, lines, sentence in governing:
         yield f"<h3>{title}</h3>"
         yield from _formula(lines, sentence)
     if isinstance(film, Deterministic):
+        lines, sentence = equations.CAVITATION[scene.lubricant.cavitation]
+        yield f"<h3>Oil under tension: lubricant.cavitation = {scene.lubricant.cavitation}</h3>"
+        yield from _formula(lines, sentence)
         lines, sentence = equations.SHARING[film.criterion]
         yield f"<h3>Solids and oil share the load: film.criterion = {film.criterion}</h3>"
         yield from _formula(lines, sentence)
@@ -206,23 +236,33 @@ def _validity(scene: Scene) -> Iterator[str]:
         "range_flags says what makes an answer less sure. This scene, at its point of reference:"
     )
     yield table(("", "here", "meaning"), _standing(scene))
-    yield paragraph(
-        "Not in the model: starvation, line contacts, heat carried along by moving asperities (temperatures are "
-        "steady), wander of the bodies across the track."
-    )
+    yield paragraph(f"Not in the model: {', '.join(_left_out(scene))}.")
+
+
+def _left_out(scene: Scene) -> Iterator[str]:
+    """What a user might look for in vain."""
+    if scene.lubricant.supply.name == "flooded":
+        yield "starvation (lubricant.supply = flooded: the inlet is full)"
+    if isinstance(scene.geometry, LineGeometry):
+        yield "the ends of the face, and misalignment"
+    if isinstance(scene.geometry, RollerGeometry):
+        yield "misalignment"
+    yield "heat carried along by moving asperities (temperatures are steady)"
+    yield "wander of the bodies across the track"
 
 
 def _standing(scene: Scene) -> Iterator[tuple[str, str, str]]:
     """Where the scene stands in the ranges of the model: what, value, what it means."""
     hertz, spacing, load = scene.hertz(scene.operation.load), scene.film.spacing, scene.operation.load
-    hardest = load * (scene.plasticity.hardness / hertz.pressure_max) ** 3
+    steeper = 1.0 / scene.shape().power  # half widths and pressure grow with the load to that power
+    hardest = load * (scene.plasticity.hardness / hertz.pressure_max) ** steeper
     yield "load", f"below {_number(hardest, 'N')}", "there Hertz's pressure of smooth bodies reaches the hardness"
     yield from _smooth_film(scene)
     if isinstance(scene.film, Regression):
         yield from _fitted(scene, scene.film)
     else:
-        wide = load * (scene.film.domain / (2.4 * max(hertz.a, hertz.b))) ** 3
-        few = load * (4.0 * spacing / hertz.a) ** 3
+        wide = load * min(room / half for room, half in zip(scene.room, (hertz.a, hertz.b), strict=True)) ** steeper
+        few = load * (4.0 * spacing / hertz.a) ** steeper
         yield "load on this grid", f"{_number(few)} to {_number(wide, 'N')}", "8 nodes across the contact to all of it"
     for i, surface in ((1, scene.surface_1), (2, scene.surface_2)):
         if surface.rq > 0.0:
@@ -238,9 +278,13 @@ def _smooth_film(scene: Scene) -> Iterator[tuple[str, str, str]]:
     if smooth.entrainment_speed == 0.0:
         yield "film of the smooth bodies", "none", "nothing entrains oil: the contact is dry"
         return
-    film = smooth.film
+    hertz, supply = scene.hertz(scene.operation.load), scene.lubricant.supply
+    film = supply.film(smooth.film, hertz.a, scene.geometry.radius_x, scene.shape().side_resistance)
+    by = "Nijenbanning, Venner and Moes" if _is_point(scene) else "Moes for lines"
     yield "Moes' M and L", ", ".join(map(_number, smooth.moes_parameters)), "numbers of load and lubricant"
-    yield "film of the smooth bodies", _number(1e9 * film, "nm"), "by the formula of Nijenbanning, Venner and Moes"
+    yield "flooded film of the smooth bodies", _number(1e9 * smooth.film, "nm"), f"by the formula of {by}"
+    if supply.name != "flooded":
+        yield "film that the supply leaves", _number(1e9 * film, "nm"), supply.source
     sigma = math.hypot(scene.surface_1.rq, scene.surface_2.rq)
     if sigma > 0.0:
         yield "λ = that over composite roughness", _number(film / sigma), "the smaller, the more the solids carry"
@@ -251,12 +295,14 @@ def _fitted(scene: Scene, film: Regression) -> Iterator[tuple[str, str, str]]:
     first, second = scene.surface_1, scene.surface_2
     slope = rms_slope(first.rq, first.correlation_length, second.rq, second.correlation_length)
     rougher = max(first, second, key=lambda surface: surface.rq)
-    pressure = 2.0 / 3.0 * scene.hertz(scene.operation.load).pressure_max
+    pressure = scene.hertz(scene.operation.load).pressure_mean
     here = {
         "clearance": "see above",
         "flattening": _number(flattening_of(pressure, scene.solids.reduced_modulus, slope)) if slope > 0.0 else "none",
         "resolution": _number(rougher.correlation_length / film.spacing),
     }
+    if not _is_point(scene):
+        yield "shape of the fit", "none", "fitted to circular contacts; what it says of lines is a guess"
     symbols = {"clearance": "λ", "flattening": "s", "resolution": "r"}
     for name, (low, high) in film.sharing.FITTED.items():
         yield f"{symbols[name]} of the fit", here[name], f"fitted from {low:g} to {high:g}"

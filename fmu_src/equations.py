@@ -11,7 +11,7 @@ GOVERNING: dict[str, tuple[tuple[str, Lines, str], ...]] = {
                 "∂/∂x [ρ h^3/(12 η) ∂p_f/∂x] + ∂/∂y [ρ h^3/(12 η) ∂p_f/∂y] = u_e ∂(ρ h)/∂x + ∂(ρ h)/∂t",
                 "p_f ≥ 0,   u_e = (u_1 + u_2)/2",
             ),
-            "At every node, with the squeeze of the passing roughness; oil that would be under tension cavitates.",
+            "At every node, with the squeeze of the passing roughness.",
         ),
         (
             "Gap",
@@ -19,20 +19,62 @@ GOVERNING: dict[str, tuple[tuple[str, Lines, str], ...]] = {
             "g is the gap of the undeformed bodies (geometry), z are the heights of both surfaces as they are now, "
             "tribofilm, wear and plastic depth included.",
         ),
+    ),
+    "regression": (),
+}
+
+# The part of it that is a matter of the shape.
+_HALF_SPACE = (
+    "Elastic deformation (half space)",
+    ("d(x, y) = 2/(π E′) ∬ p(x′, y′) [(x − x′)^2 + (y − y′)^2]^{−1/2} dx′ dy′",),
+    "p is the pressure of oil and solids together.",
+)
+_LOAD = ("Load balance", ("W = ∬ p dx dy",), "It decides the rigid gap h0.")
+_SMOOTH_LINE = (
+    "Film of the smooth bodies",
+    ("h_s = R_x U^{1/2} H(M, L),   λ = h_s/σ",),
+    "H is Moes' formula of line contacts over all regimes, σ the composite rms roughness now; thinned in the inlet "
+    "where heat.inlet_shear or lubricant.flow ask for it, and starved as lubricant.supply says.",
+)
+OF_SHAPE: dict[tuple[str, str], tuple[tuple[str, Lines, str], ...]] = {
+    ("deterministic", "point"): (_HALF_SPACE, _LOAD),
+    ("deterministic", "roller"): (_HALF_SPACE, _LOAD),
+    ("deterministic", "line"): (
         (
             "Elastic deformation (half space)",
-            ("d(x, y) = 2/(π E′) ∬ p(x′, y′) [(x − x′)^2 + (y − y′)^2]^{−1/2} dx′ dy′",),
-            "p is the pressure of oil and solids together.",
+            (
+                "d(x, y) = 2/(π E′) Σ_{k} ∬ p(x′, y′) {[(x − x′)^2 + (y − y′ − k w)^2]^{−1/2} − d_k} dx′ dy′",
+                "d̄(x) = −4/(π E′) ∫ p̄(x′) ln(|x − x′|/b) dx′",
+            ),
+            "p is the pressure of oil and solids together, which repeats itself along y with the period w. A line has "
+            "no approach of its own: the datum dk is such that the means over a period deform as the second line "
+            "says, counted from a face width b away.",
         ),
-        ("Load balance", ("W = ∬ p dx dy",), "It decides the rigid gap h0."),
+        ("Load balance", ("W = (b/w) ∬ p dx dy",), "Over one period. It decides the rigid gap h0."),
     ),
-    "regression": (
+    ("regression", "point"): (
         (
             "Film of the smooth bodies",
             ("h_s = R_x U^{1/2} H(M, L, R_x/R_y),   λ = h_s/σ",),
             "H is the formula of Nijenbanning, Venner and Moes over all regimes, σ the composite rms roughness now; "
-            "thinned in the inlet where heat.inlet_shear or lubricant.flow ask for it.",
+            "thinned in the inlet where heat.inlet_shear or lubricant.flow ask for it, and starved as lubricant.supply "
+            "says.",
         ),
+    ),
+    ("regression", "line"): (_SMOOTH_LINE,),
+    ("regression", "roller"): (_SMOOTH_LINE,),
+}
+
+# What becomes of oil that would be under tension, by lubricant.cavitation at the deterministic level.
+CAVITATION: dict[str, tuple[Lines, str]] = {
+    "reynolds": (
+        ("p_f = 0 where it would be negative",),
+        "The gap counts as full there, so that oil comes from nowhere behind a cavity (Reynolds' outlet).",
+    ),
+    "mass_conserving": (
+        ("p_f ≥ 0,   0 ≤ θ ≤ 1,   p_f (1 − θ) = 0", "ρ h → θ ρ h in entrainment and squeeze"),
+        "θ is how much of the gap oil fills. What flows into a cavity flows out of it (Jakobsson, Floberg, Olsson; "
+        "Elrod).",
     ),
 }
 
@@ -70,8 +112,8 @@ FRICTION: dict[str, tuple[Lines, str]] = {
             "F = −(μ W_c W + ⟨τ_{oil}⟩ A_{oil}) (u_1 − u_2)/|u_1 − u_2|",
             "τ_N = η(p, T) |u_1 − u_2|/h_c",
         ),
-        "⟨τ⟩ is the oil's mean stress under Hertz's pressure; A is the part of Hertz's area on which oil carries load, "
-        "A = (1 − Wc) π a b / [1 + K (0.2/s) exp(−λ)].",
+        "⟨τ⟩ is the oil's mean stress under Hertz's pressure; A is the part of Hertz's area A H on which oil carries "
+        "load, A = (1 − Wc) A H / [1 + K (0.2/s) exp(−λ)].",
     ),
 }
 

@@ -59,8 +59,8 @@ _NAMESPACE = "http://fmi-standard.org/fmi-ls-manifest"
 
 def reference(scene: Scene) -> dict[str, bytes]:
     """Name and content of every file of the reference data. Solves the contact at five operating points."""
-    points = _points(scene)
-    inputs = [vars(point) for point in points]
+    points, names = _points(scene), [v.name for v in variables(scene) if v.causality == "input"]
+    inputs = [{name: getattr(point, name) for name in names} for point in points]
     outputs = [{name: found[name] + 0.0 for name in COMPARED} for found in _outputs(scene, points)]  # + 0.0: no -0
     return {
         f"{FOLDER}/fmi-ls-manifest.xml": _manifest(),

@@ -45,10 +45,11 @@ class Variable:
 def variables(scene: Scene) -> tuple[Variable, ...]:
     """Inputs, parameters and outputs of a scene's FMU. Index + 1 is the index of the model description.
 
-    What the scene's level cannot tell is absent.
+    What the scene's level cannot tell, or means nothing to its geometry, is absent.
     """
+    lacks = scene.geometry.lacks
     return (
-        *(_quantity(q, "input", _start(scene, q.name)) for q in INPUTS),
+        *(_quantity(q, "input", _start(scene, q.name)) for q in INPUTS if q.name not in lacks),
         *(_parameter(name, value, field) for name, (value, field) in tunables(scene).items()),
         Variable(
             FIDELITY,
@@ -75,7 +76,7 @@ def variables(scene: Scene) -> tuple[Variable, ...]:
             "parameter",
             "",
         ),
-        *(_quantity(q, "output", ZERO[q.kind]) for q in OUTPUTS if scene.film.name in q.levels),
+        *(_quantity(q, "output", ZERO[q.kind]) for q in OUTPUTS if scene.film.name in q.levels and q.name not in lacks),
     )
 
 

@@ -1,7 +1,7 @@
 """Systems around the contact's FMU, and the command `tribofmu`.
 
     duty           load, speeds and temperature against time: constant, steps, or a CSV
-    ball_on_disc   drives the FMU of a ball on a disc through a duty, with fmpy
+    driven_contact   drives the FMU of a contact through a duty, with fmpy
     checkpoint     the point a run has reached, on disk: a killed run goes on from there
     results        the run as an xarray Dataset, as netCDF and as CSV
     report         the printed table and the overview picture

@@ -256,7 +256,7 @@ def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint") -> "xr.Datas
 
     from fmu_src.build import build
 
-    from .ball_on_disc import run
+    from .driven_contact import run
 
     logging.basicConfig(format="%(message)s")
     bar = tqdm(

@@ -19,10 +19,10 @@ _COLUMNS = (
     ("friction", "", "friction_coefficient", 1.0, 4),
     ("h_c", "nm", "h_c", 1e9, 2),
     ("lambda", "", "lambda_ratio", 1.0, 3),
-    ("film ball", "nm", "tribofilm_1", 1e9, 2),
-    ("film disc", "nm", "tribofilm_2", 1e9, 2),
-    ("wear ball", "nm", "wear_depth_1", 1e9, 2),
-    ("wear disc", "nm", "wear_depth_2", 1e9, 2),
+    ("film 1", "nm", "tribofilm_1", 1e9, 2),
+    ("film 2", "nm", "tribofilm_2", 1e9, 2),
+    ("wear 1", "nm", "wear_depth_1", 1e9, 2),
+    ("wear 2", "nm", "wear_depth_2", 1e9, 2),
     ("A_c", "", "contact_area_ratio", 1.0, 3),
     ("W_c", "", "contact_load_ratio", 1.0, 3),
 )
@@ -35,7 +35,7 @@ _Line = tuple[str, str, str]  # variable, legend, colour
 
 
 def _bodies(name: str) -> tuple[_Line, _Line]:
-    return (f"{name}_1", "ball", _BLUE), (f"{name}_2", "disc", _RED)
+    return (f"{name}_1", "body 1", _BLUE), (f"{name}_2", "body 2", _RED)
 
 
 # label, factor from SI, lines
@@ -76,8 +76,8 @@ def table(dataset: xr.Dataset) -> str:
 def closing_lines(dataset: xr.Dataset) -> list[str]:
     """Load cycles, who drove the blocks, validity and range, in sentences."""
     last = dataset.isel(time=-1)
-    ball, disc = (f"{int(last[f'load_cycles_{body}']):,}".replace(",", " ") for body in (1, 2))
-    cycles = f"Load cycles: ball {ball}, disc {disc}."
+    first, second = (f"{int(last[f'load_cycles_{body}']):,}".replace(",", " ") for body in (1, 2))
+    cycles = f"Load cycles: {first} of body 1, {second} of body 2."
     return [cycles, *_blocks(last), *_warmth(dataset), _validity(dataset), *_range(dataset)]
 
 
@@ -87,8 +87,8 @@ def _warmth(dataset: xr.Dataset) -> list[str]:
     if all(float(np.abs(dataset[f"temperature_{body}"] - oil).max()) < _WARM for body in (1, 2)):
         return []
     warm = ", ".join(
-        f"{name} {float(last[f'temperature_{body}']) - 273.15:.1f} degC with {float(last[f'heat_flow_{body}']):.3g} W"
-        for body, name in ((1, "ball"), (2, "disc"))
+        f"body {i} at {float(last[f'temperature_{i}']) - 273.15:.1f} degC with {float(last[f'heat_flow_{i}']):.3g} W"
+        for i in (1, 2)
     )
     return [f"At the end the bodies take up the heat of friction: {warm}."]
 

@@ -19,7 +19,7 @@ from contact_core import ContactState, OperatingPoint, Outputs, Scene, advance, 
 from contact_core.errors import ContactError, ConvergenceError
 from contact_core.quantities import TABLE
 
-from .ball_on_disc import communication_points
+from .driven_contact import communication_points
 from .duty import Duty
 from .results import with_scene
 

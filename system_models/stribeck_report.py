@@ -47,11 +47,11 @@ def shift_lines(dataset: xr.Dataset) -> list[str]:
     level = dataset.attrs["friction_midway"]
     lines = []
     for text, row in zip(minutes(dataset), _rows(dataset), strict=True):
-        ball, disc, both = (1e9 * float(row[name]) for name in _ROUGH)
+        first, second, both = (1e9 * float(row[name]) for name in _ROUGH)
         lines.append(
             f"After {text} min: W_c = 0.5 at {_speed(row['transition_speed'])}, friction {level:.3f} at "
-            f"{_speed(row['transition_speed_friction'])}; roughness of the tribofilm {ball:.1f} nm (ball), "
-            f"{disc:.1f} nm (disc), of both surfaces together {both:.1f} nm."
+            f"{_speed(row['transition_speed_friction'])}; roughness of the tribofilm {first:.1f} nm (body 1), "
+            f"{second:.1f} nm (body 2), of both surfaces together {both:.1f} nm."
         )
     return [*lines, *_verdict(dataset)]
 

@@ -6,6 +6,7 @@ that film serves if it can be used at all, unless the step is to be thorough.
 """
 
 import math
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,7 +17,7 @@ from ..kernels.grids import prolong, restrict
 from ..kernels.mixed import Iterate, Solution, advected, excess, solve_mixed
 from ..kernels.multigrid import is_applicable, solve_smooth
 from ..kernels.newton import solve_newton
-from ..shapes import Point
+from ..shapes import Roller
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .scaled import Scaled
 
@@ -47,12 +48,16 @@ class Regime:
     clearance: tuple[float, float] = _ALL  # formula film of smooth bodies / rms roughness (smooth: infinite)
     load: tuple[float, float] = _ALL  # Moes' M, as `Scaled.moes_load`
     rows: tuple[float, float] | None = None  # of a periodic grid; None: any grid
+    by_flux: tuple[tuple[str, str], ...] = ()  # algorithms for cavities that conserve mass or a meniscus, if not those
+    ends: bool = False  # whether it is for rollers alone
 
     def holds(self, scaled: Scaled) -> bool:
         """Whether a contact belongs to this row."""
         load, film = scaled.moes_load, scaled.film
         clearance = film / scaled.roughness if scaled.roughness > 0.0 else math.inf
         if self.rows is not None and not scaled.grid.periodic:
+            return False
+        if self.ends and not isinstance(scaled.now.shape, Roller):
             return False
         rows = (self.rows or _ALL, scaled.grid.shape[0])
         pairs = ((self.floors, film / scaled.settings.floor), (self.clearance, clearance), (self.load, load), rows)
@@ -114,6 +119,13 @@ REGIMES = (
         rows=_SEVERAL,
     ),
     Regime(
+        "roller",
+        (("multigrid", "none"), ("hybrid", "film"), ("hybrid", "nested"), ("hybrid", "last")),
+        clearance=(1e3, math.inf),
+        load=(50.0, math.inf),
+        ends=True,
+    ),
+    Regime(
         "smooth",
         (
             ("multigrid", "none"),
@@ -123,11 +135,21 @@ REGIMES = (
             ("direct", "dry"),
         ),
         clearance=(1e3, math.inf),
+        by_flux=(
+            ("hybrid", "flooded"),
+            ("direct", "flooded"),
+            ("hybrid", "nested"),
+            ("hybrid", "last"),
+            ("direct", "last"),
+            ("direct", "film"),
+            ("direct", "dry"),
+        ),
     ),
     Regime(
         "light",
         (("newton", "film"), ("newton", "dry"), ("direct", "film"), ("direct", "dry")),
         load=(0.0, 50.0),
+        by_flux=(("hybrid", "flooded"), ("direct", "flooded"), ("direct", "film"), ("direct", "dry")),
     ),
     Regime("boundary", (("hybrid", "dry"), ("direct", "last"), ("direct", "shared")), clearance=(0.0, 0.03)),
     Regime(
@@ -178,7 +200,9 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
     """The film of an instant, entrained along +x or not at all."""
     grid, settings = scaled.grid, scaled.settings
     regime = next(row for row in REGIMES if row.holds(scaled))
-    tries = (*_begun(scaled, step), *regime.algorithms) if step else regime.algorithms
+    by_flux = scaled.now.conserving or scaled.now.meniscus is not None
+    algorithms = regime.by_flux if by_flux and regime.by_flux else regime.algorithms
+    tries = (*_begun(scaled, step), *algorithms) if step else algorithms
     solver, used, spent, least = _Solver(scaled, start, step), "", 0, math.inf
     for method, begin in tries:
         if settings.lumped and method != "hybrid":  # the others know the split criterion alone
@@ -232,7 +256,7 @@ class _Solver:
         """What a method finds from a start; None where they do not apply."""
         scaled, settings, steady = self.scaled, self.scaled.settings, self.step is None
         if method == "multigrid":
-            if not (steady and isinstance(scaled.now.shape, Point) and is_applicable(self.problem)):
+            if not (steady and is_applicable(self.problem)):
                 return None
             film, shape = scaled.smooth_film / scaled.h_unit, (scaled.depth, scaled.curvature)
             given = (self.problem, scaled.x, scaled.y, settings.fft, film)
@@ -260,10 +284,14 @@ class _Solver:
         if name == "nested" and self.step is None:
             if state is None and _is_nested(scaled.grid):
                 now, grid = coarser(scaled.now, scaled.grid)
-                state = prolonged(solve_film(now, grid, scaled.settings).state, scaled.grid.shape)
+                with suppress(ConvergenceError):
+                    state = prolonged(solve_film(now, grid, scaled.settings).state, scaled.grid.shape)
             return scaled.dry_start() if state is None else scaled.iterate(state)
         if name == "smooth" and scaled.grid.periodic:
             return self._above_smooth()
+        if name == "flooded" and self.problem.supply is None and self.problem.first == 0:
+            now = replace(scaled.now, conserving=False, meniscus=None)
+            return scaled.iterate(solve_film(now, scaled.grid, scaled.settings, state, self.step).state)
         if name == "last" and self.best is not None:
             return self.best.iterate
         starts = {"dry": scaled.dry_start, "shared": scaled.shared_start, "film": scaled.lifted_start}
@@ -276,14 +304,12 @@ class _Solver:
         ease, thinned = (None if field is None else field.mean(axis=0)[None] for field in (now.ease, now.thinned))
         row = replace(now, heights=np.zeros((1, nx)), limit=now.limit.max(axis=0)[None], ease=ease, thinned=thinned)
         grid = replace(scaled.grid, y=np.zeros(1), repeats=scaled.grid.repeats * ny)
-        found = solve_film(row, grid, scaled.settings)
-        if found.route != "mixed":
+        try:
+            state = solve_film(row, grid, scaled.settings).state
+        except ConvergenceError:
             return None
-        state = found.state
         pressure, fluid, mass = (np.tile(field, (ny, 1)) for field in (state.pressure, state.fluid, state.mass))
-        nowhere = np.zeros((ny, nx), np.bool_)
-        rigid = state.rigid_gap
-        return scaled.iterate(FilmState(pressure, fluid, nowhere, mass, rigid))
+        return scaled.iterate(FilmState(pressure, fluid, np.zeros((ny, nx), np.bool_), mass, state.rigid_gap))
 
 
 def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:

@@ -17,7 +17,7 @@ from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
 from ..kernels.mixed import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
 from ..reference.starvation import film_behind_meniscus, supplied_film
-from ..shapes import Line, Point, Shape
+from ..shapes import Line, Point, Roller, Shape
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .outputs import disc
 
@@ -261,9 +261,18 @@ class Scaled:
         return self._shared(1.0, _DRY_TOLERANCE)[0]
 
     def lifted_start(self) -> Iterate:
-        """A Hertz-like pressure under the film of smooth bodies and the highest asperities."""
+        """A Hertz-like pressure under the film of smooth bodies and the highest asperities.
+
+        Ends of a roller take their part of the load: a pressure that gave them another one would change the gap in the
+        middle by many films, so that of the dry, smooth roller is taken.
+        """
         pressure = np.minimum(self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300)), self.cap)
         lift = self.smooth_film + 0.5 * max(float(self.now.heights.max()), 0.0)
+        if isinstance(self.now.shape, Roller):
+            smooth = self.undeformed + self.now.heights / self.h_unit
+            limits = self.load, self.smooth, _START_TOLERANCE, _DRY_ITERATIONS
+            pressure, rigid, _, _ = solve_dry(self.half_space, smooth, self.cap, *limits)
+            return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid + lift / self.h_unit)
         settled = self.compliance if self.now.shape.circular else float(self.half_space.deform(pressure).max())
         rigid = lift / self.h_unit - settled  # what that pressure deforms the centre by
         return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid)

@@ -19,7 +19,9 @@ from numba import njit
 _jit = njit(cache=True, nogil=True, error_model="numpy")
 
 FADE = 4.0  # how fast the second order fades with the emptiness of the node upstream
-LEAST = 0.5  # of a node's own mass that flows on at least: films that halve from node to node have no second order
+# of a node's mass that flows on at least: second order would let oil flow back where a film falls to under half of
+# itself from node to node. Limited next to cavities alone, nodes change sides for ever
+LEAST = 0.5
 
 
 @_jit

@@ -23,6 +23,8 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _BATCH = 64  # panels at once, which bounds the memory
 _FAR = 1e16  # cells; heat that has spread over so many no longer counts
 _DEEP = 6.0  # erfc(6) = 2e-17
+_IMAGES = 6  # on either side, of a cell whose heat has spread to a Gaussian no wider than the period
+_WAVES = 2  # of one that is wider: exp[-(3 pi)^2] = 3e-39
 
 
 def moving_influence(ny: int, nx: int, peclet: float) -> Array:
@@ -48,10 +50,48 @@ def moving_influence(ny: int, nx: int, peclet: float) -> Array:
     return 0.5 * np.sqrt(np.pi) * coefficients
 
 
+def periodic_moving_influence(ny: int, nx: int, peclet: float, face: float) -> Array:
+    """The same, repeated along y with the period of ny rows over a `face` of so many nodes: rows at the distances
+    0 ... ny - 1 in the middle of it.
+
+    The integral across is that of all images of a cell, times the share erf(face / (2 s)) of the Gaussian that lies on
+    the face: exact as long as the images merge before the ends are felt. A face without end has no steady temperature
+    at rest.
+    """
+    if peclet < 0.0:
+        return periodic_moving_influence(ny, nx, -peclet, face)[:, ::-1]
+    along = np.arange(-nx, nx) + 0.5
+    coefficients = np.zeros((ny, 2 * nx - 1))
+    for s, weights in _quadrature(nx, peclet):
+        in_x = np.diff(scipy.special.erf(along / s - 0.5 * peclet * s), axis=1)
+        in_y = _images(ny, s) * scipy.special.erf(0.5 * face / s)
+        coefficients += (in_y * weights).T @ in_x
+    return 0.5 * np.sqrt(np.pi) * coefficients
+
+
+def _images(ny: int, s: Array) -> Array:
+    """Sum over all k of erf((y + 1/2) / s) - erf((y - 1/2) / s), y = j + k ny: [n, ny] for s [n, 1].
+
+    Where the Gaussian is narrower than the period, image by image; where it is wider, by its Fourier series.
+    """
+    rows = np.arange(ny)
+    found = np.full((s.size, ny), 2.0 / ny)
+    narrow = s[:, 0] < ny
+    ends = np.arange(-_IMAGES * ny, (_IMAGES + 1) * ny + 1) - 0.5
+    found[narrow] = np.diff(scipy.special.erf(ends / s[narrow]), axis=1).reshape(-1, 2 * _IMAGES + 1, ny).sum(axis=1)
+    for wave in range(1, _WAVES + 1):
+        angle = np.pi * wave / ny
+        amplitude = np.exp(-((angle * s[~narrow]) ** 2)) * np.sinc(wave / ny)
+        found[~narrow] += 4.0 / ny * amplitude * np.cos(2.0 * angle * rows)
+    return found
+
+
 def _quadrature(nx: int, peclet: float) -> Iterator[tuple[Array, Array]]:
     """Gauss nodes and weights [n, 1] in panels of s: the error functions change over s itself or over 1 / peclet."""
-    end = min((_DEEP + np.sqrt(_DEEP**2 + 2.0 * peclet * nx)) / peclet, _FAR)
-    widest = 4.0 / peclet
+    end, widest = _FAR, np.inf
+    if peclet > 0.0:
+        end = min((_DEEP + np.sqrt(_DEEP**2 + 2.0 * peclet * nx)) / peclet, _FAR)
+        widest = 4.0 / peclet
     edges = [0.0, min(0.1, widest)]
     while edges[-1] < end:
         edges.append(edges[-1] + min(0.5 * edges[-1], widest))
@@ -62,14 +102,18 @@ def _quadrature(nx: int, peclet: float) -> Iterator[tuple[Array, Array]]:
 
 
 @lru_cache(maxsize=8)
-def _spectrum(ny: int, nx: int, peclet: float) -> Spectrum:
+def _spectrum(ny: int, nx: int, peclet: float, face: float | None) -> Spectrum:
     """Transform of the coefficients on a plane padded by zeros.
 
     Across the motion they are even, so that 2 (ny - 1) rows keep all distances apart; along it that takes 2 nx - 1.
+    Rows on a `face` are those of their period.
     """
-    my, mx = scipy.fft.next_fast_len(max(2 * (ny - 1), 1)), _row_length(nx)
+    mx = _row_length(nx)
+    if face is None:
+        my, coefficients = scipy.fft.next_fast_len(max(2 * (ny - 1), 1)), moving_influence(ny, nx, peclet)
+    else:
+        my, coefficients = ny, periodic_moving_influence(ny, nx, peclet, face)
     kernel = np.zeros((my, mx))
-    coefficients = moving_influence(ny, nx, peclet)
     kernel[:ny, :nx] = coefficients[:, nx - 1 :]
     kernel[:ny, mx - nx + 1 :] = coefficients[:, : nx - 1]
     kernel[my - ny + 1 :] = kernel[ny - 1 : 0 : -1]
@@ -87,20 +131,27 @@ class MovingSurface:
     conductivity: float  # [W/(m K)]
     diffusivity: float  # [m2/s]
     speed: float  # [m/s], of either sign
+    face: float | None = None  # length [m] along which the rows repeat themselves; None: they do not
 
     @property
     def spectrum(self) -> Spectrum:
         """Transform of the rise per flux [K m2/W] on the padded plane."""
-        return self._scale * _spectrum(*self.shape, self._peclet)
+        return self._scale * _spectrum(*self.shape, self._peclet, self._face)
 
     @property
     def rise_of_cell(self) -> float:
-        """Rise of a cell per flux into itself alone [K m2/W]."""
-        return self._scale * float(moving_influence(1, 1, self._peclet)[0, 0])
+        """Rise of a cell per flux into itself, and its images, alone [K m2/W]."""
+        if self._face is None:
+            return self._scale * float(moving_influence(1, 1, self._peclet)[0, 0])
+        return self._scale * float(periodic_moving_influence(self.shape[0], 1, self._peclet, self._face)[0, 0])
 
     @property
     def _scale(self) -> float:
         return self.spacing / (2.0 * np.pi * self.conductivity)
+
+    @property
+    def _face(self) -> float | None:
+        return None if self.face is None else self.face / self.spacing
 
     @property
     def _peclet(self) -> float:

@@ -436,8 +436,8 @@ class _Film:
         imbalance = float(reynolds.imbalance(p, self.f, q.cap, *film))
         if q.conserving:  # where the film forms, it carries nothing yet
             light = np.abs(self.r[self.rows][p[self.rows] < _LIGHT * p.max()]).sum()
-            film = float((p * self.mass).sum()) / total
-            imbalance += float(light) * q.spacing / (film * self.r[self.rows].shape[0])
+            mean = float((p * self.mass).sum()) / total
+            imbalance += float(light) * q.spacing / (mean * self.r[self.rows].shape[0])
         change += self.sought / q.load
         why = shortfall(tolerance, change if whole else np.inf, load_error, intrusion, imbalance, q.per_dt > 0.0)
         iterate = Iterate(p, self.f, self.solid, self.rigid)

@@ -277,7 +277,7 @@ def mend_film(  # type: ignore[no-untyped-def]
     Returns the first row, the row after the last, first column and column after the last of dh, and how many nodes are
     stiff and how many of them differ from `stiff_before`. sums [7]: of |r| p, m p and p over nodes that fluid alone
     carries; of p - f and, below the cap, of p |floor - h| over solid contacts; with `flux`, of r over nodes that are
-    full and have no pressure yet, and of m over nodes that have some.
+    full and have no pressure yet, and of what all others gain together, and of m over nodes that have some.
     """
     ny, nx = p.shape
     half, per_dx, wedge_per_dx = 0.5 / (dx * dx), 1.0 / dx, wedge / dx
@@ -285,6 +285,7 @@ def mend_film(  # type: ignore[no-untyped-def]
     a0, a1, a2 = 1.5 * wedge_per_dx + per_dt, -2.0 * wedge_per_dx, 0.5 * wedge_per_dx
     per_patch, per_floor = half / patch, 1.0 / floor
     wrong, film, fluid, solids, intrusion, gained, held = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    net = 0.0
     top, bottom, left, right, count, changed = ny, 0, nx, 0, 0, 0
     for j in range(1, ny - 1):
         before, before_2 = 0.0, 0.0  # change of the film that flows at the two nodes upstream
@@ -337,6 +338,7 @@ def mend_film(  # type: ignore[no-untyped-def]
             if flux is not None:
                 if here > 0.0:
                     held += m
+                    net += value
                 elif value > 0.0:
                     gained += value
             r[j, i], stiff[j, i], dh[j, i] = value, is_stiff, change
@@ -348,7 +350,15 @@ def mend_film(  # type: ignore[no-untyped-def]
                 left, right = min(left, i), max(right, i + 1)
             if is_stiff != stiff_before[j, i]:
                 changed += 1
-    sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6] = wrong, film, fluid, solids, intrusion, gained, held
+    sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6] = (
+        wrong,
+        film,
+        fluid,
+        solids,
+        intrusion,
+        gained + abs(net),
+        held,
+    )
     return top, bottom, left, right, count, changed
 
 

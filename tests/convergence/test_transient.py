@@ -10,7 +10,7 @@ from contact_core import Scene, initial_state, march
 from contact_core.film.instant import FilmState, Grid, Instant, Settings, Step
 from contact_core.film.routes import solve_film
 from contact_core.laws.density import Incompressible
-from contact_core.shapes import Point
+from contact_core.shapes import Line, Point
 
 R, ETA, LOAD, H0 = 10e-3, 0.1, 1e-3, 20e-6
 TAU = 6.0 * np.pi * ETA * R**2 / LOAD
@@ -20,7 +20,7 @@ def isoviscous(pressure, temperature):
     return np.full_like(pressure, ETA)
 
 
-def sunk(points, steps, order=1, width=6.0, modulus=1e18, speed=0.0):
+def sunk(points, steps, order=1, width=6.0, speed=0.0, conserving=False):
     """Gap over h0 of a ball that sinks towards a plane through oil for the time tau = 6 pi eta R^2 / W."""
     grid = Grid.centred(points, points, 2.0 * width * np.sqrt(2.0 * R * H0) / (points - 1))
     now = Instant(
@@ -28,12 +28,13 @@ def sunk(points, steps, order=1, width=6.0, modulus=1e18, speed=0.0):
         entrainment_speed=speed,
         temperature=300.0,
         shape=Point(R, R),
-        reduced_modulus=modulus,
+        reduced_modulus=1e18,
         viscosity=isoviscous,
         density=Incompressible(),
         heights=np.zeros(grid.shape),
         limit=np.full(grid.shape, 1e12),
         hardness=1e12,
+        conserving=conserving,
     )
     zeros = np.zeros(grid.shape)
     state = FilmState(zeros, zeros, zeros > 0.0, H0 + grid.radius_2 / (2.0 * R), H0)
@@ -72,6 +73,41 @@ def test_sinking_does_not_notice_a_slight_entrainment_either_way():
     rest, forward, back = (sunk(33, 5, speed=speed) for speed in (0.0, 1e-7, -1e-7))
     assert forward == pytest.approx(rest, rel=1e-4)
     assert back == pytest.approx(forward, rel=1e-10)
+
+
+def test_a_film_without_cavities_sinks_the_same_where_cavities_would_keep_their_oil():
+    assert sunk(33, 5, conserving=True) == pytest.approx(sunk(33, 5), rel=1e-6)
+
+
+def test_a_cylinder_sinks_as_by_its_closed_form():
+    # p = 6 eta V R / h^2, so W / L = 3 pi sqrt(2) eta V (R / h)^1.5 and 1 / sqrt(h) grows at a steady rate
+    load, first = 10.0, 2e-6  # N/m, m
+    grid = Grid(np.linspace(-1.0, 1.0, 513) * 12.0 * np.sqrt(2.0 * R * first), np.zeros(1), periodic=True)
+    zeros = np.zeros(grid.shape)
+    now = Instant(
+        load=load * grid.spacing,
+        entrainment_speed=0.0,
+        temperature=300.0,
+        shape=Line(R, grid.spacing),
+        reduced_modulus=1e18,
+        viscosity=isoviscous,
+        density=Incompressible(),
+        heights=zeros,
+        limit=np.full(grid.shape, 1e15),
+        hardness=1e15,
+    )
+    rate = load / (6.0 * np.sqrt(2.0) * np.pi * ETA * R**1.5)
+    time = 0.5 / np.sqrt(first) / rate  # until 1 / sqrt(h) is one and a half times what it was
+    ends = []
+    for steps in (10, 20):
+        state = FilmState(zeros, zeros, zeros > 0.0, first + grid.x[None, :] ** 2 / (2.0 * R), first)
+        for _ in range(steps):
+            step = Step(time / steps, 0, 2, True)
+            found = solve_film(now, grid, Settings(1e-11, 1e-7, 200, "scipy"), state, step)
+            assert found.converged, found.shortfall
+            state = found.state
+        ends.append(state.rigid_gap)
+    assert ends[1] + (ends[1] - ends[0]) / 3.0 == pytest.approx(first / 2.25, rel=4e-3)
 
 
 RAMP = 1e-4  # s: about a passage of the oil

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from fmu_host import SMALL, Host, hosted, unpacked
+from fmu_host import LINE, SMALL, Host, hosted, unpacked
 from native_host import compiled, embedding_environment, plain_environment
 
 from contact_core import Scene
@@ -29,6 +29,21 @@ def scene() -> Scene:
 @pytest.fixture(scope="session")
 def other_scene() -> Scene:
     return Scene.from_toml("azam_case_a", SMALL | {"tribofilm.model": "none"})
+
+
+@pytest.fixture(scope="session")
+def line_scene() -> Scene:
+    return Scene.from_toml("fzg_flank", LINE)
+
+
+@pytest.fixture(scope="session")
+def line_file(line_scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return build(line_scene, tmp_path_factory.mktemp("line") / "line.fmu", "embedded")
+
+
+@pytest.fixture(scope="session")
+def line_folder(line_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return unpacked(line_file, tmp_path_factory.mktemp("unpacked"))
 
 
 @pytest.fixture(scope="session")

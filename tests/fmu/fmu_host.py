@@ -19,6 +19,24 @@ SMALL = {
     "surface_1.correlation_length": "32 um",
     "surface_2.correlation_length": "32 um",
 }
+LINE = {
+    "film.points": "33",
+    "film.width": "0.2 mm",
+    "surface_1.correlation_length": "50 um",
+    "surface_2.correlation_length": "50 um",
+    "film.tolerance": "1e-2",
+    "control.mixed_instants": "2",
+}
+ROLLER = LINE | {
+    "geometry.model": "roller",
+    "geometry.face_width": "1.2 mm",
+    "geometry.profile.model": "logarithmic",
+    "geometry.profile.depth": "1 um",
+    "film.width": "0 m",
+    "operation.load": "300 N",
+}
+ELLIPSE = SMALL | {"geometry.radius_y": "30 mm", "film.width": "1 mm"}
+SHAPES = {"line": ("fzg_flank", LINE), "roller": ("fzg_flank", ROLLER), "ellipse": ("mtm_zddp", ELLIPSE)}
 
 
 def unpacked(fmu: Path, folder: Path) -> Path:

@@ -15,16 +15,17 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from fmu_host import SMALL, hosted, unpacked
+from fmu_host import SHAPES, SMALL, hosted, unpacked
 
 from contact_core import ConvergenceError, RangeFlag, Scene
 from contact_core.film import FILMS
 from contact_core.geometry import GEOMETRIES
 from contact_core.laws import SLOTS
+from contact_core.scene import Lubricant
 from fmu_src import evidence, icon, measured, packages
 from fmu_src.build import build
 from fmu_src.document import documentation
-from fmu_src.equations import DOSES, GOVERNING, INLET_SHEAR, LAWS, SHARING
+from fmu_src.equations import CAVITATION, DOSES, GOVERNING, INLET_SHEAR, LAWS, OF_SHAPE, SHARING
 from fmu_src.markup import equation
 from fmu_src.slave import ContactSlave
 from fmu_src.variables import variables
@@ -177,11 +178,64 @@ def test_every_law_and_film_has_equations():
     assert set(INLET_SHEAR) | {"none"} == {choice for law in SLOTS["heat"] for choice in choices(law, "inlet_shear")}
     deterministic = next(film for film in FILMS if film.name == "deterministic")
     assert set(SHARING) == choices(deterministic, "criterion")
+    assert set(OF_SHAPE) == {(film.name, geometry.name) for film in FILMS for geometry in GEOMETRIES}
+    assert set(CAVITATION) == choices(Lubricant, "cavitation")
 
 
 def choices(law: type, name: str) -> set[str]:
     """What a law's option can be; nothing if it has no such option."""
     return {choice for field in fields(law) if field.name == name for choice in field.metadata["choices"]}
+
+
+@pytest.mark.parametrize("level", ["deterministic", "regression"])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_the_page_of_every_shape_speaks_of_that_shape(shape, level):
+    name, changes = SHAPES[shape]
+    scene = Scene.from_toml(name, changes).at_level(level)
+    page = Page(documentation(scene, "isolated", reference=False))
+    assert page.open == []
+    assert f"geometry: {scene.geometry.name}" in page.text
+    assert set(page.cells) >= {v.name for v in variables(scene)}
+    on_face = shape != "ellipse"
+    assert ("radius of combined curvature along y" in page.cells) != on_face
+    assert ("face width, on all of which load and outputs lie" in page.cells) == on_face
+    assert ("spin is that of body 1" in page.text) == (shape != "line")
+    formula = "Moes for lines" if on_face else "Nijenbanning, Venner and Moes"
+    assert f"by the formula of {formula}" in page.cells
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_the_loads_that_the_page_names_bring_hertz_to_the_hardness_and_to_the_edge(shape):
+    name, changes = SHAPES[shape]
+    scene = Scene.from_toml(name, changes)
+    page = Page(documentation(scene, "isolated", reference=False))
+    rows = dict(reversed(list(pairwise(page.cells))))  # the first of each name
+    hardest = float(rows["load"].removeprefix("below ").removesuffix(" N"))
+    assert scene.hertz(hardest).pressure_max == pytest.approx(scene.plasticity.hardness, rel=1e-3)
+    few, wide = (float(word) for word in rows["load on this grid"].removesuffix(" N").split(" to "))
+    assert scene.hertz(few).a == pytest.approx(4.0 * scene.film.spacing, rel=1e-3)
+    filled = [half / room for half, room in zip((scene.hertz(wide).a, scene.hertz(wide).b), scene.room, strict=True)]
+    assert max(filled) == pytest.approx(1.0, rel=1e-3)
+
+
+STARVED = {"lubricant.supply.model": "film", "lubricant.supply.thickness": "50 nm"}
+
+
+@pytest.mark.parametrize(
+    ("changes", "told", "left"),
+    [
+        ({}, "The gap counts as full there", True),
+        ({"lubricant.cavitation": "mass_conserving"}, "θ is how much of the gap oil fills", True),
+        ({"lubricant.cavitation": "mass_conserving"} | STARVED, "lubricant.supply: film", False),
+        ({"lubricant.supply.model": "meniscus", "lubricant.supply.distance": "0.2 mm"}, "supply: meniscus", False),
+    ],
+)
+def test_the_page_says_what_becomes_of_cavities_and_how_much_oil_there_is(changes, told, left):
+    scene = Scene.from_toml("mtm_zddp", SMALL | changes)
+    page = Page(documentation(scene, "isolated", reference=False))
+    assert told in page.text
+    assert ("starvation (lubricant.supply = flooded: the inlet is full)" in page.text) == left
+    assert ("film that the supply leaves" in page.cells) != left
 
 
 def test_an_equation_has_scripts_and_italic_letters():
@@ -297,6 +351,13 @@ def test_the_fmu_replays_its_reference_data(whole, table, tmp_path):
     expected[3]["friction_force"] *= 1.01
     expected[5]["tribofilm_1"] *= 1.01
     assert replayed(folder, stimuli, expected) == [(16.0, "friction_force"), (17.5, "tribofilm_1")]
+
+
+def test_the_stimuli_of_a_line_are_its_inputs(line_scene):
+    text = evidence.reference(line_scene.at_level("regression"))[f"{evidence.FOLDER}/{evidence.STIMULI}"].decode()
+    rows = list(csv.DictReader(io.StringIO(text)))
+    assert set(rows[0]) == {"time"} | {v.name for v in variables(line_scene) if v.causality == "input"}
+    assert all(float(value) == float(value) for row in rows for value in row.values())
 
 
 def test_the_stimuli_change_load_and_speed_turn_back_and_roll(table):

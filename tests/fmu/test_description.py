@@ -7,6 +7,7 @@ from xml.etree import ElementTree as ET
 import fmpy
 import pytest
 from fmpy.validation import validate_fmu
+from fmu_host import SHAPES
 
 from contact_core import Scene
 from contact_core.quantities import INPUTS, OF_CALLER, OUTPUTS
@@ -176,3 +177,29 @@ def test_the_documentation_names_laws_variables_and_flags(fmu_file):
         page = archive.read("documentation/index.html").decode()
     for text in ("lubricant.viscosity: roelands", "friction_coefficient", "wear.bare", "range_flags is"):
         assert text in page
+
+
+# what means nothing to a shape is absent, not zero
+
+
+@pytest.mark.parametrize(
+    ("shape", "absent"),
+    [("line", {"radius_y", "spin", "spin_torque"}), ("roller", {"radius_y"}), ("ellipse", set())],
+)
+@pytest.mark.parametrize("level", ["deterministic", "regression"])
+def test_an_fmu_has_the_quantities_of_its_shape(shape, absent, level):
+    name, changes = SHAPES[shape]
+    scene = Scene.from_toml(name, changes).at_level(level)
+    listed = {v.name for v in variables(scene) if v.causality != "parameter"}
+    assert listed == {q.name for q in (*INPUTS, *OUTPUTS) if q.role == "input" or level in q.levels} - absent
+    assert "geometry.radius_x" not in {v.name for v in variables(scene)}
+
+
+def test_the_fmu_of_a_line_is_described_whole(line_file, line_scene):
+    assert validate_fmu(str(line_file)) == []
+    description = fmpy.read_model_description(str(line_file))
+    by_name = {v.name: v for v in description.modelVariables}
+    assert [v.valueReference for v in description.modelVariables] == list(range(len(by_name)))
+    assert float(by_name["geometry.face_width"].start) == line_scene.geometry.face_width
+    assert float(by_name["load"].start) == line_scene.operation.load
+    assert by_name["load"].unit == "N"

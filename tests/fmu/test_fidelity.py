@@ -141,3 +141,20 @@ def test_fidelity_is_tunable_and_starts_at_the_level_of_the_scene(host):
     assert (variable.type, variable.causality, variable.variability) == ("Integer", "parameter", "tunable")
     assert (int(variable.start), int(variable.min), int(variable.max)) == (FULL, FAST, FULL)
     assert host.get("fidelity_used") == 0
+
+
+def test_a_line_changes_level_like_the_core_and_rolls_back(line_folder, line_scene):
+    steps = [(5.0, FULL), (10.0, FAST), (5.0, FULL)]
+    expected = core_rows(line_scene, [(0.0, FULL), *steps])[1:]
+    with hosted(line_folder) as host:
+        host.initialise()
+        handle, start = host.fmu.getFMUstate(), host.time
+        rows = [host.step(dt, fidelity=fidelity) for dt, fidelity in steps]
+        host.fmu.setFMUstate(handle)
+        host.time = start
+        assert [host.step(dt, fidelity=fidelity) for dt, fidelity in steps] == rows
+        host.fmu.freeFMUstate(handle)
+    for i in (0, 2):
+        assert bits(rows[i]) == bits({name: expected[i][name] for name in bits(rows[i])})
+    fast = {name for name in bits(rows[1]) if name not in FIELDS and name != "range_flags"}
+    assert {name: rows[1][name] for name in fast} == {name: expected[1][name] for name in fast}

@@ -6,7 +6,7 @@ from scipy.integrate import dblquad, quad
 from scipy.special import k0
 
 from contact_core.kernels.half_space import influence
-from contact_core.kernels.moving_source import MovingSurface, moving_influence
+from contact_core.kernels.moving_source import MovingSurface, moving_influence, periodic_moving_influence
 from contact_core.laws.heat import TemperatureField
 from contact_core.reference import jaeger_band, jaeger_circle, tian_kennedy_circle
 
@@ -198,3 +198,53 @@ def test_between_rest_and_speed_the_mean_of_a_strip_is_met_to_a_ninth(peclet):
     found = strip_rise(1e-4, 1e-3, 2.0 * peclet * DIFFUSIVITY / 1e-4) * CONDUCTIVITY / 1e-4
     assert found == pytest.approx(mean, rel=0.11)
     assert found < mean
+
+
+# lines that repeat themselves across the motion
+
+
+@pytest.mark.parametrize("peclet", [0.1, 1.0, 30.0])
+def test_a_repeated_cell_is_the_sum_of_its_images(peclet):
+    ny, nx, images = 6, 7, 400
+    alone = moving_influence(images * ny, nx, peclet)
+    expected = sum(alone[np.abs(np.arange(ny) + k * ny)] for k in range(1 - images, images - 1))
+    found = periodic_moving_influence(ny, nx, peclet, 1e9)
+    assert found == pytest.approx(expected, rel=1e-9, abs=1e-12)
+
+
+def test_a_face_with_ends_cools_the_middle_as_the_missing_images_would():
+    ny, nx, images = 6, 7, 20  # on either side, of cells at rest
+    alone = moving_influence((images + 1) * ny, nx, 0.0)
+    expected = sum(alone[np.abs(np.arange(ny) + k * ny)] for k in range(-images, images + 1)).mean(axis=0)
+    found = periodic_moving_influence(ny, nx, 0.0, (2 * images + 1) * ny).mean(axis=0)
+    assert found == pytest.approx(expected, rel=1e-4)
+
+
+@pytest.mark.parametrize("peclet", [0.3, 5.0, -5.0, 100.0])
+def test_one_row_under_even_flux_is_jaegers_band(peclet):
+    n, half = 401, 0.1e-3
+    spacing = 2.0 * half / n
+    surface = MovingSurface((1, n), spacing, CONDUCTIVITY, DIFFUSIVITY, 2.0 * DIFFUSIVITY * peclet / half, face=1e3)
+    flux = 1e8
+    found = surface.rise(np.full((1, n), flux))[0] * CONDUCTIVITY / (flux * half)
+    x = (np.arange(n) - 0.5 * (n - 1)) * spacing / half
+    expected = np.array([jaeger_band(float(np.sign(peclet) * xi), abs(peclet)) for xi in x])
+    assert found == pytest.approx(expected, rel=1e-6)
+
+
+def test_one_row_at_rest_is_as_warm_as_the_middle_of_a_long_strip():
+    """2 a q / (pi K) [ln(b / a) + 3/2], b half the face: the mean of Jaeger's point sources across the middle."""
+    n, half, face = 201, 0.1e-3, 20e-3
+    surface = MovingSurface((1, n), 2.0 * half / n, CONDUCTIVITY, DIFFUSIVITY, 0.0, face)
+    expected = 2.0 * half / (np.pi * CONDUCTIVITY) * (np.log(0.5 * face / half) + 1.5)
+    assert surface.rise(np.ones((1, n))).mean() == pytest.approx(expected, rel=1e-4)
+
+
+@pytest.mark.parametrize("speed", [0.0, 2.0])
+def test_rows_that_repeat_may_be_counted_from_any_and_twice(speed):
+    flux = np.random.default_rng(5).random((6, 9))
+    one = MovingSurface((6, 9), 3e-6, CONDUCTIVITY, DIFFUSIVITY, speed, 1e-3)
+    twice = MovingSurface((12, 9), 3e-6, CONDUCTIVITY, DIFFUSIVITY, speed, 1e-3)
+    rise = one.rise(flux)
+    assert one.rise(np.roll(flux, 2, axis=0)) == pytest.approx(np.roll(rise, 2, axis=0), rel=1e-12)
+    assert twice.rise(np.tile(flux, (2, 1))) == pytest.approx(np.tile(rise, (2, 1)), rel=1e-9)

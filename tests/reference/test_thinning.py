@@ -10,7 +10,7 @@ from scipy.ndimage import gaussian_filter
 from scipy.optimize import brentq
 
 from contact_core.film.fitted import fitted_grid
-from contact_core.film.instant import Instant, Settings
+from contact_core.film.instant import Instant, Settings, Step
 from contact_core.film.routes import solve_film
 from contact_core.film.thinning import eased, recalled, remembering, solve_thinning, thinned_fluidity
 from contact_core.laws.density import Incompressible
@@ -222,7 +222,7 @@ def test_rough_sliding_films_march_in_time_as_newtonian_ones_do():
         solids, converged = [], 0
         for k in range(1, 25):
             instant = replace(recalled(now, found.state), heights=np.roll(now.heights, k, axis=1))
-            found = solve_film(instant, grid, settings, found.state, (step, 1))
+            found = solve_film(instant, grid, settings, found.state, Step(step, 1))
             found = remembering(found, eased(instant, found, oil, 0.5, grid.spacing))
             converged += found.converged
             solids.append(1.0 - found.state.fluid.sum() / found.state.pressure.sum())

@@ -7,7 +7,7 @@ import xarray as xr
 
 from contact_core import Scene
 from fmu_src.build import build
-from system_models.ball_on_disc import run
+from system_models.driven_contact import run
 from system_models.duty import Duty
 
 COARSE = {

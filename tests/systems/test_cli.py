@@ -18,7 +18,7 @@ STILL = [  # nothing grows or wears: one solution serves for ever
 def test_list_names_the_shipped_scenes(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["list"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert [line.split()[0] for line in lines] == ["azam_case_a", "mtm_zddp"]
+    assert [line.split()[0] for line in lines] == ["azam_case_a", "ball_209_inner", "fzg_flank", "mtm_zddp"]
     assert all(text in line for text, line in zip(shipped_scenes().values(), lines, strict=True))
 
 
@@ -51,7 +51,7 @@ def test_a_run_prints_a_table_and_writes_three_files(
 def test_a_run_of_the_fast_level_says_what_it_knows(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main(["run", "azam_case_a", "--set", "film.model=regression", "--hours", "2", "--out", str(tmp_path)]) == 0
     out = capsys.readouterr().out
-    assert "Load cycles: ball 28 361, disc 7 419." in out
+    assert "Load cycles: 28 361 of body 1, 7 419 of body 2." in out
     assert "Blocks" not in out
     assert (tmp_path / "overview.png").stat().st_size > 10_000
 
@@ -61,7 +61,7 @@ def test_case_a_counts_the_load_cycles_of_two_hours(
 ) -> None:
     settings = [*coarse, *STILL, "--set", "operation.interval=1 h", "--hours", "2"]
     assert main(["run", "azam_case_a", *settings, "--out", str(tmp_path)]) == 0
-    assert "Load cycles: ball 28 361, disc 7 419." in capsys.readouterr().out
+    assert "Load cycles: 28 361 of body 1, 7 419 of body 2." in capsys.readouterr().out
 
 
 def test_a_duty_on_the_command_line_reaches_the_result(
@@ -146,3 +146,30 @@ def test_what_a_scene_resolves_badly_is_warned_about_and_invalid_steps_give_code
     out, err = capsys.readouterr()
     assert "warning: surface_1 has 1.28 nodes per correlation length" in err
     assert "1 of 3 rows are INVALID" in out
+
+
+def test_a_gear_flank_runs_to_the_end(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    settings = ["film.points=33", "film.width=0.2 mm", "surface_1.correlation_length=50 um"]
+    settings += ["surface_2.correlation_length=50 um", "tribofilm.model=none", "wear.model=none"]
+    assert main(["run", "fzg_flank", "--set", *settings, "--hours", "0.01", "--out", str(tmp_path)]) == 0
+    out = capsys.readouterr().out
+    assert "Load cycles: 1 302 of body 1, 867 of body 2." in out
+    with xr.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as dataset:
+        assert not {"radius_y", "spin", "spin_torque"} & set(dataset)
+        assert dataset["radius_x"].values == pytest.approx(8.729e-3)
+
+
+def test_the_stribeck_curves_of_a_line_are_swept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    options = ["--set", "film.model=regression", "--times", "0,10", "--points", "3", "--out", str(tmp_path)]
+    assert main(["stribeck", "fzg_flank", *options]) == 0
+    assert "Validity: all 6 points are valid." in capsys.readouterr().out
+
+
+def test_a_duty_of_what_a_line_does_not_have_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    duty = tmp_path / "duty.csv"
+    duty.write_text("time [s],spin [rad/s]\n0,0\n10,5\n")
+    assert main(["run", "fzg_flank", "--duty", str(duty), "--out", str(tmp_path)]) == 2
+    assert "spin = 5 rad/s must be 0 where geometry.model = 'line'" in capsys.readouterr().err
+    duty.write_text("time [s],radius_y [mm]\n0,10\n")
+    assert main(["run", "fzg_flank", "--duty", str(duty), "--out", str(tmp_path)]) == 2
+    assert "radius_y = 0.01 m: geometry.model = 'line' has none." in capsys.readouterr().err

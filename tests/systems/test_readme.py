@@ -35,6 +35,15 @@ def test_the_example_of_one_call_runs(capsys: pytest.CaptureFixture[str]) -> Non
     assert float(error) > 0.0
 
 
+def test_the_example_of_shapes_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    names: dict[str, Any] = {}
+    exec(block("python", "from contact_core import Logarithmic"), names)
+    assert all(names[shape].converged for shape in ("ball", "flank", "roller"))
+    film = 0.2e-6 / 1.2  # all that the surfaces bring, denser under pressure
+    assert film < names["flank"].h_central * 1.05 < 0.2e-6
+    assert names["roller"].pressure_max > 1.1e9  # above that of the line without ends
+
+
 def test_the_scene_of_ones_own_is_a_scene() -> None:
     table = read_table("mtm_zddp") | tomllib.loads(block("toml", "[surface_1]"))
     scene = Scene.from_dict(table)

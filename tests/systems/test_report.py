@@ -45,7 +45,7 @@ def test_the_table_converts_to_the_units_of_its_heading(long_run: xr.Dataset) ->
 
 def test_load_cycles_are_whole_passes(long_run: xr.Dataset) -> None:
     long_run["load_cycles_1"][-1], long_run["load_cycles_2"][-1] = 28361.9, 999.0
-    assert report.closing_lines(long_run)[0] == "Load cycles: ball 28 361, disc 999."
+    assert report.closing_lines(long_run)[0] == "Load cycles: 28 361 of body 1, 999 of body 2."
 
 
 def test_the_share_of_blocks_is_told(long_run: xr.Dataset) -> None:
@@ -124,4 +124,4 @@ def test_bodies_that_are_warmer_than_the_oil_are_told(long_run: xr.Dataset) -> N
     )
     at = float(long_run["temperature"][-1]) + 10.0 - 273.15
     (line,) = [line for line in report.closing_lines(warmer) if "take up the heat" in line]
-    assert f"ball {at:.1f} degC with 1.25 W, disc {at - 10.0:.1f} degC with 0.5 W" in line
+    assert f"body 1 at {at:.1f} degC with 1.25 W, body 2 at {at - 10.0:.1f} degC with 0.5 W" in line

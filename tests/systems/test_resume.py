@@ -18,9 +18,9 @@ import fmu_src.slave
 from contact_core import ContactError, OperatingPoint, Scene, StateError, advance
 from fmu_src.build import build
 from system_models import report
-from system_models.ball_on_disc import run
 from system_models.checkpoint import Checkpoint, identity
 from system_models.cli import main
+from system_models.driven_contact import run
 from system_models.duty import Duty
 
 STILL = [part for law in ("tribofilm", "wear", "heat") for part in ("--set", f"{law}.model=none")]

@@ -241,7 +241,7 @@ def test_the_shift_is_told_for_each_time_and_in_all(swept: xr.Dataset) -> None:
     first, second, verdict = stribeck_report.shift_lines(changed)
     assert first.startswith("After 0 min: W_c = 0.5 at 0.1 m/s")
     assert second.startswith("After 1.2 min: W_c = 0.5 at 0.25 m/s")
-    assert "30.0 nm (disc), of both surfaces together 150.0 nm" in second
+    assert "30.0 nm (body 2), of both surfaces together 150.0 nm" in second
     assert "after 1.2 min by 2.50, roughness by 1.50." in verdict
     assert "highest speed after 1.2 min, the surfaces are roughest after 1.2 min" in verdict
     assert "10.1007/s11249-019-1148-9" in verdict

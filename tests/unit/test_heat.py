@@ -302,3 +302,19 @@ def test_numbers_of_a_lumped_body_are_tunable():
 def test_a_wrong_bulk_or_inlet_is_refused_by_name(changes, told):
     with pytest.raises(SceneError, match=told):
         Scene.from_toml("azam_case_a", changes)
+
+
+@pytest.mark.parametrize("turn", [1, 2, 4])
+def test_a_spot_across_the_seam_of_a_line_that_repeats_itself_is_one(turn):
+    solid = np.zeros((6, 9), np.bool_)
+    solid[1:4, 1:3] = solid[2, 6] = True
+    heat = np.where(solid, 1e9, 1e6)
+
+    def rises(solid, heat, face):
+        args = (np.full((6, 9), FLOOR), solid, solid, SPACING, (0.3, 0.0), (350.0, 350.0), OIL, face)
+        return FLASH.temperatures(Rubbing(heat, *args)).surface_1 - 350.0
+
+    whole = rises(solid, heat, 1e-3)
+    assert np.array_equal(whole, rises(solid, heat, None))
+    turned = rises(np.roll(solid, turn, axis=0), np.roll(heat, turn, axis=0), 1e-3)
+    assert turned == pytest.approx(np.roll(whole, turn, axis=0), rel=1e-12)

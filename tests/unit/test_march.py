@@ -191,3 +191,26 @@ def test_no_time_changes_nothing_while_the_film_follows():
     scene, state, op = transient()
     out = advance(scene, replace(op, load=2.0 * op.load), state, 0.0)[1]
     assert out.h_c == state.outputs.h_c
+
+
+def test_reversal_goes_through_rest_without_losing_the_film():
+    scene, state, op = cheap(**SMOOTH)
+    speeds = dict(enumerate(np.linspace(3.0, -3.0, 13)))  # the middle one is zero
+    duty = lambda time: replace(op, load=10.0, **dict.fromkeys(("speed_1", "speed_2"), speeds[round(time / 1e-5)]))  # noqa: E731
+    moments = list(march(scene, state, duty, np.arange(13) * 1e-5))
+    assert moments[6].op.entrainment_speed == 0.0
+    assert {moment.fields.route for moment in moments} == {"mixed"}
+    films = [moment.outputs["h_c"] for moment in moments]
+    assert min(films) > 0.3 * films[0]
+    assert np.abs(np.diff(films)).max() < 0.3 * films[0]
+
+
+@pytest.mark.parametrize("factor", [0.5, 2.0])
+def test_a_jump_of_the_radius_is_followed(factor):
+    scene, state, op = cheap(**SMOOTH, film__tolerance="1e-3", film__iterations=500)
+    op = replace(op, load=15.0, speed_1=2.0, speed_2=2.0)
+    radius = factor * scene.radii(op)[0]
+    duty = {0: op, 1: replace(op, radius_x=radius, radius_y=radius)}
+    _, second = march(scene, state, lambda time: duty[round(time / 2e-5)], [0.0, 2e-5])
+    assert second.fields.converged, second.fields.shortfall
+    assert second.outputs["pressure_max"] == pytest.approx(scene.hertz_at(duty[1]).pressure_max, rel=0.15)

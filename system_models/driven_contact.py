@@ -1,4 +1,4 @@
-"""A ball on a disc: fmpy drives the contact's FMU through a duty.
+"""One contact in a test rig: fmpy drives its FMU through a duty.
 
 The rig prescribes load, speeds and temperature, so nothing flows back and no iteration is needed: the
 inputs are held over each communication step, and the outputs at its end are recorded.
@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from ctypes import byref
-from dataclasses import fields
+from dataclasses import MISSING, fields
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -32,7 +32,7 @@ from .results import to_dataset
 
 log = logging.getLogger(__name__)
 
-_INPUTS = tuple(f.name for f in fields(OperatingPoint))
+_INPUTS = {f.name: f.default for f in fields(OperatingPoint)}  # what a duty may set, and what it is if it does not
 _MOST_STEPS = 1_000_000
 _BINARY = {"Real": "<f8", "Integer": "<i4", "Boolean": "?"}  # of a value in a checkpoint
 _LEVELS = (logging.INFO, logging.WARNING, logging.WARNING, logging.ERROR, logging.CRITICAL)  # by FMI status
@@ -66,6 +66,7 @@ def run(
             )
         fmpy.extract(fmu_path, folder)
         recorder = _Recorder(fmpy.read_model_description(folder))
+        recorder.check(duty)
         with _instance(recorder.description, folder) as slave:
             _drive(slave, recorder, duty, points, progress or (lambda time: None), checkpoint)
     return recorder.dataset(points)
@@ -155,13 +156,14 @@ class _Recorder:
         self.description = description
         inputs = {v.name: v for v in description.modelVariables if v.causality == "input"}
         outputs = [v for v in description.modelVariables if v.causality == "output"]
-        missing = {*_INPUTS, "valid"} - {*inputs, *(v.name for v in outputs)}
+        needed = {name for name, default in _INPUTS.items() if default is MISSING}
+        missing = {*needed, "valid"} - {*inputs, *(v.name for v in outputs)}
         if missing:
             raise ContactError(
                 f"The FMU '{description.modelName}' has no {', '.join(sorted(missing))}. "
                 "Use one that `tribofmu build` has made."
             )
-        self.inputs: list[ModelVariable] = [inputs[name] for name in _INPUTS]
+        self.inputs: list[ModelVariable] = [inputs[name] for name in _INPUTS if name in inputs]
         self.outputs: dict[str, list[ModelVariable]] = {
             kind: [v for v in outputs if v.type == kind] for kind in ("Real", "Integer", "Boolean")
         }
@@ -170,6 +172,16 @@ class _Recorder:
         self.units = {v.name: v.unit or "1" for v in (*self.inputs, *outputs)}
         self.texts = {v.name: f"{v.description}, held over the step that ends here" for v in self.inputs}
         self.texts |= {v.name: v.description or v.name for v in outputs}
+
+    def check(self, duty: Duty) -> None:
+        """Raise ContactError if the duty sets an input that the FMU does not have."""
+        absent = {*_INPUTS} - {v.name for v in self.inputs}
+        for name in sorted(absent):
+            if any(getattr(point, name) != _INPUTS[name] for point in duty.points):
+                raise ContactError(
+                    f"The duty sets {name}, which means nothing to the contact of this FMU: it has no such input. "
+                    "Leave it out."
+                )
 
     def set_inputs(self, slave: FMU2Slave, duty: Duty, time: float) -> None:
         """Set the operating point that holds from `time` on."""

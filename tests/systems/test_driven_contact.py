@@ -11,7 +11,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
 from contact_core import ContactError, OperatingPoint, Scene, advance, initial_state
-from system_models.ball_on_disc import communication_points, run
+from system_models.driven_contact import communication_points, run
 from system_models.duty import Duty
 
 POINT = OperatingPoint(load=50.0, speed_1=0.1, speed_2=0.09, temperature=353.15)

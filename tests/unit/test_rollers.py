@@ -1,0 +1,54 @@
+"""Lubricated rollers with ends: every profile is solved, and says where its ends touch."""
+
+import numpy as np
+import pytest
+
+from contact_core import Logarithmic, Rounded, line_contact
+
+E, LENGTH, RADIUS = 230e9, 3e-3, 10e-3
+OIL = {"viscosity": 0.05, "pressure_viscosity": 2e-8}
+
+
+def roller(profile, load=3e5, speed=5.0, nx=65, **more):
+    return line_contact(
+        load=load, radius=RADIUS, reduced_modulus=E, speed_1=speed, speed_2=speed, length=LENGTH, profile=profile,
+        grid=nx, **OIL, **more,
+    )  # fmt: skip
+
+
+def middle(found):
+    return int(np.abs(found.y).argmin())
+
+
+@pytest.mark.parametrize("load", [5e4, 3e5, 8e5])
+@pytest.mark.parametrize(
+    "profile", [Logarithmic(3e-6), Rounded(2.2e-3, 0.02), Rounded(2.2e-3, 1.0), Rounded(0.0, 1.0)], ids=str
+)
+def test_light_and_heavy_rollers_of_any_ends_are_solved_and_only_ends_touch(profile, load):
+    found = roller(profile, load)
+    solid = found.solid_pressure > 0.0
+    assert found.converged, found.shortfall
+    assert np.abs(found.pressure - found.pressure[::-1]).sum() < 0.02 * found.pressure.sum()
+    assert (np.abs(found.y)[solid.any(axis=1)] > 0.38 * LENGTH).all()
+    assert found.film[middle(found)].min() > 10e-9
+
+
+def test_the_middle_of_a_roller_is_an_endless_line_under_the_load_of_its_middle():
+    found = roller(Rounded(2.2e-3, 0.02))
+    dx, row = found.x[1] - found.x[0], middle(found)
+    line = line_contact(
+        load=found.pressure[row].sum() * dx, radius=RADIUS, reduced_modulus=E, speed_1=5.0, speed_2=5.0, grid=65,
+        domain=(found.x[0], found.x[-1]), **OIL,
+    )  # fmt: skip
+    assert line.h_central == pytest.approx(float(np.interp(0.0, found.x, found.film[row])), rel=0.02)
+    assert line.film.min() == pytest.approx(found.film[row].min(), rel=0.02)
+
+
+def test_a_sharp_end_touches_and_a_generous_one_does_not():
+    assert roller(Rounded(2.2e-3, 1.0)).contact_load_ratio > 0.001
+    assert roller(Logarithmic(3e-6)).contact_load_ratio == 0.0
+
+
+def test_a_roller_rolls_either_way():
+    ahead, back = roller(Logarithmic(3e-6)), roller(Logarithmic(3e-6), speed=-5.0)
+    assert back.film[:, ::-1] == pytest.approx(ahead.film, rel=1e-9)
