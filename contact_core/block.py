@@ -12,12 +12,14 @@ few blocks.
 """
 
 import math
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .contact import Transient, solve
+from .errors import ConvergenceError
 from .evolution import (
     across_track,
     roughness_now,
@@ -29,6 +31,7 @@ from .evolution import (
     wear_rate,
     wear_speed,
 )
+from .film.instant import FilmState
 from .following import follow, rough_speed
 from .laws.tribofilm import thickness
 from .patches import moved_nodes, rolled, widened, yielded
@@ -49,6 +52,7 @@ _AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which 
 _ITERATIONS = 40  # at most, of one transient step; a warm one needs about 16
 _DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
 _DRY_PASS = 8  # dry instants that stand for one pass of a surface point through the contact
+_CLEAR = 3.0  # formula film over rms roughness, from which on a dry contact is no start
 _GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy in the plane
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
 # how far the noise of blocks cancels, against that of independent ones: fitted to the roughness of case A's ball, which
@@ -215,7 +219,7 @@ def sweep_mixed(
     jumps = _jumps(scene, op, 1 - rougher, _SMOOTHER if jumping else -1.0)
     passage = unsampled = _settling_instants(scene, op)
     if state.film is None:
-        state = replace(state, film=solve(scene, op, state, dry=True, solid_share=state.share).film)
+        state = replace(state, film=_first_film(scene, op, state))
         unsampled = passage if state.share == 1.0 else _CALMING
     elif same and (any(jumps) or not jumping):
         unsampled = 0
@@ -236,6 +240,18 @@ def sweep_mixed(
             sweep.touch(scene, op, state, fields, passes)
         state = yielded(scene, replace(state, film=fields.film), fields.overlap)
     return state
+
+
+def _first_film(scene: Scene, op: OperatingPoint, state: ContactState) -> FilmState:
+    """The film that a march begins with: the steady one where smooth bodies' film clears the roughness by far, else
+    that of a dry contact, whose solids carry the share that was measured.
+    """
+    oil = scene.lubricant.viscosity, op.inlet_temperature
+    film = scene.shape(op).smooth(op.load, op.entrainment_speed, *oil, scene.solids.reduced_modulus).film
+    if film > _CLEAR * math.hypot(scene.surface_1.rq, scene.surface_2.rq) and state.share == 1.0:
+        with suppress(ConvergenceError):
+            return solve(scene, op, state).film
+    return solve(scene, op, state, dry=True, solid_share=state.share).film
 
 
 def _settling_instants(scene: Scene, op: OperatingPoint) -> int:

@@ -108,7 +108,7 @@ def _grid(
     domain: tuple[float, float] | None,
 ) -> Grid:
     """The nodes that the arguments ask for."""
-    from .film.fitted import line_extent
+    from .film.fitted import line_extent, rows_over
 
     ny, nx = asked(grid)
     if ny is not None and shape.periodic:
@@ -140,7 +140,7 @@ def _grid(
         rows = ny or 1
         y = (np.arange(rows, dtype=np.float64) - 0.5 * (rows - 1)) * spacing
         return Grid(x, y, periodic=True, repeats=shape.length / (rows * spacing))
-    rows = ny or 16 * int(np.ceil(_BESIDE * shape.length / spacing / 16.0)) + 1
+    rows = ny or rows_over(_BESIDE * shape.length, spacing, nx)
     return Grid(x, (np.arange(rows, dtype=np.float64) - 0.5 * (rows - 1)) * spacing)
 
 

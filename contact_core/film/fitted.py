@@ -1,6 +1,7 @@
 """Grids that fit a film: wide enough for the oil to come in and go out, and no wider, so that the nodes are close."""
 
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 
@@ -66,6 +67,16 @@ def line_extent(shape: Line, load: float, reduced_modulus: float, film: float) -
     a = shape.hertz(load, reduced_modulus).a
     size, inlet = film_size(a, shape.radius_x, film), inlet_length(a, shape, film)
     return min(_LEFT * size, 1.1 * a + _INLETS_BEFORE * inlet), min(_RIGHT * size, 1.25 * a + inlet)
+
+
+def rows_over(depth: float, spacing: float, nx: int) -> int:
+    """Rows of square cells that reach over a depth [m], beside `nx` nodes along x: as many more as halve as often down
+    to multigrid's coarsest level and keep a row in the middle.
+    """
+    step = 2
+    while (nx - 1) % step == 0 and (nx - 1) // step >= _COARSEST:
+        step *= 2
+    return step * ceil(depth / spacing / step) + 1
 
 
 def _partner(nodes: int, ratio: float, *, mirror: bool) -> int:

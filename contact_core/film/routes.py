@@ -120,9 +120,14 @@ REGIMES = (
     ),
     Regime(
         "roller",
-        (("multigrid", "none"), ("hybrid", "film"), ("hybrid", "nested"), ("hybrid", "last")),
+        (
+            ("multigrid", "none"),
+            ("multigrid", "none, damped"),
+            ("hybrid", "film"),
+            ("hybrid", "nested"),
+            ("hybrid", "last"),
+        ),
         clearance=(1e3, math.inf),
-        load=(50.0, math.inf),
         ends=True,
     ),
     Regime(
@@ -287,11 +292,11 @@ class _Solver:
                 with suppress(ConvergenceError):
                     state = prolonged(solve_film(now, grid, scaled.settings).state, scaled.grid.shape)
             return scaled.dry_start() if state is None else scaled.iterate(state)
-        if name == "smooth" and scaled.grid.periodic:
-            return self._above_smooth()
         if name == "flooded" and self.problem.supply is None and self.problem.first == 0:
             now = replace(scaled.now, conserving=False, meniscus=None)
             return scaled.iterate(solve_film(now, scaled.grid, scaled.settings, state, self.step).state)
+        if name == "smooth" and scaled.grid.periodic:
+            return self._above_smooth()
         if name == "last" and self.best is not None:
             return self.best.iterate
         starts = {"dry": scaled.dry_start, "shared": scaled.shared_start, "film": scaled.lifted_start}

@@ -52,3 +52,26 @@ def test_a_sharp_end_touches_and_a_generous_one_does_not():
 def test_a_roller_rolls_either_way():
     ahead, back = roller(Logarithmic(3e-6)), roller(Logarithmic(3e-6), speed=-5.0)
     assert back.film[:, ::-1] == pytest.approx(ahead.film, rel=1e-9)
+
+
+def test_the_end_film_falls_more_steeply_with_load_than_that_of_the_middle_and_lies_where_the_end_is_rounded():
+    """As the finite elements of Alakhramsing, de Rooij, Schipper & van Drogen, Proc. IMechE J (2017),
+    doi:10.1177/1350650117705037, have it for a straight roller with rounded edges.
+    """
+    profile, loads = Rounded(2.2e-3, 0.01), (1e5, 2e5, 4e5)
+    found = [roller(profile, load) for load in loads]
+    assert all(film.converged and film.contact_load_ratio == 0.0 for film in found)
+    at = [abs(film.y[np.unravel_index(film.film.argmin(), film.film.shape)[0]]) for film in found]
+    assert all(1.1e-3 < y < 1.45e-3 for y in at)
+    assert at == sorted(at)
+    ends, middles = (np.log([f.h_min for f in found]), np.log([f.film[middle(f)].min() for f in found]))
+    slopes, own = (np.diff(films) / np.diff(np.log(loads)) for films in (ends, middles))
+    assert (slopes < 2.0 * own).all()
+    assert (own < -0.05).all()
+    assert (slopes > -0.8).all()
+
+
+def test_both_films_converge_with_the_grid():
+    found = [roller(Rounded(2.2e-3, 0.01), 2e5, nx=nx) for nx in (33, 65, 129)]
+    for films in ([f.h_min for f in found], [f.film[middle(f)].min() for f in found]):
+        assert np.log2((films[1] - films[0]) / (films[2] - films[1])) > 1.2
