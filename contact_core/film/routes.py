@@ -109,7 +109,7 @@ REGIMES = (
             ("direct", "film"),
         ),
         clearance=(0.03, math.inf),
-        load=(0.0, 300.0),
+        load=(0.0, 600.0),
         rows=_SEVERAL,
     ),
     Regime(
