@@ -9,14 +9,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from contact_core import shapes
-from contact_core.film.fitted import Extent
+from contact_core.film.fitted import Extent, line_extent
 from contact_core.film.instant import Grid
-from contact_core.reference import SmoothContact, nijenbanning_venner_moes
+from contact_core.reference import SmoothContact, SmoothLine, nijenbanning_venner_moes
 
 MODULUS, ALPHA, HARDNESS, CORRELATION = 230.47e9, 15e-9, 6e9, 20e-6
 SLIMMEST = 10.0  # ratio of the radii, either way
 LARGEST_HERTZ = 4e9
 WAVES = 400
+ROWS = 32  # of a line, that repeat
 
 
 @dataclass(frozen=True)
@@ -80,6 +81,38 @@ class Point:
             "hardness": HARDNESS,
             "heights_2": self.heights(grid, correlation),
             "domain": (grid.x[0], grid.x[-1], grid.y[0], grid.y[-1]),
+        }
+
+    @property
+    def line(self) -> SmoothLine:
+        """The line contact of that radius under the same largest pressure."""
+        load = 2.0 * np.pi * self.radius * self.shape.hertz(self.load, MODULUS).pressure_max ** 2 / MODULUS
+        return SmoothLine(load, abs(self.speed), self.viscosity, ALPHA, self.radius, MODULUS)
+
+    def line_arguments(self, nodes: int) -> dict:
+        """Of `line_contact`. The surface is as in `arguments`, but its waves repeat themselves after ROWS rows."""
+        film = self.line.film if self.speed != 0.0 else 0.0
+        left, right = line_extent(shapes.Line(self.radius, 1.0), self.line.load, MODULUS, film)
+        side = max(left, right)
+        spacing = 2.0 * side / (nodes - 1)
+        x, depth = np.linspace(-side, side, nodes), ROWS * spacing
+        correlation = max(CORRELATION, 4.0 * side / 128)
+        random = np.random.Generator(np.random.Philox(key=[self.number, 2]))
+        kx, ky = random.normal(0.0, np.sqrt(2.0) / correlation, (2, WAVES))
+        ky = 2.0 * np.pi / depth * np.round(ky * depth / (2.0 * np.pi))
+        along = np.exp(1j * (kx[:, None] * x + random.uniform(0.0, 2.0 * np.pi, WAVES)[:, None]))
+        across = np.exp(1j * ky[:, None] * spacing * np.arange(ROWS))
+        return {
+            "load": self.line.load,
+            "radius": self.radius,
+            "reduced_modulus": MODULUS,
+            "speed_1": self.speed,
+            "speed_2": self.speed,
+            "viscosity": self.viscosity,
+            "pressure_viscosity": ALPHA,
+            "hardness": HARDNESS,
+            "heights_2": self.rq * np.sqrt(2.0 / WAVES) * (across.T @ along).real,
+            "spacing": spacing,
         }
 
 

@@ -6,6 +6,7 @@ that film serves if it can be used at all, unless the step is to be thorough.
 """
 
 import math
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -108,7 +109,7 @@ REGIMES = (
             ("direct", "film"),
         ),
         clearance=(0.03, math.inf),
-        load=(0.0, 300.0),
+        load=(0.0, 600.0),
         rows=_SEVERAL,
     ),
     Regime(
@@ -288,7 +289,8 @@ class _Solver:
         if name == "nested" and self.step is None:
             if state is None and _is_nested(scaled.grid):
                 now, grid = coarser(scaled.now, scaled.grid)
-                state = prolonged(solve_film(now, grid, scaled.settings).state, scaled.grid.shape)
+                with suppress(ConvergenceError):
+                    state = prolonged(solve_film(now, grid, scaled.settings).state, scaled.grid.shape)
             return scaled.dry_start() if state is None else scaled.iterate(state)
         if name == "flooded" and self.problem.supply is None and self.problem.first == 0:
             now = replace(scaled.now, conserving=False, meniscus=None)
@@ -307,14 +309,12 @@ class _Solver:
         ease, thinned = (None if field is None else field.mean(axis=0)[None] for field in (now.ease, now.thinned))
         row = replace(now, heights=np.zeros((1, nx)), limit=now.limit.max(axis=0)[None], ease=ease, thinned=thinned)
         grid = replace(scaled.grid, y=np.zeros(1), repeats=scaled.grid.repeats * ny)
-        found = solve_film(row, grid, scaled.settings)
-        if found.route != "mixed":
+        try:
+            state = solve_film(row, grid, scaled.settings).state
+        except ConvergenceError:
             return None
-        state = found.state
         pressure, fluid, mass = (np.tile(field, (ny, 1)) for field in (state.pressure, state.fluid, state.mass))
-        nowhere = np.zeros((ny, nx), np.bool_)
-        rigid = state.rigid_gap
-        return scaled.iterate(FilmState(pressure, fluid, nowhere, mass, rigid))
+        return scaled.iterate(FilmState(pressure, fluid, np.zeros((ny, nx), np.bool_), mass, state.rigid_gap))
 
 
 def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:

@@ -6,6 +6,10 @@ guessed anew in every step. A step solves the linear system by GMRES with the fu
 preconditioned by a sparse LU of the local part: Reynolds' equation and a 3 x 3 patch of the deformation, bordered by
 rigid gap and load. A contact of one row, repeated for ever, has a band instead (`band`).
 
+Where cavities hold oil, or an inlet meniscus keeps nodes from pressing, masses and flows are those of `cavities` and
+their derivatives those of `streaming`: a node that is full and gains mass joins those with pressure, one whose pressure
+falls to zero becomes a cavity.
+
 Sources: active sets: Hintermueller, Ito & Kunisch, SIAM J. Optim. 13 (2003) 865, doi:10.1137/S1052623401383558;
 elimination order: George, SIAM J. Numer. Anal. 10 (1973) 345, doi:10.1137/0710032.
 """

@@ -132,6 +132,7 @@ def solved(bearing, n, shift=0.3):
         mobility=ones,
         thinned=0.0 * ones,
         per_dt=0.0,
+        wedge=1.0,
         mass_old=0.0 * ones,
         fluidity=np.ones(2),
         density=np.ones(2),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from contact_core import line_contact
-from contact_core.kernels.half_space import HalfSpace, PeriodicHalfSpace
+from contact_core.kernels.half_space import PeriodicHalfSpace
 from contact_core.kernels.mixed import Iterate, Problem
 from contact_core.kernels.newton import solve_newton
 from contact_core.reference.sliders import ParabolicSlider
@@ -18,30 +18,43 @@ LINE = {
 
 
 def slider(part):
-    """The rigid roller behind a supply, in parts of the gap, or flooded."""
+    """The rigid roller behind a supply, in parts of the gap, or flooded from -2.5 on."""
     if part is None:
-        return ParabolicSlider(GAP, 1.0, 1.0 / 12.0, 1.0)
+        return ParabolicSlider(GAP, 1.0, 1.0 / 12.0, 1.0, -2.5)
     return ParabolicSlider.supplied(part * GAP, GAP, 1.0, 1.0 / 12.0, 1.0)
 
 
-def rigid(exact, n, supply, shift, **changes):
+def rigid(exact, n, supply, shift):
     """One row of n nodes under the load of the closed solution, begun with a gap that is too large by `shift`."""
     x = np.linspace(-2.5, 1.5, n)
     shape, dx = (3, n), x[1] - x[0]
     ones, none, weight = np.ones(shape), np.zeros(shape), np.zeros(shape)
     weight[1] = 1.0
-    given = {
-        "undeformed": np.tile(0.5 * x**2, (3, 1)), "cap": 1e9 * ones, "floor": 1e-4, "spacing": dx,
-        "load": exact.load / dx, "mobility": ones, "thinned": none, "per_dt": 0.0, "wedge": 1.0, "mass_old": none,
-        "fluidity": np.ones(2), "density": np.ones(2), "step": 1e9, "compliance": 1e-12, "edge": none,
-        "weight": weight, "wrapped": True, "conserving": True, "supply": supply,
-    }  # fmt: skip
-    problem = Problem(**(given | changes))
+    problem = Problem(
+        undeformed=np.tile(0.5 * x**2, (3, 1)),
+        cap=1e9 * ones,
+        floor=1e-4,
+        spacing=dx,
+        load=exact.load / dx,
+        mobility=ones,
+        thinned=none,
+        per_dt=0.0,
+        wedge=1.0,
+        mass_old=none,
+        fluidity=np.ones(2),
+        density=np.ones(2),
+        step=1e9,
+        compliance=1e-12,
+        edge=none,
+        weight=weight,
+        wrapped=True,
+        conserving=True,
+        supply=supply,
+    )
     start = np.tile(np.maximum(0.25 - x**2, 0.0), (3, 1))
     start *= problem.load / start[1].sum()
     begin = Iterate(start, start.copy(), np.zeros(shape, np.bool_), GAP + shift)
-    half_space = HalfSpace(3, n, 1e-14, "scipy") if not problem.wrapped else PeriodicHalfSpace(1, n, 1e-14, "scipy")
-    return x, solve_newton(half_space, problem, begin, 1e-10, 200)
+    return x, solve_newton(PeriodicHalfSpace(1, n, 1e-14, "scipy"), problem, begin, 1e-10, 200)
 
 
 @pytest.mark.parametrize("part", [None, 1.2, 1.1, 1.02])
@@ -51,20 +64,17 @@ def test_gap_pressure_and_oil_of_a_rigid_roller_converge_to_the_closed_solution(
     for n in GRIDS:
         x, found = rigid(exact, n, None if part is None else part * GAP, 0.02)
         assert found.converged, found.shortfall
-        p, pressure = found.iterate.pressure[1], exact.pressure(x)
+        p, pressure, oil = found.iterate.pressure[1], exact.pressure(x), found.mass[1]
         errors.append((np.abs(p - pressure).mean() / pressure.max(), abs(found.iterate.rigid / GAP - 1.0)))
-        full = x[p > 0.0]
-        assert abs(full[-1] - exact.outlet) < 2.0 * (x[1] - x[0])
-        oil = found.mass[1]
+        assert oil[-3] == pytest.approx(exact.film, rel=1e-10 if part else 0.01)
         if part is not None:
-            assert abs(full[0] - exact.inlet) < 2.0 * (x[1] - x[0])
-            assert oil[1:-1][p[1:-1] <= 0.0] == pytest.approx(part * GAP, rel=1e-8)
-        else:
-            assert oil[-2] == pytest.approx(exact.film, rel=2e-3)
+            full = x[p > 0.0]
+            assert abs(full[0] - exact.inlet) < 0.03
+            assert abs(full[-1] - exact.outlet) < 0.05
+            assert oil[3] == pytest.approx(exact.film, rel=1e-10)
     coarse, fine = np.array(errors[0]), np.array(errors[-1])
-    print(part, errors)
-    assert (np.log(coarse / fine) / np.log((GRIDS[-1] - 1) / (GRIDS[0] - 1))).min() > 1.0
-    assert fine.max() < 2e-3
+    assert (np.log(coarse / fine) / np.log((GRIDS[-1] - 1) / (GRIDS[0] - 1))).min() > 1.8
+    assert fine.max() < 2e-4
 
 
 def test_the_film_does_not_depend_on_the_start():
@@ -88,8 +98,7 @@ def test_what_comes_in_goes_through_up_to_the_flooded_film(flooded, part):
     assert found.converged, found.shortfall
     assert found.h_central == pytest.approx(min(supply / density, flooded.h_central), rel=3e-3)
     through = min(supply, density * flooded.h_central)
-    assert found.oil[0, -5:-1] == pytest.approx(through, rel=1e-4 if through == supply else 3e-3)
-    assert (found.oil <= 1.4 * found.film).all()
+    assert found.oil[0, -5:-1] == pytest.approx(through, rel=1e-3 if through == supply else 3e-3)
 
 
 def test_a_near_meniscus_starves_a_line_and_a_far_one_does_not(flooded):
