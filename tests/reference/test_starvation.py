@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from contact_core.film.fitted import fitted_grid
-from contact_core.film.instant import Instant, Settings
+from contact_core.film.instant import Instant, Settings, Step
 from contact_core.film.outputs import at_centre
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
@@ -15,8 +15,10 @@ from contact_core.laws.density import DowsonHigginson
 from contact_core.laws.viscosity import Roelands
 from contact_core.reference import SmoothContact, hertz_point, nijenbanning_venner_moes
 from contact_core.reference.starvation import film_behind_meniscus, supplied_film
+from contact_core.shapes import Point
 
 RADIUS, MODULUS, VISCOSITY, ALPHA = 0.01, 2.2e11, 0.05, 2e-8
+BALL = Point(RADIUS, RADIUS)
 SETTINGS = Settings(1e-10, 5e-4, 2000, "scipy")
 
 
@@ -26,10 +28,10 @@ def contact(load, material, nodes, **changes):
     speed = 0.5 * speed_2 * MODULUS * RADIUS / VISCOSITY
     force = load * speed_2**0.75 * MODULUS * RADIUS**2
     film = nijenbanning_venner_moes(SmoothContact(force, speed, VISCOSITY, ALPHA, RADIUS, RADIUS, MODULUS))
-    grid = fitted_grid(force, RADIUS, MODULUS, film, nodes, nodes)
+    grid = fitted_grid(BALL, force, MODULUS, film, nodes, nodes)
     law, flat = Roelands(VISCOSITY, 300.0, ALPHA, 0.0), np.zeros(grid.shape)
     limit = np.full(grid.shape, 1e12)
-    bodies = (RADIUS, RADIUS, MODULUS, law, DowsonHigginson(), flat, limit, 1e12)
+    bodies = (BALL, MODULUS, law, DowsonHigginson(), flat, limit, 1e12)
     now = Instant(force, speed, 300.0, *bodies)
     return replace(now, **changes), grid, film
 
@@ -116,7 +118,7 @@ def test_content_changes_by_what_flows_in_and_out(change):
     changed = []
     for _ in range(6):
         now = replace(now, heights=np.roll(now.heights, 1, axis=1))
-        found = solve_film(now, grid, SETTINGS, state, (step, 1 if change == "rough" else 0))
+        found = solve_film(now, grid, SETTINGS, state, Step(step, 1 if change == "rough" else 0))
         assert found.route == "mixed"
         content = (found.state.mass - state.mass)[1:-1, 1:-1].sum()
         state = found.state
