@@ -21,6 +21,7 @@ Spectrum = NDArray[np.complex128]
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 _BATCH = 64  # panels at once, which bounds the memory
+_STILL = 1e-100  # Peclet number up to which a source does not move
 _FAR = 1e16  # cells; heat that has spread over so many no longer counts
 _DEEP = 6.0  # erfc(6) = 2e-17
 _IMAGES = 6  # on either side, of a cell whose heat has spread to a Gaussian no wider than the period
@@ -89,7 +90,7 @@ def _images(ny: int, s: Array) -> Array:
 def _quadrature(nx: int, peclet: float) -> Iterator[tuple[Array, Array]]:
     """Gauss nodes and weights [n, 1] in panels of s: the error functions change over s itself or over 1 / peclet."""
     end, widest = _FAR, np.inf
-    if peclet > 0.0:
+    if peclet > _STILL:
         end = min((_DEEP + np.sqrt(_DEEP**2 + 2.0 * peclet * nx)) / peclet, _FAR)
         widest = 4.0 / peclet
     edges = [0.0, min(0.1, widest)]

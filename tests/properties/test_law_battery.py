@@ -253,9 +253,9 @@ def test_all_heat_goes_into_the_bodies(law, heat, gap, solid, pressed, speed_1, 
 def test_friction_only_warms(law, heat, gap, solid, pressed, speed_1, speed_2, bulk):
     sides = gap, solid, solid | pressed, 4e-6, (speed_1, speed_2), (bulk, bulk), 0.14
     found, nothing = law.temperatures(Rubbing(heat, *sides)), law.temperatures(Rubbing(np.zeros(SHAPE), *sides))
-    rounding = 1e-6 * np.ptp(found.film) + 1e-12 * bulk
+    quadrature = 1e-4 * np.ptp(found.film) + 1e-12 * bulk  # of a source that moves fast
     for surface in (found.surface_1, found.surface_2, found.film):
-        assert np.all(surface >= bulk - rounding)
+        assert np.all(surface >= bulk - quadrature)
     assert found.flash_rise >= 0.0
     assert (nothing.surface_1, nothing.surface_2, nothing.film) == (bulk, bulk, bulk)
     assert (nothing.into_1, nothing.into_2, nothing.flash_rise) == (0.0, 0.0, 0.0)
