@@ -30,6 +30,9 @@ _NESTED_FROM = 65  # nodes along an axis from which on a film begins on the grid
 _HYBRID_ITERATIONS, _DIRECT_ITERATIONS = 150, 80  # of one try at a steady film
 _CYCLES, _NEWTON_STEPS = 15, 30
 _DAMPED = ((0.5, 15), (0.25, 40))  # multigrid's next tries, and cycles: nearly rigid bodies under thickening oil
+# film of smooth bodies over rms roughness of a line, from which on Newton's method is the surer one: without side
+# flow, what the hybrid lacks in the inlet stays in the film
+_CLEAR_LINE = 1.5
 _OWED = 10.0  # times the stopping rule's limits, by which a thorough step over roughness may miss them
 _CLOSINGS = 4  # solutions of a light film, at most, until what lies beyond the grid knows how fast the bodies close
 # a film short of its tolerance is still better than the dry contact within these
@@ -216,7 +219,7 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
         if found is None:
             continue
         spent += found.iterations
-        worst = excess(found, settings.tolerance, step is not None)
+        worst = excess(found, settings.tolerance, solver.problem.per_dt)
         if _usable(found) and (found.converged or worst < least):
             solver.best, used, least = found, f"{regime.name}: {method} from {begin}", worst
         if found.converged or (step and solver.best is found and worst < _owing(scaled, step)):
@@ -237,9 +240,10 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
 def _begun(scaled: Scaled, step: Step) -> tuple[tuple[str, str], ...]:
     """What an instant that follows from another one tries before its row of the table."""
     hybrid, direct, newton = (("hybrid", "before"),), (("direct", "before"),), (("newton", "before"),)
-    if not step.thorough:
+    clear_line = scaled.grid.periodic and scaled.film > _CLEAR_LINE * scaled.roughness
+    if not step.thorough and not clear_line:
         return hybrid
-    return (*newton, *hybrid, *direct) if scaled.is_light else (*hybrid, *direct, *newton)
+    return (*newton, *hybrid, *direct) if scaled.is_light or clear_line else (*hybrid, *direct, *newton)
 
 
 def _owing(scaled: Scaled, step: Step) -> float:

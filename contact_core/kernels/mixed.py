@@ -31,7 +31,8 @@ _CARRIED = 0.3  # pressure of smooth bodies above which the pattern of the rough
 _LOAD_TOLERANCE = 1e-4
 _INTRUSION_TOLERANCE = 0.2
 _IMBALANCE_PER_TOLERANCE = 100.0  # what a time step still owes is made up for in the next one...
-_STEADY_IMBALANCE_PER_TOLERANCE = 5.0  # ...but a steady film has no next one
+_STEADY_IMBALANCE_PER_TOLERANCE = 5.0  # ...but a steady film has no next one,
+_OWED_PER_STEP = 6.0  # and a long step must not lose much of its film
 _LEAST_PART = 0.1  # of the load, that the balance of a film that conserves its mass counts with
 _SHARE_TOLERANCE = 0.02  # nodes at the floor whose fluid pressure is about p change sides for ever, p unchanged
 
@@ -121,23 +122,24 @@ class Solution:
 
 
 def shortfall(
-    tolerance: float, change: float, load_error: float, intrusion: float, imbalance: float, moving: bool
+    tolerance: float, change: float, load_error: float, intrusion: float, imbalance: float, per_dt: float
 ) -> str:
-    """The stopping rule of every film: what is short of it, in words, or nothing. `moving`: a time step."""
-    rules = _rules(tolerance, change, load_error, intrusion, imbalance, moving)
+    """The stopping rule of every film: what is short of it, in words, or nothing. `per_dt`: 1 / time step, 0: steady."""
+    rules = _rules(tolerance, change, load_error, intrusion, imbalance, per_dt)
     return "; ".join(f"{name} {value:.2g}, not below {most:.2g}" for name, value, most in rules if not value < most)
 
 
-def excess(found: Solution, tolerance: float, moving: bool) -> float:
+def excess(found: Solution, tolerance: float, per_dt: float) -> float:
     """How many times the stopping rule's worst number is above its limit."""
     numbers = (found.change, found.load_error, found.intrusion, found.imbalance)
-    return max(value / most for _, value, most in _rules(tolerance, *numbers, moving))
+    return max(value / most for _, value, most in _rules(tolerance, *numbers, per_dt))
 
 
 def _rules(
-    tolerance: float, change: float, load_error: float, intrusion: float, imbalance: float, moving: bool
+    tolerance: float, change: float, load_error: float, intrusion: float, imbalance: float, per_dt: float
 ) -> tuple[tuple[str, float, float], ...]:
-    owed = tolerance * (_IMBALANCE_PER_TOLERANCE if moving else _STEADY_IMBALANCE_PER_TOLERANCE)
+    least = _STEADY_IMBALANCE_PER_TOLERANCE
+    owed = tolerance * min(max(_OWED_PER_STEP * per_dt, least), _IMBALANCE_PER_TOLERANCE)
     return (
         ("pressure change", change, tolerance),
         ("load error", abs(load_error), _LOAD_TOLERANCE),
@@ -371,7 +373,7 @@ class Iteration:
         imbalance = wrong / max(film, 1e-300) * fluid / q.load
         if q.conserving:  # pockets that still fill up carry little yet, but will
             imbalance = wrong / max(film, 1e-300) * max(fluid / q.load, _LEAST_PART) + gained / max(held, 1e-300)
-        why = shortfall(tolerance, self.change, load_error, intrusion, imbalance, q.per_dt > 0.0)
+        why = shortfall(tolerance, self.change, load_error, intrusion, imbalance, q.per_dt)
         if abs(share - self.share) >= _SHARE_TOLERANCE:
             why = "; ".join(filter(None, (why, "the share of the solids still changes")))
         self.share = share

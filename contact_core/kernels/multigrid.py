@@ -52,7 +52,7 @@ class _Progress:
 
     def shortfall(self, tolerance: float) -> str:
         """What is short of the stopping rule."""
-        return shortfall(tolerance, self.change, self.load_error, 0.0, self.imbalance, moving=False)
+        return shortfall(tolerance, self.change, self.load_error, 0.0, self.imbalance, per_dt=0.0)
 
 
 class _Multigrid:

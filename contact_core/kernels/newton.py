@@ -443,7 +443,7 @@ class _Film:
             mean = float((p * self.mass).sum()) / total
             imbalance += float(light) * q.spacing / (mean * self.r[self.rows].shape[0])
         change += self.sought / q.load
-        why = shortfall(tolerance, change if whole else np.inf, load_error, intrusion, imbalance, q.per_dt > 0.0)
+        why = shortfall(tolerance, change if whole else np.inf, load_error, intrusion, imbalance, q.per_dt)
         iterate = Iterate(p, self.f, self.solid, self.rigid)
         return Solution(iterate, self.h, self.mass, not why, n, change, load_error, intrusion, imbalance, why)
 
