@@ -15,7 +15,7 @@ from .laws.viscosity import Barus, Roelands
 from .quantities import TABLE, out_of_range, parameter
 from .reading import did_you_mean
 from .reference.starvation import supplied_film
-from .shapes import Shape
+from .shapes import Point, Shape
 
 Array = NDArray[np.float64]
 
@@ -96,7 +96,7 @@ Given = TypeVar("Given", bound=Numbers)
 def numbers_of(cls: type[Given], given: Mapping[str, Any]) -> Given:
     """The numbers of a call, checked; those that are None keep their defaults."""
     values = {name: value for name, value in given.items() if value is not None}
-    refuse(_no_numbers(values))
+    refuse(no_numbers(values))
     whole = {name: int(value) if name == "iterations" else float(value) for name, value in values.items()}
     numbers = cls(**whole)  # type: ignore[arg-type]
     refuse(list(out_of_range(numbers, "")))
@@ -132,7 +132,9 @@ def film_of(shape: Shape, load: float, numbers: Numbers, supply: float | None) -
     film = replace(smooth, pressure_coefficient=max(numbers.pressure_viscosity, 1e-12)).film
     if supply is not None:
         film = supplied_film(film, supply, resistance=shape.side_resistance)
-    radius, least = min((getattr(shape, name), name) for name in ("radius_x", "radius_y") if hasattr(shape, name))
+    radius, least = shape.radius_x, "radius"
+    if isinstance(shape, Point):
+        radius, least = min((shape.radius_x, "radius_x"), (shape.radius_y, "radius_y"))
     if film > _THICKEST * radius:
         refuse(
             [
@@ -156,6 +158,14 @@ def solve_call(
     """Solve one steady film. `load` [N] of the whole shape; `supply`: oil layer and distance of the meniscus [m]."""
     from .film.estimate import solve_with_estimate  # the kernels: loaded where a film is solved
 
+    hertz = shape.hertz(load, numbers.reduced_modulus)
+    if supply[1] is not None and supply[1] <= hertz.a:
+        refuse(
+            [
+                f"meniscus = {supply[1]:g} m must be more than the half width of Hertz's contact, {hertz.a:.3g} m: no "
+                "oil would be before it."
+            ]
+        )
     if supply[0] is not None and options["cavitation"] != "mass_conserving":
         refuse([f"supply = {supply[0]:g} m needs cavitation = 'mass_conserving': else every gap counts as full."])
     now = Instant(
@@ -173,7 +183,6 @@ def solve_call(
         supply=supply[0],
         meniscus=supply[1],
     )
-    hertz = shape.hertz(load, numbers.reduced_modulus)
     lumped = options["criterion"] == "lumped"
     settings = Settings(numbers.floor, numbers.tolerance, numbers.iterations, options["fft"], lumped)
     found, values, errors = solve_with_estimate(now, nodes, settings)
@@ -238,7 +247,7 @@ def asked(grid: int | tuple[int, int] | None) -> tuple[int | None, int | None]:
     return (None, nodes[0]) if len(nodes) == 1 else (nodes[0], nodes[1])
 
 
-def _no_numbers(given: dict[str, Any]) -> list[str]:
+def no_numbers(given: dict[str, Any]) -> list[str]:
     """One sentence for each value that is not a real number."""
     return [
         f"{name} = {value!r} is not a number. Give it as one, in SI units without a unit string."
@@ -249,7 +258,7 @@ def _no_numbers(given: dict[str, Any]) -> list[str]:
 
 def _warnings(found: FilmSolution, grid: Grid, a: float) -> list[str]:
     """Sentences on what makes an answer less sure."""
-    sentences = []
+    sentences = [] if found.converged else [f"The solution is short of its stopping rule: {found.shortfall}."]
     if found.route == "fallback":
         sentences.append("The dry contact stands in for a film that was not found.")
     if found.route == "mixed" and found.inlet_nodes < 3.0:

@@ -1,18 +1,31 @@
 """One call, SI, arrays in and arrays out: a lubricated line contact at one instant, without ends or with them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .call import FilmContact, Numbers, asked, check_choices, film_of, heights_of, numbers_of, refuse, solve_call
+from .call import (
+    FilmContact,
+    Numbers,
+    asked,
+    check_choices,
+    film_of,
+    heights_of,
+    no_numbers,
+    numbers_of,
+    refuse,
+    solve_call,
+)
 from .film.instant import Grid
-from .quantities import parameter
+from .laws.profile import Logarithmic, Rounded
+from .quantities import out_of_range, parameter
 from .shapes import Line, Profile, Roller
 
 Array = NDArray[np.float64]
 
 _NODES = 257  # along x of smooth bodies
+_MOST = 8193  # nodes along an axis
 _BESIDE = 1.02  # grid over length of a line with ends
 
 
@@ -49,7 +62,6 @@ def line_contact(
     grid: int | tuple[int, int] | None = None,
     domain: tuple[float, float] | None = None,
     floor: float = 1e-9,
-    criterion: str = "split",
     cavitation: str = "reynolds",
     supply: float | None = None,
     meniscus: float | None = None,
@@ -80,7 +92,7 @@ def line_contact(
         },
     )  # fmt: skip
     options = {
-        "viscosity_law": viscosity_law, "density_law": density_law, "criterion": criterion, "cavitation": cavitation,
+        "viscosity_law": viscosity_law, "density_law": density_law, "criterion": "split", "cavitation": cavitation,
         "fft": fft,
     }  # fmt: skip
     check_choices(options)
@@ -89,12 +101,32 @@ def line_contact(
     heights = heights_of(heights_1, heights_2)
     shape = Line(numbers.radius, numbers.length)
     if profile is not None:
+        refuse(_no_profile(profile, numbers.length))
         shape = Roller(numbers.radius, numbers.length, profile)
     total = numbers.load * numbers.length
+    pressure = shape.hertz(total, numbers.reduced_modulus).pressure_max
+    if pressure > numbers.hardness:
+        refuse(
+            [
+                f"hardness = {numbers.hardness:g} Pa is below the Hertz pressure of {pressure:.3g} Pa: the bodies "
+                "would yield as a whole. Lower the load or raise the hardness."
+            ]
+        )
     film = film_of(shape, total, numbers, supply)
     nodes = _grid(numbers, shape, total, film, heights, spacing, grid, domain)
     starved = (supply, meniscus)
     return solve_call(LineContact, shape, total, numbers, nodes, heights, starved, options)
+
+
+def _no_profile(profile: Profile, length: float) -> list[str]:
+    """What is wrong with a profile for a roller of a length [m]."""
+    if isinstance(profile, type) or not isinstance(profile, (Rounded, Logarithmic)):
+        return [f"profile = {profile!r} must be a Rounded(straight, radius) or a Logarithmic(depth), in metres."]
+    values = {f"profile.{f.name}": getattr(profile, f.name) for f in fields(profile)}
+    sentences = no_numbers(values) or list(out_of_range(profile, "profile"))
+    if not sentences and isinstance(profile, Rounded) and profile.straight > length:
+        sentences = [f"profile.straight = {profile.straight:g} m must be at most length = {length:g} m."]
+    return sentences
 
 
 def _grid(
@@ -119,14 +151,16 @@ def _grid(
         if spacing is None:
             refuse(["spacing = None: heights need the distance between their nodes in metres."])
         ny, nx = heights.shape
+        if ny < 1 or nx < 17:
+            refuse([f"heights of {heights.shape} nodes [ny, nx] are too few: 17 along x are the least, and one row."])
         if shape.periodic and ny > 1 and ny % 2:
             refuse([f"heights of {ny} rows: a line without ends needs an even number of rows, or one."])
         if not shape.periodic and (ny - 1) * numbers.spacing < numbers.length:
             reach = (ny - 1) * numbers.spacing
             refuse([f"heights are {reach:g} m long; they must reach over length = {shape.length:g} m."])
     nx = nx or _NODES
-    if not 17 <= nx <= 8193 or (ny is not None and ny > 8193):
-        refuse([f"grid = {grid} must have from 17 to 8193 nodes along x, and at most as many along y."])
+    if not 17 <= nx <= _MOST or (ny is not None and ny > _MOST):
+        refuse([f"grid = {(ny, nx)} must have from 17 to {_MOST} nodes along x, and at most as many along y."])
     left, right = line_extent(shape, load, numbers.reduced_modulus, film) if domain is None else _sides(domain)
     if spacing is None:
         spacing = (left + right) / (nx - 1)
@@ -141,6 +175,13 @@ def _grid(
         y = (np.arange(rows, dtype=np.float64) - 0.5 * (rows - 1)) * spacing
         return Grid(x, y, periodic=True, repeats=shape.length / (rows * spacing))
     rows = ny or rows_over(_BESIDE * shape.length, spacing, nx)
+    if rows > _MOST:
+        refuse(
+            [
+                f"length = {shape.length:g} m takes {rows} rows of cells {spacing:.3g} m wide, above {_MOST}. Use "
+                "fewer nodes along x, or a line without ends."
+            ]
+        )
     return Grid(x, (np.arange(rows, dtype=np.float64) - 0.5 * (rows - 1)) * spacing)
 
 

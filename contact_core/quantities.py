@@ -71,7 +71,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     *_pair("wear_rate", "dV/dt", "m3/s", "wear volume of the step divided by the step", nominal=1e-17, minimum=0.0, display="um3/s"),
     *_pair("wear_volume", "V", "m3", "wear volume of the whole track", nominal=1e-14, minimum=0.0, display="um3"),
     *_pair("wear_depth", "w", "m", "mean wear depth over the track |y| < b", nominal=1e-8, minimum=0.0, display="nm"),
-    Quantity("h_c", "h_c", "m", "mean gap over the disc r < 2a/3", nominal=1e-8, minimum=0.0, display="nm"),
+    Quantity("h_c", "h_c", "m", "mean gap over the inner 2/3 of Hertz's contact: r < 2a/3, or such an ellipse or strip", nominal=1e-8, minimum=0.0, display="nm"),
     Quantity("h_central", "h_central", "m", "gap at the centre of the contact", nominal=1e-8, minimum=0.0, display="nm"),
     Quantity("h_min", "h_min", "m", "smallest gap", nominal=1e-9, minimum=0.0, display="nm", levels=_FIELDS),
     Quantity("lambda_ratio", "lambda", "1", "h_c / composite rms roughness over the same disc, at most 1000", minimum=0.0),

@@ -366,6 +366,12 @@ class Scene:
                     f"spin = {op.spin:g} rad/s must be 0 where geometry.model = 'line': each part of the face would "
                     "slide otherwise. Use geometry.model = 'roller'."
                 )
+        inlet = self.lubricant.supply.inlet
+        if inlet is not None and op.load > 0.0 and inlet <= (a := self.hertz_at(op).a):
+            return (
+                f"lubricant.supply.distance = {inlet:g} m must be more than the half width of Hertz's contact, {a:.3g} "
+                f"m at {op.load:g} N: no oil would be before it."
+            )
         if self.film.name != "deterministic" or op.load == 0.0 or self.shape(op) == self._own_shape:
             return ""
         own, hertz, shape = self.hertz(op.load), self.hertz_at(op), self.shape(op)
@@ -447,6 +453,11 @@ class Scene:
                 "hardness",
                 f"The Hertz pressure at {load:g} N is {hertz.pressure_max:.3g} Pa, above plasticity.hardness = "
                 f"{plasticity.hardness:g} Pa. Lower the load or raise the hardness.",
+            )
+        if isinstance(self.geometry, LineGeometry) and getattr(self.film, "criterion", "split") == "lumped":
+            yield (
+                "criterion",
+                "film.criterion = 'lumped' is for point contacts: it finds no film of a line. Use 'split'.",
             )
         for name in ("track_length_1", "track_length_2"):
             if getattr(self.geometry, name) < self.film.domain:

@@ -124,7 +124,7 @@ class Solution:
 def shortfall(
     tolerance: float, change: float, load_error: float, intrusion: float, imbalance: float, per_dt: float
 ) -> str:
-    """The stopping rule of every film: what is short of it, in words, or nothing. `per_dt`: 1 / time step, 0: steady."""
+    """The stopping rule of every film: what is short of it, in words, or nothing. `per_dt`: 1 / time step or 0."""
     rules = _rules(tolerance, change, load_error, intrusion, imbalance, per_dt)
     return "; ".join(f"{name} {value:.2g}, not below {most:.2g}" for name, value, most in rules if not value < most)
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from contact_core import point_contact
 from contact_core.film.fitted import fitted_grid
 from contact_core.film.instant import Instant, Settings, Step
 from contact_core.film.outputs import at_centre
@@ -137,3 +138,21 @@ def test_closed_forms_meet_their_limits():
     # m* = 1 + 3.06 (1e-9 / 1e-8)^0.58 = 1.8049; halfway 0.5^0.29
     assert film_behind_meniscus(1e-7, 1.40245e-4, 1e-4, 0.01) == pytest.approx(1e-7 * 0.5**0.29, rel=1e-3)
     assert 0.0 < film_behind_meniscus(1e-7, 1e-5, 1e-4, 0.01) < 1e-9
+
+
+@pytest.mark.parametrize(("ratio", "near"), [(0.2, 0.06), (10.0, 0.02)])
+def test_ellipses_starve_less_the_wider_they_are(ratio, near):
+    shape = Point(RADIUS, ratio * RADIUS)
+    given = {
+        "load": 100.0, "radius_x": shape.radius_x, "radius_y": shape.radius_y, "reduced_modulus": MODULUS, "grid": 65,
+        "speed_1": 1.0, "speed_2": 1.0, "viscosity": VISCOSITY, "pressure_viscosity": ALPHA, "tolerance": 5e-4,
+    }  # fmt: skip
+    flooded = point_contact(**given)
+    middle = flooded.pressure[np.abs(flooded.y).argmin(), np.abs(flooded.x).argmin()]
+    enough = float(DowsonHigginson()(middle)) * flooded.h_central
+    for share in (0.5, 1.0):
+        starved = point_contact(**given, cavitation="mass_conserving", supply=share * enough)
+        assert starved.converged
+        formula = supplied_film(1.0, share, resistance=shape.side_resistance)
+        assert starved.h_central / flooded.h_central == pytest.approx(formula, rel=near)
+    assert supplied_film(1.0, 1.0, resistance=shape.side_resistance) != pytest.approx(supplied_film(1.0, 1.0), rel=near)

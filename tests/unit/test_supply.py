@@ -18,7 +18,7 @@ from contact_core.laws.supply import Flooded, Meniscus, SupplyFilm
 
 CONSERVING = {"lubricant.cavitation": "mass_conserving"}
 FILM = {"lubricant.supply": "film", "lubricant.supply.thickness": "50 nm"}
-INLET = {"lubricant.supply": "meniscus", "lubricant.supply.distance": "120 um"}
+INLET = {"lubricant.supply": "meniscus", "lubricant.supply.distance": "160 um"}
 CALL = {
     "load": 50.0, "radius_x": 0.01, "reduced_modulus": 2.2e11, "speed_1": 1.0, "speed_2": 1.0, "viscosity": 0.05,
     "pressure_viscosity": 2e-8, "grid": 33,
