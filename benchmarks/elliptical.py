@@ -91,7 +91,9 @@ def beside_formulas() -> tuple[list[str], list[str], dict[float, list[float]], F
         axes.semilogx(ELLIPTICITIES, solved, "o", color=f"C{k}", label=f"M = {load}, solved")
         for style, formula in (("-", nijenbanning_venner_moes), (":", lambda smooth: chittenden(smooth)[0])):
             axes.semilogx(steps, [formula(case.smooth) / case.unit for case in cases], style, color=f"C{k}")
-    axes.set(xlabel="b / a", ylabel="H_c, L = 10 (lines: Nijenbanning et al.; dotted: Chittenden et al.)")
+    axes.set(xlabel="b / a", ylabel="H_c at L = 10", title="lines: Nijenbanning et al.; dotted: Chittenden et al.")
+    axes.set_xticks(ELLIPTICITIES, [f"{ratio:g}" for ratio in ELLIPTICITIES], minor=False)
+    axes.xaxis.set_minor_formatter("")
     axes.legend(frameon=False)
     axes.spines[["top", "right"]].set_visible(False)
     asked = []

@@ -201,6 +201,7 @@ def rollers(report: Page) -> None:
     )
     right.loglog(np.array(ROLLER_LOADS) / 1e3, values * 1e9, "o-")
     right.set(xlabel="load [kN/m]", ylabel="film [nm]")
+    right.xaxis.set_minor_formatter("")
     right.legend(["smallest of the middle row", "smallest, at the ends"], frameon=False, fontsize=7)
     for axes in (left, right):
         axes.spines[["top", "right"]].set_visible(False)
