@@ -192,9 +192,11 @@ def _dose(
     scene: Scene, op: OperatingPoint, contact: MeanContact, i: int, coverage: float, touching: float, oiled: float
 ) -> tuple[float, float]:
     """`_doses` of one body, for the exposures of a point that touches and of one under oil."""
-    rougher = (scene.surface_1.rq > scene.surface_2.rq) == (i == 0)
-    dry = contact.load_ratio > scene.control.dry_above
-    met = scene_film(scene).sharing.exposed(contact.area_ratio, rougher=rougher, dry=dry)
+    first, second = scene.surface_1.rq, scene.surface_2.rq
+    as_rougher = (True, False) if first == second else ((first > second) == (i == 0),)  # alike: between both curves
+    area, dry = contact.area_ratio, contact.load_ratio > scene.control.dry_above
+    curves = [scene_film(scene).sharing.exposed(area, rougher=rougher, dry=dry) for rougher in as_rougher]
+    met = sum(curves) / len(curves)
     coverage = max(coverage, 1.0 if oiled > 0.0 else met if touching > 0.0 else 0.0)
     if coverage == 0.0:
         return 0.0, 0.0

@@ -171,3 +171,10 @@ def test_a_line_short_of_oil_has_the_film_that_comes_in(share):
         kept.append(now(short, op, state).h_c / film)
     assert kept[0] > kept[1]
     assert kept[0] == pytest.approx(share, rel=0.01)
+
+
+def test_bodies_as_rough_as_each_other_get_films_as_thick():
+    scene = Scene.from_toml("fzg_flank").at_level("regression")
+    _, found = advance(scene, scene.operation.point, initial_state(scene), 300.0)
+    assert found.tribofilm_1 == pytest.approx(found.tribofilm_2, rel=0.1)
+    assert found.tribofilm_1 > 1e-9
