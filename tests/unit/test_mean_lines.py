@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from cheap_scene import cheap
 
-from contact_core import OperatingPointError, RangeFlag, advance, initial_state
+from contact_core import OperatingPointError, RangeFlag, Scene, advance, initial_state
 from contact_core.evolution import across_track
 from contact_core.laws.rheology import Newtonian
 from contact_core.mean_oil import oil_shear
