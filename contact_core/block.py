@@ -37,7 +37,7 @@ from .laws.tribofilm import thickness
 from .patches import moved_nodes, rolled, widened, yielded
 from .scene import OperatingPoint, Scene
 from .shapes import Line
-from .state import Body, ContactState, RangeFlag
+from .state import Body, ContactState, Outputs, RangeFlag
 from .surfaces import groove_free
 from .sweep import Sweep
 
@@ -52,6 +52,7 @@ _AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which 
 _ITERATIONS = 40  # at most, of one transient step; a warm one needs about 16
 _DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
 _DRY_PASS = 8  # dry instants that stand for one pass of a surface point through the contact
+_MANY_MISSED = 0.1  # share of unconverged solutions that raises a flag
 _CLEAR = 3.0  # formula film over rms roughness, from which on a dry contact is no start
 _GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy in the plane
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
@@ -104,10 +105,19 @@ def solve_instant(scene: Scene, op: OperatingPoint, state: ContactState, dt: flo
     state, fields = follow(scene, op, state, dt, steps)
     sweep = Sweep.before(state)
     sweep.add(scene, op, state, fields, passes)
+    before = state.outputs.unconverged
     state = _stored(scene, op, replace(state, trends=state.trends.restarted()), sweep, blocks=0)
+    state = replace(state, outputs=_remembering(state.outputs, before))
     left = max(state.settling - dt, 0.0)
     hold = dt + min(instant_time(scene, op), left)
     return replace(state, solved_for=since, settling=left, hold=hold)
+
+
+def _remembering(outputs: Outputs, before: float) -> Outputs:
+    """Outputs of an instant that still say if those before it missed the tolerance, each half as loud as the next."""
+    missed = 0.5 * (outputs.unconverged + before)
+    flag = RangeFlag.NOT_CONVERGED if missed > _MANY_MISSED else RangeFlag(0)
+    return replace(outputs, unconverged=missed, range_flags=outputs.range_flags | flag)
 
 
 def solve_block(scene: Scene, op: OperatingPoint, state: ContactState) -> ContactState:

@@ -107,12 +107,14 @@ class _Felt:
 def run_cycle(
     scene: Scene, state: ContactState, duty: Duty, times: Sequence[float], repeats: float = 1.0, *, order: int = 1
 ) -> tuple[ContactState, list[Moment]]:
-    """The state after `repeats` cycles of a duty like the one that `march` samples here, and its instants.
+    """The state after `repeats` >= 0 cycles of a duty like the one that `march` samples here, and its instants.
 
     Tribofilm and wear feel the mean of the sampled cycle, so that `repeats` should change the surfaces no more than a
     block may (`control.change`). The film and the places of the bodies are those at the end of the sampled one, where
     the next may begin. The state's outputs are means over time.
     """
+    if not (math.isfinite(repeats) and repeats >= 0.0):
+        raise OperatingPointError(f"repeats = {repeats!r} must be a number of cycles, at least 0.")
     moments = list(march(scene, state, duty, times, order=order))
     bodies, felt = list(state.bodies), [_Felt.nothing(body) for body in state.bodies]
     films = [thickness(body.growth, body.removal) for body in state.bodies]

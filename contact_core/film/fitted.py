@@ -10,6 +10,7 @@ from .instant import Grid
 from .scaled import film_size, inlet_length
 
 _LEFT, _RIGHT, _SIDES = 4.5, 2.5, 3.5  # half widths of a thick film, in its size
+_LEFT_OF_LINE = 16.0  # nothing flows aside, and the far field of points does not help
 _INLETS_BEFORE, _INLETS_AROUND = 10.0, 6.0  # inlet lengths about Hertz's contact that a thin film needs
 _NODES = 129  # along the shorter side if nothing else is asked for
 _COARSEST, _HALVINGS = 6.5, 2  # multigrid: intervals along the shorter side of its coarsest level; least halvings
@@ -66,7 +67,7 @@ def line_extent(shape: Line, load: float, reduced_modulus: float, film: float) -
     """How far before and behind the contact [m] a film [m] of smooth bodies needs a grid. SI."""
     a = shape.hertz(load, reduced_modulus).a
     size, inlet = film_size(a, shape.radius_x, film), inlet_length(a, shape, film)
-    return min(_LEFT * size, 1.1 * a + _INLETS_BEFORE * inlet), min(_RIGHT * size, 1.25 * a + inlet)
+    return min(_LEFT_OF_LINE * size, 1.1 * a + _INLETS_BEFORE * inlet), min(_RIGHT * size, 1.25 * a + inlet)
 
 
 def rows_over(depth: float, spacing: float, nx: int) -> int:

@@ -19,7 +19,7 @@ from ..kernels.multigrid import is_applicable, solve_smooth
 from ..kernels.newton import solve_newton
 from ..shapes import Roller
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
-from .scaled import Scaled
+from .scaled import Scaled, inlet_length
 
 _ALL = (0.0, math.inf)
 _SEVERAL = (2, math.inf)
@@ -33,6 +33,7 @@ _DAMPED = ((0.5, 15), (0.25, 40))  # multigrid's next tries, and cycles: nearly 
 # film of smooth bodies over rms roughness of a line, from which on Newton's method is the surer one: without side
 # flow, what the hybrid lacks in the inlet stays in the film
 _CLEAR_LINE = 1.5
+_RESOLVED_INLET = 2.0  # nodes: an inlet that the grid does not see makes that method slow, and no film
 _OWED = 10.0  # times the stopping rule's limits, by which a thorough step over roughness may miss them
 _CLOSINGS = 4  # solutions of a light film, at most, until what lies beyond the grid knows how fast the bodies close
 # a film short of its tolerance is still better than the dry contact within these
@@ -240,7 +241,8 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
 def _begun(scaled: Scaled, step: Step) -> tuple[tuple[str, str], ...]:
     """What an instant that follows from another one tries before its row of the table."""
     hybrid, direct, newton = (("hybrid", "before"),), (("direct", "before"),), (("newton", "before"),)
-    clear_line = scaled.grid.periodic and scaled.film > _CLEAR_LINE * scaled.roughness
+    inlet = inlet_length(scaled.a, scaled.now.shape, scaled.film) / scaled.grid.spacing
+    clear_line = scaled.grid.periodic and scaled.film > _CLEAR_LINE * scaled.roughness and inlet > _RESOLVED_INLET
     if not step.thorough and not clear_line:
         return hybrid
     return (*newton, *hybrid, *direct) if scaled.is_light or clear_line else (*hybrid, *direct, *newton)
