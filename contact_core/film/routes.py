@@ -212,7 +212,8 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
     by_flux = scaled.now.conserving or scaled.now.meniscus is not None
     algorithms = regime.by_flux if by_flux and regime.by_flux else regime.algorithms
     tries = (*_begun(scaled, step), *algorithms) if step else algorithms
-    solver, used, spent, least = _Solver(scaled, start, step), "", 0, math.inf
+    solver, used, spent, least = _Solver(scaled, start, step), "", 0, (True, True, math.inf)
+    apart = _stays_apart(scaled, start, step)
     for method, begin in tries:
         if settings.lumped and method != "hybrid":  # the others know the split criterion alone
             continue
@@ -221,8 +222,12 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
             continue
         spent += found.iterations
         worst = excess(found, settings.tolerance, solver.problem.per_dt)
-        if _usable(found) and (found.converged or worst < least):
-            solver.best, used, least = found, f"{regime.name}: {method} from {begin}", worst
+        touches = apart and bool(found.iterate.solid.any())
+        rank = touches, not found.converged, worst
+        if _usable(found) and rank < least:
+            solver.best, used, least = found, f"{regime.name}: {method} from {begin}", rank
+        if touches:
+            continue
         if found.converged or (step and solver.best is found and worst < _owing(scaled, step)):
             break
     best = solver.best
@@ -236,6 +241,15 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
         )
     why = "no mixed solution was found; the dry contact stands in"
     return replace(scaled.dry("fallback"), converged=False, shortfall=why, iterations=spent)
+
+
+def _stays_apart(scaled: Scaled, start: FilmState | None, step: Step | None) -> bool:
+    """Whether bodies that an oil film keeps apart will do so in the next instant, so that a solution in which they
+    touch is the last one to believe: a film that lost its way.
+    """
+    if start is None or step is None or not step.thorough or start.solid.any():
+        return False
+    return scaled.film > _FULL_FILM * max(scaled.roughness, scaled.settings.floor)
 
 
 def _begun(scaled: Scaled, step: Step) -> tuple[tuple[str, str], ...]:

@@ -214,3 +214,14 @@ def test_a_jump_of_the_radius_is_followed(factor):
     _, second = march(scene, state, lambda time: duty[round(time / 2e-5)], [0.0, 2e-5])
     assert second.fields.converged, second.fields.shortfall
     assert second.outputs["pressure_max"] == pytest.approx(scene.hertz_at(duty[1]).pressure_max, rel=0.15)
+
+
+def test_a_film_that_clears_smooth_bodies_does_not_break_down_when_the_load_comes_back():
+    changes = {"surface_1.rq": "0 m", "surface_2.rq": "0 m", "film.points": "33", "control.inputs": "transient"}
+    scene = Scene.from_toml("ball_209_inner", changes)
+    op = scene.operation.point
+    state, _ = advance(scene, replace(op, load=0.0), initial_state(scene), 1e-4)
+    _, outputs = advance(scene, op, state, 1e-4)
+    _, steady = advance(scene, op, initial_state(scene), 0.0)
+    assert outputs.contact_load_ratio == 0.0
+    assert outputs.h_min == pytest.approx(steady.h_min, rel=0.1)
