@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from cheap_scene import CHEAP, cheap
 
-from contact_core import OperatingPointError, advance, march, parted, run_cycle
+from contact_core import OperatingPointError, Scene, advance, initial_state, march, parted, run_cycle
 from contact_core.patches import patch_nodes
 from contact_core.state import ContactState
 
