@@ -221,7 +221,7 @@ def test_a_film_that_clears_smooth_bodies_does_not_break_down_when_the_load_come
     scene = Scene.from_toml("ball_209_inner", changes)
     op = scene.operation.point
     state, _ = advance(scene, replace(op, load=0.0), initial_state(scene), 1e-4)
-    _, outputs = advance(scene, op, state, 1e-4)
+    _, outputs = advance(scene, op, state, 3e-5)
     _, steady = advance(scene, op, initial_state(scene), 0.0)
     assert outputs.contact_load_ratio == 0.0
     assert outputs.h_min == pytest.approx(steady.h_min, rel=0.1)
