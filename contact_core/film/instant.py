@@ -48,11 +48,6 @@ class Grid:
         distance_2: Array = self.x[None, :] ** 2 + self.y[:, None] ** 2
         return distance_2
 
-    def stretched_radius_2(self, stretch: float) -> Array:
-        """As `radius_2`, of the grid with y stretched by a factor."""
-        distance_2: Array = self.x[None, :] ** 2 + (stretch * self.y[:, None]) ** 2
-        return distance_2
-
     def mirrored(self) -> "Grid":
         """The grid of the contact seen from the other side: x becomes -x."""
         return replace(self, x=-self.x[::-1])
