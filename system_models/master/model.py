@@ -1,0 +1,84 @@
+"""An FMU as its modelDescription.xml has it, before anything runs."""
+
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import fmpy
+from fmpy.model_description import ModelDescription, ModelVariable
+
+from .errors import CouplingError
+
+REAL = ("Real", "Float64")  # coupled as a continuous signal; the other types are passed on at communication points
+INTEGER = ("Integer", "Enumeration", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64")
+_KINDS = {**dict.fromkeys(REAL, "real"), "Float32": "float", **dict.fromkeys(INTEGER, "integer")}
+_KINDS |= {"Boolean": "boolean", "String": "string"}
+
+
+class Model:
+    """An FMU for co-simulation, FMI 2.0 or 3.0."""
+
+    def __init__(self, name: str, path: str | Path) -> None:
+        self.name, self.path = name, Path(path)
+        self.description = _description(name, self.path)
+        self.variables: dict[str, ModelVariable] = {v.name: v for v in self.description.modelVariables}
+
+    @property
+    def fmi3(self) -> bool:
+        """Whether it is of FMI 3.0, not 2.0."""
+        return bool(self.description.fmiVersion.startswith("3"))
+
+    @property
+    def capabilities(self) -> Any:
+        """Its flags for co-simulation."""
+        return self.description.coSimulation
+
+    @property
+    def restores(self) -> bool:
+        """Whether it can go back to a saved state."""
+        return bool(self.capabilities.canGetAndSetFMUstate)
+
+    @cached_property
+    def dependencies(self) -> dict[str, frozenset[str]]:
+        """The inputs that each output depends on directly; where it does not say, all of them."""
+        inputs = frozenset(v.name for v in self.variables.values() if v.causality == "input")
+        return self._declared(self.description.outputs, inputs)
+
+    @cached_property
+    def initial_dependencies(self) -> dict[str, frozenset[str]]:
+        """The inputs that each output depends on while it is initialised; where it does not say, all of them."""
+        inputs = frozenset(v.name for v in self.variables.values() if v.causality == "input")
+        return self.dependencies | self._declared(self.description.initialUnknowns, inputs)
+
+    def _declared(self, unknowns: list[Any], inputs: frozenset[str]) -> dict[str, frozenset[str]]:
+        return {
+            unknown.variable.name: inputs
+            if unknown.dependencies is None
+            else inputs & {known.name for known in unknown.dependencies}
+            for unknown in unknowns
+        }
+
+
+def kind(variable: ModelVariable) -> str:
+    """Which of the types that can be connected a variable has: real, float, integer, boolean or string."""
+    return _KINDS.get(variable.type, variable.type)
+
+
+def _description(name: str, path: Path) -> ModelDescription:
+    if not path.exists():
+        raise CouplingError(f"The FMU '{path}' of '{name}' does not exist. Name an .fmu file.")
+    try:
+        description = fmpy.read_model_description(str(path), validate=False)
+    except Exception as error:
+        raise CouplingError(f"The FMU '{path}' of '{name}' cannot be read: {error} `tribofmu check` says more.") from None
+    if not description.fmiVersion.startswith(("2.", "3.")):
+        raise CouplingError(
+            f"The FMU '{path}' of '{name}' is of FMI {description.fmiVersion}; FMI 2.0 and 3.0 can be coupled. "
+            "Export it anew."
+        )
+    if description.coSimulation is None:
+        raise CouplingError(
+            f"The FMU '{path}' of '{name}' is made for model exchange only: it brings no solver of its own. "
+            "Export it for co-simulation."
+        )
+    return description

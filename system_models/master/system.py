@@ -1,0 +1,285 @@
+"""What is coupled: FMUs, the connections between them, and what is set from outside."""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from fmpy.model_description import ModelVariable
+
+from contact_core.reading import did_you_mean
+
+from . import unit_checks
+from .errors import CouplingError
+from .model import Model, kind
+
+Value = float | int | bool | str
+
+
+@dataclass(frozen=True)
+class Port:
+    """A variable of an FMU in a system."""
+
+    model: Model
+    variable: ModelVariable
+
+    @property
+    def name(self) -> str:
+        """Its name in the system."""
+        return f"{self.model.name}.{self.variable.name}"
+
+    @property
+    def kind(self) -> str:
+        """real, float, integer, boolean or string."""
+        return kind(self.variable)
+
+
+@dataclass(frozen=True)
+class Connection:
+    """An output that sets an input: target = factor * source + offset, units converted."""
+
+    source: Port
+    target: Port
+    factor: float
+    offset: float
+
+
+@dataclass(frozen=True)
+class Bond:
+    """A power that leaves one FMU and enters another: two connections, one each way."""
+
+    one: Connection
+    other: Connection
+    watt: float  # per product of the two sources, in their own units
+
+    @property
+    def name(self) -> str:
+        """The two outputs whose product it is."""
+        return f"{self.one.source.name}*{self.other.source.name}"
+
+
+class System:
+    """A graph of FMUs, checked.
+
+    fmus: path of the .fmu file by name; the name has no dot. connections: (output, input) or (output, input, factor)
+    by their names "fmu.variable"; units are converted, and refused where they do not fit. parameters: start values of
+    parameters and of inputs that nothing is connected to. schedule: (time [s], value) pairs of such an input, which
+    holds each value until the next; the times are communication points. events: outputs whose change of sign (Real) or
+    of value (all others) must not be stepped over. bonds: pairs of connected outputs, one each way, whose product is
+    a power. derivatives: the output that is the derivative of an output by an input, {("a.force", "a.speed"):
+    "a.dforce_dspeed"}.
+
+    Raises CouplingError for what does not exist or cannot be coupled.
+    """
+
+    def __init__(
+        self,
+        fmus: Mapping[str, str | Path],
+        connections: Iterable[Sequence[Any]] = (),
+        parameters: Mapping[str, Value] | None = None,
+        schedule: Mapping[str, Sequence[tuple[float, Value]]] | None = None,
+        events: Iterable[str] = (),
+        bonds: Iterable[tuple[str, str]] = (),
+        derivatives: Mapping[tuple[str, str], str] | None = None,
+    ) -> None:
+        self.models = {name: Model(_fmu_name(name), fmus[name]) for name in sorted(fmus)}
+        if not self.models:
+            raise CouplingError("The system has no FMU. Name at least one.")
+        found = [self._connection(*_pair(entry)) for entry in connections]
+        self.connections = sorted(found, key=lambda connection: connection.target.name)
+        self._check_targets()
+        self.parameters = {name: self._start(name, value) for name, value in sorted((parameters or {}).items())}
+        self.schedule = {name: self._schedule(name, steps) for name, steps in sorted((schedule or {}).items())}
+        self.events = [self._output(name, "an event") for name in sorted({*events})]
+        self.bonds = [self._bond(*pair) for pair in sorted({tuple(sorted(pair)) for pair in bonds})]
+        self.derivatives = {
+            (self._output(of, "a derivative").name, self._input(by, "a derivative").name): self._output(name, "a derivative")
+            for (of, by), name in sorted((derivatives or {}).items())
+        }
+        self._check_derivatives()
+
+    def port(self, name: str) -> Port:
+        """The variable "fmu.variable". Raises CouplingError if there is none."""
+        owner, dot, variable = str(name).partition(".")
+        if not dot or owner not in self.models:
+            raise CouplingError(
+                f"'{name}' names no variable of this system: its FMUs are {', '.join(self.models)}, "
+                f"and a variable is called FMU.VARIABLE.{did_you_mean(owner, list(self.models))}"
+            )
+        model = self.models[owner]
+        if variable not in model.variables:
+            raise CouplingError(
+                f"The FMU '{owner}' has no variable '{variable}'.{did_you_mean(variable, list(model.variables))} "
+                f"`fmpy info {model.path}` lists them."
+            )
+        return Port(model, model.variables[variable])
+
+    def outputs(self, names: Iterable[str] | None) -> list[Port]:
+        """The variables to record: those named, or every output that is no text."""
+        if names is not None:
+            return [self._recorded(name) for name in dict.fromkeys(names)]
+        every = (Port(m, v) for m in self.models.values() for v in m.variables.values() if v.causality == "output")
+        return [port for port in every if port.kind in ("real", "float", "integer", "boolean") and not port.variable.dimensions]
+
+    def _recorded(self, name: str) -> Port:
+        port = self.port(name)
+        self._check_kind(port)
+        return port
+
+    def _input(self, name: str, what: str) -> Port:
+        return self._of_causality(name, "input", what)
+
+    def _output(self, name: str, what: str) -> Port:
+        return self._of_causality(name, "output", what)
+
+    def _of_causality(self, name: str, causality: str, what: str) -> Port:
+        port = self.port(name)
+        if port.variable.causality != causality:
+            raise CouplingError(
+                f"'{name}' is of causality '{port.variable.causality}', but {what} needs an {causality} there. "
+                f"The {causality}s of '{port.model.name}' are "
+                f"{', '.join(v.name for v in port.model.variables.values() if v.causality == causality) or 'none'}."
+            )
+        self._check_kind(port)
+        return port
+
+    def _check_kind(self, port: Port) -> None:
+        if port.kind not in ("real", "float", "integer", "boolean", "string"):
+            raise CouplingError(f"'{port.name}' is of type {port.variable.type}, which cannot be exchanged. Leave it out.")
+        if port.variable.dimensions:
+            raise CouplingError(f"'{port.name}' is an array, which cannot be exchanged. Use variables of one value.")
+
+    def _connection(self, source_name: str, target_name: str, factor: float) -> Connection:
+        source = self._output(source_name, "the start of a connection")
+        target = self._input(target_name, "the end of a connection")
+        numbers = ("real", "float")
+        if source.kind != target.kind and not (source.kind in numbers and target.kind in numbers):
+            raise CouplingError(
+                f"'{source.name}' is of type {source.variable.type} and cannot set '{target.name}' of type "
+                f"{target.variable.type}. Connect variables of one type."
+            )
+        if source.kind not in numbers:
+            if factor != 1.0:
+                raise CouplingError(
+                    f"The connection from '{source.name}' to '{target.name}' has the factor {factor:g}, but type "
+                    f"{source.variable.type} has none. Leave it out."
+                )
+            return Connection(source, target, 1.0, 0.0)
+        if not (math.isfinite(factor) and factor):
+            raise CouplingError(
+                f"The connection from '{source.name}' to '{target.name}' has the factor {factor:g}. "
+                "Give a finite number other than 0."
+            )
+        try:
+            scale, offset = unit_checks.conversion(
+                source.variable, source.model.description, target.variable, target.model.description
+            )
+        except CouplingError as error:
+            raise CouplingError(f"'{source.name}' cannot be connected to '{target.name}': {error}") from None
+        return Connection(source, target, factor * scale, factor * offset)
+
+    def _check_targets(self) -> None:
+        seen: dict[str, Connection] = {}
+        for connection in self.connections:
+            before = seen.setdefault(connection.target.name, connection)
+            if before is not connection:
+                raise CouplingError(
+                    f"'{connection.target.name}' is set by '{before.source.name}' and by '{connection.source.name}'. "
+                    "Connect one output to an input, and add up in an FMU."
+                )
+
+    def _free_input(self, name: str, what: str) -> Port:
+        port = self._input(name, what)
+        for connection in self.connections:
+            if connection.target.name == name:
+                raise CouplingError(
+                    f"'{name}' is set by '{connection.source.name}' and cannot be set by {what}. Leave one of them out."
+                )
+        return port
+
+    def _start(self, name: str, value: Value) -> Value:
+        port = self.port(name)
+        if port.variable.causality == "input":
+            port = self._free_input(name, "a parameter")
+        elif port.variable.variability == "constant" or port.variable.initial not in ("exact", "approx"):
+            raise CouplingError(
+                f"'{name}' of causality '{port.variable.causality}' cannot be set: its FMU calculates it. "
+                "Name a parameter, an input or a start value."
+            )
+        self._check_kind(port)
+        return checked(port, value)
+
+    def _schedule(self, name: str, steps: Sequence[tuple[float, Value]]) -> list[tuple[float, Value]]:
+        port = self._free_input(name, "a schedule")
+        try:
+            pairs = [(float(time), checked(port, value)) for time, value in steps]
+        except (TypeError, ValueError):
+            raise CouplingError(f"The schedule of '{name}' is {steps!r}. Give pairs of time in s and value.") from None
+        times = [time for time, _ in pairs]
+        if not times or not all(map(math.isfinite, times)) or any(b <= a for a, b in zip(times, times[1:], strict=False)):
+            raise CouplingError(f"The times of the schedule of '{name}' are {times}. Give at least one, and let them rise.")
+        return pairs
+
+    def _bond(self, first: str, second: str) -> Bond:
+        by_source: dict[str, list[Connection]] = {}
+        for connection in self.connections:
+            by_source.setdefault(connection.source.name, []).append(connection)
+        for one in by_source.get(first, []):
+            for other in by_source.get(second, []):
+                there, back = one.target.model is other.source.model, other.target.model is one.source.model
+                if there and back:
+                    return Bond(one, other, self._watt(one, other))
+        raise CouplingError(
+            f"The bond of '{first}' and '{second}' needs two connections: from the FMU of each to that of the other. "
+            "Connect them, or leave the bond out."
+        )
+
+    def _watt(self, one: Connection, other: Connection) -> float:
+        a, b = one.source, other.source
+        if a.variable.unit is None or b.variable.unit is None:
+            return 1.0
+        watt = unit_checks.power(a.variable, a.model.description, b.variable, b.model.description)
+        if watt is None:
+            raise CouplingError(
+                f"The product of '{a.name}' in {a.variable.unit} and '{b.name}' in {b.variable.unit} is no power. "
+                "A bond pairs a force with a speed, a torque with an angular speed, and so on."
+            )
+        return watt
+
+    def _check_derivatives(self) -> None:
+        for (of, by), port in self.derivatives.items():
+            owners = {self.port(of).model.name, self.port(by).model.name, port.model.name}
+            if len(owners) > 1 or port.kind != "real":
+                raise CouplingError(
+                    f"'{port.name}' cannot be the derivative of '{of}' by '{by}': the three must be Real variables of one FMU."
+                )
+
+
+def checked(port: Port, value: Any) -> Value:
+    """A value as the variable's type has it. Raises CouplingError if it is of another."""
+    types: dict[str, tuple[type, ...]] = {"boolean": (bool,), "string": (str,), "integer": (int,)}
+    fits = isinstance(value, types.get(port.kind, (int, float))) and (port.kind == "boolean") == isinstance(value, bool)
+    if not fits or (port.kind in ("real", "float") and not math.isfinite(value)):
+        raise CouplingError(
+            f"'{port.name}' = {value!r} is not a value of type {port.variable.type}. Give one, in {port.variable.unit or '1'}."
+            if port.kind in ("real", "float")
+            else f"'{port.name}' = {value!r} is not a value of type {port.variable.type}. Give one."
+        )
+    return float(value) if port.kind in ("real", "float") else value
+
+
+def _fmu_name(name: str) -> str:
+    if not name or "." in name:
+        raise CouplingError(f"An FMU cannot be called '{name}': a dot separates it from its variables. Use another name.")
+    return name
+
+
+def _pair(entry: Sequence[Any]) -> tuple[str, str, float]:
+    ends = [entry] if isinstance(entry, str) else list(entry)
+    if len(ends) not in (2, 3) or not all(isinstance(end, str) for end in ends[:2]):
+        raise CouplingError(f'The connection {entry!r} is not ("fmu.output", "fmu.input") with a factor at most.')
+    try:
+        return ends[0], ends[1], float(ends[2]) if len(ends) == 3 else 1.0
+    except (TypeError, ValueError):
+        raise CouplingError(f"The factor {ends[2]!r} of the connection {entry!r} is not a number.") from None

@@ -1,0 +1,63 @@
+"""From the unit of one variable to that of another."""
+
+from fmpy.model_description import ModelDescription, ModelVariable
+
+from contact_core.errors import SceneError
+from contact_core.units import unit as known_unit
+
+from .errors import CouplingError
+
+_EXPONENTS = ("m", "kg", "s", "K", "A", "mol", "cd")  # rad is a number: tools write rad/s and 1/s for the same
+
+
+def conversion(
+    source: ModelVariable, source_model: ModelDescription, target: ModelVariable, target_model: ModelDescription
+) -> tuple[float, float]:
+    """Factor and offset that turn a value of `source` into the unit of `target`.
+
+    A variable without a unit gives and takes any. Raises CouplingError, the second half of a sentence, if the units
+    measure different things or cannot be compared.
+    """
+    if source.unit is None or target.unit is None:
+        return 1.0, 0.0
+    here, there = _base(source.unit, source_model), _base(target.unit, target_model)
+    if here is None or there is None:
+        if source.unit == target.unit:
+            return 1.0, 0.0
+        unknown = source.unit if here is None else target.unit
+        raise CouplingError(
+            f"the units '{source.unit}' and '{target.unit}' cannot be compared, for its FMU does not say what "
+            f"'{unknown}' is. Add a BaseUnit to its UnitDefinitions."
+        )
+    if here[0] != there[0]:
+        raise CouplingError(
+            f"the unit '{source.unit}' measures another quantity than '{target.unit}'. "
+            "Connect variables of one quantity, or correct the unit in the FMU."
+        )
+    (_, factor, offset), (_, own_factor, own_offset) = here, there
+    return factor / own_factor, 0.0 if target.relativeQuantity else (offset - own_offset) / own_factor
+
+
+def power(first: ModelVariable, model: ModelDescription, second: ModelVariable, other: ModelDescription) -> float | None:
+    """The factor to watt of the product of two variables; None if it is no power, or if nobody can tell."""
+    bases = [_base(v.unit, m) if v.unit else None for v, m in ((first, model), (second, other))]
+    if None in bases:
+        return None
+    (one, factor_1, _), (two, factor_2, _) = bases  # type: ignore[misc]
+    product = tuple(a + b for a, b in zip(one, two, strict=True))
+    return factor_1 * factor_2 if product == (2, 1, -3, 0, 0, 0, 0) else None
+
+
+def _base(unit: str, model: ModelDescription) -> tuple[tuple[int, ...], float, float] | None:
+    """Exponents of the base units, factor and offset to them: as the FMU defines the unit, else by its name."""
+    for definition in model.unitDefinitions:
+        if definition.name == unit and definition.baseUnit is not None:
+            base = definition.baseUnit
+            return tuple(getattr(base, name) for name in _EXPONENTS), base.factor, base.offset
+    if unit in ("", "1", "-"):
+        return (0,) * len(_EXPONENTS), 1.0, 0.0
+    try:
+        factor, exponents = known_unit(unit)
+    except (SceneError, ValueError, KeyError):
+        return None
+    return (*exponents, 0, 0, 0), factor, 0.0
