@@ -318,10 +318,10 @@ class Coupled:
         """Magnitudes of the outputs that set inputs."""
         return _positive(np.maximum(self.magnitudes, np.abs(self.outputs))[self.coupled])
 
-    def convergence_order(self) -> int:
-        """Power of the step with which errors fall from here on: less than the scheme's until there is a history."""
-        points = len(self.history) if self.scheme.iterate else len(self.history) - 1
-        return min(points, self.scheme.order) + 1
+    def nodes(self, size: float) -> list[float]:
+        """The times [s], from now, at which the inputs of a step of a size are those of the outputs."""
+        ages = [-age for age in self.history.ages()]
+        return ([size, *ages] if self.scheme.iterate else ages)[: self.scheme.order + 1]
 
     def power_residuals(self) -> list[float]:
         """For each bond, the power [W] that the one FMU gives less the power that the other takes.
