@@ -76,6 +76,8 @@ class QuasiNewton:
             return np.array([self._secant.next(float(v[0]), float(g[0] - v[0]))])
         x, residual = v / self._scale, (g - v) / self._scale
         point = _Point(x, residual, math.sqrt(residual.dot(residual)))
+        if point.norm == 0.0:
+            return v.copy()
         if not math.isfinite(point.norm):
             return 0.5 * (v + self._points[-1].x * self._scale) if self._points else v.copy()
         line = self._enclosing(point)
@@ -112,7 +114,8 @@ class QuasiNewton:
         elif self._certain:
             last = self._points[-1]
             cosine = point.residual.dot(last.residual) / (point.norm * last.norm)
-            if cosine < _OPPOSITE and point.norm > _GAIN * last.norm:
+            moved = (point.x != last.x).any()
+            if moved and cosine < _OPPOSITE and point.norm > _GAIN * last.norm:
                 self._line = _Line(last, point)
         return self._line
 
