@@ -1,8 +1,8 @@
 """Interface quasi-Newton iteration for v = G(v), v [size], where G is expensive and its derivatives are unknown.
 
 The residual r = G(v) - v is modelled as linear along the differences between the points of a communication step, and
-along those of accepted steps where these say something new; outside of them the step is relaxed. One
-value alone is left to the secant method, and so is the line between two points with opposite residuals.
+along those of accepted steps where these say something new; outside of them the step is relaxed. One value alone is
+left to the secant method, and so is the line between two points with opposite residuals.
 
 Sources: Degroote, Bathe & Vierendeels, Comput. Struct. 87 (2009) 793, doi:10.1016/j.compstruc.2008.11.013 (IQN-ILS).
 """
@@ -21,10 +21,10 @@ Differences = tuple[Array, Array]  # of v and of r [count, size] each
 _KEPT = 20  # differences at most, of accepted steps
 _DEPENDENT = 1e-4  # part of a difference outside of those before it, below which it is left out
 _CERTAIN = 0.1  # part of the residual outside of all differences, below which the model counts as complete
-_OPPOSITE = -0.7  # cosine between residuals that enclose a solution
-_GAIN = 0.5  # decrease of the residual that makes up for that
-_FOUND = 0.1  # decrease on a line with which the search ends
-_ALONG = 0.5  # part of the residual along that of the start without which it ends
+_OPPOSITE = -0.7  # cosine between residuals of two points that enclose a solution
+_GAIN = 0.5  # decrease of the residual that makes it needless to search between them
+_FOUND = 0.1  # decrease of the residual at which the search on a line ends
+_ALONG = 0.5  # part of the residual that must be along the first one for the search to go on
 
 
 class _Point(NamedTuple):
