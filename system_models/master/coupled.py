@@ -215,7 +215,7 @@ class Coupled:
             self._pass(block, size, self.history.interpolate(size, ends))
             return Outcome(1, 0.0)
         guess, floor = ends[unknown], np.abs(self._factor * self.magnitudes[self._source])[unknown]
-        method.start(guess, self.iteration_tolerance * _positive(np.maximum(floor, abs(guess))))
+        method.start(self.iteration_tolerance * _positive(np.maximum(floor, abs(guess))))
         iteration, residual = 0, math.inf
         while residual > 1.0 and iteration < self.scheme.most_iterations:
             if iteration:
