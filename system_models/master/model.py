@@ -38,6 +38,11 @@ class Model:
         """Whether it can go back to a saved state."""
         return bool(self.capabilities.canGetAndSetFMUstate)
 
+    @property
+    def serialises(self) -> bool:
+        """Whether a saved state can outlive the process."""
+        return self.restores and bool(self.capabilities.canSerializeFMUstate)
+
     @cached_property
     def dependencies(self) -> dict[str, frozenset[str]]:
         """The inputs that each output depends on directly; where it does not say, all of them."""

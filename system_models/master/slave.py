@@ -60,6 +60,8 @@ class Slave(ABC):
         self.feedthrough = any(dependencies.get(v.name, names) & names for v in outputs)
         self.seconds, self.steps = 0.0, 0  # spent in doStep, and how many
         self.terminated = False  # it has asked for the end of the simulation
+        self.event, self.events = False, 0  # handled in the last step or after it, and how many: from FMI 3 on
+        self.next_event: float | None = None  # its time [s], where the FMU announces it
         self._instantiate(folder)
 
     @property
@@ -98,6 +100,10 @@ class Slave(ABC):
         else:
             self.inputs.values[:] = polynomial[0]
         self._set_inputs()
+
+    def _pass_on(self, status: int, message: bytes | None) -> None:
+        """Log what the FMU says."""
+        log.log(LEVELS[min(status, len(LEVELS) - 1)], "%s: %s", self.name, (message or b"").decode("utf-8", "replace"))
 
     def _failed(self, what: str, error: Exception) -> CouplingError:
         return CouplingError(f"The FMU '{self.name}' failed {what}: {error} Its messages say why.")
@@ -184,7 +190,7 @@ class Fmi2Slave(Slave):
         self._derivatives: dict[int, Any] = {}  # buffers by order
 
     def _on_message(self, environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
-        log.log(LEVELS[min(status, len(LEVELS) - 1)], "%s: %s", self.name, message.decode("utf-8", "replace"))
+        self._pass_on(status, message)
 
     def _hold(self, polynomial: NDArray[np.float64], size: float) -> None:
         super()._hold(polynomial, size)
