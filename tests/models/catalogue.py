@@ -240,14 +240,14 @@ def kelvin() -> Model:
     return gain(unit_u="K", unit_y="K")
 
 
-def echo() -> Model:
+def echo(events: bool = False) -> Model:
     kinds = ("Real", 0.0), ("Integer", 0), ("Boolean", False), ("String", "")
     pairs = (
         (inlet(f"{kind.lower()}_in", None, start=start, kind=kind), output(f"{kind.lower()}_out", None, kind=kind))
         for kind, start in kinds
     )
     variables = tuple(v for i, o in pairs for v in (i, replace(o, needs=(i.name,))))
-    return Model("echo", variables, text="Each output is the input of its type")
+    return Model("echo", variables, events=events, text="Each output is the input of its type")
 
 
 def _integrator(
