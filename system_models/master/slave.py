@@ -262,6 +262,7 @@ class Fmi2Slave(Slave):
     def restore(self, state: Any) -> None:
         """Go back to a state."""
         self._fmu.fmi2SetFMUstate(self._component, state)
+        self.terminated = False
 
     def release(self, state: Any) -> None:
         """Free a state."""

@@ -50,9 +50,9 @@ def build(
     """Build a model's FMU in `folder`, unless it lies there already; returns its path.
 
     `rollback=False`: it neither saves nor restores its state. `interpolates=False`: derivatives of inputs have no
-    effect (FMI 3 has none). `intermediate`: it asks for its inputs within a step, as FMI 3 can. `dependencies=False`: the description leaves out what outputs depend on. `start`: other
-    start values of parameters and inputs. `identifier`: another name for the FMU. `variant`: what the model itself
-    takes.
+    effect (FMI 3 has none). `intermediate`: it asks for its inputs within a step, as FMI 3 can. `dependencies=False`:
+    the description leaves out what outputs depend on. `start`: other start values of parameters and inputs.
+    `identifier`: another name for the FMU. `variant`: what the model itself takes.
     """
     if name == "python_mass":
         return _python_mass(Path(folder))
