@@ -24,6 +24,9 @@ class History:
         self._times: tuple[float, ...] = ()  # [s], newest first
         self._differences: tuple[Array, ...] = ()  # [j]: divided difference over the newest j + 1 times
 
+    def __len__(self) -> int:
+        return len(self._times)
+
     def push(self, time: float, values: Array) -> None:
         """Add the values [size] at a time [s] later than all before."""
         differences = self._extended(time, values.copy(), self._order)
