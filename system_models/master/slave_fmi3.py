@@ -75,7 +75,7 @@ class Fmi3Slave(Slave):
                 requiredIntermediateVariables=list(self.inputs.references) if self._interpolates else None,
             )
         except Exception as error:
-            raise self._failed("to start", error) from error
+            raise self.failure("to start", error) from error
         self._component = self._fmu.component
         self._no_return = not self.model.restores  # whether it is promised that no state before a step comes back
         self._event_needed, self._end_asked, self._early = c_bool(), c_bool(), c_bool()

@@ -224,6 +224,19 @@ def gain(a: float = 1.0, b: float = 0.0, c: float = 0.0, unit_u: str = "1", unit
     )
 
 
+def sphere() -> Model:
+    return Model(
+        "sphere",
+        (
+            parameter("r2", None, 5.0, minimum=0.0, text="Square of the radius"),
+            inlet("u", None, 1.0),
+            inlet("v", None, 1.0),
+            output("w", None, 1.0, ("u", "v", "r2")),
+        ),
+        text="The third coordinate of a point on a sphere, no number outside of it",
+    )
+
+
 def millimetre() -> Model:
     return gain(a=10.0, unit_u="mm", unit_y="N")
 
@@ -332,6 +345,7 @@ MODELS: dict[str, Callable[..., Model]] = {
         contact_point,
         friction,
         gain,
+        sphere,
         millimetre,
         mismatch,
         celsius,
