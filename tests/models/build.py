@@ -6,6 +6,7 @@ import functools
 import hashlib
 import os
 import subprocess
+import sys
 import tempfile
 import uuid
 import zipfile
@@ -19,6 +20,7 @@ from .catalogue import MODELS
 from .description import Model, Variant, describe
 
 SOURCES = Path(__file__).parent / "c"
+SCRIPT = Path(__file__).parent / "python" / "python_mass.py"
 HEADERS = Path(fmpy.__file__).parent / "c-code"
 COMMON = {2: ("instance.c", "fmi2.c"), 3: ("instance.c", "fmi3.c", "unsupported3.c")}
 PLATFORM = {2: "linux64", 3: "x86_64-linux"}
@@ -55,7 +57,9 @@ def build(
     takes.
     """
     if name == "python_mass":
-        return python_mass(Path(folder))
+        if fmi != 2 or not rollback or start or identifier or variant:
+            raise ValueError("python_mass is built for FMI 2 as it stands, and has no variants")
+        return _python_mass(Path(folder))
     model = MODELS[name](**variant).starting(start or {})
     switches = Variant(fmi, rollback, interpolates, dependencies)
     identifier = identifier or name
@@ -69,12 +73,14 @@ def build(
     return path
 
 
-def python_mass(folder: Path) -> Path:
-    """The first mass of the oscillator as pythonfmu makes it: see python_mass.py."""
-    path = folder / "python_mass.fmu"
+def _python_mass(folder: Path) -> Path:
+    """The FMU that pythonfmu makes of python/python_mass.py."""
+    path = folder / "python_mass_fmi2.fmu"
     if not path.exists():
-        script = Path(__file__).parent / "python_mass.py"
-        FmuBuilder.build_FMU(script, path, canGetAndSetFMUstate=True, canSerializeFMUstate=True)
+        before = sys.path[:]  # pythonfmu leaves the folder of the script in it
+        states = {"canGetAndSetFMUstate": True, "canSerializeFMUstate": True}
+        FmuBuilder.build_FMU(SCRIPT, path, needsExecutionTool=False, **states)
+        sys.path[:] = before
     return path
 
 
