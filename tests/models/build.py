@@ -25,17 +25,7 @@ SCRIPT = Path(__file__).parent / "python" / "python_mass.py"
 HEADERS = Path(fmpy.__file__).parent / "c-code"
 COMMON = {2: ("instance", "fmi2"), 3: ("instance", "fmi3", "unsupported3")}
 PLATFORM = {2: "linux64", 3: "x86_64-linux"}
-FLAGS = (
-    "-std=gnu11",
-    "-O2",
-    "-shared",
-    "-fPIC",
-    "-fvisibility=hidden",
-    "-ffp-contract=off",
-    "-Wall",
-    "-Wextra",
-    "-Werror",
-)
+FLAGS = ("-std=gnu11", "-O2", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror")
 
 
 def build(
