@@ -89,7 +89,7 @@ class Aitken:
             square = change.dot(change)
             if square > 0.0:
                 factor = -self._factor * self._residual.dot(change) / square
-                self._factor = math.copysign(min(max(abs(factor), _LEAST), _MOST), factor)
+                self._factor = math.copysign(min(max(_LEAST, abs(factor)), _MOST), factor)  # NaN: _LEAST
         self._residual = residual
         return v + self._factor * (g - v)
 

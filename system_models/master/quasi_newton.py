@@ -1,8 +1,8 @@
 """Interface quasi-Newton iteration for v = G(v), v [size], where G is expensive and its derivatives are unknown.
 
 The residual r = G(v) - v is modelled as linear along the differences between the points of a communication step, and
-along those of the last few accepted steps where these say something new; outside of them the step is relaxed. One
-value alone is left to the secant method, and so is the line between two points with opposite residuals.
+along those of accepted steps where these say something new; outside of them the step is relaxed. One value alone is
+left to the secant method, and so is the line between two points with opposite residuals.
 
 Sources: Degroote, Bathe & Vierendeels, Comput. Struct. 87 (2009) 793, doi:10.1016/j.compstruc.2008.11.013 (IQN-ILS).
 """
@@ -18,13 +18,13 @@ from .secant import Secant, probing
 Array = NDArray[np.float64]
 Differences = tuple[Array, Array]  # of v and of r [count, size] each
 
-_STEPS = 4  # accepted communication steps whose differences are used
+_KEPT = 20  # differences at most, of accepted steps
 _DEPENDENT = 1e-4  # part of a difference outside of those before it, below which it is left out
 _CERTAIN = 0.1  # part of the residual outside of all differences, below which the model counts as complete
-_OPPOSITE = -0.7  # cosine between residuals that enclose a solution
-_GAIN = 0.5  # decrease of the residual that makes up for that
-_FOUND = 0.1  # decrease on a line with which the search ends
-_ALONG = 0.5  # part of the residual along that of the start without which it ends
+_OPPOSITE = -0.7  # cosine between residuals of two points that enclose a solution
+_GAIN = 0.5  # decrease of the residual that makes it needless to search between them
+_FOUND = 0.1  # decrease of the residual at which the search on a line ends
+_ALONG = 0.5  # part of the residual that must be along the first one for the search to go on
 
 
 class _Point(NamedTuple):
@@ -59,7 +59,7 @@ class QuasiNewton:
 
     def __init__(self) -> None:
         self._secant = Secant()
-        self._past: tuple[Differences, ...] = ()  # newest step first
+        self._past: Differences | None = None  # newest step first
 
     def start(self, scale: Array) -> None:
         """Begin a communication step with the errors that are allowed."""
@@ -69,6 +69,8 @@ class QuasiNewton:
         self._certain = False
         if scale.size == 1:
             self._secant.start(float(scale[0]))
+        none = np.empty((0, scale.size))
+        self._known = (self._past[0] / scale, self._past[1] / scale) if self._past else (none, none)
 
     def next(self, v: Array, g: Array) -> Array:
         """The next values to try, after g = G(v) has been evaluated."""
@@ -76,6 +78,8 @@ class QuasiNewton:
             return np.array([self._secant.next(float(v[0]), float(g[0] - v[0]))])
         x, residual = v / self._scale, (g - v) / self._scale
         point = _Point(x, residual, math.sqrt(residual.dot(residual)))
+        if point.norm == 0.0:
+            return v.copy()
         if not math.isfinite(point.norm):
             return 0.5 * (v + self._points[-1].x * self._scale) if self._points else v.copy()
         line = self._enclosing(point)
@@ -90,18 +94,17 @@ class QuasiNewton:
         elif self._points:
             solution = _Point(v / self._scale, (g - v) / self._scale, 0.0)
             runs, rises = self._differences(solution)
-            newest = runs[: v.size] * self._scale, rises[: v.size] * self._scale
-            self._past = (newest, *self._past)[:_STEPS]
+            self._past = runs[:_KEPT] * self._scale, rises[:_KEPT] * self._scale
 
     def clear(self) -> None:
         """Forget all steps, as after an event."""
-        self.restore((None, ()))
+        self.restore((None, None))
 
-    def copy(self) -> tuple[float | None, tuple[Differences, ...]]:
+    def copy(self) -> tuple[float | None, Differences | None]:
         """What `restore` needs."""
         return self._secant.slope, self._past
 
-    def restore(self, memory: tuple[float | None, tuple[Differences, ...]]) -> None:
+    def restore(self, memory: tuple[float | None, Differences | None]) -> None:
         """Go back to what `copy` has returned."""
         self._secant.slope, self._past = memory
 
@@ -112,30 +115,29 @@ class QuasiNewton:
         elif self._certain:
             last = self._points[-1]
             cosine = point.residual.dot(last.residual) / (point.norm * last.norm)
-            if cosine < _OPPOSITE and point.norm > _GAIN * last.norm:
+            moved = (point.x != last.x).any()
+            if moved and cosine < _OPPOSITE and point.norm > _GAIN * last.norm:
                 self._line = _Line(last, point)
         return self._line
 
     def _differences(self, point: _Point) -> Differences:
-        """Of the points of this step to one of them, the nearest first."""
+        """From a point to those of this step, the nearest first; then those that are kept."""
+        if not self._points:
+            return self._known
         runs = np.array([other.x for other in self._points]) - point.x
         rises = np.array([other.residual for other in self._points]) - point.residual
-        distances = (runs * runs).sum(axis=1)
-        order = np.argsort(distances, kind="stable")
-        order = order[distances[order] > 0.0]
-        return runs[order], rises[order]
+        order = np.argsort((runs * runs).sum(axis=1), kind="stable")
+        return np.concatenate((runs[order], self._known[0])), np.concatenate((rises[order], self._known[1]))
 
     def _step(self, point: _Point) -> Array:
-        known = [self._differences(point)] if self._points else []
-        known += [(run / self._scale, rise / self._scale) for run, rise in self._past]
-        if not any(len(run) for run, _ in known):
+        runs, rises = self._differences(point)
+        if not len(runs):
             size = point.norm / math.sqrt(point.x.size)
             return point.residual * (probing(size) / size)
-        runs, rises = (np.concatenate(parts) for parts in zip(*known, strict=True))
         step, outside = multi_secant(runs, rises, point.residual)
         self._certain = outside.dot(outside) < (_CERTAIN * point.norm) ** 2
-        slowest = math.sqrt(rises[0].dot(rises[0]) / runs[0].dot(runs[0]))
-        return step + outside / max(1.0, slowest)
+        run, rise = runs[0].dot(runs[0]), rises[0].dot(rises[0])
+        return step + (math.sqrt(run / rise) if run < rise else 1.0) * outside
 
 
 def multi_secant(runs: Array, rises: Array, residual: Array) -> Differences:
@@ -147,17 +149,17 @@ def multi_secant(runs: Array, rises: Array, residual: Array) -> Differences:
     """
     unit = np.abs(rises).max(axis=0)
     unit[unit == 0.0] = 1.0
-    left, count = residual / unit, 0
-    basis, steps = np.empty((2, min(rises.shape), residual.size))
-    total = np.zeros(residual.size)
+    left, total, count = residual / unit, np.zeros(residual.size), 0
+    basis = np.empty((min(rises.shape), residual.size))
+    steps = np.empty_like(basis)
     for run, rise in zip(runs, rises / unit, strict=True):
-        along = basis[:count] @ rise
-        new = rise - along @ basis[:count]
+        along = basis[:count].dot(rise)
+        new = rise - along.dot(basis[:count])
         size = math.sqrt(new.dot(new))
         if size <= _DEPENDENT * math.sqrt(rise.dot(rise)):
             continue
         basis[count] = new / size
-        steps[count] = (run - along @ steps[:count]) / size
+        steps[count] = (run - along.dot(steps[:count])) / size
         part = basis[count].dot(left)
         left -= part * basis[count]
         total -= part * steps[count]

@@ -49,7 +49,7 @@ def test_slowly_varying_errors_are_kept_near_the_target_without_rejects(order):
 @pytest.mark.parametrize("order", ORDERS)
 def test_jumps_of_the_error_cost_few_rejects_each(order):
     def size(t):
-        return 1e3**order * (1e3 if math.floor(5.0 * t) % 2 else 1.0)
+        return 1e2**order * (1e3 if math.floor(5.0 * t) % 2 else 1.0)
 
     ratios, _, rejects = run(order, size, until=2.0)
     assert np.mean((ratios > 0.3) & (ratios <= 1.0)) > 0.95
