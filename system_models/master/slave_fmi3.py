@@ -126,7 +126,8 @@ class Fmi3Slave(Slave):
     def _do_step(self, time: float, size: float) -> float:
         self.event = False
         self._end_event()
-        self._start = time
+        self._start, self._refused_input = time, None
+        self._last_time.value, self._end_asked.value = time, False  # a step that is refused may leave them alone
         try:
             self._fmu.fmi3DoStep(self._component, time, size, self._no_return, *self._answers)
         except FMICallException as error:
