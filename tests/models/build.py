@@ -1,0 +1,135 @@
+"""From a model's table and C source to its FMU."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import subprocess
+import tempfile
+import uuid
+import zipfile
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import fmpy
+
+from .catalogue import MODELS
+from .description import Model, Variant, describe
+
+SOURCES = Path(__file__).parent / "c"
+HEADERS = Path(fmpy.__file__).parent / "c-code"
+COMMON = {2: ("instance.c", "fmi2.c"), 3: ("instance.c", "fmi3.c", "unsupported3.c")}
+PLATFORM = {2: "linux64", 3: "x86_64-linux"}
+FLAGS = (
+    "-std=gnu11",
+    "-O2",
+    "-shared",
+    "-fPIC",
+    "-fvisibility=hidden",
+    "-ffp-contract=off",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+)
+
+
+def build(
+    name: str,
+    folder: Path,
+    fmi: int = 2,
+    *,
+    rollback: bool = True,
+    interpolates: bool = True,
+    dependencies: bool = True,
+    start: dict[str, Any] | None = None,
+    identifier: str | None = None,
+    **variant: Any,
+) -> Path:
+    """Build a model's FMU in `folder`, unless it lies there already; returns its path.
+
+    `rollback=False`: it neither saves nor restores its state. `interpolates=False`: derivatives of inputs have no
+    effect (FMI 3 has none). `dependencies=False`: the description leaves out what outputs depend on. `start`: other
+    start values of parameters and inputs. `identifier`: another name for the FMU. `variant`: what the model itself
+    takes.
+    """
+    if name == "python_mass":
+        return _python_mass(Path(folder))
+    model = MODELS[name](**variant).starting(start or {})
+    switches = Variant(fmi, rollback, interpolates, dependencies)
+    identifier = identifier or name
+    header = _header(model, switches)
+    digest = hashlib.sha256(repr((identifier, model, switches, _sources())).encode()).digest()
+    token = str(uuid.UUID(bytes=digest[:16]))
+    path = Path(folder) / f"{identifier}_fmi{fmi}_{token[:8]}.fmu"
+    if not path.exists():
+        library = _compiled(model.source, header + f'#define TOKEN "{token}"\n', fmi)
+        _pack(path, identifier, describe(identifier, token, model, switches), library, fmi)
+    return path
+
+
+@functools.cache
+def _sources() -> str:
+    """Digest of all that the compiler reads."""
+    text = b"".join(path.read_bytes() for path in sorted(SOURCES.iterdir()))
+    return hashlib.sha256(text + repr(FLAGS).encode()).hexdigest()
+
+
+def _header(model: Model, variant: Variant) -> str:
+    """variables.h, apart from the token."""
+    numbers = [v for v in model.variables if v.kind != "String"]
+    strings = [v for v in model.variables if v.kind == "String"]
+    count = {c: sum(v.causality == c for v in numbers) for c in ("parameter", "input")}
+    starts = ", ".join(repr(float(v.start or 0.0)) for v in numbers)
+    texts = ", ".join(f'"{v.start or ""}"' for v in strings)
+    lines = [
+        f"#define N_VARIABLES {len(model.variables)}",
+        f"#define N_NUMBERS {len(numbers)}",
+        f"#define N_STRINGS {len(strings)}",
+        f"#define N_PARAMETERS {count['parameter']}",
+        f"#define N_INPUTS {count['input']}",
+        f"#define N_MEMORY {model.memory}",
+        "#define FIRST_INPUT N_PARAMETERS",
+        "#define FIRST_OUTPUT (N_PARAMETERS + N_INPUTS)",
+        f"#define ROLLBACK {int(variant.rollback)}",
+        f"#define INTERPOLATES {int(variant.interpolates)}",
+        f"#define HAS_EVENT_MODE {int(model.events)}",
+        f"enum {{ {', '.join(f'V_{v.name}' for v in model.variables)} }};",
+        f'#define KIND "{"".join(v.kind[0] for v in model.variables)}"',
+        f'#define CAUSALITY "{"".join(v.causality[0] for v in model.variables)}"',
+        f"static const double START[] __attribute__((unused)) = {{{starts or '0.0'}}};",
+        f"static const char *const START_TEXT[] __attribute__((unused)) = {{{texts or '0'}}};",
+        model.header,
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _compiled(source: str, header: str, fmi: int) -> bytes:
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, "variables.h").write_text(header)
+        library = Path(folder, "model.so")
+        files = [SOURCES / f"{source}.c", *(SOURCES / common for common in COMMON[fmi])]
+        command = [
+            "gcc",
+            *FLAGS,
+            f"-I{folder}",
+            f"-I{SOURCES}",
+            f"-I{HEADERS}",
+            *map(str, files),
+            "-o",
+            str(library),
+            "-lm",
+        ]
+        subprocess.run(command, check=True)
+        return library.read_bytes()
+
+
+def _pack(path: Path, identifier: str, description: bytes, library: bytes, fmi: int) -> None:
+    """Write the archive under another name first: a second process may look for it."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".part", delete=False) as part:
+        with zipfile.ZipFile(part, "w") as archive:
+            archive.writestr("modelDescription.xml", description)
+            archive.writestr(f"binaries/{PLATFORM[fmi]}/{identifier}.so", library)
+            archive.writestr("resources/", b"")
+    Path(part.name).rename(path)

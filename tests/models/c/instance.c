@@ -1,0 +1,269 @@
+#include "instance.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+__attribute__((weak)) const size_t model_work = 0;
+
+__attribute__((weak)) void model_event(State *m) { (void)m; }
+
+__attribute__((weak)) double model_next_event(const State *m) { return (void)m, NAN; }
+
+__attribute__((weak)) int model_partial(const State *m, int output, int input, double *value)
+{
+    return (void)m, (void)output, (void)input, (void)value, 0;
+}
+
+__attribute__((weak)) int model_slope(const State *m, int output, double *value)
+{
+    return (void)m, (void)output, (void)value, 0;
+}
+
+Instance *create(const char *name, const char *token)
+{
+    if (name == NULL || token == NULL || strcmp(token, TOKEN) != 0) return NULL;
+    Instance *it = calloc(1, sizeof *it);
+    it->name = strdup(name);
+    it->work = calloc(1, model_work + 1);
+    reset(it);
+    return it;
+}
+
+void discard(Instance *it)
+{
+    if (it == NULL) return;
+    free(it->name);
+    free(it->work);
+    free(it);
+}
+
+void reset(Instance *it)
+{
+    memset(&it->state, 0, sizeof it->state);
+    memcpy(it->state.value, START, N_NUMBERS * sizeof(double));
+    for (int i = 0; i < N_STRINGS; i++) strcpy(it->state.text[i], START_TEXT[i]);
+    it->last = (Outcome){.reached = 0.0};
+    it->stale = 1;
+}
+
+Status say(Instance *it, Status status, const char *format, ...)
+{
+    char message[512];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    it->report(it, status, message);
+    return status;
+}
+
+/* Outputs that fit state and inputs; while the model initialises, also memory that fits the parameters. */
+static void refresh(Instance *it)
+{
+    if (!it->stale) return;
+    if (it->state.phase <= INITIALISING) model_start(&it->state);
+    model_outputs(&it->state);
+    it->stale = 0;
+}
+
+static Status check_kind(Instance *it, char kind, unsigned ref)
+{
+    if (ref >= N_VARIABLES) return say(it, ERROR, "There is no variable with value reference %u.", ref);
+    if (KIND[ref] != kind) return say(it, ERROR, "Variable %u is of kind %c, not %c.", ref, KIND[ref], kind);
+    return OK;
+}
+
+static Status check_settable(Instance *it, char kind, unsigned ref)
+{
+    if (check_kind(it, kind, ref) != OK) return ERROR;
+    if (it->state.phase == ENDED) return say(it, ERROR, "Variable %u was set after the end.", ref);
+    if (CAUSALITY[ref] == 'o') return say(it, ERROR, "Variable %u is an output and cannot be set.", ref);
+    if (CAUSALITY[ref] == 'p' && it->state.phase > INITIALISING)
+        return say(it, ERROR, "Parameter %u is fixed and was set after initialisation.", ref);
+    return OK;
+}
+
+Status get_numbers(Instance *it, char kind, const unsigned *refs, size_t n, double *values)
+{
+    refresh(it);
+    for (size_t i = 0; i < n; i++) {
+        if (check_kind(it, kind, refs[i]) != OK) return ERROR;
+        values[i] = it->state.value[refs[i]];
+    }
+    return OK;
+}
+
+Status set_numbers(Instance *it, char kind, const unsigned *refs, size_t n, const double *values)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (check_settable(it, kind, refs[i]) != OK) return ERROR;
+        it->state.value[refs[i]] = values[i];
+    }
+    it->stale = 1;
+    return OK;
+}
+
+Status get_texts(Instance *it, const unsigned *refs, size_t n, const char **values)
+{
+    refresh(it);
+    for (size_t i = 0; i < n; i++) {
+        if (check_kind(it, 'S', refs[i]) != OK) return ERROR;
+        values[i] = it->state.text[refs[i] - N_NUMBERS];
+    }
+    return OK;
+}
+
+Status set_texts(Instance *it, const unsigned *refs, size_t n, const char *const *values)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (check_settable(it, 'S', refs[i]) != OK) return ERROR;
+        if (strlen(values[i]) >= TEXT) return say(it, ERROR, "A string is longer than %d bytes.", TEXT - 1);
+        char *text = it->state.text[refs[i] - N_NUMBERS];
+        memset(text, 0, TEXT);
+        strcpy(text, values[i]);
+    }
+    it->stale = 1;
+    return OK;
+}
+
+Status set_input_slopes(Instance *it, const unsigned *refs, size_t n, const int *orders, const double *values)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (check_settable(it, 'R', refs[i]) != OK) return ERROR;
+        if (CAUSALITY[refs[i]] != 'i') return say(it, ERROR, "Variable %u is not an input.", refs[i]);
+        if (orders[i] < 1 || orders[i] > 2)
+            return say(it, ERROR, "The order of an input derivative is %d, not 1 or 2.", orders[i]);
+        if (INTERPOLATES) it->state.slope[orders[i] - 1][refs[i] - FIRST_INPUT] = values[i];
+    }
+    return OK;
+}
+
+Status get_output_slopes(Instance *it, const unsigned *refs, size_t n, const int *orders, double *values)
+{
+    refresh(it);
+    for (size_t i = 0; i < n; i++) {
+        if (check_kind(it, 'R', refs[i]) != OK) return ERROR;
+        if (orders[i] != 1 || !model_slope(&it->state, refs[i], &values[i]))
+            return say(it, ERROR, "Variable %u has no derivative of order %d.", refs[i], orders[i]);
+    }
+    return OK;
+}
+
+Status partials(Instance *it, const unsigned *unknowns, size_t n, const unsigned *knowns, size_t m, const double *seed,
+                double *out)
+{
+    refresh(it);
+    for (size_t i = 0; i < n; i++) {
+        out[i] = 0.0;
+        for (size_t j = 0; j < m; j++) {
+            double partial;
+            if (check_kind(it, 'R', unknowns[i]) != OK || check_kind(it, 'R', knowns[j]) != OK) return ERROR;
+            if (CAUSALITY[unknowns[i]] != 'o' || CAUSALITY[knowns[j]] != 'i' ||
+                !model_partial(&it->state, unknowns[i], knowns[j], &partial))
+                return say(it, ERROR, "No derivative of variable %u to variable %u.", unknowns[i], knowns[j]);
+            out[i] += partial * seed[j];
+        }
+    }
+    return OK;
+}
+
+Status enter_initialisation(Instance *it, double start_time)
+{
+    if (it->state.phase != NEW) return say(it, ERROR, "Initialisation was entered twice.");
+    it->state.phase = INITIALISING;
+    it->state.time = it->last.reached = start_time;
+    it->stale = 1;
+    return OK;
+}
+
+Status exit_initialisation(Instance *it)
+{
+    if (it->state.phase != INITIALISING) return say(it, ERROR, "Initialisation was left but not entered.");
+    refresh(it);
+    it->state.phase = it->event_mode ? EVENTS : STEPPING;
+    return OK;
+}
+
+Status step(Instance *it, double time, double h)
+{
+    State *m = &it->state;
+    if (m->phase != STEPPING) return say(it, ERROR, "A step was asked for in phase %d, not in step mode.", m->phase);
+    if (m->event_pending) return say(it, ERROR, "A step was asked for before the event at %g s was handled.", m->time);
+    if (fabs(time - m->time) > 1e-9 * fmax(1.0, fabs(m->time)))
+        return say(it, ERROR, "The step starts at %.17g s, the model stands at %.17g s.", time, m->time);
+    if (!(h > 0.0)) return say(it, ERROR, "The step size is %g s and must be above 0.", h);
+    m->time = time;
+    it->last = model_step(m, it->work, h, it->may_return_early, it->event_mode);
+    m->event_pending = it->last.event;
+    it->stale = 1;
+    if (it->last.message != NULL) say(it, it->last.status, "%s", it->last.message);
+    return it->last.status;
+}
+
+int is_short(const Instance *it, double time, double h)
+{
+    return it->last.reached < time + h - 1e-12 * fmax(1.0, fabs(time));
+}
+
+Status terminate(Instance *it)
+{
+    if (it->state.phase < EVENTS) return say(it, ERROR, "The end came before initialisation was left.");
+    it->state.phase = ENDED;
+    return OK;
+}
+
+static Status check_rollback(Instance *it)
+{
+    return ROLLBACK ? OK : say(it, ERROR, "This model neither saves nor restores its state.");
+}
+
+Status save(Instance *it, void **state)
+{
+    if (check_rollback(it) != OK) return ERROR;
+    if (*state == NULL) *state = malloc(sizeof(State));
+    refresh(it);
+    memcpy(*state, &it->state, sizeof(State));
+    return OK;
+}
+
+Status restore(Instance *it, const void *state)
+{
+    if (check_rollback(it) != OK) return ERROR;
+    if (state == NULL) return say(it, ERROR, "The state to restore is missing.");
+    memcpy(&it->state, state, sizeof(State));
+    it->last = (Outcome){.reached = it->state.time};
+    it->stale = 1;
+    return OK;
+}
+
+Status release(Instance *it, void **state)
+{
+    if (check_rollback(it) != OK) return ERROR;
+    free(*state);
+    *state = NULL;
+    return OK;
+}
+
+Status state_size(Instance *it, const void *state, size_t *size)
+{
+    if (check_rollback(it) != OK || state == NULL) return ERROR;
+    *size = sizeof(State);
+    return OK;
+}
+
+Status pack(Instance *it, const void *state, void *bytes, size_t size)
+{
+    if (check_rollback(it) != OK || state == NULL || size < sizeof(State)) return ERROR;
+    memcpy(bytes, state, sizeof(State));
+    return OK;
+}
+
+Status unpack(Instance *it, const void *bytes, size_t size, void **state)
+{
+    if (check_rollback(it) != OK) return ERROR;
+    if (size != sizeof(State)) return say(it, ERROR, "A state has %zu bytes, not %zu.", sizeof(State), size);
+    if (*state == NULL) *state = malloc(sizeof(State));
+    memcpy(*state, bytes, sizeof(State));
+    return OK;
+}
