@@ -59,6 +59,7 @@ class Slave(ABC):
         dependencies = model.dependencies
         self.feedthrough = any(dependencies.get(v.name, names) & names for v in outputs)
         self.seconds, self.steps = 0.0, 0  # spent in doStep, and how many
+        self.event = False  # in its last step it has met one
         self.terminated = False  # it has asked for the end of the simulation
         self._instantiate(folder)
 
@@ -181,7 +182,7 @@ class Fmi2Slave(Slave):
             raise self._failed("to start", error) from error
         self._component = self._fmu.component
         self._no_return = not self.model.restores  # whether it is promised that no state before a step comes back
-        self._derivatives: dict[int, Any] = {}  # buffers by order
+        self._order = 0  # up to which derivatives of the inputs have been set
 
     def _on_message(self, environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
         log.log(LEVELS[min(status, len(LEVELS) - 1)], "%s: %s", self.name, message.decode("utf-8", "replace"))
@@ -189,18 +190,21 @@ class Fmi2Slave(Slave):
     def _hold(self, polynomial: NDArray[np.float64], size: float) -> None:
         super()._hold(polynomial, size)
         order = len(polynomial) - 1
-        if order and self.interpolates:
-            self._set_derivatives(order, polynomial)
+        if self.interpolates and max(order, self._order):
+            self._set_derivatives(max(order, self._order), polynomial)
 
     def _set_derivatives(self, order: int, polynomial: NDArray[np.float64]) -> None:
+        """Set the derivatives up to an order at which they were set before: what is not set may stay."""
         count = self.inputs.count * order
-        if order not in self._derivatives:
+        if order > self._order:
             references = (fmi2ValueReference * count)(*(list(self.inputs.references) * order))
-            orders = (fmi2Integer * count)(*np.repeat(np.arange(1, order + 1), self.inputs.count))
-            values = (c_double * count)()
-            self._derivatives[order] = references, orders, values, np.frombuffer(values).reshape(order, -1)
-        references, orders, buffer, values = self._derivatives[order]
-        np.multiply(polynomial[1:], _FACTORIALS[1 : order + 1], out=values)
+            orders = (fmi2Integer * count)(*np.repeat(np.arange(1, order + 1), self.inputs.count).tolist())
+            buffer = (c_double * count)()
+            self._order, self._derivatives = order, (references, orders, buffer)
+            self._slopes = np.frombuffer(buffer).reshape(order, -1)
+        self._slopes[:] = 0.0
+        np.multiply(polynomial[1:], _FACTORIALS[1 : len(polynomial)], out=self._slopes[: len(polynomial) - 1])
+        references, orders, buffer = self._derivatives
         self._fmu.fmi2SetRealInputDerivatives(self._component, references, count, orders, buffer)
 
     def _set_inputs(self) -> None:

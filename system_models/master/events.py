@@ -1,0 +1,55 @@
+"""Events: outputs of a system whose change of sign or of value must not be stepped over."""
+
+from collections.abc import Callable
+from typing import Any
+
+from .coupled import Coupled
+
+Values = tuple[list[float], list[Any]]
+
+
+class Indicators:
+    """The outputs that tell of events: a Real one by being above zero or not, any other by its value."""
+
+    def __init__(self, coupled: Coupled) -> None:
+        self._coupled = coupled
+        self._reals = [coupled.names.index(port.name) for port in coupled.system.events if port.kind == "real"]
+        self._others = [port for port in coupled.system.events if port.kind != "real"]
+
+    def values(self) -> Values:
+        """What they are now."""
+        return [float(self._coupled.outputs[n]) for n in self._reals], [self._coupled.get(p) for p in self._others]
+
+    def locate(self, to: Callable[[float], Values], low: float, before: Values, high: float, width: float) -> float:
+        """A time at most `width` behind the first event between `low` and `high` [s], where the values are those of now.
+
+        `to` goes to a time between them and returns the values there. Raises nothing of its own.
+        """
+        after = self.values()
+        round_ = 0
+        while high - low > width:
+            round_ += 1
+            guess = 0.5 * (low + high) if round_ % 3 == 0 else _secant(low, before, high, after)
+            guess = min(max(guess, low + 0.5 * width), high - 0.5 * width)
+            values = to(guess)
+            if changed(before, values):
+                high, after = guess, values
+            else:
+                low, before = guess, values
+        return high
+
+
+def changed(before: Values, after: Values) -> bool:
+    """Whether there is an event between two sets of values."""
+    signs = any((one > 0.0) != (other > 0.0) for one, other in zip(before[0], after[0], strict=True))
+    return signs or before[1] != after[1]
+
+
+def _secant(low: float, before: Values, high: float, after: Values) -> float:
+    """Where the first Real that changes its sign is zero on a straight line; the middle if none does."""
+    zeros = [
+        low + (high - low) * one / (one - other)
+        for one, other in zip(before[0], after[0], strict=True)
+        if (one > 0.0) != (other > 0.0) and one != other
+    ]
+    return min(zeros, default=0.5 * (low + high))

@@ -1,0 +1,92 @@
+"""The coupled inputs within a communication step: polynomials through their values at communication points.
+
+A polynomial is its coefficients c [degree + 1, size], u(s) = sum c[j] s^j, with s [s] from the current communication
+point. They follow from Newton's divided differences, so that steps may vary.
+"""
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Past = tuple[tuple[float, ...], tuple[Array, ...]]
+
+
+class History:
+    """The newest order + 1 values of the coupled inputs; less after an event, and the order of hold with them.
+
+    Nothing stored is ever changed, so that a copy costs nothing and restores exactly.
+    """
+
+    def __init__(self, order: int) -> None:
+        self._order = order
+        self._times: tuple[float, ...] = ()  # [s], newest first
+        self._differences: tuple[Array, ...] = ()  # [j]: divided difference over the newest j + 1 times
+
+    def __len__(self) -> int:
+        return len(self._times)
+
+    def push(self, time: float, values: Array) -> None:
+        """Add the values [size] at a time [s] later than all before."""
+        differences = self._extended(time, values.copy(), self._order)
+        self._times = (time, *self._times)[: len(differences)]
+        self._differences = differences
+
+    def clear(self) -> None:
+        """Forget the past, as after an event: it says nothing about what follows."""
+        self._times, self._differences = (), ()
+
+    def copy(self) -> Past:
+        """What `restore` needs."""
+        return self._times, self._differences
+
+    def restore(self, past: Past) -> None:
+        """Go back to what `copy` has returned."""
+        self._times, self._differences = past
+
+    def extrapolate(self) -> Array:
+        """Coefficients of the polynomial through the stored values; there must be at least one."""
+        now = self._times[0]
+        return _expanded(self._differences, [time - now for time in self._times])
+
+    def interpolate(self, step: float, end: Array) -> Array:
+        """Coefficients of the polynomial through the newest stored values and `end` [size], a `step` [s] from now."""
+        if self._order == 0 or not self._times:
+            return end[None].copy()
+        now = self._times[0]
+        differences = self._extended(now + step, end, self._order)
+        return _expanded(differences, [step, *(time - now for time in self._times)])
+
+    def _extended(self, time: float, values: Array, order: int) -> tuple[Array, ...]:
+        """Divided differences, up to an order, with one more time."""
+        differences = [values]
+        for past_time, past in zip(self._times[:order], self._differences, strict=False):
+            differences.append((differences[-1] - past) / (time - past_time))
+        return tuple(differences)
+
+
+def _expanded(differences: tuple[Array, ...], nodes: list[float]) -> Array:
+    """Coefficients of powers of s, of Newton's polynomial with its nodes at s [s]."""
+    powers = [differences[-1]]
+    for difference, node in zip(differences[-2::-1], nodes[len(differences) - 2 :: -1], strict=False):
+        between = [low - node * high for low, high in pairwise(powers)]
+        powers = [difference - node * powers[0], *between, powers[-1]]
+    return np.array(powers)
+
+
+def value(coefficients: Array, s: float) -> Array:
+    """u(s) [size]."""
+    total = coefficients[-1].copy()
+    for c in coefficients[-2::-1]:
+        total *= s
+        total += c
+    return total
+
+
+def mean(coefficients: Array, step: float) -> Array:
+    """Mean of u [size] over 0 <= s <= step."""
+    total = coefficients[0].copy()
+    for j in range(1, len(coefficients)):
+        total += coefficients[j] * (step**j / (j + 1))
+    return total

@@ -1,0 +1,99 @@
+"""In which order FMUs step, and which of them form a loop: from the graph, never from the order of listing."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from .slave import Slave
+from .system import System
+
+
+@dataclass(frozen=True)
+class Block:
+    """FMUs that depend on one another around a loop, or one alone.
+
+    sequence: name and which of its own inputs are fresh: set by FMUs that have stepped before it. Of the inputs of the
+    whole system, within: those of this block; unknown: those that an iteration has to find; outside: those set from
+    other blocks.
+    """
+
+    sequence: list[tuple[str, NDArray[np.intp]]]
+    within: NDArray[np.intp]
+    unknown: NDArray[np.intp]
+    outside: NDArray[np.intp]
+
+    @property
+    def names(self) -> list[str]:
+        """Its FMUs."""
+        return [name for name, _ in self.sequence]
+
+
+def blocks(
+    system: System, slaves: Mapping[str, Slave], inputs: list[str], gauss_seidel: bool, loops: bool
+) -> list[Block]:
+    """The blocks in the order of the signals. Without `loops`, all FMUs are in one."""
+    order = _gauss_seidel_order(system, slaves)
+    source = {c.target.name: c.source.model.name for c in system.connections}
+    groups = order if loops else [[name for group in order for name in group]]
+    result, before = [], set[str]()
+    for group in groups:
+        within = [n for n, name in enumerate(inputs) if name.partition(".")[0] in group]
+        stepped, sequence, fresh_inputs = set(before) if loops or gauss_seidel else set[str](), [], set[str]()
+        for name in group:
+            own = [f"{name}.{variable}" for variable in slaves[name].inputs.names]
+            fresh = [n for n, target in enumerate(own) if source[target] in stepped]
+            fresh_inputs |= {own[n] for n in fresh}
+            sequence.append((name, np.array(fresh, dtype=np.intp)))
+            if gauss_seidel:
+                stepped.add(name)
+        unknown = [n for n in within if inputs[n] not in fresh_inputs]
+        outside = [n for n in within if source[inputs[n]] in before]
+        result.append(Block(sequence, *(np.array(which, dtype=np.intp) for which in (within, unknown, outside))))
+        before |= set(group)
+    return result
+
+
+def feedthrough_order(system: System, slaves: Mapping[str, Slave]) -> list[str]:
+    """The FMUs with outputs that depend directly on coupled inputs, each after those that it depends on."""
+    return [name for group in _gauss_seidel_order(system, slaves) for name in group if slaves[name].feedthrough]
+
+
+def _gauss_seidel_order(system: System, slaves: Mapping[str, Slave]) -> list[list[str]]:
+    """Loops of FMUs in the order of the signals; in a loop those first whose outputs do not wait for inputs."""
+    names = list(slaves)
+    result = []
+    for loop in _sorted_loops(names, [(c.source.model.name, c.target.model.name) for c in system.connections]):
+        direct = [name for name in loop if slaves[name].feedthrough]
+        waits = [
+            (c.source.model.name, c.target.model.name)
+            for c in system.connections
+            if c.source.model.name in direct and c.target.model.name in direct
+        ]
+        calm = [name for name in loop if name not in direct]
+        result.append(calm + [name for group in _sorted_loops(direct, waits) for name in group])
+    return result
+
+
+def _sorted_loops(names: list[str], edges: list[tuple[str, str]]) -> list[list[str]]:
+    """Strongly connected components in topological order; where that leaves a choice, by name."""
+    number = {name: n for n, name in enumerate(names)}
+    if not names:
+        return []
+    pairs = sorted({(number[a], number[b]) for a, b in edges})
+    rows, columns = [a for a, _ in pairs], [b for _, b in pairs]
+    graph = coo_array((np.ones(len(pairs)), (rows, columns)), shape=(len(names), len(names)))
+    count, labels = connected_components(graph, connection="strong")
+    groups = [[name for name, label in zip(names, labels, strict=True) if label == n] for n in range(count)]
+    waiting = {n: {int(labels[a]) for a, b in pairs if labels[b] == n and labels[a] != n} for n in range(count)}
+    result = []
+    while waiting:
+        ready = min((n for n, needs in waiting.items() if not needs), key=lambda n: groups[n])
+        result.append(groups[ready])
+        del waiting[ready]
+        for needs in waiting.values():
+            needs.discard(ready)
+    return result

@@ -1,0 +1,248 @@
+"""One accepted communication step: of a given size, or as large as the tolerance allows, up to an event at most."""
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .control import StepControl, wrms
+from .coupled import Coupled, Outcome, Point, StoppedEarly
+from .errors import CouplingError
+from .events import Indicators, Values, changed
+from .recorder import Recorder, Row
+
+_ITERATED = 0.05  # of the error that a step may have: what is left to the iteration
+_DIRECT = 0.5  # an error that falls with less than this above the order of convergence does not add up
+
+
+class Attempt(NamedTuple):
+    """A step that has been tried from a point."""
+
+    rows: list[Row]
+    error: float  # over what it may be: up to 1 it is allowed
+    errors: NDArray[np.float64]  # of the coupled outputs
+
+
+@dataclass
+class Statistics:
+    """What a simulation has done."""
+
+    steps: int = 0
+    rejected: int = 0
+    iterations: int = 0
+    unconverged: int = 0
+    below_min_step: int = 0  # steps at min_step whose error was larger than allowed
+    events: int = 0
+    stopped_early: int = 0  # steps that an FMU did not go to the end of
+    ended_by: str = ""  # the FMU that asked for the end
+
+
+class Ended(Exception):
+    """An FMU has asked for the end of the simulation."""
+
+
+class Stepper:
+    """Makes steps of at most `step_size`, each to a row or two."""
+
+    def __init__(self, coupled: Coupled, recorder: Recorder, step_size: float, min_step: float) -> None:
+        self.coupled, self.recorder = coupled, recorder
+        self.step_size, self.min_step = step_size, min_step
+        self.statistics = Statistics()
+        self._indicators = Indicators(coupled)
+        self.iterated = coupled.scheme.iterate is not None
+
+    def step(self, limit: float) -> list[Row]:
+        """Advance to the end of a step, `limit` at most, and give its rows.
+
+        Raises Ended if an FMU asks for the end, and CouplingError if no step can be made.
+        """
+        coupled = self.coupled
+        start = coupled.save()
+        try:
+            before = self._indicators.values()
+            attempt = self._attempt_to(self._proposed_end(limit), start)
+            event = changed(before, self._indicators.values())
+            if event:
+                attempt = self._to_event(attempt, before, start)
+        finally:
+            coupled.release(start)
+        self._accepted(attempt, event)
+        return attempt.rows
+
+    def _to_event(self, attempt: Attempt, before: Values, start: Point) -> Attempt:
+        """Go back, and to just behind the first event."""
+        self._require_return(f"An event lies between {start.time:g} s and {self.coupled.time:g} s")
+
+        def to(end: float) -> Values:
+            nonlocal attempt
+            self.coupled.restore(start)
+            attempt = self._unstopped(end, start)
+            return self._indicators.values()
+
+        reached = self._indicators.locate(to, start.time, before, self.coupled.time, self.min_step)
+        if self.coupled.time != reached:
+            to(reached)
+        return attempt
+
+    def _attempt_to(self, end: float, start: Point) -> Attempt:
+        """An attempt with an error that is allowed."""
+        return self._unstopped(end, start)
+
+    def _unstopped(self, end: float, start: Point) -> Attempt:
+        """An attempt that no FMU has stopped early."""
+        while True:
+            try:
+                return self._attempt(end, start)
+            except StoppedEarly as stop:
+                end = self._shorter(stop, end, start)
+
+    def _shorter(self, stop: StoppedEarly, end: float, start: Point) -> float:
+        """Go back, and give the end of a step that the FMU which has stopped may make."""
+        size, reached = end - start.time, stop.time - start.time
+        if self.coupled.slaves[stop.name].terminated and reached < self.min_step:
+            self.statistics.ended_by = stop.name
+            raise Ended
+        self._require_return(f"The FMU '{stop.name}' stopped at {stop.time:g} s in a step to {end:g} s")
+        self.coupled.restore(start)
+        self.statistics.stopped_early += 1
+        shorter = reached if reached >= self.min_step else size / 2.0
+        if shorter < self.min_step:
+            raise CouplingError(
+                f"The FMU '{stop.name}' refuses to step on from {start.time:g} s, also by {size:g} s. "
+                "Its messages may say why; a smaller min_step lets it try smaller steps."
+            )
+        return start.time + shorter
+
+    def _require_return(self, why: str) -> None:
+        if not self.coupled.restores:
+            fixed = [name for name, model in self.coupled.system.models.items() if not model.restores]
+            raise CouplingError(
+                f"{why}, but the system cannot go back: {', '.join(fixed)} cannot save and restore the state "
+                "(canGetAndSetFMUstate). Export with it, or take steps that end there."
+            )
+
+    def _proposed_end(self, limit: float) -> float:
+        """The next multiple of the step, or the limit."""
+        time = self.coupled.time
+        end = self.step_size * (math.floor(time / self.step_size + 1e-9) + 1)
+        return limit if end > limit - 1e-9 * self.step_size else end
+
+    def _attempt(self, end: float, start: Point) -> Attempt:
+        size = end - start.time
+        outcome = self.coupled.advance(end, start if self.iterated else None)
+        return Attempt([self.recorder.row(size, outcome)], 0.0, np.zeros(0))
+
+    def _accepted(self, attempt: Attempt, event: bool) -> None:
+        coupled, statistics = self.coupled, self.statistics
+        coupled.accept()
+        statistics.steps += len(attempt.rows)
+        for _, _, (_, iterations, residual, *_) in attempt.rows:
+            statistics.iterations += int(iterations)
+            statistics.unconverged += residual > 1.0
+        if event or coupled.event():
+            statistics.events += 1
+            self.begin_anew()
+        ended = [name for name, slave in coupled.slaves.items() if slave.terminated]
+        if ended:
+            statistics.ended_by = ended[0]
+
+    def begin_anew(self) -> None:
+        """What was before an event says nothing about what follows."""
+        self.coupled.meet()
+
+
+class ControlledStepper(Stepper):
+    """Makes steps whose errors add up to the tolerance at most.
+
+    Every step is made whole and as two halves, which stand; their difference gives the error of these (Richardson). The
+    error of an output may grow by tolerance * its magnitude * step / horizon in a step: so they add up to the tolerance
+    over the horizon. An output that only lags behind, with the order of convergence in every step and not one order
+    more, does not add up; that shows when a rejected step is repeated, and then its error may be the tolerance itself.
+    """
+
+    def __init__(
+        self,
+        coupled: Coupled,
+        recorder: Recorder,
+        step_size: float,
+        min_step: float,
+        tolerance: float,
+        horizon: float,
+        own_iteration_tolerance: bool,
+    ) -> None:
+        super().__init__(coupled, recorder, step_size, min_step)
+        self.tolerance, self.horizon = tolerance, horizon
+        self.own_iteration_tolerance = own_iteration_tolerance  # whether it follows from the tolerance
+        self.size = step_size
+        self.control = StepControl(coupled.scheme.order + 1)
+        self.adds_up = np.ones(len(coupled.coupled), dtype=bool)
+
+    def begin_anew(self) -> None:
+        """What was before an event says nothing about what follows."""
+        super().begin_anew()
+        self.control.after_event()
+
+    def _proposed_end(self, limit: float) -> float:
+        time, remaining = self.coupled.time, limit - self.coupled.time
+        if self.size >= remaining * (1.0 - 1e-9):
+            return limit
+        return time + (remaining / 2.0 if 2.0 * self.size > remaining else self.size)
+
+    def _attempt_to(self, end: float, start: Point) -> Attempt:
+        """Repeat the step, each time shorter, until its error is allowed."""
+        before: tuple[float, Attempt] | None = None
+        while True:
+            attempt = self._unstopped(end, start)
+            size = self.coupled.time - start.time
+            if before:
+                attempt = self._with_new_evidence(before, size, attempt)
+            if attempt.error <= 1.0 or size <= self.min_step * (1.0 + 1e-9):
+                self.statistics.below_min_step += attempt.error > 1.0
+                self.size = max(self.min_step, size * self.control.accept(attempt.error))
+                return attempt
+            self.statistics.rejected += 1
+            self.coupled.restore(start)
+            before = size, attempt
+            end = start.time + max(self.min_step, size * self.control.reject(attempt.error))
+
+    def _attempt(self, end: float, start: Point) -> Attempt:
+        coupled, iterated = self.coupled, self.iterated
+        size, middle_time = end - start.time, start.time + 0.5 * (end - start.time)
+        order = coupled.convergence_order()
+        if self.own_iteration_tolerance:
+            coupled.iteration_tolerance = _ITERATED * self.tolerance * min(1.0, size / self.horizon)
+        whole = coupled.advance(end, start if iterated else None)
+        outputs = coupled.outputs[coupled.coupled]
+        coupled.restore(start)
+        first = coupled.advance(middle_time, start if iterated else None)
+        row = self.recorder.row(0.5 * size, first)
+        middle = coupled.save() if iterated else None
+        try:
+            second = coupled.advance(end, middle)
+        finally:
+            if middle:
+                coupled.release(middle)
+        errors = np.abs(coupled.outputs[coupled.coupled] - outputs) / (2.0**order - 1.0)
+        ratio = self._ratio(errors, size)
+        if max(whole.residual, first.residual, second.residual) > 1.0:
+            ratio = max(ratio, 2.0)
+        return Attempt([row, self.recorder.row(0.5 * size, second, ratio)], ratio, errors)
+
+    def _ratio(self, errors: NDArray[np.float64], size: float) -> float:
+        share = np.where(self.adds_up, min(1.0, size / self.horizon), 1.0)
+        return wrms(errors, self.tolerance * share * self.coupled.scales())
+
+    def _with_new_evidence(self, before: tuple[float, Attempt], size: float, attempt: Attempt) -> Attempt:
+        """Look how the errors have fallen with the step: those that fall too slowly do not add up."""
+        earlier_size, earlier = before
+        order = self.coupled.convergence_order()
+        with np.errstate(divide="ignore", invalid="ignore"):
+            fall = np.log(earlier.errors / attempt.errors) / np.log(earlier_size / size)
+        matters = attempt.errors > 0.1 * self.tolerance * (size / self.horizon) * self.coupled.scales()
+        direct = matters & (fall < order + _DIRECT)
+        if not (direct & self.adds_up).any():
+            return attempt
+        self.adds_up &= ~direct
+        return attempt._replace(error=self._ratio(attempt.errors, size))
