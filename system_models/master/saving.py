@@ -1,23 +1,44 @@
 """What the checkpoint of a simulation holds: whose it is, and the states of all FMUs and of the master as bytes.
 
-The bytes are the length of a JSON header, the header, and the raw memory of arrays and states that it refers to. They
+These bytes are the length of a JSON header, the header, and the raw memory of arrays and states that it refers to. They
 give back every number bit for bit, and nothing in them is ever executed.
 """
 
 import hashlib
 import json
 import struct
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from io import BytesIO
+from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import contact_core
 
+from ..checkpoint import Checkpoint, alone
 from .errors import CouplingError
 from .system import Port, System
+
+
+@contextmanager
+def kept(
+    folder: Path, system: System, outputs: Iterable[Port], settings: Mapping[str, Any], resume: bool
+) -> Iterator[Checkpoint]:
+    """The checkpoint of a simulation, in a folder that is its own as long as it runs.
+
+    `saved` is where it goes on from, if it shall and there is something. Raises CouplingError if the simulation cannot
+    be stored, and StateError if the folder is in use or holds another simulation.
+    """
+    check(system, outputs)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise CouplingError(f"The folder '{folder}' cannot be made: {error.strerror}. Use another.") from None
+    with alone(folder):
+        run = identity(system, settings)
+        yield Checkpoint.resume(folder, run) if resume else Checkpoint(folder, run)
 
 
 def check(system: System, outputs: Iterable[Port]) -> None:
@@ -50,15 +71,6 @@ def identity(system: System, settings: Mapping[str, Any]) -> dict[str, Any]:
         "settings": settings,
     }
     return dict(json.loads(json.dumps(parts)))
-
-
-def records(columns: Mapping[str, NDArray[Any]]) -> NDArray[np.void]:
-    """Columns of one length as a record for each row."""
-    arrays = {name: np.asarray(values) for name, values in columns.items()}
-    rows = np.empty(len(next(iter(arrays.values()))), [(name, values.dtype) for name, values in arrays.items()])
-    for name, values in arrays.items():
-        rows[name] = values
-    return rows
 
 
 def pack(states: Mapping[str, bytes], master: Mapping[str, Any]) -> bytes:

@@ -62,14 +62,3 @@ def test_what_would_come_back_as_something_else_is_not_stored(value: object) -> 
     with pytest.raises(TypeError, match="cannot be stored"):
         saving.pack({}, {"value": value})
 
-
-def test_records_keep_columns_and_their_types() -> None:
-    columns = {
-        "time": np.array([0.0, 0.1]),
-        "a.x": np.array([1.0, -0.0]),
-        "a.n": np.array([1, 2]),
-        "a.on": np.array([True, False]),
-    }
-    rows = saving.records(columns)
-    assert rows.dtype.names == ("time", "a.x", "a.n", "a.on")
-    assert all(same(rows[name], values) for name, values in columns.items())
