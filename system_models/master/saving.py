@@ -74,7 +74,7 @@ def identity(system: System, settings: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def pack(states: Mapping[str, bytes], master: Mapping[str, Any]) -> bytes:
-    """The serialised states of the FMUs by name, and the master's: nested dicts and lists of numbers, texts, arrays."""
+    """The serialised states of the FMUs by name, and the master's: nested dicts, lists and tuples."""
     parts: list[bytes] = []
     header = json.dumps(_described({"states": states, "master": master}, parts)).encode()
     return b"".join([struct.pack("<Q", len(header)), header, *parts])
@@ -100,6 +100,8 @@ def _described(value: Any, parts: list[bytes]) -> Any:
         return {"dict": {name: _described(item, parts) for name, item in value.items()}}
     if isinstance(value, list):
         return [_described(item, parts) for item in value]
+    if type(value) is tuple:
+        return {"tuple": [_described(item, parts) for item in value]}
     if isinstance(value, np.generic):
         return value.item()
     if value is None or isinstance(value, (bool, int, float, str)):
@@ -119,4 +121,6 @@ def _restored(value: Any, stream: BytesIO) -> Any:
     if kind == "array":
         dtype, shape, size = content
         return np.frombuffer(bytearray(stream.read(size)), dtype).reshape(shape)
+    if kind == "tuple":
+        return tuple(_restored(item, stream) for item in content)
     return {name: _restored(item, stream) for name, item in content.items()}
