@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import functools
 import hashlib
+import os
 import subprocess
 import tempfile
 import uuid
 import zipfile
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import fmpy
+from pythonfmu.builder import FmuBuilder
 
 from .catalogue import MODELS
 from .description import Model, Variant, describe
@@ -54,7 +55,7 @@ def build(
     takes.
     """
     if name == "python_mass":
-        return _python_mass(Path(folder))
+        return python_mass(Path(folder))
     model = MODELS[name](**variant).starting(start or {})
     switches = Variant(fmi, rollback, interpolates, dependencies)
     identifier = identifier or name
@@ -65,6 +66,15 @@ def build(
     if not path.exists():
         library = _compiled(model.source, header + f'#define TOKEN "{token}"\n', fmi)
         _pack(path, identifier, describe(identifier, token, model, switches), library, fmi)
+    return path
+
+
+def python_mass(folder: Path) -> Path:
+    """The first mass of the oscillator as pythonfmu makes it: see python_mass.py."""
+    path = folder / "python_mass.fmu"
+    if not path.exists():
+        script = Path(__file__).parent / "python_mass.py"
+        FmuBuilder.build_FMU(script, path, canGetAndSetFMUstate=True, canSerializeFMUstate=True)
     return path
 
 
@@ -127,9 +137,9 @@ def _compiled(source: str, header: str, fmi: int) -> bytes:
 def _pack(path: Path, identifier: str, description: bytes, library: bytes, fmi: int) -> None:
     """Write the archive under another name first: a second process may look for it."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".part", delete=False) as part:
-        with zipfile.ZipFile(part, "w") as archive:
-            archive.writestr("modelDescription.xml", description)
-            archive.writestr(f"binaries/{PLATFORM[fmi]}/{identifier}.so", library)
-            archive.writestr("resources/", b"")
-    Path(part.name).rename(path)
+    part = path.with_suffix(f".{os.getpid()}")
+    with zipfile.ZipFile(part, "w") as archive:
+        archive.writestr("modelDescription.xml", description)
+        archive.writestr(f"binaries/{PLATFORM[fmi]}/{identifier}.so", library)
+        archive.writestr("resources/", b"")
+    part.rename(path)

@@ -250,20 +250,15 @@ def echo() -> Model:
     return Model("echo", variables, text="Each output is the input of its type")
 
 
-def _integrator(
-    source: str, *parameters: Variable, text: str, outputs: tuple[Variable, ...] = (), **more: Any
-) -> Model:
+def _integrator(source: str, *own: Variable, text: str, **more: Any) -> Model:
     """y' = u and something that goes wrong."""
     line = parameter("y0", "m", 0.0), inlet("u", "m/s", 1.0), output("y", "m", 1.0, ("y0",))
-    return Model(source, (*parameters, *line, *outputs), memory=2, text=text, **more)
+    return Model(source, (*own, *line), memory=2, text=text, **more)
 
 
 def discard(partial: bool = False) -> Model:
-    longest = parameter("h_max", "s", 0.1, minimum=1e-9)
-    text = "y' = u in steps of at most h_max"
-    return _integrator(
-        "discard", longest, parameter("partial", None, partial, kind="Boolean"), text=text, early=partial
-    )
+    own = parameter("h_max", "s", 0.1, minimum=1e-9), parameter("partial", None, partial, kind="Boolean")
+    return _integrator("discard", *own, text="y' = u in steps of at most h_max", early=partial)
 
 
 def terminator() -> Model:
@@ -272,9 +267,9 @@ def terminator() -> Model:
 
 def early() -> Model:
     times = parameter("period", "s", 0.25, minimum=1e-9), parameter("jump", "m", 1.0)
-    counted = (output("events", None, kind="Integer"),)
+    counted = output("events", None, kind="Integer")
     text = "y' = u, with a jump at each multiple of the period"
-    return _integrator("early", *times, outputs=counted, text=text, early=True, events=True)
+    return _integrator("early", *times, counted, text=text, early=True, events=True)
 
 
 def nan() -> Model:

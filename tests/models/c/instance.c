@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-__attribute__((weak)) const size_t model_work = 0;
+__attribute__((weak)) size_t model_work(void) { return 0; }
 
 __attribute__((weak)) void model_event(State *m) { (void)m; }
 
@@ -25,7 +25,7 @@ Instance *create(const char *name, const char *token)
     if (name == NULL || token == NULL || strcmp(token, TOKEN) != 0) return NULL;
     Instance *it = calloc(1, sizeof *it);
     it->name = strdup(name);
-    it->work = calloc(1, model_work + 1);
+    it->work = calloc(1, model_work() + 1);
     reset(it);
     return it;
 }

@@ -46,7 +46,7 @@ void model_event(State *m);         /* event mode: the pending event happens */
 double model_next_event(const State *m); /* its time, or NAN */
 int model_partial(const State *m, int output, int input, double *value);  /* d output / d input; 0: unknown */
 int model_slope(const State *m, int output, double *value);              /* d output / dt; 0: unknown */
-extern const size_t model_work;     /* bytes of scratch memory of an instance, zero at first, never part of the state */
+size_t model_work(void);             /* bytes of scratch memory of an instance, zero at first, never part of the state */
 
 /* Helpers for models. */
 #define VALUE(name) (m->value[V_##name])
