@@ -62,4 +62,3 @@ def test_numbers_of_numpy_are_stored_as_numbers() -> None:
 def test_what_would_come_back_as_something_else_is_not_stored(value: object) -> None:
     with pytest.raises(TypeError, match="cannot be stored"):
         saving.pack({}, {"value": value})
-
