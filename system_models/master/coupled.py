@@ -215,7 +215,7 @@ class Coupled:
             self._pass(block, size, self.history.interpolate(size, ends))
             return Outcome(1, 0.0)
         guess, floor = ends[unknown], np.abs(self._factor * self.magnitudes[self._source])[unknown]
-        method.start(guess, self.iteration_tolerance * _positive(np.maximum(floor, abs(guess))))
+        method.start(self.iteration_tolerance * _positive(np.maximum(floor, abs(guess))))
         iteration, residual = 0, math.inf
         while residual > 1.0 and iteration < self.scheme.most_iterations:
             if iteration:
@@ -318,10 +318,10 @@ class Coupled:
         """Magnitudes of the outputs that set inputs."""
         return _positive(np.maximum(self.magnitudes, np.abs(self.outputs))[self.coupled])
 
-    def convergence_order(self) -> int:
-        """Power of the step with which errors fall from here on: less than the scheme's until there is a history."""
-        points = len(self.history) if self.scheme.iterate else len(self.history) - 1
-        return min(points, self.scheme.order) + 1
+    def nodes(self, size: float) -> list[float]:
+        """The times [s], from now, at which the inputs of a step of a size are those of the outputs."""
+        ages = [-age for age in self.history.ages()]
+        return ([size, *ages] if self.scheme.iterate else ages)[: self.scheme.order + 1]
 
     def power_residuals(self) -> list[float]:
         """For each bond, the power [W] that the one FMU gives less the power that the other takes.

@@ -33,6 +33,10 @@ class History:
         self._times = (time, *self._times)[: len(differences)]
         self._differences = differences
 
+    def ages(self) -> list[float]:
+        """How long ago [s] the stored values were those of now, the newest first."""
+        return [self._times[0] - time for time in self._times]
+
     def clear(self) -> None:
         """Forget the past, as after an event: it says nothing about what follows."""
         self._times, self._differences = (), ()

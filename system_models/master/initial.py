@@ -1,8 +1,172 @@
-def initialise(slaves, connections, tolerance=1e-10, most=100):
-    for _ in range(6):
-        for s in slaves.values():
-            s.read()
-        for c in connections:
-            v = slaves[c.source.model.name].get(c.source.variable)
-            slaves[c.target.model.name].set(c.target.variable, c.factor*v+c.offset if isinstance(v,float) else v)
-    return 1
+"""Consistent initial values: each connected input has the value of what sets it, while the FMUs are being initialised.
+
+The connections are worked through in the order of the initial dependencies. Around a loop there is no such order: it is
+cut at as few connections as a simple rule finds, and the inputs there are solved for.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+from fmpy.fmi1 import FMICallException, fmi1Discard
+from numpy.typing import NDArray
+
+from .control import scale, wrms
+from .errors import CouplingError
+from .model import NUMBERS
+from .quasi_newton import QuasiNewton
+from .sequence import sorted_loops
+from .slave import Slave
+from .system import Connection
+
+Edges = set[tuple[str, str]]
+Array = NDArray[np.float64]
+
+_MOST_PASSES = 20  # until discrete values around a loop come to rest
+
+
+def initialise(
+    slaves: Mapping[str, Slave], connections: Iterable[Connection], tolerance: float = 1e-10, most: int = 100
+) -> int:
+    """Set the connected inputs of FMUs that are being initialised, and return how many evaluations that took.
+
+    tolerance: of the inputs at which a loop is cut, relative and in the unit of `nominal`. most: evaluations of a loop
+    between changes of its discrete values. It is solved from the start values of these inputs, so that of several
+    solutions always the same is found. Raises CouplingError if none is.
+    """
+    by_target = {connection.target.name: connection for connection in connections}
+    edges = _edges(by_target)
+    evaluations = 0
+    for names in sorted_loops(sorted(by_target), sorted(edges)):
+        loop = _Loop(slaves, by_target, names, edges)
+        evaluations += loop.solve(tolerance, most)
+    return evaluations
+
+
+def _edges(by_target: Mapping[str, Connection]) -> Edges:
+    """Pairs of connected inputs, by name, of which the first must be known to work out the second."""
+    edges = set()
+    for name, connection in by_target.items():
+        model = connection.source.model
+        inputs = (v.name for v in model.variables.values() if v.causality == "input")
+        needed = model.initial_dependencies.get(connection.source.variable.name, inputs)
+        edges |= {(f"{model.name}.{known}", name) for known in needed if f"{model.name}.{known}" in by_target}
+    return edges
+
+
+class _Loop:
+    """Connections that depend on one another, or one alone."""
+
+    def __init__(
+        self, slaves: Mapping[str, Slave], by_target: Mapping[str, Connection], names: list[str], edges: Edges
+    ) -> None:
+        self._slaves, self._names = slaves, names
+        discrete = {name for name in names if by_target[name].source.kind not in NUMBERS}
+        cuts, order = _cut(names, edges, discrete)
+        self._chain = [by_target[name] for name in order]
+        self._reals = [by_target[name] for name in cuts if name not in discrete]
+        self._discrete = [by_target[name] for name in cuts if name in discrete]
+
+    def solve(self, tolerance: float, most: int) -> int:
+        """Set the inputs, and return how many times all of them were worked out."""
+        evaluations = 0
+        values = np.array([self._slaves[c.target.model.name].get(c.target.variable) for c in self._reals], dtype=float)
+        discrete: list[Any] = []
+        for _ in range(_MOST_PASSES):
+            values, count = self._solved(values, tolerance, most)
+            evaluations += count
+            before, discrete = discrete, [self._result(connection) for connection in self._discrete]
+            if discrete == before:
+                return evaluations
+            for connection, value in zip(self._discrete, discrete, strict=True):
+                self._set(connection, value)
+        raise CouplingError(
+            f"The initial values of the loop {', '.join(self._names)} do not come to rest: after {_MOST_PASSES} passes "
+            f"'{self._discrete[0].target.name}' still changes. Break the loop: leave out one of its connections."
+        )
+
+    def _solved(self, values: Array, tolerance: float, most: int) -> tuple[Array, int]:
+        """The inputs at the cuts, from a guess, and how many evaluations they took."""
+        nominal = np.array([connection.target.nominal or 1.0 for connection in self._reals])
+        method = QuasiNewton()
+        method.start(scale(tolerance, nominal, values))
+        for count in range(1, most + 1):
+            results = self._evaluated(values)
+            if count == 1 and not np.isfinite(results).all():
+                raise CouplingError(
+                    f"The loop {', '.join(self._names)} has no values to begin with: from its start values "
+                    f"{self._listed(values)} it gives {self._listed(results)}. "
+                    "Give other start values by `parameters`, or break the loop."
+                )
+            if wrms(results - values, scale(tolerance, nominal, values)) <= 1.0:
+                return values, count
+            last, values = values, method.next(values, results)
+        raise CouplingError(
+            f"The initial values of the loop {', '.join(self._names)} do not converge: after {most} evaluations, "
+            f"{self._listed(last)} gives {self._listed(results)}. "
+            "Give start values near a solution by `parameters`, or break the loop."
+        )
+
+    def _listed(self, values: Array) -> str:
+        pairs = zip(self._reals, values, strict=True)
+        return ", ".join(f"'{connection.target.name}' = {value:.9g}" for connection, value in pairs)
+
+    def _evaluated(self, values: Array) -> Array:
+        """What inputs at the cuts lead to there, NaN where an FMU cannot say."""
+        try:
+            for connection, value in zip(self._reals, values, strict=True):
+                self._set(connection, float(value))
+            for connection in self._chain:
+                self._set(connection, self._result(connection))
+            return np.array([self._result(connection) for connection in self._reals], dtype=float)
+        except _UndefinedError:
+            if not self._reals:
+                raise
+            return np.full(len(values), np.nan)
+
+    def _result(self, connection: Connection) -> Any:
+        """What a connection makes of its source."""
+        slave = self._slaves[connection.source.model.name]
+        with _named(slave, f"to give '{connection.source.name}'"):
+            return connection.result(slave.get(connection.source.variable))
+
+    def _set(self, connection: Connection, value: Any) -> None:
+        slave = self._slaves[connection.target.model.name]
+        with _named(slave, f"to take '{connection.target.name}' = {value!r}"):
+            slave.set(connection.target.variable, value)
+
+
+class _UndefinedError(CouplingError):
+    """Something cannot be worked out for these inputs; for others it may."""
+
+
+@contextmanager
+def _named(slave: Slave, what: str) -> Iterator[None]:
+    try:
+        yield
+    except FMICallException as error:
+        failure = slave.failure(f"{what} while it was initialised", error)
+        raise (_UndefinedError(str(failure)) if error.status == fmi1Discard else failure) from error
+
+
+def _cut(names: list[str], edges: Edges, discrete: set[str]) -> tuple[list[str], list[str]]:
+    """Inputs without which the others depend on one another in an order, and these in that order.
+
+    Discrete ones are cut first, then those through which most pairs of others hang together.
+    """
+    cuts: list[str] = []
+    while True:
+        left = [name for name in names if name not in cuts]
+        among = sorted((a, b) for a, b in edges if a in left and b in left)
+        groups = sorted_loops(left, among)
+        loop = next((g for g in groups if len(g) > 1 or (g[0], g[0]) in edges), None)
+        if loop is None:
+            return sorted(cuts), [name for group in groups for name in group]
+
+        inner = [(a, b) for a, b in among if a in loop and b in loop]
+        rank = {
+            name: (name in discrete, sum(a == name for a, _ in inner) * sum(b == name for _, b in inner))
+            for name in loop
+        }
+        cuts.append(max(loop, key=rank.__getitem__))

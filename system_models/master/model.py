@@ -9,6 +9,7 @@ from fmpy.model_description import ModelDescription, ModelVariable
 
 from .errors import CouplingError
 
+NUMBERS = ("real", "float")  # kinds that have a unit and can be scaled
 REAL = ("Real", "Float64")  # coupled as a continuous signal; the other types are passed on at communication points
 INTEGER = ("Integer", "Enumeration", "Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64")
 _KINDS = {**dict.fromkeys(REAL, "real"), "Float32": "float", **dict.fromkeys(INTEGER, "integer")}
@@ -37,6 +38,11 @@ class Model:
     def restores(self) -> bool:
         """Whether it can go back to a saved state."""
         return bool(self.capabilities.canGetAndSetFMUstate)
+
+    @property
+    def serialises(self) -> bool:
+        """Whether a saved state can outlive the process."""
+        return self.restores and bool(self.capabilities.canSerializeFMUstate)
 
     @cached_property
     def dependencies(self) -> dict[str, frozenset[str]]:

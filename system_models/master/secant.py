@@ -84,14 +84,11 @@ class Secant:
         self._point = new
         return self._unbounded(new)
 
-    def _probe(self, point: Point) -> float:
-        length = probing(abs(point.residual) / self._scale) * self._scale
-        return math.copysign(length, point.residual)
-
     def _unbounded(self, point: Point) -> float:
         if point.slope is None:
-            return point.value + self._probe(point)
-        slope = math.copysign(max(abs(point.slope), _FLATTEST), point.slope)
+            return point.value + math.copysign(self._probe(point), point.residual)
+        slope = point.slope or -_FLATTEST
+        slope = math.copysign(max(abs(slope), _FLATTEST), slope)
         return point.value - point.residual / slope
 
     def _enclosed(self, new: Point, end: Point, other: Point) -> float:
@@ -112,8 +109,17 @@ class Secant:
             if low < root < high:
                 return root
         if best.slope is None:
-            root = best.beside(worst).root()
-        elif worst.slope is None:
+            return self._within(best.beside(worst).root(), low, high)
+        if worst.slope is None:
             self._slow = -1  # a probe is not meant to gain
-            root = worst.value + math.copysign(self._probe(worst), best.value - worst.value)
-        return root if low < root < high else 0.5 * (low + high)
+            inwards = math.copysign(self._probe(worst), best.value - worst.value)
+            return self._within(worst.value + inwards, low, high)
+        return 0.5 * (low + high)
+
+    def _probe(self, point: Point) -> float:
+        return probing(abs(point.residual) / self._scale) * self._scale
+
+    @staticmethod
+    def _within(value: float, low: float, high: float) -> float:
+        """The value, or the middle if it is not between the ends."""
+        return value if low < value < high else 0.5 * (low + high)

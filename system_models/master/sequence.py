@@ -66,7 +66,7 @@ def _gauss_seidel_order(system: System, slaves: Mapping[str, Slave]) -> list[lis
     """Loops of FMUs in the order of the signals; in a loop those first whose outputs do not wait for inputs."""
     names = list(slaves)
     result = []
-    for loop in _sorted_loops(names, [(c.source.model.name, c.target.model.name) for c in system.connections]):
+    for loop in sorted_loops(names, [(c.source.model.name, c.target.model.name) for c in system.connections]):
         direct = [name for name in loop if slaves[name].feedthrough]
         waits = [
             (c.source.model.name, c.target.model.name)
@@ -74,11 +74,11 @@ def _gauss_seidel_order(system: System, slaves: Mapping[str, Slave]) -> list[lis
             if c.source.model.name in direct and c.target.model.name in direct
         ]
         calm = [name for name in loop if name not in direct]
-        result.append(calm + [name for group in _sorted_loops(direct, waits) for name in group])
+        result.append(calm + [name for group in sorted_loops(direct, waits) for name in group])
     return result
 
 
-def _sorted_loops(names: list[str], edges: list[tuple[str, str]]) -> list[list[str]]:
+def sorted_loops(names: list[str], edges: list[tuple[str, str]]) -> list[list[str]]:
     """Strongly connected components in topological order; where that leaves a choice, by name."""
     number = {name: n for n, name in enumerate(names)}
     if not names:

@@ -41,8 +41,8 @@ class Reals:
         self.count = len(variables)
         self.names = [variable.name for variable in variables]
         self.references = (fmi2ValueReference * self.count)(*(v.valueReference for v in variables))
-        self.buffer = (c_double * self.count)()
-        self.values = np.frombuffer(self.buffer, dtype=float) if self.count else np.empty(0)
+        self.values = np.zeros(self.count)
+        self.buffer = (c_double * self.count).from_buffer(self.values)
 
 
 class Slave(ABC):
@@ -59,8 +59,9 @@ class Slave(ABC):
         dependencies = model.dependencies
         self.feedthrough = any(dependencies.get(v.name, names) & names for v in outputs)
         self.seconds, self.steps = 0.0, 0  # spent in doStep, and how many
-        self.event = False  # in its last step it has met one
         self.terminated = False  # it has asked for the end of the simulation
+        self.event, self.events = False, 0  # handled in the last step or after it, and how many: from FMI 3 on
+        self.next_event: float | None = None  # its time [s], where the FMU announces it
         self._instantiate(folder)
 
     @property
@@ -100,7 +101,12 @@ class Slave(ABC):
             self.inputs.values[:] = polynomial[0]
         self._set_inputs()
 
-    def _failed(self, what: str, error: Exception) -> CouplingError:
+    def _pass_on(self, status: int, message: bytes | None) -> None:
+        """Log what the FMU says."""
+        log.log(LEVELS[min(status, len(LEVELS) - 1)], "%s: %s", self.name, (message or b"").decode("utf-8", "replace"))
+
+    def failure(self, what: str, error: Exception) -> CouplingError:
+        """What to raise where the FMU has failed to do something."""
         return CouplingError(f"The FMU '{self.name}' failed {what}: {error} Its messages say why.")
 
     @abstractmethod
@@ -179,13 +185,13 @@ class Fmi2Slave(Slave):
             addLoggerProxy(byref(callbacks))  # a message is a printf format with its arguments
             self._fmu.instantiate(callbacks=callbacks, loggingOn=True)
         except Exception as error:
-            raise self._failed("to start", error) from error
+            raise self.failure("to start", error) from error
         self._component = self._fmu.component
         self._no_return = not self.model.restores  # whether it is promised that no state before a step comes back
         self._order = 0  # up to which derivatives of the inputs have been set
 
     def _on_message(self, environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
-        log.log(LEVELS[min(status, len(LEVELS) - 1)], "%s: %s", self.name, message.decode("utf-8", "replace"))
+        self._pass_on(status, message)
 
     def _hold(self, polynomial: NDArray[np.float64], size: float) -> None:
         super()._hold(polynomial, size)
@@ -199,9 +205,9 @@ class Fmi2Slave(Slave):
         if order > self._order:
             references = (fmi2ValueReference * count)(*(list(self.inputs.references) * order))
             orders = (fmi2Integer * count)(*np.repeat(np.arange(1, order + 1), self.inputs.count).tolist())
-            buffer = (c_double * count)()
+            self._slopes = np.zeros((order, self.inputs.count))
+            buffer = (c_double * count).from_buffer(self._slopes)
             self._order, self._derivatives = order, (references, orders, buffer)
-            self._slopes = np.frombuffer(buffer).reshape(order, -1)
         self._slopes[:] = 0.0
         np.multiply(polynomial[1:], _FACTORIALS[1 : len(polynomial)], out=self._slopes[: len(polynomial) - 1])
         references, orders, buffer = self._derivatives
@@ -260,6 +266,7 @@ class Fmi2Slave(Slave):
     def restore(self, state: Any) -> None:
         """Go back to a state."""
         self._fmu.fmi2SetFMUstate(self._component, state)
+        self.terminated = False
 
     def release(self, state: Any) -> None:
         """Free a state."""

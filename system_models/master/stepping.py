@@ -12,9 +12,10 @@ from .coupled import Coupled, Outcome, Point, StoppedEarly
 from .errors import CouplingError
 from .events import Indicators, Values, changed
 from .recorder import Recorder, Row
+from .richardson import Weights, weights
 
+_MATTERS = 0.1  # of the error that a step may have: less says nothing about how it adds up
 _ITERATED = 0.05  # of the error that a step may have: what is left to the iteration
-_DIRECT = 0.5  # an error that falls with less than this above the order of convergence does not add up
 
 
 class Attempt(NamedTuple):
@@ -23,6 +24,7 @@ class Attempt(NamedTuple):
     rows: list[Row]
     error: float  # over what it may be: up to 1 it is allowed
     errors: NDArray[np.float64]  # of the coupled outputs
+    weights: Weights
 
 
 @dataclass
@@ -132,7 +134,7 @@ class Stepper:
     def _attempt(self, end: float, start: Point) -> Attempt:
         size = end - start.time
         outcome = self.coupled.advance(end, start if self.iterated else None)
-        return Attempt([self.recorder.row(size, outcome)], 0.0, np.zeros(0))
+        return Attempt([self.recorder.row(size, outcome)], 0.0, np.zeros(0), Weights(0.0, 0.0, 0.0))
 
     def _accepted(self, attempt: Attempt, event: bool) -> None:
         coupled, statistics = self.coupled, self.statistics
@@ -192,57 +194,59 @@ class ControlledStepper(Stepper):
 
     def _attempt_to(self, end: float, start: Point) -> Attempt:
         """Repeat the step, each time shorter, until its error is allowed."""
-        before: tuple[float, Attempt] | None = None
+        before: Attempt | None = None
         while True:
             attempt = self._unstopped(end, start)
             size = self.coupled.time - start.time
             if before:
-                attempt = self._with_new_evidence(before, size, attempt)
+                attempt = self._with_new_evidence(before, attempt, size)
             if attempt.error <= 1.0 or size <= self.min_step * (1.0 + 1e-9):
                 self.statistics.below_min_step += attempt.error > 1.0
                 self.size = max(self.min_step, size * self.control.accept(attempt.error))
                 return attempt
             self.statistics.rejected += 1
             self.coupled.restore(start)
-            before = size, attempt
+            before = attempt
             end = start.time + max(self.min_step, size * self.control.reject(attempt.error))
 
     def _attempt(self, end: float, start: Point) -> Attempt:
         coupled, iterated = self.coupled, self.iterated
         size, middle_time = end - start.time, start.time + 0.5 * (end - start.time)
-        order = coupled.convergence_order()
         if self.own_iteration_tolerance:
             coupled.iteration_tolerance = _ITERATED * self.tolerance * min(1.0, size / self.horizon)
+        whole_nodes, first_nodes = coupled.nodes(size), coupled.nodes(0.5 * size)
         whole = coupled.advance(end, start if iterated else None)
         outputs = coupled.outputs[coupled.coupled]
         coupled.restore(start)
         first = coupled.advance(middle_time, start if iterated else None)
         row = self.recorder.row(0.5 * size, first)
+        of_halves = weights(size, whole_nodes, first_nodes, coupled.nodes(0.5 * size))
         middle = coupled.save() if iterated else None
         try:
             second = coupled.advance(end, middle)
         finally:
             if middle:
                 coupled.release(middle)
-        errors = np.abs(coupled.outputs[coupled.coupled] - outputs) / (2.0**order - 1.0)
+        errors = np.abs(coupled.outputs[coupled.coupled] - outputs) * of_halves.per_difference
         ratio = self._ratio(errors, size)
         if max(whole.residual, first.residual, second.residual) > 1.0:
             ratio = max(ratio, 2.0)
-        return Attempt([row, self.recorder.row(0.5 * size, second, ratio)], ratio, errors)
+        return Attempt([row, self.recorder.row(0.5 * size, second, ratio)], ratio, errors, of_halves)
 
     def _ratio(self, errors: NDArray[np.float64], size: float) -> float:
         share = np.where(self.adds_up, min(1.0, size / self.horizon), 1.0)
         return wrms(errors, self.tolerance * share * self.coupled.scales())
 
-    def _with_new_evidence(self, before: tuple[float, Attempt], size: float, attempt: Attempt) -> Attempt:
+    def _with_new_evidence(self, earlier: Attempt, attempt: Attempt, size: float) -> Attempt:
         """Look how the errors have fallen with the step: those that fall too slowly do not add up."""
-        earlier_size, earlier = before
-        order = self.coupled.convergence_order()
         with np.errstate(divide="ignore", invalid="ignore"):
-            fall = np.log(earlier.errors / attempt.errors) / np.log(earlier_size / size)
-        matters = attempt.errors > 0.1 * self.tolerance * (size / self.horizon) * self.coupled.scales()
-        direct = matters & (fall < order + _DIRECT)
-        if not (direct & self.adds_up).any():
+            fall = np.log(earlier.errors / attempt.errors)
+        if_added, if_direct = (
+            math.log(getattr(earlier.weights, kind) / getattr(attempt.weights, kind)) for kind in ("added", "direct")
+        )
+        matters = attempt.errors > _MATTERS * self.tolerance * (size / self.horizon) * self.coupled.scales()
+        direct = matters & self.adds_up & (fall < 0.5 * (if_added + if_direct))
+        if self.iterated or not direct.any():
             return attempt
         self.adds_up &= ~direct
         return attempt._replace(error=self._ratio(attempt.errors, size))

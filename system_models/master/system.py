@@ -12,7 +12,7 @@ from contact_core.reading import did_you_mean
 
 from . import unit_checks
 from .errors import CouplingError
-from .model import Model, kind
+from .model import NUMBERS, Model, kind
 
 Value = float | int | bool | str
 
@@ -34,6 +34,11 @@ class Port:
         """real, float, integer, boolean or string."""
         return kind(self.variable)
 
+    @property
+    def nominal(self) -> float | None:
+        """Its order of magnitude, where the FMU says it."""
+        return abs(float(self.variable.nominal)) if self.variable.nominal else None
+
 
 @dataclass(frozen=True)
 class Connection:
@@ -43,6 +48,10 @@ class Connection:
     target: Port
     factor: float
     offset: float
+
+    def result(self, value: Any) -> Any:
+        """What a value of the source makes of the target."""
+        return self.factor * value + self.offset if self.source.kind in NUMBERS else value
 
 
 @dataclass(frozen=True)
@@ -153,13 +162,12 @@ class System:
     def _connection(self, source_name: str, target_name: str, factor: float) -> Connection:
         source = self._output(source_name, "the start of a connection")
         target = self._input(target_name, "the end of a connection")
-        numbers = ("real", "float")
-        if source.kind != target.kind and not (source.kind in numbers and target.kind in numbers):
+        if source.kind != target.kind and not (source.kind in NUMBERS and target.kind in NUMBERS):
             raise CouplingError(
                 f"'{source.name}' is of type {source.variable.type} and cannot set '{target.name}' of type "
                 f"{target.variable.type}. Connect variables of one type."
             )
-        if source.kind not in numbers:
+        if source.kind not in NUMBERS:
             if factor != 1.0:
                 raise CouplingError(
                     f"The connection from '{source.name}' to '{target.name}' has the factor {factor:g}, but type "

@@ -42,6 +42,7 @@ def build(
     *,
     rollback: bool = True,
     interpolates: bool = True,
+    intermediate: bool = False,
     dependencies: bool = True,
     start: dict[str, Any] | None = None,
     identifier: str | None = None,
@@ -50,14 +51,14 @@ def build(
     """Build a model's FMU in `folder`, unless it lies there already; returns its path.
 
     `rollback=False`: it neither saves nor restores its state. `interpolates=False`: derivatives of inputs have no
-    effect (FMI 3 has none). `dependencies=False`: the description leaves out what outputs depend on. `start`: other
-    start values of parameters and inputs. `identifier`: another name for the FMU. `variant`: what the model itself
-    takes.
+    effect (FMI 3 has none). `intermediate`: it asks for its inputs within a step, as FMI 3 can. `dependencies=False`:
+    the description leaves out what outputs depend on. `start`: other start values of parameters and inputs.
+    `identifier`: another name for the FMU. `variant`: what the model itself takes.
     """
     if name == "python_mass":
         return python_mass(Path(folder))
     model = MODELS[name](**variant).starting(start or {})
-    switches = Variant(fmi, rollback, interpolates, dependencies)
+    switches = Variant(fmi, rollback, interpolates, dependencies, intermediate)
     identifier = identifier or name
     header = _header(model, switches)
     digest = hashlib.sha256(repr((identifier, model, switches, _sources())).encode()).digest()
@@ -103,6 +104,7 @@ def _header(model: Model, variant: Variant) -> str:
         "#define FIRST_OUTPUT (N_PARAMETERS + N_INPUTS)",
         f"#define ROLLBACK {int(variant.rollback)}",
         f"#define INTERPOLATES {int(variant.interpolates)}",
+        f"#define INTERMEDIATE {int(variant.intermediate)}",
         f"#define HAS_EVENT_MODE {int(model.events)}",
         f"enum {{ {', '.join(f'V_{v.name}' for v in model.variables)} }};",
         f'#define KIND "{"".join(v.kind[0] for v in model.variables)}"',

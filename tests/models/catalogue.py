@@ -224,6 +224,19 @@ def gain(a: float = 1.0, b: float = 0.0, c: float = 0.0, unit_u: str = "1", unit
     )
 
 
+def sphere() -> Model:
+    return Model(
+        "sphere",
+        (
+            parameter("r2", None, 5.0, minimum=0.0, text="Square of the radius"),
+            inlet("u", None, 1.0),
+            inlet("v", None, 1.0),
+            output("w", None, 1.0, ("u", "v", "r2")),
+        ),
+        text="The third coordinate of a point on a sphere, no number outside of it",
+    )
+
+
 def millimetre() -> Model:
     return gain(a=10.0, unit_u="mm", unit_y="N")
 
@@ -240,14 +253,14 @@ def kelvin() -> Model:
     return gain(unit_u="K", unit_y="K")
 
 
-def echo() -> Model:
+def echo(events: bool = False) -> Model:
     kinds = ("Real", 0.0), ("Integer", 0), ("Boolean", False), ("String", "")
     pairs = (
         (inlet(f"{kind.lower()}_in", None, start=start, kind=kind), output(f"{kind.lower()}_out", None, kind=kind))
         for kind, start in kinds
     )
     variables = tuple(v for i, o in pairs for v in (i, replace(o, needs=(i.name,))))
-    return Model("echo", variables, text="Each output is the input of its type")
+    return Model("echo", variables, events=events, text="Each output is the input of its type")
 
 
 def _integrator(source: str, *own: Variable, text: str, **more: Any) -> Model:
@@ -327,6 +340,7 @@ MODELS: dict[str, Callable[..., Model]] = {
         contact_point,
         friction,
         gain,
+        sphere,
         millimetre,
         mismatch,
         celsius,

@@ -102,6 +102,7 @@ class Variant:
     rollback: bool = True
     interpolates: bool = True
     dependencies: bool = True
+    intermediate: bool = False
     start: dict[str, Any] = field(default_factory=dict)
 
 
@@ -189,6 +190,7 @@ def _fmi3(name: str, token: str, model: Model, variant: Variant) -> ET.Element:
         maxOutputDerivativeOrder=int(model.slopes),
         mightReturnEarlyFromDoStep=model.early,
         hasEventMode=model.events,
+        providesIntermediateUpdate=variant.intermediate,
     )
     _units(root, model)
     variables = _element(root, "ModelVariables")
@@ -203,6 +205,7 @@ def _fmi3(name: str, token: str, model: Model, variant: Variant) -> ET.Element:
             variability=v.variability,
             initial={"parameter": "exact", "input": None, "output": "calculated"}[v.causality],
             start=None if v.kind == "String" else v.start,
+            intermediateUpdate=True if variant.intermediate and v.causality == "input" and v.kind == "Real" else None,
             **_quantity(v),
         )
         if v.kind == "String" and v.start is not None:

@@ -23,9 +23,10 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
                                          fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
                                          fmi3IntermediateUpdateCallback update)
 {
-    (void)resources, (void)visible, (void)logging, (void)intermediate, (void)update;
-    Instance *it = n == 0 && (HAS_EVENT_MODE || !event_mode) ? create(name, token) : NULL;
+    (void)resources, (void)visible, (void)logging, (void)intermediate;
+    Instance *it = (n == 0 || INTERMEDIATE) && (HAS_EVENT_MODE || !event_mode) ? create(name, token) : NULL;
     if (it == NULL) return NULL;
+    it->update = INTERMEDIATE ? (void *)update : NULL;
     it->report = report;
     it->logger = (void *)log;
     it->environment = environment;
@@ -86,6 +87,13 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *again, fmi3Bool
     return fmi3OK;
 }
 
+/* With event mode, inputs that are not continuous are set in it only. */
+static Status check_mode(Instance *it)
+{
+    if (!it->event_mode || it->state.phase != STEPPING) return OK;
+    return say(it, ERROR, "A discrete input was set outside of event mode.");
+}
+
 #define NUMBER(Type, kind)                                                                                           \
     fmi3Status fmi3Get##Type(fmi3Instance c, const fmi3ValueReference vr[], size_t n, fmi3##Type value[], size_t m)  \
     {                                                                                                                \
@@ -100,7 +108,7 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *again, fmi3Bool
     fmi3Status fmi3Set##Type(fmi3Instance c, const fmi3ValueReference vr[], size_t n, const fmi3##Type value[],      \
                              size_t m)                                                                               \
     {                                                                                                                \
-        Status status = m == n ? OK : ERROR;                                                                         \
+        Status status = m != n ? ERROR : kind == 'R' ? OK : check_mode(c);                                           \
         for (size_t i = 0; i < n && status == OK; i++) {                                                             \
             double number = value[i];                                                                                \
             status = set_numbers(c, kind, vr + i, 1, &number);                                                       \
@@ -119,7 +127,7 @@ fmi3Status fmi3GetString(fmi3Instance c, const fmi3ValueReference vr[], size_t n
 
 fmi3Status fmi3SetString(fmi3Instance c, const fmi3ValueReference vr[], size_t n, const fmi3String value[], size_t m)
 {
-    return m == n ? (fmi3Status)set_texts(c, vr, n, value) : fmi3Error;
+    return m == n && check_mode(c) == OK ? (fmi3Status)set_texts(c, vr, n, value) : fmi3Error;
 }
 
 fmi3Status fmi3GetFMUState(fmi3Instance c, fmi3FMUState *state) { return (fmi3Status)save(c, state); }
@@ -154,11 +162,31 @@ fmi3Status fmi3GetOutputDerivatives(fmi3Instance c, const fmi3ValueReference vr[
     return m == n ? (fmi3Status)get_output_slopes(c, vr, n, orders, values) : fmi3Error;
 }
 
+/* Asks for the inputs at the start, in the middle and at the end of a step: a parabola, as with derivatives in FMI 2. */
+static void ask_for_inputs(Instance *it, double time, double h)
+{
+    State *m = &it->state;
+    double value[3][N_INPUTS + 1];
+    for (int k = 0; k < 3; k++) {
+        fmi3Boolean early = false;
+        fmi3Float64 early_time = 0.0;
+        ((fmi3IntermediateUpdateCallback)it->update)(it->environment, time + 0.5 * k * h, true, false, false, false, &early,
+                                                     &early_time);
+        memcpy(value[k], m->value + FIRST_INPUT, N_INPUTS * sizeof(double));
+    }
+    for (int i = 0; i < N_INPUTS; i++) {
+        m->value[FIRST_INPUT + i] = value[0][i];
+        m->slope[0][i] = (4.0 * value[1][i] - 3.0 * value[0][i] - value[2][i]) / h;
+        m->slope[1][i] = 4.0 * (value[0][i] - 2.0 * value[1][i] + value[2][i]) / (h * h);
+    }
+}
+
 fmi3Status fmi3DoStep(fmi3Instance c, fmi3Float64 time, fmi3Float64 h, fmi3Boolean no_rollback, fmi3Boolean *event,
                       fmi3Boolean *end, fmi3Boolean *early, fmi3Float64 *reached)
 {
     (void)no_rollback;
     Instance *it = c;
+    if (it->update != NULL) ask_for_inputs(it, time, h);
     Status status = step(it, time, h);
     *event = it->last.event;
     *end = it->last.terminate;

@@ -14,7 +14,7 @@ struct Instance {
     double start_time;
     Outcome last;
     char *name;
-    void *environment, *logger;
+    void *environment, *logger, *update;
     void (*report)(Instance *, Status, const char *message);
 };
 

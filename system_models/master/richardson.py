@@ -1,0 +1,40 @@
+"""What two halves of a step tell of its error, for inputs held as polynomials through any nodes.
+
+The input of a step is wrong by c (s - n_0)(s - n_1)... at the time s, n_j being the times at which it is right, and c
+nearly the same for a step and its halves. So the differences between both come to the error of the halves by a factor
+that follows from the nodes; it is 1 / (2^order - 1) where these move with the step.
+"""
+
+import math
+from typing import NamedTuple
+
+_GAUSS = 0.5 - 0.5 / math.sqrt(3.0), 0.5 + 0.5 / math.sqrt(3.0)  # exact up to the third degree
+
+
+class Weights(NamedTuple):
+    """The errors of the two halves of a step, up to the constant c and what the FMUs make of it."""
+
+    added: float  # of a state: the input's error, integrated
+    direct: float  # of an output that follows the input without delay: the input's error at the end
+    per_difference: float  # of a state, over its difference between the step and its halves
+
+
+def weights(size: float, whole: list[float], first: list[float], second: list[float]) -> Weights:
+    """The weights for the nodes of a step [s] from its start, and those of its halves, each from its own start.
+
+    Where the second half has more nodes than the first, as after an event, its error is of higher order: none.
+    """
+    half = 0.5 * size
+    of_whole, of_first = abs(_integral(size, whole)), _integral(half, first)
+    of_second = _integral(half, second) if len(second) == len(first) else 0.0
+    added = abs(of_first + of_second)
+    direct = abs(_product(half, second if len(second) == len(first) else first))
+    return Weights(added, direct, added / (of_whole - added))
+
+
+def _product(s: float, nodes: list[float]) -> float:
+    return math.prod(s - node for node in nodes)
+
+
+def _integral(size: float, nodes: list[float]) -> float:
+    return 0.5 * size * sum(_product(size * place, nodes) for place in _GAUSS)
