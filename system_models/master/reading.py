@@ -33,6 +33,7 @@ from contact_core.errors import ContactError
 from contact_core.reading import did_you_mean
 
 from .errors import CouplingError
+from .iteration import METHODS
 from .system import System
 
 _CHANGEABLE = ("parameters", "simulate")
@@ -147,10 +148,13 @@ def _number(key: str, value: Any) -> float:
     return float(value)
 
 
-def _whole(key: str, value: Any) -> int:
-    if isinstance(value, bool) or not isinstance(value, int):
-        raise CouplingError(f"{key} = {_shown(value)} must be a whole number.")
-    return value
+def _one_of(*choices: Any) -> Callable[[str, Any], Any]:
+    def checked(key: str, value: Any) -> Any:
+        if value not in choices or isinstance(value, bool):
+            raise CouplingError(f"{key} = {_shown(value)} must be one of {', '.join(map(repr, choices))}.")
+        return value
+
+    return checked
 
 
 def _text(key: str, value: Any) -> str:
@@ -218,9 +222,9 @@ _COUPLING: dict[str, Callable[[str, Any], Any]] = {
 _SIMULATE: dict[str, Callable[[str, Any], Any]] = {
     "stop_time": _seconds,
     "step_size": _seconds,
-    "algorithm": _text,
-    "order": _whole,
-    "iterate": _text,
+    "algorithm": _one_of("jacobi", "gauss_seidel"),
+    "order": _one_of(0, 1, 2),
+    "iterate": _one_of(*METHODS),
     "tolerance": _number,
     "iteration_tolerance": _number,
     "min_step": _seconds,

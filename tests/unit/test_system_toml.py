@@ -225,8 +225,9 @@ def test_changes_win_over_the_file(folder: Path) -> None:
         ),
         (FMUS + '[simulate]\nstop_time = "1"\n', r"simulate.stop_time = '1' has no unit. Write for example '1.0 s'"),
         (FMUS + "[simulate]\nstop_time = true\n", r"simulate.stop_time = True must be a number"),
-        (FMUS + '[simulate]\norder = "1"\n', r"simulate.order = '1' must be a whole number"),
-        (FMUS + "[simulate]\nalgorithm = 1\n", r"simulate.algorithm = 1 must be text in quotes"),
+        (FMUS + '[simulate]\norder = "1"\n', r"simulate.order = '1' must be one of 0, 1, 2"),
+        (FMUS + "[simulate]\nalgorithm = 1\n", r"simulate.algorithm = 1 must be one of 'jacobi', 'gauss_seidel'"),
+        (FMUS + '[simulate]\niterate = "newton"\n', r"'newton' must be one of 'fixed_point', 'aitken', 'quasi_newton'"),
         (FMUS + '[simulate]\noutputs = "block.v"\n', r"simulate.outputs = 'block.v' must be a list of variables"),
         (FMUS + "[simulate\n", r"This is not valid TOML"),
     ],
@@ -243,9 +244,9 @@ def test_what_does_not_fit_is_refused(folder: Path, text: str, says: str) -> Non
         (("parameter.block.m", "1"), r"Did you mean 'parameters'\?"),
         (("simulate", "1"), "Name parameters.FMU.VARIABLE, or simulate.NAME"),
         (("simulate.stop", "1"), r"\[simulate\] has no 'stop'. Did you mean 'stop_time'\?"),
-        (("simulate.order", "one"), "simulate.order = 'one' must be a whole number"),
+        (("simulate.order", "one"), "simulate.order = 'one' must be one of 0, 1, 2"),
         (("parameters.block.x", "1"), "no variable 'x'"),
-        (("simulate.order", "1\nstop_time = 2"), "must be a whole number"),
+        (("simulate.order", "1\nstop_time = 2"), "must be one of 0, 1, 2"),
     ],
 )
 def test_changes_that_do_not_fit_are_refused(folder: Path, change: tuple[str, str], says: str) -> None:
