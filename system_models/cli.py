@@ -1,12 +1,11 @@
-"""The command `tribofmu`: list the shipped scenes, run one, sweep its Stribeck curves, build its FMU, check an FMU.
+"""The command `tribofmu`: scenes are listed, run and swept, FMUs built and checked, systems of FMUs simulated.
 
-Exit codes: 0 done; 1 some rows of the result are invalid, or some rule failed; 2 refused or failed, with a sentence
-on stderr; 130 interrupted.
+Exit codes: 0 done; 1 some rows of the result are invalid, some rule failed, or some steps have missed a tolerance;
+2 refused or failed, with a sentence on stderr; 130 interrupted.
 """
 
 import argparse
 import logging
-import os
 import re
 import sys
 import tempfile
@@ -20,6 +19,9 @@ from contact_core.errors import ContactError, StateError
 from contact_core.reading import shipped_scenes
 from contact_core.scene import Scene
 from fmu_src import command as fmu_command
+
+from . import cosim_command
+from .console import assignment, note, output_folder
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -92,6 +94,9 @@ def _parser() -> argparse.ArgumentParser:
         default=120.0,
         help="with --deep: seconds after which a call of the FMU counts as hung (default: %(default)g)",
     )
+    cosim = commands.add_parser("cosim", help="simulate a system of FMUs, anybody's")
+    cosim_command.add_arguments(cosim)
+    cosim.set_defaults(command=cosim_command.run)
     return parser
 
 
@@ -107,16 +112,9 @@ def _add_scene(command: argparse.ArgumentParser) -> None:
         nargs="+",
         action="extend",
         default=[],
-        type=_assignment,
+        type=assignment,
         help="change values of the scene, e.g. tribofilm.model=none surface_2.rq='50 nm'",
     )
-
-
-def _assignment(text: str) -> tuple[str, str]:
-    key, equals, value = text.partition("=")
-    if not key or not equals:
-        raise argparse.ArgumentTypeError(f"'{text}' is not KEY=VALUE, such as tribofilm.model=none")
-    return key.strip(), value.strip()
 
 
 def _list(arguments: argparse.Namespace) -> int:
@@ -131,7 +129,7 @@ def _run(arguments: argparse.Namespace) -> int:
     from .checkpoint import alone
 
     scene, duty = _contact(arguments)
-    folder = _output_folder(arguments)
+    folder = output_folder(arguments.out, Path(arguments.scene).stem)
     _warn(scene)
     with alone(folder):
         return _run_in(folder, scene, duty, arguments.resume)
@@ -175,11 +173,11 @@ def _checkpoint(folder: Path, scene: Scene, duty: "Duty", resume: bool) -> "Chec
     if not resume:
         checkpoint = Checkpoint(folder, run)
         if checkpoint.file.exists():
-            _note(f"'{checkpoint.file}' of an unfinished run will be replaced; to go on from it, use --resume.")
+            note(f"'{checkpoint.file}' of an unfinished run will be replaced; to go on from it, use --resume.")
         return checkpoint
     checkpoint = Checkpoint.resume(folder, run)
     if checkpoint.saved:
-        _note(f"Going on from '{checkpoint.file}' at {checkpoint.saved.time / 60.0:.1f} min.")
+        note(f"Going on from '{checkpoint.file}' at {checkpoint.saved.time / 60.0:.1f} min.")
     return checkpoint
 
 
@@ -189,9 +187,9 @@ def _finished(folder: Path, scene: Scene, duty: "Duty") -> int | None:
 
     dataset = results.find(folder, scene, duty)
     if dataset is None:
-        _note(f"There is no checkpoint in '{folder}': the run starts from the beginning.")
+        note(f"There is no checkpoint in '{folder}': the run starts from the beginning.")
         return None
-    _note(f"This run is finished, its result is in '{folder}'. Leave out --resume to compute it again.")
+    note(f"This run is finished, its result is in '{folder}'. Leave out --resume to compute it again.")
     return 1 if report.invalid_rows(dataset) else 0
 
 
@@ -199,10 +197,6 @@ def _how_to_go_on(checkpoint: "Checkpoint") -> str:
     if not checkpoint.count:
         return ""
     return f"What was computed is kept in '{checkpoint.file}': the same command with --resume goes on from there."
-
-
-def _note(sentence: str) -> None:
-    print(f"tribofmu: note: {sentence}", file=sys.stderr)
 
 
 def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path) -> int:
@@ -235,18 +229,6 @@ def _folder_of_duty(arguments: argparse.Namespace) -> Path:
     if getattr(arguments, "duty", None) or not arguments.scene.endswith(".toml"):
         return Path()
     return Path(arguments.scene).parent
-
-
-def _output_folder(arguments: argparse.Namespace) -> Path:
-    """Made before the run, so that nothing computed is lost for want of a place."""
-    folder = Path(arguments.out or Path("results") / Path(arguments.scene).stem)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ContactError(f"The folder '{folder}' cannot be made: {error.strerror}. Use another --out.") from None
-    if not os.access(folder, os.W_OK):
-        raise ContactError(f"The folder '{folder}' cannot be written to. Use another --out.")
-    return folder
 
 
 def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint") -> "xr.Dataset":
@@ -290,7 +272,7 @@ def _stribeck(arguments: argparse.Namespace) -> int:
         arguments.points,
         None if arguments.srr is None else _plain_or_with_unit("--srr", arguments.srr, ""),
     )
-    folder = _output_folder(arguments)
+    folder = output_folder(arguments.out, Path(arguments.scene).stem)
     _warn(scene)
     curves = Curves(plan)
     with alone(folder):

@@ -47,9 +47,14 @@ def _origin(scene: Scene, duty: Duty) -> dict[str, str]:
 
 def find(folder: Path, scene: Scene, duty: Duty) -> xr.Dataset | None:
     """The result in `folder` of just this scene and duty, if there is one."""
+    return find_by(_origin(scene, duty), folder)
+
+
+def find_by(origin: Mapping[str, str], folder: Path) -> xr.Dataset | None:
+    """The result in `folder` that has these attributes, if there is one."""
     try:
         with xr.open_dataset(folder / "result.nc", engine="h5netcdf") as dataset:
-            same = _origin(scene, duty).items() <= dataset.attrs.items()
+            same = origin.items() <= dataset.attrs.items()
             return dataset.load() if same else None
     except (OSError, ValueError):  # none, or cut
         return None

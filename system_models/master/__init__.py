@@ -14,6 +14,7 @@
     control       error norm and step size
     slave         a running FMU: FMI 2; slave_fmi3: FMI 3
     recorder      rows, and the Dataset made of them
+    saving        what a checkpoint holds
     ssp           export as SSP 1.0
 
 Inside, FMUs are sorted by name and connections by target, so no result depends on the order in which they are given.
@@ -21,6 +22,7 @@ Inside, FMUs are sorted by name and connections by target, so no result depends 
 
 from .errors import CouplingError
 from .simulate import simulate
+from .ssp import export_ssp
 from .system import Connection, System
 
-__all__ = ["Connection", "CouplingError", "System", "simulate"]
+__all__ = ["Connection", "CouplingError", "System", "export_ssp", "simulate"]

@@ -1,7 +1,7 @@
 """The running FMUs of a system: they exchange values at communication points and advance between them."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -305,6 +305,38 @@ class Coupled:
         for name, state in point.states.items():
             self.slaves[name].release(state)
         point.states.clear()
+
+    def stored(self) -> tuple[dict[str, bytes], dict[str, Any]]:
+        """The states of the FMUs as bytes, and all else that is needed to go on from now in another process."""
+        states = {}
+        for name, slave in self.slaves.items():
+            with self._named(slave, "to give its state"):
+                states[name] = slave.serialised()
+        return states, {
+            "time": self.time,
+            "outputs": self.outputs.copy(),
+            "history": self.history.copy(),
+            "passed": list(self._passed),
+            "memories": [method.copy() for method in self._methods],
+            "magnitudes": self.magnitudes.copy(),
+            "held": self._held,
+            "counts": {name: [slave.steps, slave.seconds, slave.events] for name, slave in self.slaves.items()},
+        }
+
+    def go_on(self, states: Mapping[str, bytes], memory: Mapping[str, Any]) -> None:
+        """Go to what `stored` has given."""
+        for name, slave in self.slaves.items():
+            with self._named(slave, "to take the state of a checkpoint"):
+                slave.deserialise(states[name])
+            slave.steps, slave.seconds, slave.events = memory["counts"][name]
+        self.time = memory["time"]
+        self.outputs[:] = memory["outputs"]
+        self.history.restore(memory["history"])
+        self._passed[:] = memory["passed"]
+        for method, kept in zip(self._methods, memory["memories"], strict=True):
+            method.restore(kept)
+        self.magnitudes[:] = memory["magnitudes"]
+        self._held = memory["held"]
 
     def accept(self) -> None:
         """The last step stands."""

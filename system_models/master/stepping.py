@@ -1,8 +1,9 @@
 """One accepted communication step: of a given size, or as large as the tolerance allows, up to an event at most."""
 
 import math
-from dataclasses import dataclass
-from typing import NamedTuple
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -155,6 +156,14 @@ class Stepper:
         """What was before an event says nothing about what follows."""
         self.coupled.meet()
 
+    def stored(self) -> dict[str, Any]:
+        """All that is needed to go on from now in another process."""
+        return {"statistics": asdict(self.statistics)}
+
+    def go_on(self, memory: Mapping[str, Any]) -> None:
+        """Go to what `stored` has given."""
+        self.statistics = Statistics(**memory["statistics"])
+
 
 class ControlledStepper(Stepper):
     """Makes steps whose errors add up to the tolerance at most.
@@ -186,6 +195,17 @@ class ControlledStepper(Stepper):
         """What was before an event says nothing about what follows."""
         super().begin_anew()
         self.control.after_event()
+
+    def stored(self) -> dict[str, Any]:
+        """All that is needed to go on from now in another process."""
+        own = {"size": self.size, "control": self.control.copy(), "adds_up": self.adds_up}
+        return super().stored() | own
+
+    def go_on(self, memory: Mapping[str, Any]) -> None:
+        """Go to what `stored` has given."""
+        super().go_on(memory)
+        self.size, self.adds_up = memory["size"], memory["adds_up"]
+        self.control.restore(memory["control"])
 
     def _proposed_end(self, limit: float) -> float:
         time, remaining = self.coupled.time, limit - self.coupled.time

@@ -1,0 +1,33 @@
+"""What the commands of `tribofmu` share: notes on stderr, the folder of the results, and --set."""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from contact_core.errors import ContactError
+
+
+def note(sentence: str) -> None:
+    """Tell something that is no result."""
+    print(f"tribofmu: note: {sentence}", file=sys.stderr)
+
+
+def assignment(text: str) -> tuple[str, str]:
+    """KEY=VALUE of --set."""
+    key, equals, value = text.partition("=")
+    if not key or not equals:
+        raise argparse.ArgumentTypeError(f"'{text}' is not KEY=VALUE, such as tribofilm.model=none")
+    return key.strip(), value.strip()
+
+
+def output_folder(out: str | None, name: str) -> Path:
+    """--out, or results/NAME; made before the run, so that nothing computed is lost for want of a place."""
+    folder = Path(out or Path("results") / name)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ContactError(f"The folder '{folder}' cannot be made: {error.strerror}. Use another --out.") from None
+    if not os.access(folder, os.W_OK):
+        raise ContactError(f"The folder '{folder}' cannot be written to. Use another --out.")
+    return folder

@@ -1,0 +1,177 @@
+"""What a simulation of a system says: two tables, closing lines, and one picture."""
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_MOST_ROWS, _MOST_PANELS = 20, 20
+_SAME = 0.99  # steps that differ by less need no picture
+_COLOUR = "#0072B2"
+
+
+def recorded(dataset: xr.Dataset) -> list[str]:
+    """The variables that the FMUs have given, and the power residuals; the others tell of the master."""
+    return [str(name) for name in dataset.data_vars if not str(name).startswith("master.")]
+
+
+def table(dataset: xr.Dataset) -> str:
+    """Range of each recorded variable."""
+    names = recorded(dataset)
+    rows = [["output", "unit", "start", "smallest", "largest", "end"]]
+    for name in names[:_MOST_ROWS]:
+        values = dataset[name].values
+        rows.append([name, dataset[name].attrs["units"], *map(_short, _range(values))])
+    more = [f"... and {len(names) - _MOST_ROWS} more, in the files."] if len(names) > _MOST_ROWS else []
+    return "\n".join([*_aligned(rows, 2), *more])
+
+
+def _range(values: NDArray[Any]) -> tuple[Any, ...]:
+    text = values.dtype.kind in "UO"
+    return values[0], "" if text else values.min(), "" if text else values.max(), values[-1]
+
+
+def _short(value: object) -> str:
+    return f"{value:.6g}" if isinstance(value, (float, int)) and not isinstance(value, bool) else str(value)
+
+
+def costs(dataset: xr.Dataset) -> str:
+    """Steps and time of each FMU."""
+    cost = json.loads(dataset.attrs["cost"])
+    total = sum(entry["seconds"] for entry in cost.values())
+    rows = [["FMU", "steps", "us per step", "s", "share"]]
+    for name, entry in cost.items():
+        steps, seconds = entry["steps"], entry["seconds"]
+        share = 100.0 * seconds / total if total else 0.0
+        rows.append([name, str(steps), f"{1e6 * seconds / max(steps, 1):.1f}", f"{seconds:.3g}", f"{share:.0f} %"])
+    return "\n".join(_aligned(rows, 1))
+
+
+def _aligned(rows: list[list[str]], left: int) -> list[str]:
+    """Rows of a table; the first `left` columns are words."""
+    columns = list(zip(*rows, strict=True))
+    widths = [max(map(len, column)) for column in columns]
+    padded = [
+        [cell.ljust(width) if n < left else cell.rjust(width) for cell in column]
+        for n, (column, width) in enumerate(zip(columns, widths, strict=True))
+    ]
+    return ["  ".join(line).rstrip() for line in zip(*padded, strict=True)]
+
+
+def missed_steps(dataset: xr.Dataset) -> int:
+    """Number of steps whose iteration has not converged or whose error was larger than allowed."""
+    return int(dataset.attrs["unconverged"]) + int(dataset.attrs["below_min_step"])
+
+
+def closing_lines(dataset: xr.Dataset) -> list[str]:
+    """Steps, iterations, events, power residuals and what went wrong, in sentences."""
+    return [_steps(dataset), *_iterations(dataset), *_events(dataset), *_bonds(dataset), *_warnings(dataset)]
+
+
+def _steps(dataset: xr.Dataset) -> str:
+    counts = dataset.attrs
+    sizes = dataset["master.step_size"].values[1:]
+    line = f"Steps: {counts['steps']} to {float(dataset['time'].values[-1]):g} s"
+    if len(sizes):
+        line += f", of {sizes.min():.3g} s" + (f" to {sizes.max():.3g} s" if _varies(sizes) else "")
+    return f"{line}; {counts['rejected']} rejected, {counts['stopped_early']} stopped early by an FMU."
+
+
+def _varies(sizes: NDArray[np.float64]) -> bool:
+    return bool(sizes.min() < _SAME * sizes.max())
+
+
+def _iterations(dataset: xr.Dataset) -> list[str]:
+    passes = dataset["master.iterations"].values[1:]
+    if not len(passes) or passes.max() <= 1:
+        return []
+    return [f"Iterations: {passes.mean():.1f} in a step on average, {passes.max():.0f} at most."]
+
+
+def _events(dataset: xr.Dataset) -> list[str]:
+    count = dataset.attrs["events"]
+    return [f"Events: {count}."] if count else []
+
+
+def _bonds(dataset: xr.Dataset) -> list[str]:
+    bonds = [name for name in recorded(dataset) if name.startswith("bond.")]
+    return [
+        f"Power that the coupling adds at {name.removeprefix('bond.')}: "
+        f"{float(np.abs(dataset[name]).max()):.3g} W at most, {float(np.abs(dataset[name]).mean()):.3g} W on average."
+        for name in bonds
+    ]
+
+
+def _warnings(dataset: xr.Dataset) -> list[str]:
+    counts, lines = dataset.attrs, []
+    if counts["unconverged"]:
+        lines.append(
+            f"WARNING: in {counts['unconverged']} steps the iteration did NOT CONVERGE, the first to "
+            f"{_first(dataset, 'master.residual')}. Take smaller steps, or another iteration."
+        )
+    if counts["below_min_step"]:
+        lines.append(
+            f"WARNING: {counts['below_min_step']} steps of min_step have a LARGER ERROR than the tolerance allows, "
+            f"the first to {_first(dataset, 'master.error')}. Allow smaller steps, or iterate."
+        )
+    if counts["ended_by"]:
+        lines.append(f"The FMU '{counts['ended_by']}' ended the simulation.")
+    return lines
+
+
+def _first(dataset: xr.Dataset, name: str) -> str:
+    missed = dataset["time"].values[dataset[name].values > 1.0]
+    return f"{missed[0]:g} s" if len(missed) else "the end"
+
+
+def write_overview(dataset: xr.Dataset, path: Path) -> Path:
+    """Draw the simulation into a PNG file and return its path."""
+    overview(dataset).savefig(path, dpi=150)
+    return path
+
+
+def overview(dataset: xr.Dataset) -> "Figure":
+    """The recorded variables against time, each in a panel of its own, and the step if it changes."""
+    from matplotlib.figure import Figure
+
+    shown = [name for name in recorded(dataset) if dataset[name].dtype.kind in "fiub"]
+    names = shown[:_MOST_PANELS]
+    sizes = dataset["master.step_size"].values[1:]
+    if len(sizes) and _varies(sizes):
+        names = [*names, "master.step_size"]
+    columns = 1 if len(names) <= 3 else 2
+    rows = max(1, -(-len(names) // columns))
+    figure = Figure(figsize=(9.0, 0.8 + 1.9 * rows), layout="constrained")
+    axes = figure.subplots(rows, columns, sharex=True, squeeze=False)
+    for axis, name in zip(axes.flat, names, strict=False):
+        _draw(axis, dataset[name])
+    for axis in axes.flat[len(names) :]:
+        axis.set_visible(False)
+    for axis in axes.flat[max(0, len(names) - columns) : len(names)]:
+        axis.set_xlabel("time [s]")
+        axis.tick_params(labelbottom=True)
+    more = f", {len(shown) - _MOST_PANELS} more in the files" if len(shown) > _MOST_PANELS else ""
+    figure.suptitle(f"{dataset.attrs.get('title', '')}{more}", fontsize="medium")
+    return figure
+
+
+def _draw(axis: "Axes", variable: xr.DataArray) -> None:
+    """A Real as a line, any other type and the step in stairs."""
+    name, unit, kind = str(variable.name), variable.attrs["units"], variable.dtype.kind
+    time, values = variable["time"].values, variable.values.astype(float)
+    if name == "master.step_size":
+        axis.semilogy(time[1:], values[1:], color="black", linewidth=1.0, drawstyle="steps-pre")
+    else:
+        style = "default" if kind == "f" else "steps-post"
+        axis.plot(time, values, color=_COLOUR, linewidth=1.2, drawstyle=style)
+    title = name.removeprefix("master.") + ("" if unit == "1" else f" [{unit}]")
+    axis.set_title(title, fontsize="medium", loc="left")
+    axis.margins(x=0.0)
+    axis.spines[["top", "right"]].set_visible(False)

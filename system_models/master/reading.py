@@ -1,0 +1,233 @@
+"""A system and how to simulate it, from TOML.
+
+    [fmus]                       # paths, from the folder of this file
+    block = "block.fmu"
+    contact = "contact.fmu"
+
+    [coupling]                   # connections: output, input, factor if it is not 1
+    connections = [["block.v", "contact.speed_1"], ["contact.friction_force", "block.F", -1.0]]
+    events = ["block.gap"]
+    bonds = [["contact.friction_force", "block.v"]]
+    derivatives = [{ of = "contact.friction_force", by = "contact.speed_1", is = "contact.dfriction" }]
+
+    [parameters]                 # or "block.m", or a table [parameters.block]
+    block.m = 1.0
+
+    [schedule]                   # pairs of time and value
+    contact.load = [[0, 10.0], ["5 s", 20.0]]
+
+    [simulate]                   # the arguments of simulate(); times in seconds, or text with a unit
+    stop_time = 10.0
+    step_size = "1 ms"
+
+Every key stands in a table, so the tables can come in any order: in TOML, a key after a table's heading belongs to it.
+"""
+
+import tomllib
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from contact_core import units
+from contact_core.errors import ContactError
+from contact_core.reading import did_you_mean
+
+from .errors import CouplingError
+from .iteration import METHODS
+from .system import System
+
+_CHANGEABLE = ("parameters", "simulate")
+
+
+def read(path: str | Path, changes: Iterable[tuple[str, str]] = ()) -> tuple[System, dict[str, Any]]:
+    """The system of a TOML file, and the arguments for `simulate` that it names.
+
+    changes: keys "parameters.FMU.VARIABLE" or "simulate.NAME" with values as TOML has them, or as plain text; they win
+    over the file. Raises CouplingError for what cannot be read or coupled.
+    """
+    path = Path(path)
+    try:
+        tables = _tables(path)
+        for key, text in changes:
+            _change(tables, key, text)
+        return _system(tables, path.parent), _settings(tables["simulate"])
+    except ContactError as error:
+        raise CouplingError(f"In '{path}': {error}") from None
+
+
+def _tables(path: Path) -> dict[str, dict[str, Any]]:
+    """All tables, without what nests in those whose keys are variables."""
+    try:
+        file = tomllib.loads(path.read_text("utf-8"))
+    except OSError as error:
+        raise CouplingError(f"The file cannot be read: {error.strerror}. Name a TOML file of a system.") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise CouplingError(f"This is not valid TOML: {error}. Correct it.") from None
+    tables: dict[str, dict[str, Any]] = {name: {} for name in ("fmus", "parameters", "schedule", *_KEYS)}
+    for name, table in file.items():
+        if name not in tables:
+            raise _unknown("A system", name, list(tables), "tables")
+        if not isinstance(table, dict):
+            raise CouplingError(f"{name} = {_shown(table)} must be a table. Write [{name}], and its keys below.")
+        tables[name] = table
+    for name, known in _KEYS.items():
+        for key in tables[name]:
+            if key not in known:
+                raise _unknown(f"[{name}]", key, list(known), "keys")
+    return tables | {name: _flat(name, tables[name]) for name in ("parameters", "schedule")}
+
+
+def _unknown(where: str, name: str, known: list[str], what: str) -> CouplingError:
+    home = next((f"[{table}]" for table, keys in _KEYS.items() if name in keys), None)
+    hint = f" It belongs to {home}." if home else did_you_mean(name, known)
+    return CouplingError(f"{where} has no '{name}'.{hint} Its {what} are {', '.join(known)}.")
+
+
+def _flat(name: str, table: Mapping[str, Any], path: str = "") -> dict[str, Any]:
+    """Values by variable: `a.b = 1`, `"a.b" = 1` and `a = { b = 1 }` are the same."""
+    found: dict[str, Any] = {}
+    for key, value in table.items():
+        entries = _flat(name, value, f"{path}{key}.") if isinstance(value, dict) else {f"{path}{key}": value}
+        if twice := found.keys() & entries.keys():
+            raise CouplingError(f"[{name}] has '{twice.pop()}' twice. Leave one of them out.")
+        found |= entries
+    return found
+
+
+def _change(tables: dict[str, dict[str, Any]], key: str, text: str) -> None:
+    table, _, name = key.partition(".")
+    if table not in _CHANGEABLE or not name:
+        raise CouplingError(
+            f"'{key}' cannot be set from outside the file.{did_you_mean(table, list(_CHANGEABLE))} "
+            "Name parameters.FMU.VARIABLE, or simulate.NAME such as simulate.stop_time."
+        )
+    if table in _KEYS and name not in _KEYS[table]:
+        raise _unknown(f"[{table}]", name, list(_KEYS[table]), "keys")
+    tables[table][name] = _value(text)
+
+
+def _value(text: str) -> Any:
+    """As TOML has it, else plain text: 0.5, true, ["a.x"], 10 ms, jacobi."""
+    try:
+        parsed = tomllib.loads(f"value = {text}")
+    except tomllib.TOMLDecodeError:
+        return text
+    return parsed["value"] if len(parsed) == 1 else text
+
+
+def _system(tables: Mapping[str, dict[str, Any]], folder: Path) -> System:
+    if not tables["fmus"]:
+        raise CouplingError('[fmus] is missing. Name the FMUs and their files, such as block = "block.fmu".')
+    coupling = {key: _COUPLING[key](f"coupling.{key}", value) for key, value in tables["coupling"].items()}
+    return System(
+        {name: folder / _fmu(name, path) for name, path in tables["fmus"].items()},
+        parameters=tables["parameters"],
+        schedule={name: _steps(f"schedule.{name}", steps) for name, steps in tables["schedule"].items()},
+        **coupling,
+    )
+
+
+def _fmu(name: str, path: Any) -> str:
+    if not isinstance(path, str):
+        raise CouplingError(f"fmus.{name} = {_shown(path)} must be the path of an .fmu file, as text.")
+    return path
+
+
+def _settings(table: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments for `simulate`; those that are "none" are left at what they are by themselves."""
+    return {key: _SIMULATE[key](f"simulate.{key}", value) for key, value in table.items() if value != "none"}
+
+
+def _seconds(key: str, value: Any) -> float:
+    return _number(key, value) if not isinstance(value, str) else units.parse(value, "s", key)
+
+
+def _number(key: str, value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise CouplingError(f"{key} = {_shown(value)} must be a number.")
+    return float(value)
+
+
+def _one_of(*choices: Any) -> Callable[[str, Any], Any]:
+    def checked(key: str, value: Any) -> Any:
+        if value not in choices or isinstance(value, bool):
+            raise CouplingError(f"{key} = {_shown(value)} must be one of {', '.join(map(repr, choices))}.")
+        return value
+
+    return checked
+
+
+def _text(key: str, value: Any) -> str:
+    if not isinstance(value, str):
+        raise CouplingError(f"{key} = {_shown(value)} must be text in quotes.")
+    return value
+
+
+def _list(key: str, value: Any, what: str) -> list[Any]:
+    if not isinstance(value, list):
+        raise CouplingError(f"{key} = {_shown(value)} must be a list of {what}.")
+    return value
+
+
+def _names(key: str, value: Any) -> list[str]:
+    return [_text(f"{key}[{i}]", name) for i, name in enumerate(_list(key, value, 'variables, such as ["block.x"]'))]
+
+
+def _connections(key: str, value: Any) -> list[list[Any]]:
+    what = 'outputs and inputs, such as [["block.v", "contact.speed_1"]]'
+    return [_list(f"{key}[{i}]", entry, "output, input and factor") for i, entry in enumerate(_list(key, value, what))]
+
+
+def _bonds(key: str, value: Any) -> list[tuple[str, ...]]:
+    pairs = _list(key, value, 'pairs of outputs, such as [["contact.friction_force", "block.v"]]')
+    found = [tuple(_names(f"{key}[{i}]", pair)) for i, pair in enumerate(pairs)]
+    for pair in found:
+        if len(pair) != 2:
+            raise CouplingError(f"{key} has {_shown(list(pair))}, but a bond is a pair of outputs.")
+    return found
+
+
+def _derivatives(key: str, value: Any) -> dict[tuple[str, str], str]:
+    found = {}
+    for entry in _list(key, value, "tables with `of`, `by` and `is`"):
+        if not isinstance(entry, dict) or entry.keys() != {"of", "by", "is"}:
+            raise CouplingError(
+                f"{key} has {_shown(entry)}, but a derivative is a table with `of`, an output, `by`, an input, "
+                "and `is`, the output that is the derivative."
+            )
+        of, by, name = (_text(f"{key}.{part}", entry[part]) for part in ("of", "by", "is"))
+        found[of, by] = name
+    return found
+
+
+def _steps(key: str, value: Any) -> list[tuple[float, Any]]:
+    what = 'pairs of time and value, such as [[0, 10.0], ["5 s", 20.0]]'
+    for pair in _list(key, value, what):
+        if not isinstance(pair, list) or len(pair) != 2:
+            raise CouplingError(f"{key} has {_shown(pair)}, but it must be a list of {what}.")
+    return [(_seconds(key, time), level) for time, level in value]
+
+
+def _shown(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+_COUPLING: dict[str, Callable[[str, Any], Any]] = {
+    "connections": _connections,
+    "events": _names,
+    "bonds": _bonds,
+    "derivatives": _derivatives,
+}
+_SIMULATE: dict[str, Callable[[str, Any], Any]] = {
+    "stop_time": _seconds,
+    "step_size": _seconds,
+    "algorithm": _one_of("jacobi", "gauss_seidel"),
+    "order": _one_of(0, 1, 2),
+    "iterate": _one_of(*METHODS),
+    "tolerance": _number,
+    "iteration_tolerance": _number,
+    "min_step": _seconds,
+    "outputs": _names,
+}
+_KEYS: dict[str, dict[str, Callable[[str, Any], Any]]] = {"coupling": _COUPLING, "simulate": _SIMULATE}

@@ -1,0 +1,126 @@
+"""What the checkpoint of a simulation holds: whose it is, and the states of all FMUs and of the master as bytes.
+
+These bytes are the length of a JSON header, the header, and the raw memory of arrays and states that it refers to. They
+give back every number bit for bit, and nothing in them is ever executed.
+"""
+
+import hashlib
+import json
+import struct
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import contact_core
+
+from ..checkpoint import Checkpoint, alone
+from .errors import CouplingError
+from .system import Port, System
+
+
+@contextmanager
+def kept(
+    folder: Path, system: System, outputs: Iterable[Port], settings: Mapping[str, Any], resume: bool
+) -> Iterator[Checkpoint]:
+    """The checkpoint of a simulation, in a folder that is its own as long as it runs.
+
+    `saved` is where it goes on from, if it shall and there is something. Raises CouplingError if the simulation cannot
+    be stored, and StateError if the folder is in use or holds another simulation.
+    """
+    check(system, outputs)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise CouplingError(f"The folder '{folder}' cannot be made: {error.strerror}. Use another.") from None
+    with alone(folder):
+        run = identity(system, settings)
+        yield Checkpoint.resume(folder, run) if resume else Checkpoint(folder, run)
+
+
+def check(system: System, outputs: Iterable[Port]) -> None:
+    """Raises CouplingError if a simulation of the system that records `outputs` cannot be stored."""
+    for name, model in system.models.items():
+        if not (model.restores and model.capabilities.canSerializeFMUstate):
+            raise CouplingError(
+                f"The FMU '{name}' cannot give its state as bytes (canSerializeFMUstate is false): no checkpoint can "
+                "be made of a simulation with it. Simulate without a checkpoint, or export the FMU with its state."
+            )
+    for port in outputs:
+        if port.kind == "string":
+            raise CouplingError(
+                f"'{port.name}' is text, which the rows of a checkpoint have no place for. "
+                "Leave it out of the outputs, or simulate without a checkpoint."
+            )
+
+
+def identity(system: System, settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Everything that decides the result of a simulation, as JSON has it; settings are the arguments of `simulate`."""
+    parts = {
+        "versions": {"tribofmu": contact_core.__version__, "numpy": np.__version__},
+        "sha256": {name: hashlib.sha256(model.path.read_bytes()).hexdigest() for name, model in system.models.items()},
+        "connections": {c.target.name: [c.source.name, c.factor, c.offset] for c in system.connections},
+        "parameters": system.parameters,
+        "schedule": system.schedule,
+        "events": [port.name for port in system.events],
+        "bonds": [bond.name for bond in system.bonds],
+        "derivatives": {f"{of} by {by}": port.name for (of, by), port in system.derivatives.items()},
+        "settings": settings,
+    }
+    return dict(json.loads(json.dumps(parts)))
+
+
+def pack(states: Mapping[str, bytes], master: Mapping[str, Any]) -> bytes:
+    """The serialised states of the FMUs by name, and the master's: nested dicts, lists and tuples."""
+    parts: list[bytes] = []
+    header = json.dumps(_described({"states": states, "master": master}, parts)).encode()
+    return b"".join([struct.pack("<Q", len(header)), header, *parts])
+
+
+def unpack(data: bytes) -> tuple[dict[str, bytes], dict[str, Any]]:
+    """What `pack` was given."""
+    stream = BytesIO(data)
+    (length,) = struct.unpack("<Q", stream.read(8))
+    found = _restored(json.loads(stream.read(length)), stream)
+    return found["states"], found["master"]
+
+
+def _described(value: Any, parts: list[bytes]) -> Any:
+    """`value` as JSON; what has raw memory goes to `parts`, and its size is said in its place."""
+    if isinstance(value, np.ndarray):
+        parts.append(value.tobytes())
+        return {"array": [value.dtype.str, list(value.shape), value.nbytes]}
+    if isinstance(value, bytes):
+        parts.append(value)
+        return {"bytes": len(value)}
+    if isinstance(value, Mapping) and all(isinstance(name, str) for name in value):
+        return {"dict": {name: _described(item, parts) for name, item in value.items()}}
+    if isinstance(value, list):
+        return [_described(item, parts) for item in value]
+    if type(value) is tuple:
+        return {"tuple": [_described(item, parts) for item in value]}
+    if isinstance(value, np.generic):
+        return value.item()
+    if value is None or isinstance(value, (bool, int, float, str)):
+        return value
+    raise TypeError(f"{value!r} of type {type(value).__name__} cannot be stored.")
+
+
+def _restored(value: Any, stream: BytesIO) -> Any:
+    """What a description stands for; its memory is the next in the stream."""
+    if isinstance(value, list):
+        return [_restored(item, stream) for item in value]
+    if not isinstance(value, dict):
+        return value
+    ((kind, content),) = value.items()
+    if kind == "bytes":
+        return stream.read(content)
+    if kind == "array":
+        dtype, shape, size = content
+        return np.frombuffer(bytearray(stream.read(size)), dtype).reshape(shape)
+    if kind == "tuple":
+        return tuple(_restored(item, stream) for item in content)
+    return {name: _restored(item, stream) for name, item in content.items()}
