@@ -5,39 +5,31 @@ communication point: u0 are the inputs at the end of the step as they were held,
 (Andersson, C., Methods and Tools for Co-Simulation of Dynamic Systems with the FMI, Lund 2016, linear correction).
 """
 
-from collections.abc import Mapping
-
 import numpy as np
 from numpy.typing import NDArray
 
 from .system import System
+from .wiring import Wiring
 
 
 class Correction:
-    """The derivatives of a system, by place: outputs `position`, inputs by name, each input's source and factor."""
+    """The derivatives that a system's FMUs give as outputs, of its coupled variables."""
 
-    def __init__(
-        self,
-        system: System,
-        position: Mapping[str, int],
-        inputs: list[str],
-        source: NDArray[np.intp],
-        factor: NDArray[np.float64],
-    ) -> None:
-        known = [(of, by, port) for (of, by), port in system.derivatives.items() if by in inputs]
-        self._of = np.array([position[of] for of, _, _ in known], dtype=np.intp)
-        self._by = np.array([inputs.index(by) for _, by, _ in known], dtype=np.intp)
-        self._slope = np.array([position[port.name] for _, _, port in known], dtype=np.intp)
-        self._source, self._factor = source, factor
+    def __init__(self, system: System, wiring: Wiring) -> None:
+        known = [(of, by, port) for (of, by), port in system.derivatives.items() if by in wiring.input_place]
+        self._of = np.array([wiring.output_place[of] for of, _, _ in known], dtype=np.intp)
+        self._by = np.array([wiring.input_place[by] for _, by, _ in known], dtype=np.intp)
+        self._slope = np.array([wiring.output_place[port.name] for _, _, port in known], dtype=np.intp)
+        self._wiring = wiring
 
     def __bool__(self) -> bool:
         return bool(len(self._of))
 
-    def apply(self, outputs: NDArray[np.float64], held: NDArray[np.float64], offset: NDArray[np.float64]) -> None:
+    def apply(self, outputs: NDArray[np.float64], held: NDArray[np.float64]) -> None:
         """Correct the outputs, which stand for the inputs `held`."""
         slopes = outputs[self._slope]
         feedthrough = np.zeros((len(outputs), len(held)))
         np.add.at(feedthrough, (self._of, self._by), slopes)
-        change = outputs[self._source] * self._factor + offset - held
-        loop = self._factor[:, None] * feedthrough[self._source]
+        change = self._wiring.told(outputs) - held
+        loop = self._wiring.factor[:, None] * feedthrough[self._wiring.source]
         outputs += feedthrough @ np.linalg.solve(np.eye(len(held)) - loop, change)
