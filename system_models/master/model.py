@@ -3,6 +3,8 @@
 from functools import cached_property
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
+from zipfile import ZipFile
 
 import fmpy
 from fmpy.model_description import ModelDescription, ModelVariable
@@ -15,6 +17,8 @@ INTEGER = ("Integer", "Enumeration", "Int8", "UInt8", "Int16", "UInt16", "Int32"
 _KINDS = {**dict.fromkeys(REAL, "real"), "Float32": "float", **dict.fromkeys(INTEGER, "integer")}
 _KINDS |= {"Boolean": "boolean", "String": "string"}
 
+_TRUE = ("true", "1")
+
 
 class Model:
     """An FMU for co-simulation, FMI 2.0 or 3.0."""
@@ -23,6 +27,7 @@ class Model:
         self.name, self.path = name, Path(path)
         self.description = _description(name, self.path)
         self.variables: dict[str, ModelVariable] = {v.name: v for v in self.description.modelVariables}
+        self._complete()
 
     @property
     def fmi3(self) -> bool:
@@ -56,6 +61,23 @@ class Model:
         inputs = frozenset(v.name for v in self.variables.values() if v.causality == "input")
         return self.dependencies | self._declared(self.description.initialUnknowns, inputs)
 
+    def _complete(self) -> None:
+        """Add to the variables what fmpy leaves out: some attributes, and those of their declared types."""
+        with ZipFile(self.path) as archive:
+            root = ElementTree.fromstring(archive.read("modelDescription.xml"))
+        for element in root.iterfind("ModelVariables/*"):
+            typed = element if self.fmi3 else element.find("Real")
+            if typed is None or element.get("name") not in self.variables:
+                continue
+            variable = self.variables[element.get("name", "")]
+            variable.intermediateUpdate = typed.get("intermediateUpdate") in _TRUE
+            if "relativeQuantity" in typed.attrib:
+                variable.relativeQuantity = typed.get("relativeQuantity") in _TRUE
+        for variable in self.variables.values():
+            for name in ("unit", "nominal", "relativeQuantity"):
+                if getattr(variable, name) is None and variable.declaredType is not None:
+                    setattr(variable, name, getattr(variable.declaredType, name))
+
     def _declared(self, unknowns: list[Any], inputs: frozenset[str]) -> dict[str, frozenset[str]]:
         return {
             unknown.variable.name: inputs
@@ -66,7 +88,12 @@ class Model:
 
 
 def kind(variable: ModelVariable) -> str:
-    """Which of the types that can be connected a variable has: real, float, integer, boolean or string."""
+    """Which of the types that can be connected a variable has: real, float, integer, boolean or string.
+
+    A real one is continuous; those that keep their value between communication points count as float.
+    """
+    if variable.type in REAL and variable.variability == "discrete":
+        return "float"
     return _KINDS.get(variable.type, variable.type)
 
 
@@ -76,7 +103,9 @@ def _description(name: str, path: Path) -> ModelDescription:
     try:
         description = fmpy.read_model_description(str(path), validate=False)
     except Exception as error:
-        raise CouplingError(f"The FMU '{path}' of '{name}' cannot be read: {error} `tribofmu check` says more.") from None
+        raise CouplingError(
+            f"The FMU '{path}' of '{name}' cannot be read: {error} `tribofmu check` says more."
+        ) from None
     if not description.fmiVersion.startswith(("2.", "3.")):
         raise CouplingError(
             f"The FMU '{path}' of '{name}' is of FMI {description.fmiVersion}; FMI 2.0 and 3.0 can be coupled. "

@@ -42,7 +42,7 @@ class Reals:
         self.names = [variable.name for variable in variables]
         self.references = (fmi2ValueReference * self.count)(*(v.valueReference for v in variables))
         self.values = np.zeros(self.count)
-        self.buffer = (c_double * self.count).from_buffer(self.values)
+        self.buffer = (c_double * self.count).from_buffer(self.values.data)
 
 
 class Slave(ABC):
@@ -206,7 +206,7 @@ class Fmi2Slave(Slave):
             references = (fmi2ValueReference * count)(*(list(self.inputs.references) * order))
             orders = (fmi2Integer * count)(*np.repeat(np.arange(1, order + 1), self.inputs.count).tolist())
             self._slopes = np.zeros((order, self.inputs.count))
-            buffer = (c_double * count).from_buffer(self._slopes)
+            buffer = (c_double * count).from_buffer(self._slopes.data)
             self._order, self._derivatives = order, (references, orders, buffer)
         self._slopes[:] = 0.0
         np.multiply(polynomial[1:], _FACTORIALS[1 : len(polynomial)], out=self._slopes[: len(polynomial) - 1])
@@ -291,4 +291,5 @@ class Fmi2Slave(Slave):
         self._fmu.freeInstance()
 
 
-_FMI2_NAMES = {"real": "{}Real", "integer": "{}Integer", "boolean": "{}Boolean", "string": "{}String"}
+_FMI2_NAMES = {"real": "{}Real", "float": "{}Real", "integer": "{}Integer"}
+_FMI2_NAMES |= {"boolean": "{}Boolean", "string": "{}String"}

@@ -3,9 +3,7 @@
 import struct
 from ctypes import byref, c_bool, c_double
 from math import isclose, nan
-from pathlib import Path
 from typing import Any, NamedTuple
-from xml.etree import ElementTree
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
@@ -56,7 +54,8 @@ class Fmi3Slave(Slave):
 
     def _instantiate(self, folder: str) -> None:
         capabilities = self.model.capabilities
-        self._interpolates = capabilities.providesIntermediateUpdate and self._inputs_within_steps(folder)
+        within = [self.model.variables[name].intermediateUpdate for name in self.inputs.names]
+        self._interpolates = capabilities.providesIntermediateUpdate and bool(within) and all(within)
         self._has_event_mode = bool(capabilities.hasEventMode)
         self._stepping = self._in_event_mode = False
         try:
@@ -88,12 +87,6 @@ class Fmi3Slave(Slave):
         )
         self._polynomial, self._start = np.empty((0, self.inputs.count)), nan  # of the inputs in the running step
         self._refused_input: FMICallException | None = None
-
-    def _inputs_within_steps(self, folder: str) -> bool:
-        """Whether all inputs may be set within a step, which fmpy does not read."""
-        variables = ElementTree.parse(Path(folder, "modelDescription.xml")).find("ModelVariables") or ()
-        allowed = {v.get("name") for v in variables if v.get("intermediateUpdate") in ("true", "1")}
-        return self.inputs.count > 0 and allowed.issuperset(self.inputs.names)
 
     def _on_message(self, environment: Any, status: int, category: bytes, message: bytes) -> None:
         self._pass_on(status, message)
@@ -133,7 +126,8 @@ class Fmi3Slave(Slave):
     def _do_step(self, time: float, size: float) -> float:
         self.event = False
         self._end_event()
-        self._start = time
+        self._start, self._refused_input = time, None
+        self._last_time.value, self._end_asked.value = time, False  # a step that is refused may leave them alone
         try:
             self._fmu.fmi3DoStep(self._component, time, size, self._no_return, *self._answers)
         except FMICallException as error:

@@ -10,6 +10,7 @@ from fmpy.model_description import ModelVariable
 
 from .errors import CouplingError
 from .slave import Fmi2Slave, Slave
+from .slave_fmi3 import Fmi3Slave
 from .system import System
 
 
@@ -31,8 +32,6 @@ def started(
             _check_folder(folders[path])
             fmpy.extract(str(path), folders[path])
         if model.fmi3:
-            from .slave_fmi3 import Fmi3Slave
-
             slave: Slave = Fmi3Slave(model, folders[path], inputs[name], outputs[name], early_return)
         else:
             slave = Fmi2Slave(model, folders[path], inputs[name], outputs[name])

@@ -16,6 +16,7 @@ from .recorder import Recorder, Row
 from .richardson import Weights, weights
 
 _MATTERS = 0.1  # of the error that a step may have: less says nothing about how it adds up
+_EVIDENCE = 3  # repeated steps in a row
 _ITERATED = 0.05  # of the error that a step may have: what is left to the iteration
 
 
@@ -188,7 +189,7 @@ class ControlledStepper(Stepper):
         self.own_iteration_tolerance = own_iteration_tolerance  # whether it follows from the tolerance
         self.size = step_size
         self.control = StepControl(coupled.scheme.order + 1)
-        self.adds_up = np.ones(len(coupled.coupled), dtype=bool)
+        self.lags = np.zeros(len(coupled.coupled), dtype=int)  # how often in a row an output has seemed to lag only
 
     def begin_anew(self) -> None:
         """What was before an event says nothing about what follows."""
@@ -254,19 +255,19 @@ class ControlledStepper(Stepper):
         return Attempt([row, self.recorder.row(0.5 * size, second, ratio)], ratio, errors, of_halves)
 
     def _ratio(self, errors: NDArray[np.float64], size: float) -> float:
-        share = np.where(self.adds_up, min(1.0, size / self.horizon), 1.0)
+        share = np.where(self.lags < _EVIDENCE, min(1.0, size / self.horizon), 1.0)
         return wrms(errors, self.tolerance * share * self.coupled.scales())
 
     def _with_new_evidence(self, earlier: Attempt, attempt: Attempt, size: float) -> Attempt:
-        """Look how the errors have fallen with the step: those that fall too slowly do not add up."""
+        """Look how the errors have fallen with the step: those that fall like an input's error do not add up."""
+        if self.iterated:  # then no output lags behind
+            return attempt
         with np.errstate(divide="ignore", invalid="ignore"):
             fall = np.log(earlier.errors / attempt.errors)
         if_added, if_direct = (
             math.log(getattr(earlier.weights, kind) / getattr(attempt.weights, kind)) for kind in ("added", "direct")
         )
         matters = attempt.errors > _MATTERS * self.tolerance * (size / self.horizon) * self.coupled.scales()
-        direct = matters & self.adds_up & (fall < 0.5 * (if_added + if_direct))
-        if self.iterated or not direct.any():
-            return attempt
-        self.adds_up &= ~direct
+        like_input = fall < 0.5 * (if_added + if_direct)
+        self.lags = np.where(matters, np.where(like_input, self.lags + 1, 0), self.lags)
         return attempt._replace(error=self._ratio(attempt.errors, size))

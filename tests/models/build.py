@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import atexit
 import functools
 import hashlib
 import os
 import subprocess
+import sys
 import tempfile
 import uuid
 import zipfile
@@ -19,20 +21,11 @@ from .catalogue import MODELS
 from .description import Model, Variant, describe
 
 SOURCES = Path(__file__).parent / "c"
+SCRIPT = Path(__file__).parent / "python" / "python_mass.py"
 HEADERS = Path(fmpy.__file__).parent / "c-code"
-COMMON = {2: ("instance.c", "fmi2.c"), 3: ("instance.c", "fmi3.c", "unsupported3.c")}
+COMMON = {2: ("instance", "fmi2"), 3: ("instance", "fmi3", "unsupported3")}
 PLATFORM = {2: "linux64", 3: "x86_64-linux"}
-FLAGS = (
-    "-std=gnu11",
-    "-O2",
-    "-shared",
-    "-fPIC",
-    "-fvisibility=hidden",
-    "-ffp-contract=off",
-    "-Wall",
-    "-Wextra",
-    "-Werror",
-)
+FLAGS = ("-std=gnu11", "-O2", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror")
 
 
 def build(
@@ -56,7 +49,9 @@ def build(
     `identifier`: another name for the FMU. `variant`: what the model itself takes.
     """
     if name == "python_mass":
-        return python_mass(Path(folder))
+        if fmi != 2 or not rollback or start or identifier or variant:
+            raise ValueError("python_mass is built for FMI 2 as it stands, and has no variants")
+        return _python_mass(Path(folder))
     model = MODELS[name](**variant).starting(start or {})
     switches = Variant(fmi, rollback, interpolates, dependencies, intermediate)
     identifier = identifier or name
@@ -70,12 +65,14 @@ def build(
     return path
 
 
-def python_mass(folder: Path) -> Path:
-    """The first mass of the oscillator as pythonfmu makes it: see python_mass.py."""
-    path = folder / "python_mass.fmu"
+def _python_mass(folder: Path) -> Path:
+    """The FMU that pythonfmu makes of python/python_mass.py."""
+    path = folder / "python_mass_fmi2.fmu"
     if not path.exists():
-        script = Path(__file__).parent / "python_mass.py"
-        FmuBuilder.build_FMU(script, path, canGetAndSetFMUstate=True, canSerializeFMUstate=True)
+        before = sys.path[:]  # pythonfmu leaves the folder of the script in it
+        states = {"canGetAndSetFMUstate": True, "canSerializeFMUstate": True}
+        FmuBuilder.build_FMU(SCRIPT, path, needsExecutionTool=False, **states)
+        sys.path[:] = before
     return path
 
 
@@ -109,8 +106,8 @@ def _header(model: Model, variant: Variant) -> str:
         f"enum {{ {', '.join(f'V_{v.name}' for v in model.variables)} }};",
         f'#define KIND "{"".join(v.kind[0] for v in model.variables)}"',
         f'#define CAUSALITY "{"".join(v.causality[0] for v in model.variables)}"',
-        f"static const double START[] __attribute__((unused)) = {{{starts or '0.0'}}};",
-        f"static const char *const START_TEXT[] __attribute__((unused)) = {{{texts or '0'}}};",
+        f"static const double START[] = {{{starts or '0.0'}}};",
+        f"static const char *const START_TEXT[] = {{{texts or '0'}}};",
         model.header,
     ]
     return "\n".join(lines) + "\n"
@@ -120,20 +117,19 @@ def _compiled(source: str, header: str, fmi: int) -> bytes:
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "variables.h").write_text(header)
         library = Path(folder, "model.so")
-        files = [SOURCES / f"{source}.c", *(SOURCES / common for common in COMMON[fmi])]
-        command = [
-            "gcc",
-            *FLAGS,
-            f"-I{folder}",
-            f"-I{SOURCES}",
-            f"-I{HEADERS}",
-            *map(str, files),
-            "-o",
-            str(library),
-            "-lm",
-        ]
-        subprocess.run(command, check=True)
+        files = SOURCES / f"{source}.c", *(_objects() / f"{common}.o" for common in COMMON[fmi])
+        subprocess.run(["gcc", *FLAGS, "-shared", f"-I{folder}", *files, "-o", library, "-lm"], check=True)
         return library.read_bytes()
+
+
+@functools.cache
+def _objects() -> Path:
+    """What all models share, compiled once in a process."""
+    folder = tempfile.TemporaryDirectory()
+    atexit.register(folder.cleanup)
+    sources = [SOURCES / f"{name}.c" for name in sorted({name for names in COMMON.values() for name in names})]
+    subprocess.run(["gcc", *FLAGS, "-c", f"-I{HEADERS}", *sources], check=True, cwd=folder.name)
+    return Path(folder.name)
 
 
 def _pack(path: Path, identifier: str, description: bytes, library: bytes, fmi: int) -> None:

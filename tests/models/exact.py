@@ -69,7 +69,7 @@ def stick_slip(times: ArrayLike, x0: float = 0.0, v0: float = 0.0, u_r: float = 
 def _integrated(rates, z0: list[float], times: ArrayLike, atol: float | list[float]) -> Floats:
     """Solution from t = 0 at `times`, to twelve digits."""
     at = np.atleast_1d(np.asarray(times, float))
-    solution = solve_ivp(rates, (0.0, max(at.max(), 1e-300)), z0, "Radau", at, rtol=1e-12, atol=atol)
+    solution = solve_ivp(rates, (0.0, max(at.max(), 1e-300)), z0, "DOP853", at, rtol=1e-12, atol=atol)
     if not solution.success:
         raise RuntimeError(solution.message)
     return solution.y.T

@@ -8,7 +8,7 @@
 void model_start(State *m)
 {
     RAMP = VALUE(y0);
-    EVENTS_SO_FAR = floor(m->time / VALUE(period) + 1e-9);
+    EVENTS_SO_FAR = floor(m->head.time / VALUE(period) + 1e-9);
 }
 
 void model_outputs(State *m)
@@ -29,13 +29,13 @@ double model_next_event(const State *m) { return (EVENTS_SO_FAR + 1.0) * VALUE(p
 Outcome model_step(State *m, void *work, double h, int may_return_early, int event_mode)
 {
     (void)work;
-    double end = m->time + h, close = 1e-9 * VALUE(period);
+    double end = m->head.time + h, close = 1e-9 * VALUE(period);
     int event = 0;
     while (!event && model_next_event(m) <= end + close) {
         double at = model_next_event(m);
         event = event_mode && (may_return_early || at >= end - close);
         if (!event) model_event(m);
-        if (event && at < end - close) h = at - m->time;
+        if (event && at < end - close) h = at - m->head.time;
     }
     RAMP += input_integral(m, V_u, h);
     Outcome outcome = done(m, h);

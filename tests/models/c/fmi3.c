@@ -24,9 +24,9 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
                                          fmi3IntermediateUpdateCallback update)
 {
     (void)resources, (void)visible, (void)logging, (void)intermediate;
-    Instance *it = (n == 0 || INTERMEDIATE) && (HAS_EVENT_MODE || !event_mode) ? create(name, token) : NULL;
+    Instance *it = (n == 0 || LAYOUT.intermediate) && (LAYOUT.has_event_mode || !event_mode) ? create(name, token) : NULL;
     if (it == NULL) return NULL;
-    it->update = INTERMEDIATE ? (void *)update : NULL;
+    it->update = LAYOUT.intermediate ? (void *)update : NULL;
     it->report = report;
     it->logger = (void *)log;
     it->environment = environment;
@@ -56,19 +56,19 @@ fmi3Status fmi3Reset(fmi3Instance c)
 fmi3Status fmi3EnterEventMode(fmi3Instance c)
 {
     Instance *it = c;
-    if (!it->event_mode || it->state.phase != STEPPING)
-        return (fmi3Status)say(it, ERROR, "Event mode was entered in phase %d, not from step mode.", it->state.phase);
-    it->state.phase = EVENTS;
+    if (!it->event_mode || it->head->phase != STEPPING)
+        return (fmi3Status)say(it, ERROR, "Event mode was entered in phase %d, not from step mode.", it->head->phase);
+    it->head->phase = EVENTS;
     return fmi3OK;
 }
 
 fmi3Status fmi3EnterStepMode(fmi3Instance c)
 {
     Instance *it = c;
-    if (it->state.phase != EVENTS)
-        return (fmi3Status)say(it, ERROR, "Step mode was entered in phase %d, not from event mode.", it->state.phase);
-    if (it->state.event_pending) return (fmi3Status)say(it, ERROR, "Step mode was entered before the event was handled.");
-    it->state.phase = STEPPING;
+    if (it->head->phase != EVENTS)
+        return (fmi3Status)say(it, ERROR, "Step mode was entered in phase %d, not from event mode.", it->head->phase);
+    if (it->head->event_pending) return (fmi3Status)say(it, ERROR, "Step mode was entered before the event was handled.");
+    it->head->phase = STEPPING;
     return fmi3OK;
 }
 
@@ -76,13 +76,13 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *again, fmi3Bool
                                     fmi3Boolean *values, fmi3Boolean *has_next, fmi3Float64 *next)
 {
     Instance *it = c;
-    if (it->state.phase != EVENTS) return (fmi3Status)say(it, ERROR, "Discrete states change in event mode only.");
+    if (it->head->phase != EVENTS) return (fmi3Status)say(it, ERROR, "Discrete states change in event mode only.");
     *again = *end = *nominals = false;
-    *values = it->state.event_pending;
-    if (it->state.event_pending) model_event(&it->state);
-    it->state.event_pending = 0;
+    *values = it->head->event_pending;
+    if (it->head->event_pending) model_event((State *)it->head);
+    it->head->event_pending = 0;
     it->stale = 1;
-    *next = model_next_event(&it->state);
+    *next = model_next_event((State *)it->head);
     *has_next = !isnan(*next);
     return fmi3OK;
 }

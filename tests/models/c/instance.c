@@ -4,6 +4,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+static State *state_of(const Instance *it) { return (State *)it->head; }
+static double *values_of(const Instance *it) { return (double *)((char *)it->head + LAYOUT.value); }
+static double *slopes_of(const Instance *it) { return (double *)((char *)it->head + LAYOUT.slope); }
+
+static char *text_of(const Instance *it, unsigned ref)
+{
+    return (char *)it->head + LAYOUT.text + (ref - LAYOUT.n_numbers) * TEXT;
+}
+
 __attribute__((weak)) size_t model_work(void) { return 0; }
 
 __attribute__((weak)) void model_event(State *m) { (void)m; }
@@ -22,9 +31,10 @@ __attribute__((weak)) int model_slope(const State *m, int output, double *value)
 
 Instance *create(const char *name, const char *token)
 {
-    if (name == NULL || token == NULL || strcmp(token, TOKEN) != 0) return NULL;
+    if (name == NULL || token == NULL || strcmp(token, LAYOUT.token) != 0) return NULL;
     Instance *it = calloc(1, sizeof *it);
     it->name = strdup(name);
+    it->head = malloc(LAYOUT.state);
     it->work = calloc(1, model_work() + 1);
     reset(it);
     return it;
@@ -34,15 +44,16 @@ void discard(Instance *it)
 {
     if (it == NULL) return;
     free(it->name);
+    free(it->head);
     free(it->work);
     free(it);
 }
 
 void reset(Instance *it)
 {
-    memset(&it->state, 0, sizeof it->state);
-    memcpy(it->state.value, START, N_NUMBERS * sizeof(double));
-    for (int i = 0; i < N_STRINGS; i++) strcpy(it->state.text[i], START_TEXT[i]);
+    memset(it->head, 0, LAYOUT.state);
+    memcpy(values_of(it), LAYOUT.start, LAYOUT.n_numbers * sizeof(double));
+    for (unsigned i = 0; i < LAYOUT.n_strings; i++) strcpy(text_of(it, LAYOUT.n_numbers + i), LAYOUT.start_text[i]);
     it->last = (Outcome){.reached = 0.0};
     it->stale = 1;
 }
@@ -62,24 +73,24 @@ Status say(Instance *it, Status status, const char *format, ...)
 static void refresh(Instance *it)
 {
     if (!it->stale) return;
-    if (it->state.phase <= INITIALISING) model_start(&it->state);
-    model_outputs(&it->state);
+    if (it->head->phase <= INITIALISING) model_start(state_of(it));
+    model_outputs(state_of(it));
     it->stale = 0;
 }
 
 static Status check_kind(Instance *it, char kind, unsigned ref)
 {
-    if (ref >= N_VARIABLES) return say(it, ERROR, "There is no variable with value reference %u.", ref);
-    if (KIND[ref] != kind) return say(it, ERROR, "Variable %u is of kind %c, not %c.", ref, KIND[ref], kind);
+    if (ref >= LAYOUT.n_variables) return say(it, ERROR, "There is no variable with value reference %u.", ref);
+    if (LAYOUT.kind[ref] != kind) return say(it, ERROR, "Variable %u is of kind %c, not %c.", ref, LAYOUT.kind[ref], kind);
     return OK;
 }
 
 static Status check_settable(Instance *it, char kind, unsigned ref)
 {
     if (check_kind(it, kind, ref) != OK) return ERROR;
-    if (it->state.phase == ENDED) return say(it, ERROR, "Variable %u was set after the end.", ref);
-    if (CAUSALITY[ref] == 'o') return say(it, ERROR, "Variable %u is an output and cannot be set.", ref);
-    if (CAUSALITY[ref] == 'p' && it->state.phase > INITIALISING)
+    if (it->head->phase == ENDED) return say(it, ERROR, "Variable %u was set after the end.", ref);
+    if (LAYOUT.causality[ref] == 'o') return say(it, ERROR, "Variable %u is an output and cannot be set.", ref);
+    if (LAYOUT.causality[ref] == 'p' && it->head->phase > INITIALISING)
         return say(it, ERROR, "Parameter %u is fixed and was set after initialisation.", ref);
     return OK;
 }
@@ -89,7 +100,7 @@ Status get_numbers(Instance *it, char kind, const unsigned *refs, size_t n, doub
     refresh(it);
     for (size_t i = 0; i < n; i++) {
         if (check_kind(it, kind, refs[i]) != OK) return ERROR;
-        values[i] = it->state.value[refs[i]];
+        values[i] = values_of(it)[refs[i]];
     }
     return OK;
 }
@@ -98,7 +109,7 @@ Status set_numbers(Instance *it, char kind, const unsigned *refs, size_t n, cons
 {
     for (size_t i = 0; i < n; i++) {
         if (check_settable(it, kind, refs[i]) != OK) return ERROR;
-        it->state.value[refs[i]] = values[i];
+        values_of(it)[refs[i]] = values[i];
     }
     it->stale = 1;
     return OK;
@@ -109,7 +120,7 @@ Status get_texts(Instance *it, const unsigned *refs, size_t n, const char **valu
     refresh(it);
     for (size_t i = 0; i < n; i++) {
         if (check_kind(it, 'S', refs[i]) != OK) return ERROR;
-        values[i] = it->state.text[refs[i] - N_NUMBERS];
+        values[i] = text_of(it, refs[i]);
     }
     return OK;
 }
@@ -119,7 +130,7 @@ Status set_texts(Instance *it, const unsigned *refs, size_t n, const char *const
     for (size_t i = 0; i < n; i++) {
         if (check_settable(it, 'S', refs[i]) != OK) return ERROR;
         if (strlen(values[i]) >= TEXT) return say(it, ERROR, "A string is longer than %d bytes.", TEXT - 1);
-        char *text = it->state.text[refs[i] - N_NUMBERS];
+        char *text = text_of(it, refs[i]);
         memset(text, 0, TEXT);
         strcpy(text, values[i]);
     }
@@ -131,10 +142,11 @@ Status set_input_slopes(Instance *it, const unsigned *refs, size_t n, const int 
 {
     for (size_t i = 0; i < n; i++) {
         if (check_settable(it, 'R', refs[i]) != OK) return ERROR;
-        if (CAUSALITY[refs[i]] != 'i') return say(it, ERROR, "Variable %u is not an input.", refs[i]);
+        if (LAYOUT.causality[refs[i]] != 'i') return say(it, ERROR, "Variable %u is not an input.", refs[i]);
         if (orders[i] < 1 || orders[i] > 2)
             return say(it, ERROR, "The order of an input derivative is %d, not 1 or 2.", orders[i]);
-        if (INTERPOLATES) it->state.slope[orders[i] - 1][refs[i] - FIRST_INPUT] = values[i];
+        if (LAYOUT.interpolates)
+            slopes_of(it)[(orders[i] - 1) * LAYOUT.slopes_per_order + refs[i] - LAYOUT.first_input] = values[i];
     }
     return OK;
 }
@@ -144,7 +156,7 @@ Status get_output_slopes(Instance *it, const unsigned *refs, size_t n, const int
     refresh(it);
     for (size_t i = 0; i < n; i++) {
         if (check_kind(it, 'R', refs[i]) != OK) return ERROR;
-        if (orders[i] != 1 || !model_slope(&it->state, refs[i], &values[i]))
+        if (orders[i] != 1 || !model_slope(state_of(it), refs[i], &values[i]))
             return say(it, ERROR, "Variable %u has no derivative of order %d.", refs[i], orders[i]);
     }
     return OK;
@@ -159,8 +171,8 @@ Status partials(Instance *it, const unsigned *unknowns, size_t n, const unsigned
         for (size_t j = 0; j < m; j++) {
             double partial;
             if (check_kind(it, 'R', unknowns[i]) != OK || check_kind(it, 'R', knowns[j]) != OK) return ERROR;
-            if (CAUSALITY[unknowns[i]] != 'o' || CAUSALITY[knowns[j]] != 'i' ||
-                !model_partial(&it->state, unknowns[i], knowns[j], &partial))
+            if (LAYOUT.causality[unknowns[i]] != 'o' || LAYOUT.causality[knowns[j]] != 'i' ||
+                !model_partial(state_of(it), unknowns[i], knowns[j], &partial))
                 return say(it, ERROR, "No derivative of variable %u to variable %u.", unknowns[i], knowns[j]);
             out[i] += partial * seed[j];
         }
@@ -170,31 +182,31 @@ Status partials(Instance *it, const unsigned *unknowns, size_t n, const unsigned
 
 Status enter_initialisation(Instance *it, double start_time)
 {
-    if (it->state.phase != NEW) return say(it, ERROR, "Initialisation was entered twice.");
-    it->state.phase = INITIALISING;
-    it->state.time = it->last.reached = start_time;
+    if (it->head->phase != NEW) return say(it, ERROR, "Initialisation was entered twice.");
+    it->head->phase = INITIALISING;
+    it->head->time = it->last.reached = start_time;
     it->stale = 1;
     return OK;
 }
 
 Status exit_initialisation(Instance *it)
 {
-    if (it->state.phase != INITIALISING) return say(it, ERROR, "Initialisation was left but not entered.");
+    if (it->head->phase != INITIALISING) return say(it, ERROR, "Initialisation was left but not entered.");
     refresh(it);
-    it->state.phase = it->event_mode ? EVENTS : STEPPING;
+    it->head->phase = it->event_mode ? EVENTS : STEPPING;
     return OK;
 }
 
 Status step(Instance *it, double time, double h)
 {
-    State *m = &it->state;
+    Head *m = it->head;
     if (m->phase != STEPPING) return say(it, ERROR, "A step was asked for in phase %d, not in step mode.", m->phase);
     if (m->event_pending) return say(it, ERROR, "A step was asked for before the event at %g s was handled.", m->time);
     if (fabs(time - m->time) > 1e-9 * fmax(1.0, fabs(m->time)))
         return say(it, ERROR, "The step starts at %.17g s, the model stands at %.17g s.", time, m->time);
     if (!(h > 0.0)) return say(it, ERROR, "The step size is %g s and must be above 0.", h);
     m->time = time;
-    it->last = model_step(m, it->work, h, it->may_return_early, it->event_mode);
+    it->last = model_step(state_of(it), it->work, h, it->may_return_early, it->event_mode);
     m->event_pending = it->last.event;
     it->stale = 1;
     if (it->last.message != NULL) say(it, it->last.status, "%s", it->last.message);
@@ -208,22 +220,22 @@ int is_short(const Instance *it, double time, double h)
 
 Status terminate(Instance *it)
 {
-    if (it->state.phase < EVENTS) return say(it, ERROR, "The end came before initialisation was left.");
-    it->state.phase = ENDED;
+    if (it->head->phase < EVENTS) return say(it, ERROR, "The end came before initialisation was left.");
+    it->head->phase = ENDED;
     return OK;
 }
 
 static Status check_rollback(Instance *it)
 {
-    return ROLLBACK ? OK : say(it, ERROR, "This model neither saves nor restores its state.");
+    return LAYOUT.rollback ? OK : say(it, ERROR, "This model neither saves nor restores its state.");
 }
 
 Status save(Instance *it, void **state)
 {
     if (check_rollback(it) != OK) return ERROR;
-    if (*state == NULL) *state = malloc(sizeof(State));
+    if (*state == NULL) *state = malloc(LAYOUT.state);
     refresh(it);
-    memcpy(*state, &it->state, sizeof(State));
+    memcpy(*state, it->head, LAYOUT.state);
     return OK;
 }
 
@@ -231,8 +243,8 @@ Status restore(Instance *it, const void *state)
 {
     if (check_rollback(it) != OK) return ERROR;
     if (state == NULL) return say(it, ERROR, "The state to restore is missing.");
-    memcpy(&it->state, state, sizeof(State));
-    it->last = (Outcome){.reached = it->state.time};
+    memcpy(it->head, state, LAYOUT.state);
+    it->last = (Outcome){.reached = it->head->time};
     it->stale = 1;
     return OK;
 }
@@ -248,22 +260,22 @@ Status release(Instance *it, void **state)
 Status state_size(Instance *it, const void *state, size_t *size)
 {
     if (check_rollback(it) != OK || state == NULL) return ERROR;
-    *size = sizeof(State);
+    *size = LAYOUT.state;
     return OK;
 }
 
 Status pack(Instance *it, const void *state, void *bytes, size_t size)
 {
-    if (check_rollback(it) != OK || state == NULL || size < sizeof(State)) return ERROR;
-    memcpy(bytes, state, sizeof(State));
+    if (check_rollback(it) != OK || state == NULL || size < LAYOUT.state) return ERROR;
+    memcpy(bytes, state, LAYOUT.state);
     return OK;
 }
 
 Status unpack(Instance *it, const void *bytes, size_t size, void **state)
 {
     if (check_rollback(it) != OK) return ERROR;
-    if (size != sizeof(State)) return say(it, ERROR, "A state has %zu bytes, not %zu.", sizeof(State), size);
-    if (*state == NULL) *state = malloc(sizeof(State));
-    memcpy(*state, bytes, sizeof(State));
+    if (size != LAYOUT.state) return say(it, ERROR, "A state has %zu bytes, not %zu.", LAYOUT.state, size);
+    if (*state == NULL) *state = malloc(LAYOUT.state);
+    memcpy(*state, bytes, LAYOUT.state);
     return OK;
 }

@@ -3,11 +3,11 @@
 #ifndef INSTANCE_H
 #define INSTANCE_H
 
-#include "model.h"
+#include "interface.h"
 
 typedef struct Instance Instance;
 struct Instance {
-    State state;
+    Head *head; /* of the state */
     void *work;
     int stale;       /* outputs are older than inputs or state */
     int event_mode, may_return_early;

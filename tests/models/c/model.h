@@ -1,52 +1,44 @@
-/* One model behind FMI 2 or FMI 3: its state is one block of plain data, so that saving it is copying it. */
+/* What the source of a model includes: its variables and its state. */
 
 #ifndef MODEL_H
 #define MODEL_H
 
-#include <math.h>
-#include <stddef.h>
-#include <string.h>
+#include "interface.h"
 
-/* Written by tests/models/build.py for each FMU: N_..., one V_... per variable, KIND, CAUSALITY, START, START_TEXT,
-   and the switches ROLLBACK, INTERPOLATES.  Value references count parameters first, then inputs, then outputs; strings
-   come after all numbers. */
+/* Written by tests/models/build.py for each FMU: N_..., one V_... per variable, KIND, CAUSALITY, START, START_TEXT, TOKEN,
+   and the switches ROLLBACK, INTERPOLATES, HAS_EVENT_MODE.  Value references count parameters first, then inputs, then
+   outputs; strings come after all numbers. */
 #include "variables.h"
 
-#define TEXT 128 /* bytes of a string, with its end */
-
-typedef enum { OK, WARNING, DISCARD, ERROR } Status; /* the numbers of FMI 2 and FMI 3 */
-typedef enum { NEW, INITIALISING, EVENTS, STEPPING, ENDED } Phase;
-
-typedef struct {
-    double time;
-    double value[N_NUMBERS + 1];      /* by value reference */
-    double slope[2][N_INPUTS + 1];    /* first and second derivative of the inputs in the step to come */
-    double end_slope[N_INPUTS + 1];   /* first derivative of the inputs at the end of the last step */
-    double memory[N_MEMORY + 1];      /* the model's own */
+struct State {
+    Head head;
+    double value[N_NUMBERS + 1];   /* by value reference */
+    double slope[2][N_INPUTS + 1]; /* first and second derivative of the inputs in the step to come */
+    double end_slope[N_INPUTS + 1]; /* first derivative of the inputs at the end of the last step */
+    double memory[N_MEMORY + 1];   /* the model's own */
     char text[N_STRINGS + 1][TEXT];
-    int phase;
-    int event_pending;
-} State;
+};
 
-typedef struct {
-    double reached; /* time up to which the step was taken */
-    Status status;
-    int event;      /* must be handled in event mode */
-    int terminate;
-    const char *message;
-} Outcome;
-
-/* What a model is.  `m->value` holds parameters and inputs; model_outputs writes the outputs. */
-void model_start(State *m);         /* memory from parameters */
-void model_outputs(State *m);       /* outputs from memory, inputs and time */
-Outcome model_step(State *m, void *work, double h, int may_return_early, int event_mode);
-
-/* What a model may leave out. */
-void model_event(State *m);         /* event mode: the pending event happens */
-double model_next_event(const State *m); /* its time, or NAN */
-int model_partial(const State *m, int output, int input, double *value);  /* d output / d input; 0: unknown */
-int model_slope(const State *m, int output, double *value);              /* d output / dt; 0: unknown */
-size_t model_work(void);             /* bytes of scratch memory of an instance, zero at first, never part of the state */
+const Layout LAYOUT = {
+    .n_variables = N_VARIABLES,
+    .n_numbers = N_NUMBERS,
+    .n_strings = N_STRINGS,
+    .first_input = FIRST_INPUT,
+    .slopes_per_order = N_INPUTS + 1,
+    .state = sizeof(State),
+    .value = offsetof(State, value),
+    .slope = offsetof(State, slope),
+    .text = offsetof(State, text),
+    .kind = KIND,
+    .causality = CAUSALITY,
+    .start = START,
+    .start_text = START_TEXT,
+    .token = TOKEN,
+    .rollback = ROLLBACK,
+    .interpolates = INTERPOLATES,
+    .intermediate = INTERMEDIATE,
+    .has_event_mode = HAS_EVENT_MODE,
+};
 
 /* Helpers for models. */
 #define VALUE(name) (m->value[V_##name])
@@ -73,14 +65,14 @@ static inline Outcome done(State *m, double h)
         m->end_slope[i] = m->slope[0][i] + h * m->slope[1][i];
         m->slope[0][i] = m->slope[1][i] = 0.0;
     }
-    m->time += h;
-    return (Outcome){.reached = m->time};
+    m->head.time += h;
+    return (Outcome){.reached = m->head.time};
 }
 
 /* A step that was not taken at all. */
 static inline Outcome refused(const State *m, Status status, const char *message)
 {
-    return (Outcome){.reached = m->time, .status = status, .message = message};
+    return (Outcome){.reached = m->head.time, .status = status, .message = message};
 }
 
 #endif

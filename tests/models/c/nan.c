@@ -4,7 +4,7 @@
 
 void model_start(State *m) { m->memory[0] = VALUE(y0); }
 
-void model_outputs(State *m) { VALUE(y) = m->time > VALUE(t_nan) + 1e-9 ? NAN : m->memory[0]; }
+void model_outputs(State *m) { VALUE(y) = m->head.time > VALUE(t_nan) + 1e-9 ? NAN : m->memory[0]; }
 
 Outcome model_step(State *m, void *work, double h, int may_return_early, int event_mode)
 {

@@ -9,7 +9,7 @@ void model_outputs(State *m) { VALUE(y) = m->memory[0]; }
 Outcome model_step(State *m, void *work, double h, int may_return_early, int event_mode)
 {
     (void)work, (void)event_mode;
-    double rest = VALUE(t_end) - m->time;
+    double rest = VALUE(t_end) - m->head.time;
     int ends = h > rest - 1e-9 * h;
     if (rest <= 1e-9 * h) return refused(m, ERROR, "The model has ended the simulation and takes no more steps.");
     if (ends && may_return_early) h = fmin(h, rest);

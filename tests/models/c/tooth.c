@@ -6,7 +6,7 @@ void model_start(State *m) { (void)m; }
 
 void model_outputs(State *m)
 {
-    double tooth = floor(m->time / VALUE(period) + 1e-9);
+    double tooth = floor(m->head.time / VALUE(period) + 1e-9);
     VALUE(tooth) = tooth;
     VALUE(stiffness) = VALUE(k) * (fmod(tooth, 2.0) == 0.0 ? 1.0 : 1.0 + VALUE(a));
 }
