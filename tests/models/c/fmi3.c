@@ -2,6 +2,8 @@
 
 #include "instance.h"
 
+#include <stdlib.h>
+
 #include "fmi3Functions.h"
 
 static void report(Instance *it, Status status, const char *message)
@@ -90,7 +92,7 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance c, fmi3Boolean *again, fmi3Bool
 /* With event mode, inputs that are not continuous are set in it only. */
 static Status check_mode(Instance *it)
 {
-    if (!it->event_mode || it->state.phase != STEPPING) return OK;
+    if (!it->event_mode || it->head->phase != STEPPING) return OK;
     return say(it, ERROR, "A discrete input was set outside of event mode.");
 }
 
@@ -165,19 +167,22 @@ fmi3Status fmi3GetOutputDerivatives(fmi3Instance c, const fmi3ValueReference vr[
 /* Asks for the inputs at the start, in the middle and at the end of a step: a parabola, as with derivatives in FMI 2. */
 static void ask_for_inputs(Instance *it, double time, double h)
 {
-    State *m = &it->state;
-    double value[3][N_INPUTS + 1];
+    enum { MOST = 8 };
+    unsigned n = LAYOUT.slopes_per_order - 1;
+    double *inputs = (double *)((char *)it->head + LAYOUT.value) + LAYOUT.first_input, value[3][MOST];
+    double *first = (double *)((char *)it->head + LAYOUT.slope), *second = first + LAYOUT.slopes_per_order;
+    if (n > MOST) abort();
     for (int k = 0; k < 3; k++) {
         fmi3Boolean early = false;
         fmi3Float64 early_time = 0.0;
         ((fmi3IntermediateUpdateCallback)it->update)(it->environment, time + 0.5 * k * h, true, false, false, false, &early,
                                                      &early_time);
-        memcpy(value[k], m->value + FIRST_INPUT, N_INPUTS * sizeof(double));
+        memcpy(value[k], inputs, n * sizeof(double));
     }
-    for (int i = 0; i < N_INPUTS; i++) {
-        m->value[FIRST_INPUT + i] = value[0][i];
-        m->slope[0][i] = (4.0 * value[1][i] - 3.0 * value[0][i] - value[2][i]) / h;
-        m->slope[1][i] = 4.0 * (value[0][i] - 2.0 * value[1][i] + value[2][i]) / (h * h);
+    for (unsigned i = 0; i < n; i++) {
+        inputs[i] = value[0][i];
+        first[i] = (4.0 * value[1][i] - 3.0 * value[0][i] - value[2][i]) / h;
+        second[i] = 4.0 * (value[0][i] - 2.0 * value[1][i] + value[2][i]) / (h * h);
     }
 }
 
