@@ -198,13 +198,13 @@ class ControlledStepper(Stepper):
 
     def stored(self) -> dict[str, Any]:
         """All that is needed to go on from now in another process."""
-        own = {"size": self.size, "control": self.control.copy(), "adds_up": self.adds_up}
+        own = {"size": self.size, "control": self.control.copy(), "lags": self.lags}
         return super().stored() | own
 
     def go_on(self, memory: Mapping[str, Any]) -> None:
         """Go to what `stored` has given."""
         super().go_on(memory)
-        self.size, self.adds_up = memory["size"], memory["adds_up"]
+        self.size, self.lags = memory["size"], memory["lags"]
         self.control.restore(memory["control"])
 
     def _proposed_end(self, limit: float) -> float:
