@@ -11,6 +11,7 @@ from fmpy.fmi3 import FMU3Slave, fmi3Discard
 from fmpy.model_description import ModelVariable
 from numpy.typing import NDArray
 
+from .. import messages
 from . import hold
 from .errors import CouplingError
 from .model import Model
@@ -89,7 +90,7 @@ class Fmi3Slave(Slave):
         self._refused_input: FMICallException | None = None
 
     def _on_message(self, environment: Any, status: int, category: bytes, message: bytes) -> None:
-        self._pass_on(status, message)
+        messages.pass_on(self.name, status, message)
 
     def _on_intermediate_update(
         self,
