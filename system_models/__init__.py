@@ -7,7 +7,9 @@
     report         the printed table and the overview picture
     stribeck       rubs a contact and sweeps the speed at given times; stribeck_report: its table and picture
     check/         a verdict per rule on an FMU, anybody's
-    cli            the command line
+    master/        couples FMUs, anybody's, and controls its own error
+    cosim_command  simulates a system of FMUs from a TOML file; cosim_report: its tables and picture
+    cli            the command line; console: what its commands share
 
 A system sees the contact only through its scene, the quantities and the FMU; the Stribeck curves, which go back to one
 state again and again, use the core itself. In a ball-on-disc scene body 1 is the ball and body 2 the disc.

@@ -171,6 +171,8 @@ def _draw(axis: "Axes", variable: xr.DataArray) -> None:
     else:
         style = "default" if kind == "f" else "steps-post"
         axis.plot(time, values, color=_COLOUR, linewidth=1.2, drawstyle=style)
+    if kind == "b":
+        axis.set(ylim=(-0.1, 1.1), yticks=(0.0, 1.0), yticklabels=("false", "true"))
     title = name.removeprefix("master.") + ("" if unit == "1" else f" [{unit}]")
     axis.set_title(title, fontsize="medium", loc="left")
     axis.margins(x=0.0)

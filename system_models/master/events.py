@@ -13,7 +13,7 @@ class Indicators:
 
     def __init__(self, coupled: Coupled) -> None:
         self._coupled = coupled
-        self._reals = [coupled.names.index(port.name) for port in coupled.system.events if port.kind == "real"]
+        self._reals = [coupled.wiring.output_place[port.name] for port in coupled.system.events if port.kind == "real"]
         self._others = [port for port in coupled.system.events if port.kind != "real"]
 
     def values(self) -> Values:
@@ -21,9 +21,9 @@ class Indicators:
         return [float(self._coupled.outputs[n]) for n in self._reals], [self._coupled.get(p) for p in self._others]
 
     def locate(self, to: Callable[[float], Values], low: float, before: Values, high: float, width: float) -> float:
-        """A time at most `width` behind the first event between `low` and `high` [s], where the values are those of now.
+        """A time at most `width` behind an event between `low` and `high` [s]; the values at `high` are those of now.
 
-        `to` goes to a time between them and returns the values there. Raises nothing of its own.
+        `to` goes to a time between them and returns the values there.
         """
         after = self.values()
         round_ = 0

@@ -27,8 +27,11 @@ class Recorder:
 
     def __init__(self, coupled: Coupled, ports: Sequence[Port]) -> None:
         self._coupled, self._ports = coupled, ports
-        self._places = [coupled.names.index(p.name) if p.kind == "real" else None for p in ports]
-        bonds = {f"bond.{bond.name}": ("W", "power out of one FMU less power into the other") for bond in coupled.system.bonds}
+        self._places = [coupled.wiring.output_place[p.name] if p.kind == "real" else None for p in ports]
+        bonds = {
+            f"bond.{bond.name}": ("W", "power out of one FMU less power into the other")
+            for bond in coupled.system.bonds
+        }
         self._extras = STATISTICS | bonds
         self._times = array("d")
         self._columns: list[Any] = [array("d") if place is not None else [] for place in self._places]

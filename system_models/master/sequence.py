@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from .settings import Settings
 from .slave import Slave
 from .system import System
 
@@ -32,10 +33,9 @@ class Block:
         return [name for name, _ in self.sequence]
 
 
-def blocks(
-    system: System, slaves: Mapping[str, Slave], inputs: list[str], gauss_seidel: bool, loops: bool
-) -> list[Block]:
-    """The blocks in the order of the signals. Without `loops`, all FMUs are in one."""
+def blocks(system: System, slaves: Mapping[str, Slave], inputs: list[str], settings: Settings) -> list[Block]:
+    """The blocks in the order of the signals; all FMUs are in one unless loops are iterated."""
+    gauss_seidel, loops = settings.algorithm == "gauss_seidel", settings.iterate is not None
     order = _gauss_seidel_order(system, slaves)
     source = {c.target.name: c.source.model.name for c in system.connections}
     groups = order if loops else [[name for group in order for name in group]]

@@ -1,25 +1,25 @@
 """The time loop."""
 
 import json
-import math
+import logging
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import ExitStack
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Literal
 
-import numpy as np
 import xarray as xr
 
 from ..checkpoint import Checkpoint
 from . import saving
-from .coupled import Coupled, Scheme
+from .coupled import Coupled
 from .errors import CouplingError
 from .recorder import Recorder
-from .stepping import ControlledStepper, Ended, Stepper
+from .settings import Settings
+from .stepping import ControlledStepper, Ended, Statistics, Stepper
 from .system import System
 
-_MIN_STEP = 1e-6  # of the step
+log = logging.getLogger(__name__)
 
 
 def simulate(
@@ -39,39 +39,49 @@ def simulate(
     history: Mapping[str, Callable[[float], float]] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
-    """Simulate a system from 0 to `stop_time` [s]."""
-    scheme = Scheme(algorithm, order, iterate, iteration_tolerance or 1e-6)
+    """Simulate a system from the time 0 to `stop_time` [s].
+
+    step_size [s]: the communication step; with a tolerance, the first one. algorithm: whether the FMUs of a step see
+    each other's past only, or those late in the sequence what the early ones have reached; the sequence follows from
+    the connections. order: of the polynomials by which inputs go on within a step, through derivatives where the FMU
+    takes them; another holds their mean.
+
+    iterate: repeat each step until the inputs at its end are what the outputs make of them, to iteration_tolerance
+    (1e-6 of their magnitude); a step that does not get there stands, and is counted in `unconverged`.
+
+    tolerance: of the coupled outputs, over their magnitude: the larger of `nominal` and what they have reached. The
+    estimated errors of all steps add up to it at most over the `horizon` [s]: all of the simulation, unless errors are
+    known to die out sooner. Where a step of min_step (1e-6 step_size) is still too inaccurate it stands, and is counted
+    in `below_min_step`. Events are found to min_step.
+
+    checkpoint: a folder in which the state is kept; with `resume` the simulation goes on from there, bit for bit.
+    outputs: the variables to record, all outputs if none are named. history: the course of coupled outputs before the
+    time 0, f(t) by name, for hold orders above 0. progress is called with the time reached.
+
+    Returns a Dataset along `time`: the recorded variables by name, with units; "master.*", how each step went;
+    "bond.*", the power that the coupling adds to a bond. Its attributes count steps, rejected, iterations, unconverged,
+    below_min_step, events and stopped_early, name in ended_by the FMU that has asked for the end, and give in `cost`
+    the steps and seconds of each FMU, as JSON.
+
+    Raises CouplingError for settings that make no sense or that the FMUs cannot serve, for an FMU that fails, and for
+    values that are not finite.
+    """
+    settings = Settings(
+        stop_time, step_size, algorithm, order, iterate, tolerance, iteration_tolerance, min_step, horizon
+    )
+    settings.check(system)
     ports = system.outputs(outputs)
-    min_step = _MIN_STEP * step_size if min_step is None else min_step
-    settings = {
-        "stop_time": stop_time,
-        "step_size": step_size,
-        "algorithm": algorithm,
-        "order": order,
-        "iterate": iterate,
-        "tolerance": tolerance,
-        "iteration_tolerance": iteration_tolerance,
-        "min_step": min_step,
-        "outputs": [port.name for port in ports],
-        "horizon": horizon,
-        "history": sorted(history or ()),
-    }
     with ExitStack() as exits:
         store = None
         if checkpoint is not None:
-            store = exits.enter_context(saving.kept(Path(checkpoint), system, ports, settings, resume))
-        coupled = Coupled(system, ports, scheme, exits)
+            run = asdict(settings) | {"outputs": [port.name for port in ports], "history": sorted(history or ())}
+            store = exits.enter_context(saving.kept(Path(checkpoint), system, ports, run, resume))
+        coupled = Coupled(system, ports, settings, exits)
         recorder = Recorder(coupled, ports)
-        coupled.initialise(stop_time, tolerance)
+        coupled.initialise()
         if history:
-            _remember(coupled, history, order, step_size)
-        stepper = (
-            Stepper(coupled, recorder, step_size, min_step)
-            if tolerance is None
-            else ControlledStepper(
-                coupled, recorder, step_size, min_step, tolerance, horizon or stop_time, iteration_tolerance is None
-            )
-        )
+            _remember(coupled, history)
+        stepper = Stepper(coupled, recorder) if tolerance is None else ControlledStepper(coupled, recorder, tolerance)
         if store and store.saved:
             states, master = saving.unpack(store.saved.state)
             coupled.go_on(states, master["coupled"])
@@ -79,7 +89,8 @@ def simulate(
             recorder.restore(store.saved.rows)
         else:
             recorder.add(recorder.start())
-        _run(coupled, recorder, stepper, stop_time, progress or (lambda time: None), store)
+        _run(coupled, recorder, stepper, progress or (lambda time: None), store)
+        _report(coupled, stepper.statistics)
         return recorder.dataset(_attributes(coupled, stepper))
 
 
@@ -87,13 +98,13 @@ def _run(
     coupled: Coupled,
     recorder: Recorder,
     stepper: Stepper,
-    stop_time: float,
     progress: Callable[[float], None],
     store: Checkpoint | None,
 ) -> None:
+    stop_time = coupled.settings.stop_time
     times = sorted({time for steps in coupled.system.schedule.values() for time, _ in steps if 0.0 < time < stop_time})
     while coupled.time < stop_time and not stepper.statistics.ended_by:
-        limit = min([time for time in times if time > coupled.time], default=stop_time)
+        limit = min([stop_time, coupled.next_event(), *(time for time in times if time > coupled.time)])
         try:
             rows = stepper.step(limit)
         except Ended:
@@ -115,14 +126,44 @@ def _save(store: Checkpoint, coupled: Coupled, recorder: Recorder, stepper: Step
     store.save(coupled.time, state, recorder.table(store.count))
 
 
-def _remember(coupled: Coupled, history: Mapping[str, Callable[[float], float]], order: int, step_size: float) -> None:
+def _remember(coupled: Coupled, history: Mapping[str, Callable[[float], float]]) -> None:
+    coupled_outputs = {coupled.wiring.outputs[place] for place in coupled.wiring.coupled}
+    missing = sorted(coupled_outputs - set(history))
+    if missing:
+        raise CouplingError(
+            f"The history lacks '{missing[0]}', which sets an input. Give its course before the time 0."
+        )
     past = []
-    for n in range(order, 0, -1):
-        outputs = coupled.outputs.copy()
-        for name, course in history.items():
-            outputs[coupled.names.index(name)] = course(-n * step_size)
-        past.append((-n * step_size, outputs))
+    for n in range(coupled.settings.order, 0, -1):
+        time, outputs = -n * coupled.settings.step_size, coupled.outputs.copy()
+        for name in coupled_outputs:
+            outputs[coupled.wiring.output_place[name]] = history[name](time)
+        past.append((time, outputs))
     coupled.remember(past)
+
+
+def _report(coupled: Coupled, statistics: Statistics) -> None:
+    """Warn of what makes a result doubtful."""
+    if statistics.unconverged:
+        log.warning(
+            "The iteration has not converged in %d of %d steps; `master.residual` tells in which. Take smaller steps, "
+            "or another method.",
+            statistics.unconverged,
+            statistics.steps,
+        )
+    if statistics.below_min_step:
+        log.warning(
+            "%d of %d steps are less accurate than the tolerance asks for, at min_step = %g s. Lower it, or look for "
+            "an event that is not named.",
+            statistics.below_min_step,
+            statistics.steps,
+            coupled.settings.smallest_step,
+        )
+    held = [s.name for s in coupled.slaves.values() if s.inputs.count and not s.interpolates]
+    if coupled.settings.order and held:
+        log.info("Takes no derivatives of inputs, and holds their mean over each step: %s.", ", ".join(held))
+    if statistics.ended_by:
+        log.warning("The FMU '%s' has ended the simulation at %g s.", statistics.ended_by, coupled.time)
 
 
 def _attributes(coupled: Coupled, stepper: Stepper) -> dict[str, Any]:

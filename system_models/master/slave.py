@@ -81,6 +81,9 @@ class Slave(ABC):
         reached = self._do_step(time, size)
         self.seconds += perf_counter() - start
         self.steps += 1
+        if self.feedthrough and len(polynomial) > 1 and not self.interpolates:  # outputs of the end, not of the mean
+            self.inputs.values[:] = hold.value(polynomial, size)
+            self.set_inputs()
         return reached
 
     def read(self) -> None:
@@ -88,18 +91,12 @@ class Slave(ABC):
         if self.outputs.count:
             self._get_outputs()
 
-    def refresh(self, values: NDArray[np.float64]) -> None:
-        """Get the outputs that go with new inputs, without a step."""
-        self.inputs.values[:] = values
-        self._set_inputs()
-        self.read()
-
     def _hold(self, polynomial: NDArray[np.float64], size: float) -> None:
         if len(polynomial) > 1 and not self.interpolates:
             self.inputs.values[:] = hold.mean(polynomial, size)
         else:
             self.inputs.values[:] = polynomial[0]
-        self._set_inputs()
+        self.set_inputs()
 
     def _pass_on(self, status: int, message: bytes | None) -> None:
         """Log what the FMU says."""
@@ -113,7 +110,8 @@ class Slave(ABC):
     def _instantiate(self, folder: str) -> None: ...
 
     @abstractmethod
-    def _set_inputs(self) -> None: ...
+    def set_inputs(self) -> None:
+        """Give the FMU the values of `inputs`."""
 
     @abstractmethod
     def _get_outputs(self) -> None: ...
@@ -213,7 +211,8 @@ class Fmi2Slave(Slave):
         references, orders, buffer = self._derivatives
         self._fmu.fmi2SetRealInputDerivatives(self._component, references, count, orders, buffer)
 
-    def _set_inputs(self) -> None:
+    def set_inputs(self) -> None:
+        """Give the FMU the values of `inputs`."""
         self._fmu.fmi2SetReal(self._component, self.inputs.references, self.inputs.count, self.inputs.buffer)
 
     def _get_outputs(self) -> None:

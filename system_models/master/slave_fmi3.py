@@ -106,7 +106,7 @@ class Fmi3Slave(Slave):
         if set_requested and self._refused_input is None:
             self.inputs.values[:] = hold.value(self._polynomial, time - self._start)
             try:
-                self._set_inputs()
+                self.set_inputs()
             except FMICallException as error:  # nothing may be raised through the FMU
                 self._refused_input = error
 
@@ -114,7 +114,8 @@ class Fmi3Slave(Slave):
         super()._hold(polynomial, size)
         self._polynomial = polynomial
 
-    def _set_inputs(self) -> None:
+    def set_inputs(self) -> None:
+        """Give the FMU the values of `inputs`."""
         inputs = self.inputs
         self._fmu.fmi3SetFloat64(self._component, inputs.references, inputs.count, inputs.buffer, inputs.count)
 

@@ -6,18 +6,17 @@ from contextlib import ExitStack
 from pathlib import Path
 
 import fmpy
-from fmpy.model_description import ModelVariable
 
 from .errors import CouplingError
 from .slave import Fmi2Slave, Slave
 from .slave_fmi3 import Fmi3Slave
-from .system import System
+from .system import Port, System
 
 
 def started(
     system: System,
-    inputs: Mapping[str, list[ModelVariable]],
-    outputs: Mapping[str, list[ModelVariable]],
+    inputs: Mapping[str, list[Port]],
+    outputs: Mapping[str, list[Port]],
     early_return: bool,
     exits: ExitStack,
 ) -> dict[str, Slave]:
@@ -31,10 +30,11 @@ def started(
             folders[path] = exits.enter_context(tempfile.TemporaryDirectory(prefix="tribofmu-"))
             _check_folder(folders[path])
             fmpy.extract(str(path), folders[path])
+        told, read = ([port.variable for port in ports[name]] for ports in (inputs, outputs))
         if model.fmi3:
-            slave: Slave = Fmi3Slave(model, folders[path], inputs[name], outputs[name], early_return)
+            slave: Slave = Fmi3Slave(model, folders[path], told, read, early_return)
         else:
-            slave = Fmi2Slave(model, folders[path], inputs[name], outputs[name])
+            slave = Fmi2Slave(model, folders[path], told, read)
         exits.callback(slave.free)
         slaves[name] = slave
     return slaves
@@ -52,4 +52,6 @@ def _check_alone(system: System) -> None:
 
 def _check_folder(folder: str) -> None:
     if "%" in Path(folder).as_uri().replace("%20", ""):  # some FMUs crash there
-        raise CouplingError(f"FMUs cannot be loaded from '{folder}'. Set TMPDIR to a folder named in plain letters and digits.")
+        raise CouplingError(
+            f"FMUs cannot be loaded from '{folder}'. Set TMPDIR to a folder named in plain letters and digits."
+        )

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .control import StepControl, wrms
-from .coupled import Coupled, Outcome, Point, StoppedEarly
+from .coupled import Coupled, Point, StoppedEarly
 from .errors import CouplingError
 from .events import Indicators, Values, changed
 from .recorder import Recorder, Row
@@ -43,19 +43,19 @@ class Statistics:
     ended_by: str = ""  # the FMU that asked for the end
 
 
-class Ended(Exception):
+class Ended(Exception):  # noqa: N818 - no error
     """An FMU has asked for the end of the simulation."""
 
 
 class Stepper:
     """Makes steps of at most `step_size`, each to a row or two."""
 
-    def __init__(self, coupled: Coupled, recorder: Recorder, step_size: float, min_step: float) -> None:
+    def __init__(self, coupled: Coupled, recorder: Recorder) -> None:
         self.coupled, self.recorder = coupled, recorder
-        self.step_size, self.min_step = step_size, min_step
+        self.step_size, self.min_step = coupled.settings.step_size, coupled.settings.smallest_step
         self.statistics = Statistics()
         self._indicators = Indicators(coupled)
-        self.iterated = coupled.scheme.iterate is not None
+        self.iterated = coupled.settings.iterate is not None
 
     def step(self, limit: float) -> list[Row]:
         """Advance to the end of a step, `limit` at most, and give its rows.
@@ -174,22 +174,14 @@ class ControlledStepper(Stepper):
     more, does not add up; that shows when a rejected step is repeated, and then its error may be the tolerance itself.
     """
 
-    def __init__(
-        self,
-        coupled: Coupled,
-        recorder: Recorder,
-        step_size: float,
-        min_step: float,
-        tolerance: float,
-        horizon: float,
-        own_iteration_tolerance: bool,
-    ) -> None:
-        super().__init__(coupled, recorder, step_size, min_step)
-        self.tolerance, self.horizon = tolerance, horizon
-        self.own_iteration_tolerance = own_iteration_tolerance  # whether it follows from the tolerance
-        self.size = step_size
-        self.control = StepControl(coupled.scheme.order + 1)
-        self.lags = np.zeros(len(coupled.coupled), dtype=int)  # how often in a row an output has seemed to lag only
+    def __init__(self, coupled: Coupled, recorder: Recorder, tolerance: float) -> None:
+        super().__init__(coupled, recorder)
+        self.tolerance, self.horizon = tolerance, coupled.settings.horizon or coupled.settings.stop_time
+        self.size = self.step_size
+        self.control = StepControl(coupled.settings.order + 1)
+        self.lags = np.zeros(
+            len(coupled.wiring.coupled), dtype=int
+        )  # how often in a row an output has seemed to lag only
 
     def begin_anew(self) -> None:
         """What was before an event says nothing about what follows."""
@@ -198,13 +190,13 @@ class ControlledStepper(Stepper):
 
     def stored(self) -> dict[str, Any]:
         """All that is needed to go on from now in another process."""
-        own = {"size": self.size, "control": self.control.copy(), "adds_up": self.adds_up}
+        own = {"size": self.size, "control": self.control.copy(), "lags": self.lags}
         return super().stored() | own
 
     def go_on(self, memory: Mapping[str, Any]) -> None:
         """Go to what `stored` has given."""
         super().go_on(memory)
-        self.size, self.adds_up = memory["size"], memory["adds_up"]
+        self.size, self.lags = memory["size"], memory["lags"]
         self.control.restore(memory["control"])
 
     def _proposed_end(self, limit: float) -> float:
@@ -233,11 +225,13 @@ class ControlledStepper(Stepper):
     def _attempt(self, end: float, start: Point) -> Attempt:
         coupled, iterated = self.coupled, self.iterated
         size, middle_time = end - start.time, start.time + 0.5 * (end - start.time)
-        if self.own_iteration_tolerance:
+        if coupled.settings.iteration_tolerance is None:
             coupled.iteration_tolerance = _ITERATED * self.tolerance * min(1.0, size / self.horizon)
         whole_nodes, first_nodes = coupled.nodes(size), coupled.nodes(0.5 * size)
         whole = coupled.advance(end, start if iterated else None)
-        outputs = coupled.outputs[coupled.coupled]
+        outputs = coupled.outputs[coupled.wiring.coupled]
+        if not self.statistics.steps:
+            coupled.expect()
         coupled.restore(start)
         first = coupled.advance(middle_time, start if iterated else None)
         row = self.recorder.row(0.5 * size, first)
@@ -248,7 +242,7 @@ class ControlledStepper(Stepper):
         finally:
             if middle:
                 coupled.release(middle)
-        errors = np.abs(coupled.outputs[coupled.coupled] - outputs) * of_halves.per_difference
+        errors = np.abs(coupled.outputs[coupled.wiring.coupled] - outputs) * of_halves.per_difference
         ratio = self._ratio(errors, size)
         if max(whole.residual, first.residual, second.residual) > 1.0:
             ratio = max(ratio, 2.0)

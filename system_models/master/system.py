@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -73,11 +74,11 @@ class System:
 
     fmus: path of the .fmu file by name; the name has no dot. connections: (output, input) or (output, input, factor)
     by their names "fmu.variable"; units are converted, and refused where they do not fit. parameters: start values of
-    parameters and of inputs that nothing is connected to. schedule: (time [s], value) pairs of such an input, which
-    holds each value until the next; the times are communication points. events: outputs whose change of sign (Real) or
-    of value (all others) must not be stepped over. bonds: pairs of connected outputs, one each way, whose product is
-    a power. derivatives: the output that is the derivative of an output by an input, {("a.force", "a.speed"):
-    "a.dforce_dspeed"}.
+    parameters and inputs; that of a connected input is where the search for consistent initial values begins.
+    schedule: (time [s], value) pairs of an input that nothing is connected to, which holds each value until the next;
+    the times are communication points. events: outputs whose change of sign (Real) or of value (all others) must not be
+    stepped over. bonds: pairs of connected outputs, one each way, whose product is a power. derivatives: the output
+    that is the derivative of an output by an input, {("a.force", "a.speed"): "a.dforce_dspeed"}.
 
     Raises CouplingError for what does not exist or cannot be coupled.
     """
@@ -103,7 +104,9 @@ class System:
         self.events = [self._output(name, "an event") for name in sorted({*events})]
         self.bonds = [self._bond(*pair) for pair in sorted({tuple(sorted(pair)) for pair in bonds})]
         self.derivatives = {
-            (self._output(of, "a derivative").name, self._input(by, "a derivative").name): self._output(name, "a derivative")
+            (self._output(of, "a derivative").name, self._input(by, "a derivative").name): self._output(
+                name, "a derivative"
+            )
             for (of, by), name in sorted((derivatives or {}).items())
         }
         self._check_derivatives()
@@ -129,7 +132,11 @@ class System:
         if names is not None:
             return [self._recorded(name) for name in dict.fromkeys(names)]
         every = (Port(m, v) for m in self.models.values() for v in m.variables.values() if v.causality == "output")
-        return [port for port in every if port.kind in ("real", "float", "integer", "boolean") and not port.variable.dimensions]
+        return [
+            port
+            for port in every
+            if port.kind in ("real", "float", "integer", "boolean") and not port.variable.dimensions
+        ]
 
     def _recorded(self, name: str) -> Port:
         port = self.port(name)
@@ -155,7 +162,9 @@ class System:
 
     def _check_kind(self, port: Port) -> None:
         if port.kind not in ("real", "float", "integer", "boolean", "string"):
-            raise CouplingError(f"'{port.name}' is of type {port.variable.type}, which cannot be exchanged. Leave it out.")
+            raise CouplingError(
+                f"'{port.name}' is of type {port.variable.type}, which cannot be exchanged. Leave it out."
+            )
         if port.variable.dimensions:
             raise CouplingError(f"'{port.name}' is an array, which cannot be exchanged. Use variables of one value.")
 
@@ -208,9 +217,9 @@ class System:
 
     def _start(self, name: str, value: Value) -> Value:
         port = self.port(name)
-        if port.variable.causality == "input":
-            port = self._free_input(name, "a parameter")
-        elif port.variable.variability == "constant" or port.variable.initial not in ("exact", "approx"):
+        if port.variable.causality != "input" and (
+            port.variable.variability == "constant" or port.variable.initial not in ("exact", "approx")
+        ):
             raise CouplingError(
                 f"'{name}' of causality '{port.variable.causality}' cannot be set: its FMU calculates it. "
                 "Name a parameter, an input or a start value."
@@ -225,8 +234,14 @@ class System:
         except (TypeError, ValueError):
             raise CouplingError(f"The schedule of '{name}' is {steps!r}. Give pairs of time in s and value.") from None
         times = [time for time, _ in pairs]
-        if not times or not all(map(math.isfinite, times)) or any(b <= a for a, b in zip(times, times[1:], strict=False)):
-            raise CouplingError(f"The times of the schedule of '{name}' are {times}. Give at least one, and let them rise.")
+        if (
+            not times
+            or not all(map(math.isfinite, times))
+            or any(later <= earlier for earlier, later in pairwise(times))
+        ):
+            raise CouplingError(
+                f"The times of the schedule of '{name}' are {times}. Give at least one, and let them rise."
+            )
         return pairs
 
     def _bond(self, first: str, second: str) -> Bond:
@@ -260,7 +275,8 @@ class System:
             owners = {self.port(of).model.name, self.port(by).model.name, port.model.name}
             if len(owners) > 1 or port.kind != "real":
                 raise CouplingError(
-                    f"'{port.name}' cannot be the derivative of '{of}' by '{by}': the three must be Real variables of one FMU."
+                    f"'{port.name}' cannot be the derivative of '{of}' by '{by}': the three must be continuous Real "
+                    "variables of one FMU."
                 )
 
 
@@ -268,18 +284,17 @@ def checked(port: Port, value: Any) -> Value:
     """A value as the variable's type has it. Raises CouplingError if it is of another."""
     types: dict[str, tuple[type, ...]] = {"boolean": (bool,), "string": (str,), "integer": (int,)}
     fits = isinstance(value, types.get(port.kind, (int, float))) and (port.kind == "boolean") == isinstance(value, bool)
-    if not fits or (port.kind in ("real", "float") and not math.isfinite(value)):
-        raise CouplingError(
-            f"'{port.name}' = {value!r} is not a value of type {port.variable.type}. Give one, in {port.variable.unit or '1'}."
-            if port.kind in ("real", "float")
-            else f"'{port.name}' = {value!r} is not a value of type {port.variable.type}. Give one."
-        )
-    return float(value) if port.kind in ("real", "float") else value
+    if not fits or (port.kind in NUMBERS and not math.isfinite(value)):
+        unit = f", in {port.variable.unit or '1'}" if port.kind in NUMBERS else ""
+        raise CouplingError(f"'{port.name}' = {value!r} is not a value of type {port.variable.type}. Give one{unit}.")
+    return float(value) if port.kind in NUMBERS else value
 
 
 def _fmu_name(name: str) -> str:
     if not name or "." in name:
-        raise CouplingError(f"An FMU cannot be called '{name}': a dot separates it from its variables. Use another name.")
+        raise CouplingError(
+            f"An FMU cannot be called '{name}': a dot separates it from its variables. Use another name."
+        )
     return name
 
 

@@ -38,7 +38,9 @@ def conversion(
     return factor / own_factor, 0.0 if target.relativeQuantity else (offset - own_offset) / own_factor
 
 
-def power(first: ModelVariable, model: ModelDescription, second: ModelVariable, other: ModelDescription) -> float | None:
+def power(
+    first: ModelVariable, model: ModelDescription, second: ModelVariable, other: ModelDescription
+) -> float | None:
     """The factor to watt of the product of two variables; None if it is no power, or if nobody can tell."""
     bases = [_base(v.unit, m) if v.unit else None for v, m in ((first, model), (second, other))]
     if None in bases:

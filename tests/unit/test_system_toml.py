@@ -39,11 +39,15 @@ CONTACT = [
 ]
 
 
+def variability(causality: str, kind: str) -> str:
+    return "fixed" if causality == "parameter" else "continuous" if kind.startswith("Real") else "discrete"
+
+
 def describe(path: Path, variables: list[tuple[str, str, str]]) -> None:
     """An FMU of which only the description can be read."""
     entries = "".join(
         f'<ScalarVariable name="{name}" valueReference="{i}" causality="{causality}" '
-        f'variability="{"fixed" if causality == "parameter" else "discrete"}"><{kind}/></ScalarVariable>'
+        f'variability="{variability(causality, kind)}"><{kind}/></ScalarVariable>'
         for i, (name, causality, kind) in enumerate(variables)
     )
     outputs = "".join(f'<Unknown index="{i}"/>' for i, v in enumerate(variables, 1) if v[1] == "output")

@@ -1,0 +1,90 @@
+"""How a system is simulated: what may be asked for, and what its FMUs must be able to do for it."""
+
+import math
+from dataclasses import dataclass
+
+from contact_core.reading import did_you_mean
+
+from .errors import CouplingError
+from .iteration import METHODS
+from .system import System
+
+_MIN_STEP = 1e-6  # of the step
+_ITERATION_TOLERANCE = 1e-6
+
+
+@dataclass(frozen=True)
+class Settings:
+    """The arguments of `simulate` that say how. Raises CouplingError for a value that makes no sense."""
+
+    stop_time: float
+    step_size: float
+    algorithm: str = "jacobi"
+    order: int = 0
+    iterate: str | None = None
+    tolerance: float | None = None
+    iteration_tolerance: float | None = None
+    min_step: float | None = None
+    horizon: float | None = None
+
+    def __post_init__(self) -> None:
+        _choose("algorithm", self.algorithm, ["jacobi", "gauss_seidel"])
+        if self.iterate is not None:
+            _choose("iterate", self.iterate, list(METHODS))
+        if self.order not in (0, 1, 2) or isinstance(self.order, bool):
+            raise CouplingError(f"order = {self.order!r} is no hold order. Give 0, 1 or 2.")
+        for name in ("stop_time", "step_size"):
+            _positive(name, getattr(self, name), math.inf, "s")
+        for name in ("min_step", "horizon"):
+            if getattr(self, name) is not None:
+                _positive(name, getattr(self, name), math.inf, "s")
+        for name in ("tolerance", "iteration_tolerance"):
+            if getattr(self, name) is not None:
+                _positive(name, getattr(self, name), 1.0, "")
+        if self.min_step is not None and self.min_step > self.step_size:
+            raise CouplingError(f"min_step = {self.min_step:g} s is above step_size = {self.step_size:g} s. Lower it.")
+
+    @property
+    def smallest_step(self) -> float:
+        """The step [s] below which none is made, and how near an event is found."""
+        return _MIN_STEP * self.step_size if self.min_step is None else self.min_step
+
+    @property
+    def converged(self) -> float:
+        """The relative tolerance of the iteration, unless the error control has one of its own."""
+        return _ITERATION_TOLERANCE if self.iteration_tolerance is None else self.iteration_tolerance
+
+    def check(self, system: System) -> None:
+        """Raise CouplingError if an FMU of the system cannot do what these settings need."""
+        reasons = {
+            f"iterate = '{self.iterate}'": self.iterate is not None,
+            f"tolerance = {self.tolerance}": self.tolerance is not None,
+            f"the event '{system.events[0].name if system.events else ''}'": bool(system.events),
+        }
+        for reason, applies in reasons.items():
+            for name, model in system.models.items():
+                if applies and not model.restores:
+                    raise CouplingError(
+                        f"{reason} repeats steps, but the FMU '{name}' cannot go back: it does not save and restore "
+                        "its state (canGetAndSetFMUstate is false). Export it with its state, or leave that out."
+                    )
+        fixed = [n for n, m in system.models.items() if not m.capabilities.canHandleVariableCommunicationStepSize]
+        if fixed and (self.tolerance is not None or system.events):
+            raise CouplingError(
+                f"The FMU '{fixed[0]}' takes steps of one size only (canHandleVariableCommunicationStepSize is false), "
+                "which neither a tolerance nor events allow. Leave them out."
+            )
+
+
+def _choose(name: str, value: object, choices: list[str]) -> None:
+    if value not in choices:
+        raise CouplingError(
+            f"{name} = {value!r} is none of {', '.join(map(repr, choices))}.{did_you_mean(str(value), choices)}"
+        )
+
+
+def _positive(name: str, value: object, most: float, unit: str) -> None:
+    fits = isinstance(value, (int, float)) and not isinstance(value, bool) and 0.0 < value < most
+    if not fits:
+        limit = "a finite number above 0" if most == math.inf else f"a number between 0 and {most:g}"
+        raise CouplingError(f"{name} = {value!r} is not {limit}{f', in {unit}' if unit else ''}.")
