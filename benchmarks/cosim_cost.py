@@ -25,7 +25,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from system_models.master import System, simulate
-from system_models.master.coupled import Coupled, Scheme
+from system_models.master.coupled import Coupled
+from system_models.master.settings import Settings
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 from models import build
@@ -65,8 +66,8 @@ class Trace:
         trace = self
 
         class Traced(Coupled):
-            def initialise(self, stop: float, tolerance: float | None) -> None:
-                super().initialise(stop, tolerance)
+            def initialise(self) -> None:
+                super().initialise()
                 for slave in self.slaves.values():
                     trace.watch(slave)
 
@@ -137,8 +138,8 @@ def repeated(system: System, settings: Mapping[str, Any], trace: Trace) -> float
     """CPU seconds of the same calls alone."""
     ports = system.outputs(settings.get("outputs"))
     with ExitStack() as exits:
-        coupled = Coupled(system, ports, Scheme(), exits)
-        coupled.initialise(1e9, settings.get("tolerance"))
+        coupled = Coupled(system, ports, Settings(1.0, STEP, tolerance=settings.get("tolerance")), exits)
+        coupled.initialise()
         calls = trace.bound(coupled)
         for function, arguments in calls[: trace.begin]:
             function(*arguments)
