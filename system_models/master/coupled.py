@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from . import hold
 from .control import wrms
-from .errors import CouplingError
+from .errors import CouplingError, NotFiniteError
 from .hold import History, Past
 from .initial import initialise
 from .iteration import METHODS, Method
@@ -229,7 +229,7 @@ class Coupled:
             self._refresh()
         if not np.isfinite(self.outputs).all():
             place = int(np.flatnonzero(~np.isfinite(self.outputs))[0])
-            raise CouplingError(
+            raise NotFiniteError(
                 f"'{self.wiring.outputs[place]}' is {self.outputs[place]} at {self.time:g} s. "
                 "Take smaller steps, iterate, or look into its FMU."
             )

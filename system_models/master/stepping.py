@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 
 from .control import StepControl, wrms
 from .coupled import Coupled, Point, StoppedEarly
-from .errors import CouplingError
+from .errors import CouplingError, NotFiniteError
 from .events import Indicators, Values, changed
 from .recorder import Recorder, Row
 from .richardson import Weights, weights
 
 _MATTERS = 0.1  # of the error that a step may have: less says nothing about how it adds up
+_ROUNDING = 1e-12  # no iteration is asked for more
 _EVIDENCE = 3  # repeated steps in a row
 _ITERATED = 0.05  # of the error that a step may have: what is left to the iteration
 
@@ -179,9 +180,8 @@ class ControlledStepper(Stepper):
         self.tolerance, self.horizon = tolerance, coupled.settings.horizon or coupled.settings.stop_time
         self.size = self.step_size
         self.control = StepControl(coupled.settings.order + 1)
-        self.lags = np.zeros(
-            len(coupled.wiring.coupled), dtype=int
-        )  # how often in a row an output has seemed to lag only
+        # how often in a row a coupled output has seemed to lag only
+        self.lags = np.zeros(len(coupled.wiring.coupled), dtype=int)
 
     def begin_anew(self) -> None:
         """What was before an event says nothing about what follows."""
@@ -209,7 +209,14 @@ class ControlledStepper(Stepper):
         """Repeat the step, each time shorter, until its error is allowed."""
         before: Attempt | None = None
         while True:
-            attempt = self._unstopped(end, start)
+            try:
+                attempt = self._unstopped(end, start)
+            except NotFiniteError:
+                size = end - start.time
+                if size <= self.min_step * (1.0 + 1e-9):
+                    raise
+                before, end = None, self._rejected(size, math.inf, start)
+                continue
             size = self.coupled.time - start.time
             if before:
                 attempt = self._with_new_evidence(before, attempt, size)
@@ -217,16 +224,20 @@ class ControlledStepper(Stepper):
                 self.statistics.below_min_step += attempt.error > 1.0
                 self.size = max(self.min_step, size * self.control.accept(attempt.error))
                 return attempt
-            self.statistics.rejected += 1
-            self.coupled.restore(start)
-            before = attempt
-            end = start.time + max(self.min_step, size * self.control.reject(attempt.error))
+            before, end = attempt, self._rejected(size, attempt.error, start)
+
+    def _rejected(self, size: float, error: float, start: Point) -> float:
+        """Go back, and give the end of a shorter step."""
+        self.statistics.rejected += 1
+        self.coupled.restore(start)
+        return start.time + max(self.min_step, size * self.control.reject(error))
 
     def _attempt(self, end: float, start: Point) -> Attempt:
         coupled, iterated = self.coupled, self.iterated
         size, middle_time = end - start.time, start.time + 0.5 * (end - start.time)
         if coupled.settings.iteration_tolerance is None:
-            coupled.iteration_tolerance = _ITERATED * self.tolerance * min(1.0, size / self.horizon)
+            share = min(1.0, size / self.horizon)
+            coupled.iteration_tolerance = max(_ROUNDING, _ITERATED * self.tolerance * share)
         whole_nodes, first_nodes = coupled.nodes(size), coupled.nodes(0.5 * size)
         whole = coupled.advance(end, start if iterated else None)
         outputs = coupled.outputs[coupled.wiring.coupled]
