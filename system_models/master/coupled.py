@@ -171,7 +171,7 @@ class Coupled:
 
         ends: a guess of these inputs, of the whole system.
         """
-        ends[block.outside] = self.wiring.told(self.outputs)[block.outside]
+        ends[block.outside] = self.wiring.told(self.outputs, block.outside)
         unknown = block.unknown
         if not len(unknown):  # no loop
             self._pass(block, size, self.history.interpolate(size, ends))
@@ -187,11 +187,11 @@ class Coupled:
             iteration += 1
             ends[unknown] = guess
             self._pass(block, size, self.history.interpolate(size, ends))
-            result = self.wiring.told(self.outputs)[unknown]
+            result = self.wiring.told(self.outputs, unknown)
             scale = self.iteration_tolerance * _positive(np.maximum(floor, np.maximum(abs(result), abs(guess))))
             residual = wrms(result - guess, scale)
         method.accept(guess, result)
-        ends[block.within] = self.wiring.told(self.outputs)[block.within]
+        ends[block.within] = self.wiring.told(self.outputs, block.within)
         ends[unknown] = guess
         return Outcome(iteration, residual)
 
@@ -201,8 +201,9 @@ class Coupled:
         for name, fresh in block.sequence:
             slave, inputs = self.slaves[name], polynomial[:, self.wiring.input_of[name]]
             if len(fresh):
-                latest = self.history.interpolate(size, self.wiring.told(self.outputs))[:, self.wiring.input_of[name]]
-                inputs = _with_columns(inputs, latest, fresh)
+                own = self.wiring.input_of[name]
+                latest = self.history.interpolate(size, self.wiring.told(self.outputs, own), own)
+                inputs = latest if len(fresh) == slave.inputs.count else _with_columns(inputs, latest, fresh)
             try:
                 reached = slave.step(self.time, size, inputs)
                 if end - reached > _SAME_TIME * size:
@@ -259,10 +260,13 @@ class Coupled:
             self._correction.meet(self.outputs, self._held)
         for name in self._feedthrough:
             slave = self.slaves[name]
-            slave.inputs.values[:] = self.wiring.told(self.outputs)[self.wiring.input_of[name]]
-            with self._named(slave, f"at {self.time:g} s"):
+            slave.inputs.values[:] = self.wiring.told(self.outputs, self.wiring.input_of[name])
+            try:
                 slave.set_inputs()
-            self._read(slave)
+                slave.read()
+            except FMICallException as error:
+                raise slave.failure(f"at {self.time:g} s", error) from error
+            self.outputs[self.wiring.output_of[name]] = slave.outputs.values
 
     def _read(self, slave: Slave) -> None:
         with self._named(slave, f"at {self.time:g} s"):
@@ -288,8 +292,10 @@ class Coupled:
 
     def _restore_slave(self, name: str, point: Point) -> None:
         slave = self.slaves[name]
-        with self._named(slave, f"to go back to {point.time:g} s"):
+        try:
             slave.restore(point.states[name])
+        except FMICallException as error:
+            raise slave.failure(f"to go back to {point.time:g} s", error) from error
 
     def release(self, point: Point) -> None:
         """Free what a point holds of the FMUs."""
@@ -368,9 +374,8 @@ def _positive(values: Array) -> Array:
 
 
 def _with_columns(old: Array, new: Array, columns: NDArray[np.intp]) -> Array:
-    """Polynomials with some columns from others, which may be of another degree."""
-    mixed = np.zeros((max(len(old), len(new)), old.shape[1]))
+    """Polynomials with some columns from others, which may be of higher degree."""
+    mixed = np.zeros_like(new)
     mixed[: len(old)] = old
-    mixed[:, columns] = 0.0
-    mixed[: len(new), columns] = new[:, columns]
+    mixed[:, columns] = new[:, columns]
     return mixed

@@ -55,12 +55,8 @@ class Slave(ABC):
         self.terminated = False  # it has asked for the end of the simulation
         self.event, self.events = False, 0  # handled in the last step or after it, and how many: from FMI 3 on
         self.next_event: float | None = None  # its time [s], where the FMU announces it
+        self.interpolates = False  # whether it takes derivatives of its inputs, or asks for them within a step
         self._instantiate(folder)
-
-    @property
-    def interpolates(self) -> bool:
-        """Whether it takes derivatives of its inputs."""
-        return False
 
     def step(self, time: float, size: float, polynomial: NDArray[np.float64]) -> float:
         """Advance from `time` by `size`, both in s, and return the time reached: earlier if the FMU stops before.
@@ -152,11 +148,6 @@ class Slave(ABC):
 class Fmi2Slave(Slave):
     """An instance of an FMU of FMI 2.0."""
 
-    @property
-    def interpolates(self) -> bool:
-        """Whether it takes derivatives of its inputs."""
-        return bool(self.model.capabilities.canInterpolateInputs)
-
     def _instantiate(self, folder: str) -> None:
         try:
             self._fmu = FMU2Slave(
@@ -169,6 +160,7 @@ class Fmi2Slave(Slave):
         except Exception as error:
             raise self.failure("to start", error) from error
         self._component = self._fmu.component
+        self.interpolates = bool(self.model.capabilities.canInterpolateInputs)
         self._no_return = not self.model.restores  # whether it is promised that no state before a step comes back
         self._order = 0  # up to which derivatives of the inputs have been set
 
@@ -187,8 +179,9 @@ class Fmi2Slave(Slave):
             self._slopes = np.zeros((order, self.inputs.count))
             buffer = (c_double * count).from_buffer(self._slopes.data)
             self._order, self._derivatives = order, (references, orders, buffer)
-        self._slopes[:] = 0.0
-        np.multiply(polynomial[1:], _FACTORIALS[1 : len(polynomial)], out=self._slopes[: len(polynomial) - 1])
+        degree = len(polynomial) - 1
+        self._slopes[degree:] = 0.0
+        np.multiply(polynomial[1:], _FACTORIALS[1 : degree + 1], out=self._slopes[:degree])
         references, orders, buffer = self._derivatives
         self._fmu.fmi2SetRealInputDerivatives(self._component, references, count, orders, buffer)
 

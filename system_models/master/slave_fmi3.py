@@ -48,15 +48,10 @@ class Fmi3Slave(Slave):
         self._early_return = early_return
         super().__init__(model, folder, inputs, outputs)
 
-    @property
-    def interpolates(self) -> bool:
-        """Whether it asks for its inputs within a step."""
-        return self._interpolates
-
     def _instantiate(self, folder: str) -> None:
         capabilities = self.model.capabilities
         within = [self.model.variables[name].intermediateUpdate for name in self.inputs.names]
-        self._interpolates = capabilities.providesIntermediateUpdate and bool(within) and all(within)
+        self.interpolates = capabilities.providesIntermediateUpdate and bool(within) and all(within)
         self._has_event_mode = bool(capabilities.hasEventMode)
         self._stepping = self._in_event_mode = False
         try:
@@ -71,8 +66,8 @@ class Fmi3Slave(Slave):
                 eventModeUsed=self._has_event_mode,
                 earlyReturnAllowed=self._early_return,
                 logMessage=self._on_message,
-                intermediateUpdate=self._on_intermediate_update if self._interpolates else None,
-                requiredIntermediateVariables=list(self.inputs.references) if self._interpolates else None,
+                intermediateUpdate=self._on_intermediate_update if self.interpolates else None,
+                requiredIntermediateVariables=list(self.inputs.references) if self.interpolates else None,
             )
         except Exception as error:
             raise self.failure("to start", error) from error

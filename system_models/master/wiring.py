@@ -52,9 +52,9 @@ class Wiring:
             for bond in system.bonds
         ]
 
-    def told(self, outputs: Array) -> Array:
-        """The inputs that go with outputs."""
-        return outputs[self.source] * self.factor + self.offset
+    def told(self, outputs: Array, inputs: slice | Places = slice(None)) -> Array:
+        """The inputs that go with outputs, all of them or some."""
+        return outputs[self.source[inputs]] * self.factor[inputs] + self.offset[inputs]
 
     def power_residuals(self, outputs: Array, held: Array | None) -> list[float]:
         """For each bond, the power [W] that the one FMU gives less the power that the other takes.
@@ -62,7 +62,7 @@ class Wiring:
         Each reckons with its own output and with what it was told of the other's at the end of the step, `held`: the
         difference is what the coupling adds to the system (Sadjina et al. 2017, doi:10.1007/s00366-016-0492-8).
         """
-        if held is None:
+        if held is None or not self._bonds:
             return [0.0] * len(self._bonds)
         told = (held - self.offset) / self.factor
         return [
