@@ -1,5 +1,6 @@
 """The running FMUs of a system: they exchange values at communication points and advance between them."""
 
+import logging
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
@@ -25,6 +26,8 @@ from .system import Port, System
 from .wiring import Wiring, real_inputs, real_outputs
 
 Array = NDArray[np.float64]
+
+log = logging.getLogger(__name__)
 
 _SAME_TIME = 1e-12  # relative to the step: a step that ends this close to its end has got there
 _MOST_ITERATIONS = 50
@@ -96,7 +99,32 @@ class Coupled:
         for slave in self.slaves.values():
             with self._named(slave, "to be initialised"):
                 slave.exit_initialization()
+        self._try_feedthrough()
         self.meet()
+
+    def _try_feedthrough(self) -> None:
+        """Find out which FMUs give outputs for inputs that are newly set, without a step between: FMI 2 leaves it open.
+
+        Those that refuse are left alone: their outputs follow their inputs a step later.
+        """
+        for name in list(self._feedthrough):
+            slave = self.slaves[name]
+            state = slave.save() if slave.model.restores else None
+            try:
+                slave.read()
+                slave.inputs.values[:] = [slave.get(slave.model.variables[own]) for own in slave.inputs.names]
+                slave.set_inputs()
+                slave.read()
+            except FMICallException as error:
+                if state is None:
+                    raise slave.failure("to give outputs after its inputs were set", error) from error
+                log.info("The FMU '%s' refuses outputs before a step; they lag behind its inputs.", name)
+                slave.restore(state)
+                slave.feedthrough = False
+                self._feedthrough.remove(name)
+            finally:
+                if state is not None:
+                    slave.release(state)
 
     def set(self, name: str, value: Any) -> None:
         """Set one variable from outside."""
