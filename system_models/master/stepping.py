@@ -56,7 +56,6 @@ class Stepper:
         self.step_size, self.min_step = coupled.settings.step_size, coupled.settings.smallest_step
         self.statistics = Statistics()
         self._indicators = Indicators(coupled)
-        self.iterated = coupled.settings.iterate is not None
 
     def step(self, limit: float) -> list[Row]:
         """Advance to the end of a step, `limit` at most, and give its rows.
@@ -136,7 +135,7 @@ class Stepper:
 
     def _attempt(self, end: float, start: Point) -> Attempt:
         size = end - start.time
-        outcome = self.coupled.advance(end, start if self.iterated else None)
+        outcome = self.coupled.advance(end, start)
         return Attempt([self.recorder.row(size, outcome)], 0.0, np.zeros(0), Weights(0.0, 0.0, 0.0))
 
     def _accepted(self, attempt: Attempt, event: bool) -> None:
@@ -233,25 +232,25 @@ class ControlledStepper(Stepper):
         return start.time + max(self.min_step, size * self.control.reject(error))
 
     def _attempt(self, end: float, start: Point) -> Attempt:
-        coupled, iterated = self.coupled, self.iterated
+        coupled = self.coupled
         size, middle_time = end - start.time, start.time + 0.5 * (end - start.time)
         if coupled.settings.iteration_tolerance is None:
             share = min(1.0, size / self.horizon)
             coupled.iteration_tolerance = max(_ROUNDING, _ITERATED * self.tolerance * share)
         whole_nodes, first_nodes = coupled.nodes(size), coupled.nodes(0.5 * size)
-        whole = coupled.advance(end, start if iterated else None)
+        whole = coupled.advance(end, start)
         outputs = coupled.outputs[coupled.wiring.coupled]
         if not self.statistics.steps:
             coupled.expect()
         coupled.restore(start)
-        first = coupled.advance(middle_time, start if iterated else None)
+        first = coupled.advance(middle_time, start)
         row = self.recorder.row(0.5 * size, first)
         of_halves = weights(size, whole_nodes, first_nodes, coupled.nodes(0.5 * size))
-        middle = coupled.save() if iterated else None
+        middle = coupled.save() if coupled.repeats else start
         try:
             second = coupled.advance(end, middle)
         finally:
-            if middle:
+            if middle is not start:
                 coupled.release(middle)
         errors = np.abs(coupled.outputs[coupled.wiring.coupled] - outputs) * of_halves.per_difference
         ratio = self._ratio(errors, size)
@@ -265,7 +264,7 @@ class ControlledStepper(Stepper):
 
     def _with_new_evidence(self, earlier: Attempt, attempt: Attempt, size: float) -> Attempt:
         """Look how the errors have fallen with the step: those that fall like an input's error do not add up."""
-        if self.iterated:  # then no output lags behind
+        if self.coupled.repeats:  # then no output lags behind
             return attempt
         with np.errstate(divide="ignore", invalid="ignore"):
             fall = np.log(earlier.errors / attempt.errors)
