@@ -211,6 +211,15 @@ class Coupled:
             except FMICallException as error:
                 raise slave.failure(f"in the step from {self.time:g} s to {end:g} s", error) from error
             self.outputs[self.wiring.output_of[name]] = slave.outputs.values
+            if name in self._correction.owners:
+                self._to_end(slave, hold.value(inputs, size))
+
+    def _to_end(self, slave: Slave, inputs: Array) -> None:
+        """Move the outputs of an FMU that belong to what it was told to its inputs at the end of the step."""
+        change = np.zeros(len(self.wiring.inputs))
+        if not slave.interpolates:
+            change[self.wiring.input_of[slave.name]] = inputs - slave.inputs.values
+            self._correction.move(self.outputs, change)
 
     def _exchange(self, explicit: bool) -> None:
         """Pass on what the FMUs have reached; outputs that depend directly on inputs follow these at once."""
@@ -246,8 +255,8 @@ class Coupled:
         )
 
     def _refresh(self) -> None:
-        if self._correction and self._held is not None:
-            self._correction.apply(self.outputs, self._held)
+        if self._correction.owners and self._held is not None:
+            self._correction.meet(self.outputs, self._held)
         for name in self._feedthrough:
             slave = self.slaves[name]
             slave.inputs.values[:] = self.wiring.told(self.outputs)[self.wiring.input_of[name]]
@@ -323,6 +332,10 @@ class Coupled:
     def accept(self) -> None:
         """The last step stands."""
         np.maximum(self.magnitudes, np.abs(self.outputs), out=self.magnitudes)
+
+    def expect(self) -> None:
+        """Give outputs that start at zero, and have no nominal, the magnitude that they have now."""
+        np.copyto(self.magnitudes, np.abs(self.outputs), where=self.magnitudes == 0.0)
 
     def event(self) -> bool:
         """Whether an FMU has met an event of its own in the last step."""

@@ -1,8 +1,9 @@
-"""The linear correction: outputs that an FMU has computed from extrapolated inputs, moved to the inputs as they are.
+"""The linear correction: outputs that belong to other inputs than they should are moved by their derivatives.
 
-An FMU that gives the derivatives D of outputs by inputs lets the master solve y = y0 + D (u - u0), u = L y at a
-communication point: u0 are the inputs at the end of the step as they were held, y0 the outputs computed from them
-(Andersson, C., Methods and Tools for Co-Simulation of Dynamic Systems with the FMI, Lund 2016, linear correction).
+An FMU without derivatives of its inputs holds their mean over a step, and many, like a contact, answer for what was
+held: y belongs to the mean. Where it gives D = dy/du as outputs, y + D (u_end - u_mean) belongs to the end of the step.
+There, the inputs u that go with all outputs are others than those that were extrapolated, u0: y = y0 + D (u - u0),
+u = L y (Andersson, C., Methods and Tools for Co-Simulation of Dynamic Systems with the FMI, Lund 2016).
 """
 
 import numpy as np
@@ -11,25 +12,28 @@ from numpy.typing import NDArray
 from .system import System
 from .wiring import Wiring
 
+Array = NDArray[np.float64]
+
 
 class Correction:
     """The derivatives that a system's FMUs give as outputs, of its coupled variables."""
 
     def __init__(self, system: System, wiring: Wiring) -> None:
         known = [(of, by, port) for (of, by), port in system.derivatives.items() if by in wiring.input_place]
+        self.owners = {port.model.name for _, _, port in known}
         self._of = np.array([wiring.output_place[of] for of, _, _ in known], dtype=np.intp)
         self._by = np.array([wiring.input_place[by] for _, by, _ in known], dtype=np.intp)
         self._slope = np.array([wiring.output_place[port.name] for _, _, port in known], dtype=np.intp)
         self._wiring = wiring
 
-    def __bool__(self) -> bool:
-        return bool(len(self._of))
+    def move(self, outputs: Array, change: Array) -> None:
+        """Move the outputs by a change [all inputs] of the inputs that they belong to."""
+        np.add.at(outputs, self._of, outputs[self._slope] * change[self._by])
 
-    def apply(self, outputs: NDArray[np.float64], held: NDArray[np.float64]) -> None:
-        """Correct the outputs, which stand for the inputs `held`."""
-        slopes = outputs[self._slope]
-        feedthrough = np.zeros((len(outputs), len(held)))
-        np.add.at(feedthrough, (self._of, self._by), slopes)
-        change = self._wiring.told(outputs) - held
-        loop = self._wiring.factor[:, None] * feedthrough[self._wiring.source]
-        outputs += feedthrough @ np.linalg.solve(np.eye(len(held)) - loop, change)
+    def meet(self, outputs: Array, held: Array) -> None:
+        """Move the outputs, which belong to the inputs `held`, to those that go with all of them."""
+        wiring = self._wiring
+        slopes = np.zeros((len(outputs), len(held)))
+        np.add.at(slopes, (self._of, self._by), outputs[self._slope])
+        loop = wiring.factor[:, None] * slopes[wiring.source]
+        self.move(outputs, np.linalg.solve(np.eye(len(held)) - loop, wiring.told(outputs) - held))

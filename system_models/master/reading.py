@@ -228,6 +228,7 @@ _SIMULATE: dict[str, Callable[[str, Any], Any]] = {
     "tolerance": _number,
     "iteration_tolerance": _number,
     "min_step": _seconds,
+    "horizon": _seconds,
     "outputs": _names,
 }
 _KEYS: dict[str, dict[str, Callable[[str, Any], Any]]] = {"coupling": _COUPLING, "simulate": _SIMULATE}

@@ -230,6 +230,8 @@ class ControlledStepper(Stepper):
         whole_nodes, first_nodes = coupled.nodes(size), coupled.nodes(0.5 * size)
         whole = coupled.advance(end, start if iterated else None)
         outputs = coupled.outputs[coupled.wiring.coupled]
+        if not self.statistics.steps:
+            coupled.expect()
         coupled.restore(start)
         first = coupled.advance(middle_time, start if iterated else None)
         row = self.recorder.row(0.5 * size, first)
