@@ -13,7 +13,7 @@ from .coupled import Coupled, Point, StoppedEarly
 from .errors import CouplingError
 from .events import Indicators, Values, changed
 from .recorder import Recorder, Row
-from .richardson import Weights, weights
+from .richardson import weights
 
 _MATTERS = 0.1  # of the error that a step may have: less says nothing about how it adds up
 _EVIDENCE = 3  # repeated steps in a row
@@ -26,7 +26,7 @@ class Attempt(NamedTuple):
     rows: list[Row]
     error: float  # over what it may be: up to 1 it is allowed
     errors: NDArray[np.float64]  # of the coupled outputs
-    weights: Weights
+    gains: NDArray[np.float64]  # of the coupled outputs: their error over what the inputs of their FMU have changed by
 
 
 @dataclass
@@ -136,7 +136,7 @@ class Stepper:
     def _attempt(self, end: float, start: Point) -> Attempt:
         size = end - start.time
         outcome = self.coupled.advance(end, start if self.iterated else None)
-        return Attempt([self.recorder.row(size, outcome)], 0.0, np.zeros(0), Weights(0.0, 0.0, 0.0))
+        return Attempt([self.recorder.row(size, outcome)], 0.0, np.zeros(0), np.zeros(0))
 
     def _accepted(self, attempt: Attempt, event: bool) -> None:
         coupled, statistics = self.coupled, self.statistics
@@ -208,18 +208,20 @@ class ControlledStepper(Stepper):
     def _attempt_to(self, end: float, start: Point) -> Attempt:
         """Repeat the step, each time shorter, until its error is allowed."""
         before: Attempt | None = None
+        before_size = 0.0
         while True:
             attempt = self._unstopped(end, start)
             size = self.coupled.time - start.time
             if before:
-                attempt = self._with_new_evidence(before, attempt, size)
-            if attempt.error <= 1.0 or size <= self.min_step * (1.0 + 1e-9):
+                attempt = self._with_new_evidence(before, attempt, before_size, size)
+            smallest = self.min_step * (1.0 + 1e-9) + 2.0 * math.ulp(self.coupled.time)  # as the times are rounded
+            if attempt.error <= 1.0 or size <= smallest:
                 self.statistics.below_min_step += attempt.error > 1.0
                 self.size = max(self.min_step, size * self.control.accept(attempt.error))
                 return attempt
             self.statistics.rejected += 1
             self.coupled.restore(start)
-            before = attempt
+            before, before_size = attempt, size
             end = start.time + max(self.min_step, size * self.control.reject(attempt.error))
 
     def _attempt(self, end: float, start: Point) -> Attempt:
@@ -229,7 +231,7 @@ class ControlledStepper(Stepper):
             coupled.iteration_tolerance = _ITERATED * self.tolerance * min(1.0, size / self.horizon)
         whole_nodes, first_nodes = coupled.nodes(size), coupled.nodes(0.5 * size)
         whole = coupled.advance(end, start if iterated else None)
-        outputs = coupled.outputs[coupled.wiring.coupled]
+        outputs, told = coupled.outputs[coupled.wiring.coupled], coupled.ends()
         if not self.statistics.steps:
             coupled.expect()
         coupled.restore(start)
@@ -242,26 +244,26 @@ class ControlledStepper(Stepper):
         finally:
             if middle:
                 coupled.release(middle)
-        errors = np.abs(coupled.outputs[coupled.wiring.coupled] - outputs) * of_halves.per_difference
+        differences = np.abs(coupled.outputs[coupled.wiring.coupled] - outputs)
+        errors = differences * of_halves.per_difference
+        with np.errstate(divide="ignore", invalid="ignore"):
+            gains = differences / coupled.own_inputs(coupled.ends() - told)
         ratio = self._ratio(errors, size)
         if max(whole.residual, first.residual, second.residual) > 1.0:
             ratio = max(ratio, 2.0)
-        return Attempt([row, self.recorder.row(0.5 * size, second, ratio)], ratio, errors, of_halves)
+        return Attempt([row, self.recorder.row(0.5 * size, second, ratio)], ratio, errors, gains)
 
     def _ratio(self, errors: NDArray[np.float64], size: float) -> float:
         share = np.where(self.lags < _EVIDENCE, min(1.0, size / self.horizon), 1.0)
         return wrms(errors, self.tolerance * share * self.coupled.scales())
 
-    def _with_new_evidence(self, earlier: Attempt, attempt: Attempt, size: float) -> Attempt:
+    def _with_new_evidence(self, earlier: Attempt, attempt: Attempt, earlier_size: float, size: float) -> Attempt:
         """Look how the errors have fallen with the step: those that fall like an input's error do not add up."""
         if self.iterated:  # then no output lags behind
             return attempt
         with np.errstate(divide="ignore", invalid="ignore"):
-            fall = np.log(earlier.errors / attempt.errors)
-        if_added, if_direct = (
-            math.log(getattr(earlier.weights, kind) / getattr(attempt.weights, kind)) for kind in ("added", "direct")
-        )
-        matters = attempt.errors > _MATTERS * self.tolerance * (size / self.horizon) * self.coupled.scales()
-        like_input = fall < 0.5 * (if_added + if_direct)
+            fall = np.log(earlier.gains / attempt.gains)
+        matters = np.isfinite(fall) & (attempt.errors > _MATTERS * self.tolerance * (size / self.horizon) * self.coupled.scales())
+        like_input = fall < 0.5 * math.log(earlier_size / size)
         self.lags = np.where(matters, np.where(like_input, self.lags + 1, 0), self.lags)
         return attempt._replace(error=self._ratio(attempt.errors, size))

@@ -52,6 +52,10 @@ class Wiring:
             for bond in system.bonds
         ]
 
+    def own_inputs(self, place: int) -> slice:
+        """Where the inputs of the FMU stand that has the output at a place."""
+        return next(self.input_of[name] for name, own in self.output_of.items() if own.start <= place < own.stop)
+
     def told(self, outputs: Array) -> Array:
         """The inputs that go with outputs."""
         return outputs[self.source] * self.factor + self.offset
