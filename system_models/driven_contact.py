@@ -8,7 +8,6 @@ import logging
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from ctypes import byref
 from dataclasses import MISSING, fields
 from itertools import pairwise
 from pathlib import Path
@@ -18,14 +17,14 @@ import fmpy
 import numpy as np
 import xarray as xr
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE, fmi2Discard
-from fmpy.logging import addLoggerProxy
+from fmpy.fmi2 import FMU2Slave, fmi2Discard
 from fmpy.model_description import ModelDescription, ModelVariable
 from numpy.typing import NDArray
 
 from contact_core.errors import ContactError, StateError
 from contact_core.scene import OperatingPoint
 
+from . import messages
 from .checkpoint import Checkpoint, Saved
 from .duty import Duty
 from .results import to_dataset
@@ -35,7 +34,6 @@ log = logging.getLogger(__name__)
 _INPUTS = {f.name: f.default for f in fields(OperatingPoint)}  # what a duty may set, and what it is if it does not
 _MOST_STEPS = 1_000_000
 _BINARY = {"Real": "<f8", "Integer": "<i4", "Boolean": "?"}  # of a value in a checkpoint
-_LEVELS = (logging.INFO, logging.WARNING, logging.WARNING, logging.ERROR, logging.CRITICAL)  # by FMI status
 
 
 def run(
@@ -241,17 +239,8 @@ def _instance(description: ModelDescription, folder: str) -> Iterator[FMU2Slave]
         unzipDirectory=folder,
         instanceName="contact",
     )
-    callbacks = fmi2CallbackFunctions()
-    callbacks.logger = fmi2CallbackLoggerTYPE(_on_message)
-    callbacks.allocateMemory = defaultCallbacks.allocateMemory
-    callbacks.freeMemory = defaultCallbacks.freeMemory
-    addLoggerProxy(byref(callbacks))  # a message is a printf format with its arguments
-    slave.instantiate(callbacks=callbacks, loggingOn=True)
+    slave.instantiate(callbacks=messages.callbacks(), loggingOn=True)
     try:
         yield slave
     finally:
         slave.freeInstance()
-
-
-def _on_message(environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
-    log.log(_LEVELS[min(status, len(_LEVELS) - 1)], "%s", message.decode("utf-8", "replace"))

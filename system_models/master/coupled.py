@@ -1,5 +1,6 @@
 """The running FMUs of a system: they exchange values at communication points and advance between them."""
 
+import logging
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 
 from . import hold
 from .control import wrms
-from .errors import CouplingError
+from .errors import CouplingError, NotFiniteError
 from .hold import History, Past
 from .initial import initialise
 from .iteration import METHODS, Method
@@ -25,6 +26,8 @@ from .system import Port, System
 from .wiring import Wiring, real_inputs, real_outputs
 
 Array = NDArray[np.float64]
+
+log = logging.getLogger(__name__)
 
 _SAME_TIME = 1e-12  # relative to the step: a step that ends this close to its end has got there
 _MOST_ITERATIONS = 50
@@ -96,7 +99,32 @@ class Coupled:
         for slave in self.slaves.values():
             with self._named(slave, "to be initialised"):
                 slave.exit_initialization()
+        self._try_feedthrough()
         self.meet()
+
+    def _try_feedthrough(self) -> None:
+        """Find out which FMUs give outputs for inputs that are newly set, without a step between: FMI 2 leaves it open.
+
+        Those that refuse are left alone: their outputs follow their inputs a step later.
+        """
+        for name in list(self._feedthrough):
+            slave = self.slaves[name]
+            state = slave.save() if slave.model.restores else None
+            try:
+                slave.read()
+                slave.inputs.values[:] = [slave.get(slave.model.variables[own]) for own in slave.inputs.names]
+                slave.set_inputs()
+                slave.read()
+            except FMICallException as error:
+                if state is None:
+                    raise slave.failure("to give outputs after its inputs were set", error) from error
+                log.info("The FMU '%s' refuses outputs before a step; they lag behind its inputs.", name)
+                slave.restore(state)
+                slave.feedthrough = False
+                self._feedthrough.remove(name)
+            finally:
+                if state is not None:
+                    slave.release(state)
 
     def set(self, name: str, value: Any) -> None:
         """Set one variable from outside."""
@@ -152,10 +180,10 @@ class Coupled:
 
     def _explicit(self, size: float) -> Outcome:
         polynomial = self.history.extrapolate()
-        held = hold.value(polynomial, size)
+        ends = hold.value(polynomial, size)
         for block in self._blocks:
-            self._pass(block, size, polynomial, held)
-        self._held = held
+            self._pass(block, size, polynomial, ends)
+        self._held = ends
         return Outcome(1, 0.0)
 
     def _iterated(self, size: float, start: Point) -> Outcome:
@@ -172,7 +200,7 @@ class Coupled:
 
         ends: a guess of these inputs, of the whole system.
         """
-        ends[block.outside] = self.wiring.told(self.outputs)[block.outside]
+        ends[block.outside] = self.wiring.told(self.outputs, block.outside)
         unknown = block.unknown
         if not len(unknown):  # no loop
             self._pass(block, size, self.history.interpolate(size, ends), ends)
@@ -188,7 +216,7 @@ class Coupled:
             iteration += 1
             ends[unknown] = guess
             self._pass(block, size, self.history.interpolate(size, ends), ends)
-            result = self.wiring.told(self.outputs)[unknown]
+            result = self.wiring.told(self.outputs, unknown)
             scale = self.iteration_tolerance * _positive(np.maximum(floor, np.maximum(abs(result), abs(guess))))
             residual = wrms(result - guess, scale)
         method.accept(guess, result)
@@ -197,16 +225,17 @@ class Coupled:
     def _pass(self, block: Block, size: float, polynomial: Array, ends: Array) -> None:
         """Step the FMUs of a block; those late in a Gauss-Seidel sequence see what the early ones have reached.
 
-        ends: the inputs of the whole system at the end of the step; those that turn out others are changed.
+        ends: the inputs at the end of the step, of the whole system; those that turn out others are changed.
         """
         end = self.time + size
         for name, fresh in block.sequence:
-            slave, own = self.slaves[name], self.wiring.input_of[name]
-            inputs = polynomial[:, own]
+            slave, inputs = self.slaves[name], polynomial[:, self.wiring.input_of[name]]
             if len(fresh):
-                told = self.wiring.told(self.outputs)
-                inputs = _with_columns(inputs, self.history.interpolate(size, told)[:, own], fresh)
-                ends[own][fresh] = told[own][fresh]
+                own = self.wiring.input_of[name]
+                told = self.wiring.told(self.outputs, own)
+                ends[own][fresh] = told[fresh]
+                latest = self.history.interpolate(size, told, own)
+                inputs = latest if len(fresh) == slave.inputs.count else _with_columns(inputs, latest, fresh)
             try:
                 reached = slave.step(self.time, size, inputs)
                 if end - reached > _SAME_TIME * size:
@@ -233,7 +262,7 @@ class Coupled:
             self._refresh()
         if not np.isfinite(self.outputs).all():
             place = int(np.flatnonzero(~np.isfinite(self.outputs))[0])
-            raise CouplingError(
+            raise NotFiniteError(
                 f"'{self.wiring.outputs[place]}' is {self.outputs[place]} at {self.time:g} s. "
                 "Take smaller steps, iterate, or look into its FMU."
             )
@@ -263,10 +292,13 @@ class Coupled:
             self._correction.meet(self.outputs, self._held)
         for name in self._feedthrough:
             slave = self.slaves[name]
-            slave.inputs.values[:] = self.wiring.told(self.outputs)[self.wiring.input_of[name]]
-            with self._named(slave, f"at {self.time:g} s"):
+            slave.inputs.values[:] = self.wiring.told(self.outputs, self.wiring.input_of[name])
+            try:
                 slave.set_inputs()
-            self._read(slave)
+                slave.read()
+            except FMICallException as error:
+                raise slave.failure(f"at {self.time:g} s", error) from error
+            self.outputs[self.wiring.output_of[name]] = slave.outputs.values
 
     def _read(self, slave: Slave) -> None:
         with self._named(slave, f"at {self.time:g} s"):
@@ -292,8 +324,10 @@ class Coupled:
 
     def _restore_slave(self, name: str, point: Point) -> None:
         slave = self.slaves[name]
-        with self._named(slave, f"to go back to {point.time:g} s"):
+        try:
             slave.restore(point.states[name])
+        except FMICallException as error:
+            raise slave.failure(f"to go back to {point.time:g} s", error) from error
 
     def release(self, point: Point) -> None:
         """Free what a point holds of the FMUs."""
@@ -350,13 +384,8 @@ class Coupled:
         return _positive(np.maximum(self.magnitudes, np.abs(self.outputs))[self.wiring.coupled])
 
     def ends(self) -> Array:
-        """The inputs at the end of the last step as the FMUs were told them, over their magnitudes."""
-        assert self._held is not None
+        """The inputs at the end of the last step, as the FMUs were told them, over their magnitudes."""
         return self._held / _positive(np.abs(self.wiring.factor * self.magnitudes[self.wiring.source]))
-
-    def own_inputs(self, values: Array) -> Array:
-        """For each output that sets an input, the norm of what belongs to the inputs of its own FMU."""
-        return np.array([np.linalg.norm(values[self.wiring.own_inputs(place)]) for place in self.wiring.coupled])
 
     def nodes(self, size: float) -> list[float]:
         """The times [s], from now, at which the inputs of a step of a size are those of the outputs."""
@@ -381,9 +410,8 @@ def _positive(values: Array) -> Array:
 
 
 def _with_columns(old: Array, new: Array, columns: NDArray[np.intp]) -> Array:
-    """Polynomials with some columns from others, which may be of another degree."""
-    mixed = np.zeros((max(len(old), len(new)), old.shape[1]))
+    """Polynomials with some columns from others, which may be of higher degree."""
+    mixed = np.zeros_like(new)
     mixed[: len(old)] = old
-    mixed[:, columns] = 0.0
-    mixed[: len(new), columns] = new[:, columns]
+    mixed[:, columns] = new[:, columns]
     return mixed

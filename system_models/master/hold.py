@@ -29,7 +29,7 @@ class History:
 
     def push(self, time: float, values: Array) -> None:
         """Add the values [size] at a time [s] later than all before."""
-        differences = self._extended(time, values.copy(), self._order)
+        differences = self._extended(time, values.copy())
         self._times = (time, *self._times)[: len(differences)]
         self._differences = differences
 
@@ -54,19 +54,22 @@ class History:
         now = self._times[0]
         return _expanded(self._differences, [time - now for time in self._times])
 
-    def interpolate(self, step: float, end: Array) -> Array:
-        """Coefficients of the polynomial through the newest stored values and `end` [size], a `step` [s] from now."""
+    def interpolate(self, step: float, end: Array, entries: slice = slice(None)) -> Array:
+        """Coefficients of the polynomial through the newest stored values and `end`, a `step` [s] from now.
+
+        end [size of `entries`]: of all stored values or some.
+        """
         if self._order == 0 or not self._times:
             return end[None].copy()
         now = self._times[0]
-        differences = self._extended(now + step, end, self._order)
+        differences = self._extended(now + step, end, entries)
         return _expanded(differences, [step, *(time - now for time in self._times)])
 
-    def _extended(self, time: float, values: Array, order: int) -> tuple[Array, ...]:
-        """Divided differences, up to an order, with one more time."""
+    def _extended(self, time: float, values: Array, entries: slice = slice(None)) -> tuple[Array, ...]:
+        """Divided differences, up to the order, with one more time."""
         differences = [values]
-        for past_time, past in zip(self._times[:order], self._differences, strict=False):
-            differences.append((differences[-1] - past) / (time - past_time))
+        for past_time, past in zip(self._times[: self._order], self._differences, strict=False):
+            differences.append((differences[-1] - past[entries]) / (time - past_time))
         return tuple(differences)
 
 

@@ -36,4 +36,5 @@ class Correction:
         slopes = np.zeros((len(outputs), len(held)))
         np.add.at(slopes, (self._of, self._by), outputs[self._slope])
         loop = wiring.factor[:, None] * slopes[wiring.source]
-        self.move(outputs, np.linalg.solve(np.eye(len(held)) - loop, wiring.told(outputs) - held))
+        change = np.linalg.solve(np.eye(len(held)) - loop, wiring.told(outputs) - held)
+        self.move(outputs, np.asarray(change, dtype=float))

@@ -1,6 +1,5 @@
 """A running FMU, and what is the same in FMI 2.0 and 3.0."""
 
-import logging
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from ctypes import byref, c_double
@@ -11,26 +10,20 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import (
     FMU2Slave,
-    defaultCallbacks,
-    fmi2CallbackFunctions,
-    fmi2CallbackLoggerTYPE,
     fmi2Discard,
     fmi2Integer,
     fmi2LastSuccessfulTime,
     fmi2Terminated,
     fmi2ValueReference,
 )
-from fmpy.logging import addLoggerProxy
 from fmpy.model_description import ModelVariable
 from numpy.typing import NDArray
 
+from .. import messages
 from . import hold
 from .errors import CouplingError
 from .model import Model, kind
 
-log = logging.getLogger(__name__)
-
-LEVELS = (logging.INFO, logging.WARNING, logging.WARNING, logging.ERROR, logging.CRITICAL)  # by FMI status
 _FACTORIALS = np.array([[1.0], [1.0], [2.0]])
 
 
@@ -62,12 +55,8 @@ class Slave(ABC):
         self.terminated = False  # it has asked for the end of the simulation
         self.event, self.events = False, 0  # handled in the last step or after it, and how many: from FMI 3 on
         self.next_event: float | None = None  # its time [s], where the FMU announces it
+        self.interpolates = False  # whether it takes derivatives of its inputs, or asks for them within a step
         self._instantiate(folder)
-
-    @property
-    def interpolates(self) -> bool:
-        """Whether it takes derivatives of its inputs."""
-        return False
 
     def step(self, time: float, size: float, polynomial: NDArray[np.float64]) -> float:
         """Advance from `time` by `size`, both in s, and return the time reached: earlier if the FMU stops before.
@@ -97,10 +86,6 @@ class Slave(ABC):
         else:
             self.inputs.values[:] = polynomial[0]
         self.set_inputs()
-
-    def _pass_on(self, status: int, message: bytes | None) -> None:
-        """Log what the FMU says."""
-        log.log(LEVELS[min(status, len(LEVELS) - 1)], "%s: %s", self.name, (message or b"").decode("utf-8", "replace"))
 
     def failure(self, what: str, error: Exception) -> CouplingError:
         """What to raise where the FMU has failed to do something."""
@@ -163,11 +148,6 @@ class Slave(ABC):
 class Fmi2Slave(Slave):
     """An instance of an FMU of FMI 2.0."""
 
-    @property
-    def interpolates(self) -> bool:
-        """Whether it takes derivatives of its inputs."""
-        return bool(self.model.capabilities.canInterpolateInputs)
-
     def _instantiate(self, folder: str) -> None:
         try:
             self._fmu = FMU2Slave(
@@ -176,20 +156,13 @@ class Fmi2Slave(Slave):
                 unzipDirectory=folder,
                 instanceName=self.name,
             )
-            callbacks = fmi2CallbackFunctions()
-            callbacks.logger = fmi2CallbackLoggerTYPE(self._on_message)
-            callbacks.allocateMemory = defaultCallbacks.allocateMemory
-            callbacks.freeMemory = defaultCallbacks.freeMemory
-            addLoggerProxy(byref(callbacks))  # a message is a printf format with its arguments
-            self._fmu.instantiate(callbacks=callbacks, loggingOn=True)
+            self._fmu.instantiate(callbacks=messages.callbacks(), loggingOn=True)
         except Exception as error:
             raise self.failure("to start", error) from error
         self._component = self._fmu.component
+        self.interpolates = bool(self.model.capabilities.canInterpolateInputs)
         self._no_return = not self.model.restores  # whether it is promised that no state before a step comes back
         self._order = 0  # up to which derivatives of the inputs have been set
-
-    def _on_message(self, environment: Any, instance: bytes, status: int, category: bytes, message: bytes) -> None:
-        self._pass_on(status, message)
 
     def _hold(self, polynomial: NDArray[np.float64], size: float) -> None:
         super()._hold(polynomial, size)
@@ -206,8 +179,9 @@ class Fmi2Slave(Slave):
             self._slopes = np.zeros((order, self.inputs.count))
             buffer = (c_double * count).from_buffer(self._slopes.data)
             self._order, self._derivatives = order, (references, orders, buffer)
-        self._slopes[:] = 0.0
-        np.multiply(polynomial[1:], _FACTORIALS[1 : len(polynomial)], out=self._slopes[: len(polynomial) - 1])
+        degree = len(polynomial) - 1
+        self._slopes[degree:] = 0.0
+        np.multiply(polynomial[1:], _FACTORIALS[1 : degree + 1], out=self._slopes[:degree])
         references, orders, buffer = self._derivatives
         self._fmu.fmi2SetRealInputDerivatives(self._component, references, count, orders, buffer)
 

@@ -11,6 +11,7 @@ from fmpy.fmi3 import FMU3Slave, fmi3Discard
 from fmpy.model_description import ModelVariable
 from numpy.typing import NDArray
 
+from .. import messages
 from . import hold
 from .errors import CouplingError
 from .model import Model
@@ -47,15 +48,10 @@ class Fmi3Slave(Slave):
         self._early_return = early_return
         super().__init__(model, folder, inputs, outputs)
 
-    @property
-    def interpolates(self) -> bool:
-        """Whether it asks for its inputs within a step."""
-        return self._interpolates
-
     def _instantiate(self, folder: str) -> None:
         capabilities = self.model.capabilities
         within = [self.model.variables[name].intermediateUpdate for name in self.inputs.names]
-        self._interpolates = capabilities.providesIntermediateUpdate and bool(within) and all(within)
+        self.interpolates = capabilities.providesIntermediateUpdate and bool(within) and all(within)
         self._has_event_mode = bool(capabilities.hasEventMode)
         self._stepping = self._in_event_mode = False
         try:
@@ -70,8 +66,8 @@ class Fmi3Slave(Slave):
                 eventModeUsed=self._has_event_mode,
                 earlyReturnAllowed=self._early_return,
                 logMessage=self._on_message,
-                intermediateUpdate=self._on_intermediate_update if self._interpolates else None,
-                requiredIntermediateVariables=list(self.inputs.references) if self._interpolates else None,
+                intermediateUpdate=self._on_intermediate_update if self.interpolates else None,
+                requiredIntermediateVariables=list(self.inputs.references) if self.interpolates else None,
             )
         except Exception as error:
             raise self.failure("to start", error) from error
@@ -89,7 +85,7 @@ class Fmi3Slave(Slave):
         self._refused_input: FMICallException | None = None
 
     def _on_message(self, environment: Any, status: int, category: bytes, message: bytes) -> None:
-        self._pass_on(status, message)
+        messages.pass_on(self.name, status, message)
 
     def _on_intermediate_update(
         self,

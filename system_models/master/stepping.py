@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 
 from .control import StepControl, wrms
 from .coupled import Coupled, Point, StoppedEarly
-from .errors import CouplingError
+from .errors import CouplingError, NotFiniteError
 from .events import Indicators, Values, changed
 from .recorder import Recorder, Row
-from .richardson import weights
+from .richardson import per_difference
 
 _MATTERS = 0.1  # of the error that a step may have: less says nothing about how it adds up
+_ROUNDING = 1e-12  # no iteration is asked for more
 _EVIDENCE = 3  # repeated steps in a row
 _ITERATED = 0.05  # of the error that a step may have: what is left to the iteration
 
@@ -23,10 +24,11 @@ _ITERATED = 0.05  # of the error that a step may have: what is left to the itera
 class Attempt(NamedTuple):
     """A step that has been tried from a point."""
 
+    size: float
     rows: list[Row]
-    error: float  # over what it may be: up to 1 it is allowed
-    errors: NDArray[np.float64]  # of the coupled outputs
-    gains: NDArray[np.float64]  # of the coupled outputs: their error over what the inputs of their FMU have changed by
+    error: float = 0.0  # over what it may be: up to 1 it is allowed
+    errors: NDArray[np.float64] = np.zeros(0)  # of the coupled outputs
+    gains: NDArray[np.float64] = np.zeros(0)  # what changed in them over what changed in the inputs of their FMU
 
 
 @dataclass
@@ -136,7 +138,7 @@ class Stepper:
     def _attempt(self, end: float, start: Point) -> Attempt:
         size = end - start.time
         outcome = self.coupled.advance(end, start if self.iterated else None)
-        return Attempt([self.recorder.row(size, outcome)], 0.0, np.zeros(0), np.zeros(0))
+        return Attempt(size, [self.recorder.row(size, outcome)])
 
     def _accepted(self, attempt: Attempt, event: bool) -> None:
         coupled, statistics = self.coupled, self.statistics
@@ -170,8 +172,8 @@ class ControlledStepper(Stepper):
 
     Every step is made whole and as two halves, which stand; their difference gives the error of these (Richardson). The
     error of an output may grow by tolerance * its magnitude * step / horizon in a step: so they add up to the tolerance
-    over the horizon. An output that only lags behind, with the order of convergence in every step and not one order
-    more, does not add up; that shows when a rejected step is repeated, and then its error may be the tolerance itself.
+    over the horizon. The error of an output that follows the inputs of its FMU at once does not add up, and may be the
+    tolerance itself; which outputs do shows when a rejected step is repeated.
     """
 
     def __init__(self, coupled: Coupled, recorder: Recorder, tolerance: float) -> None:
@@ -179,9 +181,8 @@ class ControlledStepper(Stepper):
         self.tolerance, self.horizon = tolerance, coupled.settings.horizon or coupled.settings.stop_time
         self.size = self.step_size
         self.control = StepControl(coupled.settings.order + 1)
-        self.lags = np.zeros(
-            len(coupled.wiring.coupled), dtype=int
-        )  # how often in a row an output has seemed to lag only
+        # how often in a row a coupled output has seemed to lag only
+        self.lags = np.zeros(len(coupled.wiring.coupled), dtype=int)
 
     def begin_anew(self) -> None:
         """What was before an event says nothing about what follows."""
@@ -208,27 +209,38 @@ class ControlledStepper(Stepper):
     def _attempt_to(self, end: float, start: Point) -> Attempt:
         """Repeat the step, each time shorter, until its error is allowed."""
         before: Attempt | None = None
-        before_size = 0.0
         while True:
-            attempt = self._unstopped(end, start)
-            size = self.coupled.time - start.time
+            try:
+                attempt = self._unstopped(end, start)
+            except NotFiniteError:
+                size = end - start.time
+                if self._is_smallest(size):
+                    raise
+                before, end = None, self._rejected(size, math.inf, start)
+                continue
             if before:
-                attempt = self._with_new_evidence(before, attempt, before_size, size)
-            smallest = self.min_step * (1.0 + 1e-9) + 2.0 * math.ulp(self.coupled.time)  # as the times are rounded
-            if attempt.error <= 1.0 or size <= smallest:
+                attempt = self._with_new_evidence(before, attempt)
+            if attempt.error <= 1.0 or self._is_smallest(attempt.size):
                 self.statistics.below_min_step += attempt.error > 1.0
-                self.size = max(self.min_step, size * self.control.accept(attempt.error))
+                self.size = max(self.min_step, attempt.size * self.control.accept(attempt.error))
                 return attempt
-            self.statistics.rejected += 1
-            self.coupled.restore(start)
-            before, before_size = attempt, size
-            end = start.time + max(self.min_step, size * self.control.reject(attempt.error))
+            before, end = attempt, self._rejected(attempt.size, attempt.error, start)
+
+    def _is_smallest(self, size: float) -> bool:
+        return size <= self.min_step * (1.0 + 1e-9) + 2.0 * math.ulp(self.coupled.time)  # a difference of times
+
+    def _rejected(self, size: float, error: float, start: Point) -> float:
+        """Go back, and give the end of a shorter step."""
+        self.statistics.rejected += 1
+        self.coupled.restore(start)
+        return start.time + max(self.min_step, size * self.control.reject(error))
 
     def _attempt(self, end: float, start: Point) -> Attempt:
         coupled, iterated = self.coupled, self.iterated
         size, middle_time = end - start.time, start.time + 0.5 * (end - start.time)
         if coupled.settings.iteration_tolerance is None:
-            coupled.iteration_tolerance = _ITERATED * self.tolerance * min(1.0, size / self.horizon)
+            share = min(1.0, size / self.horizon)
+            coupled.iteration_tolerance = max(_ROUNDING, _ITERATED * self.tolerance * share)
         whole_nodes, first_nodes = coupled.nodes(size), coupled.nodes(0.5 * size)
         whole = coupled.advance(end, start if iterated else None)
         outputs, told = coupled.outputs[coupled.wiring.coupled], coupled.ends()
@@ -237,33 +249,38 @@ class ControlledStepper(Stepper):
         coupled.restore(start)
         first = coupled.advance(middle_time, start if iterated else None)
         row = self.recorder.row(0.5 * size, first)
-        of_halves = weights(size, whole_nodes, first_nodes, coupled.nodes(0.5 * size))
+        weight = per_difference(size, whole_nodes, first_nodes, coupled.nodes(0.5 * size))
         middle = coupled.save() if iterated else None
         try:
             second = coupled.advance(end, middle)
         finally:
             if middle:
                 coupled.release(middle)
-        differences = np.abs(coupled.outputs[coupled.wiring.coupled] - outputs)
-        errors = differences * of_halves.per_difference
-        with np.errstate(divide="ignore", invalid="ignore"):
-            gains = differences / coupled.own_inputs(coupled.ends() - told)
-        ratio = self._ratio(errors, size)
+        changes = np.abs(coupled.outputs[coupled.wiring.coupled] - outputs)
+        ratio = self._ratio(changes * weight, size)
         if max(whole.residual, first.residual, second.residual) > 1.0:
             ratio = max(ratio, 2.0)
-        return Attempt([row, self.recorder.row(0.5 * size, second, ratio)], ratio, errors, gains)
+        rows = [row, self.recorder.row(0.5 * size, second, ratio)]
+        return Attempt(size, rows, ratio, changes * weight, self._gains(changes, coupled.ends() - told))
+
+    def _gains(self, changes: NDArray[np.float64], of_inputs: NDArray[np.float64]) -> NDArray[np.float64]:
+        """What changed in the coupled outputs over what changed in the inputs of their FMUs."""
+        norms = np.array([np.linalg.norm(of_inputs[beside]) for beside in self.coupled.wiring.beside])
+        return np.divide(changes, norms, out=np.zeros(len(changes)), where=norms > 0.0)
 
     def _ratio(self, errors: NDArray[np.float64], size: float) -> float:
         share = np.where(self.lags < _EVIDENCE, min(1.0, size / self.horizon), 1.0)
         return wrms(errors, self.tolerance * share * self.coupled.scales())
 
-    def _with_new_evidence(self, earlier: Attempt, attempt: Attempt, earlier_size: float, size: float) -> Attempt:
-        """Look how the errors have fallen with the step: those that fall like an input's error do not add up."""
+    def _with_new_evidence(self, earlier: Attempt, attempt: Attempt) -> Attempt:
+        """Look how the outputs follow the inputs of their FMUs: at once, or integrated, by the more the longer the step.
+
+        The change of the inputs that two halves make is known. So a kink in them does not matter here.
+        """
         if self.iterated:  # then no output lags behind
             return attempt
-        with np.errstate(divide="ignore", invalid="ignore"):
-            fall = np.log(earlier.gains / attempt.gains)
-        matters = np.isfinite(fall) & (attempt.errors > _MATTERS * self.tolerance * (size / self.horizon) * self.coupled.scales())
-        like_input = fall < 0.5 * math.log(earlier_size / size)
-        self.lags = np.where(matters, np.where(like_input, self.lags + 1, 0), self.lags)
-        return attempt._replace(error=self._ratio(attempt.errors, size))
+        share = self.tolerance * min(1.0, attempt.size / self.horizon)
+        matters = (attempt.errors > _MATTERS * share * self.coupled.scales()) & (attempt.gains > 0.0)
+        at_once = earlier.gains < attempt.gains * math.sqrt(earlier.size / attempt.size)
+        self.lags = np.where(matters, np.where(at_once, self.lags + 1, 0), self.lags)
+        return attempt._replace(error=self._ratio(attempt.errors, attempt.size))

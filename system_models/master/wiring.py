@@ -27,7 +27,8 @@ class Wiring:
     """The coupled Real variables of a system.
 
     outputs, inputs: the names of all of them; output_of, input_of: where those of an FMU stand; source, factor and
-    offset [inputs]: what sets an input; coupled: the places of the outputs that set one.
+    offset [inputs]: what sets an input; coupled: the places of the outputs that set one; beside:
+    where the inputs of the FMU of each of these stand.
     """
 
     def __init__(self, system: System, slaves: Mapping[str, Slave]) -> None:
@@ -41,6 +42,7 @@ class Wiring:
         self.factor = np.array([c.factor for c in wired])
         self.offset = np.array([c.offset for c in wired])
         self.coupled: Places = np.unique(self.source)
+        self.beside = [self.input_of[self.outputs[n].partition(".")[0]] for n in self.coupled]
         self._bonds = [
             _Ends(
                 bond.watt,
@@ -52,13 +54,9 @@ class Wiring:
             for bond in system.bonds
         ]
 
-    def own_inputs(self, place: int) -> slice:
-        """Where the inputs of the FMU stand that has the output at a place."""
-        return next(self.input_of[name] for name, own in self.output_of.items() if own.start <= place < own.stop)
-
-    def told(self, outputs: Array) -> Array:
-        """The inputs that go with outputs."""
-        return outputs[self.source] * self.factor + self.offset
+    def told(self, outputs: Array, inputs: slice | Places = slice(None)) -> Array:
+        """The inputs that go with outputs, all of them or some."""
+        return outputs[self.source[inputs]] * self.factor[inputs] + self.offset[inputs]
 
     def power_residuals(self, outputs: Array, held: Array | None) -> list[float]:
         """For each bond, the power [W] that the one FMU gives less the power that the other takes.
@@ -66,7 +64,7 @@ class Wiring:
         Each reckons with its own output and with what it was told of the other's at the end of the step, `held`: the
         difference is what the coupling adds to the system (Sadjina et al. 2017, doi:10.1007/s00366-016-0492-8).
         """
-        if held is None:
+        if held is None or not self._bonds:
             return [0.0] * len(self._bonds)
         told = (held - self.offset) / self.factor
         return [

@@ -30,6 +30,8 @@ Laws without memory, their outputs all feedthrough (directional derivatives of F
 contact_point   x, v -> F, dF_dx, dF_dv, in_contact (Boolean); F_ref = 300, x_ref = 1.0795e-6, c = 50.
                 F = F_ref (x / x_ref)^1.5 + c v where x > 0, never below zero. With point_mass: the stiff contact.
 friction        u -> F, dF_du; N, mu_s, mu_d, u_s, u_r = 0.01. With block: stick-slip, period about 1.1 s.
+drag            u -> F, dF_du; F = -c u - q u |u| with c = 1, q = 2, worked out in a step from u as it was held: the
+                outputs depend on no input directly, and so stand for the middle of a step, like a contact's.
 gain            u -> y = a u + b + c u^2; build("gain", folder, a=, b=, c=, unit_u=, unit_y=).
 millimetre      gain with u in mm and y in N, a = 10. celsius, kelvin: in degC and K. mismatch: both in s.
 echo            real_in, integer_in, boolean_in, string_in -> real_out, ...

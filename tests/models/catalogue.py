@@ -209,6 +209,21 @@ def friction() -> Model:
     )
 
 
+def drag() -> Model:
+    return Model(
+        "drag",
+        (
+            parameter("c", "N.s/m", 1.0, minimum=0.0),
+            parameter("q", "N.s2/m2", 2.0, minimum=0.0),
+            inlet("u", "m/s", 1.0),
+            output("F", "N", 1.0),
+            output("dF_du", "N.s/m", 1.0),
+        ),
+        memory=2,
+        text="Resistance that answers for the speed held over a step",
+    )
+
+
 def gain(a: float = 1.0, b: float = 0.0, c: float = 0.0, unit_u: str = "1", unit_y: str = "1") -> Model:
     return Model(
         "gain",
@@ -339,6 +354,7 @@ MODELS: dict[str, Callable[..., Model]] = {
         block,
         contact_point,
         friction,
+        drag,
         gain,
         sphere,
         millimetre,
