@@ -385,6 +385,7 @@ class Coupled:
 
     def ends(self) -> Array:
         """The inputs at the end of the last step, as the FMUs were told them, over their magnitudes."""
+        assert self._held is not None  # there has been one
         return self._held / _positive(np.abs(self.wiring.factor * self.magnitudes[self.wiring.source]))
 
     def nodes(self, size: float) -> list[float]:

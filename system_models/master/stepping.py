@@ -273,9 +273,9 @@ class ControlledStepper(Stepper):
         return wrms(errors, self.tolerance * share * self.coupled.scales())
 
     def _with_new_evidence(self, earlier: Attempt, attempt: Attempt) -> Attempt:
-        """Look how the outputs follow the inputs of their FMUs: at once, or integrated, by the more the longer the step.
+        """Look how the outputs follow the inputs of their FMUs: at once, or integrated, the more the longer the step.
 
-        The change of the inputs that two halves make is known. So a kink in them does not matter here.
+        What the halves change in the inputs is known, so that kinks in these do not matter.
         """
         if self.iterated:  # then no output lags behind
             return attempt
