@@ -193,9 +193,10 @@ class Coupled:
                 polynomial = self.history.interpolate(size, self.wiring.told(self.outputs))
                 for name in self.slaves:
                     self._restore_slave(name, start)
+            ends = hold.value(polynomial, size)
             for block in self._blocks:
-                self._pass(block, size, polynomial)
-        self._held = hold.value(polynomial, size)
+                self._pass(block, size, polynomial, ends)
+        self._held = ends
         return Outcome(1 + repeats, 0.0)
 
     def _iterated(self, size: float, start: Point) -> Outcome:
@@ -215,7 +216,7 @@ class Coupled:
         ends[block.outside] = self.wiring.told(self.outputs, block.outside)
         unknown = block.unknown
         if not len(unknown):  # no loop
-            self._pass(block, size, self.history.interpolate(size, ends))
+            self._pass(block, size, self.history.interpolate(size, ends), ends)
             return Outcome(1, 0.0)
         guess, floor = ends[unknown], np.abs(self.wiring.factor * self.magnitudes[self.wiring.source])[unknown]
         method.start(self.iteration_tolerance * _positive(np.maximum(floor, abs(guess))))
@@ -227,23 +228,26 @@ class Coupled:
                     self._restore_slave(name, start)
             iteration += 1
             ends[unknown] = guess
-            self._pass(block, size, self.history.interpolate(size, ends))
+            self._pass(block, size, self.history.interpolate(size, ends), ends)
             result = self.wiring.told(self.outputs, unknown)
             scale = self.iteration_tolerance * _positive(np.maximum(floor, np.maximum(abs(result), abs(guess))))
             residual = wrms(result - guess, scale)
         method.accept(guess, result)
-        ends[block.within] = self.wiring.told(self.outputs, block.within)
-        ends[unknown] = guess
         return Outcome(iteration, residual)
 
-    def _pass(self, block: Block, size: float, polynomial: Array) -> None:
-        """Step the FMUs of a block; those late in a Gauss-Seidel sequence see what the early ones have reached."""
+    def _pass(self, block: Block, size: float, polynomial: Array, ends: Array) -> None:
+        """Step the FMUs of a block; those late in a Gauss-Seidel sequence see what the early ones have reached.
+
+        ends: the inputs at the end of the step, of the whole system; those that turn out others are changed.
+        """
         end = self.time + size
         for name, fresh in block.sequence:
             slave, inputs = self.slaves[name], polynomial[:, self.wiring.input_of[name]]
             if len(fresh):
                 own = self.wiring.input_of[name]
-                latest = self.history.interpolate(size, self.wiring.told(self.outputs, own), own)
+                told = self.wiring.told(self.outputs, own)
+                ends[own][fresh] = told[fresh]
+                latest = self.history.interpolate(size, told, own)
                 inputs = latest if len(fresh) == slave.inputs.count else _with_columns(inputs, latest, fresh)
             try:
                 reached = slave.step(self.time, size, inputs)
@@ -391,6 +395,11 @@ class Coupled:
     def scales(self) -> Array:
         """Magnitudes of the outputs that set inputs."""
         return _positive(np.maximum(self.magnitudes, np.abs(self.outputs))[self.wiring.coupled])
+
+    def ends(self) -> Array:
+        """The inputs at the end of the last step, as the FMUs were told them, over their magnitudes."""
+        assert self._held is not None  # there has been one
+        return self._held / _positive(np.abs(self.wiring.factor * self.magnitudes[self.wiring.source]))
 
     def nodes(self, size: float) -> list[float]:
         """The times [s], from now, at which the inputs of a step of a size are those of the outputs."""

@@ -7,30 +7,20 @@ unlike sign are taken not to cancel.
 """
 
 import math
-from typing import NamedTuple
 
 _GAUSS = 0.5 - 0.5 / math.sqrt(3.0), 0.5 + 0.5 / math.sqrt(3.0)  # exact up to the third degree
 
 
-class Weights(NamedTuple):
-    """The errors of the two halves of a step, up to the constant c and what the FMUs make of it."""
+def per_difference(size: float, whole: list[float], first: list[float], second: list[float]) -> float:
+    """The error of a state after the two halves of a step, over its difference between the step and these.
 
-    added: float  # of a state: the input's error, integrated
-    direct: float  # of an output that follows the input without delay: the input's error at the end
-    per_difference: float  # of a state, over its difference between the step and its halves
-
-
-def weights(size: float, whole: list[float], first: list[float], second: list[float]) -> Weights:
-    """The weights for the nodes of a step [s] from its start, and those of its halves, each from its own start.
-
-    Where the second half has more nodes than the first, as after an event, its error is of higher order: none.
+    The nodes of a step [s] are given from its start, and those of its halves, each from its own start. Where the second
+    half has more nodes than the first, as after an event, its error is of higher order: none.
     """
     half = 0.5 * size
     of_whole, of_first = _integral(size, whole), _integral(half, first)
     of_second = _integral(half, second) if len(second) == len(first) else 0.0
-    added = abs(of_first) + abs(of_second)
-    direct = abs(_product(half, second if len(second) == len(first) else first))
-    return Weights(added, direct, added / abs(of_whole - of_first - of_second))
+    return (abs(of_first) + abs(of_second)) / abs(of_whole - of_first - of_second)
 
 
 def _product(s: float, nodes: list[float]) -> float:

@@ -18,12 +18,10 @@ class Block:
     """FMUs that depend on one another around a loop, or one alone.
 
     sequence: name and which of its own inputs are fresh: set by FMUs that have stepped before it. Of the inputs of the
-    whole system, within: those of this block; unknown: those that an iteration has to find; outside: those set from
-    other blocks.
+    whole system, unknown: those that an iteration has to find; outside: those set from other blocks.
     """
 
     sequence: list[tuple[str, NDArray[np.intp]]]
-    within: NDArray[np.intp]
     unknown: NDArray[np.intp]
     outside: NDArray[np.intp]
 
@@ -52,7 +50,7 @@ def blocks(system: System, slaves: Mapping[str, Slave], inputs: list[str], setti
                 stepped.add(name)
         unknown = [n for n in within if inputs[n] not in fresh_inputs]
         outside = [n for n in within if source[inputs[n]] in before]
-        result.append(Block(sequence, *(np.array(which, dtype=np.intp) for which in (within, unknown, outside))))
+        result.append(Block(sequence, *(np.array(which, dtype=np.intp) for which in (unknown, outside))))
         before |= set(group)
     return result
 

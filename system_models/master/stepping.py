@@ -13,7 +13,7 @@ from .coupled import Coupled, Point, StoppedEarly
 from .errors import CouplingError, NotFiniteError
 from .events import Indicators, Values, changed
 from .recorder import Recorder, Row
-from .richardson import Weights, weights
+from .richardson import per_difference
 
 _MATTERS = 0.1  # of the error that a step may have: less says nothing about how it adds up
 _ROUNDING = 1e-12  # no iteration is asked for more
@@ -24,10 +24,11 @@ _ITERATED = 0.05  # of the error that a step may have: what is left to the itera
 class Attempt(NamedTuple):
     """A step that has been tried from a point."""
 
+    size: float
     rows: list[Row]
-    error: float  # over what it may be: up to 1 it is allowed
-    errors: NDArray[np.float64]  # of the coupled outputs
-    weights: Weights
+    error: float = 0.0  # over what it may be: up to 1 it is allowed
+    errors: NDArray[np.float64] = np.zeros(0)  # of the coupled outputs
+    gains: NDArray[np.float64] = np.zeros(0)  # what changed in them over what changed in the inputs of their FMU
 
 
 @dataclass
@@ -135,8 +136,7 @@ class Stepper:
 
     def _attempt(self, end: float, start: Point) -> Attempt:
         size = end - start.time
-        outcome = self.coupled.advance(end, start)
-        return Attempt([self.recorder.row(size, outcome)], 0.0, np.zeros(0), Weights(0.0, 0.0, 0.0))
+        return Attempt(size, [self.recorder.row(size, self.coupled.advance(end, start))])
 
     def _accepted(self, attempt: Attempt, event: bool) -> None:
         coupled, statistics = self.coupled, self.statistics
@@ -170,8 +170,8 @@ class ControlledStepper(Stepper):
 
     Every step is made whole and as two halves, which stand; their difference gives the error of these (Richardson). The
     error of an output may grow by tolerance * its magnitude * step / horizon in a step: so they add up to the tolerance
-    over the horizon. An output that only lags behind, with the order of convergence in every step and not one order
-    more, does not add up; that shows when a rejected step is repeated, and then its error may be the tolerance itself.
+    over the horizon. The error of an output that follows the inputs of its FMU at once does not add up, and may be the
+    tolerance itself; which outputs do shows when a rejected step is repeated.
     """
 
     def __init__(self, coupled: Coupled, recorder: Recorder, tolerance: float) -> None:
@@ -212,18 +212,20 @@ class ControlledStepper(Stepper):
                 attempt = self._unstopped(end, start)
             except NotFiniteError:
                 size = end - start.time
-                if size <= self.min_step * (1.0 + 1e-9):
+                if self._is_smallest(size):
                     raise
                 before, end = None, self._rejected(size, math.inf, start)
                 continue
-            size = self.coupled.time - start.time
             if before:
-                attempt = self._with_new_evidence(before, attempt, size)
-            if attempt.error <= 1.0 or size <= self.min_step * (1.0 + 1e-9):
+                attempt = self._with_new_evidence(before, attempt)
+            if attempt.error <= 1.0 or self._is_smallest(attempt.size):
                 self.statistics.below_min_step += attempt.error > 1.0
-                self.size = max(self.min_step, size * self.control.accept(attempt.error))
+                self.size = max(self.min_step, attempt.size * self.control.accept(attempt.error))
                 return attempt
-            before, end = attempt, self._rejected(size, attempt.error, start)
+            before, end = attempt, self._rejected(attempt.size, attempt.error, start)
+
+    def _is_smallest(self, size: float) -> bool:
+        return size <= self.min_step * (1.0 + 1e-9) + 2.0 * math.ulp(self.coupled.time)  # a difference of times
 
     def _rejected(self, size: float, error: float, start: Point) -> float:
         """Go back, and give the end of a shorter step."""
@@ -239,39 +241,44 @@ class ControlledStepper(Stepper):
             coupled.iteration_tolerance = max(_ROUNDING, _ITERATED * self.tolerance * share)
         whole_nodes, first_nodes = coupled.nodes(size), coupled.nodes(0.5 * size)
         whole = coupled.advance(end, start)
-        outputs = coupled.outputs[coupled.wiring.coupled]
+        outputs, told = coupled.outputs[coupled.wiring.coupled], coupled.ends()
         if not self.statistics.steps:
             coupled.expect()
         coupled.restore(start)
         first = coupled.advance(middle_time, start)
         row = self.recorder.row(0.5 * size, first)
-        of_halves = weights(size, whole_nodes, first_nodes, coupled.nodes(0.5 * size))
+        weight = per_difference(size, whole_nodes, first_nodes, coupled.nodes(0.5 * size))
         middle = coupled.save() if coupled.repeats else start
         try:
             second = coupled.advance(end, middle)
         finally:
             if middle is not start:
                 coupled.release(middle)
-        errors = np.abs(coupled.outputs[coupled.wiring.coupled] - outputs) * of_halves.per_difference
-        ratio = self._ratio(errors, size)
+        changes = np.abs(coupled.outputs[coupled.wiring.coupled] - outputs)
+        ratio = self._ratio(changes * weight, size)
         if max(whole.residual, first.residual, second.residual) > 1.0:
             ratio = max(ratio, 2.0)
-        return Attempt([row, self.recorder.row(0.5 * size, second, ratio)], ratio, errors, of_halves)
+        rows = [row, self.recorder.row(0.5 * size, second, ratio)]
+        return Attempt(size, rows, ratio, changes * weight, self._gains(changes, coupled.ends() - told))
+
+    def _gains(self, changes: NDArray[np.float64], of_inputs: NDArray[np.float64]) -> NDArray[np.float64]:
+        """What changed in the coupled outputs over what changed in the inputs of their FMUs."""
+        norms = np.array([np.linalg.norm(of_inputs[beside]) for beside in self.coupled.wiring.beside])
+        return np.divide(changes, norms, out=np.zeros(len(changes)), where=norms > 0.0)
 
     def _ratio(self, errors: NDArray[np.float64], size: float) -> float:
         share = np.where(self.lags < _EVIDENCE, min(1.0, size / self.horizon), 1.0)
         return wrms(errors, self.tolerance * share * self.coupled.scales())
 
-    def _with_new_evidence(self, earlier: Attempt, attempt: Attempt, size: float) -> Attempt:
-        """Look how the errors have fallen with the step: those that fall like an input's error do not add up."""
-        if self.coupled.repeats:  # then no output lags behind
+    def _with_new_evidence(self, earlier: Attempt, attempt: Attempt) -> Attempt:
+        """Look how the outputs follow the inputs of their FMUs: at once, or integrated, the more the longer the step.
+
+        What the halves change in the inputs is known, so that kinks in these do not matter.
+        """
+        if self.coupled.settings.iterate:  # then no output lags behind
             return attempt
-        with np.errstate(divide="ignore", invalid="ignore"):
-            fall = np.log(earlier.errors / attempt.errors)
-        if_added, if_direct = (
-            math.log(getattr(earlier.weights, kind) / getattr(attempt.weights, kind)) for kind in ("added", "direct")
-        )
-        matters = attempt.errors > _MATTERS * self.tolerance * (size / self.horizon) * self.coupled.scales()
-        like_input = fall < 0.5 * (if_added + if_direct)
-        self.lags = np.where(matters, np.where(like_input, self.lags + 1, 0), self.lags)
-        return attempt._replace(error=self._ratio(attempt.errors, size))
+        share = self.tolerance * min(1.0, attempt.size / self.horizon)
+        matters = (attempt.errors > _MATTERS * share * self.coupled.scales()) & (attempt.gains > 0.0)
+        at_once = earlier.gains < attempt.gains * math.sqrt(earlier.size / attempt.size)
+        self.lags = np.where(matters, np.where(at_once, self.lags + 1, 0), self.lags)
+        return attempt._replace(error=self._ratio(attempt.errors, attempt.size))

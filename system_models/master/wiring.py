@@ -27,7 +27,8 @@ class Wiring:
     """The coupled Real variables of a system.
 
     outputs, inputs: the names of all of them; output_of, input_of: where those of an FMU stand; source, factor and
-    offset [inputs]: what sets an input; coupled: the places of the outputs that set one.
+    offset [inputs]: what sets an input; coupled: the places of the outputs that set one; beside:
+    where the inputs of the FMU of each of these stand.
     """
 
     def __init__(self, system: System, slaves: Mapping[str, Slave]) -> None:
@@ -41,6 +42,7 @@ class Wiring:
         self.factor = np.array([c.factor for c in wired])
         self.offset = np.array([c.offset for c in wired])
         self.coupled: Places = np.unique(self.source)
+        self.beside = [self.input_of[self.outputs[n].partition(".")[0]] for n in self.coupled]
         self._bonds = [
             _Ends(
                 bond.watt,
