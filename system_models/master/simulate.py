@@ -8,6 +8,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Literal
 
+import numpy as np
 import xarray as xr
 
 from ..checkpoint import Checkpoint
@@ -20,6 +21,8 @@ from .stepping import ControlledStepper, Ended, Statistics, Stepper
 from .system import System
 
 log = logging.getLogger(__name__)
+
+_MISJUDGED = 10.0  # times what an output has reached: a magnitude that loosens the tolerance
 
 
 def simulate(
@@ -158,6 +161,14 @@ def _report(coupled: Coupled, statistics: Statistics) -> None:
             statistics.below_min_step,
             statistics.steps,
             coupled.settings.smallest_step,
+        )
+    for place in np.flatnonzero(coupled.expected > _MISJUDGED * coupled.magnitudes):
+        log.warning(
+            "The tolerance was taken relative to %g for '%s', which has reached %g only: it names no nominal, and the "
+            "first step was too long to tell. Take a smaller step_size.",
+            coupled.expected[place],
+            coupled.wiring.outputs[place],
+            coupled.magnitudes[place],
         )
     held = [s.name for s in coupled.slaves.values() if s.inputs.count and not s.interpolates]
     if coupled.settings.order and held:
