@@ -167,24 +167,37 @@ class Coupled:
         for time, outputs in [*past, (self.time, self.outputs)]:
             self.history.push(time, self.wiring.told(outputs))
 
-    def advance(self, end: float, start: Point | None = None) -> Outcome:
-        """One communication step to the time `end`; an iterated one goes back to `start`, which is now.
+    def advance(self, end: float, start: Point) -> Outcome:
+        """One communication step to the time `end` from `start`, which is now.
 
         Raises StoppedEarly if an FMU does not get to its end: then the system must go back.
         """
         size = end - self.time
-        outcome = self._explicit(size) if start is None else self._iterated(size, start)
+        outcome = self._iterated(size, start) if self.settings.iterate else self._explicit(size, start)
         self.time = end
-        self._exchange(explicit=start is None)
+        self._exchange(explicit=self.settings.iterate is None)
         return outcome
 
-    def _explicit(self, size: float) -> Outcome:
+    @property
+    def repeats(self) -> bool:
+        """Whether the next step goes back to its start: to iterate, or for want of the past that its order needs."""
+        short = self.restores and len(self.history) <= self.settings.order
+        return self.settings.iterate is not None or short
+
+    def _explicit(self, size: float, start: Point) -> Outcome:
+        """Pass once with extrapolated inputs; without enough past, once more for each order, interpolating."""
         polynomial = self.history.extrapolate()
-        ends = hold.value(polynomial, size)
-        for block in self._blocks:
-            self._pass(block, size, polynomial, ends)
+        repeats = self.settings.order if self.repeats else 0
+        for again in range(repeats + 1):
+            if again:
+                polynomial = self.history.interpolate(size, self.wiring.told(self.outputs))
+                for name in self.slaves:
+                    self._restore_slave(name, start)
+            ends = hold.value(polynomial, size)
+            for block in self._blocks:
+                self._pass(block, size, polynomial, ends)
         self._held = ends
-        return Outcome(1, 0.0)
+        return Outcome(1 + repeats, 0.0)
 
     def _iterated(self, size: float, start: Point) -> Outcome:
         ends = hold.value(self.history.extrapolate(), size)
@@ -391,7 +404,7 @@ class Coupled:
     def nodes(self, size: float) -> list[float]:
         """The times [s], from now, at which the inputs of a step of a size are those of the outputs."""
         ages = [-age for age in self.history.ages()]
-        return ([size, *ages] if self.settings.iterate else ages)[: self.settings.order + 1]
+        return ([size, *ages] if self.repeats else ages)[: self.settings.order + 1]
 
     def power_residuals(self) -> list[float]:
         """What the coupling has added to each bond at the end of the last step [W]."""

@@ -1,8 +1,9 @@
 """What two halves of a step tell of its error, for inputs held as polynomials through any nodes.
 
 The input of a step is wrong by c (s - n_0)(s - n_1)... at the time s, n_j being the times at which it is right, and c
-nearly the same for a step and its halves. So the differences between both come to the error of the halves by a factor
-that follows from the nodes; it is 1 / (2^order - 1) where these move with the step.
+nearly the same for a step and its halves. So the difference between both comes to the error of the halves by a factor
+that follows from the nodes; it is 1 / (2^order - 1) where these move with the step. Errors of the halves that are of
+unlike sign are taken not to cancel.
 """
 
 import math
@@ -16,10 +17,10 @@ def per_difference(size: float, whole: list[float], first: list[float], second: 
     The nodes of a step [s] are given from its start, and those of its halves, each from its own start. Where the second
     half has more nodes than the first, as after an event, its error is of higher order: none.
     """
-    of_whole, of_first = abs(_integral(size, whole)), _integral(0.5 * size, first)
-    of_second = _integral(0.5 * size, second) if len(second) == len(first) else 0.0
-    of_halves = abs(of_first + of_second)
-    return of_halves / (of_whole - of_halves)
+    half = 0.5 * size
+    of_whole, of_first = _integral(size, whole), _integral(half, first)
+    of_second = _integral(half, second) if len(second) == len(first) else 0.0
+    return (abs(of_first) + abs(of_second)) / abs(of_whole - of_first - of_second)
 
 
 def _product(s: float, nodes: list[float]) -> float:

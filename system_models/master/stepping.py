@@ -57,7 +57,6 @@ class Stepper:
         self.step_size, self.min_step = coupled.settings.step_size, coupled.settings.smallest_step
         self.statistics = Statistics()
         self._indicators = Indicators(coupled)
-        self.iterated = coupled.settings.iterate is not None
 
     def step(self, limit: float) -> list[Row]:
         """Advance to the end of a step, `limit` at most, and give its rows.
@@ -137,8 +136,7 @@ class Stepper:
 
     def _attempt(self, end: float, start: Point) -> Attempt:
         size = end - start.time
-        outcome = self.coupled.advance(end, start if self.iterated else None)
-        return Attempt(size, [self.recorder.row(size, outcome)])
+        return Attempt(size, [self.recorder.row(size, self.coupled.advance(end, start))])
 
     def _accepted(self, attempt: Attempt, event: bool) -> None:
         coupled, statistics = self.coupled, self.statistics
@@ -236,25 +234,25 @@ class ControlledStepper(Stepper):
         return start.time + max(self.min_step, size * self.control.reject(error))
 
     def _attempt(self, end: float, start: Point) -> Attempt:
-        coupled, iterated = self.coupled, self.iterated
+        coupled = self.coupled
         size, middle_time = end - start.time, start.time + 0.5 * (end - start.time)
         if coupled.settings.iteration_tolerance is None:
             share = min(1.0, size / self.horizon)
             coupled.iteration_tolerance = max(_ROUNDING, _ITERATED * self.tolerance * share)
         whole_nodes, first_nodes = coupled.nodes(size), coupled.nodes(0.5 * size)
-        whole = coupled.advance(end, start if iterated else None)
+        whole = coupled.advance(end, start)
         outputs, told = coupled.outputs[coupled.wiring.coupled], coupled.ends()
         if not self.statistics.steps:
             coupled.expect()
         coupled.restore(start)
-        first = coupled.advance(middle_time, start if iterated else None)
+        first = coupled.advance(middle_time, start)
         row = self.recorder.row(0.5 * size, first)
         weight = per_difference(size, whole_nodes, first_nodes, coupled.nodes(0.5 * size))
-        middle = coupled.save() if iterated else None
+        middle = coupled.save() if coupled.repeats else start
         try:
             second = coupled.advance(end, middle)
         finally:
-            if middle:
+            if middle is not start:
                 coupled.release(middle)
         changes = np.abs(coupled.outputs[coupled.wiring.coupled] - outputs)
         ratio = self._ratio(changes * weight, size)
@@ -277,7 +275,7 @@ class ControlledStepper(Stepper):
 
         What the halves change in the inputs is known, so that kinks in these do not matter.
         """
-        if self.iterated:  # then no output lags behind
+        if self.coupled.settings.iterate:  # then no output lags behind
             return attempt
         share = self.tolerance * min(1.0, attempt.size / self.horizon)
         matters = (attempt.errors > _MATTERS * share * self.coupled.scales()) & (attempt.gains > 0.0)
