@@ -63,8 +63,8 @@ def simulate(
 
     Returns a Dataset along `time`: the recorded variables by name, with units; "master.*", how each step went;
     "bond.*", the power that the coupling adds to a bond. Its attributes count steps, rejected, iterations, unconverged,
-    below_min_step, events and stopped_early, name in ended_by the FMU that has asked for the end, and give in `cost`
-    the steps and seconds of each FMU, as JSON.
+    below_min_step, events and stopped_early, name in ended_by the FMU that has asked for the end and in told_means
+    those that take no derivatives of inputs, and give in `cost` the steps and seconds of each FMU, as JSON.
 
     Raises CouplingError for settings that make no sense or that the FMUs cannot serve, for an FMU that fails, and for
     values that are not finite.
@@ -170,13 +170,13 @@ def _report(coupled: Coupled, statistics: Statistics) -> None:
             coupled.wiring.outputs[place],
             coupled.magnitudes[place],
         )
-    held = [s.name for s in coupled.slaves.values() if s.inputs.count and not s.interpolates]
-    if coupled.settings.order and held:
-        log.info("Takes no derivatives of inputs, and holds their mean over each step: %s.", ", ".join(held))
     if statistics.ended_by:
         log.warning("The FMU '%s' has ended the simulation at %g s.", statistics.ended_by, coupled.time)
 
 
 def _attributes(coupled: Coupled, stepper: Stepper) -> dict[str, Any]:
     costs = {name: {"steps": slave.steps, "seconds": slave.seconds} for name, slave in coupled.slaves.items()}
-    return asdict(stepper.statistics) | {"cost": json.dumps(costs)}
+    told_means = [slave.name for slave in coupled.slaves.values() if slave.inputs.count and not slave.interpolates]
+    if not coupled.settings.order:
+        told_means = []
+    return asdict(stepper.statistics) | {"told_means": ", ".join(told_means), "cost": json.dumps(costs)}
