@@ -257,6 +257,7 @@ def plot(found: list[tuple[str, int, str, Cost]]) -> None:
 def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
+        cost(chain(folder, 2), {})  # warm up
         found = []
         table = []
         for kind, count, scheme, c in costs(folder):

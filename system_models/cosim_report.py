@@ -121,6 +121,8 @@ def _warnings(dataset: xr.Dataset) -> list[str]:
             f"WARNING: {counts['below_min_step']} steps of min_step have a LARGER ERROR than the tolerance allows, "
             f"the first to {_first(dataset, 'master.error')}. Allow smaller steps, or iterate."
         )
+    if counts["told_means"]:
+        lines.append(f"Told the mean of its inputs over a step, for it takes no derivatives: {counts['told_means']}.")
     if counts["ended_by"]:
         lines.append(f"The FMU '{counts['ended_by']}' ended the simulation.")
     return lines

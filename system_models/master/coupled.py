@@ -75,7 +75,9 @@ class Coupled:
         self.slaves = started(system, *ports, early_return=self.restores, exits=exits)
         self.wiring = Wiring(system, self.slaves)
         self.outputs = np.zeros(len(self.wiring.outputs))
-        self.magnitudes = np.array([system.port(name).nominal or 0.0 for name in self.wiring.outputs])  # at least
+        # of the outputs: their nominal, or what they have reached; and what those without either seem to be heading for
+        self.magnitudes = np.array([system.port(name).nominal or 0.0 for name in self.wiring.outputs])
+        self.expected = np.zeros(len(self.outputs))
         self.history = History(settings.order)
         self.iteration_tolerance = settings.converged
         self.time = 0.0
@@ -361,6 +363,7 @@ class Coupled:
             "passed": list(self._passed),
             "memories": [method.copy() for method in self._methods],
             "magnitudes": self.magnitudes.copy(),
+            "expected": self.expected.copy(),
             "held": self._held,
             "counts": {name: [slave.steps, slave.seconds, slave.events] for name, slave in self.slaves.items()},
         }
@@ -378,6 +381,7 @@ class Coupled:
         for method, kept in zip(self._methods, memory["memories"], strict=True):
             method.restore(kept)
         self.magnitudes[:] = memory["magnitudes"]
+        self.expected[:] = memory["expected"]
         self._held = memory["held"]
 
     def accept(self) -> None:
@@ -385,8 +389,8 @@ class Coupled:
         np.maximum(self.magnitudes, np.abs(self.outputs), out=self.magnitudes)
 
     def expect(self) -> None:
-        """Give outputs that start at zero, and have no nominal, the magnitude that they have now."""
-        np.copyto(self.magnitudes, np.abs(self.outputs), where=self.magnitudes == 0.0)
+        """Take for the magnitude of outputs that start at zero, and have no nominal, what they are now."""
+        np.copyto(self.expected, np.abs(self.outputs), where=(self.magnitudes == 0.0) & (self.expected == 0.0))
 
     def event(self) -> bool:
         """Whether an FMU has met an event of its own in the last step."""
@@ -394,7 +398,8 @@ class Coupled:
 
     def scales(self) -> Array:
         """Magnitudes of the outputs that set inputs."""
-        return _positive(np.maximum(self.magnitudes, np.abs(self.outputs))[self.wiring.coupled])
+        largest = np.maximum(np.maximum(self.magnitudes, self.expected), np.abs(self.outputs))
+        return _positive(largest[self.wiring.coupled])
 
     def ends(self) -> Array:
         """The inputs at the end of the last step, as the FMUs were told them, over their magnitudes."""

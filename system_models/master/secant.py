@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 _WORSE = 2.0  # growth of the residual, without change of sign, that takes a step back
 _BACK = 0.25  # part of such a step that is tried instead
+_FARTHER = 8.0  # times the step before: the longest one near the solution of the last communication step
 _GAIN = 0.5  # decrease of the residual on one side of the root below which a step gains too little
 _FLATTEST = 1e-3  # slope of the residual: an unbounded step is at most so many residuals long
 _PROBE = 1e3  # longest probing step, in allowed errors
@@ -72,7 +73,7 @@ class Secant:
         if self._point is None:
             self._point = Point(value, residual, self.slope)
             return self._unbounded(self._point)
-        new, old = Point(value, residual), self._point
+        new, old = Point(value, residual, self.slope), self._point
         if self._other is not None:
             return self._enclosed(new, old, self._other)
         if old.residual * residual < 0.0:
@@ -82,7 +83,11 @@ class Secant:
         if abs(residual) > _WORSE * abs(old.residual):
             return old.value + _BACK * (value - old.value)
         self._point = new
-        return self._unbounded(new)
+        proposed = self._unbounded(new)
+        if self.slope is None:
+            return proposed
+        longest = _FARTHER * abs(new.value - old.value)  # on a plateau the secant knows nothing of the kink
+        return min(max(proposed, new.value - longest), new.value + longest)
 
     def _unbounded(self, point: Point) -> float:
         if point.slope is None:

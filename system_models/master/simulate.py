@@ -8,6 +8,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Literal
 
+import numpy as np
 import xarray as xr
 
 from ..checkpoint import Checkpoint
@@ -20,6 +21,8 @@ from .stepping import ControlledStepper, Ended, Statistics, Stepper
 from .system import System
 
 log = logging.getLogger(__name__)
+
+_MISJUDGED = 10.0  # times what an output has reached: a magnitude that loosens the tolerance
 
 
 def simulate(
@@ -60,8 +63,8 @@ def simulate(
 
     Returns a Dataset along `time`: the recorded variables by name, with units; "master.*", how each step went;
     "bond.*", the power that the coupling adds to a bond. Its attributes count steps, rejected, iterations, unconverged,
-    below_min_step, events and stopped_early, name in ended_by the FMU that has asked for the end, and give in `cost`
-    the steps and seconds of each FMU, as JSON.
+    below_min_step, events and stopped_early, name in ended_by the FMU that has asked for the end and in told_means
+    those that take no derivatives of inputs, and give in `cost` the steps and seconds of each FMU, as JSON.
 
     Raises CouplingError for settings that make no sense or that the FMUs cannot serve, for an FMU that fails, and for
     values that are not finite.
@@ -159,13 +162,21 @@ def _report(coupled: Coupled, statistics: Statistics) -> None:
             statistics.steps,
             coupled.settings.smallest_step,
         )
-    held = [s.name for s in coupled.slaves.values() if s.inputs.count and not s.interpolates]
-    if coupled.settings.order and held:
-        log.info("Takes no derivatives of inputs, and holds their mean over each step: %s.", ", ".join(held))
+    for place in np.flatnonzero(coupled.expected > _MISJUDGED * coupled.magnitudes):
+        log.warning(
+            "The tolerance was taken relative to %g for '%s', which has reached %g only: it names no nominal, and the "
+            "first step was too long to tell. Take a smaller step_size.",
+            coupled.expected[place],
+            coupled.wiring.outputs[place],
+            coupled.magnitudes[place],
+        )
     if statistics.ended_by:
         log.warning("The FMU '%s' has ended the simulation at %g s.", statistics.ended_by, coupled.time)
 
 
 def _attributes(coupled: Coupled, stepper: Stepper) -> dict[str, Any]:
     costs = {name: {"steps": slave.steps, "seconds": slave.seconds} for name, slave in coupled.slaves.items()}
-    return asdict(stepper.statistics) | {"cost": json.dumps(costs)}
+    told_means = [slave.name for slave in coupled.slaves.values() if slave.inputs.count and not slave.interpolates]
+    if not coupled.settings.order:
+        told_means = []
+    return asdict(stepper.statistics) | {"told_means": ", ".join(told_means), "cost": json.dumps(costs)}
