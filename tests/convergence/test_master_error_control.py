@@ -26,7 +26,7 @@ SYSTEMS = {
     "two masses by displacement": (systems.two_mass_displacement, 2.0, None),
     "quarter car by force": (systems.quarter_car_force, 1.0, WHEEL_DECAYS),
     "quarter car by displacement": (systems.quarter_car_displacement, 1.0, WHEEL_DECAYS),
-    "stick-slip": (systems.stick_slip, 1.6, None),  # the block has stopped again at 1.45 s
+    "stick-slip": (systems.stick_slip, 2.8, None),  # the block stops twice
 }
 
 
@@ -71,7 +71,7 @@ def test_the_error_is_what_the_tolerance_allows_and_the_work_grows_as_the_order_
 @pytest.mark.parametrize("system", ["quarter car by force", "quarter car by displacement"])
 def test_errors_that_die_out_are_smaller_than_asked_for_unless_the_horizon_says_so(folder, system, scheme):
     build_case, end, _ = SYSTEMS[system]
-    for tolerance in LOOSE:
+    for tolerance in LOOSE[:2]:
         assert run(build_case(folder), end, tolerance, **SCHEMES[scheme][1]).ratio < 1 / 3
 
 
