@@ -107,7 +107,8 @@ class Stepper:
     def _shorter(self, stop: StoppedEarly, end: float, start: Point) -> float:
         """Go back, and give the end of a step that the FMU which has stopped may make."""
         size, reached = end - start.time, stop.time - start.time
-        if self.coupled.slaves[stop.name].terminated and reached < self.min_step:
+        goes_on = reached >= self.min_step and self.coupled.restores
+        if self.coupled.slaves[stop.name].terminated and not goes_on:
             self.statistics.ended_by = stop.name
             raise Ended
         self._require_return(f"The FMU '{stop.name}' stopped at {stop.time:g} s in a step to {end:g} s")
