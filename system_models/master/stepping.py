@@ -13,7 +13,7 @@ from .coupled import Coupled, Point, StoppedEarly
 from .errors import CouplingError, NotFiniteError
 from .events import Indicators, Values, changed
 from .recorder import Recorder, Row
-from .richardson import per_difference
+from .richardson import Halves, halves
 
 _MATTERS = 0.1  # of the error that a step may have: less says nothing about how it adds up
 _LEAST_SHARE = 1e-5  # of the tolerance: a hundred thousand such steps use it up
@@ -30,6 +30,7 @@ class Attempt(NamedTuple):
     error: float = 0.0  # over what it may be: up to 1 it is allowed
     errors: NDArray[np.float64] = np.zeros(0)  # of the coupled outputs
     gains: NDArray[np.float64] = np.zeros(0)  # what changed in them over what changed in the inputs of their FMU
+    halves: Halves = Halves(0.0, 0.0)
 
 
 @dataclass
@@ -248,7 +249,7 @@ class ControlledStepper(Stepper):
         coupled.restore(start)
         first = coupled.advance(middle_time, start)
         row = self.recorder.row(0.5 * size, first)
-        weight = per_difference(size, whole_nodes, first_nodes, coupled.nodes(0.5 * size))
+        of_halves = halves(size, whole_nodes, first_nodes, coupled.nodes(0.5 * size))
         middle = coupled.save() if coupled.repeats else start
         try:
             second = coupled.advance(end, middle)
@@ -256,11 +257,12 @@ class ControlledStepper(Stepper):
             if middle is not start:
                 coupled.release(middle)
         changes = np.abs(coupled.outputs[coupled.wiring.coupled] - outputs)
-        ratio = self._ratio(changes * weight, size)
+        errors = changes * of_halves.per_difference
+        ratio = self._ratio(errors, size)
         if max(whole.residual, first.residual, second.residual) > 1.0:
             ratio = max(ratio, 2.0)
         rows = [row, self.recorder.row(0.5 * size, second, ratio)]
-        return Attempt(size, rows, ratio, changes * weight, self._gains(changes, coupled.ends() - told))
+        return Attempt(size, rows, ratio, errors, self._gains(changes, coupled.ends() - told), of_halves)
 
     def _gains(self, changes: NDArray[np.float64], of_inputs: NDArray[np.float64]) -> NDArray[np.float64]:
         """What changed in the coupled outputs over what changed in the inputs of their FMUs."""
@@ -292,7 +294,8 @@ class ControlledStepper(Stepper):
         """
         return np.asarray(earlier.gains < attempt.gains * math.sqrt(earlier.size / attempt.size))
 
-    def _order_is_reduced(self, earlier: Attempt, attempt: Attempt) -> NDArray[np.bool_]:
+    @staticmethod
+    def _order_is_reduced(earlier: Attempt, attempt: Attempt) -> NDArray[np.bool_]:
         """Whether an error falls too slowly with the step to add up: as that of a stiff force, soon forgotten."""
-        expected = (earlier.size / attempt.size) ** (self.coupled.settings.order + 1.5)
+        expected = earlier.halves.error / attempt.halves.error * math.sqrt(attempt.size / earlier.size)
         return np.asarray(earlier.errors < expected * attempt.errors)
