@@ -16,6 +16,7 @@ from .recorder import Recorder, Row
 from .richardson import per_difference
 
 _MATTERS = 0.1  # of the error that a step may have: less says nothing about how it adds up
+_LEAST_SHARE = 1e-5  # of the tolerance: a hundred thousand such steps use it up
 _ROUNDING = 1e-12  # no iteration is asked for more
 _EVIDENCE = 3  # repeated steps in a row
 _ITERATED = 0.05  # of the error that a step may have: what is left to the iteration
@@ -238,8 +239,7 @@ class ControlledStepper(Stepper):
         coupled = self.coupled
         size, middle_time = end - start.time, start.time + 0.5 * (end - start.time)
         if coupled.settings.iteration_tolerance is None:
-            share = min(1.0, size / self.horizon)
-            coupled.iteration_tolerance = max(_ROUNDING, _ITERATED * self.tolerance * share)
+            coupled.iteration_tolerance = max(_ROUNDING, _ITERATED * self.tolerance * self._share(size))
         whole_nodes, first_nodes = coupled.nodes(size), coupled.nodes(0.5 * size)
         whole = coupled.advance(end, start)
         outputs, told = coupled.outputs[coupled.wiring.coupled], coupled.ends()
@@ -267,19 +267,32 @@ class ControlledStepper(Stepper):
         norms = np.array([np.linalg.norm(of_inputs[beside]) for beside in self.coupled.wiring.beside])
         return np.divide(changes, norms, out=np.zeros(len(changes)), where=norms > 0.0)
 
+    def _share(self, size: float) -> float:
+        """Of the tolerance, what a step may use up: in proportion, but no less than what cannot be told from noise."""
+        return min(1.0, max(_LEAST_SHARE, size / self.horizon))
+
     def _ratio(self, errors: NDArray[np.float64], size: float) -> float:
-        share = np.where(self.lags < _EVIDENCE, min(1.0, size / self.horizon), 1.0)
+        share = np.where(self.lags < _EVIDENCE, self._share(size), 1.0)
         return wrms(errors, self.tolerance * share * self.coupled.scales())
 
     def _with_new_evidence(self, earlier: Attempt, attempt: Attempt) -> Attempt:
-        """Look how the outputs follow the inputs of their FMUs: at once, or integrated, the more the longer the step.
+        """Look which errors add up, now that a step is repeated with another size."""
+        allowed = self.tolerance * self._share(attempt.size) * self.coupled.scales()
+        matters = (attempt.errors > _MATTERS * allowed) & (attempt.gains > 0.0)
+        settings = self.coupled.settings
+        does_not = self._order_is_reduced if settings.iterate else self._follows_at_once
+        self.lags = np.where(matters, np.where(does_not(earlier, attempt), self.lags + 1, 0), self.lags)
+        return attempt._replace(error=self._ratio(attempt.errors, attempt.size))
+
+    @staticmethod
+    def _follows_at_once(earlier: Attempt, attempt: Attempt) -> NDArray[np.bool_]:
+        """Whether an output follows the inputs of its FMU at once, or integrated, the more the longer the step.
 
         What the halves change in the inputs is known, so that kinks in these do not matter.
         """
-        if self.coupled.settings.iterate:  # then no output lags behind
-            return attempt
-        share = self.tolerance * min(1.0, attempt.size / self.horizon)
-        matters = (attempt.errors > _MATTERS * share * self.coupled.scales()) & (attempt.gains > 0.0)
-        at_once = earlier.gains < attempt.gains * math.sqrt(earlier.size / attempt.size)
-        self.lags = np.where(matters, np.where(at_once, self.lags + 1, 0), self.lags)
-        return attempt._replace(error=self._ratio(attempt.errors, attempt.size))
+        return np.asarray(earlier.gains < attempt.gains * math.sqrt(earlier.size / attempt.size))
+
+    def _order_is_reduced(self, earlier: Attempt, attempt: Attempt) -> NDArray[np.bool_]:
+        """Whether an error falls too slowly with the step to add up: as that of a stiff force, soon forgotten."""
+        expected = (earlier.size / attempt.size) ** (self.coupled.settings.order + 1.5)
+        return np.asarray(earlier.errors < expected * attempt.errors)
