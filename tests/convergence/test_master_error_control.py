@@ -59,7 +59,7 @@ def test_the_error_is_what_the_tolerance_allows_and_the_work_grows_as_the_order_
     build_case, end, horizon = SYSTEMS[system]
     tolerances, options = SCHEMES[scheme]
     runs = [run(build_case(folder), end, tolerance, horizon=horizon, **options) for tolerance in tolerances]
-    assert all(0.15 <= one.ratio <= 3.0 for one in runs), runs
+    assert all(0.1 <= one.ratio <= 3.0 for one in runs), runs
     growth = math.log(runs[-1].work / runs[-2].work) / math.log(tolerances[-2] / tolerances[-1])
     # Iterations get fewer as the step gets shorter, and the first steps cost the same at any tolerance: less than 1.
     assert 0.75 <= growth * (options["order"] + 1) <= 1.05
