@@ -13,11 +13,12 @@ import xarray as xr
 
 from ..checkpoint import Checkpoint
 from . import saving
+from .controlled import ControlledStepper
 from .coupled import Coupled
 from .errors import CouplingError
 from .recorder import Recorder
 from .settings import Settings
-from .stepping import ControlledStepper, Ended, Statistics, Stepper
+from .stepping import Ended, Statistics, Stepper
 from .system import System
 
 log = logging.getLogger(__name__)

@@ -1,0 +1,154 @@
+"""Communication steps as large as a tolerance allows."""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .control import StepControl, wrms
+from .coupled import Coupled, Point
+from .errors import NotFiniteError
+from .recorder import Recorder
+from .richardson import halves
+from .stepping import Attempt, Stepper
+
+_MATTERS = 0.1  # of the error that a step may have: less says nothing about how it adds up
+_LEAST_SHARE = 1e-5  # of the tolerance: a hundred thousand such steps use it up
+_ROUNDING = 1e-12  # no iteration is asked for more
+_EVIDENCE = 3  # repeated steps in a row
+_ITERATED = 0.05  # of the error that a step may have: what is left to the iteration
+
+
+class ControlledStepper(Stepper):
+    """Makes steps whose errors add up to the tolerance at most.
+
+    Every step is made whole and as two halves, which stand; their difference gives the error of these (Richardson). The
+    error of an output may grow by tolerance * its magnitude * step / horizon in a step: so they add up to the tolerance
+    over the horizon. The error of an output that follows the inputs of its FMU at once does not add up, and may be the
+    tolerance itself; which outputs do shows when a rejected step is repeated.
+    """
+
+    def __init__(self, coupled: Coupled, recorder: Recorder, tolerance: float) -> None:
+        super().__init__(coupled, recorder)
+        self.tolerance, self.horizon = tolerance, coupled.settings.horizon or coupled.settings.stop_time
+        self.size = self.step_size
+        self.control = StepControl(coupled.settings.order + 1)
+        # how often in a row a coupled output has seemed to lag only
+        self.lags = np.zeros(len(coupled.wiring.coupled), dtype=int)
+
+    def begin_anew(self) -> None:
+        """What was before an event says nothing about what follows."""
+        super().begin_anew()
+        self.control.after_event()
+
+    def stored(self) -> dict[str, Any]:
+        """All that is needed to go on from now in another process."""
+        own = {"size": self.size, "control": self.control.copy(), "lags": self.lags}
+        return super().stored() | own
+
+    def go_on(self, memory: Mapping[str, Any]) -> None:
+        """Go to what `stored` has given."""
+        super().go_on(memory)
+        self.size, self.lags = memory["size"], memory["lags"]
+        self.control.restore(memory["control"])
+
+    def _proposed_end(self, limit: float) -> float:
+        time, remaining = self.coupled.time, limit - self.coupled.time
+        if self.size >= remaining * (1.0 - 1e-9):
+            return limit
+        return time + (remaining / 2.0 if 2.0 * self.size > remaining else self.size)
+
+    def _attempt_to(self, end: float, start: Point) -> Attempt:
+        """Repeat the step, each time shorter, until its error is allowed."""
+        before: Attempt | None = None
+        while True:
+            try:
+                attempt = self._unstopped(end, start)
+            except NotFiniteError:
+                size = end - start.time
+                if self._is_smallest(size):
+                    raise
+                before, end = None, self._rejected(size, math.inf, start)
+                continue
+            if before:
+                attempt = self._with_new_evidence(before, attempt)
+            if attempt.error <= 1.0 or self._is_smallest(attempt.size):
+                self.statistics.below_min_step += attempt.error > 1.0
+                self.size = max(self.min_step, attempt.size * self.control.accept(attempt.error))
+                return attempt
+            before, end = attempt, self._rejected(attempt.size, attempt.error, start)
+
+    def _is_smallest(self, size: float) -> bool:
+        return size <= self.min_step * (1.0 + 1e-9) + 2.0 * math.ulp(self.coupled.time)  # a difference of times
+
+    def _rejected(self, size: float, error: float, start: Point) -> float:
+        """Go back, and give the end of a shorter step."""
+        self.statistics.rejected += 1
+        self.coupled.restore(start)
+        return start.time + max(self.min_step, size * self.control.reject(error))
+
+    def _attempt(self, end: float, start: Point) -> Attempt:
+        coupled = self.coupled
+        size, middle_time = end - start.time, start.time + 0.5 * (end - start.time)
+        if coupled.settings.iteration_tolerance is None:
+            coupled.iteration_tolerance = max(_ROUNDING, _ITERATED * self.tolerance * self._share(size))
+        whole_nodes, first_nodes = coupled.nodes(size), coupled.nodes(0.5 * size)
+        whole = coupled.advance(end, start)
+        outputs, told = coupled.outputs[coupled.wiring.coupled], coupled.ends()
+        if not self.statistics.steps:
+            coupled.expect()
+        coupled.restore(start)
+        first = coupled.advance(middle_time, start)
+        row = self.recorder.row(0.5 * size, first)
+        of_halves = halves(size, whole_nodes, first_nodes, coupled.nodes(0.5 * size))
+        middle = coupled.save() if coupled.repeats else start
+        try:
+            second = coupled.advance(end, middle)
+        finally:
+            if middle is not start:
+                coupled.release(middle)
+        changes = np.abs(coupled.outputs[coupled.wiring.coupled] - outputs)
+        errors = changes * of_halves.per_difference
+        ratio = self._ratio(errors, size)
+        if max(whole.residual, first.residual, second.residual) > 1.0:
+            ratio = max(ratio, 2.0)
+        rows = [row, self.recorder.row(0.5 * size, second, ratio)]
+        return Attempt(size, rows, ratio, errors, self._gains(changes, coupled.ends() - told), of_halves)
+
+    def _gains(self, changes: NDArray[np.float64], of_inputs: NDArray[np.float64]) -> NDArray[np.float64]:
+        """What changed in the coupled outputs over what changed in the inputs of their FMUs."""
+        norms = np.array([np.linalg.norm(of_inputs[beside]) for beside in self.coupled.wiring.beside])
+        return np.divide(changes, norms, out=np.zeros(len(changes)), where=norms > 0.0)
+
+    def _share(self, size: float) -> float:
+        """Of the tolerance, what a step may use up: in proportion, but no less than what cannot be told from noise."""
+        return min(1.0, max(_LEAST_SHARE, size / self.horizon))
+
+    def _ratio(self, errors: NDArray[np.float64], size: float) -> float:
+        share = np.where(self.lags < _EVIDENCE, self._share(size), 1.0)
+        return wrms(errors, self.tolerance * share * self.coupled.scales())
+
+    def _with_new_evidence(self, earlier: Attempt, attempt: Attempt) -> Attempt:
+        """Look which errors add up, now that a step is repeated with another size."""
+        allowed = self.tolerance * self._share(attempt.size) * self.coupled.scales()
+        matters = (attempt.errors > _MATTERS * allowed) & (attempt.gains > 0.0)
+        settings = self.coupled.settings
+        does_not = self._order_is_reduced if settings.iterate else self._follows_at_once
+        self.lags = np.where(matters, np.where(does_not(earlier, attempt), self.lags + 1, 0), self.lags)
+        return attempt._replace(error=self._ratio(attempt.errors, attempt.size))
+
+    @staticmethod
+    def _follows_at_once(earlier: Attempt, attempt: Attempt) -> NDArray[np.bool_]:
+        """Whether an output follows the inputs of its FMU at once, or integrated, the more the longer the step.
+
+        What the halves change in the inputs is known, so that kinks in these do not matter.
+        """
+        return np.asarray(earlier.gains < attempt.gains * math.sqrt(earlier.size / attempt.size))
+
+    @staticmethod
+    def _order_is_reduced(earlier: Attempt, attempt: Attempt) -> NDArray[np.bool_]:
+        """Whether an error falls too slowly with the step to add up: as that of a stiff force, soon forgotten."""
+        expected = earlier.halves.error / attempt.halves.error * math.sqrt(attempt.size / earlier.size)
+        return np.asarray(earlier.errors < expected * attempt.errors)
