@@ -269,23 +269,23 @@ def main() -> None:
         columns = shown(recording(folder))
         kept = shown(memory(folder))
     plot(found)
-    worst = max(
-        (c.beyond, kind, count)
-        for kind, count, scheme, c in found
-        if scheme.startswith("Jacobi, order") and c.passes == 1.0
-    )
+    fixed = [(c.beyond, kind, count) for kind, count, scheme, c in found if scheme in list(SCHEMES)[:3]]
     lines = [
         "# What the co-simulation master costs",
         "",
         "Written by `python benchmarks/cosim_cost.py`, which says what is measured. Microseconds of CPU time per FMU and",
         f"pass (one doStep), median of {REPEATS} pairs of runs. Asked for: less than {LIMIT:.0f} us beyond the calls with fixed steps;",
-        "the most that Jacobi needs is {:.1f} us ({} of {}).".format(*worst),
+        "the most that Jacobi needs is {:.1f} us ({} of {}).".format(*max(fixed)),
         "",
         "![Cost](cosim_cost.png)",
         "",
         "| system | FMUs | scheme | passes per step | calls alone | simulation | beyond |",
         "|---|---|---|---|---|---|---|",
         *table,
+        "",
+        "A controlled step has two rows, and is made once whole and once in halves: 1.5 passes a row, and more where it is",
+        "repeated. Two FMUs bear what a step costs as a whole; with more of them it counts for less. The iteration by",
+        "quasi-Newton misses the limit: its own algebra, over the differences of twenty steps, costs more than all else.",
         "",
         "What it costs to record outputs, with Jacobi and order 0; a Real that is coupled is read anyway:",
         "",
@@ -298,6 +298,8 @@ def main() -> None:
         "| scheme | steps | resident | rows | beyond |",
         "|---|---|---|---|---|",
         *kept,
+        "",
+        "What is beyond the rows is what the allocator keeps of arrays that have grown: no other object is left of a step.",
     ]
     (DOCS / "cosim_cost.md").write_text("\n".join(lines) + "\n")
 
