@@ -7,12 +7,20 @@ unlike sign are taken not to cancel.
 """
 
 import math
+from typing import NamedTuple
 
 _GAUSS = 0.5 - 0.5 / math.sqrt(3.0), 0.5 + 0.5 / math.sqrt(3.0)  # exact up to the third degree
 
 
-def per_difference(size: float, whole: list[float], first: list[float], second: list[float]) -> float:
-    """The error of a state after the two halves of a step, over its difference between the step and these.
+class Halves(NamedTuple):
+    """The error of a state after the two halves of a step."""
+
+    error: float  # up to the constant c and what the FMU makes of it
+    per_difference: float  # over the difference between the step and its halves
+
+
+def halves(size: float, whole: list[float], first: list[float], second: list[float]) -> Halves:
+    """The error of a state after the two halves of a step.
 
     The nodes of a step [s] are given from its start, and those of its halves, each from its own start. Where the second
     half has more nodes than the first, as after an event, its error is of higher order: none.
@@ -20,7 +28,8 @@ def per_difference(size: float, whole: list[float], first: list[float], second: 
     half = 0.5 * size
     of_whole, of_first = _integral(size, whole), _integral(half, first)
     of_second = _integral(half, second) if len(second) == len(first) else 0.0
-    return (abs(of_first) + abs(of_second)) / abs(of_whole - of_first - of_second)
+    error = abs(of_first) + abs(of_second)
+    return Halves(error, error / abs(of_whole - of_first - of_second))
 
 
 def _product(s: float, nodes: list[float]) -> float:

@@ -13,9 +13,10 @@ from .coupled import Coupled, Point, StoppedEarly
 from .errors import CouplingError, NotFiniteError
 from .events import Indicators, Values, changed
 from .recorder import Recorder, Row
-from .richardson import per_difference
+from .richardson import Halves, halves
 
 _MATTERS = 0.1  # of the error that a step may have: less says nothing about how it adds up
+_LEAST_SHARE = 1e-5  # of the tolerance: a hundred thousand such steps use it up
 _ROUNDING = 1e-12  # no iteration is asked for more
 _EVIDENCE = 3  # repeated steps in a row
 _ITERATED = 0.05  # of the error that a step may have: what is left to the iteration
@@ -29,6 +30,7 @@ class Attempt(NamedTuple):
     error: float = 0.0  # over what it may be: up to 1 it is allowed
     errors: NDArray[np.float64] = np.zeros(0)  # of the coupled outputs
     gains: NDArray[np.float64] = np.zeros(0)  # what changed in them over what changed in the inputs of their FMU
+    halves: Halves = Halves(0.0, 0.0)
 
 
 @dataclass
@@ -106,7 +108,8 @@ class Stepper:
     def _shorter(self, stop: StoppedEarly, end: float, start: Point) -> float:
         """Go back, and give the end of a step that the FMU which has stopped may make."""
         size, reached = end - start.time, stop.time - start.time
-        if self.coupled.slaves[stop.name].terminated and reached < self.min_step:
+        goes_on = reached >= self.min_step and self.coupled.restores
+        if self.coupled.slaves[stop.name].terminated and not goes_on:
             self.statistics.ended_by = stop.name
             raise Ended
         self._require_return(f"The FMU '{stop.name}' stopped at {stop.time:g} s in a step to {end:g} s")
@@ -237,8 +240,7 @@ class ControlledStepper(Stepper):
         coupled = self.coupled
         size, middle_time = end - start.time, start.time + 0.5 * (end - start.time)
         if coupled.settings.iteration_tolerance is None:
-            share = min(1.0, size / self.horizon)
-            coupled.iteration_tolerance = max(_ROUNDING, _ITERATED * self.tolerance * share)
+            coupled.iteration_tolerance = max(_ROUNDING, _ITERATED * self.tolerance * self._share(size))
         whole_nodes, first_nodes = coupled.nodes(size), coupled.nodes(0.5 * size)
         whole = coupled.advance(end, start)
         outputs, told = coupled.outputs[coupled.wiring.coupled], coupled.ends()
@@ -247,7 +249,7 @@ class ControlledStepper(Stepper):
         coupled.restore(start)
         first = coupled.advance(middle_time, start)
         row = self.recorder.row(0.5 * size, first)
-        weight = per_difference(size, whole_nodes, first_nodes, coupled.nodes(0.5 * size))
+        of_halves = halves(size, whole_nodes, first_nodes, coupled.nodes(0.5 * size))
         middle = coupled.save() if coupled.repeats else start
         try:
             second = coupled.advance(end, middle)
@@ -255,30 +257,45 @@ class ControlledStepper(Stepper):
             if middle is not start:
                 coupled.release(middle)
         changes = np.abs(coupled.outputs[coupled.wiring.coupled] - outputs)
-        ratio = self._ratio(changes * weight, size)
+        errors = changes * of_halves.per_difference
+        ratio = self._ratio(errors, size)
         if max(whole.residual, first.residual, second.residual) > 1.0:
             ratio = max(ratio, 2.0)
         rows = [row, self.recorder.row(0.5 * size, second, ratio)]
-        return Attempt(size, rows, ratio, changes * weight, self._gains(changes, coupled.ends() - told))
+        return Attempt(size, rows, ratio, errors, self._gains(changes, coupled.ends() - told), of_halves)
 
     def _gains(self, changes: NDArray[np.float64], of_inputs: NDArray[np.float64]) -> NDArray[np.float64]:
         """What changed in the coupled outputs over what changed in the inputs of their FMUs."""
         norms = np.array([np.linalg.norm(of_inputs[beside]) for beside in self.coupled.wiring.beside])
         return np.divide(changes, norms, out=np.zeros(len(changes)), where=norms > 0.0)
 
+    def _share(self, size: float) -> float:
+        """Of the tolerance, what a step may use up: in proportion, but no less than what cannot be told from noise."""
+        return min(1.0, max(_LEAST_SHARE, size / self.horizon))
+
     def _ratio(self, errors: NDArray[np.float64], size: float) -> float:
-        share = np.where(self.lags < _EVIDENCE, min(1.0, size / self.horizon), 1.0)
+        share = np.where(self.lags < _EVIDENCE, self._share(size), 1.0)
         return wrms(errors, self.tolerance * share * self.coupled.scales())
 
     def _with_new_evidence(self, earlier: Attempt, attempt: Attempt) -> Attempt:
-        """Look how the outputs follow the inputs of their FMUs: at once, or integrated, the more the longer the step.
+        """Look which errors add up, now that a step is repeated with another size."""
+        allowed = self.tolerance * self._share(attempt.size) * self.coupled.scales()
+        matters = (attempt.errors > _MATTERS * allowed) & (attempt.gains > 0.0)
+        settings = self.coupled.settings
+        does_not = self._order_is_reduced if settings.iterate else self._follows_at_once
+        self.lags = np.where(matters, np.where(does_not(earlier, attempt), self.lags + 1, 0), self.lags)
+        return attempt._replace(error=self._ratio(attempt.errors, attempt.size))
+
+    @staticmethod
+    def _follows_at_once(earlier: Attempt, attempt: Attempt) -> NDArray[np.bool_]:
+        """Whether an output follows the inputs of its FMU at once, or integrated, the more the longer the step.
 
         What the halves change in the inputs is known, so that kinks in these do not matter.
         """
-        if self.coupled.settings.iterate:  # then no output lags behind
-            return attempt
-        share = self.tolerance * min(1.0, attempt.size / self.horizon)
-        matters = (attempt.errors > _MATTERS * share * self.coupled.scales()) & (attempt.gains > 0.0)
-        at_once = earlier.gains < attempt.gains * math.sqrt(earlier.size / attempt.size)
-        self.lags = np.where(matters, np.where(at_once, self.lags + 1, 0), self.lags)
-        return attempt._replace(error=self._ratio(attempt.errors, attempt.size))
+        return np.asarray(earlier.gains < attempt.gains * math.sqrt(earlier.size / attempt.size))
+
+    @staticmethod
+    def _order_is_reduced(earlier: Attempt, attempt: Attempt) -> NDArray[np.bool_]:
+        """Whether an error falls too slowly with the step to add up: as that of a stiff force, soon forgotten."""
+        expected = earlier.halves.error / attempt.halves.error * math.sqrt(attempt.size / earlier.size)
+        return np.asarray(earlier.errors < expected * attempt.errors)

@@ -1,0 +1,42 @@
+"""A long simulation needs memory for its rows, and for nothing else."""
+
+import resource
+from pathlib import Path
+from typing import Any
+
+import pytest
+from models import systems
+
+from system_models.master import simulate
+
+PAGE = resource.getpagesize()
+ROW = 8 * (1 + 1 + 4)  # bytes: time, one output, how the step went
+SLACK = 400_000  # bytes: what the allocator holds back; one saved state a step would be more
+
+
+@pytest.mark.parametrize(
+    ("steps", "fmi", "options"),
+    [
+        (100_000, 2, {}),
+        (10_000, 3, {"iterate": "aitken", "order": 1}),
+        (1_500, 2, {"tolerance": 1e-7, "order": 2}),
+    ],
+    ids=["saved in every step", "FMI 3, iterated", "with error control"],
+)
+def test_memory_stays_flat(tmp_path: Path, steps: int, fmi: int, options: dict[str, Any]) -> None:
+    seen: list[int] = []
+    calls = 0
+
+    def watch(time: float) -> None:
+        nonlocal calls
+        calls += 1
+        if calls % (steps // 20) == 0:
+            seen.append(int(Path("/proc/self/statm").read_text().split()[1]) * PAGE)
+
+    end = 4.0 if "tolerance" in options else steps * 1e-3
+    case = systems.two_mass_force(tmp_path, fmi=fmi)
+    result = simulate(case.system, end, 1e-3, outputs=["one.x"], progress=watch, **options)
+    assert result.attrs["steps"] >= steps
+    assert len(seen) >= 10
+    # Rows are kept in arrays that grow by an eighth, and are copied then.
+    assert seen[-1] - seen[len(seen) // 5] <= 2 * ROW * len(result.time) + SLACK
