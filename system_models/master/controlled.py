@@ -37,6 +37,7 @@ class ControlledStepper(Stepper):
         self.control = StepControl(coupled.settings.order + 1)
         # how often in a row a coupled output has seemed to lag only
         self.lags = np.zeros(len(coupled.wiring.coupled), dtype=int)
+        self._no_feedthrough = np.array([not coupled.direct(place) for place in coupled.wiring.coupled], dtype=bool)
 
     def begin_anew(self) -> None:
         """What was before an event says nothing about what follows."""
@@ -110,7 +111,7 @@ class ControlledStepper(Stepper):
             if middle is not start:
                 coupled.release(middle)
         changes = np.abs(coupled.outputs[coupled.wiring.coupled] - outputs)
-        errors = changes * of_halves.per_difference
+        errors = changes * (of_halves.per_difference if not self._lagging.any() else max(of_halves.per_difference, 1.0))
         ratio = self._ratio(errors, size)
         if max(whole.residual, first.residual, second.residual) > 1.0:
             ratio = max(ratio, 2.0)
@@ -121,6 +122,11 @@ class ControlledStepper(Stepper):
         """What changed in the coupled outputs over what changed in the inputs of their FMUs."""
         norms = np.array([np.linalg.norm(of_inputs[beside]) for beside in self.coupled.wiring.beside])
         return np.divide(changes, norms, out=np.zeros(len(changes)), where=norms > 0.0)
+
+    @property
+    def _lagging(self) -> NDArray[np.bool_]:
+        """The outputs that belong to an earlier time than the inputs that they set: the order is one with them."""
+        return np.asarray((self.lags >= _EVIDENCE) & self._no_feedthrough)
 
     def _share(self, size: float) -> float:
         """Of the tolerance, what a step may use up: in proportion, but no less than what cannot be told from noise."""

@@ -384,6 +384,11 @@ class Coupled:
         self.expected[:] = memory["expected"]
         self._held = memory["held"]
 
+    def direct(self, place: int) -> bool:
+        """Whether an output depends directly on inputs, as its FMU declares it."""
+        port = self.system.port(self.wiring.outputs[place])
+        return bool(port.model.dependencies.get(port.variable.name, True))
+
     def accept(self) -> None:
         """The last step stands."""
         np.maximum(self.magnitudes, np.abs(self.outputs), out=self.magnitudes)
