@@ -103,7 +103,7 @@ def _events(dataset: xr.Dataset) -> list[str]:
 def _bonds(dataset: xr.Dataset) -> list[str]:
     bonds = [name for name in recorded(dataset) if name.startswith("bond.")]
     return [
-        f"Power that the coupling adds at {name.removeprefix('bond.')}: "
+        f"Powers that differ at {name.removeprefix('bond.')}: "
         f"{float(np.abs(dataset[name]).max()):.3g} W at most, {float(np.abs(dataset[name]).mean()):.3g} W on average."
         for name in bonds
     ]

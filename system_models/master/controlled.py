@@ -37,7 +37,7 @@ class ControlledStepper(Stepper):
         self.control = StepControl(coupled.settings.order + 1)
         # how often in a row a coupled output has seemed to lag only
         self.lags = np.zeros(len(coupled.wiring.coupled), dtype=int)
-        self._no_feedthrough = np.array([not coupled.direct(place) for place in coupled.wiring.coupled], dtype=bool)
+        self._may_lag = np.array([coupled.may_lag(place) for place in coupled.wiring.coupled], dtype=bool)
 
     def begin_anew(self) -> None:
         """What was before an event says nothing about what follows."""
@@ -102,7 +102,7 @@ class ControlledStepper(Stepper):
             coupled.expect()
         coupled.restore(start)
         first = coupled.advance(middle_time, start)
-        row = self.recorder.row(0.5 * size, first)
+        row, indicators = self.recorder.row(0.5 * size, first), self._indicators.values()
         of_halves = halves(size, whole_nodes, first_nodes, coupled.nodes(0.5 * size))
         middle = coupled.save() if coupled.repeats else start
         try:
@@ -116,7 +116,15 @@ class ControlledStepper(Stepper):
         if max(whole.residual, first.residual, second.residual) > 1.0:
             ratio = max(ratio, 2.0)
         rows = [row, self.recorder.row(0.5 * size, second, ratio)]
-        return Attempt(size, rows, ratio, errors, self._gains(changes, coupled.ends() - told), of_halves)
+        return Attempt(
+            size,
+            rows,
+            [indicators, self._indicators.values()],
+            ratio,
+            errors,
+            self._gains(changes, coupled.ends() - told),
+            of_halves,
+        )
 
     def _gains(self, changes: NDArray[np.float64], of_inputs: NDArray[np.float64]) -> NDArray[np.float64]:
         """What changed in the coupled outputs over what changed in the inputs of their FMUs."""
@@ -126,7 +134,7 @@ class ControlledStepper(Stepper):
     @property
     def _lagging(self) -> NDArray[np.bool_]:
         """The outputs that belong to an earlier time than the inputs that they set: the order is one with them."""
-        return np.asarray((self.lags >= _EVIDENCE) & self._no_feedthrough)
+        return np.asarray((self.lags >= _EVIDENCE) & self._may_lag)
 
     def _share(self, size: float) -> float:
         """Of the tolerance, what a step may use up: in proportion, but no less than what cannot be told from noise."""

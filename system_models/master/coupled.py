@@ -2,7 +2,7 @@
 
 import logging
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -96,7 +96,7 @@ class Coupled:
         for slave in self.slaves.values():
             with self._named(slave, "to be initialised"):
                 slave.enter_initialization(self.time, self.settings.stop_time, self.settings.tolerance)
-        self.set_scheduled(self.time)
+        self.set_scheduled(lambda time: time <= self.time)
         initialise(self.slaves, self.system.connections)
         for slave in self.slaves.values():
             with self._named(slave, "to be initialised"):
@@ -141,10 +141,10 @@ class Coupled:
         with self._named(slave, f"to give '{port.name}'"):
             return slave.get(port.variable)
 
-    def set_scheduled(self, time: float) -> bool:
-        """Set the inputs whose schedule has a value at just this time, and say whether there are any."""
-        due = [(name, value) for name, steps in self.system.schedule.items() for at, value in steps if at == time]
-        for name, value in due:
+    def set_scheduled(self, times: Callable[[float], bool]) -> bool:
+        """Set the inputs whose schedule has values at such times, to the last of them, and say if there are any."""
+        due = {name: value for name, steps in self.system.schedule.items() for at, value in steps if times(at)}
+        for name, value in due.items():
             self.set(name, value)
         return bool(due)
 
@@ -384,10 +384,11 @@ class Coupled:
         self.expected[:] = memory["expected"]
         self._held = memory["held"]
 
-    def direct(self, place: int) -> bool:
-        """Whether an output depends directly on inputs, as its FMU declares it."""
+    def may_lag(self, place: int) -> bool:
+        """Whether an output may belong to inputs that were held, and not be told those of the end."""
         port = self.system.port(self.wiring.outputs[place])
-        return bool(port.model.dependencies.get(port.variable.name, True))
+        direct = port.model.dependencies.get(port.variable.name, True)
+        return not direct and not self.slaves[port.model.name].interpolates
 
     def accept(self) -> None:
         """The last step stands."""

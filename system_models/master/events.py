@@ -40,8 +40,8 @@ class Indicators:
 
 
 def changed(before: Values, after: Values) -> bool:
-    """Whether there is an event between two sets of values."""
-    signs = any((one > 0.0) != (other > 0.0) for one, other in zip(before[0], after[0], strict=True))
+    """Whether there is an event between two sets of values; what leaves zero is none."""
+    signs = any(one != 0.0 and (one > 0.0) != (other > 0.0) for one, other in zip(before[0], after[0], strict=True))
     return signs or before[1] != after[1]
 
 
@@ -50,6 +50,6 @@ def _secant(low: float, before: Values, high: float, after: Values) -> float:
     zeros = [
         low + (high - low) * one / (one - other)
         for one, other in zip(before[0], after[0], strict=True)
-        if (one > 0.0) != (other > 0.0) and one != other
+        if one != 0.0 and (one > 0.0) != (other > 0.0)
     ]
     return min(zeros, default=0.5 * (low + high))

@@ -55,6 +55,12 @@ class Model:
         inputs = frozenset(v.name for v in self.variables.values() if v.causality == "input")
         return self._declared(self.description.outputs, inputs)
 
+    @property
+    def declared_dependencies(self) -> dict[str, frozenset[str]]:
+        """The same of those outputs that do say."""
+        silent = {unknown.variable.name for unknown in self.description.outputs if unknown.dependencies is None}
+        return {name: inputs for name, inputs in self.dependencies.items() if name not in silent}
+
     @cached_property
     def initial_dependencies(self) -> dict[str, frozenset[str]]:
         """The inputs that each output depends on while it is initialised; where it does not say, all of them."""

@@ -29,7 +29,8 @@ def halves(size: float, whole: list[float], first: list[float], second: list[flo
     of_whole, of_first = _integral(size, whole), _integral(half, first)
     of_second = _integral(half, second) if len(second) == len(first) else 0.0
     error = abs(of_first) + abs(of_second)
-    return Halves(error, error / abs(of_whole - of_first - of_second))
+    difference = abs(of_whole - of_first - of_second)
+    return Halves(error, error / difference if difference else 1.0)  # a step too small for its cube to be a number
 
 
 def _product(s: float, nodes: list[float]) -> float:

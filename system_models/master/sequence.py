@@ -55,6 +55,19 @@ def blocks(system: System, slaves: Mapping[str, Slave], inputs: list[str], setti
     return result
 
 
+def direct_loops(system: System) -> list[list[str]]:
+    """Coupled Real inputs around a loop of outputs that depend on them directly, as the FMUs declare it."""
+    source = {c.target.name: c.source for c in system.connections if c.source.kind == "real"}
+    edges = [
+        (f"{port.model.name}.{known}", target)
+        for target, port in source.items()
+        for known in port.model.declared_dependencies.get(port.variable.name, ())
+        if f"{port.model.name}.{known}" in source
+    ]
+    loops = sorted_loops(sorted(source), edges)
+    return [loop for loop in loops if len(loop) > 1 or (loop[0], loop[0]) in edges]
+
+
 def feedthrough_order(system: System, slaves: Mapping[str, Slave]) -> list[str]:
     """The FMUs with outputs that depend directly on coupled inputs, each after those that it depends on."""
     return [name for group in _gauss_seidel_order(system, slaves) for name in group if slaves[name].feedthrough]

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from numbers import Real
 
 from contact_core.reading import did_you_mean
 
@@ -50,6 +51,11 @@ class Settings:
         return _MIN_STEP * self.step_size if self.min_step is None else self.min_step
 
     @property
+    def past(self) -> list[float]:
+        """The times [s] before the start at which a history is asked for, the earliest first."""
+        return [-n * self.step_size for n in range(self.order, 0, -1)]
+
+    @property
     def converged(self) -> float:
         """The relative tolerance of the iteration, unless the error control has one of its own."""
         return _ITERATION_TOLERANCE if self.iteration_tolerance is None else self.iteration_tolerance
@@ -84,7 +90,7 @@ def _choose(name: str, value: object, choices: list[str]) -> None:
 
 
 def _positive(name: str, value: object, most: float, unit: str) -> None:
-    fits = isinstance(value, (int, float)) and not isinstance(value, bool) and 0.0 < value < most
-    if not fits:
+    number = float(value) if isinstance(value, Real) and not isinstance(value, bool) else math.nan
+    if not 0.0 < number < most:
         limit = "a finite number above 0" if most == math.inf else f"a number between 0 and {most:g}"
         raise CouplingError(f"{name} = {value!r} is not {limit}{f', in {unit}' if unit else ''}.")

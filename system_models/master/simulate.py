@@ -17,6 +17,7 @@ from .controlled import ControlledStepper
 from .coupled import Coupled
 from .errors import CouplingError
 from .recorder import Recorder
+from .sequence import direct_loops
 from .settings import Settings
 from .stepping import Ended, Statistics, Stepper
 from .system import System
@@ -55,20 +56,22 @@ def simulate(
 
     tolerance: of the coupled outputs, over their magnitude: the larger of `nominal` and what they have reached. The
     estimated errors of all steps add up to it at most over the `horizon` [s]: all of the simulation, unless errors are
-    known to die out sooner. Where a step of min_step (1e-6 step_size) is still too inaccurate it stands, and is counted
-    in `below_min_step`. Events are found to min_step.
+    known to die out sooner. A system that amplifies errors, or whose phase drifts, ends with larger ones. Where a step
+    of min_step (1e-6 step_size) is still too inaccurate it stands, and is counted in `below_min_step`. Events are found
+    to min_step, unless two of one output lie between two rows.
 
     checkpoint: a folder in which the state is kept; with `resume` the simulation goes on from there, bit for bit.
     outputs: the variables to record, all outputs if none are named. history: the course of coupled outputs before the
     time 0, f(t) by name, for hold orders above 0. progress is called with the time reached.
 
     Returns a Dataset along `time`: the recorded variables by name, with units; "master.*", how each step went;
-    "bond.*", the power that the coupling adds to a bond. Its attributes count steps, rejected, iterations, unconverged,
-    below_min_step, events and stopped_early, name in ended_by the FMU that has asked for the end and in told_means
-    those that take no derivatives of inputs, and give in `cost` the steps and seconds of each FMU, as JSON.
+    "bond.*", by how much the powers differ that the two FMUs of a bond reckon with. Its attributes count steps,
+    iterations, unconverged, below_min_step, events and stopped_early among the steps that stand, and those rejected;
+    ended_by is the FMU that has asked for the end, told_means those that take no derivatives of inputs, and `cost`
+    gives, as JSON, all steps of each FMU and its seconds.
 
     Raises CouplingError for settings that make no sense or that the FMUs cannot serve, for an FMU that fails, and for
-    values that are not finite.
+    values that are not finite; StateError for a checkpoint that is damaged or of another simulation.
     """
     settings = Settings(
         stop_time, step_size, algorithm, order, iterate, tolerance, iteration_tolerance, min_step, horizon
@@ -78,10 +81,12 @@ def simulate(
     with ExitStack() as exits:
         store = None
         if checkpoint is not None:
-            run = asdict(settings) | {"outputs": [port.name for port in ports], "history": sorted(history or ())}
+            past = {name: [float(course(time)) for time in settings.past] for name, course in (history or {}).items()}
+            run = asdict(settings) | {"outputs": [port.name for port in ports], "history": past}
             store = exits.enter_context(saving.kept(Path(checkpoint), system, ports, run, resume))
         coupled = Coupled(system, ports, settings, exits)
         recorder = Recorder(coupled, ports)
+        _warn_of_loops(system, settings)
         coupled.initialise()
         if history:
             _remember(coupled, history)
@@ -115,7 +120,7 @@ def _run(
             break
         for row in rows:
             recorder.add(row)
-        if coupled.set_scheduled(coupled.time):
+        if coupled.set_scheduled(lambda time: time == coupled.time):
             stepper.begin_anew()
         if store and store.due():
             _save(store, coupled, recorder, stepper)
@@ -130,6 +135,15 @@ def _save(store: Checkpoint, coupled: Coupled, recorder: Recorder, stepper: Step
     store.save(coupled.time, state, recorder.table(store.count))
 
 
+def _warn_of_loops(system: System, settings: Settings) -> None:
+    if settings.iterate is None:
+        for loop in direct_loops(system):
+            log.warning(
+                "%s depend on one another without delay, which one pass after a step does not solve. Use `iterate`.",
+                ", ".join(loop),
+            )
+
+
 def _remember(coupled: Coupled, history: Mapping[str, Callable[[float], float]]) -> None:
     coupled_outputs = {coupled.wiring.outputs[place] for place in coupled.wiring.coupled}
     missing = sorted(coupled_outputs - set(history))
@@ -138,8 +152,8 @@ def _remember(coupled: Coupled, history: Mapping[str, Callable[[float], float]])
             f"The history lacks '{missing[0]}', which sets an input. Give its course before the time 0."
         )
     past = []
-    for n in range(coupled.settings.order, 0, -1):
-        time, outputs = -n * coupled.settings.step_size, coupled.outputs.copy()
+    for time in coupled.settings.past:
+        outputs = coupled.outputs.copy()
         for name in coupled_outputs:
             outputs[coupled.wiring.output_place[name]] = history[name](time)
         past.append((time, outputs))

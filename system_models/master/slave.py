@@ -89,7 +89,7 @@ class Slave(ABC):
 
     def failure(self, what: str, error: Exception) -> CouplingError:
         """What to raise where the FMU has failed to do something."""
-        return CouplingError(f"The FMU '{self.name}' failed {what}: {error} Its messages say why.")
+        return CouplingError(f"The FMU '{self.name}' failed {what}: {str(error).rstrip('.')}. Its messages say why.")
 
     @abstractmethod
     def _instantiate(self, folder: str) -> None: ...

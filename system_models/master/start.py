@@ -1,6 +1,7 @@
 """Unpacks the FMUs of a system and starts an instance of each."""
 
 import tempfile
+import threading
 from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
@@ -12,6 +13,8 @@ from .slave import Fmi2Slave, Slave
 from .slave_fmi3 import Fmi3Slave
 from .system import Port, System
 
+_ALONE = threading.Lock()  # fmpy changes the working directory while it loads an FMU
+
 
 def started(
     system: System,
@@ -22,6 +25,17 @@ def started(
 ) -> dict[str, Slave]:
     """An instance of every FMU by name, freed when `exits` closes: left alone, one may crash its host at exit."""
     _check_alone(system)
+    with _ALONE:
+        return _started(system, inputs, outputs, early_return, exits)
+
+
+def _started(
+    system: System,
+    inputs: Mapping[str, list[Port]],
+    outputs: Mapping[str, list[Port]],
+    early_return: bool,
+    exits: ExitStack,
+) -> dict[str, Slave]:
     folders: dict[Path, str] = {}
     slaves: dict[str, Slave] = {}
     for name, model in system.models.items():

@@ -20,6 +20,7 @@ class Attempt(NamedTuple):
 
     size: float
     rows: list[Row]
+    indicators: list[Values]  # of events, by row
     error: float = 0.0  # over what it may be: up to 1 it is allowed
     errors: NDArray[np.float64] = np.zeros(0)  # of the coupled outputs
     gains: NDArray[np.float64] = np.zeros(0)  # what changed in them over what changed in the inputs of their FMU
@@ -63,16 +64,24 @@ class Stepper:
         try:
             before = self._indicators.values()
             attempt = self._attempt_to(self._proposed_end(limit), start)
-            event = changed(before, self._indicators.values())
-            if event:
-                attempt = self._to_event(attempt, before, start)
+            event = self._first_change(before, attempt)
+            if event is not None:
+                attempt = self._to_event(attempt, before, event, start)
         finally:
             coupled.release(start)
-        self._accepted(attempt, event)
+        self._accepted(attempt, event is not None)
         return attempt.rows
 
-    def _to_event(self, attempt: Attempt, before: Values, start: Point) -> Attempt:
-        """Go back, and to just behind the first event."""
+    @staticmethod
+    def _first_change(before: Values, attempt: Attempt) -> float | None:
+        """The time of the first row that has an event before it."""
+        for row, values in zip(attempt.rows, attempt.indicators, strict=True):
+            if changed(before, values):
+                return row[0]
+        return None
+
+    def _to_event(self, attempt: Attempt, before: Values, behind: float, start: Point) -> Attempt:
+        """Go back, and to just behind the first event, which lies before the time `behind`."""
         self._require_return(f"An event lies between {start.time:g} s and {self.coupled.time:g} s")
 
         def to(end: float) -> Values:
@@ -81,6 +90,8 @@ class Stepper:
             attempt = self._unstopped(end, start)
             return self._indicators.values()
 
+        if self.coupled.time != behind:
+            to(behind)
         reached = self._indicators.locate(to, start.time, before, self.coupled.time, self.min_step)
         if self.coupled.time != reached:
             to(reached)
@@ -132,7 +143,8 @@ class Stepper:
 
     def _attempt(self, end: float, start: Point) -> Attempt:
         size = end - start.time
-        return Attempt(size, [self.recorder.row(size, self.coupled.advance(end, start))])
+        row = self.recorder.row(size, self.coupled.advance(end, start))
+        return Attempt(size, [row], [self._indicators.values()])
 
     def _accepted(self, attempt: Attempt, event: bool) -> None:
         coupled, statistics = self.coupled, self.statistics

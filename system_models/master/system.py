@@ -59,14 +59,14 @@ class Connection:
 class Bond:
     """A power that leaves one FMU and enters another: two connections, one each way."""
 
-    one: Connection
-    other: Connection
+    effort: Connection
+    flow: Connection
     watt: float  # per product of the two sources, in their own units
 
     @property
     def name(self) -> str:
         """The two outputs whose product it is."""
-        return f"{self.one.source.name}*{self.other.source.name}"
+        return f"{self.effort.source.name}*{self.flow.source.name}"
 
 
 class System:
@@ -77,8 +77,8 @@ class System:
     parameters and inputs; that of a connected input is where the search for consistent initial values begins.
     schedule: (time [s], value) pairs of an input that nothing is connected to, which holds each value until the next;
     the times are communication points. events: outputs whose change of sign (Real) or of value (all others) must not be
-    stepped over. bonds: pairs of connected outputs, one each way, whose product is a power. derivatives: the output
-    that is the derivative of an output by an input, {("a.force", "a.speed"): "a.dforce_dspeed"}.
+    stepped over. bonds: pairs of connected outputs, effort and flow: a force on the other FMU, and that FMU's speed.
+    derivatives: the output that is the derivative of an output by an input, {("a.force", "a.speed"): "a.dforce"}.
 
     Raises CouplingError for what does not exist or cannot be coupled.
     """
@@ -102,7 +102,7 @@ class System:
         self.parameters = {name: self._start(name, value) for name, value in sorted((parameters or {}).items())}
         self.schedule = {name: self._schedule(name, steps) for name, steps in sorted((schedule or {}).items())}
         self.events = [self._output(name, "an event") for name in sorted({*events})]
-        self.bonds = [self._bond(*pair) for pair in sorted({tuple(sorted(pair)) for pair in bonds})]
+        self.bonds = [self._bond(*pair) for pair in sorted({(effort, flow) for effort, flow in bonds})]
         self.derivatives = {
             (self._output(of, "a derivative").name, self._input(by, "a derivative").name): self._output(
                 name, "a derivative"
@@ -129,6 +129,8 @@ class System:
 
     def outputs(self, names: Iterable[str] | None) -> list[Port]:
         """The variables to record: those named, or every output that is no text."""
+        if isinstance(names, str):
+            raise CouplingError(f"outputs = {names!r} is one name. Give a list of names.")
         if names is not None:
             return [self._recorded(name) for name in dict.fromkeys(names)]
         every = (Port(m, v) for m in self.models.values() for v in m.variables.values() if v.causality == "output")
@@ -245,30 +247,30 @@ class System:
         return pairs
 
     def _bond(self, first: str, second: str) -> Bond:
-        by_source: dict[str, list[Connection]] = {}
-        for connection in self.connections:
-            by_source.setdefault(connection.source.name, []).append(connection)
-        for one in by_source.get(first, []):
-            for other in by_source.get(second, []):
-                there, back = one.target.model is other.source.model, other.target.model is one.source.model
-                if there and back:
-                    return Bond(one, other, self._watt(one, other))
-        raise CouplingError(
-            f"The bond of '{first}' and '{second}' needs two connections: from the FMU of each to that of the other. "
-            "Connect them, or leave the bond out."
-        )
-
-    def _watt(self, one: Connection, other: Connection) -> float:
-        a, b = one.source, other.source
+        pairs = [
+            (one, other)
+            for one in self.connections
+            for other in self.connections
+            if (one.source.name, other.source.name) == (first, second)
+            and one.target.model is other.source.model
+            and other.target.model is one.source.model
+        ]
+        if not pairs:
+            raise CouplingError(
+                f"The bond of '{first}' and '{second}' needs two connections: from the FMU of each to that of the "
+                "other. Connect them, or leave the bond out."
+            )
+        effort, flow = pairs[0]
+        a, b = effort.source, flow.source
         if a.variable.unit is None or b.variable.unit is None:
-            return 1.0
+            return Bond(effort, flow, 1.0)
         watt = unit_checks.power(a.variable, a.model.description, b.variable, b.model.description)
         if watt is None:
             raise CouplingError(
                 f"The product of '{a.name}' in {a.variable.unit} and '{b.name}' in {b.variable.unit} is no power. "
                 "A bond pairs a force with a speed, a torque with an angular speed, and so on."
             )
-        return watt
+        return Bond(effort, flow, watt)
 
     def _check_derivatives(self) -> None:
         for (of, by), port in self.derivatives.items():
@@ -291,7 +293,7 @@ def checked(port: Port, value: Any) -> Value:
 
 
 def _fmu_name(name: str) -> str:
-    if not name or "." in name:
+    if not isinstance(name, str) or not name or "." in name:
         raise CouplingError(
             f"An FMU cannot be called '{name}': a dot separates it from its variables. Use another name."
         )
@@ -299,7 +301,7 @@ def _fmu_name(name: str) -> str:
 
 
 def _pair(entry: Sequence[Any]) -> tuple[str, str, float]:
-    ends = [entry] if isinstance(entry, str) else list(entry)
+    ends: list[Any] = list(entry) if isinstance(entry, (list, tuple)) else [entry]
     if len(ends) not in (2, 3) or not all(isinstance(end, str) for end in ends[:2]):
         raise CouplingError(f'The connection {entry!r} is not ("fmu.output", "fmu.input") with a factor at most.')
     try:

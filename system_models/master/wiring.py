@@ -1,5 +1,6 @@
 """Which output sets which input, as arrays over the Real variables of all FMUs."""
 
+import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
@@ -17,10 +18,10 @@ class _Ends(NamedTuple):
     """The two outputs of a bond and the inputs that they set, by place, and watt per product of the outputs."""
 
     watt: float
-    one: int
-    one_told: int
-    other: int
-    other_told: int
+    effort: int
+    effort_told: int
+    flow: int
+    flow_told: int
 
 
 class Wiring:
@@ -45,11 +46,11 @@ class Wiring:
         self.beside = [self.input_of[self.outputs[n].partition(".")[0]] for n in self.coupled]
         self._bonds = [
             _Ends(
-                bond.watt,
-                self.output_place[bond.one.source.name],
-                self.input_place[bond.one.target.name],
-                self.output_place[bond.other.source.name],
-                self.input_place[bond.other.target.name],
+                bond.watt * math.copysign(1.0, bond.effort.factor * bond.flow.factor),
+                self.output_place[bond.effort.source.name],
+                self.input_place[bond.effort.target.name],
+                self.output_place[bond.flow.source.name],
+                self.input_place[bond.flow.target.name],
             )
             for bond in system.bonds
         ]
@@ -59,16 +60,19 @@ class Wiring:
         return outputs[self.source[inputs]] * self.factor[inputs] + self.offset[inputs]
 
     def power_residuals(self, outputs: Array, held: Array | None) -> list[float]:
-        """For each bond, the power [W] that the one FMU gives less the power that the other takes.
+        """For each bond, the power [W] that the FMU of the flow takes less what that of the effort gives.
 
-        Each reckons with its own output and with what it was told of the other's at the end of the step, `held`: the
-        difference is what the coupling adds to the system (Sadjina et al. 2017, doi:10.1007/s00366-016-0492-8).
+        Each reckons with its own output and with what it was told of the other's at the end of the step, `held`. They
+        agree unless the coupling errs; it is no integral over the step (Sadjina et al. 2017,
+        doi:10.1007/s00366-016-0492-8).
         """
         if held is None or not self._bonds:
             return [0.0] * len(self._bonds)
         told = (held - self.offset) / self.factor
         return [
-            float(bond.watt * (outputs[bond.one] * told[bond.other_told] - outputs[bond.other] * told[bond.one_told]))
+            float(
+                bond.watt * (told[bond.effort_told] * outputs[bond.flow] - outputs[bond.effort] * told[bond.flow_told])
+            )
             for bond in self._bonds
         ]
 
