@@ -223,18 +223,23 @@ class Coupled:
         guess, floor = ends[unknown], np.abs(self.wiring.factor * self.magnitudes[self.wiring.source])[unknown]
         method.start(self.iteration_tolerance * _positive(np.maximum(floor, abs(guess))))
         iteration, residual, result = 0, math.inf, guess
-        while residual > 1.0 and iteration < _MOST_ITERATIONS:
-            if iteration:
-                guess = method.next(guess, result)
-                for name in block.names:
-                    self._restore_slave(name, start)
-            iteration += 1
-            ends[unknown] = guess
-            self._pass(block, size, self.history.interpolate(size, ends), ends)
-            result = self.wiring.told(self.outputs, unknown)
-            scale = self.iteration_tolerance * _positive(np.maximum(floor, np.maximum(abs(result), abs(guess))))
-            residual = wrms(result - guess, scale)
-        method.accept(guess, result)
+        with np.errstate(over="ignore", invalid="ignore"):  # where it diverges
+            while residual > 1.0 and iteration < _MOST_ITERATIONS:
+                if iteration:
+                    guess = method.next(guess, result)
+                    if not np.isfinite(guess).all():
+                        break
+                    for name in block.names:
+                        self._restore_slave(name, start)
+                iteration += 1
+                ends[unknown] = guess
+                self._pass(block, size, self.history.interpolate(size, ends), ends)
+                result = self.wiring.told(self.outputs, unknown)
+                scale = self.iteration_tolerance * _positive(np.maximum(floor, np.maximum(abs(result), abs(guess))))
+                residual = wrms(result - guess, scale)
+                residual = math.inf if math.isnan(residual) else residual
+        if math.isfinite(residual):
+            method.accept(guess, result)
         return Outcome(iteration, residual)
 
     def _pass(self, block: Block, size: float, polynomial: Array, ends: Array) -> None:
