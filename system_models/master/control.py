@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_TARGET = 0.8  # of the error that is allowed
+_TARGET = 0.7  # of the error that is allowed
 _NEWEST, _PREVIOUS = 0.6, 0.2  # exponents of PI.4.2, times the order
 _SMALLEST, _LARGEST = 0.2, 2.0  # factors of the step: an error may be near zero by chance, hence no larger ones
 
