@@ -250,7 +250,7 @@ same work. libcosim needs two to three times that: a force that depends directly
 one step late. (Ours and PyCosimLibrary read such outputs again after they have set the inputs. FMI 2.0.5, section 4.2.4,
 does not provide for that without a step in between; these FMUs answer.) A rival that iterates stays at order 1, because
 it holds the inputs while it iterates: it pays for stability alone. Polynomials of order 1 and 2 are what counts on
-smooth systems; their fixed steps begin without a history, which leaves an error of the second order. Where the coupling
+smooth systems; their first steps, which have no history, are repeated instead. Where the coupling
 is stiff, iteration decides: the quasi-Newton method reaches the equilibrium of the contact with steps longer than the
 period of its oscillation, 10 us, where fixed-point iterations and all explicit schemes fail, and passes from sticking to
 slipping with steps that are far too long for explicit ones. Inputs held to order 0 damp what the steps do not resolve,
