@@ -102,7 +102,7 @@ class ControlledStepper(Stepper):
             coupled.expect()
         coupled.restore(start)
         first = coupled.advance(middle_time, start)
-        row, indicators = self.recorder.row(0.5 * size, first), self._indicators.values()
+        row, indicators, event = self.recorder.row(0.5 * size, first), self._indicators.values(), coupled.event()
         of_halves = halves(size, whole_nodes, first_nodes, coupled.nodes(0.5 * size))
         middle = coupled.save() if coupled.repeats else start
         try:
@@ -116,15 +116,8 @@ class ControlledStepper(Stepper):
         if max(whole.residual, first.residual, second.residual) > 1.0:
             ratio = max(ratio, 2.0)
         rows = [row, self.recorder.row(0.5 * size, second, ratio)]
-        return Attempt(
-            size,
-            rows,
-            [indicators, self._indicators.values()],
-            ratio,
-            errors,
-            self._gains(changes, coupled.ends() - told),
-            of_halves,
-        )
+        seen, gains = [indicators, self._indicators.values()], self._gains(changes, coupled.ends() - told)
+        return Attempt(size, rows, seen, ratio, errors, gains, of_halves, event)
 
     def _gains(self, changes: NDArray[np.float64], of_inputs: NDArray[np.float64]) -> NDArray[np.float64]:
         """What changed in the coupled outputs over what changed in the inputs of their FMUs."""

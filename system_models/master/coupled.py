@@ -370,7 +370,7 @@ class Coupled:
             "magnitudes": self.magnitudes.copy(),
             "expected": self.expected.copy(),
             "held": self._held,
-            "counts": {name: [slave.steps, slave.seconds, slave.events] for name, slave in self.slaves.items()},
+            "counts": {name: [s.steps, s.seconds, s.events, s.told_order] for name, s in self.slaves.items()},
         }
 
     def go_on(self, states: Mapping[str, bytes], memory: Mapping[str, Any]) -> None:
@@ -378,7 +378,7 @@ class Coupled:
         for name, slave in self.slaves.items():
             with self._named(slave, "to take the state of a checkpoint"):
                 slave.deserialise(states[name])
-            slave.steps, slave.seconds, slave.events = memory["counts"][name]
+            slave.steps, slave.seconds, slave.events, slave.told_order = memory["counts"][name]
         self.time = memory["time"]
         self.outputs[:] = memory["outputs"]
         self.history.restore(memory["history"])

@@ -1,5 +1,6 @@
 """Events: outputs of a system whose change of sign or of value must not be stepped over."""
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -19,6 +20,11 @@ class Indicators:
     def values(self) -> Values:
         """What they are now."""
         return [float(self._coupled.outputs[n]) for n in self._reals], [self._coupled.get(p) for p in self._others]
+
+    def at_start(self) -> Values:
+        """What they are before the first step: a zero there has no sign yet."""
+        reals, others = self.values()
+        return [value or math.nan for value in reals], others
 
     def locate(self, to: Callable[[float], Values], low: float, before: Values, high: float, width: float) -> float:
         """A time at most `width` behind an event between `low` and `high` [s]; the values at `high` are those of now.
@@ -40,8 +46,8 @@ class Indicators:
 
 
 def changed(before: Values, after: Values) -> bool:
-    """Whether there is an event between two sets of values; what leaves zero is none."""
-    signs = any(one != 0.0 and (one > 0.0) != (other > 0.0) for one, other in zip(before[0], after[0], strict=True))
+    """Whether there is an event between two sets of values; after one that is no number there is none."""
+    signs = any(one == one and (one > 0.0) != (other > 0.0) for one, other in zip(before[0], after[0], strict=True))
     return signs or before[1] != after[1]
 
 
@@ -50,6 +56,6 @@ def _secant(low: float, before: Values, high: float, after: Values) -> float:
     zeros = [
         low + (high - low) * one / (one - other)
         for one, other in zip(before[0], after[0], strict=True)
-        if one != 0.0 and (one > 0.0) != (other > 0.0)
+        if one == one and (one > 0.0) != (other > 0.0)
     ]
     return min(zeros, default=0.5 * (low + high))

@@ -9,6 +9,7 @@ u = L y (Andersson, C., Methods and Tools for Co-Simulation of Dynamic Systems w
 import numpy as np
 from numpy.typing import NDArray
 
+from .errors import CouplingError
 from .system import System
 from .wiring import Wiring
 
@@ -36,5 +37,8 @@ class Correction:
         slopes = np.zeros((len(outputs), len(held)))
         np.add.at(slopes, (self._of, self._by), outputs[self._slope])
         loop = wiring.factor[:, None] * slopes[wiring.source]
-        change = np.linalg.solve(np.eye(len(held)) - loop, wiring.told(outputs) - held)
+        try:
+            change = np.linalg.solve(np.eye(len(held)) - loop, wiring.told(outputs) - held)
+        except np.linalg.LinAlgError:
+            raise CouplingError("The derivatives of the system's outputs close a loop that has no solution.") from None
         self.move(outputs, np.asarray(change, dtype=float))

@@ -12,6 +12,7 @@ from .system import System
 
 _MIN_STEP = 1e-6  # of the step
 _ITERATION_TOLERANCE = 1e-6
+_SAME = 1e-9  # of a step
 
 
 @dataclass(frozen=True)
@@ -80,6 +81,13 @@ class Settings:
                 f"The FMU '{fixed[0]}' takes steps of one size only (canHandleVariableCommunicationStepSize is false), "
                 "which neither a tolerance nor events allow. Leave them out."
             )
+        times = [time for steps in system.schedule.values() for time, _ in steps if 0.0 < time < self.stop_time]
+        for time in [*times, self.stop_time] if fixed else []:
+            if abs(time / self.step_size - round(time / self.step_size)) > _SAME:
+                raise CouplingError(
+                    f"The FMU '{fixed[0]}' takes steps of one size only (canHandleVariableCommunicationStepSize is "
+                    f"false), but {time:g} s is no multiple of step_size = {self.step_size:g} s. Make it one."
+                )
 
 
 def _choose(name: str, value: object, choices: list[str]) -> None:

@@ -53,6 +53,7 @@ class Slave(ABC):
         self.feedthrough = any(dependencies.get(v.name, names) & names for v in outputs)
         self.seconds, self.steps = 0.0, 0  # spent in doStep, and how many
         self.terminated = False  # it has asked for the end of the simulation
+        self.told_order = 0  # up to which derivatives of the inputs have been set
         self.event, self.events = False, 0  # handled in the last step or after it, and how many: from FMI 3 on
         self.next_event: float | None = None  # its time [s], where the FMU announces it
         self.interpolates = False  # whether it takes derivatives of its inputs, or asks for them within a step
@@ -62,7 +63,7 @@ class Slave(ABC):
         """Advance from `time` by `size`, both in s, and return the time reached: earlier if the FMU stops before.
 
         polynomial [order + 1, inputs]: coefficients of the inputs in powers of the time since `time`. An FMU that takes
-        no derivatives holds their mean over the step, which costs no order.
+        no derivatives holds their mean over the step, good for the second order.
         """
         if self.inputs.count:
             self._hold(polynomial, size)
@@ -162,16 +163,18 @@ class Fmi2Slave(Slave):
         self._component = self._fmu.component
         self.interpolates = bool(self.model.capabilities.canInterpolateInputs)
         self._no_return = not self.model.restores  # whether it is promised that no state before a step comes back
-        self._order = 0  # up to which derivatives of the inputs have been set
+        self._order = 0  # of the buffers for derivatives of the inputs
 
     def _hold(self, polynomial: NDArray[np.float64], size: float) -> None:
         super()._hold(polynomial, size)
         order = len(polynomial) - 1
-        if self.interpolates and max(order, self._order):
-            self._set_derivatives(max(order, self._order), polynomial)
+        if self.interpolates:
+            self.told_order = max(order, self.told_order)
+            if self.told_order:
+                self._set_derivatives(self.told_order, polynomial)
 
     def _set_derivatives(self, order: int, polynomial: NDArray[np.float64]) -> None:
-        """Set the derivatives up to an order at which they were set before: what is not set may stay."""
+        """Set the derivatives up to the order up to which they were ever set: what is not set may stay."""
         count = self.inputs.count * order
         if order > self._order:
             references = (fmi2ValueReference * count)(*(list(self.inputs.references) * order))

@@ -25,6 +25,7 @@ class Attempt(NamedTuple):
     errors: NDArray[np.float64] = np.zeros(0)  # of the coupled outputs
     gains: NDArray[np.float64] = np.zeros(0)  # what changed in them over what changed in the inputs of their FMU
     halves: Halves = Halves(0.0, 0.0)
+    event: bool = False  # an FMU has met one of its own before the last row
 
 
 @dataclass
@@ -62,27 +63,29 @@ class Stepper:
         coupled = self.coupled
         start = coupled.save()
         try:
-            before = self._indicators.values()
+            before = self._indicators.values() if start.time else self._indicators.at_start()
             attempt = self._attempt_to(self._proposed_end(limit), start)
-            event = self._first_change(before, attempt)
+            event = self._first_change(start.time, before, attempt)
             if event is not None:
-                attempt = self._to_event(attempt, before, event, start)
+                attempt = self._to_event(attempt, event, start)
         finally:
             coupled.release(start)
         self._accepted(attempt, event is not None)
         return attempt.rows
 
     @staticmethod
-    def _first_change(before: Values, attempt: Attempt) -> float | None:
-        """The time of the first row that has an event before it."""
-        for row, values in zip(attempt.rows, attempt.indicators, strict=True):
-            if changed(before, values):
-                return row[0]
+    def _first_change(time: float, values: Values, attempt: Attempt) -> tuple[float, Values, float] | None:
+        """The rows between which the first event lies: the time and the values of the one, the time of the other."""
+        for row, following in zip(attempt.rows, attempt.indicators, strict=True):
+            if changed(values, following):
+                return time, values, row[0]
+            time, values = row[0], following
         return None
 
-    def _to_event(self, attempt: Attempt, before: Values, behind: float, start: Point) -> Attempt:
-        """Go back, and to just behind the first event, which lies before the time `behind`."""
-        self._require_return(f"An event lies between {start.time:g} s and {self.coupled.time:g} s")
+    def _to_event(self, attempt: Attempt, between: tuple[float, Values, float], start: Point) -> Attempt:
+        """Go back, and to just behind the first event."""
+        low, before, behind = between
+        self._require_return(f"An event lies between {low:g} s and {behind:g} s")
 
         def to(end: float) -> Values:
             nonlocal attempt
@@ -92,7 +95,7 @@ class Stepper:
 
         if self.coupled.time != behind:
             to(behind)
-        reached = self._indicators.locate(to, start.time, before, self.coupled.time, self.min_step)
+        reached = self._indicators.locate(to, low, before, self.coupled.time, self.min_step)
         if self.coupled.time != reached:
             to(reached)
         return attempt
@@ -153,7 +156,7 @@ class Stepper:
         for _, _, (_, iterations, residual, *_) in attempt.rows:
             statistics.iterations += int(iterations)
             statistics.unconverged += residual > 1.0
-        if event or coupled.event():
+        if event or attempt.event or coupled.event():
             statistics.events += 1
             self.begin_anew()
         ended = [name for name, slave in coupled.slaves.items() if slave.terminated]

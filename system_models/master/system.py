@@ -262,6 +262,8 @@ class System:
             )
         effort, flow = pairs[0]
         a, b = effort.source, flow.source
+        if a.kind != "real" or b.kind != "real":
+            raise CouplingError(f"The bond of '{first}' and '{second}' is no power: both must be continuous Real.")
         if a.variable.unit is None or b.variable.unit is None:
             return Bond(effort, flow, 1.0)
         watt = unit_checks.power(a.variable, a.model.description, b.variable, b.model.description)
@@ -274,8 +276,8 @@ class System:
 
     def _check_derivatives(self) -> None:
         for (of, by), port in self.derivatives.items():
-            owners = {self.port(of).model.name, self.port(by).model.name, port.model.name}
-            if len(owners) > 1 or port.kind != "real":
+            three = [self.port(of), self.port(by), port]
+            if len({one.model.name for one in three}) > 1 or any(one.kind != "real" for one in three):
                 raise CouplingError(
                     f"'{port.name}' cannot be the derivative of '{of}' by '{by}': the three must be continuous Real "
                     "variables of one FMU."

@@ -1,4 +1,4 @@
-"""What a bond says, which events are found, when a schedule begins, and which loops a pass after a step cannot solve."""
+"""What a bond says, which events are found, when a schedule begins, which loops one pass after a step cannot solve."""
 
 import logging
 from pathlib import Path
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from models import build
 
-from system_models.master import System, simulate
+from system_models.master import CouplingError, System, simulate
 
 
 @pytest.fixture(scope="module")
@@ -70,3 +70,37 @@ def test_a_direct_loop_is_warned_of_unless_it_is_iterated(folder: Path, caplog: 
         simulate(system, 0.1, 0.1)
     (message,) = caplog.messages
     assert "a.u, b.u depend on one another without delay" in message
+
+
+@pytest.mark.parametrize("options", [{}, {"tolerance": 1e-3}, {"tolerance": 1e-3, "order": 1}])
+@pytest.mark.parametrize("step", [0.25, 0.3125, 0.5, 1.0])
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_a_crossing_is_found_wherever_the_steps_meet_zero(
+    folder: Path, step: float, sign: float, options: dict[str, float]
+) -> None:
+    motion = {"m.m": 1.0, "m.F0": 0.0, "m.x0": -sign, "m.v0": sign}
+    system = System({"m": build("point_mass", folder)}, parameters=motion, events=["m.x"])
+    result = simulate(system, 2.0, step, outputs=["m.x"], **options)
+    sides = result["m.x"].values > 0.0
+    assert result.attrs["events"] == 1
+    assert result["time"].values[np.flatnonzero(np.diff(sides)) + 1] == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_crossing_in_the_second_half_of_the_first_step_is_found(folder: Path) -> None:
+    motion = {"m.m": 1.0, "m.F0": -2.0, "m.x0": 0.0, "m.v0": 1.0}  # x = t - t^2
+    system = System({"m": build("point_mass", folder)}, parameters=motion, events=["m.x"])
+    assert simulate(system, 1.5, 1.5, tolerance=1e-3).attrs["events"] == 1
+
+
+def test_an_fmu_of_one_step_size_gets_no_other(folder: Path) -> None:
+    system = System({"y": build("nan", folder, start={"t_nan": 9.0})}, [], schedule={"y.u": [(0.0, 1.0), (0.37, 2.0)]})
+    system.models["y"].capabilities.canHandleVariableCommunicationStepSize = False
+    with pytest.raises(CouplingError, match=r"one size only .* 0\.37 s is no multiple of step_size = 0\.25 s"):
+        simulate(system, 1.0, 0.25)
+
+
+def test_a_bond_of_integers_is_refused(folder: Path) -> None:
+    fmus = dict.fromkeys("ab", build("echo", folder))
+    wires = [("a.integer_out", "b.integer_in"), ("b.integer_out", "a.integer_in")]
+    with pytest.raises(CouplingError, match="both must be continuous Real"):
+        System(fmus, wires, bonds=[("a.integer_out", "b.integer_out")])
