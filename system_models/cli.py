@@ -21,7 +21,7 @@ from contact_core.scene import Scene
 from fmu_src import command as fmu_command
 
 from . import cosim_command
-from .console import assignment, note, output_folder
+from .console import add_settings, note, output_folder
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -105,16 +105,7 @@ def _add_scene(command: argparse.ArgumentParser) -> None:
     command.add_argument("scene", metavar="SCENE", help="a shipped scene's name, or the path of a .toml file")
     command.add_argument("--out", metavar="DIR", help="folder of the results (default: results/SCENE)")
     command.add_argument("--grid", metavar="N", help="nodes along x and y, instead of film.points")
-    command.add_argument(
-        "--set",
-        dest="settings",
-        metavar="KEY=VALUE",
-        nargs="+",
-        action="extend",
-        default=[],
-        type=assignment,
-        help="change values of the scene, e.g. tribofilm.model=none surface_2.rq='50 nm'",
-    )
+    add_settings(command, "change values of the scene, e.g. tribofilm.model=none surface_2.rq='50 nm'")
 
 
 def _list(arguments: argparse.Namespace) -> int:

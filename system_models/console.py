@@ -13,7 +13,21 @@ def note(sentence: str) -> None:
     print(f"tribofmu: note: {sentence}", file=sys.stderr)
 
 
-def assignment(text: str) -> tuple[str, str]:
+def add_settings(command: argparse.ArgumentParser, text: str) -> None:
+    """The argument --set: pairs of key and value."""
+    command.add_argument(
+        "--set",
+        dest="settings",
+        metavar="KEY=VALUE",
+        nargs="+",
+        action="extend",
+        default=[],
+        type=_assignment,
+        help=text,
+    )
+
+
+def _assignment(text: str) -> tuple[str, str]:
     """KEY=VALUE of --set."""
     key, equals, value = text.partition("=")
     if not key or not equals:

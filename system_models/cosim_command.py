@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from contact_core.errors import ContactError, StateError
 
-from .console import assignment, note, output_folder
+from .console import add_settings, note, output_folder
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -21,15 +21,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What `run` wants to know."""
     parser.add_argument("system", metavar="SYSTEM.toml", type=Path, help="FMUs, their connections and how to simulate")
     parser.add_argument("--out", metavar="DIR", help="folder of the results (default: results/SYSTEM)")
-    parser.add_argument(
-        "--set",
-        dest="settings",
-        metavar="KEY=VALUE",
-        nargs="+",
-        action="extend",
-        default=[],
-        type=assignment,
-        help="change parameters and settings of the file, e.g. parameters.block.m=2 simulate.step_size='1 ms'",
+    add_settings(
+        parser, "change parameters and settings of the file, e.g. parameters.block.m=2 simulate.step_size='1 ms'"
     )
     instead = parser.add_mutually_exclusive_group()
     instead.add_argument(

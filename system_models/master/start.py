@@ -25,17 +25,6 @@ def started(
 ) -> dict[str, Slave]:
     """An instance of every FMU by name, freed when `exits` closes: left alone, one may crash its host at exit."""
     _check_alone(system)
-    with _ALONE:
-        return _started(system, inputs, outputs, early_return, exits)
-
-
-def _started(
-    system: System,
-    inputs: Mapping[str, list[Port]],
-    outputs: Mapping[str, list[Port]],
-    early_return: bool,
-    exits: ExitStack,
-) -> dict[str, Slave]:
     folders: dict[Path, str] = {}
     slaves: dict[str, Slave] = {}
     for name, model in system.models.items():
@@ -45,10 +34,11 @@ def _started(
             _check_folder(folders[path])
             fmpy.extract(str(path), folders[path])
         told, read = ([port.variable for port in ports[name]] for ports in (inputs, outputs))
-        if model.fmi3:
-            slave: Slave = Fmi3Slave(model, folders[path], told, read, early_return)
-        else:
-            slave = Fmi2Slave(model, folders[path], told, read)
+        with _ALONE:
+            if model.fmi3:
+                slave: Slave = Fmi3Slave(model, folders[path], told, read, early_return)
+            else:
+                slave = Fmi2Slave(model, folders[path], told, read)
         exits.callback(slave.free)
         slaves[name] = slave
     return slaves
