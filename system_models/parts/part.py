@@ -1,0 +1,72 @@
+"""What a component of a system is that is no contact: parameters, variables, and three pure functions.
+
+`fmu` wraps any of them as an FMU; none knows FMI, files or other components.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+from contact_core.quantities import Quantity, Role
+
+Values = Mapping[str, float]  # by name, SI
+State = tuple[float, ...]  # all that the next answer depends on beside parameters and inputs
+
+
+@dataclass(frozen=True)
+class Input(Quantity):
+    """An input of a component; `start` is its value where nothing sets it."""
+
+    role: Role = "input"
+    start: float = 0.0
+
+
+@dataclass(frozen=True)
+class Output(Quantity):
+    """An output of a component; `direct` names the inputs on which it depends without delay."""
+
+    direct: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Part(ABC):
+    """A component: a frozen dataclass of numbers declared by `quantities.parameter`, which become the FMU's parameters.
+
+    Fields that are whole numbers, records or tuples of records decide which variables it has and are fixed when the
+    FMU is built. `check` raises SceneError, `initial`, `advance` and `outputs` ContactError with a sentence that names
+    the variable, its value, what is allowed and the way out.
+    """
+
+    name: ClassVar[str]  # of the FMU's model, such as "Shaft"
+    text: ClassVar[str]  # one line for its description
+
+    @property
+    @abstractmethod
+    def inputs(self) -> tuple[Input, ...]:
+        """Inputs in order."""
+
+    @property
+    @abstractmethod
+    def responses(self) -> tuple[Output, ...]:
+        """Outputs in order."""
+
+    def check(self) -> None:
+        """Raise SceneError if parameters do not go together; the range of each is checked by the caller."""
+
+    @abstractmethod
+    def initial(self, inputs: Values) -> State:
+        """The state at the start, for the inputs then."""
+
+    @abstractmethod
+    def advance(self, state: State, inputs: Values, step: float) -> State:
+        """The state after `step` [s] > 0 under held inputs; `state` is left as it is."""
+
+    @abstractmethod
+    def outputs(self, state: State, inputs: Values) -> dict[str, float]:
+        """Value of each of `responses`; those without `direct` do not look at `inputs`."""
+
+
+def indexed(name: str, number: int) -> str:
+    """Name of one of several alike, counted from 1: `load[3]`."""
+    return f"{name}[{number}]"
