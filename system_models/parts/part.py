@@ -51,7 +51,7 @@ class Part(ABC):
     def responses(self) -> tuple[Output, ...]:
         """Outputs in order."""
 
-    def check(self) -> None:
+    def check(self) -> None:  # noqa: B027 (few have anything to check)
         """Raise SceneError if parameters do not go together; the range of each is checked by the caller."""
 
     @abstractmethod
