@@ -5,6 +5,7 @@ import json
 import logging
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from contact_core.errors import ContactError, StateError
@@ -71,7 +72,10 @@ def carry_out(
     go_on = resume and checkpoint is not None and checkpoint.exists()
     if resume and not go_on and (code := _finished(folder, origin)) is not None:
         return code
+    begin = monotonic()
     dataset = _simulated(system, settings, name, checkpoint, go_on)
+    if not go_on:
+        dataset.attrs["wall_seconds"] = monotonic() - begin
     code = report(dataset.assign_attrs(origin), folder)
     _remove_checkpoint(folder)
     return code

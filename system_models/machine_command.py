@@ -1,7 +1,6 @@
 """What `tribofmu run` does with a machine: builds its FMUs, simulates and reports. Light to import."""
 
 import argparse
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -83,11 +82,3 @@ def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str
     if uncovered:
         note(f"The fast level's errors do not cover its deviation in {uncovered} of {len(states)} states: see 'NO'.")
     return 1 if cosim_report.missed_steps(dataset) or machine_report.invalid_rows(assembly, dataset) else 0
-
-
-def memoryless(assembly: "Assembly") -> "Assembly":
-    """The same machine with contacts that never change: no tribofilm, no wear."""
-    from .machines import without_memory
-
-    contacts = {name: without_memory(contact) for name, contact in assembly.contacts.items()}
-    return replace(assembly, name=f"{assembly.name}_memoryless", contacts=contacts)
