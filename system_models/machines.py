@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 
 from contact_core.errors import SceneError
 from contact_core.quantities import out_of_range
-from contact_core.reading import build, did_you_mean, override
+from contact_core.reading import build, did_you_mean, flat, override
 from contact_core.scene import Scene
 
 from .assembly import Assembly
@@ -106,14 +106,7 @@ def scene_of(table: Mapping[str, Any]) -> Scene:
     if "scene" not in values:
         raise SceneError("contact.scene is missing. It names a shipped scene, or the path of one.")
     base = str(values.pop("scene"))
-    return Scene.from_toml(base, {key: str(value) for key, value in _flat(values).items()})
-
-
-def _flat(table: Mapping[str, Any], path: str = "") -> dict[str, Any]:
-    found: dict[str, Any] = {}
-    for key, value in table.items():
-        found |= _flat(value, f"{path}{key}.") if isinstance(value, Mapping) else {f"{path}{key}": value}
-    return found
+    return Scene.from_toml(base, {key: str(value) for key, value in flat(values).items()})
 
 
 def check_keys(machine: Machine, *known: str) -> None:
