@@ -19,6 +19,7 @@ from .parts.build import build as build_part
 from .parts.part import Part
 
 Value = float | int | bool | str
+Schedule = dict[str, list[tuple[float, Value]]]  # by "part.variable": times [s] and values
 
 TOLD = (  # outputs of a contact that a result keeps
     "friction_force",
@@ -72,7 +73,7 @@ class Assembly:
     contacts: Mapping[str, Contact]
     connections: tuple[tuple[Any, ...], ...]
     parameters: Mapping[str, Value]
-    schedule: Mapping[str, list[tuple[float, Value]]]
+    schedule: Schedule
     settings: Mapping[str, Any]
 
     def outputs(self) -> list[str]:

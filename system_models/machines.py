@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 
 from contact_core.errors import SceneError
 from contact_core.quantities import LEVELS, out_of_range
-from contact_core.reading import build, did_you_mean, override
+from contact_core.reading import build, did_you_mean, flat, override
 from contact_core.scene import Scene
 
 from .assembly import Assembly, Contact
@@ -108,14 +108,7 @@ def scene_of(table: Mapping[str, Any]) -> Scene:
     if "scene" not in values:
         raise SceneError("contact.scene is missing. It names a shipped scene, or the path of one.")
     base = str(values.pop("scene"))
-    return Scene.from_toml(base, {key: str(value) for key, value in _flat(values).items()})
-
-
-def _flat(table: Mapping[str, Any], path: str = "") -> dict[str, Any]:
-    found: dict[str, Any] = {}
-    for key, item in table.items():
-        found |= _flat(item, f"{path}{key}.") if isinstance(item, Mapping) else {f"{path}{key}": item}
-    return found
+    return Scene.from_toml(base, {key: str(item) for key, item in flat(values).items()})
 
 
 def at_levels(contacts: Mapping[str, Contact], table: Mapping[str, Any]) -> dict[str, Contact]:
