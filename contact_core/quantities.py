@@ -5,8 +5,8 @@ averaging and direction are stated here, once. `parameter` does the same for the
 """
 
 import math
-from collections.abc import Iterator
-from dataclasses import Field, dataclass, field, fields, is_dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import Field, dataclass, field, fields, is_dataclass, replace
 from typing import Any, Literal
 
 Role = Literal["input", "output", "diagnostic"]
@@ -164,6 +164,28 @@ def out_of_range(record: Any, path: str) -> Iterator[str]:
             yield from _number_sentence(name, value, f)
         elif f.metadata.get("choices") and value not in f.metadata["choices"]:
             yield f"{name} = {value!r} is not one of {', '.join(f.metadata['choices'])}."
+
+
+def numbers(record: Any, path: str = "") -> Iterator[tuple[str, float | int, "Field[Any]"]]:
+    """Every number of a dataclass and of those in it that changes no array's shape: dotted name, value and field."""
+    for f in fields(record):
+        value, name = getattr(record, f.name), f"{path}.{f.name}" if path else f.name
+        if is_dataclass(value):
+            yield from numbers(value, name)
+        elif isinstance(value, (int, float)) and not f.metadata["shapes_arrays"]:
+            yield name, value, f
+
+
+def with_numbers(record: Any, values: Mapping[str, float | int], path: str = "") -> Any:
+    """The dataclass with some of its `numbers` changed, unchecked."""
+    changes = {}
+    for f in fields(record):
+        value, name = getattr(record, f.name), f"{path}.{f.name}" if path else f.name
+        if is_dataclass(value):
+            changes[f.name] = with_numbers(value, values, name)
+        elif name in values:
+            changes[f.name] = values[name]
+    return replace(record, **changes)
 
 
 def _number_sentence(name: str, value: float, f: "Field[Any]") -> Iterator[str]:

@@ -5,7 +5,7 @@ import json
 import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import Field, dataclass, field, fields, is_dataclass, replace
+from dataclasses import Field, dataclass, field, fields, replace
 from functools import cached_property, lru_cache
 from itertools import pairwise
 from pathlib import Path
@@ -23,7 +23,7 @@ from .laws.supply import Flooded, Meniscus, SupplyFilm
 from .laws.tribofilm import Andersson, Combined, Ghanbarzadeh, Gosvami, NoTribofilm, ZhangSpikes
 from .laws.viscosity import AstmD341, Barus, Modulus, Roelands
 from .laws.wear import Archard, NoWear
-from .quantities import TABLE, input_parameter, out_of_range, parameter
+from .quantities import TABLE, input_parameter, numbers, out_of_range, parameter, with_numbers
 from .reading import build, did_you_mean, models_of, override, read_table, unbuild
 from .reference import Hertz
 from .shapes import Shape
@@ -591,17 +591,7 @@ def tunables(scene: Scene) -> dict[str, tuple[float | int, "Field[Any]"]]:
     """Every number of the scene that changes no array's shape and is no input, by dotted name: (value, dataclass
     field).
     """
-    found: dict[str, tuple[float | int, Field[Any]]] = {}
-
-    def visit(record: Any, path: str) -> None:
-        for f in fields(record):
-            value, name = getattr(record, f.name), f"{path}.{f.name}" if path else f.name
-            if is_dataclass(value):
-                visit(value, name)
-            elif isinstance(value, (int, float)) and not f.metadata["shapes_arrays"] and name not in _INPUTS_ANYWAY:
-                found[name] = (value, f)
-
-    for part in (
+    parts = (
         "geometry",
         "solids",
         "surface_1",
@@ -614,9 +604,13 @@ def tunables(scene: Scene) -> dict[str, tuple[float | int, "Field[Any]"]]:
         "wear",
         "film",
         "control",
-    ):
-        visit(getattr(scene, part), part)
-    return found
+    )
+    return {
+        name: (value, f)
+        for part in parts
+        for name, value, f in numbers(getattr(scene, part), part)
+        if name not in _INPUTS_ANYWAY
+    }
 
 
 def with_values(scene: Scene, values: Mapping[str, float | int]) -> Scene:
@@ -626,17 +620,7 @@ def with_values(scene: Scene, values: Mapping[str, float | int]) -> Scene:
         if name not in known:
             raise SceneError(f"'{name}' is not a number that can be changed in a scene.{did_you_mean(name, known)}")
 
-    def rebuild(record: Any, path: str) -> Any:
-        changes = {}
-        for f in fields(record):
-            name = f"{path}.{f.name}" if path else f.name
-            if is_dataclass(getattr(record, f.name)):
-                changes[f.name] = rebuild(getattr(record, f.name), name)
-            elif name in values:
-                changes[f.name] = values[name]
-        return replace(record, **changes)
-
-    changed: Scene = rebuild(scene, "")
+    changed: Scene = with_numbers(scene, values)
     errors = changed.check()
     if errors:
         raise SceneError(" ".join(sentence for _, sentence in errors))

@@ -10,7 +10,7 @@
     packages    what the FMU needs from outside, and licences
     icon        model.png
     resources   what lies in the FMU for the slave: scene, versions, the script that makes the slave
-    slave       the guarded slave: callbacks in, contact_core.advance out; no physics
+    guarded     a slave that raises nothing to its host; slave: the contact's, callbacks in, contact_core.advance out
     snapshot    the FMU's state as a frozen record and as bytes
 
 Embedded, pythonfmu's binary runs the slave inside its host:

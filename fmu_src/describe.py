@@ -1,7 +1,8 @@
 """modelDescription.xml of a scene's FMU: variables, units, structure and capabilities."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
 import pythonfmu
@@ -12,8 +13,8 @@ from contact_core.film import Deterministic
 from contact_core.scene import Scene
 
 from .flavours import Flavour
+from .guarded import LOG_CATEGORIES
 from .resources import MODEL, guid
-from .slave import LOG_CATEGORIES
 from .variables import Value, Variable, variables
 
 _CAPABILITIES = {
@@ -26,16 +27,33 @@ _CAPABILITIES = {
 }
 
 
+@dataclass(frozen=True)
+class Model:
+    """What a model description says beside variables."""
+
+    name: str
+    guid: str
+    text: str
+    experiment: Mapping[str, float]  # startTime, stopTime, stepSize, tolerance
+
+
 def model_description(scene: Scene, flavour: Flavour) -> bytes:
-    """The XML document; the same scene and versions give the same bytes."""
-    table = variables(scene)
+    """The XML document of a contact's FMU; the same scene and versions give the same bytes."""
+    experiment = {"startTime": 0.0, "stopTime": scene.operation.duration, "stepSize": scene.operation.interval}
+    if isinstance(scene.film, Deterministic):
+        experiment["tolerance"] = scene.film.tolerance
+    return xml(Model(MODEL, guid(scene, flavour), scene.description, experiment), variables(scene), flavour)
+
+
+def xml(model: Model, table: Sequence[Variable], flavour: Flavour) -> bytes:
+    """modelDescription.xml of a model with these variables, in order of their value references."""
     root = ET.Element(
         "fmiModelDescription",
         {
             "fmiVersion": "2.0",
-            "modelName": MODEL,
-            "guid": guid(scene, flavour),
-            "description": scene.description,
+            "modelName": model.name,
+            "guid": model.guid,
+            "description": model.text,
             "version": contact_core.__version__,
             "generationTool": f"tribofmu {contact_core.__version__} with pythonfmu {pythonfmu.__version__}",
             "variableNamingConvention": "structured",
@@ -45,7 +63,7 @@ def model_description(scene: Scene, flavour: Flavour) -> bytes:
         root,
         "CoSimulation",
         {
-            "modelIdentifier": MODEL,
+            "modelIdentifier": model.name,
             # An isolated FMU brings all that a host calls, and starts what it needs itself, as it would load a shared
             # library. An embedded one can only be run by a host that is Python.
             "needsExecutionTool": _text(flavour == "embedded"),
@@ -56,10 +74,7 @@ def model_description(scene: Scene, flavour: Flavour) -> bytes:
     categories = ET.SubElement(root, "LogCategories")
     for name, text in LOG_CATEGORIES.items():
         ET.SubElement(categories, "Category", {"name": name, "description": text})
-    experiment = {"startTime": 0.0, "stopTime": scene.operation.duration, "stepSize": scene.operation.interval}
-    if isinstance(scene.film, Deterministic):
-        experiment["tolerance"] = scene.film.tolerance
-    ET.SubElement(root, "DefaultExperiment", {name: _text(value) for name, value in experiment.items()})
+    ET.SubElement(root, "DefaultExperiment", {name: _text(value) for name, value in model.experiment.items()})
     listed = ET.SubElement(root, "ModelVariables")
     for reference, variable in enumerate(table):
         listed.append(_scalar_variable(reference, variable))
@@ -130,14 +145,19 @@ def _scalar_variable(reference: int, variable: Variable) -> ET.Element:
     return element
 
 
-def _structure(root: ET.Element, table: tuple[Variable, ...]) -> None:
-    """Between steps an output depends on the state alone; at the start, on every input and parameter."""
-    outputs = [i for i, v in enumerate(table, 1) if v.causality == "output"]
-    knowns = [str(i) for i, v in enumerate(table, 1) if v.causality != "output"]
-    at_start = {"dependencies": " ".join(knowns), "dependenciesKind": " ".join(["dependent"] * len(knowns))}
+def _structure(root: ET.Element, table: Sequence[Variable]) -> None:
+    """Between steps an output depends on the state and what it says; at the start, on every input and parameter."""
+    index = {v.name: i for i, v in enumerate(table, 1)}
+    outputs = [v for v in table if v.causality == "output"]
+    knowns = [index[v.name] for v in table if v.causality != "output"]
     structure = ET.SubElement(root, "ModelStructure")
-    between_steps = {"dependencies": "", "dependenciesKind": ""}
-    for name, depends in (("Outputs", between_steps), ("InitialUnknowns", at_start)):
+    for name in ("Outputs", "InitialUnknowns"):
         listed = ET.SubElement(structure, name)
-        for index in outputs:
-            ET.SubElement(listed, "Unknown", {"index": str(index), **depends})
+        for v in outputs:
+            depends = sorted(index[known] for known in v.direct) if name == "Outputs" else knowns
+            ET.SubElement(listed, "Unknown", {"index": str(index[v.name]), **_dependencies(depends)})
+
+
+def _dependencies(indices: Iterable[int]) -> dict[str, str]:
+    known = list(map(str, indices))
+    return {"dependencies": " ".join(known), "dependenciesKind": " ".join(["dependent"] * len(known))}

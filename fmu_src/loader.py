@@ -8,25 +8,23 @@ import os
 import sys
 from pathlib import Path
 
-from .resources import MODEL
 
-
-def tidy(folder: str) -> None:
-    """Undo the side effects of one instantiation of the FMU whose resources lie in `folder`."""
+def tidy(folder: str, model: str) -> None:
+    """Undo the side effects of one instantiation of the FMU of `model` whose resources lie in `folder`."""
     with contextlib.suppress(ValueError):  # the binary puts it there at each instantiation and leaves it
         sys.path.remove(folder)
-    _release_at_exit(folder)
+    _release_at_exit(folder, model)
 
 
 @functools.cache
-def _release_at_exit(folder: str) -> None:
+def _release_at_exit(folder: str, model: str) -> None:
     """Let the binary of pythonfmu 0.7 give up its interpreter before the process ends.
 
     On Linux it does so twice otherwise, in a static destructor and again when it is unloaded, if the C++ runtime
     has pinned it until then: a use after free that now and then aborts a Python host at its exit.
     """
     if sys.platform == "linux":
-        atexit.register(_release, Path(folder).parent / "binaries" / "linux64" / f"{MODEL}.so")
+        atexit.register(_release, Path(folder).parent / "binaries" / "linux64" / f"{model}.so")
 
 
 def _release(library: Path) -> None:

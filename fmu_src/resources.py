@@ -25,21 +25,27 @@ MODEL = "MixedContact"
 VERSIONS = {"contact_core": contact_core.__version__, "pythonfmu": pythonfmu.__version__}
 
 # The loader runs the file twice and takes the deepest subclass of Fmi2Slave among its names: let it be one.
-_SCRIPT = f'''"""The slave that the FMU's library loads."""
+_SCRIPT = '''"""The slave that the FMU's library loads."""
 
-from fmu_src import slave
+from {package} import {module}
 
 # Each instantiation, pythonfmu 0.7 drops one reference too many to this module's names: hand it one to drop.
 globals().setdefault("_references", []).append(globals())
 
 
-if "{MODEL}" in globals():
-    {MODEL} = globals()["{MODEL}"]  # one class for all instances: none is ever given back
+if "{model}" in globals():
+    {model} = globals()["{model}"]  # one class for all instances: none is ever given back
 else:
 
-    class {MODEL}(slave.ContactSlave):
-        """The contact of scene.json."""
+    class {model}({module}.{name}):
+        """{text}"""
 '''
+
+
+def script(model: str, slave: str, text: str) -> bytes:
+    """The script that makes the slave: the class `model`, of the class `slave` given as package.module.Class."""
+    package, module, name = slave.rsplit(".", 2)
+    return _SCRIPT.format(model=model, package=package, module=module, name=name, text=text).encode()
 
 
 def guid(scene: Scene, flavour: Flavour) -> str:
@@ -63,7 +69,7 @@ def files(scene: Scene, flavour: Flavour, python: str | None) -> dict[str, bytes
         "scene.json": (json.dumps(scene.to_dict(), indent=1) + "\n").encode(),
         "versions.json": (json.dumps(VERSIONS, indent=1) + "\n").encode(),
         "slavemodule.txt": module.encode(),
-        f"{module}.py": _SCRIPT.encode(),
+        f"{module}.py": script(MODEL, "fmu_src.slave.ContactSlave", "The contact of scene.json."),
     }
     if flavour == "isolated":
         found["start.py"] = (package_files("fmu_src") / "native" / "start.py").read_bytes()

@@ -33,6 +33,7 @@ class Variable:
     maximum: float = math.inf
     relative: bool = False
     levels: tuple[str, ...] = LEVELS  # that fill an output
+    direct: tuple[str, ...] = ()  # inputs on which an output depends without delay
 
     @property
     def variability(self) -> Variability:
@@ -49,8 +50,8 @@ def variables(scene: Scene) -> tuple[Variable, ...]:
     """
     lacks = scene.geometry.lacks
     return (
-        *(_quantity(q, "input", _start(scene, q.name)) for q in INPUTS if q.name not in lacks),
-        *(_parameter(name, value, field) for name, (value, field) in tunables(scene).items()),
+        *(of_quantity(q, "input", _start(scene, q.name)) for q in INPUTS if q.name not in lacks),
+        *(of_number(name, value, field) for name, (value, field) in tunables(scene).items()),
         Variable(
             FIDELITY,
             "film model from the next step on: 1 regression (means), 2 deterministic (fields)",
@@ -76,7 +77,11 @@ def variables(scene: Scene) -> tuple[Variable, ...]:
             "parameter",
             "",
         ),
-        *(_quantity(q, "output", ZERO[q.kind]) for q in OUTPUTS if scene.film.name in q.levels and q.name not in lacks),
+        *(
+            of_quantity(q, "output", ZERO[q.kind])
+            for q in OUTPUTS
+            if scene.film.name in q.levels and q.name not in lacks
+        ),
     )
 
 
@@ -91,7 +96,8 @@ def _start(scene: Scene, name: str) -> float:
     return float(scene.operation.temperature if value is None else value)
 
 
-def _quantity(q: Quantity, causality: Causality, start: Value) -> Variable:
+def of_quantity(q: Quantity, causality: Causality, start: Value, direct: tuple[str, ...] = ()) -> Variable:
+    """The variable of an input or output."""
     return Variable(
         q.name,
         q.text,
@@ -105,11 +111,14 @@ def _quantity(q: Quantity, causality: Causality, start: Value) -> Variable:
         maximum=q.maximum,
         relative=q.relative,
         levels=q.levels,
+        direct=direct,
     )
 
 
-def _parameter(name: str, value: float | int, field: "Field[Any]") -> Variable:
-    """A number of the scene. FMI knows closed ranges only: the bound of `above` is in, refused when used."""
+def of_number(name: str, value: float | int, field: "Field[Any]") -> Variable:
+    """The parameter for a number of a scene or component. FMI knows closed ranges only: the bound of `above` is in,
+    refused when used.
+    """
     above, least, most = (field.metadata[key] for key in ("above", "least", "most"))
     low = above if above is not None else least if least is not None else -math.inf
     kind: Kind = "Integer" if isinstance(value, int) else "Real"

@@ -1,0 +1,112 @@
+"""A machine as a co-simulation: its contacts and components, what flows between them, and what is asked of it.
+
+Who gives what to whom is the matter of `ball_on_disc`, `ball_bearing` and `gear_pair`; this builds the FMUs.
+"""
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from contact_core.scene import Scene
+from fmu_src.build import build as build_contact
+from fmu_src.flavours import Flavour
+
+from .master import System
+from .parts.build import build as build_part
+from .parts.part import Part
+
+Value = float | int | bool | str
+
+TOLD = (  # outputs of a contact that a result keeps
+    "friction_force",
+    "friction_coefficient",
+    "rolling_resistance",
+    "power_loss",
+    "wear_rate_1",
+    "wear_rate_2",
+    "wear_volume_1",
+    "wear_volume_2",
+    "wear_depth_1",
+    "wear_depth_2",
+    "h_c",
+    "lambda_ratio",
+    "tribofilm_1",
+    "tribofilm_2",
+    "roughness_1",
+    "roughness_2",
+    "contact_load_ratio",
+    "flash_temperature_rise",
+    "load_cycles_1",
+    "load_cycles_2",
+    "valid",
+    "fidelity_used",
+    "range_flags",
+    "error_friction",
+    "error_film",
+    "error_wear",
+)
+
+
+@dataclass(frozen=True)
+class Contact:
+    """One contact of a machine: a scene, and what its FMU is told beside the inputs that are connected."""
+
+    scene: Scene
+    parameters: Mapping[str, Value] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """Everything that decides a simulation of a machine.
+
+    parts and contacts by name; connections as `master.System` takes them; parameters and schedule of parts by
+    "part.variable"; settings are the arguments of `master.simulate`.
+    """
+
+    name: str
+    description: str
+    parts: Mapping[str, Part]
+    contacts: Mapping[str, Contact]
+    connections: tuple[tuple[Any, ...], ...]
+    parameters: Mapping[str, Value]
+    schedule: Mapping[str, list[tuple[float, Value]]]
+    settings: Mapping[str, Any]
+
+    def outputs(self) -> list[str]:
+        """What a result keeps: all that the parts tell, and of the contacts `TOLD`."""
+        told = [f"{name}.{q.name}" for name, part in self.parts.items() for q in part.responses]
+        valid = [f"{name}.valid" for name in self.parts]
+        lacks = {name: contact.scene.geometry.lacks for name, contact in self.contacts.items()}
+        return [*told, *valid, *(f"{name}.{key}" for name in self.contacts for key in TOLD if key not in lacks[name])]
+
+    def system(self, folder: Path, flavour: Flavour = "embedded") -> System:
+        """Build the FMUs into a folder and couple them; contacts of one scene share a file.
+
+        `flavour` is that of the contacts. Raises ContactError for what does not go together.
+        """
+        files = {name: self._part_file(folder, name, part) for name, part in self.parts.items()}
+        scenes: dict[str, Path] = {}
+        for name, contact in self.contacts.items():
+            key = json.dumps(contact.scene.to_dict(), sort_keys=True)
+            if key not in scenes:
+                short = hashlib.sha256(key.encode()).hexdigest()[:8]
+                scenes[key] = build_contact(contact.scene, folder / f"contact_{short}.fmu", flavour)
+            files[name] = scenes[key]
+        told = {f"{name}.{key}": value for name, c in self.contacts.items() for key, value in c.parameters.items()}
+        return System(files, self.connections, {**self.parameters, **told}, self.schedule)
+
+    def _part_file(self, folder: Path, name: str, part: Part) -> Path:
+        duration, step = self.settings["stop_time"], self.settings["step_size"]
+        return build_part(part, folder / f"{name}.fmu", duration, step)
+
+    def inputs_of(self, contact: str) -> dict[str, tuple[str, float]]:
+        """Which recorded output, times which factor, sets each connected input of a contact."""
+        found = {}
+        for source, target, *factor in self.connections:
+            owner, _, variable = target.partition(".")
+            if owner == contact:
+                found[variable] = (source, float(factor[0]) if factor else 1.0)
+        return found

@@ -1,0 +1,81 @@
+"""What lies in a component's FMU for its slave: `part.json` and the script that makes it."""
+
+import functools
+import hashlib
+import importlib
+import json
+import uuid
+from pathlib import Path
+from typing import Any
+
+import contact_core
+from contact_core.errors import SceneError
+from contact_core.quantities import out_of_range
+from contact_core.reading import build, unbuild
+from fmu_src.resources import script
+
+from .part import Part
+
+_HOME = "system_models."  # what an FMU's resources may name lies in this package
+
+
+def files(part: Part) -> dict[str, bytes]:
+    """Name and content of every file in `resources/`."""
+    module = _module(part)
+    return {
+        "part.json": (json.dumps(_table(part), indent=1) + "\n").encode(),
+        "slavemodule.txt": module.encode(),
+        f"{module}.py": script(part.name, "system_models.parts.slave.PartSlave", "The component of part.json."),
+    }
+
+
+def guid(part: Part) -> str:
+    """The FMU's identity as a UUID, from part and version."""
+    return str(uuid.uuid5(uuid.UUID(hex=_fingerprint(part)[:32]), part.name))
+
+
+def check(part: Part) -> None:
+    """Raise SceneError if a number is out of its range, or some do not go together."""
+    for sentence in out_of_range(part, ""):
+        raise SceneError(sentence)
+    part.check()
+
+
+@functools.lru_cache(maxsize=256)
+def read(folder: str, module: str) -> Part:
+    """The component in an FMU's resources, for the script `module`. Raises SceneError if it cannot be used."""
+    try:
+        table = json.loads(Path(folder, "part.json").read_text("utf-8"))
+        version, home, name, values = (table[key] for key in ("version", "module", "class", "values"))
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise SceneError(f"The resources of the FMU in {folder} cannot be read ({error}). Build it again.") from None
+    if version != contact_core.__version__:
+        raise SceneError(
+            f"The FMU was built with tribofmu {version}, but {contact_core.__version__} is installed. Build it again."
+        )
+    if not str(home).startswith(_HOME):
+        raise SceneError(f"The FMU's component lies in '{home}', not in this package. Build it again.")
+    part: Part = build(getattr(importlib.import_module(home), name), values, "")
+    if _module(part) != module:
+        raise SceneError(f"The component of the FMU in {folder} was changed after building. Build it again.")
+    return part
+
+
+def _table(part: Part) -> dict[str, Any]:
+    kind = type(part)
+    values = unbuild(part)
+    return {
+        "version": contact_core.__version__,
+        "module": kind.__module__,
+        "class": kind.__name__,
+        "values": values,
+    }
+
+
+def _module(part: Part) -> str:
+    """Name of the script, unique to part and version."""
+    return f"{part.name.lower()}_{_fingerprint(part)[:16]}"
+
+
+def _fingerprint(part: Part) -> str:
+    return hashlib.sha256(json.dumps(_table(part), sort_keys=True).encode()).hexdigest()

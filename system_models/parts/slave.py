@@ -1,0 +1,150 @@
+"""The slave of a component's FMU: callbacks in, the three functions of a `Part` out; guarded, no physics."""
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from pythonfmu.enums import Fmi2Status
+
+from contact_core.errors import ContactError, StateError
+from contact_core.quantities import with_numbers
+from fmu_src.guarded import GuardedSlave
+from fmu_src.snapshot import Phase
+from fmu_src.variables import Value, Variable
+
+from . import resources
+from .part import Part, State
+from .variables import variables
+
+_MAGIC = "tribofmu part 1"
+
+
+@dataclass(frozen=True, eq=False)
+class Snapshot:
+    """All that the next answer depends on. It is never changed, so it needs no copy."""
+
+    module: str  # fingerprint of the FMU it belongs to
+    phase: Phase
+    stale: bool  # outputs older than the inputs they depend on
+    values: tuple[Value, ...]  # by value reference
+    part: Part | None  # with the parameters of `values`
+    state: State | None
+
+    @cached_property
+    def data(self) -> bytes:
+        """As JSON, which gives every number back bit for bit."""
+        held = [_MAGIC, self.module, self.phase, self.stale, self.values, self.state]
+        return json.dumps(held).encode()
+
+
+class PartSlave(GuardedSlave):
+    """One component and its state."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._responses = [(v.name, vr) for vr, v in enumerate(self._variables) if v.causality == "output"][:-1]
+        self._direct = {name for v in self._variables for name in v.direct}
+        self._part: Part | None = None
+        self._state: State | None = None
+        self._stale = False
+
+    def _read(self) -> Sequence[Variable]:
+        self._design = resources.read(self.resources, self._module)
+        return variables(self._design)
+
+    def _initialise(self) -> None:
+        self._part = self._state = None
+        part = self._rebuilt(self.values)
+        state = part.initial(self._checked_inputs())
+        self._part, self._state = part, state
+        self._evaluate()
+
+    def _rebuilt(self, values: Sequence[Value]) -> Part:
+        part: Part = with_numbers(self._design, self._parameters(values))
+        resources.check(part)
+        return part
+
+    def _advance(self, step_size: float) -> None:
+        if self._part is None or self._state is None:
+            raise ContactError("The component is not set up: its initialisation has failed. Correct what was logged.")
+        before = self._state
+        if step_size > 0.0:
+            self._state = self._part.advance(before, self._checked_inputs(), step_size)
+        try:
+            self._evaluate()
+        except ContactError:
+            self._state = before
+            raise
+
+    def _evaluate(self) -> None:
+        """The outputs of the state, for the inputs as they are."""
+        assert self._part is not None
+        assert self._state is not None
+        self._stale = False
+        found = self._part.outputs(self._state, self._checked_inputs())
+        results = [float(found[name]) for name, _ in self._responses]
+        if not math.isfinite(math.fsum(results)):
+            broken = [name for name, value in found.items() if not math.isfinite(value)]
+            raise ContactError(f"No finite {', '.join(broken)} came out. Change the inputs, or go back in time.")
+        for (_, reference), value in zip(self._responses, results, strict=True):
+            self.values[reference] = value
+        self.values[self._references["valid"]] = True
+
+    def _checked_inputs(self) -> dict[str, float]:
+        inputs: dict[str, Any] = {name: self.values[reference] for name, reference in self._inputs}
+        for name, value in inputs.items():
+            if not math.isfinite(value):
+                raise ContactError(f"{name} = {value} must be a finite number.")
+        return inputs
+
+    def _store(self, reference: int, value: Value, kind: Any) -> None:
+        super()._store(reference, value, kind)
+        if self.phase is Phase.STEPPING and self._variables[reference].name in self._direct:
+            self._stale = True
+
+    def _get(self, references: list[int], kind: Any) -> list[Any]:
+        if self._stale and self.phase is Phase.STEPPING and self._part is not None:
+            self._guard(self._evaluate)
+        return super()._get(references, kind)
+
+    # state: a handle is a Snapshot, or its bytes until they are set (the binary decodes without the instance)
+
+    def _get_fmu_state(self) -> Snapshot:
+        return Snapshot(self._module, self.phase, self._stale, tuple(self.values), self._part, self._state)
+
+    def _set_fmu_state(self, handle: Snapshot | bytes) -> None:
+        self._guard(self._restore, handle)
+
+    def _restore(self, handle: Snapshot | bytes) -> None:
+        try:
+            found = self._parsed(handle) if isinstance(handle, bytes) else handle
+            if found.module != self._module:
+                raise StateError("The FMU state belongs to another FMU. Use one that this component has given.")
+        except ContactError as error:
+            self._refuse(str(error), Fmi2Status.error, "logValidity")
+            return
+        self.values[:] = found.values
+        self.phase, self._stale, self._part, self._state = found.phase, found.stale, found.part, found.state
+        self._interrupted = False
+
+    def _parsed(self, data: bytes) -> Snapshot:
+        try:
+            magic, module, phase, stale, values, state = json.loads(data)
+            found = Snapshot(module, Phase(phase), bool(stale), tuple(values), None, state and tuple(state))
+        except (ValueError, TypeError):
+            magic = ""
+        if magic != _MAGIC or [*map(type, found.values)] != [type(v.start) for v in self._variables]:
+            raise StateError("The stored state is none of this component, or damaged. Use one that it has serialised.")
+        part = None if state is None else self._rebuilt(found.values)
+        return Snapshot(found.module, found.phase, found.stale, found.values, part, found.state)
+
+    @staticmethod
+    def _fmu_state_to_bytes(handle: Snapshot | bytes) -> bytes:
+        return handle if isinstance(handle, bytes) else handle.data
+
+    @staticmethod
+    def _fmu_state_from_bytes(data: bytes) -> bytes:
+        return data

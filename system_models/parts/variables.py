@@ -1,0 +1,16 @@
+"""The variables of a component's FMU, in order of their value references: inputs, parameters, outputs, `valid`."""
+
+from contact_core.quantities import TABLE, numbers
+from fmu_src.variables import Variable, of_number, of_quantity
+
+from .part import Part
+
+
+def variables(part: Part) -> tuple[Variable, ...]:
+    """Index + 1 is the index of the model description."""
+    return (
+        *(of_quantity(q, "input", q.start) for q in part.inputs),
+        *(of_number(name, value, field) for name, value, field in numbers(part) if isinstance(value, float)),
+        *(of_quantity(q, "output", 0.0, q.direct) for q in part.responses),
+        of_quantity(TABLE["valid"], "output", False),
+    )
