@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 
 from contact_core.errors import SceneError
 from contact_core.quantities import LEVELS, out_of_range
-from contact_core.reading import build, did_you_mean, flat, override
+from contact_core.reading import build, did_you_mean, flat
 from contact_core.scene import Scene
 
 from .assembly import Assembly, Contact
@@ -79,11 +79,21 @@ def read(source: str, changes: Mapping[str, str] | None = None) -> Machine:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise SceneError(f"The machine's file '{source}' is not valid TOML: {error}.") from None
     for key, text in (changes or {}).items():
-        override(table, key, value(text))
+        _put(table, key, value(text))
     kind = table.pop("kind", None)
     if kind not in _KINDS:
         raise SceneError(f"kind = {kind!r} is not one of {', '.join(_KINDS)}.{did_you_mean(str(kind), list(_KINDS))}")
     return Machine(path.stem, kind, table, path.parent if source.endswith(".toml") else Path())
+
+
+def _put(table: dict[str, Any], key: str, item: Any) -> None:
+    """Set a dotted key."""
+    *path, last = key.split(".")
+    for name in path:
+        table = table.setdefault(name, {})
+        if not isinstance(table, dict):
+            raise SceneError(f"'{key}' cannot be set: '{name}' is a value, not a table.")
+    table[last] = item
 
 
 def assemble(machine: Machine) -> Assembly:
