@@ -21,7 +21,7 @@ from contact_core.reading import did_you_mean, unbuild
 
 from . import machines, timeline
 from .assembly import Assembly, Contact, Schedule
-from .gear.geometry import FZG_A, FZG_C
+from .gear.geometry import FZG_A, FZG_C, SpurGearPair
 from .gear.mesh import GearMesh, Station
 from .gear.shafts import GearShafts
 from .gear.sharing import mean_stiffness
@@ -70,7 +70,7 @@ def assemble(machine: machines.Machine) -> Assembly:
         "gearbox": machines.record(ThermalNetwork, table, "gearbox"),
     }
     duty = timeline.read(table.get("duty", {}), _SIGNALS, machine.folder, ("speed", "torque"))
-    contacts = {flank(k): _contact(table, station) for k, station in enumerate(mesh.contacts, 1)}
+    contacts = {flank(k): _contact(table, mesh.pair, station) for k, station in enumerate(mesh.contacts, 1)}
     schedule: Schedule = dict(
         duty.schedule(
             {
@@ -138,12 +138,12 @@ def _with_pair(table: Mapping[str, Any]) -> dict[str, Any]:
     return {**table, "pair": unbuild(PAIRS[pair])}
 
 
-def _contact(table: Mapping[str, Any], station: Station) -> Contact:
+def _contact(table: Mapping[str, Any], pair: SpurGearPair, station: Station) -> Contact:
     """The contact at a station: what its FMU is told beside load, speeds and temperatures."""
-    scene = machines.scene_of(table)
     return Contact(
-        scene,
+        machines.scene_of(table),
         {
+            "solids.reduced_modulus": pair.reduced_modulus,
             "radius_x": station.radius_x,
             "geometry.face_width": station.face_width,
             "geometry.track_length_1": station.track_length_1,
