@@ -5,12 +5,8 @@ The loss of a mesh is P_V = P_a H_V mu_mz: transmitted power, loss factor of the
 
 import math
 
-import numpy as np
-import scipy  # its parts are loaded at their first use
-
 from .geometry import SpurGearPair
-from .path import Numbers, radius, steps
-from .sharing import Sharing, loads
+from .path import Array, Numbers, Stations, radius
 
 
 def ohlendorf(pair: SpurGearPair) -> float:
@@ -25,18 +21,13 @@ def ohlendorf(pair: SpurGearPair) -> float:
     return math.pi * (pair.ratio + 1.0) / (pair.teeth_1 * pair.ratio) * share
 
 
-def loss_factor(pair: SpurGearPair, sharing: Sharing, force: float) -> float:
-    """H_V = 1/p_b integral of (F_N / F_bt) (|v_g| / v_tb) along the path of contact, for a force F_bt [N] > 0.
+def loss_factor(pair: SpurGearPair, places: Stations, share: Array) -> float:
+    """H_V = 1/p_b integral of (F_N / F_bt) (|v_g| / v_tb) along the path of contact, as a sum over stations.
 
+    share F_N / F_bt [n] is what the pair of teeth at each station carries of the force.
     Source: Niemann & Winter, Maschinenelemente II, 1989, section 21.11.
     """
-
-    def part(position: float) -> float:
-        return float(loads(pair, sharing, force, np.array(position)) / force * sliding_share(pair, position))
-
-    edges = steps(pair)
-    found = scipy.integrate.quad(part, edges[0], edges[-1], points=edges[1:-1], limit=400, epsrel=1e-9)
-    return float(found[0]) / pair.base_pitch
+    return float((places.stretch * share * sliding_share(pair, places.position)).sum()) / pair.base_pitch
 
 
 def sliding_share(pair: SpurGearPair, position: Numbers) -> Numbers:
