@@ -1,4 +1,4 @@
-"""The command `tribofmu`: scenes are listed, run and swept, FMUs built and checked, systems of FMUs simulated.
+"""The command `tribofmu`: scenes and machines are listed and run, FMUs built and checked, systems of FMUs simulated.
 
 Exit codes: 0 done; 1 some rows of the result are invalid, some rule failed, or some steps have missed a tolerance;
 2 refused or failed, with a sentence on stderr; 130 interrupted.
@@ -20,7 +20,7 @@ from contact_core.reading import shipped_scenes
 from contact_core.scene import Scene
 from fmu_src import command as fmu_command
 
-from . import cosim_command
+from . import cosim_command, machine_command, machines
 from .console import add_settings, note, output_folder
 
 if TYPE_CHECKING:
@@ -49,9 +49,9 @@ def _parser() -> argparse.ArgumentParser:
         prog="tribofmu", description="Mixed lubrication, tribofilm and wear of a contact as an FMU."
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    listing = commands.add_parser("list", help="name the shipped scenes")
+    listing = commands.add_parser("list", help="name the shipped scenes and machines")
     listing.set_defaults(command=_list)
-    run = commands.add_parser("run", help="build the FMU of a scene and drive it through its duty")
+    run = commands.add_parser("run", help="run a scene's contact, or a machine, through its duty")
     run.set_defaults(command=_run)
     _add_scene(run)
     run.add_argument(
@@ -62,6 +62,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     run.add_argument("--hours", metavar="H", help="duration of the test, instead of operation.duration")
     run.add_argument("--duty", metavar="FILE.csv", help="CSV of the duty, instead of operation.file")
+    run.add_argument("--ssp", metavar="FILE.ssp", help="export a machine as SSP 1.0, do not run it")
     stribeck = commands.add_parser("stribeck", help="rub a scene's contact and sweep its Stribeck curves")
     stribeck.set_defaults(command=_stribeck)
     _add_scene(stribeck)
@@ -102,16 +103,16 @@ def _parser() -> argparse.ArgumentParser:
 
 def _add_scene(command: argparse.ArgumentParser) -> None:
     """What says which contact it is and where the results go."""
-    command.add_argument("scene", metavar="SCENE", help="a shipped scene's name, or the path of a .toml file")
-    command.add_argument("--out", metavar="DIR", help="folder of the results (default: results/SCENE)")
+    command.add_argument("scene", metavar="NAME", help="what is shipped (`tribofmu list`), or the path of a .toml file")
+    command.add_argument("--out", metavar="DIR", help="folder of the results (default: results/NAME)")
     command.add_argument("--grid", metavar="N", help="nodes along x and y, instead of film.points")
-    add_settings(command, "change values of the scene, e.g. tribofilm.model=none surface_2.rq='50 nm'")
+    add_settings(command, "change values of it, e.g. tribofilm.model=none surface_2.rq='50 nm'")
 
 
 def _list(arguments: argparse.Namespace) -> int:
-    scenes = shipped_scenes()
-    width = max(map(len, scenes))
-    for name, description in scenes.items():
+    shipped = shipped_scenes() | machines.shipped()
+    width = max(map(len, shipped))
+    for name, description in shipped.items():
         print(f"{name:{width}}  {description}")
     return 0
 
@@ -119,6 +120,10 @@ def _list(arguments: argparse.Namespace) -> int:
 def _run(arguments: argparse.Namespace) -> int:
     from .checkpoint import alone
 
+    if machines.is_machine(arguments.scene):
+        return machine_command.run(arguments)
+    if arguments.ssp is not None:
+        raise ContactError(f"'{arguments.scene}' is one contact, not a machine. Export it with `tribofmu build`.")
     scene, duty = _contact(arguments)
     folder = output_folder(arguments.out, Path(arguments.scene).stem)
     _warn(scene)

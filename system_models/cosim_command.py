@@ -3,8 +3,9 @@
 import argparse
 import json
 import logging
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from time import monotonic
 from typing import TYPE_CHECKING, Any
 
 from contact_core.errors import ContactError, StateError
@@ -50,13 +51,32 @@ def run(arguments: argparse.Namespace) -> int:
                 f"'{arguments.system}' does not say simulate.{key}. Add it, or --set simulate.{key}=VALUE."
             )
     folder = output_folder(arguments.out, arguments.system.stem)
-    origin = _origin(system, settings, arguments.system.stem)
-    checkpoint = _checkpoint(folder, system, settings, arguments.resume)
-    resume = arguments.resume and checkpoint is not None and checkpoint.exists()
-    if arguments.resume and not resume and (code := _finished(folder, origin)) is not None:
+    return carry_out(system, settings, arguments.system.stem, folder, arguments.resume, _report)
+
+
+def carry_out(
+    system: "System",
+    settings: Mapping[str, Any],
+    name: str,
+    folder: Path,
+    resume: bool,
+    report: Callable[["xr.Dataset", Path], int],
+) -> int:
+    """Simulate with a checkpoint in the folder and hand the result to `report`, whose exit code is returned.
+
+    With `resume` go on from the checkpoint; if there is none, but the result of this very simulation, leave that. The
+    settings are the arguments of `master.simulate`.
+    """
+    origin = _origin(system, settings, name)
+    checkpoint = _checkpoint(folder, system, settings, resume)
+    go_on = resume and checkpoint is not None and checkpoint.exists()
+    if resume and not go_on and (code := _finished(folder, origin)) is not None:
         return code
-    dataset = _simulated(system, settings, arguments.system.stem, checkpoint, resume)
-    code = _report(dataset.assign_attrs(origin), folder)
+    begin = monotonic()
+    dataset = _simulated(system, settings, name, checkpoint, go_on)
+    if not go_on:
+        dataset.attrs["wall_seconds"] = monotonic() - begin
+    code = report(dataset.assign_attrs(origin), folder)
     _remove_checkpoint(folder)
     return code
 

@@ -30,7 +30,7 @@ def table(dataset: xr.Dataset) -> str:
         values = dataset[name].values
         rows.append([name, dataset[name].attrs["units"], *map(_short, _range(values))])
     more = [f"... and {len(names) - _MOST_ROWS} more, in the files."] if len(names) > _MOST_ROWS else []
-    return "\n".join([*_aligned(rows, 2), *more])
+    return "\n".join([*aligned(rows, 2), *more])
 
 
 def _range(values: NDArray[Any]) -> tuple[Any, ...]:
@@ -51,10 +51,10 @@ def costs(dataset: xr.Dataset) -> str:
         steps, seconds = entry["steps"], entry["seconds"]
         share = 100.0 * seconds / total if total else 0.0
         rows.append([name, str(steps), f"{1e6 * seconds / max(steps, 1):.1f}", f"{seconds:.3g}", f"{share:.0f} %"])
-    return "\n".join(_aligned(rows, 1))
+    return "\n".join(aligned(rows, 1))
 
 
-def _aligned(rows: list[list[str]], left: int) -> list[str]:
+def aligned(rows: list[list[str]], left: int) -> list[str]:
     """Rows of a table; the first `left` columns are words."""
     columns = list(zip(*rows, strict=True))
     widths = [max(map(len, column)) for column in columns]

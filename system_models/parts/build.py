@@ -1,10 +1,14 @@
-"""Build a component's FMU: model description, resources and pythonfmu's binaries, in one zip."""
+"""Build a component's FMU: model description, documentation, resources and pythonfmu's binaries, in one zip."""
 
+import inspect
+from collections.abc import Iterator
 from pathlib import Path
 
 from fmu_src import packages
 from fmu_src.build import binaries, pack
 from fmu_src.describe import Model, xml
+from fmu_src.markup import paragraph, plain, table
+from fmu_src.variables import Variable
 
 from . import resources
 from .part import Part
@@ -23,6 +27,7 @@ def build(part: Part, out: Path, duration: float = 1.0, step_size: float = 1e-2)
     return pack(
         {
             "modelDescription.xml": xml(model, variables(part), "embedded"),
+            "documentation/index.html": "\n".join(_page(part, variables(part))).encode(),
             "documentation/externalDependencies.txt": packages.external_dependencies("embedded"),
             **{f"documentation/licenses/{name}": text for name, text in packages.licences("embedded").items()},
             **{f"resources/{name}": data for name, data in resources.files(part).items()},
@@ -30,3 +35,12 @@ def build(part: Part, out: Path, duration: float = 1.0, step_size: float = 1e-2)
         },
         out,
     )
+
+
+def _page(part: Part, listed: tuple[Variable, ...]) -> Iterator[str]:
+    """The documentation: what the class says of its equations, and its variables."""
+    yield f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{plain(part.name)}</title></head><body>'
+    yield f"<h1>{plain(part.name)}</h1>{paragraph(part.text)}<pre>{plain(inspect.getdoc(type(part)) or '')}</pre>"
+    rows = ([v.name, v.causality, v.unit or "1", "" if v.causality == "output" else v.start, v.text] for v in listed)
+    yield table(("variable", "causality", "unit", "start", "meaning"), rows)
+    yield "</body></html>"

@@ -88,9 +88,7 @@ class PartSlave(GuardedSlave):
         results = [float(found[name]) for name, _ in self._responses]
         if not math.isfinite(math.fsum(results)):
             broken = [name for name, value in found.items() if not math.isfinite(value)]
-            raise ContactError(
-                f"No finite {', '.join(broken)} came out. Change the inputs, or go back in time."
-            )
+            raise ContactError(f"No finite {', '.join(broken)} came out. Change the inputs, or go back in time.")
         for (_, reference), value in zip(self._responses, results, strict=True):
             self.values[reference] = value
         self.values[self._references["valid"]] = True

@@ -1,0 +1,84 @@
+"""What `tribofmu run` does with a machine: builds its FMUs, simulates and reports. Light to import."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from contact_core.errors import ContactError
+
+from .console import note, output_folder
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from .assembly import Assembly
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Do what the command line asks for; return the exit code. Raises ContactError with a sentence if it cannot."""
+    from . import machines, timeline
+
+    machine = machines.read(arguments.scene, _changes(arguments))
+    if arguments.duty:
+        machine.table["duty"] = timeline.with_file(machine.table.get("duty", {}), Path(arguments.duty).absolute())
+    assembly = machines.assemble(machine)
+    if arguments.ssp:
+        return _export(assembly, arguments.ssp)
+    return _run_in(output_folder(arguments.out, machine.name), assembly, machine.kind, arguments.resume)
+
+
+def _changes(arguments: argparse.Namespace) -> dict[str, str]:
+    for option in ("hours", "grid", "duty", "out", "ssp"):
+        if getattr(arguments, option) == "":
+            raise ContactError(f"--{option} is empty. Give a value, or leave --{option} out.")
+    changes = dict(arguments.settings)
+    if arguments.hours:
+        changes["duty.duration"] = f"{arguments.hours} h"
+    if arguments.grid:
+        changes["contact.film.points"] = arguments.grid
+    return changes
+
+
+def _export(assembly: "Assembly", path: str) -> int:
+    import tempfile
+
+    from .export import with_timetable
+    from .master import export_ssp
+
+    with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder:
+        system = with_timetable(assembly).system(Path(folder), "isolated")
+        print(f"Written: {export_ssp(system, path, assembly.settings['stop_time'])}")
+    return 0
+
+
+def _run_in(folder: Path, assembly: "Assembly", kind: str, resume: bool) -> int:
+    from .cosim_command import carry_out
+
+    system = assembly.system(folder / "fmus")
+    settings = {**assembly.settings, "outputs": assembly.outputs()}
+
+    def report(dataset: "xr.Dataset", folder: Path) -> int:
+        return _report(dataset, folder, assembly, kind)
+
+    return carry_out(system, settings, assembly.name, folder, resume, report)
+
+
+def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str) -> int:
+    """Print and write the result; return the exit code."""
+    from importlib import import_module
+
+    from . import cosim_report, machine_report, resolve, results
+
+    dataset = dataset.assign_attrs(title=assembly.description)
+    pictures = import_module(f".{kind}_report", __package__)
+    states = resolve.resolve(assembly, dataset)
+    print(assembly.description, "", *pictures.lines(assembly, dataset), "", sep="\n")
+    print(*machine_report.lines(assembly, dataset), "", *resolve.lines(states), sep="\n")
+    print(*cosim_report.closing_lines(dataset), sep="\n")
+    written = [*results.write(dataset, folder), results.write(resolve.to_dataset(states), folder, "resolved")[0]]
+    written += pictures.write(assembly, dataset, folder)
+    print(f"Written: {', '.join(map(str, written))}")
+    uncovered = sum(not state.valid for state in states)
+    if uncovered:
+        note(f"The fast level's errors do not cover its deviation in {uncovered} of {len(states)} states: see 'NO'.")
+    return 1 if cosim_report.missed_steps(dataset) or machine_report.invalid_rows(assembly, dataset) else 0

@@ -1,0 +1,150 @@
+"""Contacts of a finished run, solved again deterministically, so that the fast level's errors are put to the test.
+
+A contact is led once more through the inputs that the run has recorded, at the fast level, and at chosen rows its state
+goes to the deterministic level, on its own shape and surfaces.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from contact_core import ContactError, ContactState, OperatingPoint, Outputs, advance, initial_state
+from contact_core.quantities import LEVELS
+from contact_core.scene import Scene, tunables, with_values
+
+from .assembly import Assembly
+
+FAST, DEEP = LEVELS
+COMPARED = {"friction_coefficient": "error_friction", "h_c": "error_film"}  # and the error output of each
+
+
+@dataclass(frozen=True)
+class Resolved:
+    """One state at both levels; values and errors by output, errors are relative half widths."""
+
+    contact: str
+    time: float  # [s]
+    point: OperatingPoint
+    fast: Outputs
+    deep: Outputs | None  # None: there is no solution
+    reason: str = ""
+
+    def deviation(self, name: str) -> float:
+        """Of the fast level, relative to its own value."""
+        value, solved = getattr(self.fast, name), getattr(self.deep, name) if self.deep else math.nan
+        return abs(value - solved) / abs(value) if value else math.inf
+
+    def allowed(self, name: str) -> float:
+        """Half width of the error that the fast level states, and of the solution's own."""
+        if self.deep is None:
+            return 0.0
+        error, value, solved = COMPARED[name], getattr(self.fast, name), getattr(self.deep, name)
+        return getattr(self.fast, error) + getattr(self.deep, error) * abs(solved / value) if value else 0.0
+
+    @property
+    def valid(self) -> bool:
+        """Whether all errors cover the deviations."""
+        return self.deep is not None and all(self.deviation(name) <= self.allowed(name) for name in COMPARED)
+
+
+def resolve(assembly: Assembly, dataset: xr.Dataset, count: int = 6) -> list[Resolved]:
+    """Solve `count` states again, spread over the contacts that carry load and over the time of the run."""
+    found = []
+    for contact, row in _chosen(assembly, dataset, count):
+        scene, point, state, fast = _replayed(assembly, dataset, contact, row)
+        time = float(dataset["time"].values[row])
+        try:
+            _, deep = advance(scene.at_level(DEEP), point, state, 0.0)
+            found.append(Resolved(contact, time, point, fast, deep))
+        except ContactError as error:
+            found.append(Resolved(contact, time, point, fast, None, str(error)))
+    return found
+
+
+def _chosen(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[tuple[str, int]]:
+    """Contacts and rows: the k-th state lies in the k-th part of the rows, in the contacts in turn."""
+    names, rows, found = sorted(assembly.contacts), len(dataset["time"]), []
+    stride = max(1, len(names) // count)
+    for k in range(count):
+        low, high = 1 + k * (rows - 1) // count, 1 + (k + 1) * (rows - 1) // count
+        for shift in range(len(names)):
+            name = names[(k * stride + stride // 2 + shift) % len(names)]
+            usable = [row for row in range(low, max(high, low + 1)) if _usable(assembly, dataset, name, row)]
+            if usable:
+                found.append((name, usable[len(usable) // 2]))
+                break
+    return found
+
+
+def _usable(assembly: Assembly, dataset: xr.Dataset, name: str, row: int) -> bool:
+    if not (row < len(dataset["time"]) and bool(dataset[f"{name}.valid"].values[row])):
+        return False
+    point = _inputs(assembly, dataset, name, row)
+    moving = abs(point.get("speed_1", 1.0)) + abs(point.get("speed_2", 1.0)) > 0.0
+    return point.get("load", 1.0) > 0.0 and moving
+
+
+def _inputs(assembly: Assembly, dataset: xr.Dataset, name: str, row: int) -> dict[str, float]:
+    sources = assembly.inputs_of(name)
+    return {target: factor * float(dataset[source].values[row]) for target, (source, factor) in sources.items()}
+
+
+def _replayed(
+    assembly: Assembly, dataset: xr.Dataset, name: str, last: int
+) -> tuple[Scene, OperatingPoint, ContactState, Outputs]:
+    """The contact as it is at a row, by the fast level and the inputs at the end of every step."""
+    contact = assembly.contacts[name]
+    numbers = {key: value for key, value in contact.parameters.items() if key in tunables(contact.scene)}
+    scene = with_values(contact.scene, numbers).at_level(FAST)  # type: ignore[arg-type]
+    names = {*OperatingPoint.__dataclass_fields__}
+    start = replace(scene.operation.point, **{k: v for k, v in contact.parameters.items() if k in names})  # type: ignore[arg-type]
+    times = dataset["time"].values
+    state, point = initial_state(scene), start
+    for row in range(1, last + 1):
+        point = replace(start, **_inputs(assembly, dataset, name, row))
+        state, fast = advance(scene, point, state, float(times[row] - times[row - 1]))
+    return scene, point, state, fast
+
+
+def to_dataset(states: Sequence[Resolved]) -> xr.Dataset:
+    """The comparison along `state`."""
+    columns: dict[str, Any] = {
+        "resolved.contact": ("state", [s.contact for s in states], {"units": "1", "long_name": "contact"}),
+        "resolved.time": ("state", [s.time for s in states], {"units": "s", "long_name": "time of the state"}),
+        "resolved.valid": (
+            "state",
+            [s.valid for s in states],
+            {"units": "1", "long_name": "whether the fast level's errors cover its deviations"},
+        ),
+    }
+    for name, error in COMPARED.items():
+        for suffix, values, text in (
+            (FAST, [getattr(s.fast, name) for s in states], "by the fast level"),
+            (DEEP, [getattr(s.deep, name) if s.deep else np.nan for s in states], "solved deterministically"),
+            ("deviation", [s.deviation(name) for s in states], "relative to the fast level's"),
+            (error, [s.allowed(name) for s in states], "relative half width that both levels state"),
+        ):
+            unit = "m" if name == "h_c" and suffix in LEVELS else "1"
+            columns[f"resolved.{name}.{suffix}"] = ("state", np.array(values), {"units": unit, "long_name": text})
+    return xr.Dataset(columns)
+
+
+def lines(states: Sequence[Resolved]) -> Iterator[str]:
+    """A table, and what it means."""
+    heads = f"{'fast':>9} {'solved':>9} {'off':>7} {'stated':>7}"
+    yield f"{'state':>24}  mu: {heads}  h_c: {heads}  valid"
+    for s in states:
+        where = f"{s.contact} at {s.time:.4g} s"
+        if s.deep is None:
+            yield f"{where:>24}  no solution: {s.reason}"
+            continue
+        mu, film = "friction_coefficient", "h_c"
+        yield (
+            f"{where:>24}      {s.fast.friction_coefficient:9.4f} {s.deep.friction_coefficient:9.4f} "
+            f"{s.deviation(mu):7.1%} {s.allowed(mu):7.1%}       {1e9 * s.fast.h_c:6.1f} nm {1e9 * s.deep.h_c:6.1f} nm "
+            f"{s.deviation(film):7.1%} {s.allowed(film):7.1%}  {'yes' if s.valid else 'NO'}"
+        )
