@@ -28,8 +28,8 @@ class GearShafts(Part):
     step ends at the force that moves both shafts alike. The stiffness is the mean of a mesh cycle
     (`sharing.mean_stiffness` times the face width), and the teeth never part: backlash is left out.
 
-    A torque that falls with speed, as that of a drive does, makes long steps overshoot if it is held over them. With its
-    slope as `drag_1` or `drag_2`, and the torque at standstill as input, it is part of the exact step.
+    A torque that falls with speed, as that of a drive does, makes long steps overshoot if it is held over them. With
+    its slope as `drag_1` or `drag_2`, and the torque at standstill as input, it is part of the exact step.
     """
 
     name: ClassVar[str] = "GearShafts"
