@@ -57,7 +57,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("friction_force", "F", "N", "friction force on body 1 along +x", nominal=1.0),
     Quantity("friction_coefficient", "mu", "1", "|friction_force| / load, 0 at zero load", nominal=0.1, minimum=0.0),
     Quantity("rolling_resistance", "F_r", "N",
-             "integral of (h/2) dp/dx over the fluid film; each surface feels the opposite along +x; not in power_loss", nominal=0.1, levels=_FIELDS),
+             "integral of (h/2) dp/dx over the fluid film; each surface feels the opposite along +x; not in power_loss", nominal=0.1),
     Quantity("friction_solid", "F_s", "N", "part of friction_force where solids touch", nominal=1.0),
     Quantity("friction_fluid", "F_f", "N", "part of friction_force in the oil film", nominal=1.0),
     Quantity("spin_torque", "M_s", "N m", "friction torque on body 1 about the axis from x to y", nominal=1e-3),

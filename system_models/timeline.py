@@ -168,8 +168,8 @@ def _of_file(
         raise SceneError(f"The duty file '{path}' has one row only. Add one at the end of the duty, or duty.duration.")
     if end < last:
         raise SceneError(
-            f"duty.duration = {end:g} s, but the duty file '{path}' goes on to {last:g} s. "
-            "Make it longer, or leave it out."
+            f"duty.duration = {end:g} s, but the duty file '{path}' goes on to {last:g} s. Make it longer, or leave it "
+            "out."
         )
     return [(0.0, start | rows[0][1]), *((time, values) for time, values in rows[1:] if time < end)], end
 

@@ -1,0 +1,265 @@
+"""Balls between two grooves: where they and the inner ring come to rest, and how the balls roll.
+
+In the plane (axial, radial) through the bearing's axis and a ball lie the curvature centre of the outer groove, which
+is the origin, the ball's centre and the curvature centre of the inner groove. A contact is a spring that pulls two of
+them together once they are further apart than a free length, with the force K s^(3/2) of its stretch s. The energy of
+springs and forces that do not depend on the position is convex in all positions together, so that there is one
+equilibrium, and Newton's method with a line search on the slope finds it from anywhere.
+
+springs: (stiffness, free length) of the outer, then of the inner contact. azimuths [Z, 2]: cos, sin of the balls'.
+centre: of the inner groove before the ring moves. ring [5]: its displacement along x, y, z and its tilt about y, z
+times the radius on which that centre lies; forces on the ring likewise. balls [Z, 2]: their centres; pressed [Z, 2]:
+what else acts on them.
+"""
+
+import numpy as np
+from numba import njit
+
+_jit = njit(cache=True, nogil=True, error_model="numpy")
+
+_STEPS, _CUTS, _ROUNDS = 200, 60, 200
+_EPS = 2.3e-16
+_UNTOUCHED = 1e-6  # N: less on all inner contacts together drives no cage
+_SHARP = 4.0
+
+
+@_jit
+def pull(x, r, stiffness, free):  # type: ignore[no-untyped-def]
+    """Force of a spring that reaches over (x, r): size, components, their derivatives xx, xr, rr."""
+    length = np.hypot(x, r)
+    stretch = length - free
+    if stretch <= 0.0:
+        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    root, ex, er = np.sqrt(stretch), x / length, r / length
+    force, along = stiffness * stretch * root, 1.5 * stiffness * root
+    across = force / length
+    steep = along - across
+    return force, force * ex, force * er, across + steep * ex * ex, steep * ex * er, across + steep * er * er
+
+
+@_jit
+def _at_ball(x, r, cx, cr, bx, br, springs):  # type: ignore[no-untyped-def]
+    """First and second derivatives of a ball's energy by its position, between the origin and (cx, cr), pressed by b."""
+    _, ox, oy, oxx, oxr, orr = pull(x, r, springs[0], springs[1])
+    _, ix, iy, ixx, ixr, irr = pull(cx - x, cr - r, springs[2], springs[3])
+    return ox - ix - bx, oy - iy - br, oxx + ixx, oxr + ixr, orr + irr
+
+
+@_jit
+def _seat_ball(x, r, cx, cr, bx, br, springs):  # type: ignore[no-untyped-def]
+    """Where a ball that is near (x, r) comes to rest."""
+    size = springs[1] + springs[3]
+    gx, gr, hxx, hxr, hrr = _at_ball(x, r, cx, cr, bx, br, springs)
+    norm = np.hypot(gx, gr)
+    for _ in range(_STEPS):
+        floor = _EPS * size * (hxx + hrr)
+        if norm <= floor:
+            break
+        hxx, hrr = hxx + norm / size, hrr + norm / size  # no step beyond the bearing's size where nothing holds it
+        scale = 1.0 / (hxx * hrr - hxr * hxr)
+        sx, sr = (hxr * gr - hrr * gx) * scale, (hxr * gx - hxx * gr) * scale
+        down, part = gx * sx + gr * sr, 1.0
+        for _ in range(_CUTS):
+            gx, gr, hxx, hxr, hrr = _at_ball(x + part * sx, r + part * sr, cx, cr, bx, br, springs)
+            slope = gx * sx + gr * sr
+            if slope <= -0.5 * down:
+                break
+            part *= max(down / (down - slope), 0.1)
+        x, r = x + part * sx, r + part * sr
+        before, norm = norm, np.hypot(gx, gr)
+        if norm <= 100.0 * floor and norm > 0.5 * before:
+            break
+    return x, r
+
+
+@_jit
+def _product(one, other):  # type: ignore[no-untyped-def]
+    total = 0.0
+    for i in range(one.size):
+        total += one[i] * other[i]
+    return total
+
+
+@_jit
+def _solved(matrix, right):  # type: ignore[no-untyped-def]
+    """Solution of a symmetric positive definite system, by Cholesky's factors; overwrites both."""
+    n = right.size
+    for i in range(n):
+        for j in range(i + 1):
+            total = matrix[i, j]
+            for k in range(j):
+                total -= matrix[i, k] * matrix[j, k]
+            matrix[i, j] = np.sqrt(total) if i == j else total / matrix[j, j]
+    for i in range(n):
+        for k in range(i):
+            right[i] -= matrix[i, k] * right[k]
+        right[i] /= matrix[i, i]
+    for i in range(n - 1, -1, -1):
+        for k in range(i + 1, n):
+            right[i] -= matrix[k, i] * right[k]
+        right[i] /= matrix[i, i]
+    return right
+
+
+@_jit
+def groove_centre(centre, ring, cos, sin):  # type: ignore[no-untyped-def]
+    """Centre of the inner groove at an azimuth once the ring has moved."""
+    return centre[0] + ring[0] + sin * ring[3] - cos * ring[4], centre[1] + cos * ring[1] + sin * ring[2]
+
+
+@_jit
+def _at_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, slope, curvature):  # type: ignore[no-untyped-def]
+    """First and second derivatives of the energy by the ring's coordinates, with all balls at rest; moves `balls`."""
+    for i in range(5):
+        slope[i] = centring * ring[i] - forces[i]
+        curvature[i, :] = 0.0
+        curvature[i, i] = centring
+    axial, radial = np.zeros(5), np.zeros(5)
+    axial[0] = 1.0
+    for j in range(balls.shape[0]):
+        cos, sin = azimuths[j]
+        cx, cr = groove_centre(centre, ring, cos, sin)
+        x, r = _seat_ball(balls[j, 0], balls[j, 1], cx, cr, pressed[j, 0], pressed[j, 1], springs)
+        balls[j, 0], balls[j, 1] = x, r
+        _, fx, fr, ixx, ixr, irr = pull(cx - x, cr - r, springs[2], springs[3])
+        _, _, _, oxx, oxr, orr = pull(x, r, springs[0], springs[1])
+        axial[3], axial[4], radial[1], radial[2] = sin, -cos, cos, sin
+        for i in range(5):
+            slope[i] += fx * axial[i] + fr * radial[i]
+        # both springs in series, inner (inner + outer)^-1 outer
+        hxx, hxr, hrr = ixx + oxx, ixr + oxr, irr + orr
+        if hxx + hrr == 0.0:
+            continue
+        scale = 1.0 / max(hxx * hrr - hxr * hxr, _EPS * (hxx + hrr) ** 2)
+        a, b = (hrr * oxx - hxr * oxr) * scale, (hrr * oxr - hxr * orr) * scale
+        c, d = (hxx * oxr - hxr * oxx) * scale, (hxx * orr - hxr * oxr) * scale
+        sxx, sxr, srr = ixx * a + ixr * c, ixx * b + ixr * d, ixr * b + irr * d
+        for i in range(5):
+            left, right = sxx * axial[i] + sxr * radial[i], sxr * axial[i] + srr * radial[i]
+            for k in range(5):
+                curvature[i, k] += left * axial[k] + right * radial[k]
+
+
+@_jit
+def seat_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, least):  # type: ignore[no-untyped-def]
+    """Move ring and balls to rest; returns the largest force left over, and the steps taken.
+
+    centring: stiffness of a weak spring that holds the ring where no ball does. A force below `least` is none.
+    """
+    size = springs[1] + springs[3]
+    slope, curvature, trial = np.zeros(5), np.zeros((5, 5)), np.zeros(5)
+    _at_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, slope, curvature)
+    norm, steps = np.abs(slope).max(), 0
+    while norm > 0.0 and steps < _STEPS:
+        steps += 1
+        for i in range(5):
+            curvature[i, i] += norm / size
+        step = _solved(curvature, -slope)
+        down, part = _product(slope, step), 1.0
+        for _ in range(_CUTS):
+            trial[:] = ring + part * step
+            _at_ring(trial, balls, pressed, azimuths, centre, springs, forces, centring, slope, curvature)
+            along = _product(slope, step)
+            if along <= -0.5 * down:
+                break
+            part *= max(down / (down - along), 0.1)
+        ring[:] = trial
+        before, norm = norm, np.abs(slope).max()
+        if norm <= least and norm > 0.5 * before:
+            break
+    return norm, steps
+
+
+@_jit
+def rolling(inner, outer, held_inner, held_outer, ratio):  # type: ignore[no-untyped-def]
+    """How a ball rolls whose contact angles are `inner` and `outer` [rad], per angular speed of the inner ring.
+
+    ratio: of ball to pitch diameter. held: what the spin of a contact meets with (any unit). The outer ring is at rest.
+    Returns orbit, roll, tilt of the axis [rad], and for the inner and the outer contact: rolling of the ball relative
+    to the race, spin (of the ball relative to the race, about the contact's normal that points outward).
+    """
+    free_inner = np.arctan2(np.sin(inner), np.cos(inner) - ratio)  # tilt at which this contact does not spin
+    free_outer = np.arctan2(np.sin(outer), np.cos(outer) + ratio)
+    if held_inner > held_outer:
+        part = 1.0 / (1.0 + (held_outer / held_inner) ** _SHARP)
+    elif held_outer > 0.0:
+        part = 1.0 - 1.0 / (1.0 + (held_inner / held_outer) ** _SHARP)
+    else:
+        part = 0.5
+    tilt = free_outer + part * (free_inner - free_outer)
+    over_inner, over_outer = inner - tilt, outer - tilt
+    by_inner = (1.0 - ratio * np.cos(inner)) / np.cos(over_inner)
+    by_outer = (1.0 + ratio * np.cos(outer)) / np.cos(over_outer)
+    orbit = by_inner / (by_inner + by_outer)
+    roll = orbit * by_outer / ratio
+    return (
+        orbit,
+        roll,
+        tilt,
+        roll * np.cos(over_inner) + (1.0 - orbit) * np.cos(inner),
+        roll * np.cos(over_outer) - orbit * np.cos(outer),
+        -roll * np.sin(over_inner) - (1.0 - orbit) * np.sin(inner),
+        -roll * np.sin(over_outer) + orbit * np.sin(outer),
+    )
+
+
+@_jit
+def motions(ring, balls, azimuths, centre, springs, holds, ratio, found):  # type: ignore[no-untyped-def]
+    """Fill `found` [Z, 11]: inner and outer load, their angles, and what `rolling` tells.
+
+    holds: lever of spin friction at 1 N [m] of the inner and the outer contact. A ball without load on the inner race
+    has there the angle of the outer one.
+    """
+    for j in range(balls.shape[0]):
+        x, r = balls[j]
+        cx, cr = groove_centre(centre, ring, azimuths[j, 0], azimuths[j, 1])
+        inner, outer = pull(cx - x, cr - r, springs[2], springs[3])[0], pull(x, r, springs[0], springs[1])[0]
+        out = np.arctan2(x, r)
+        into = np.arctan2(cx - x, cr - r) if inner > 0.0 else out
+        found[j, 0], found[j, 1], found[j, 2], found[j, 3] = inner, outer, into, out
+        rolls = rolling(into, out, holds[0] * inner ** (4.0 / 3.0), holds[1] * outer ** (4.0 / 3.0), ratio)
+        for i in range(7):
+            found[j, 4 + i] = rolls[i]
+
+
+@_jit
+def cage(found, idle):  # type: ignore[no-untyped-def]
+    """Speed of the cage over that of the inner ring: mean orbit of the driven balls, weighted with their inner load.
+
+    idle: the cage's where no ball is driven.
+    """
+    total, driven = _UNTOUCHED * idle, _UNTOUCHED
+    for j in range(found.shape[0]):
+        total += found[j, 0] * found[j, 4]
+        driven += found[j, 0]
+    return total / driven
+
+
+@_jit
+def settle(  # type: ignore[no-untyped-def]
+    ring, balls, inertia, azimuths, centre, springs, forces, centring, holds, ratio, idle, masses, speed, found
+):
+    """Bring ring and balls to rest under forces on the ring and the balls' inertia at an angular speed of the ring.
+
+    inertia [Z, 2]: forces of inertia on the balls over speed^2; a first guess, improved in place. masses: ball's mass
+    times pitch radius, and twice its moment of inertia over its diameter. Gyroscopic moments are held by friction on
+    the outer race. Returns the largest force left over, the largest force, rounds, and Newton steps of all of them.
+    """
+    square, steps = speed * speed, 0
+    for turn in range(_ROUNDS):
+        pressed = square * inertia
+        largest = max(np.abs(forces).max(), np.abs(pressed).max(), 1.0)
+        left, taken = seat_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, 1e-10 * largest)
+        steps += taken
+        motions(ring, balls, azimuths, centre, springs, holds, ratio, found)
+        orbit, change = cage(found, idle), 0.0
+        for j in range(balls.shape[0]):
+            outer, tilt = found[j, 3], found[j, 6]
+            roll = orbit * (1.0 + ratio * np.cos(outer)) / (ratio * np.cos(outer - tilt))
+            gyration = masses[1] * orbit * roll * np.sin(tilt)
+            x, r = -gyration * np.cos(outer), masses[0] * orbit * orbit + gyration * np.sin(outer)
+            change = max(change, square * np.hypot(x - inertia[j, 0], r - inertia[j, 1]))
+            inertia[j, 0], inertia[j, 1] = x, r
+        if change <= 1e-13 * largest:
+            break
+    return max(left, change), largest, turn + 1, steps
