@@ -63,6 +63,7 @@ class MeanContact(NamedTuple):
     power: float  # [W]
     into_1: float  # part of it that goes into body 1 [W]
     spin_torque: float  # on body 1 [N m]
+    rolling: float  # resistance of the oil [N]
 
 
 class _Surfaces(NamedTuple):
@@ -83,6 +84,7 @@ class _Smooth(NamedTuple):
     by_speed: float  # per entrainment speed [s/m]
     by_load: float  # [1/N]
     by_temperature: float  # [1/K]
+    rolling: float  # resistance [N]
 
 
 class _Shares(NamedTuple):
@@ -117,7 +119,7 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
     sigma, cover = composite_roughness(films), mean_cover(scene, films)
     if op.load == 0.0:
         gap = max(sigma, scene.film.floor)
-        return MeanContact(films, sigma, cover, _UNFITTED, gap, *(0.0,) * 4, (0.0,) * 4, *(0.0,) * 8)
+        return MeanContact(films, sigma, cover, _UNFITTED, gap, *(0.0,) * 4, (0.0,) * 4, *(0.0,) * 9)
     sliding = op.sliding_speed
     further = _D * math.copysign(max(abs(sliding), scene.boundary_friction.slip_speed), sliding)
     hertz = scene.unit_hertz_at(op)
@@ -150,6 +152,7 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
         pull * slide,
         into_1,
         -lever * lever * op.spin * pull / max(slide, _SLOWEST),
+        smooth.rolling * (1.0 - now.shares.load),  # solids make no oil flow
     )
 
 
@@ -229,7 +232,20 @@ def _smooth(scene: Scene, op: OperatingPoint, hertz: Hertz, further: float) -> _
         by_speed / (_D * entrainment) if speed > 0.0 else 0.0,
         by_load / (_D * load),
         by_temperature / _KELVIN,
+        _rolling(scene, op, oil, now if thins or starves else None),
     )
+
+
+def _rolling(scene: Scene, op: OperatingPoint, oil: tuple[float, float], film: float | None) -> float:
+    """Rolling resistance [N] of the smooth bodies. What leaves less of the flooded film of cold oil, `film` [m], is
+    taken to leave as little of the force.
+    """
+    speed = op.entrainment_speed
+    if speed == 0.0:
+        return 0.0
+    shape, modulus, load = scene.shape(op), scene.solids.reduced_modulus, max(op.load, _LIGHTEST)
+    left = 1.0 if film is None else film / shape.film(load, abs(speed), *oil, modulus)
+    return math.copysign(left * shape.rolling(load, abs(speed), oil[0], modulus), speed)
 
 
 def _thinned(

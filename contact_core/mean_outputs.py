@@ -43,6 +43,7 @@ def outputs_of(
         dfriction_dload=contact.derivatives[2],
         dfriction_dtemperature=contact.derivatives[3],
         power_loss=contact.power,
+        rolling_resistance=contact.rolling,
         wear_rate_1=rates[0],
         wear_rate_2=rates[1],
         wear_volume_1=first.worn,

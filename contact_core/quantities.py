@@ -57,7 +57,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("friction_force", "F", "N", "friction force on body 1 along +x", nominal=1.0),
     Quantity("friction_coefficient", "mu", "1", "|friction_force| / load, 0 at zero load", nominal=0.1, minimum=0.0),
     Quantity("rolling_resistance", "F_r", "N",
-             "integral of (h/2) dp/dx over the fluid film; each surface feels the opposite along +x; not in power_loss", nominal=0.1, levels=_FIELDS),
+             "integral of (h/2) dp/dx over the fluid film; each surface feels the opposite along +x; not in power_loss", nominal=0.1),
     Quantity("friction_solid", "F_s", "N", "part of friction_force where solids touch", nominal=1.0),
     Quantity("friction_fluid", "F_f", "N", "part of friction_force in the oil film", nominal=1.0),
     Quantity("spin_torque", "M_s", "N m", "friction torque on body 1 about the axis from x to y", nominal=1e-3),
@@ -161,7 +161,7 @@ def out_of_range(record: Any, path: str) -> Iterator[str]:
             for i, item in enumerate(value):
                 yield from out_of_range(item, f"{name}[{i}]")
         elif isinstance(value, (int, float)) and not isinstance(value, bool) and "unit" in f.metadata:
-            yield from _number_sentence(name, value, f)
+            yield from _number_sentence(name, value, f.metadata)
         elif f.metadata.get("choices") and value not in f.metadata["choices"]:
             yield f"{name} = {value!r} is not one of {', '.join(f.metadata['choices'])}."
 
@@ -188,11 +188,15 @@ def with_numbers(record: Any, values: Mapping[str, float | int], path: str = "")
     return replace(record, **changes)
 
 
-def _number_sentence(name: str, value: float, f: "Field[Any]") -> Iterator[str]:
-    above, least, most, unit = (f.metadata[key] for key in ("above", "least", "most", "unit"))
-    low = -math.inf if above is None and least is None else above if above is not None else least
-    high = math.inf if most is None else most
-    inside = (value > low if above is not None else value >= low) and value <= high
+def value_out_of_range(q: Quantity, value: float) -> Iterator[str]:
+    """Yield a sentence if a value of an input or output is not allowed."""
+    least, most = (bound if math.isfinite(bound) else None for bound in (q.minimum, q.maximum))
+    yield from _number_sentence(q.name, value, {"unit": q.unit, "text": q.text, "least": least, "most": most})
+
+
+def _number_sentence(name: str, value: float, told: Mapping[str, Any]) -> Iterator[str]:
+    above, least, most, unit = (told.get(key) for key in ("above", "least", "most", "unit"))
+    inside = (above is None or value > above) and (least is None or value >= least) and (most is None or value <= most)
     if math.isfinite(value) and inside:
         return
     bounds = [
@@ -201,4 +205,4 @@ def _number_sentence(name: str, value: float, f: "Field[Any]") -> Iterator[str]:
         f"at most {most:g}" if most is not None else "",
     ]
     unit = f" {unit}" if unit else ""
-    yield f"{name} = {value:g}{unit} ({f.metadata['text']}) must be {' and '.join(b for b in bounds if b)}{unit}."
+    yield f"{name} = {value:g}{unit} ({told['text']}) must be {' and '.join(b for b in bounds if b)}{unit}."

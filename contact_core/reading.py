@@ -76,6 +76,14 @@ def override(table: dict[str, Any], key: str, value: str) -> None:
     table[last] = value
 
 
+def flat(table: Mapping[str, Any], path: str = "") -> dict[str, Any]:
+    """Values of nested tables by dotted key."""
+    found: dict[str, Any] = {}
+    for key, value in table.items():
+        found |= flat(value, f"{path}{key}.") if isinstance(value, Mapping) else {f"{path}{key}": value}
+    return found
+
+
 def build(cls: type, table: Any, path: str) -> Any:
     """Make a record of `cls` from a table; every complaint names the table and the key."""
     if not isinstance(table, Mapping):

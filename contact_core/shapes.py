@@ -10,7 +10,17 @@ from typing import ClassVar, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from .reference import Hertz, SmoothContact, SmoothLine, hertz_line, hertz_point, line_film, nvm_film
+from .reference import (
+    Hertz,
+    SmoothContact,
+    SmoothLine,
+    hertz_line,
+    hertz_point,
+    line_film,
+    nvm_film,
+    rolling_line,
+    rolling_point,
+)
 
 Array = NDArray[np.float64]
 Viscosity = Callable[[Array, float], Array]  # [Pa s] at pressures [Pa] and a temperature [K]
@@ -79,6 +89,10 @@ class Point:
         x, y = self.radius_x, self.radius_y
         return nvm_film(load, speed, viscosity, pressure_coefficient, x, y, reduced_modulus)
 
+    def rolling(self, load: float, speed: float, viscosity: float, reduced_modulus: float) -> float:
+        """Rolling resistance [N] of the smooth bodies for an entrainment speed [m/s] and a load [N] above zero."""
+        return rolling_point(load, speed, viscosity, self.radius_x, self.radius_y, reduced_modulus)
+
 
 @dataclass(frozen=True)
 class Line:
@@ -121,6 +135,10 @@ class Line:
     ) -> float:
         """Central film [m] of the smooth bodies."""
         return line_film(load / self.length, speed, viscosity, pressure_coefficient, self.radius_x, reduced_modulus)
+
+    def rolling(self, load: float, speed: float, viscosity: float, reduced_modulus: float) -> float:
+        """Rolling resistance [N] of the smooth bodies for an entrainment speed [m/s] and a load [N] above zero."""
+        return self.length * rolling_line(load / self.length, speed, viscosity, self.radius_x, reduced_modulus)
 
 
 class Profile(Protocol):

@@ -23,6 +23,7 @@ _BASE: dict[str, tuple[float, Dimension]] = {
     "rad": (1.0, (0, 0, 0, 0)),
     "min": (60.0, (0, 0, 1, 0)),
     "h": (3600.0, (0, 0, 1, 0)),
+    "rpm": (2.0 * math.pi / 60.0, (0, 0, -1, 0)),
     "P": (0.1, (-1, 1, -1, 0)),
     "eV": (1.602176634e-19, (2, 1, -2, 0)),
     "mol": (6.02214076e23, (0, 0, 0, 0)),  # a number: kJ/mol are energies per molecule

@@ -175,7 +175,8 @@ def _signs(scene: Scene) -> Iterator[str]:
             "The derivatives of friction_force are total."
             if isinstance(scene.film, Regression)
             else "The derivatives of friction_force are those at a held film: pressures grow with the load, the gap "
-            "stands still. Each surface feels −rolling_resistance along +x, beside friction_force.",
+            "stands still.",
+            "Each surface feels −rolling_resistance along +x, beside friction_force; its power is not in power_loss.",
         )
     )
 

@@ -30,6 +30,28 @@ _HALF_SPACE = (
     "p is the pressure of oil and solids together.",
 )
 _LOAD = ("Load balance", ("W = ∬ p dx dy",), "It decides the rigid gap h0.")
+_ROLLING = "Rolling resistance"
+_ROLLING_TEXT = (
+    "Of smooth bodies under a flooded inlet, U = 2 η0 u_e/(E′ Rx) (Biboulet and Houpert 2010); (1 − Wc) of it is left "
+    "where solids carry load, and as much less as inlet heating, thinning or starvation leave less film."
+)
+_ROLLING_LINE = (
+    _ROLLING,
+    (
+        "F_r = b E′ R_x 1.42 (U w)^{1/2} [1 + (0.966 M^{1/2})^{10}]^{−1/10} (1 − W_c)",
+        "w = W/(b E′ R_x),   M = w U^{−1/2}",
+    ),
+    _ROLLING_TEXT + " b is the face width.",
+)
+_ROLLING_POINT = (
+    _ROLLING,
+    (
+        "F_r = 2 b E′ R_x U^{3/4} [(r − e)/(1 + M/6.6) + e] (1 − W_c)",
+        "r = 0.77 β^{−1/3} k^{0.12} U^{−1/12},   e = 1.8 β^{−1/4}",
+        "M = β^{1/4} k W/(E′ R_x^2) U^{−3/4},   β = E′ a/(π p_H R_x),   k = a/b",
+    ),
+    _ROLLING_TEXT + " a and b are Hertz's half widths.",
+)
 _SMOOTH_LINE = (
     "Film of the smooth bodies",
     ("h_s = R_x U^{1/2} H(M, L),   λ = h_s/σ",),
@@ -60,9 +82,10 @@ OF_SHAPE: dict[tuple[str, str], tuple[tuple[str, Lines, str], ...]] = {
             "thinned in the inlet where heat.inlet_shear or lubricant.flow ask for it, and starved as lubricant.supply "
             "says.",
         ),
+        _ROLLING_POINT,
     ),
-    ("regression", "line"): (_SMOOTH_LINE,),
-    ("regression", "roller"): (_SMOOTH_LINE,),
+    ("regression", "line"): (_SMOOTH_LINE, _ROLLING_LINE),
+    ("regression", "roller"): (_SMOOTH_LINE, _ROLLING_LINE),
 }
 
 # What becomes of oil that would be under tension, by lubricant.cavitation at the deterministic level.

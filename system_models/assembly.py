@@ -5,7 +5,7 @@ Who gives what to whom is the matter of `ball_on_disc`, `ball_bearing` and `gear
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,7 @@ from .parts.build import build as build_part
 from .parts.part import Part
 
 Value = float | int | bool | str
+Schedule = dict[str, Sequence[tuple[float, Value]]]  # by "part.variable": times [s] and values
 
 TOLD = (  # outputs of a contact that a result keeps
     "friction_force",
@@ -72,7 +73,7 @@ class Assembly:
     contacts: Mapping[str, Contact]
     connections: tuple[tuple[Any, ...], ...]
     parameters: Mapping[str, Value]
-    schedule: Mapping[str, list[tuple[float, Value]]]
+    schedule: Schedule
     settings: Mapping[str, Any]
 
     def outputs(self) -> list[str]:

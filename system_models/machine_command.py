@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 
 def run(arguments: argparse.Namespace) -> int:
     """Do what the command line asks for; return the exit code. Raises ContactError with a sentence if it cannot."""
-    from . import machines
+    from . import machines, timeline
 
     machine = machines.read(arguments.scene, _changes(arguments))
     if arguments.duty:
-        machine.table.setdefault("duty", {})["file"] = str(Path(arguments.duty).absolute())
+        machine.table["duty"] = timeline.with_file(machine.table.get("duty", {}), Path(arguments.duty).absolute())
     assembly = machines.assemble(machine)
     if arguments.ssp:
         return _export(assembly, arguments.ssp)
@@ -33,7 +33,7 @@ def _changes(arguments: argparse.Namespace) -> dict[str, str]:
             raise ContactError(f"--{option} is empty. Give a value, or leave --{option} out.")
     changes = dict(arguments.settings)
     if arguments.hours:
-        changes["simulate.stop_time"] = f"{arguments.hours} h"
+        changes["duty.duration"] = f"{arguments.hours} h"
     if arguments.grid:
         changes["contact.film.points"] = arguments.grid
     return changes

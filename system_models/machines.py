@@ -16,17 +16,19 @@ Any contact can be deterministic: `deterministic = ["inner_1"]`.
 
 import tomllib
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from importlib import import_module
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from contact_core.errors import SceneError
-from contact_core.quantities import out_of_range
-from contact_core.reading import build, did_you_mean, override
+from contact_core.quantities import LEVELS, out_of_range
+from contact_core.reading import build, did_you_mean, flat
 from contact_core.scene import Scene
 
-from .assembly import Assembly
+from .assembly import Assembly, Contact
+from .master.reading import settings, value
 
 _KINDS = {"ball_on_disc": "ball_on_disc", "ball_bearing": "ball_bearing", "gear_pair": "gear_pair"}  # and its module
 
@@ -76,12 +78,22 @@ def read(source: str, changes: Mapping[str, str] | None = None) -> Machine:
         ) from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise SceneError(f"The machine's file '{source}' is not valid TOML: {error}.") from None
-    for key, value in (changes or {}).items():
-        override(table, key, value)
+    for key, text in (changes or {}).items():
+        _put(table, key, value(text))
     kind = table.pop("kind", None)
     if kind not in _KINDS:
         raise SceneError(f"kind = {kind!r} is not one of {', '.join(_KINDS)}.{did_you_mean(str(kind), list(_KINDS))}")
     return Machine(path.stem, kind, table, path.parent if source.endswith(".toml") else Path())
+
+
+def _put(table: dict[str, Any], key: str, item: Any) -> None:
+    """Set a dotted key."""
+    *path, last = key.split(".")
+    for name in path:
+        table = table.setdefault(name, {})
+        if not isinstance(table, dict):
+            raise SceneError(f"'{key}' cannot be set: '{name}' is a value, not a table.")
+    table[last] = item
 
 
 def assemble(machine: Machine) -> Assembly:
@@ -106,14 +118,28 @@ def scene_of(table: Mapping[str, Any]) -> Scene:
     if "scene" not in values:
         raise SceneError("contact.scene is missing. It names a shipped scene, or the path of one.")
     base = str(values.pop("scene"))
-    return Scene.from_toml(base, {key: str(value) for key, value in _flat(values).items()})
+    return Scene.from_toml(base, {key: str(item) for key, item in flat(values).items()})
 
 
-def _flat(table: Mapping[str, Any], path: str = "") -> dict[str, Any]:
-    found: dict[str, Any] = {}
-    for key, value in table.items():
-        found |= _flat(value, f"{path}{key}.") if isinstance(value, Mapping) else {f"{path}{key}": value}
-    return found
+def at_levels(contacts: Mapping[str, Contact], table: Mapping[str, Any]) -> dict[str, Contact]:
+    """The contacts at the level of their scene, those that the file names under `deterministic` at that one."""
+    deep = table.get("deterministic", [])
+    for name in deep:
+        if name not in contacts:
+            raise SceneError(
+                f"deterministic names no contact: '{name}'.{did_you_mean(str(name), list(contacts))} Known are "
+                f"{', '.join(contacts)}."
+            )
+    level = {"fidelity": len(LEVELS)}
+    return {
+        name: replace(contact, parameters={**contact.parameters, **level}) if name in deep else contact
+        for name, contact in contacts.items()
+    }
+
+
+def simulation(table: Mapping[str, Any], duration: float) -> dict[str, Any]:
+    """The arguments for `master.simulate`; a duty of `duration` [s] is simulated to its end if nothing is said."""
+    return {"stop_time": duration, **settings(table.get("simulate", {}))}
 
 
 def check_keys(machine: Machine, *known: str) -> None:

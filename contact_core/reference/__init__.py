@@ -21,6 +21,7 @@ from .line_films import SmoothLine, dowson_line, line_film, moes_line, moes_line
 from .oil import bair_thinning_factor, inlet_shear_factor
 from .point_films import SmoothContact, chittenden, hamrock_dowson, moes_film, nijenbanning_venner_moes, nvm_film
 from .profiles import logarithmic_drop, lundberg_depth, rounded_drop
+from .rolling import rolling_line, rolling_point
 from .sliders import ParabolicSlider
 from .squeeze import squeeze_line, squeeze_point, squeezed_line, squeezed_point
 from .starvation import film_behind_meniscus, supplied_film
@@ -54,6 +55,8 @@ __all__ = [
     "nijenbanning_venner_moes",
     "nvm_film",
     "palmgren_approach",
+    "rolling_line",
+    "rolling_point",
     "rounded_drop",
     "squeeze_line",
     "squeeze_point",

@@ -77,7 +77,8 @@ class ControlledStepper(Stepper):
                 attempt = self._with_new_evidence(before, attempt)
             if attempt.error <= 1.0 or self._is_smallest(attempt.size):
                 self.statistics.below_min_step += attempt.error > 1.0
-                self.size = max(self.min_step, attempt.size * self.control.accept(attempt.error))
+                size = max(self.min_step, attempt.size * self.control.accept(attempt.error))
+                self.size = min(size, self.coupled.settings.max_step or math.inf)
                 return attempt
             before, end = attempt, self._rejected(attempt.size, attempt.error, start)
 

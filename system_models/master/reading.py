@@ -50,7 +50,7 @@ def read(path: str | Path, changes: Iterable[tuple[str, str]] = ()) -> tuple[Sys
         tables = _tables(path)
         for key, text in changes:
             _change(tables, key, text)
-        return _system(tables, path.parent), _settings(tables["simulate"])
+        return _system(tables, path.parent), settings(tables["simulate"])
     except ContactError as error:
         raise CouplingError(f"In '{path}': {error}") from None
 
@@ -103,10 +103,10 @@ def _change(tables: dict[str, dict[str, Any]], key: str, text: str) -> None:
         )
     if table in _KEYS and name not in _KEYS[table]:
         raise _unknown(f"[{table}]", name, list(_KEYS[table]), "keys")
-    tables[table][name] = _value(text)
+    tables[table][name] = value(text)
 
 
-def _value(text: str) -> Any:
+def value(text: str) -> Any:
     """As TOML has it, else plain text: 0.5, true, ["a.x"], 10 ms, jacobi."""
     try:
         parsed = tomllib.loads(f"value = {text}")
@@ -133,9 +133,15 @@ def _fmu(name: str, path: Any) -> str:
     return path
 
 
-def _settings(table: Mapping[str, Any]) -> dict[str, Any]:
-    """The arguments for `simulate`; those that are "none" are left at what they are by themselves."""
-    return {key: _SIMULATE[key](f"simulate.{key}", value) for key, value in table.items() if value != "none"}
+def settings(table: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments for `simulate` from a table; those that are "none" are left at what they are by themselves.
+
+    Raises CouplingError for one that is unknown or of the wrong type.
+    """
+    for key in table:
+        if key not in _SIMULATE:
+            raise _unknown("[simulate]", key, list(_SIMULATE), "keys")
+    return {key: _SIMULATE[key](f"simulate.{key}", item) for key, item in table.items() if item != "none"}
 
 
 def _seconds(key: str, value: Any) -> float:
@@ -229,6 +235,7 @@ _SIMULATE: dict[str, Callable[[str, Any], Any]] = {
     "iteration_tolerance": _number,
     "min_step": _seconds,
     "horizon": _seconds,
+    "max_step": _seconds,
     "outputs": _names,
 }
 _KEYS: dict[str, dict[str, Callable[[str, Any], Any]]] = {"coupling": _COUPLING, "simulate": _SIMULATE}

@@ -28,6 +28,7 @@ class Settings:
     iteration_tolerance: float | None = None
     min_step: float | None = None
     horizon: float | None = None
+    max_step: float | None = None
 
     def __post_init__(self) -> None:
         _choose("algorithm", self.algorithm, ["jacobi", "gauss_seidel"])
@@ -37,7 +38,7 @@ class Settings:
             raise CouplingError(f"order = {self.order!r} is no hold order. Give 0, 1 or 2.")
         for name in ("stop_time", "step_size"):
             _positive(name, getattr(self, name), math.inf, "s")
-        for name in ("min_step", "horizon"):
+        for name in ("min_step", "horizon", "max_step"):
             if getattr(self, name) is not None:
                 _positive(name, getattr(self, name), math.inf, "s")
         for name in ("tolerance", "iteration_tolerance"):
@@ -45,6 +46,11 @@ class Settings:
                 _positive(name, getattr(self, name), 1.0, "")
         if self.min_step is not None and self.min_step > self.step_size:
             raise CouplingError(f"min_step = {self.min_step:g} s is above step_size = {self.step_size:g} s. Lower it.")
+
+        if self.max_step is not None and self.max_step < self.step_size:
+            raise CouplingError(f"max_step = {self.max_step:g} s is below step_size = {self.step_size:g} s. Raise it.")
+        if self.max_step is not None and self.tolerance is None:
+            raise CouplingError(f"max_step = {self.max_step:g} s limits steps chosen by a tolerance. Give one as well.")
 
     @property
     def smallest_step(self) -> float:

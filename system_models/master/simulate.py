@@ -41,6 +41,7 @@ def simulate(
     resume: bool = False,
     outputs: Iterable[str] | None = None,
     horizon: float | None = None,
+    max_step: float | None = None,
     history: Mapping[str, Callable[[float], float]] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
@@ -58,7 +59,8 @@ def simulate(
     estimated errors of all steps add up to it at most over the `horizon` [s]: all of the simulation, unless errors are
     known to die out sooner. A system that amplifies errors, or whose phase drifts, ends with larger ones. Where a step
     of min_step (1e-6 step_size) is still too inaccurate it stands, and is counted in `below_min_step`. Events are found
-    to min_step, unless two of one output lie between two rows.
+    to min_step, unless two of one output lie between two rows. max_step [s]: no step is longer, however accurate; where
+    FMUs evolve slowly inside, rows stay close enough to show it.
 
     checkpoint: a folder in which the state is kept; with `resume` the simulation goes on from there, bit for bit.
     outputs: the variables to record, all outputs if none are named. history: the course of coupled outputs before the
@@ -74,7 +76,7 @@ def simulate(
     values that are not finite; StateError for a checkpoint that is damaged or of another simulation.
     """
     settings = Settings(
-        stop_time, step_size, algorithm, order, iterate, tolerance, iteration_tolerance, min_step, horizon
+        stop_time, step_size, algorithm, order, iterate, tolerance, iteration_tolerance, min_step, horizon, max_step
     )
     settings.check(system)
     ports = system.outputs(outputs)

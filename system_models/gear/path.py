@@ -1,0 +1,89 @@
+"""Along the path of contact: what a contact at a position on the line of action is made of.
+
+Positions are distances [m] from T1, numbers or arrays. Speeds of rotation [rad/s] are positive as the gears turn; the
+surface speeds are relative to the contact.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_core.errors import SceneError
+
+from .geometry import SpurGearPair
+
+Array = NDArray[np.float64]
+Numbers = TypeVar("Numbers", float, Array)
+
+_ALIKE = 1e-9  # of the path: distances below it are rounding
+
+
+def radius(pair: SpurGearPair, position: Numbers) -> Numbers:
+    """Combined radius of curvature [m] of two involutes whose own radii are the distances to T1 and T2."""
+    return position * (pair.line_length - position) / pair.line_length
+
+
+def surface_speeds(pair: SpurGearPair, position: Numbers, speed_1: float, speed_2: float) -> tuple[Numbers, Numbers]:
+    """Surface speeds [m/s] of pinion and wheel that turn at speed_1 and speed_2 [rad/s]."""
+    return speed_1 * position, speed_2 * (pair.line_length - position)
+
+
+def slide_to_roll(pair: SpurGearPair, position: Numbers) -> Numbers:
+    """2 (u1 - u2) / (u1 + u2) of gears in mesh."""
+    first, second = surface_speeds(pair, position, pair.ratio, 1.0)
+    return 2.0 * (first - second) / (first + second)
+
+
+def track_lengths(pair: SpurGearPair, position: Numbers) -> tuple[Numbers, Numbers]:
+    """Way [m] that a flank point of pinion and wheel runs, at its surface speed, while its gear turns once.
+
+    A point meets the other gear once a turn, so this is the travel between two passes of it, whatever the speed.
+    """
+    return 2.0 * math.pi * position, 2.0 * math.pi * (pair.line_length - position)
+
+
+@dataclass(frozen=True)
+class Stations:
+    """Where contacts are solved, and the part of the path each of them stands for; arrays [n] from A to E."""
+
+    position: Array  # [m]
+    stretch: Array  # [m]; all together the path of contact
+
+
+def steps(pair: SpurGearPair) -> Array:
+    """A, E, and every position [m] between them where pairs of teeth come or go, or where sliding turns round."""
+    inside = range(1, math.ceil(pair.contact_ratio))
+    found = sorted(
+        [pair.pitch_point]
+        + [pair.start + i * pair.base_pitch for i in inside]
+        + [pair.end - i * pair.base_pitch for i in inside]
+    )
+    near = _ALIKE * (pair.end - pair.start)
+    edges = [pair.start]
+    for edge in found:
+        if edges[-1] + near < edge < pair.end - near:
+            edges.append(edge)
+    return np.array([*edges, pair.end])
+
+
+def stations_of(pair: SpurGearPair, count: int) -> Stations:
+    """`count` stations in the middles of stretches that end at A, B, C, D and E.
+
+    The load of a pair of teeth jumps at B and D, and sliding turns round at C. A station there would have two loads, or
+    none of the friction of its surroundings; a stretch across would mix them. Between these points the stretches are
+    equal, their number so that the longest is as short as can be. Sums over stations are then the midpoint rule on
+    smooth pieces: exact for what is linear in between, such as a constant coefficient of friction under rigid sharing,
+    and of second order else. Raises SceneError if there are fewer stations than pieces.
+    """
+    edges = steps(pair)
+    lengths = np.diff(edges)
+    if count < len(lengths):
+        raise SceneError(f"stations = {count} must be at least {len(lengths)}: one between any two of A, B, C, D, E.")
+    numbers = np.ones(len(lengths), dtype=int)
+    for _ in range(count - len(lengths)):
+        numbers[np.argmax(np.round(lengths / numbers / (_ALIKE * lengths.sum())))] += 1  # equal ones in order
+    pieces = [low + length * (np.arange(n) + 0.5) / n for low, length, n in zip(edges, lengths, numbers, strict=False)]
+    return Stations(np.concatenate(pieces), np.repeat(lengths / numbers, numbers))

@@ -1,0 +1,95 @@
+"""What engineers compare a gear mesh with: loss factors, mean friction, flash temperature.
+
+The loss of a mesh is P_V = P_a H_V mu_mz: transmitted power, loss factor of the geometry, mean coefficient of friction.
+"""
+
+import math
+
+import numpy as np
+import scipy  # its parts are loaded at their first use
+
+from .geometry import SpurGearPair
+from .path import Numbers, radius, steps
+from .sharing import Sharing, loads
+
+
+def ohlendorf(pair: SpurGearPair) -> float:
+    """Loss factor H_V = pi (u + 1) / (z1 u) (1 - e + e1^2 + e2^2), e1 and e2 the contact ratios after and before C.
+
+    That of rigid sharing if a single pair of teeth carries at C, as it does in FZG's type C, not in type A.
+    Source: Ohlendorf, Verlustleistung und Erwaermung von Stirnradern, Diss. TU Muenchen 1958.
+    """
+    after = (pair.end - pair.pitch_point) / pair.base_pitch
+    before = (pair.pitch_point - pair.start) / pair.base_pitch
+    share = 1.0 - pair.contact_ratio + after**2 + before**2
+    return math.pi * (pair.ratio + 1.0) / (pair.teeth_1 * pair.ratio) * share
+
+
+def loss_factor(pair: SpurGearPair, sharing: Sharing, force: float) -> float:
+    """H_V = 1/p_b integral of (F_N / F_bt) (|v_g| / v_tb) along the path of contact, for a force F_bt [N] > 0.
+
+    Source: Niemann & Winter, Maschinenelemente II, 1989, section 21.11.
+    """
+
+    def part(position: float) -> float:
+        return float(loads(pair, sharing, force, np.array(position)) / force * sliding_share(pair, position))
+
+    edges = steps(pair)
+    found = scipy.integrate.quad(part, edges[0], edges[-1], points=edges[1:-1], limit=400, epsrel=1e-9)
+    return float(found[0]) / pair.base_pitch
+
+
+def sliding_share(pair: SpurGearPair, position: Numbers) -> Numbers:
+    """Sliding speed at a position [m] over the speed along the line of action."""
+    return (1.0 + 1.0 / pair.ratio) * abs(position - pair.pitch_point) / pair.base_radius_1
+
+
+def schlenk(
+    pair: SpurGearPair, force: float, speed_1: float, viscosity: float, ra: float, oil_factor: float = 1.0
+) -> float:
+    """Mean coefficient of friction of a mesh, 0.048 [(F_bt / b) / (v_sum rho)]^0.2 eta^-0.05 Ra^0.25 X_L.
+
+    force F_bt [N]; speed_1 of the pinion [rad/s] > 0; viscosity [Pa s] at the oil's temperature; ra [m], arithmetic
+    mean roughness, averaged over both flanks. v_sum and rho are sum of surface speeds and radius of curvature at C.
+    oil_factor X_L: 1 for mineral oils. Fitted in N/mm, m/s, mm, mPa s and um. ISO/TR 14179-2 has the same form.
+    Source: Schlenk, Diss. TU Muenchen 1994; Fernandes, Marques, Martins & Seabra, Tribol. Int. 88 (2015) 306, find X_L
+    of 0.846 for a mineral oil, 0.650 for a polyalphaolefin and an ester, 0.585 for a polyglycol.
+    """
+    intensity = 1e-3 * force / pair.face_width / (_sum_speed(pair, speed_1) * 1e3 * _radius_at_pitch(pair))
+    return 0.048 * intensity**0.2 * (1e3 * viscosity) ** -0.05 * (1e6 * ra) ** 0.25 * oil_factor
+
+
+def iso_14179_1(pair: SpurGearPair, torque: float, speed_1: float, kinematic_viscosity: float) -> float:
+    """Mean coefficient of friction of a mesh, nu^-0.223 K^-0.40 / (3.239 V^0.70).
+
+    torque [N m] and speed_1 [rad/s] of the pinion, both > 0; kinematic_viscosity [m2/s] at the oil's temperature. V is
+    the speed of the pitch circles, K = T1 (z1 + z2) / (2 b r_w1^2 z2) the load intensity; fitted in m/s, N/mm2, mm2/s.
+    Meant for 2 < V <= 25 m/s and 1.4 < K <= 14 N/mm2. Source: ISO/TR 14179-1:2001 (the method of AGMA), section 7.
+    """
+    speed = speed_1 * pair.pitch_radius_1
+    teeth = (pair.teeth_1 + pair.teeth_2) / pair.teeth_2
+    intensity = 1e-6 * torque * teeth / (2.0 * pair.face_width * pair.pitch_radius_1**2)
+    return (1e6 * kinematic_viscosity) ** -0.223 * intensity**-0.40 / (3.239 * speed**0.70)
+
+
+def blok_line(
+    load: float, length: float, friction: float, speed_1: float, speed_2: float, half_width: float, effusivity: float
+) -> float:
+    """Largest flash temperature rise [K] of a line contact that moves fast over both bodies, of one material.
+
+    load [N] on a length [m], coefficient of friction, surface speeds [m/s], Hertz's half width [m], effusivity
+    sqrt(conductivity * density * heat capacity) [W s^0.5 / (m2 K)]. The factor is that of Hertz's pressure, and heat
+    goes to each body so that both become equally hot.
+    Source: Blok, Proc. General Discussion on Lubrication, IMechE 1937, vol. 2, p. 222.
+    """
+    rubbing = friction * load / length * abs(math.sqrt(abs(speed_1)) - math.sqrt(abs(speed_2)))
+    return 1.11 * rubbing / (effusivity * math.sqrt(2.0 * half_width))
+
+
+def _sum_speed(pair: SpurGearPair, speed_1: float) -> float:
+    """Sum of both surface speeds at C [m/s]."""
+    return 2.0 * speed_1 * pair.pitch_point
+
+
+def _radius_at_pitch(pair: SpurGearPair) -> float:
+    return float(radius(pair, pair.pitch_point))

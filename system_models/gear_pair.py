@@ -1,0 +1,152 @@
+"""A spur gear pair: drive, both shafts, the mesh with a contact at every flank station, a brake, and the heat.
+
+    [drive]            parts.drive.Drive of the pinion
+    [brake]            parts.brake.Brake of the wheel
+    [shafts]           gear.shafts.GearShafts; `pair` is that of the mesh, `stiffness` by default the mean of its teeth
+    [mesh]             gear.mesh.GearMesh; pair = "fzg_c", "fzg_a" or the numbers of another one
+    [gearbox]          parts.thermal.ThermalNetwork with the nodes pinion, wheel and oil (heat_flows = 1)
+    [contact]          a scene with a line contact and heat.bulk = "inputs"; radius, width and tracks are the station's
+
+Signals of the duty: speed and torque (of the pinion; the brake's torque follows), temperature (that a thermostat holds
+the oil at) and ambient.
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from contact_core.errors import SceneError
+from contact_core.quantities import TABLE, Quantity
+from contact_core.reading import did_you_mean, unbuild
+
+from . import machines, timeline
+from .assembly import Assembly, Contact, Schedule
+from .gear.geometry import FZG_A, FZG_C
+from .gear.mesh import GearMesh, Station
+from .gear.shafts import GearShafts
+from .gear.sharing import mean_stiffness
+from .parts.brake import Brake
+from .parts.drive import Drive
+from .parts.part import Part, indexed
+from .parts.thermal import ThermalNetwork
+
+PAIRS = {"fzg_a": FZG_A, "fzg_c": FZG_C}
+RECEIVED = (
+    "friction_force",
+    "power_loss",
+    "rolling_resistance",
+    "flash_temperature_rise",
+    "heat_flow_1",
+    "heat_flow_2",
+)
+_SIGNALS = {
+    "speed": Quantity("speed", "w_1", "rad/s", "speed of the pinion", "input", display="rpm", minimum=0.0, maximum=1e4),
+    "torque": Quantity("torque", "T_1", "N m", "torque of the pinion", "input", minimum=0.0, maximum=1e6),
+    "temperature": TABLE["temperature"],
+    "ambient": replace(TABLE["temperature"], name="ambient", text="temperature of the surroundings"),
+}
+
+
+def flank(k: int) -> str:
+    """Name of the contact at a station, counted from 1 at the pinion's root."""
+    return f"flank_{k:02d}"
+
+
+def assemble(machine: machines.Machine) -> Assembly:
+    """The co-simulation of a gear pair. Raises SceneError for what is missing, unknown or out of range."""
+    machines.check_keys(
+        machine,
+        *("description", "drive", "brake", "shafts", "mesh", "gearbox", "contact", "deterministic", "duty", "simulate"),
+    )
+    table = {**machine.table, "mesh": _with_pair(machine.table.get("mesh", {}))}
+    mesh: GearMesh = machines.record(GearMesh, table, "mesh")
+    shafts = {"stiffness": f"{mean_stiffness(mesh.pair) * mesh.pair.face_width!r} N/m", **table.get("shafts", {})}
+    table["shafts"] = {"pair": table["mesh"]["pair"], **shafts}
+    parts: dict[str, Part] = {
+        "drive": machines.record(Drive, table, "drive"),
+        "brake": machines.record(Brake, table, "brake"),
+        "shafts": machines.record(GearShafts, table, "shafts"),
+        "mesh": mesh,
+        "gearbox": machines.record(ThermalNetwork, table, "gearbox"),
+    }
+    duty = timeline.read(table.get("duty", {}), _SIGNALS, machine.folder, ("speed", "torque"))
+    contacts = {flank(k): _contact(table, station) for k, station in enumerate(mesh.contacts, 1)}
+    schedule: Schedule = dict(
+        duty.schedule(
+            {
+                "speed": "drive.speed_setpoint",
+                "torque": "brake.torque_setpoint",
+                "temperature": "gearbox.setpoint_oil",
+                "ambient": "gearbox.temperature_ambient",
+            }
+        )
+    )
+    schedule["brake.torque_setpoint"] = [(time, mesh.pair.ratio * value) for time, value in duty.course("torque")]
+    return Assembly(
+        machine.name,
+        str(table["description"]),
+        parts,
+        machines.at_levels(contacts, table),
+        (*_SHAFTS, *(link for k in range(1, mesh.stations + 1) for link in _links(k))),
+        {},
+        schedule,
+        machines.simulation(table, duty.end),
+    )
+
+
+_SHAFTS: tuple[tuple[Any, ...], ...] = (
+    ("shafts.speed_1", "drive.speed"),
+    ("drive.torque", "shafts.drive_torque"),
+    ("shafts.speed_2", "brake.speed"),
+    ("brake.torque", "shafts.brake_torque"),
+    ("shafts.speed_1", "mesh.speed_1"),
+    ("shafts.speed_2", "mesh.speed_2"),
+    ("shafts.mesh_torque", "mesh.torque"),
+    ("mesh.friction_torque_1", "shafts.friction_torque_1"),
+    ("mesh.friction_torque_2", "shafts.friction_torque_2"),
+    ("mesh.heat_flow_1", "gearbox.heat_pinion"),
+    ("mesh.heat_flow_2", "gearbox.heat_wheel"),
+    ("mesh.power_rolling", "gearbox.heat_oil"),
+    ("gearbox.temperature_pinion", "mesh.body_temperature_1"),
+    ("gearbox.temperature_wheel", "mesh.body_temperature_2"),
+)
+
+
+def _links(k: int) -> list[tuple[Any, ...]]:
+    """Connections of the contact at a station."""
+    name = flank(k)
+    sent = [(f"mesh.{indexed(key, k)}", f"{name}.{key}") for key in ("load", "speed_1", "speed_2")]
+    received = [(f"{name}.{key}", f"mesh.{indexed(key, k)}") for key in RECEIVED]
+    return [
+        *sent,
+        *received,
+        ("gearbox.temperature_oil", f"{name}.temperature"),
+        ("gearbox.temperature_pinion", f"{name}.body_temperature_1"),
+        ("gearbox.temperature_wheel", f"{name}.body_temperature_2"),
+    ]
+
+
+def _with_pair(table: Mapping[str, Any]) -> dict[str, Any]:
+    """The table of the mesh with the numbers of a pair that it names."""
+    pair = table.get("pair")
+    if not isinstance(pair, str):
+        return dict(table)
+    if pair not in PAIRS:
+        raise SceneError(
+            f"mesh.pair = '{pair}' is not known.{did_you_mean(pair, list(PAIRS))} Known are {', '.join(PAIRS)}."
+        )
+    return {**table, "pair": unbuild(PAIRS[pair])}
+
+
+def _contact(table: Mapping[str, Any], station: Station) -> Contact:
+    """The contact at a station: what its FMU is told beside load, speeds and temperatures."""
+    scene = machines.scene_of(table)
+    return Contact(
+        scene,
+        {
+            "radius_x": station.radius_x,
+            "geometry.face_width": station.face_width,
+            "geometry.track_length_1": station.track_length_1,
+            "geometry.track_length_2": station.track_length_2,
+        },
+    )

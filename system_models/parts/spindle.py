@@ -1,0 +1,67 @@
+"""A spindle of a rig: a body on a servo motor, which holds its surface speed."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from contact_core.quantities import parameter
+
+from . import linear
+from .part import Input, Output, Part, State, Values
+
+
+@dataclass(frozen=True)
+class Spindle(Part):
+    """J w' = T + R (F - F_r), T = J b (y - 2 w + w_s), y' = b (w_s - w).
+
+    The servo's gains make both poles -b: the speed follows its setpoint as w' = b (w_s - w) would, and a force moves it
+    by R F / (J b) exp(-1) at most, after the time 1/b, and not for long.
+    """
+
+    name: ClassVar[str] = "Spindle"
+    text: ClassVar[str] = "Ball or disc of a rig on a servo motor that holds its surface speed"
+
+    radius: float = parameter("m", "R, from the axis to the contact", least=1e-5, most=10.0)
+    inertia: float = parameter("kg m2", "J, moment of inertia of motor, shaft and body", least=1e-9, most=1e6)
+    bandwidth: float = parameter("rad/s", "b, bandwidth of the servo", least=1e-3, most=1e5)
+
+    @property
+    def inputs(self) -> tuple[Input, ...]:
+        """The speed wanted and what the contact does to the body."""
+        return (
+            Input("surface_speed_setpoint", "u_s", "m/s", "surface speed to hold", minimum=-100.0, maximum=100.0),
+            Input("friction_force", "F", "N", "friction force on this body along its surface speed"),
+            Input("rolling_resistance", "F_r", "N", "resistance to rolling, against the surface speed", nominal=0.1),
+        )
+
+    @property
+    def responses(self) -> tuple[Output, ...]:
+        """Surface speed, and what the motor gives for it."""
+        by = ("surface_speed_setpoint",)
+        return (
+            Output("surface_speed", "u", "m/s", "surface speed of the body at the contact"),
+            Output("torque", "T", "N m", "torque of the motor", nominal=0.1, direct=by),
+            Output("power", "P", "W", "power that the motor gives", direct=by),
+        )
+
+    def initial(self, inputs: Values) -> State:
+        """Speed w and memory y of the servo [rad/s]: settled."""
+        setpoint = inputs["surface_speed_setpoint"] / self.radius
+        return (setpoint, setpoint - self._acceleration(inputs) / self.bandwidth)
+
+    def advance(self, state: State, inputs: Values, step: float) -> State:
+        """Exact."""
+        b = self.bandwidth
+        setpoint = inputs["surface_speed_setpoint"] / self.radius
+        matrix, entry = ((-2.0 * b, b), (-b, 0.0)), ((b, 1.0), (b, 0.0))
+        return linear.advance(matrix, entry, state, (setpoint, self._acceleration(inputs)), step)
+
+    def _acceleration(self, inputs: Values) -> float:
+        """What the contact does to the body [rad/s2]."""
+        return self.radius * (inputs["friction_force"] - inputs["rolling_resistance"]) / self.inertia
+
+    def outputs(self, state: State, inputs: Values) -> dict[str, float]:
+        """Surface speed, torque and power."""
+        speed, memory = state
+        setpoint = inputs["surface_speed_setpoint"] / self.radius
+        torque = self.inertia * self.bandwidth * (memory - 2.0 * speed + setpoint)
+        return {"surface_speed": speed * self.radius, "torque": torque, "power": torque * speed}

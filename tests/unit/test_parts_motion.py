@@ -1,0 +1,179 @@
+"""Drive, shaft, brake, spindle and load arm against closed forms and another integrator."""
+
+import math
+
+import numpy as np
+import pytest
+from component_examples import marched
+from scipy.integrate import solve_ivp
+
+from system_models.parts.brake import Brake
+from system_models.parts.drive import Drive
+from system_models.parts.linear import advance
+from system_models.parts.load_arm import LoadArm
+from system_models.parts.shaft import Shaft
+from system_models.parts.spindle import Spindle
+
+
+@pytest.mark.parametrize("rate", [0.0, 1e-6, 1.0, 1e4, 1e8])
+@pytest.mark.parametrize("step", [1e-4, 1.0, 600.0])
+def test_a_decay_and_its_integral_are_exact_however_stiff(rate, step):
+    value, integral = advance(((-rate, 0.0), (1.0, 0.0)), ((1.0,), (0.0,)), (2.0, 0.5), (3.0,), step)
+    x = rate * step
+    mean = -math.expm1(-x) / x if x else 1.0  # of exp(-x) over the step
+    assert value == pytest.approx(2.0 * math.exp(-x) + 3.0 * step * mean, rel=1e-13)
+    second = (1.0 - mean) / rate * step if x > 1e-3 else step**2 * (0.5 - x / 6.0 + x**2 / 24.0)
+    assert integral == pytest.approx(0.5 + 2.0 * step * mean + 3.0 * second, rel=1e-10)
+
+
+def test_a_shaft_runs_up_as_the_closed_form():
+    shaft, torques = Shaft(inertia=0.5, damping=0.1), {"torque_drive": 4.0, "torque_resisting": 1.5}
+    speed, angle = shaft.advance((0.0, 0.0), torques, 8.0)
+    final, tau = 2.5 / 0.1, 0.5 / 0.1
+    assert speed == pytest.approx(final * -math.expm1(-8.0 / tau), rel=1e-13)
+    assert angle == pytest.approx(final * (8.0 + tau * math.expm1(-8.0 / tau)), rel=1e-13)
+    outputs = shaft.outputs((speed, angle), torques)
+    assert outputs == {"speed": speed, "revolutions": angle / (2.0 * math.pi)}
+
+
+def test_without_damping_a_step_changes_the_speed_by_the_impulse():
+    torques = {"torque_drive": 4.0, "torque_resisting": 1.5}
+    assert Shaft(0.5).advance((10.0, 0.0), torques, 6.0) == pytest.approx((40.0, 150.0), rel=1e-14)
+
+
+@pytest.mark.parametrize("damping", [0.0, 1e-9, 0.3])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_shaft_runs_down_and_stands(damping, sign):
+    shaft, torques = Shaft(0.5, damping), {"torque_drive": sign * 0.5, "torque_resisting": sign * 2.0}
+    speed, angle = shaft.advance((sign * 30.0, 0.0), torques, 600.0)
+    assert speed == 0.0
+    # without damping, the work of the net torque is the kinetic energy
+    free = 0.5 * 0.5 * 30.0**2 / 1.5
+    tau = 0.5 / damping if damping else 0.0
+    damped = tau * 30.0 - 1.5 / damping * tau * math.log1p(damping * 30.0 / 1.5) if damping == 0.3 else free
+    assert sign * angle == pytest.approx(damped, rel=1e-7)
+
+
+@pytest.mark.parametrize("torque", [-2.0, -0.1, 0.0, 1.0, 2.0])
+@pytest.mark.parametrize("resisting", [2.0, -2.0])
+def test_a_standing_shaft_is_held_up_to_the_resisting_torque(torque, resisting):
+    assert Shaft(0.5).advance((0.0, 7.0), {"torque_drive": torque, "torque_resisting": resisting}, 60.0) == (0.0, 7.0)
+
+
+def test_a_shaft_breaks_away_when_the_drive_is_stronger():
+    torques = {"torque_drive": 2.5, "torque_resisting": 2.0}
+    assert Shaft(0.5).advance((0.0, 0.0), torques, 2.0) == pytest.approx((2.0, 2.0), rel=1e-13)
+
+
+def test_a_drive_can_turn_a_shaft_round_within_a_step():
+    torques = {"torque_drive": -3.0, "torque_resisting": 2.0}
+    assert Shaft(0.5).advance((10.0, 0.0), torques, 3.0) == pytest.approx((-20.0, -15.0), rel=1e-13)
+
+
+def test_a_torque_that_drives_a_turning_shaft_is_not_held_back():
+    torques = {"torque_drive": 0.0, "torque_resisting": -1.0}
+    assert Shaft(0.5).advance((10.0, 0.0), torques, 3.0)[0] == pytest.approx(16.0, rel=1e-13)
+
+
+def test_a_drive_follows_its_ramp_and_integrates_the_error_on_the_way():
+    drive = Drive(proportional_gain=2.0, integral_time=4.0, torque_limit=1e4, ramp=10.0)
+    reference, integral = drive.advance((0.0, 0.0), {"speed_setpoint": 50.0, "speed": 20.0}, 8.0)
+    assert reference == 50.0
+    # the error is 10 t - 20 for 5 s and 30 for the other 3 s
+    assert integral == pytest.approx(2.0 / 4.0 * (10.0 * 12.5 - 100.0 + 90.0), rel=1e-13)
+    assert drive.advance((0.0, 0.0), {"speed_setpoint": -50.0, "speed": 0.0}, 2.0)[0] == -20.0
+
+
+def test_the_integral_part_stops_at_the_limit_and_comes_back_at_once():
+    drive = Drive(proportional_gain=2.0, integral_time=4.0, torque_limit=30.0, ramp=1e6)
+    stalled = drive.advance((50.0, 0.0), {"speed_setpoint": 50.0, "speed": 0.0}, 600.0)
+    assert stalled == (50.0, 30.0)
+    assert drive.outputs(stalled, {"speed_setpoint": 50.0, "speed": 0.0})["torque"] == 30.0
+    _, integral = drive.advance(stalled, {"speed_setpoint": 50.0, "speed": 54.0}, 1.0)
+    assert integral == pytest.approx(30.0 - 2.0 / 4.0 * 4.0, rel=1e-13)
+
+
+def test_an_error_that_changes_sign_on_the_ramp_meets_the_limit_on_both_sides():
+    drive = Drive(proportional_gain=2.0, integral_time=0.1, torque_limit=30.0, ramp=10.0)
+    inputs, state = {"speed_setpoint": 100.0, "speed": 50.0}, (0.0, 10.0)
+    fine = marched(drive, state, inputs, 0.01, 600)
+    assert drive.advance(state, inputs, 6.0) == pytest.approx(fine, rel=1e-11)
+    # down to -30 before the error turns at 5 s, and from there by 20/s * 10 t^2/2
+    assert fine[1] == pytest.approx(min(-30.0 + 20.0 * 5.0, 30.0), rel=1e-11)
+
+
+def test_drive_and_shaft_reach_the_setpoint_and_carry_the_load():
+    drive, shaft = Drive(0.5, 0.2, 20.0, 40.0), Shaft(0.05, 0.001)
+    inputs = {"speed_setpoint": 120.0, "speed": 0.0}
+    motor, turning, largest = drive.initial(inputs), shaft.initial({}), 0.0
+    for _ in range(20_000):
+        torque = drive.outputs(motor, inputs)["torque"]
+        turning = shaft.advance(turning, {"torque_drive": torque, "torque_resisting": 3.0}, 1e-3)
+        inputs["speed"] = turning[0]
+        motor = drive.advance(motor, inputs, 1e-3)
+        largest = max(largest, turning[0])
+    outputs = drive.outputs(motor, inputs)
+    assert inputs["speed"] == pytest.approx(120.0, rel=1e-6)
+    assert outputs["torque"] == pytest.approx(3.0 + 0.001 * 120.0, rel=1e-6)
+    assert outputs["power"] == pytest.approx(outputs["torque"] * 120.0, rel=1e-6)
+    assert largest < 1.05 * 120.0
+
+
+def test_a_brake_rises_to_its_setpoint_and_opposes_the_motion():
+    brake = Brake(rise_time=0.5, standstill_speed=0.1)
+    state = brake.advance((2.0,), {"torque_setpoint": 10.0, "speed": 0.0}, 1.0)
+    assert state[0] == pytest.approx(10.0 - 8.0 * math.exp(-2.0), rel=1e-14)
+    for speed, share in ((100.0, 1.0), (-100.0, -1.0), (0.0, 0.0), (0.05, math.tanh(0.5))):
+        outputs = brake.outputs(state, {"torque_setpoint": 10.0, "speed": speed})
+        assert outputs["torque"] == pytest.approx(state[0] * share, rel=1e-14)
+        assert outputs["power"] == pytest.approx(outputs["torque"] * speed, rel=1e-14)
+        assert outputs["power"] >= 0.0
+
+
+SPINDLE = Spindle(radius=0.0095, inertia=2e-4, bandwidth=40.0)
+
+
+def _inputs(setpoint: float, force: float = 0.0, rolling: float = 0.0) -> dict[str, float]:
+    return {"surface_speed_setpoint": setpoint, "friction_force": force, "rolling_resistance": rolling}
+
+
+def test_a_spindle_follows_its_setpoint_at_its_bandwidth():
+    state = SPINDLE.advance(SPINDLE.initial(_inputs(0.0)), _inputs(2.0), 0.03)
+    speed = SPINDLE.outputs(state, _inputs(2.0))["surface_speed"]
+    assert speed == pytest.approx(2.0 * -math.expm1(-40.0 * 0.03), rel=1e-12)
+
+
+def test_a_force_moves_a_spindle_by_the_impulse_and_not_for_long():
+    state = SPINDLE.initial(_inputs(2.0))
+    for time in (0.01, 1 / 40.0, 0.2, 60.0):
+        after = SPINDLE.advance(state, _inputs(2.0, -5.0), time)
+        change = -5.0 * 0.0095**2 / 2e-4 * time * math.exp(-40.0 * time)
+        assert SPINDLE.outputs(after, _inputs(2.0, -5.0))["surface_speed"] == pytest.approx(2.0 + change, rel=1e-12)
+
+
+def test_a_settled_spindle_stays_and_its_motor_overcomes_both_resistances():
+    inputs = _inputs(2.0, -5.0, 0.4)
+    state = SPINDLE.initial(inputs)
+    assert SPINDLE.advance(state, inputs, 30.0) == pytest.approx(state, rel=1e-12)
+    outputs = SPINDLE.outputs(state, inputs)
+    assert outputs["torque"] == pytest.approx(5.4 * 0.0095, rel=1e-10)
+    assert outputs["power"] == pytest.approx(5.4 * 2.0, rel=1e-10)
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.2, 1.0, 8.0])
+def test_a_load_arm_answers_as_a_mass_on_a_spring(damping):
+    arm = LoadArm(natural_frequency=15.0, damping_ratio=damping, dead_weight=40.0)
+
+    def motion(_: float, y: np.ndarray) -> list[float]:
+        return [y[1], 15.0**2 * (30.0 - y[0]) - 2.0 * damping * 15.0 * y[1]]
+
+    reference = solve_ivp(motion, (0.0, 0.4), [10.0, 0.0], method="DOP853", rtol=1e-12, atol=1e-12).y[0, -1]
+    state = arm.advance(arm.initial({"load_setpoint": 10.0}), {"load_setpoint": 30.0}, 0.4)
+    assert arm.outputs(state, {})["load"] == pytest.approx(40.0 + reference, rel=1e-9)
+
+
+def test_a_load_arm_lifts_off_rather_than_pull():
+    arm = LoadArm(natural_frequency=15.0, damping_ratio=0.0)
+    state = arm.advance((50.0, 0.0), {"load_setpoint": 0.0}, math.pi / 15.0)
+    assert state[0] == pytest.approx(-50.0, rel=1e-9)
+    assert arm.outputs(state, {})["load"] == 0.0
