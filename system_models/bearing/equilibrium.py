@@ -73,7 +73,7 @@ def solve(
     """
     count, arm = geometry.balls, geometry.groove_centre_radius
     fixed = _fixed(geometry)
-    azimuth: Array = first_ball + np.arange(count) * (2.0 * math.pi / count)
+    azimuth: Array = np.array([first_ball + 2.0 * math.pi * j / count for j in range(count)])
     known = np.zeros(5 + 2 * count) if start is None else np.array(start)
     ring, inertia = known[:5], known[5:].reshape(count, 2)
     forces = np.array([loads.x, loads.y, loads.z, loads.moment_y / arm, loads.moment_z / arm])
