@@ -141,6 +141,10 @@ class BallBearingGeometry:
         """The outer race."""
         return self._race("outer", self.conformity_outer, 1.0)
 
+    def race(self, name: RaceName) -> Race:
+        """One of the two by name."""
+        return self.inner if name == "inner" else self.outer
+
     def _race(self, name: RaceName, conformity: float, outward: float) -> Race:
         """Curvatures are those at the nominal contact angle, whatever the loads."""
         ball = 0.5 * self.ball_diameter

@@ -8,8 +8,8 @@ equilibrium, and Newton's method with a line search on the slope finds it from a
 
 springs: (stiffness, free length) of the outer, then of the inner contact. azimuths [Z, 2]: cos, sin of the balls'.
 centre: of the inner groove before the ring moves. ring [5]: its displacement along x, y, z and its tilt about y, z
-times the radius on which that centre lies; forces on the ring likewise. balls [Z, 2]: their centres; pressed [Z, 2]:
-what else acts on them.
+times the radius on which that centre lies; forces on the ring likewise, and centring, the stiffness of what else
+holds it. balls [Z, 2]: their centres; pressed [Z, 2]: what else acts on them.
 """
 
 import numpy as np
@@ -39,7 +39,7 @@ def pull(x, r, stiffness, free):  # type: ignore[no-untyped-def]
 
 @_jit
 def _at_ball(x, r, cx, cr, bx, br, springs):  # type: ignore[no-untyped-def]
-    """First and second derivatives of a ball's energy by its position, between the origin and (cx, cr), pressed by b."""
+    """First and second derivatives of a ball's energy by its position between the origin and (cx, cr), under b."""
     _, ox, oy, oxx, oxr, orr = pull(x, r, springs[0], springs[1])
     _, ix, iy, ixx, ixr, irr = pull(cx - x, cr - r, springs[2], springs[3])
     return ox - ix - bx, oy - iy - br, oxx + ixx, oxr + ixr, orr + irr
@@ -111,9 +111,9 @@ def groove_centre(centre, ring, cos, sin):  # type: ignore[no-untyped-def]
 def _at_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, slope, curvature):  # type: ignore[no-untyped-def]
     """First and second derivatives of the energy by the ring's coordinates, with all balls at rest; moves `balls`."""
     for i in range(5):
-        slope[i] = centring * ring[i] - forces[i]
+        slope[i] = centring[i] * ring[i] - forces[i]
         curvature[i, :] = 0.0
-        curvature[i, i] = centring
+        curvature[i, i] = centring[i]
     axial, radial = np.zeros(5), np.zeros(5)
     axial[0] = 1.0
     for j in range(balls.shape[0]):
@@ -144,7 +144,7 @@ def _at_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, 
 def seat_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, least):  # type: ignore[no-untyped-def]
     """Move ring and balls to rest; returns the largest force left over, and the steps taken.
 
-    centring: stiffness of a weak spring that holds the ring where no ball does. A force below `least` is none.
+    A force below `least` is none.
     """
     size = springs[1] + springs[3]
     slope, curvature, trial = np.zeros(5), np.zeros((5, 5)), np.zeros(5)
@@ -243,10 +243,10 @@ def settle(  # type: ignore[no-untyped-def]
 
     inertia [Z, 2]: forces of inertia on the balls over speed^2; a first guess, improved in place. masses: ball's mass
     times pitch radius, and twice its moment of inertia over its diameter. Gyroscopic moments are held by friction on
-    the outer race. Returns the largest force left over, the largest force, rounds, and Newton steps of all of them.
+    the outer race. Returns the largest force left over, the largest force, and all Newton steps.
     """
     square, steps = speed * speed, 0
-    for turn in range(_ROUNDS):
+    for _ in range(_ROUNDS):
         pressed = square * inertia
         largest = max(np.abs(forces).max(), np.abs(pressed).max(), 1.0)
         left, taken = seat_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, 1e-10 * largest)
@@ -262,4 +262,4 @@ def settle(  # type: ignore[no-untyped-def]
             inertia[j, 0], inertia[j, 1] = x, r
         if change <= 1e-13 * largest:
             break
-    return max(left, change), largest, turn + 1, steps
+    return max(left, change), largest, steps
