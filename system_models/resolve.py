@@ -66,14 +66,14 @@ def resolve(assembly: Assembly, dataset: xr.Dataset, count: int = 6) -> list[Res
 
 
 def _chosen(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[tuple[str, int]]:
-    """Contacts and rows: the k-th state lies in the k-th part of the rows, in the contacts in turn."""
-    names, rows, found = sorted(assembly.contacts), len(dataset["time"]), []
+    """Contacts and rows: the k-th state lies in the k-th part of the time, in the contacts in turn."""
+    names, times, found = sorted(assembly.contacts), dataset["time"].values, []
     stride = max(1, len(names) // count)
     for k in range(count):
-        low, high = 1 + k * (rows - 1) // count, 1 + (k + 1) * (rows - 1) // count
+        low, high = (int(np.searchsorted(times, times[-1] * part / count)) for part in (k + 0.2, k + 1.0))
         for shift in range(len(names)):
             name = names[(k * stride + stride // 2 + shift) % len(names)]
-            usable = [row for row in range(low, max(high, low + 1)) if _usable(assembly, dataset, name, row)]
+            usable = [row for row in range(max(low, 1), max(high, low + 1)) if _usable(assembly, dataset, name, row)]
             if usable:
                 found.append((name, usable[len(usable) // 2]))
                 break
@@ -130,7 +130,8 @@ def to_dataset(states: Sequence[Resolved]) -> xr.Dataset:
         ):
             unit = "m" if name == "h_c" and suffix in LEVELS else "1"
             columns[f"resolved.{name}.{suffix}"] = ("state", np.array(values), {"units": unit, "long_name": text})
-    return xr.Dataset(columns)
+    number = ("state", np.arange(1, len(states) + 1), {"units": "1", "long_name": "number of the state"})
+    return xr.Dataset(columns, coords={"state": number})
 
 
 def lines(states: Sequence[Resolved]) -> Iterator[str]:

@@ -36,6 +36,11 @@ class SpeedSource(Part):
             ),
         )
 
+    @property
+    def at_start(self) -> tuple[str, ...]:
+        """What decides the first state."""
+        return ("speed_setpoint",)
+
     def initial(self, inputs: Values) -> State:
         """Speed [rad/s]: at the setpoint."""
         return (inputs["speed_setpoint"],)
