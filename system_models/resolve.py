@@ -7,6 +7,7 @@ goes to the deterministic level, on its own shape and surfaces.
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -66,22 +67,23 @@ def resolve(assembly: Assembly, dataset: xr.Dataset, count: int = 6) -> list[Res
 
 
 def _chosen(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[tuple[str, int]]:
-    """Contacts and rows: the k-th state lies in the k-th part of the time, in the contacts in turn."""
+    """Contacts and rows: the first, then the last of each of `count` - 1 equal times; the contacts in turn."""
     names, times, found = sorted(assembly.contacts), dataset["time"].values, []
     stride = max(1, len(names) // count)
-    for k in range(count):
-        low, high = (int(np.searchsorted(times, times[-1] * part / count)) for part in (k + 0.2, k + 1.0))
+    edges = np.searchsorted(times, np.linspace(0.0, times[-1], count), "right")
+    windows = [range(1, len(times)), *(range(end - 1, begin - 1, -1) for begin, end in pairwise(edges.tolist()))]
+    for k, rows in enumerate(windows):
         for shift in range(len(names)):
             name = names[(k * stride + stride // 2 + shift) % len(names)]
-            usable = [row for row in range(max(low, 1), max(high, low + 1)) if _usable(assembly, dataset, name, row)]
-            if usable:
-                found.append((name, usable[len(usable) // 2]))
+            row = next((row for row in rows if _usable(assembly, dataset, name, row)), None)
+            if row is not None:
+                found.append((name, row))
                 break
     return found
 
 
 def _usable(assembly: Assembly, dataset: xr.Dataset, name: str, row: int) -> bool:
-    if not (row < len(dataset["time"]) and bool(dataset[f"{name}.valid"].values[row])):
+    if not bool(dataset[f"{name}.valid"].values[row]):
         return False
     point = _inputs(assembly, dataset, name, row)
     moving = abs(point.get("speed_1", 1.0)) + abs(point.get("speed_2", 1.0)) > 0.0
