@@ -21,6 +21,7 @@ _STEPS, _CUTS, _ROUNDS = 200, 60, 200
 _EPS = 2.3e-16
 _UNTOUCHED = 1e-6  # N: less on all inner contacts together drives no cage
 _SHARP = 4.0
+_GRAZING = 0.1  # least cosine between a ball's axis and the plane of its contact, where no groove reaches any more
 
 
 @_jit
@@ -35,6 +36,23 @@ def pull(x, r, stiffness, free):  # type: ignore[no-untyped-def]
     across = force / length
     steep = along - across
     return force, force * ex, force * er, across + steep * ex * ex, steep * ex * er, across + steep * er * er
+
+
+@_jit
+def _is_far_enough(along, down, part):  # type: ignore[no-untyped-def]
+    """Whether a part of Newton's step may end here, where the slope along it is `along` after `down` at its start."""
+    return abs(along) <= -0.5 * down or (along < 0.0 and part == 1.0)
+
+
+@_jit
+def _between(part, along, low, below, high, above):  # type: ignore[no-untyped-def]
+    """The next part of a step to try, and the parts `low`, `high` between which the slope changes its sign."""
+    if along < 0.0:
+        low, below = part, along
+    else:
+        high, above = part, along
+    cut = below / (below - above)
+    return low + (high - low) * min(max(cut, 0.1), 0.9), low, below, high, above
 
 
 @_jit
@@ -59,12 +77,13 @@ def _seat_ball(x, r, cx, cr, bx, br, springs):  # type: ignore[no-untyped-def]
         scale = 1.0 / (hxx * hrr - hxr * hxr)
         sx, sr = (hxr * gr - hrr * gx) * scale, (hxr * gx - hxx * gr) * scale
         down, part = gx * sx + gr * sr, 1.0
+        low, below, high, above = 0.0, down, 1.0, 0.0
         for _ in range(_CUTS):
             gx, gr, hxx, hxr, hrr = _at_ball(x + part * sx, r + part * sr, cx, cr, bx, br, springs)
-            slope = gx * sx + gr * sr
-            if slope <= -0.5 * down:
+            along = gx * sx + gr * sr
+            if _is_far_enough(along, down, part):
                 break
-            part *= max(down / (down - slope), 0.1)
+            part, low, below, high, above = _between(part, along, low, below, high, above)
         x, r = x + part * sx, r + part * sr
         before, norm = norm, np.hypot(gx, gr)
         if norm <= 100.0 * floor and norm > 0.5 * before:
@@ -156,13 +175,14 @@ def seat_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring,
             curvature[i, i] += norm / size
         step = _solved(curvature, -slope)
         down, part = _product(slope, step), 1.0
+        low, below, high, above = 0.0, down, 1.0, 0.0
         for _ in range(_CUTS):
             trial[:] = ring + part * step
             _at_ring(trial, balls, pressed, azimuths, centre, springs, forces, centring, slope, curvature)
             along = _product(slope, step)
-            if along <= -0.5 * down:
+            if _is_far_enough(along, down, part):
                 break
-            part *= max(down / (down - along), 0.1)
+            part, low, below, high, above = _between(part, along, low, below, high, above)
         ring[:] = trial
         before, norm = norm, np.abs(slope).max()
         if norm <= least and norm > 0.5 * before:
@@ -188,8 +208,8 @@ def rolling(inner, outer, held_inner, held_outer, ratio):  # type: ignore[no-unt
         part = 0.5
     tilt = free_outer + part * (free_inner - free_outer)
     over_inner, over_outer = inner - tilt, outer - tilt
-    by_inner = (1.0 - ratio * np.cos(inner)) / np.cos(over_inner)
-    by_outer = (1.0 + ratio * np.cos(outer)) / np.cos(over_outer)
+    by_inner = (1.0 - ratio * np.cos(inner)) / max(np.cos(over_inner), _GRAZING)
+    by_outer = (1.0 + ratio * np.cos(outer)) / max(np.cos(over_outer), _GRAZING)
     orbit = by_inner / (by_inner + by_outer)
     roll = orbit * by_outer / ratio
     return (
@@ -242,10 +262,10 @@ def settle(  # type: ignore[no-untyped-def]
     """Bring ring and balls to rest under forces on the ring and the balls' inertia at an angular speed of the ring.
 
     inertia [Z, 2]: forces of inertia on the balls over speed^2; a first guess, improved in place. masses: ball's mass
-    times pitch radius, and twice its moment of inertia over its diameter. Gyroscopic moments are held by friction on
-    the outer race. Returns the largest force left over, the largest force, and all Newton steps.
+    times pitch radius, and twice its moment of inertia over its diameter. Gyroscopic moments are those of outer race
+    control, held by friction on that race. Returns the largest force left over, the largest force, and Newton's steps.
     """
-    square, steps = speed * speed, 0
+    square, steps, before, wanted = speed * speed, 0, np.inf, np.empty_like(inertia)
     for _ in range(_ROUNDS):
         pressed = square * inertia
         largest = max(np.abs(forces).max(), np.abs(pressed).max(), 1.0)
@@ -254,12 +274,14 @@ def settle(  # type: ignore[no-untyped-def]
         motions(ring, balls, azimuths, centre, springs, holds, ratio, found)
         orbit, change = cage(found, idle), 0.0
         for j in range(balls.shape[0]):
-            outer, tilt = found[j, 3], found[j, 6]
-            roll = orbit * (1.0 + ratio * np.cos(outer)) / (ratio * np.cos(outer - tilt))
-            gyration = masses[1] * orbit * roll * np.sin(tilt)
-            x, r = -gyration * np.cos(outer), masses[0] * orbit * orbit + gyration * np.sin(outer)
+            # under outer race control the spin's radial part is orbit sin(outer) / ratio
+            outer, squared = found[j, 3], orbit * orbit
+            gyration = masses[1] * squared * np.sin(outer) / ratio
+            x, r = -gyration * np.cos(outer), masses[0] * squared + gyration * np.sin(outer)
+            wanted[j, 0], wanted[j, 1] = x, r
             change = max(change, square * np.hypot(x - inertia[j, 0], r - inertia[j, 1]))
-            inertia[j, 0], inertia[j, 1] = x, r
+        inertia += (1.0 if change < 0.5 * before else 0.5) * (wanted - inertia)
+        before = change
         if change <= 1e-13 * largest:
             break
     return max(left, change), largest, steps
