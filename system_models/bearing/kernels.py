@@ -19,7 +19,7 @@ _jit = njit(cache=True, nogil=True, error_model="numpy")
 
 _STEPS, _CUTS, _ROUNDS = 200, 60, 200
 _EPS = 2.3e-16
-_UNTOUCHED = 1e-6  # N: less on all inner contacts together drives no cage
+_UNTOUCHED = 1e-2  # N: less on all inner contacts together hardly drives the cage
 _SHARP = 4.0
 _GRAZING = 0.1  # least cosine between a ball's axis and the plane of its contact, where no groove reaches any more
 
