@@ -64,6 +64,12 @@ def _at_ball(x, r, cx, cr, bx, br, springs):  # type: ignore[no-untyped-def]
 
 
 @_jit
+def _determinant(xx, xr, rr):  # type: ignore[no-untyped-def]
+    """Of a symmetric matrix that is not negative, not less than rounding leaves of it."""
+    return max(xx * rr - xr * xr, _EPS * (xx + rr) ** 2)
+
+
+@_jit
 def _seat_ball(x, r, cx, cr, bx, br, springs):  # type: ignore[no-untyped-def]
     """Where a ball that is near (x, r) comes to rest."""
     size = springs[1] + springs[3]
@@ -74,7 +80,7 @@ def _seat_ball(x, r, cx, cr, bx, br, springs):  # type: ignore[no-untyped-def]
         if norm <= floor:
             break
         hxx, hrr = hxx + norm / size, hrr + norm / size  # no step beyond the bearing's size where nothing holds it
-        scale = 1.0 / (hxx * hrr - hxr * hxr)
+        scale = 1.0 / _determinant(hxx, hxr, hrr)
         sx, sr = (hxr * gr - hrr * gx) * scale, (hxr * gx - hxx * gr) * scale
         down, part = gx * sx + gr * sr, 1.0
         low, below, high, above = 0.0, down, 1.0, 0.0
@@ -101,14 +107,19 @@ def _product(one, other):  # type: ignore[no-untyped-def]
 
 @_jit
 def _solved(matrix, right):  # type: ignore[no-untyped-def]
-    """Solution of a symmetric positive definite system, by Cholesky's factors; overwrites both."""
-    n = right.size
+    """Solution of a symmetric positive definite system, by Cholesky's factors; overwrites both.
+
+    Pivots that rounding has made too small are raised to what it leaves of the largest entry.
+    """
+    n, least = right.size, 0.0
+    for i in range(n):
+        least = max(least, _EPS * matrix[i, i])
     for i in range(n):
         for j in range(i + 1):
             total = matrix[i, j]
             for k in range(j):
                 total -= matrix[i, k] * matrix[j, k]
-            matrix[i, j] = np.sqrt(total) if i == j else total / matrix[j, j]
+            matrix[i, j] = np.sqrt(max(total, least)) if i == j else total / matrix[j, j]
     for i in range(n):
         for k in range(i):
             right[i] -= matrix[i, k] * right[k]
@@ -149,7 +160,7 @@ def _at_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, 
         hxx, hxr, hrr = ixx + oxx, ixr + oxr, irr + orr
         if hxx + hrr == 0.0:
             continue
-        scale = 1.0 / max(hxx * hrr - hxr * hxr, _EPS * (hxx + hrr) ** 2)
+        scale = 1.0 / _determinant(hxx, hxr, hrr)
         a, b = (hrr * oxx - hxr * oxr) * scale, (hrr * oxr - hxr * orr) * scale
         c, d = (hxx * oxr - hxr * oxx) * scale, (hxx * orr - hxr * oxr) * scale
         sxx, sxr, srr = ixx * a + ixr * c, ixx * b + ixr * d, ixr * b + irr * d

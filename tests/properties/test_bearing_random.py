@@ -30,6 +30,9 @@ SPEEDS = st.one_of(st.just(0.0), st.floats(-1048.0, 1048.0))
 def test_any_bearing_comes_to_rest_in_balance(bearing, loads, speed):
     found = solve(bearing, loads, speed)
     assert found.converged
+    again = solve(bearing, loads, speed, found.start)
+    assert again.converged
+    assert np.abs(again.load_outer - found.load_outer).max() <= 1e-7 * max(found.load_outer.max(), 1.0)
     radial = np.stack([np.cos(found.azimuth), np.sin(found.azimuth)])
     axial, outward = (found.load_inner * f(found.angle_inner) for f in (np.sin, np.cos))
     carried = np.array([axial.sum(), *(radial @ outward), *(radial[::-1] @ axial) * np.array([1.0, -1.0])])
