@@ -82,6 +82,15 @@ class Report:
         (DOCS / f"core_{self.part}.md").write_text("\n".join([intro, *asked, *self.body]).rstrip() + "\n")
 
 
+class Page(Report):
+    """A page of its own command."""
+
+    def write(self) -> None:
+        intro = f"# {self.title}\n\nWritten by `python benchmarks/{self.part}.py`. One process, one thread.\n"
+        asked = ["## Asked", "", cells(("asked", "found", "met?")), "|---|---|---|", *self.verdicts, "", "## Found"]
+        (DOCS / f"{self.part}.md").write_text("\n".join([intro, *asked, *self.body]).rstrip() + "\n")
+
+
 @dataclass(frozen=True)
 class MoesCase:
     """A smooth contact given by Moes' numbers of load and lubricant (M, L), on its radius along x; the rest is steel

@@ -7,7 +7,7 @@ import math
 from typing import Any
 
 import numpy as np
-from core_common import DOCS, Report, cells, timed, waves
+from core_common import Page, timed, waves
 from matplotlib.figure import Figure
 from work_unit import work_unit
 
@@ -23,15 +23,6 @@ SOURCE = (
     "Alakhramsing, de Rooij, Schipper & van Drogen, Proc. IMechE J (2017), "
     "[doi:10.1177/1350650117705037](https://doi.org/10.1177/1350650117705037)"
 )
-
-
-class Page(Report):
-    """A page of its own command."""
-
-    def write(self) -> None:
-        intro = f"# {self.title}\n\nWritten by `python benchmarks/{self.part}.py`. One process, one thread.\n"
-        asked = ["## Asked", "", cells(("asked", "found", "met?")), "|---|---|---|", *self.verdicts, "", "## Found"]
-        (DOCS / f"{self.part}.md").write_text("\n".join([intro, *asked, *self.body]).rstrip() + "\n")
 
 
 def arguments(load: float, speed: float) -> dict[str, Any]:

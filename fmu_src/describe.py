@@ -149,13 +149,23 @@ def _structure(root: ET.Element, table: Sequence[Variable]) -> None:
     """Between steps an output depends on the state and what it says; at the start, on every input and parameter."""
     index = {v.name: i for i, v in enumerate(table, 1)}
     outputs = [v for v in table if v.causality == "output"]
-    knowns = [index[v.name] for v in table if v.causality != "output"]
     structure = ET.SubElement(root, "ModelStructure")
     for name in ("Outputs", "InitialUnknowns"):
         listed = ET.SubElement(structure, name)
         for v in outputs:
-            depends = sorted(index[known] for known in v.direct) if name == "Outputs" else knowns
-            ET.SubElement(listed, "Unknown", {"index": str(index[v.name]), **_dependencies(depends)})
+            depends = v.direct if name == "Outputs" else _at_start(v, table)
+            indices = sorted({index[known] for known in depends})
+            ET.SubElement(listed, "Unknown", {"index": str(index[v.name]), **_dependencies(indices)})
+
+
+def _at_start(output: Variable, table: Sequence[Variable]) -> list[str]:
+    """The inputs and parameters on which the first value of an output depends."""
+    inputs = None if output.at_start is None else {*output.direct, *output.at_start}
+    return [
+        v.name
+        for v in table
+        if v.causality == "parameter" or (v.causality == "input" and (inputs is None or v.name in inputs))
+    ]
 
 
 def _dependencies(indices: Iterable[int]) -> dict[str, str]:

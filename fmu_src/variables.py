@@ -34,6 +34,7 @@ class Variable:
     relative: bool = False
     levels: tuple[str, ...] = LEVELS  # that fill an output
     direct: tuple[str, ...] = ()  # inputs on which an output depends without delay
+    at_start: tuple[str, ...] | None = None  # on which its first value depends besides; None: all
 
     @property
     def variability(self) -> Variability:
@@ -96,7 +97,13 @@ def _start(scene: Scene, name: str) -> float:
     return float(scene.operation.temperature if value is None else value)
 
 
-def of_quantity(q: Quantity, causality: Causality, start: Value, direct: tuple[str, ...] = ()) -> Variable:
+def of_quantity(
+    q: Quantity,
+    causality: Causality,
+    start: Value,
+    direct: tuple[str, ...] = (),
+    at_start: tuple[str, ...] | None = None,
+) -> Variable:
     """The variable of an input or output."""
     return Variable(
         q.name,
@@ -112,6 +119,7 @@ def of_quantity(q: Quantity, causality: Causality, start: Value, direct: tuple[s
         relative=q.relative,
         levels=q.levels,
         direct=direct,
+        at_start=at_start,
     )
 
 

@@ -1,6 +1,6 @@
 """A spur gear pair: drive, both shafts, the mesh with a contact at every flank station, a brake, and the heat.
 
-    [drive]            parts.drive.Drive of the pinion
+    [drive]            parts.speed_source.SpeedSource of the pinion
     [brake]            parts.brake.Brake of the wheel
     [shafts]           gear.shafts.GearShafts; `pair` is that of the mesh, `stiffness` by default the mean of its teeth
     [mesh]             gear.mesh.GearMesh; pair = "fzg_c", "fzg_a" or the numbers of another one
@@ -21,13 +21,13 @@ from contact_core.reading import did_you_mean, unbuild
 
 from . import machines, timeline
 from .assembly import Assembly, Contact, Schedule
-from .gear.geometry import FZG_A, FZG_C
+from .gear.geometry import FZG_A, FZG_C, SpurGearPair
 from .gear.mesh import GearMesh, Station
 from .gear.shafts import GearShafts
 from .gear.sharing import mean_stiffness
 from .parts.brake import Brake
-from .parts.drive import Drive
 from .parts.part import Part, indexed
+from .parts.speed_source import SpeedSource
 from .parts.thermal import ThermalNetwork
 
 PAIRS = {"fzg_a": FZG_A, "fzg_c": FZG_C}
@@ -63,14 +63,14 @@ def assemble(machine: machines.Machine) -> Assembly:
     shafts = {"stiffness": f"{mean_stiffness(mesh.pair) * mesh.pair.face_width!r} N/m", **table.get("shafts", {})}
     table["shafts"] = {"pair": table["mesh"]["pair"], **shafts}
     parts: dict[str, Part] = {
-        "drive": machines.record(Drive, table, "drive"),
+        "drive": machines.record(SpeedSource, table, "drive"),
         "brake": machines.record(Brake, table, "brake"),
         "shafts": machines.record(GearShafts, table, "shafts"),
         "mesh": mesh,
         "gearbox": machines.record(ThermalNetwork, table, "gearbox"),
     }
     duty = timeline.read(table.get("duty", {}), _SIGNALS, machine.folder, ("speed", "torque"))
-    contacts = {flank(k): _contact(table, station) for k, station in enumerate(mesh.contacts, 1)}
+    contacts = {flank(k): _contact(table, mesh.pair, station) for k, station in enumerate(mesh.contacts, 1)}
     schedule: Schedule = dict(
         duty.schedule(
             {
@@ -95,8 +95,8 @@ def assemble(machine: machines.Machine) -> Assembly:
 
 
 _SHAFTS: tuple[tuple[Any, ...], ...] = (
-    ("shafts.speed_1", "drive.speed"),
-    ("drive.torque", "shafts.drive_torque"),
+    ("drive.speed", "shafts.speed_drive"),
+    ("shafts.torque_coupling", "drive.torque"),
     ("shafts.speed_2", "brake.speed"),
     ("brake.torque", "shafts.brake_torque"),
     ("shafts.speed_1", "mesh.speed_1"),
@@ -138,12 +138,12 @@ def _with_pair(table: Mapping[str, Any]) -> dict[str, Any]:
     return {**table, "pair": unbuild(PAIRS[pair])}
 
 
-def _contact(table: Mapping[str, Any], station: Station) -> Contact:
+def _contact(table: Mapping[str, Any], pair: SpurGearPair, station: Station) -> Contact:
     """The contact at a station: what its FMU is told beside load, speeds and temperatures."""
-    scene = machines.scene_of(table)
     return Contact(
-        scene,
+        machines.scene_of(table),
         {
+            "solids.reduced_modulus": pair.reduced_modulus,
             "radius_x": station.radius_x,
             "geometry.face_width": station.face_width,
             "geometry.track_length_1": station.track_length_1,

@@ -5,6 +5,7 @@ from system_models.parts.drive import Drive
 from system_models.parts.load_arm import LoadArm
 from system_models.parts.part import Part, State, Values
 from system_models.parts.shaft import Shaft
+from system_models.parts.speed_source import SpeedSource
 from system_models.parts.spindle import Spindle
 from system_models.parts.thermal import Link, Node, ThermalNetwork, Thermostat
 
@@ -20,7 +21,15 @@ BATH = ThermalNetwork(
 
 EXAMPLES: dict[str, tuple[Part, dict[str, float]]] = {
     "drive": (Drive(2.0, 0.5, 30.0, 50.0), {"speed_setpoint": 100.0, "speed": 96.0}),
-    "shaft": (Shaft(0.02, 0.01, 12.0), {"torque_drive": 0.3, "torque_resisting": 0.5}),
+    "speed_source": (SpeedSource(20.0), {"speed_setpoint": -30.0, "torque": 3.0}),
+    "shaft": (
+        Shaft(0.02, 0.01, initial_speed=12.0),
+        {"torque_drive": 0.3, "torque_resisting": 0.5, "speed_drive": 0.0},
+    ),
+    "coupled_shaft": (
+        Shaft(0.02, 0.0, coupling=3.0, initial_speed=-5.0),
+        {"torque_drive": 0.0, "torque_resisting": 0.5, "speed_drive": 80.0},
+    ),
     "brake": (Brake(0.3, 0.05), {"torque_setpoint": 8.0, "speed": 0.04}),
     "spindle": (
         Spindle(0.0095, 1e-4, 60.0),

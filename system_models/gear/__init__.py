@@ -9,5 +9,5 @@
 
 Body 1 is the pinion, body 2 the wheel. Positions are distances [m] on the line of action from T1, where it touches the
 base circle of the pinion. Contact runs from A to E, one pair of teeth alone carries from B to D, C is the pitch point.
-Imports run one way: geometry <- path <- sharing <- textbook <- mesh, shafts.
+Imports run one way: geometry <- path <- sharing, textbook <- mesh; geometry <- shafts.
 """

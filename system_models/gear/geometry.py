@@ -142,8 +142,8 @@ def _involute(angle: float) -> float:
     return math.tan(angle) - angle
 
 
-# Gears of the back-to-back rig of 91.5 mm centre distance. Type A: ISO 14635-1, tip diameters as quoted from it; shortened
-# to keep the clearance they would be 88.50 and 112.32 mm. Type C: FVA 54/7, so shortened.
+# Gears of the back-to-back rig of 91.5 mm centre distance. Type A: ISO 14635-1, tip diameters as quoted from it;
+# shortened to keep the clearance they would be 88.50 and 112.32 mm. Type C: FVA 54/7, so shortened.
 _FZG: dict[str, Any] = {
     "teeth_1": 16,
     "teeth_2": 24,

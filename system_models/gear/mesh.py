@@ -14,7 +14,7 @@ from ..parts.part import Input, Output, Part, State, Values, indexed
 from .geometry import SpurGearPair, fixed
 from .path import Stations, radius, stations_of, surface_speeds, track_lengths
 from .sharing import Sharing, loads
-from .textbook import ohlendorf, sliding_share
+from .textbook import loss_factor, ohlendorf
 
 Array = NDArray[np.float64]
 
@@ -61,12 +61,12 @@ class GearMesh(Part):
     )
 
     pair: SpurGearPair
-    sharing: Sharing = field(default_factory=Sharing)
-    stations: int = fixed("", "contacts along the path", least=3, most=999, default=21)
+    load_sharing: Sharing = field(default_factory=Sharing)
+    stations: int = fixed("", "contacts along the path", least=3, most=9999, default=21)
 
     def check(self) -> None:
         """Raise SceneError if gears, sharing and stations do not go together."""
-        wrong = [*self.pair.wrong()] or [*self.sharing.wrong(self.pair)]
+        wrong = [*self.pair.wrong()] or [*self.load_sharing.wrong(self.pair)]
         if wrong:
             raise SceneError(" ".join(wrong))
         stations_of(self.pair, self.stations)
@@ -176,7 +176,7 @@ class GearMesh(Part):
         found = {name: np.array([inputs[key] for key in self._all(name)]) for name in _RECEIVED}
         place, flash = self._places.position, found["flash_temperature_rise"]
         force, power = abs(inputs["torque"]) / self.pair.base_radius_1, inputs["torque"] * inputs["speed_1"]
-        load = loads(self.pair, self.sharing, force, place)
+        load = loads(self.pair, self.load_sharing, force, place)
         u1, u2 = surface_speeds(self.pair, place, inputs["speed_1"], inputs["speed_2"])
         bulk = 0.5 * (inputs["body_temperature_1"] + inputs["body_temperature_2"])
         rows = {"load": load, "speed_1": u1, "speed_2": u2, "contact_temperature": bulk + flash}
@@ -197,7 +197,7 @@ class GearMesh(Part):
             "heat_flow_2": self._mean(found["heat_flow_2"]),
             "friction_coefficient": _ratio(sliding, abs(power) * ohlendorf(self.pair)),
             "friction_coefficient_mean": _ratio(self._mean(np.abs(friction)), self._mean(load)),
-            "loss_factor": _ratio(self._mean(load * sliding_share(self.pair, place)), force),
+            "loss_factor": loss_factor(self.pair, self._places, load / force) if force > _NOTHING else 0.0,
             "flash_temperature_rise": float(flash.max()),
             "hottest_station": float(flash.argmax() + 1),
         }

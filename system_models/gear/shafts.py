@@ -22,14 +22,14 @@ Array = NDArray[np.float64]
 class GearShafts(Part):
     """Two inertias and the teeth between them, a spring and a damper along the line of action.
 
-    J1 w1' = T_drive + M_f1 - D1 w1 - r_b1 F,  J2 w2' = r_b2 F - T_brake + M_f2 - D2 w2,
+    J1 w1' = T_drive + k (w_drive - w1) + M_f1 - r_b1 F,  J2 w2' = r_b2 F - T_brake + M_f2 - D w2,
     F = K delta + C delta',  delta' = r_b1 w1 - r_b2 w2,  C = 2 zeta sqrt(K m),  1/m = r_b1^2/J1 + r_b2^2/J2.
     Steps are exact under held inputs. Deflected teeth ring for some 1 / (zeta sqrt(K/m)), milliseconds; a much longer
     step ends at the force that moves both shafts alike. The stiffness is the mean of a mesh cycle
     (`sharing.mean_stiffness` times the face width), and the teeth never part: backlash is left out.
 
-    A torque that falls with speed, as that of a drive does, makes long steps overshoot if it is held over them. With its
-    slope as `drag_1` or `drag_2`, and the torque at standstill as input, it is part of the exact step.
+    A drive gives a torque, or a speed to the other end of a slipping coupling k. A torque that falls with speed makes
+    long steps overshoot if it is held over them; that of the coupling is part of the exact step.
     """
 
     name: ClassVar[str] = "GearShafts"
@@ -42,8 +42,8 @@ class GearShafts(Part):
     damping_ratio: float = parameter(
         "", "damping of the teeth, 1 is critical; assumed", above=0.0, most=10.0, default=0.1
     )
-    drag_1: float = parameter("N m s/rad", "torque on the pinion per speed", least=0.0, most=1e6, default=0.0)
-    drag_2: float = parameter("N m s/rad", "torque on the wheel per speed", least=0.0, most=1e6, default=0.0)
+    coupling: float = parameter("N m s/rad", "k, torque of the coupling by its slip", least=0.0, most=1e9, default=0.0)
+    drag: float = parameter("N m s/rad", "D, torque on the wheel per speed", least=0.0, most=1e6, default=0.0)
     start_speed: float = parameter(
         "rad/s", "angular speed of the pinion at the start", least=-1e5, most=1e5, default=0.0
     )
@@ -60,6 +60,7 @@ class GearShafts(Part):
         turns = "torque of friction and rolling on the {}, the way it turns"
         return (
             Input("drive_torque", "T_drive", "N m", "torque that drives the pinion", nominal=100.0),
+            Input("speed_drive", "w_drive", "rad/s", "speed of the coupling's other end", nominal=100.0, display="rpm"),
             Input("brake_torque", "T_brake", "N m", "torque that brakes the wheel", nominal=100.0),
             Input("friction_torque_1", "M_f1", "N m", turns.format("pinion"), nominal=1.0),
             Input("friction_torque_2", "M_f2", "N m", turns.format("wheel"), nominal=1.0),
@@ -82,14 +83,24 @@ class GearShafts(Part):
                 nominal=1e-5,
                 display="um",
             ),
-        )
+            Output("torque_coupling", "T_k", "N m", "torque that comes through the coupling", nominal=100.0,
+                   direct=("speed_drive",)),
+        )  # fmt: skip
+
+    @property
+    def at_start(self) -> tuple[str, ...]:
+        """What decides the first state."""
+        return ("drive_torque", "speed_drive", "brake_torque")
 
     def initial(self, inputs: Values) -> State:
-        """Both shafts at the start speed, the teeth deflected as they are once ringing has died away."""
+        """Both shafts at the start speed, the teeth deflected as once ringing has died away; without friction."""
         first, second = self.start_speed, self.start_speed / self.pair.ratio
-        torque_1, torque_2 = self._outer(inputs)
-        pull = (torque_1 - self.drag_1 * first) * self.pair.base_radius_1 / self.inertia_1
-        brake = (torque_2 - self.drag_2 * second) * self.pair.base_radius_2 / self.inertia_2
+        torque_1 = inputs["drive_torque"] + self.coupling * (inputs["speed_drive"] - first)
+        torque_2 = -inputs["brake_torque"] - self.drag * second
+        pull, brake = (
+            torque_1 * self.pair.base_radius_1 / self.inertia_1,
+            torque_2 * self.pair.base_radius_2 / self.inertia_2,
+        )
         return first, second, self._mass * (pull - brake) / self.stiffness
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
@@ -100,7 +111,7 @@ class GearShafts(Part):
         return tuple(map(float, after / scale))
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Value of each of `responses`, from the state alone."""
+        """Value of each of `responses`."""
         speed_1, speed_2, deflection = state
         closing = self.pair.base_radius_1 * speed_1 - self.pair.base_radius_2 * speed_2
         force = self.stiffness * deflection + self._damping * closing
@@ -109,12 +120,12 @@ class GearShafts(Part):
             "speed_2": speed_2,
             "mesh_torque": self.pair.base_radius_1 * force,
             "transmission_error": deflection,
+            "torque_coupling": self.coupling * (inputs["speed_drive"] - speed_1),
         }
 
-    @staticmethod
-    def _outer(inputs: Values) -> tuple[float, float]:
-        """Torques [N m] on pinion and wheel, the way they turn, beside those of the teeth and drag."""
-        first = inputs["drive_torque"] + inputs["friction_torque_1"]
+    def _outer(self, inputs: Values) -> tuple[float, float]:
+        """Torques [N m] on pinion and wheel, the way they turn, beside those of the teeth and what falls with speed."""
+        first = inputs["drive_torque"] + self.coupling * inputs["speed_drive"] + inputs["friction_torque_1"]
         return first, inputs["friction_torque_2"] - inputs["brake_torque"]
 
     @property
@@ -139,7 +150,7 @@ def _step(shafts: GearShafts, step: float) -> tuple[Array, Array]:
     All three are of one size; Loan's block matrix gives both: doi:10.1109/TAC.1978.1101743.
     """
     levers = np.array([shafts.pair.base_radius_1, shafts.pair.base_radius_2])
-    inertias, drags = np.array([shafts.inertia_1, shafts.inertia_2]), np.array([shafts.drag_1, shafts.drag_2])
+    inertias, drags = np.array([shafts.inertia_1, shafts.inertia_2]), np.array([shafts.coupling, shafts.drag])
     rates = np.zeros((5, 5))
     rates[:2, :2] = -np.diag(drags / inertias)
     force = np.array([shafts._damping, -shafts._damping, shafts.stiffness / shafts._frequency])

@@ -5,12 +5,8 @@ The loss of a mesh is P_V = P_a H_V mu_mz: transmitted power, loss factor of the
 
 import math
 
-import numpy as np
-import scipy  # its parts are loaded at their first use
-
 from .geometry import SpurGearPair
-from .path import Numbers, radius, steps
-from .sharing import Sharing, loads
+from .path import Array, Numbers, Stations, radius
 
 
 def ohlendorf(pair: SpurGearPair) -> float:
@@ -25,18 +21,13 @@ def ohlendorf(pair: SpurGearPair) -> float:
     return math.pi * (pair.ratio + 1.0) / (pair.teeth_1 * pair.ratio) * share
 
 
-def loss_factor(pair: SpurGearPair, sharing: Sharing, force: float) -> float:
-    """H_V = 1/p_b integral of (F_N / F_bt) (|v_g| / v_tb) along the path of contact, for a force F_bt [N] > 0.
+def loss_factor(pair: SpurGearPair, places: Stations, share: Array) -> float:
+    """H_V = 1/p_b integral of (F_N / F_bt) (|v_g| / v_tb) along the path of contact, as a sum over stations.
 
+    share F_N / F_bt [n] is what the pair of teeth at each station carries of the force.
     Source: Niemann & Winter, Maschinenelemente II, 1989, section 21.11.
     """
-
-    def part(position: float) -> float:
-        return float(loads(pair, sharing, force, np.array(position)) / force * sliding_share(pair, position))
-
-    edges = steps(pair)
-    found = scipy.integrate.quad(part, edges[0], edges[-1], points=edges[1:-1], limit=400, epsrel=1e-9)
-    return float(found[0]) / pair.base_pitch
+    return float((places.stretch * share * sliding_share(pair, places.position)).sum()) / pair.base_pitch
 
 
 def sliding_share(pair: SpurGearPair, position: Numbers) -> Numbers:
@@ -63,13 +54,17 @@ def iso_14179_1(pair: SpurGearPair, torque: float, speed_1: float, kinematic_vis
     """Mean coefficient of friction of a mesh, nu^-0.223 K^-0.40 / (3.239 V^0.70).
 
     torque [N m] and speed_1 [rad/s] of the pinion, both > 0; kinematic_viscosity [m2/s] at the oil's temperature. V is
-    the speed of the pitch circles, K = T1 (z1 + z2) / (2 b r_w1^2 z2) the load intensity; fitted in m/s, N/mm2, mm2/s.
-    Meant for 2 < V <= 25 m/s and 1.4 < K <= 14 N/mm2. Source: ISO/TR 14179-1:2001 (the method of AGMA), section 7.
+    the speed of the pitch circles, K the load intensity; fitted in mm2/s, N/mm2, m/s. Meant for 2 < V <= 25 m/s and
+    1.4 < K <= 14 N/mm2. Source: ISO/TR 14179-1:2001 (the method of AGMA), section 7.
     """
-    speed = speed_1 * pair.pitch_radius_1
-    teeth = (pair.teeth_1 + pair.teeth_2) / pair.teeth_2
-    intensity = 1e-6 * torque * teeth / (2.0 * pair.face_width * pair.pitch_radius_1**2)
+    speed, intensity = speed_1 * pair.pitch_radius_1, 1e-6 * load_intensity(pair, torque)
     return (1e6 * kinematic_viscosity) ** -0.223 * intensity**-0.40 / (3.239 * speed**0.70)
+
+
+def load_intensity(pair: SpurGearPair, torque: float) -> float:
+    """K = T1 (z1 + z2) / (2 b r_w1^2 z2) [Pa] under a torque of the pinion [N m]. Source: as `iso_14179_1`."""
+    teeth = (pair.teeth_1 + pair.teeth_2) / pair.teeth_2
+    return torque * teeth / (2.0 * pair.face_width * pair.pitch_radius_1**2)
 
 
 def blok_line(

@@ -7,9 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_core.reading import did_you_mean
+
 from .control import StepControl, wrms
 from .coupled import Coupled, Point
-from .errors import NotFiniteError
+from .errors import CouplingError, NotFiniteError
 from .recorder import Recorder
 from .richardson import halves
 from .stepping import Attempt, Stepper
@@ -35,6 +37,7 @@ class ControlledStepper(Stepper):
         self.tolerance, self.horizon = tolerance, coupled.settings.horizon or coupled.settings.stop_time
         self.size = self.step_size
         self.control = StepControl(coupled.settings.order + 1)
+        self._controlled = _mask(coupled)
         # how often in a row a coupled output has seemed to lag only
         self.lags = np.zeros(len(coupled.wiring.coupled), dtype=int)
         self._may_lag = np.array([coupled.may_lag(place) for place in coupled.wiring.coupled], dtype=bool)
@@ -113,6 +116,7 @@ class ControlledStepper(Stepper):
                 coupled.release(middle)
         changes = np.abs(coupled.outputs[coupled.wiring.coupled] - outputs)
         errors = changes * (of_halves.per_difference if not self._lagging.any() else max(of_halves.per_difference, 1.0))
+        errors = np.where(self._controlled, errors, 0.0)
         ratio = self._ratio(errors, size)
         if max(whole.residual, first.residual, second.residual) > 1.0:
             ratio = max(ratio, 2.0)
@@ -160,3 +164,16 @@ class ControlledStepper(Stepper):
         """Whether an error falls too slowly with the step to add up: as that of a stiff force, soon forgotten."""
         expected = earlier.halves.error / attempt.halves.error * math.sqrt(attempt.size / earlier.size)
         return np.asarray(earlier.errors < expected * attempt.errors)
+
+
+def _mask(coupled: Coupled) -> NDArray[np.bool_]:
+    """Which coupled outputs are to meet the tolerance. Raises CouplingError for a name that is none of them."""
+    names = [coupled.wiring.outputs[place] for place in coupled.wiring.coupled]
+    chosen = coupled.settings.controlled
+    for name in chosen:
+        if name not in names:
+            raise CouplingError(
+                f"controlled has '{name}', which sets no input.{did_you_mean(name, names)} The outputs that set inputs "
+                f"are {', '.join(names)}."
+            )
+    return np.array([not chosen or name in chosen for name in names])

@@ -236,6 +236,7 @@ _SIMULATE: dict[str, Callable[[str, Any], Any]] = {
     "min_step": _seconds,
     "horizon": _seconds,
     "max_step": _seconds,
+    "controlled": _names,
     "outputs": _names,
 }
 _KEYS: dict[str, dict[str, Callable[[str, Any], Any]]] = {"coupling": _COUPLING, "simulate": _SIMULATE}

@@ -29,6 +29,7 @@ class Settings:
     min_step: float | None = None
     horizon: float | None = None
     max_step: float | None = None
+    controlled: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         _choose("algorithm", self.algorithm, ["jacobi", "gauss_seidel"])
@@ -49,6 +50,8 @@ class Settings:
 
         if self.max_step is not None and self.max_step < self.step_size:
             raise CouplingError(f"max_step = {self.max_step:g} s is below step_size = {self.step_size:g} s. Raise it.")
+        if self.controlled and self.tolerance is None:
+            raise CouplingError(f"controlled = {list(self.controlled)} are to meet a tolerance. Give one as well.")
         if self.max_step is not None and self.tolerance is None:
             raise CouplingError(f"max_step = {self.max_step:g} s limits steps chosen by a tolerance. Give one as well.")
 

@@ -42,6 +42,7 @@ def simulate(
     outputs: Iterable[str] | None = None,
     horizon: float | None = None,
     max_step: float | None = None,
+    controlled: Iterable[str] = (),
     history: Mapping[str, Callable[[float], float]] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
@@ -60,7 +61,9 @@ def simulate(
     known to die out sooner. A system that amplifies errors, or whose phase drifts, ends with larger ones. Where a step
     of min_step (1e-6 step_size) is still too inaccurate it stands, and is counted in `below_min_step`. Events are found
     to min_step, unless two of one output lie between two rows. max_step [s]: no step is longer, however accurate; where
-    FMUs evolve slowly inside, rows stay close enough to show it.
+    FMUs evolve slowly inside, rows stay close enough to show it. controlled: the coupled outputs that are to meet the
+    tolerance, all if none are named; where some follow others at once, as a friction force its speed, it is enough to
+    name what has inertia or heat capacity.
 
     checkpoint: a folder in which the state is kept; with `resume` the simulation goes on from there, bit for bit.
     outputs: the variables to record, all outputs if none are named. history: the course of coupled outputs before the
@@ -76,7 +79,17 @@ def simulate(
     values that are not finite; StateError for a checkpoint that is damaged or of another simulation.
     """
     settings = Settings(
-        stop_time, step_size, algorithm, order, iterate, tolerance, iteration_tolerance, min_step, horizon, max_step
+        stop_time,
+        step_size,
+        algorithm,
+        order,
+        iterate,
+        tolerance,
+        iteration_tolerance,
+        min_step,
+        horizon,
+        max_step,
+        tuple(controlled),
     )
     settings.check(system)
     ports = system.outputs(outputs)

@@ -1,7 +1,8 @@
 """Components of systems that are no contacts, each an FMU of its own.
 
     part        what a component is: parameters, variables, three pure functions
-    drive       a motor that holds a speed; brake: what loads it; shaft: the inertia between them
+    drive       a motor with a speed controller; speed_source: one that is stronger than its load
+    shaft       the inertia that it drives; brake: what loads it
     spindle     a body of a rig on its servo motor; load_arm: what presses it on the other
     thermal     temperatures of housing, oil and shafts, with thermostats
 

@@ -43,6 +43,11 @@ class Brake(Part):
             Output("dtorque_dspeed", "dT/dw", "N m s/rad", "derivative of torque by speed", direct=by),
         )
 
+    @property
+    def at_start(self) -> tuple[str, ...]:
+        """What decides the first state."""
+        return ("torque_setpoint",)
+
     def initial(self, inputs: Values) -> State:
         """Strength M [N m]: as it is set at the start."""
         return (inputs["torque_setpoint"],)

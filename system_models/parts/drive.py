@@ -51,6 +51,11 @@ class Drive(Part):
             ),
         )
 
+    @property
+    def at_start(self) -> tuple[str, ...]:
+        """What decides the first state."""
+        return ("speed",)
+
     def initial(self, inputs: Values) -> State:
         """Reference [rad/s], at first the speed there is, and integral part [N m]."""
         return (inputs["speed"], 0.0)

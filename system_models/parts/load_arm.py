@@ -42,6 +42,11 @@ class LoadArm(Part):
         """The load."""
         return (Output("load", "W", "N", "load on the contact", nominal=50.0, minimum=0.0),)
 
+    @property
+    def at_start(self) -> tuple[str, ...]:
+        """What decides the first state."""
+        return ("load_setpoint",)
+
     def initial(self, inputs: Values) -> State:
         """L and L'/f [N]: settled."""
         return (inputs["load_setpoint"], 0.0)

@@ -51,6 +51,11 @@ class Part(ABC):
     def responses(self) -> tuple[Output, ...]:
         """Outputs in order."""
 
+    @property
+    def at_start(self) -> tuple[str, ...]:
+        """Inputs that `initial` looks at, on which the first outputs depend beside those that are direct."""
+        return ()
+
     def check(self) -> None:  # noqa: B027 (few have anything to check)
         """Raise SceneError if parameters do not go together; the range of each is checked by the caller."""
 

@@ -12,10 +12,11 @@ from .part import Input, Output, Part, State, Values
 
 @dataclass(frozen=True)
 class Shaft(Part):
-    """J w' = T_drive - T_resisting - c w.
+    """J w' = T_drive + k (w_drive - w) - T_resisting - c w.
 
-    At w = 0 the resisting torque only holds: the shaft stands until the drive's torque is the larger one, so what
-    resists cannot turn it round, however long the step.
+    A drive gives a torque, or a speed to the other end of a slipping coupling k; with a speed, any step is stable. At
+    w = 0 the resisting torque only holds: the shaft stands until what drives is stronger, so what resists cannot turn
+    it round, however long the step.
     """
 
     name: ClassVar[str] = "Shaft"
@@ -23,22 +24,32 @@ class Shaft(Part):
 
     inertia: float = parameter("kg m2", "J, moment of inertia of all that turns with it", least=1e-9, most=1e6)
     damping: float = parameter("N m s/rad", "c, viscous damping", least=0.0, most=1e6, default=0.0)
+    coupling: float = parameter("N m s/rad", "k, torque of the coupling by its slip", least=0.0, most=1e9, default=0.0)
     initial_speed: float = parameter("rad/s", "w at the start", least=-1e5, most=1e5, default=0.0)
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """The two torques."""
+        """What drives and what resists."""
         return (
             Input("torque_drive", "T_d", "N m", "torque that drives: accelerates a positive speed", nominal=10.0),
+            Input("speed_drive", "w_d", "rad/s", "speed of the coupling's other end", nominal=100.0, display="rpm"),
             Input("torque_resisting", "T_r", "N m", "torque that resists: brakes a positive speed", nominal=10.0),
         )
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Speed and angle."""
+        """Motion, and what the coupling transmits."""
         return (
             Output("speed", "w", "rad/s", "angular speed", nominal=100.0, display="rpm"),
             Output("revolutions", "N", "1", "revolutions since the start, backward ones negative", nominal=1e3),
+            Output(
+                "torque_coupling",
+                "T_k",
+                "N m",
+                "torque that comes through the coupling",
+                nominal=10.0,
+                direct=("speed_drive",),
+            ),
         )
 
     def initial(self, inputs: Values) -> State:
@@ -48,7 +59,8 @@ class Shaft(Part):
     def advance(self, state: State, inputs: Values, step: float) -> State:
         """Exact, with the moment of standstill where there is one."""
         speed, _ = state
-        drive, resisting = inputs["torque_drive"], inputs["torque_resisting"]
+        drive = inputs["torque_drive"] + self.coupling * inputs["speed_drive"]  # at standstill
+        resisting = inputs["torque_resisting"]
         until_standstill = self._until_standstill(speed, drive - resisting)
         if until_standstill >= step:
             return self._free(state, drive - resisting, step)
@@ -58,20 +70,21 @@ class Shaft(Part):
         return self._free((0.0, angle), drive - resisting, step - until_standstill)
 
     def _until_standstill(self, speed: float, torque: float) -> float:
-        """Time [s] after which the shaft would stand under a net torque [N m]; inf if it does not."""
+        """Time [s] after which the shaft stands under a net torque at standstill [N m]; inf if it does not."""
         if speed == 0.0:
             return 0.0
         if speed * torque >= 0.0:
             return math.inf
         slowing = -self.inertia * speed / torque  # without damping
-        rate = self.damping * slowing / self.inertia
+        rate = (self.damping + self.coupling) * slowing / self.inertia
         return slowing * (math.log1p(rate) / rate if rate > 0.0 else 1.0)
 
     def _free(self, state: State, torque: float, step: float) -> State:
-        matrix = ((-self.damping / self.inertia, 0.0), (1.0, 0.0))
+        matrix = ((-(self.damping + self.coupling) / self.inertia, 0.0), (1.0, 0.0))
         return linear.advance(matrix, ((1.0 / self.inertia,), (0.0,)), state, (torque,), step)
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Speed and revolutions."""
+        """Speed, revolutions and torque of the coupling."""
         speed, angle = state
-        return {"speed": speed, "revolutions": angle / (2.0 * math.pi)}
+        torque = self.coupling * (inputs["speed_drive"] - speed)
+        return {"speed": speed, "revolutions": angle / (2.0 * math.pi), "torque_coupling": torque}

@@ -43,6 +43,11 @@ class Spindle(Part):
             Output("power", "P", "W", "power that the motor gives", direct=by),
         )
 
+    @property
+    def at_start(self) -> tuple[str, ...]:
+        """What decides the first state."""
+        return ("surface_speed_setpoint", "friction_force", "rolling_resistance")
+
     def initial(self, inputs: Values) -> State:
         """Speed w and memory y of the servo [rad/s]: settled."""
         setpoint = inputs["surface_speed_setpoint"] / self.radius

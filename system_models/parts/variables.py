@@ -11,6 +11,6 @@ def variables(part: Part) -> tuple[Variable, ...]:
     return (
         *(of_quantity(q, "input", q.start) for q in part.inputs),
         *(of_number(name, value, field) for name, value, field in numbers(part) if isinstance(value, float)),
-        *(of_quantity(q, "output", 0.0, q.direct) for q in part.responses),
-        of_quantity(TABLE["valid"], "output", False),
+        *(of_quantity(q, "output", 0.0, q.direct, part.at_start) for q in part.responses),
+        of_quantity(TABLE["valid"], "output", False, (), part.at_start),
     )

@@ -12,6 +12,7 @@ from system_models.parts.drive import Drive
 from system_models.parts.linear import advance
 from system_models.parts.load_arm import LoadArm
 from system_models.parts.shaft import Shaft
+from system_models.parts.speed_source import SpeedSource
 from system_models.parts.spindle import Spindle
 
 
@@ -26,25 +27,29 @@ def test_a_decay_and_its_integral_are_exact_however_stiff(rate, step):
     assert integral == pytest.approx(0.5 + 2.0 * step * mean + 3.0 * second, rel=1e-10)
 
 
+def _torques(drive: float, resisting: float, speed_drive: float = 0.0) -> dict[str, float]:
+    return {"torque_drive": drive, "torque_resisting": resisting, "speed_drive": speed_drive}
+
+
 def test_a_shaft_runs_up_as_the_closed_form():
-    shaft, torques = Shaft(inertia=0.5, damping=0.1), {"torque_drive": 4.0, "torque_resisting": 1.5}
+    shaft, torques = Shaft(inertia=0.5, damping=0.1), _torques(4.0, 1.5)
     speed, angle = shaft.advance((0.0, 0.0), torques, 8.0)
     final, tau = 2.5 / 0.1, 0.5 / 0.1
     assert speed == pytest.approx(final * -math.expm1(-8.0 / tau), rel=1e-13)
     assert angle == pytest.approx(final * (8.0 + tau * math.expm1(-8.0 / tau)), rel=1e-13)
     outputs = shaft.outputs((speed, angle), torques)
-    assert outputs == {"speed": speed, "revolutions": angle / (2.0 * math.pi)}
+    assert outputs == {"speed": speed, "revolutions": angle / (2.0 * math.pi), "torque_coupling": 0.0}
 
 
 def test_without_damping_a_step_changes_the_speed_by_the_impulse():
-    torques = {"torque_drive": 4.0, "torque_resisting": 1.5}
+    torques = _torques(4.0, 1.5)
     assert Shaft(0.5).advance((10.0, 0.0), torques, 6.0) == pytest.approx((40.0, 150.0), rel=1e-14)
 
 
 @pytest.mark.parametrize("damping", [0.0, 1e-9, 0.3])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_shaft_runs_down_and_stands(damping, sign):
-    shaft, torques = Shaft(0.5, damping), {"torque_drive": sign * 0.5, "torque_resisting": sign * 2.0}
+    shaft, torques = Shaft(0.5, damping), _torques(sign * 0.5, sign * 2.0)
     speed, angle = shaft.advance((sign * 30.0, 0.0), torques, 600.0)
     assert speed == 0.0
     # without damping, the work of the net torque is the kinetic energy
@@ -57,22 +62,46 @@ def test_a_shaft_runs_down_and_stands(damping, sign):
 @pytest.mark.parametrize("torque", [-2.0, -0.1, 0.0, 1.0, 2.0])
 @pytest.mark.parametrize("resisting", [2.0, -2.0])
 def test_a_standing_shaft_is_held_up_to_the_resisting_torque(torque, resisting):
-    assert Shaft(0.5).advance((0.0, 7.0), {"torque_drive": torque, "torque_resisting": resisting}, 60.0) == (0.0, 7.0)
+    assert Shaft(0.5).advance((0.0, 7.0), _torques(torque, resisting), 60.0) == (0.0, 7.0)
 
 
 def test_a_shaft_breaks_away_when_the_drive_is_stronger():
-    torques = {"torque_drive": 2.5, "torque_resisting": 2.0}
+    torques = _torques(2.5, 2.0)
     assert Shaft(0.5).advance((0.0, 0.0), torques, 2.0) == pytest.approx((2.0, 2.0), rel=1e-13)
 
 
 def test_a_drive_can_turn_a_shaft_round_within_a_step():
-    torques = {"torque_drive": -3.0, "torque_resisting": 2.0}
+    torques = _torques(-3.0, 2.0)
     assert Shaft(0.5).advance((10.0, 0.0), torques, 3.0) == pytest.approx((-20.0, -15.0), rel=1e-13)
 
 
 def test_a_torque_that_drives_a_turning_shaft_is_not_held_back():
-    torques = {"torque_drive": 0.0, "torque_resisting": -1.0}
+    torques = _torques(0.0, -1.0)
     assert Shaft(0.5).advance((10.0, 0.0), torques, 3.0)[0] == pytest.approx(16.0, rel=1e-13)
+
+
+@pytest.mark.parametrize("step", [0.01, 1.0, 600.0])
+def test_a_coupling_brings_the_shaft_to_the_drives_speed_less_the_slip(step):
+    shaft, inputs = Shaft(0.5, coupling=40.0), _torques(0.0, 6.0, 100.0)
+    speed, angle = shaft.advance((20.0, 0.0), inputs, step)
+    final, decay = 100.0 - 6.0 / 40.0, math.exp(-step * 40.0 / 0.5)
+    assert speed == pytest.approx(final + (20.0 - final) * decay, rel=1e-13)
+    assert angle == pytest.approx(final * step + (20.0 - final) * (1.0 - decay) * 0.5 / 40.0, rel=1e-13)
+    assert shaft.outputs((speed, angle), inputs)["torque_coupling"] == pytest.approx(40.0 * (100.0 - speed), rel=1e-13)
+
+
+def test_a_coupling_slips_on_a_shaft_that_is_held():
+    assert Shaft(0.5, coupling=4.0).advance((3.0, 0.0), _torques(0.0, 6.0, 1.4), 600.0)[0] == 0.0
+    assert Shaft(0.5, coupling=4.0).advance((0.0, 0.0), _torques(0.0, 6.0, 1.6), 600.0)[0] == pytest.approx(0.1)
+
+
+def test_a_speed_source_goes_up_and_down_its_ramp_and_gives_the_power_asked_for():
+    source, up = SpeedSource(ramp=10.0), {"speed_setpoint": 50.0, "torque": 3.0}
+    assert source.initial(up) == (50.0,)
+    assert source.advance((0.0,), up, 2.0) == (20.0,)
+    assert source.advance((0.0,), up, 5.5) == (50.0,)
+    assert source.advance((0.0,), {"speed_setpoint": -50.0, "torque": 3.0}, 2.0) == (-20.0,)
+    assert source.outputs((20.0,), up) == {"speed": 20.0, "power": 60.0}
 
 
 def test_a_drive_follows_its_ramp_and_integrates_the_error_on_the_way():
@@ -88,7 +117,8 @@ def test_the_integral_part_stops_at_the_limit_and_comes_back_at_once():
     drive = Drive(proportional_gain=2.0, integral_time=4.0, torque_limit=30.0, ramp=1e6)
     stalled = drive.advance((50.0, 0.0), {"speed_setpoint": 50.0, "speed": 0.0}, 600.0)
     assert stalled == (50.0, 30.0)
-    assert drive.outputs(stalled, {"speed_setpoint": 50.0, "speed": 0.0})["torque"] == 30.0
+    outputs = drive.outputs(stalled, {"speed_setpoint": 50.0, "speed": 0.0})
+    assert (outputs["torque"], outputs["dtorque_dspeed"]) == (30.0, 0.0)
     _, integral = drive.advance(stalled, {"speed_setpoint": 50.0, "speed": 54.0}, 1.0)
     assert integral == pytest.approx(30.0 - 2.0 / 4.0 * 4.0, rel=1e-13)
 
@@ -108,7 +138,7 @@ def test_drive_and_shaft_reach_the_setpoint_and_carry_the_load():
     motor, turning, largest = drive.initial(inputs), shaft.initial({}), 0.0
     for _ in range(20_000):
         torque = drive.outputs(motor, inputs)["torque"]
-        turning = shaft.advance(turning, {"torque_drive": torque, "torque_resisting": 3.0}, 1e-3)
+        turning = shaft.advance(turning, _torques(torque, 3.0), 1e-3)
         inputs["speed"] = turning[0]
         motor = drive.advance(motor, inputs, 1e-3)
         largest = max(largest, turning[0])

@@ -95,13 +95,21 @@ def test_a_thermostat_heats_at_its_limit_and_then_in_proportion():
     assert outputs["heater_power_bath"] == pytest.approx(40.0 * (353.15 - outputs["temperature_bath"]), rel=1e-12)
 
 
-def test_one_step_finds_all_changes_of_a_thermostat():
-    state = (298.0, 370.0, 0.0, 0.0)  # too warm: cools, then heats
-    inputs = _bath(setpoint_bath=350.0, temperature_ambient=280.0)
-    powers = {BATH.outputs(marched(BATH, state, inputs, 1.0, n), inputs)["heater_power_bath"] for n in (0, 5, 600)}
-    assert min(powers) == -15.0
-    assert max(powers) > 0.0
-    assert BATH.advance(state, inputs, 600.0) == pytest.approx(marched(BATH, state, inputs, 0.5, 1200), rel=1e-11)
+@pytest.mark.parametrize(
+    ("bath", "heat", "first", "last"),
+    [
+        (370.0, 0.0, -15.0, 67.7),  # too warm: cools, then heats in proportion
+        (345.0, 60.0, 120.0, -15.0),  # too cold: heats, then cools, both as much as it can
+        (349.0, -300.0, 40.0, 120.0),  # held in proportion until it cannot
+    ],
+)
+def test_one_step_finds_all_changes_of_a_thermostat(bath, heat, first, last):
+    state = (bath, bath, 0.0, 0.0)
+    inputs = _bath(setpoint_bath=350.0, temperature_ambient=280.0, heat_bath=heat, heat_oil=2.0 * max(heat, 0.0))
+    assert BATH.outputs(state, inputs)["heater_power_bath"] == pytest.approx(first)
+    once = BATH.advance(state, inputs, 600.0)
+    assert BATH.outputs(once, inputs)["heater_power_bath"] == pytest.approx(last, abs=0.1)
+    assert once == pytest.approx(marched(BATH, state, inputs, 0.5, 1200), rel=1e-11)
 
 
 def test_a_setpoint_is_met_to_the_power_over_the_gain():
