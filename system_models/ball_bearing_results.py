@@ -1,8 +1,8 @@
 """What a run of a ball bearing tells beside its outputs: torque in parts and by textbooks, each ball's film, starts."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -16,10 +16,13 @@ from .assembly import Assembly
 from .bearing.equilibrium import Equilibrium, RingLoads, solve
 from .bearing.geometry import RACES, RaceName
 from .bearing.part import BallBearing
-from .bearing.textbook import Torque, catalogue_of, palmgren_torque, skf_torque
+from .bearing.textbook import CatalogueBearing, Torque, catalogue_of, palmgren_torque, skf_torque
 from .parts.part import indexed
+from .parts.thermal import ThermalNetwork
 
 Array = NDArray[np.float64]
+Parts = dict[str, Array]  # friction torque [N m] by cause, arrays [time], NaN at standstill
+Formula = Callable[[CatalogueBearing, float, float, float, float], Torque]  # radial, axial, speed, viscosity
 
 DENSITY = 870.0  # kg/m3, assumed of oils whose viscosity law has none
 _REACHED = 0.99  # of its largest speed: a start ends there
@@ -36,14 +39,6 @@ class ContactClass(NamedTuple):
     def contact(self) -> str:
         """Name of its contact."""
         return f"{self.race}_{self.level}"
-
-
-class TorqueParts(NamedTuple):
-    """Friction torque by its causes [N m], arrays [time]; NaN at standstill."""
-
-    rolling: Array
-    sliding: Array
-    spin: Array
 
 
 class Passage(NamedTuple):
@@ -102,9 +97,12 @@ class BearingRun:
 
     @property
     def last(self) -> int:
-        """The last row in which the shaft turns; the last of all if it never does."""
-        rows = np.flatnonzero(self.runs)
-        return int(rows[-1]) if rows.size else self.time.size - 1
+        """The last row at the speed that the shaft has reached when it turns last; the last of all if it never does."""
+        if not self.starts:
+            return self.time.size - 1
+        rows = np.arange(self.starts[-1][-1], self.time.size)
+        speed = np.abs(self.speed)
+        return int(rows[speed[rows] >= _REACHED * speed[rows[0]]][-1])
 
     def scheduled(self, name: str) -> Array:
         """An input of the bearing that the duty sets, as it was in the step to each row; zero if it does not."""
@@ -118,21 +116,33 @@ class BearingRun:
         return RingLoads(*(float(self.scheduled(name)[row]) for name in names))
 
     @cached_property
-    def torque(self) -> TorqueParts:
-        """Friction torque in parts: they sum up to the bearing's, but for one step's delay between them."""
+    def torque(self) -> Parts:
+        """Friction torque by what the contacts tell: the bearing's, but for a step's delay between them."""
         speed = np.where(self.runs, np.abs(self.speed), np.nan)
-        rolling, sliding, rubbing = np.zeros((3, speed.size))
+        rolling, sliding, spin = np.zeros((3, speed.size))
         for which in self.classes:
             count, u1, u2 = (self.given(which, name) for name in ("count", "speed_1", "speed_2"))
-            rolling += count * np.abs(self.told(which, "rolling_resistance") * (u1 + u2))
-            sliding += count * np.abs(self.told(which, "friction_force") * (u1 - u2))
-            rubbing += count * self.told(which, "power_loss")
-        return TorqueParts(rolling / speed, sliding / speed, np.maximum(rubbing - sliding, 0.0) / speed)
+            rolling += count * np.abs(self.told(which, "rolling_resistance") * (u1 + u2)) / speed
+            sliding += count * np.abs(self.told(which, "friction_force") * (u1 - u2)) / speed
+            spin += count * self._spin_torque(which) * np.abs(self.given(which, "spin")) / speed
+        return {"rolling": rolling, "sliding": sliding, "spin": spin}
+
+    def _spin_torque(self, which: ContactClass) -> Array:
+        """Size of a contact's torque about its normal [N m], by its power."""
+        slid = self.told(which, "friction_force") * (self.told(which, "speed_1") - self.told(which, "speed_2"))
+        spin = np.abs(self.told(which, "spin"))
+        lost = np.maximum(self.told(which, "power_loss") - np.abs(slid), 0.0)
+        return np.divide(lost, spin, out=np.zeros_like(lost), where=spin > 0.0)
 
     @property
     def radial(self) -> Array:
         """Radial load [N]."""
         return np.hypot(self.scheduled("force_y"), self.scheduled("force_z"))
+
+    @property
+    def axial(self) -> Array:
+        """Size of the axial load [N]."""
+        return np.abs(self.scheduled("force_x"))
 
     @property
     def kinematic_viscosity(self) -> Array:
@@ -141,21 +151,21 @@ class BearingRun:
         return kinematic_viscosity(oil, self.of("housing.temperature_oil"))
 
     @cached_property
-    def skf(self) -> list[Torque | None]:
-        """After SKF at each row's load, speed and oil temperature; None at standstill."""
-        return self._textbook(skf_torque)
+    def skf(self) -> Parts:
+        """Friction torque after SKF at each row's load, speed and oil temperature."""
+        return self._textbook(skf_torque, "rolling", "sliding")
 
     @cached_property
-    def palmgren(self) -> list[Torque | None]:
-        """After Palmgren, likewise."""
-        return self._textbook(palmgren_torque)
+    def palmgren(self) -> Parts:
+        """Friction torque after Palmgren, likewise."""
+        return self._textbook(palmgren_torque, "by oil", "by load")
 
-    def _textbook(self, torque: "type[skf_torque]") -> list[Torque | None]:  # type: ignore[valid-type]
-        bearing = catalogue_of(self.bearing.bearing)
-        rows = zip(
-            self.radial, np.abs(self.scheduled("force_x")), np.abs(self.speed), self.kinematic_viscosity, strict=True
-        )
-        return [torque(bearing, *map(float, row)) if runs else None for runs, row in zip(self.runs, rows, strict=True)]
+    def _textbook(self, formula: Formula, by_speed: str, by_load: str) -> Parts:
+        bearing, found = catalogue_of(self.bearing.bearing), np.full((2, self.time.size), np.nan)
+        rows = np.stack([self.radial, self.axial, np.abs(self.speed), self.kinematic_viscosity], axis=1)
+        for k in np.flatnonzero(self.runs):
+            found[:, k] = formula(bearing, *rows[k].tolist())
+        return {by_speed: found[0], by_load: found[1]}
 
     @property
     def starts(self) -> list[NDArray[np.int_]]:
@@ -168,6 +178,16 @@ class BearingRun:
             there = first + int(np.argmax(speed >= _REACHED * speed.max()))
             found.append(np.arange(max(first - 1, 0), there + 1))
         return found
+
+    @property
+    def start_peaks(self) -> Array:
+        """Largest friction torque of each start [N m]."""
+        torque = self.of("bearing.friction_torque")
+        return np.array([torque[rows].max() for rows in self.starts])
+
+    def pressure(self, race: RaceName, load: Array) -> Array:
+        """Hertz's largest pressure [Pa] of balls with loads [N]."""
+        return self.bearing.bearing.race(race).unit.pressure_max * np.cbrt(load)
 
     def balls(self, race: RaceName, row: int) -> tuple[Array, Array]:
         """Azimuth [rad] from -pi to pi and load [N] of each ball at a row, by rising azimuth."""
@@ -188,8 +208,7 @@ class BearingRun:
             carried = rest.load_inner if race == "inner" else rest.load_outer
             found += zip((np.remainder(rest.azimuth + np.pi, 2.0 * np.pi) - np.pi).tolist(), carried.tolist(), strict=True)
         azimuth, load = np.array(sorted(found)).T
-        unit = part.bearing.race(race).unit.pressure_max
-        return Passage(azimuth, load, unit * np.cbrt(load))
+        return Passage(azimuth, load, self.pressure(race, load))
 
     def at_load(self, race: RaceName, name: str, row: int, load: Array) -> Array:
         """What contacts of a race tell at a row, between the classes by load; NaN without load.
@@ -202,11 +221,19 @@ class BearingRun:
         return np.where(load > 0.0, np.interp(load, loads, values), np.nan)
 
     @property
+    def heat_stored(self) -> float:
+        """Heat that the housing's nodes hold more than at the start [J]."""
+        housing = self.assembly.parts["housing"]
+        assert isinstance(housing, ThermalNetwork)
+        return sum(
+            node.heat_capacity * float(self.of(f"housing.temperature_{node.name}")[-1] - node.temperature)
+            for node in housing.nodes
+        )
+
+    @property
     def heat_in(self) -> float:
-        """Heat that has come into the housing's nodes since the start [J]; each row's flow held over the step to it."""
-        steps = np.diff(self.time)
-        nodes = ("balls", "inner", "outer", "oil")
-        return float(sum((steps * self.of(f"bearing.heat_flow_{node}")[1:]).sum() for node in nodes))
+        """Heat that friction has made since the start [J], by the trapezoidal rule."""
+        return float(np.trapezoid(self.of("bearing.power_loss"), self.time))
 
 
 def kinematic_viscosity(oil: Lubricant, temperature: Array) -> Array:
@@ -215,9 +242,3 @@ def kinematic_viscosity(oil: Lubricant, temperature: Array) -> Array:
     if isinstance(law, AstmD341):
         density = law.density * (1.0 - law.expansion * (temperature - 288.15))
     return np.asarray(law(0.0, temperature)) / density
-
-
-def peaks(runs: BearingRun) -> Array:
-    """Largest friction torque of each start [N m]."""
-    torque = runs.of("bearing.friction_torque")
-    return np.array([torque[rows].max() for rows in runs.starts])
