@@ -254,7 +254,7 @@ def draw(all_compared: dict[tuple[str, int], Compared]) -> Figure:
         xlim=(1e-5, 0.2),
         ylim=(1e-5, 0.2),
     )
-    left.legend(frameon=False, fontsize="small")
+    left.legend(frameon=False, fontsize="small", title="filled: check", title_fontsize="small")
     for panel, name in ((middle, "friction"), (right, "film")):
         panel.axhspan(-1.0, 1.0, color="0.94", zorder=0)
         panel.set(
