@@ -111,13 +111,14 @@ def _path(axis: "Axes", record: Record, label: str, values: _Curve) -> None:
     axis.spines[["top", "right"]].set_visible(False)
 
 
-def _coloured(record: Record) -> Iterator[tuple[Stage, tuple[float, ...]]]:
+def _coloured(record: Record) -> Iterator[tuple[Stage, str]]:
     """The stages that are drawn, light to dark."""
     from matplotlib import colormaps
+    from matplotlib.colors import to_hex
 
     shown = record.shown(_MOST_CURVES)
     for k, stage in enumerate(shown):
-        yield stage, colormaps["viridis_r"](0.12 + 0.88 * (k + 1) / len(shown))
+        yield stage, to_hex(colormaps["viridis_r"](0.12 + 0.88 * (k + 1) / len(shown)))
 
 
 def _stage_legend(figure: "Figure", record: Record) -> None:
