@@ -83,7 +83,7 @@ def read(source: str, changes: Mapping[str, str] | None = None) -> Machine:
     kind = table.pop("kind", None)
     if kind not in _KINDS:
         raise SceneError(f"kind = {kind!r} is not one of {', '.join(_KINDS)}.{did_you_mean(str(kind), list(_KINDS))}")
-    return Machine(path.stem, kind, table, path.parent if source.endswith(".toml") else Path())
+    return Machine(path.stem, kind, table, file.parent)
 
 
 def _put(table: dict[str, Any], key: str, item: Any) -> None:

@@ -43,11 +43,8 @@ class Resolved:
         return abs(value - solved) / abs(value) if value else math.inf
 
     def allowed(self, name: str) -> float:
-        """Half width of the error that the fast level states, and of the solution's own."""
-        if self.deep is None:
-            return 0.0
-        error, value, solved = COMPARED[name], getattr(self.fast, name), getattr(self.deep, name)
-        return getattr(self.fast, error) + getattr(self.deep, error) * abs(solved / value) if value else 0.0
+        """Relative half width of the error that the fast level states."""
+        return float(getattr(self.fast, COMPARED[name]))
 
     @property
     def valid(self) -> bool:
@@ -154,7 +151,7 @@ def to_dataset(states: Sequence[Resolved]) -> xr.Dataset:
             (FAST, [getattr(s.fast, name) for s in states], "by the fast level"),
             (DEEP, [getattr(s.deep, name) if s.deep else np.nan for s in states], "solved deterministically"),
             ("deviation", [s.deviation(name) for s in states], "relative to the fast level's"),
-            (error, [s.allowed(name) for s in states], "relative half width that both levels state"),
+            (error, [s.allowed(name) for s in states], "relative half width that the fast level states"),
         ):
             unit = "m" if name == "h_c" and suffix in LEVELS else "1"
             columns[f"resolved.{name}.{suffix}"] = ("state", np.array(values), {"units": unit, "long_name": text})

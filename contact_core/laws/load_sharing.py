@@ -84,47 +84,52 @@ class FittedSharing:
         "flattening": (0.068, 6.4),
         "resolution": (2.0, 9.3),
     }
-    WIDTHS: ClassVar[Widths] = Widths(0.2, 0.25, 0.42, 0.6, 0.1, 0.2, 0.6)
+    WIDTHS: ClassVar[Widths] = Widths(0.23, 0.25, 0.44, 0.6, 0.12, 0.25, 0.8)
+    CHOSEN: ClassVar[frozenset[str]] = frozenset(
+        {"load_flattening", "floor_factor", "floor_exponent", "oil_pressure_power", "oil_spread"}
+    )
     HALF_WIDTHS: ClassVar[dict[str, float]] = {
-        "load_factor": 0.19,
-        "load_exponent": 0.044,
-        "area_factor": 0.021,
-        "area_exponent": 0.015,
-        "film_dry": 0.0085,
-        "film_mixed": 0.025,
-        "film_factor": 0.035,
-        "film_exponent": 0.43,
-        "oil_pressure_excess": 0.12,
-        "exposure_rougher": 0.19,
-        "exposure_exponent": 0.082,
+        "load_factor": 0.2,
+        "load_exponent": 0.061,
+        "area_factor": 0.02,
+        "area_exponent": 0.011,
+        "film_dry": 0.039,
+        "film_parted": 0.26,
+        "film_mixed": 0.035,
+        "film_factor": 0.032,
+        "film_exponent": 0.91,
+        "oil_pressure_excess": 0.26,
+        "oil_pressure_decay": 0.28,
+        "exposure_rougher": 0.2,
+        "exposure_exponent": 0.083,
         "exposure_smoother": 14.0,
-        "exposure_dry_rougher": 0.046,
-        "exposure_dry_smoother": 0.33,
+        "exposure_dry_rougher": 0.047,
+        "exposure_dry_smoother": 0.36,
     }
 
-    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=2.10)
-    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=0.595)
+    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=2.08)
+    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=0.597)
     load_flattening: float = parameter("", "m, power of s in L", above=0.0, most=10.0, default=2.0)
     floor_factor: float = parameter("", "b, of films as thin as the floor", above=0.0, most=100.0, default=0.8)
     floor_exponent: float = parameter("", "c, of them", above=0.0, most=10.0, default=0.8)
-    area_factor: float = parameter("", "c, of the dry contact's area", above=0.0, most=100.0, default=2.99)
-    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.838)
+    area_factor: float = parameter("", "c, of the dry contact's area", above=0.0, most=100.0, default=2.84)
+    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.812)
     film_dry: float = parameter("", "G, mean gap of the dry contact / roughness", least=0.0, most=10.0, default=0.322)
-    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=0.395)
+    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=0.352)
     film_mixed: float = parameter(
-        "", "F, mean gap that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.644
+        "", "F, mean gap that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.649
     )
-    film_factor: float = parameter("", "E, mean gap / film of smooth bodies", above=0.0, most=10.0, default=0.877)
-    film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=2.87)
+    film_factor: float = parameter("", "E, mean gap / film of smooth bodies", above=0.0, most=10.0, default=0.876)
+    film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=2.86)
     oil_pressure_excess: float = parameter(
-        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=1.75
+        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=1.85
     )
     oil_pressure_decay: float = parameter(
-        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=0.49
+        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=0.711
     )
     oil_pressure_power: float = parameter("", "q, the more so of rougher bodies", least=0.0, most=5.0, default=1.0)
     oil_spread: float = parameter(
-        "", "S, how far thick films spread the load beyond Hertz's contact", least=0.0, most=100.0, default=0.43
+        "", "S, how far thick films spread the load beyond Hertz's contact", least=0.0, most=100.0, default=0.35
     )
     exposure_rougher: float = parameter(
         "", "k in exposed = 1 - exp(-k A_c^m) of the rougher body", above=0.0, most=1e3, default=1.34
@@ -206,34 +211,47 @@ class LineSharing(FittedSharing):
 
     name: ClassVar[str] = "fitted_lines"
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
-        "clearance": (0.02, 5.0),
-        "flattening": (0.03, 0.75),
+        "clearance": (0.05, 5.0),
+        "flattening": (0.03, 0.74),
         "resolution": (3.9, 4.1),
     }
-    WIDTHS: ClassVar[Widths] = Widths(0.17, 1 / 6, 0.35, 0.8, 0.15, 0.4, 0.5)
+    CHOSEN: ClassVar[frozenset[str]] = frozenset({"floor_factor", "floor_exponent", "oil_pressure_power", "oil_spread"})
+    HALF_WIDTHS: ClassVar[dict[str, float]] = {
+        "load_factor": 0.27,
+        "load_exponent": 0.14,
+        "load_flattening": 0.17,
+        "area_factor": 0.11,
+        "area_exponent": 0.032,
+        "film_dry": 0.35,
+        "film_parted": 1.2,
+        "film_mixed": 0.16,
+        "film_factor": 0.14,
+        "film_exponent": 0.85,
+        "oil_pressure_excess": 5.0,
+        "oil_pressure_decay": 0.49,
+        "exposure_rougher": FittedSharing.HALF_WIDTHS["exposure_rougher"],
+    }
+    WIDTHS: ClassVar[Widths] = Widths(0.21, 1 / 6, 0.36, 0.8, 0.16, 0.5, 0.6)
 
-    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=2.40)
-    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=1.03)
-    load_flattening: float = parameter("", "m, power of s in L", above=0.0, most=10.0, default=1.18)
-    area_factor: float = parameter("", "c, of the dry contact's area", above=0.0, most=100.0, default=2.90)
-    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.966)
-    film_dry: float = parameter("", "G, mean gap of the dry contact / roughness", least=0.0, most=10.0, default=0.684)
-    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=1.29)
+    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=2.25)
+    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=1.02)
+    load_flattening: float = parameter("", "m, power of s in L", above=0.0, most=10.0, default=1.06)
+    area_factor: float = parameter("", "c, of the dry contact's area", above=0.0, most=100.0, default=2.95)
+    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.977)
+    film_dry: float = parameter("", "G, mean gap of the dry contact / roughness", least=0.0, most=10.0, default=0.641)
+    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=1.13)
     film_mixed: float = parameter(
-        "", "F, mean gap that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.932
+        "", "F, mean gap that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.782
     )
-    film_factor: float = parameter("", "E, mean gap / film of smooth bodies", above=0.0, most=10.0, default=0.953)
-    film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=2.26)
+    film_factor: float = parameter("", "E, mean gap / film of smooth bodies", above=0.0, most=10.0, default=0.965)
+    film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=1.85)
     oil_pressure_excess: float = parameter(
-        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=9.5
+        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=5.62
     )
     oil_pressure_decay: float = parameter(
-        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=1.32
+        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=1.01
     )
     oil_pressure_power: float = parameter("", "q, the more so of rougher bodies", least=0.0, most=5.0, default=0.0)
-    oil_spread: float = parameter(
-        "", "S, how far thick films spread the load beyond Hertz's contact", least=0.0, most=100.0, default=0.37
-    )
 
 
 LAWS = (FittedSharing, LineSharing)

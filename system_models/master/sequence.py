@@ -1,5 +1,6 @@
 """In which order FMUs step, and which of them form a loop: from the graph, never from the order of listing."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -74,8 +75,11 @@ def feedthrough_order(system: System, slaves: Mapping[str, Slave]) -> list[str]:
 
 
 def _gauss_seidel_order(system: System, slaves: Mapping[str, Slave]) -> list[list[str]]:
-    """Loops of FMUs in the order of the signals; in a loop those first whose outputs do not wait for inputs."""
-    names = list(slaves)
+    """Loops of FMUs in the order of the signals; in a loop those first whose outputs do not wait for inputs.
+
+    Of these, those first that the schedule sets, and next those that they set: a change arrives within the step.
+    """
+    names, reached = list(slaves), _distances(system)
     result = []
     for loop in sorted_loops(names, [(c.source.model.name, c.target.model.name) for c in system.connections]):
         direct = [name for name in loop if slaves[name].feedthrough]
@@ -84,9 +88,20 @@ def _gauss_seidel_order(system: System, slaves: Mapping[str, Slave]) -> list[lis
             for c in system.connections
             if c.source.model.name in direct and c.target.model.name in direct
         ]
-        calm = [name for name in loop if name not in direct]
+        calm = sorted((name for name in loop if name not in direct), key=lambda name: reached.get(name, math.inf))
         result.append(calm + [name for group in sorted_loops(direct, waits) for name in group])
     return result
+
+
+def _distances(system: System) -> dict[str, int]:
+    """Over how many connections what the schedule sets reaches each FMU."""
+    found: dict[str, int] = {}
+    front = {target.partition(".")[0] for target in system.schedule}
+    while front:
+        found |= dict.fromkeys(front, max(found.values(), default=-1) + 1)
+        ends = {c.target.model.name for c in system.connections if c.source.model.name in front}
+        front = ends - found.keys()
+    return found
 
 
 def sorted_loops(names: list[str], edges: list[tuple[str, str]]) -> list[list[str]]:

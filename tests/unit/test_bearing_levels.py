@@ -6,7 +6,7 @@ import pytest
 from system_models.bearing.equilibrium import RingLoads, solve
 from system_models.bearing.geometry import BEARING_209, BEARING_218
 from system_models.bearing.kinematics import motion
-from system_models.bearing.levels import classify, memberships, track_lengths
+from system_models.bearing.levels import classify, gathered, track_lengths
 
 LOADS = np.array([4526.6, 2840.6, 2840.6, 61.4, 61.4, 0.0, 0.0, 900.0, 1508.9])
 LEVELS = (1, 2, 3, 5, 9)
@@ -20,36 +20,67 @@ def classes(bearing, loads, speed, race, levels):
 
 
 @pytest.mark.parametrize("levels", LEVELS)
-def test_classes_carry_the_load_of_the_balls(levels):
-    shares = memberships(LOADS, levels)
-    nodes = LOADS.max() * np.arange(1, levels + 1) / levels
-    assert nodes @ shares == pytest.approx(LOADS, rel=1e-12)  # of every ball, so of all
-    assert np.all(shares >= 0.0)
-    assert np.all(shares.sum(axis=0) <= 1.0 + 1e-12)
-    assert shares.sum(axis=0)[nodes[0] <= LOADS] == pytest.approx(1.0)
-    assert np.all(memberships(np.zeros(4), levels) == 0.0)
+def test_sums_of_powers_of_the_load_are_those_of_the_balls(levels):
+    load, count, _ = gathered(LOADS, levels)
+    for third in range(1, 2 * levels + 1):
+        exact = (LOADS ** (third / 3.0)).sum()
+        assert count @ load ** (third / 3.0) == pytest.approx(exact, rel=1e-8 * third**2)
+    assert np.all(count >= 0.0)
+    assert np.all(load > 0.0)
+    assert load.max() <= 1.001 * LOADS.max()
+    assert list(load) == sorted(load)
+
+
+@pytest.mark.parametrize("levels", LEVELS)
+def test_means_over_a_class_are_exact_for_what_goes_with_the_ellipse(levels):
+    load, _, weights = gathered(LOADS, levels)
+    assert weights.sum(axis=1) == pytest.approx(1.0)
+    assert np.all(weights >= 0.0)
+    assert np.all(weights[:, LOADS == 0.0] == 0.0)
+    size = 3.0 + 0.5 * np.cbrt(LOADS)
+    assert weights @ size == pytest.approx(3.0 + 0.5 * np.cbrt(load), rel=1e-3 if levels > 6 else 1e-7)
+
+
+def test_as_many_classes_as_different_loads_are_these_loads():
+    load, count, _ = gathered(np.array([4526.6, 2840.6, 2840.6, 61.4, 61.4, 0.0, 0.0, 0.0, 0.0]), 3)
+    assert load == pytest.approx([61.4, 2840.6, 4526.6], rel=1e-3)
+    assert count == pytest.approx([2.0, 2.0, 1.0], rel=1e-3)
 
 
 def test_more_levels_make_other_sums_better():
-    for power, least in ((4.0 / 3.0, 4.0), (5.0 / 3.0, 4.0)):
+    for power in (0.1, 2.5):
         errors = []
-        for levels in (1, 2, 4, 8):
-            nodes = LOADS.max() * np.arange(1, levels + 1) / levels
-            errors.append(nodes**power @ memberships(LOADS, levels).sum(axis=1) / (LOADS**power).sum() - 1.0)
+        for levels in (1, 2, 3, 5):
+            load, count, _ = gathered(LOADS, levels)
+            errors.append(abs(count @ load**power / (LOADS[LOADS > 0.0] ** power).sum() - 1.0))
         assert errors == sorted(errors, reverse=True)
-        assert errors[-1] >= 0.0  # what bends upward is too large
-        assert errors[0] / errors[-1] > least
+        assert errors[-1] < 0.01 * errors[0]
 
 
-def test_equal_balls_are_one_class():
+@pytest.mark.parametrize("levels", LEVELS)
+@pytest.mark.parametrize("touching", [1, 2, 16])
+def test_equal_balls_make_equal_classes(touching, levels):
+    load, count, weights = gathered(np.array([250.0] * touching + [0.0] * (16 - touching)), levels)
+    assert load == pytest.approx(250.0, rel=1e-3)
+    assert count.sum() == pytest.approx(touching, rel=1e-3)
+    assert weights[:, :touching] == pytest.approx(1.0 / touching)
+
+
+def test_without_load_there_are_no_balls_in_any_class():
+    load, count, weights = gathered(np.zeros(5), 3)
+    assert np.all(load == 0.0)
+    assert np.all(count == 0.0)
+    assert weights == pytest.approx(0.2)
+
+
+def test_classes_of_an_angular_contact_bearing_move_as_its_balls():
     found, carried, moving = classes(BEARING_218, RingLoads(x=17800.0), 500.0, "inner", 3)
-    assert found.count == pytest.approx((0.0, 0.0, 16.0), abs=1e-9)
-    assert found.load[2] == pytest.approx(carried[0], rel=1e-12)
-    assert found.spin == pytest.approx(abs(moving.spin[0]), rel=1e-9)  # also of the classes without balls
+    assert found.load == pytest.approx(carried[0], rel=1e-3)
+    assert found.count.sum() == pytest.approx(16.0, rel=1e-6)
+    assert found.spin == pytest.approx(abs(moving.spin[0]), rel=1e-9)
     assert found.entrainment == pytest.approx(moving.entrainment[0], rel=1e-9)
     b = BEARING_218.inner.ellipse(carried[0]).b
-    assert found.sliding[2] == pytest.approx(0.16114 * moving.bend[0] * b**2, rel=1e-4)
-    assert found.sliding[0] == pytest.approx(found.sliding[2] * 3.0 ** (-2 / 3), rel=1e-9)
+    assert found.sliding == pytest.approx(0.16114 * moving.bend[0] * b**2, rel=1e-3)
     assert found.ring - found.ball == pytest.approx(found.sliding)
 
 
@@ -69,14 +100,13 @@ def test_all_passes_of_the_inner_ring_are_in_some_class():
     """Passes a second of a point, speed over track length, of all classes together: those of the balls that touch."""
     found = solve(BEARING_209, RingLoads(x=3000.0, y=1000.0), 300.0)
     moving = motion(BEARING_209, found, "inner")
+    assert np.all(found.load_inner > 0.0)
     sorted_in = classify(BEARING_209, BEARING_209.inner, found.load_inner, moving, 4)
-    assert np.all(found.load_inner > found.load_inner.max() / 4.0)
     ways = track_lengths(BEARING_209, BEARING_209.inner, sorted_in.count, moving)
-    present = sorted_in.count > 0.01
-    ring = sum(speed / way for speed, (_, way), here in zip(sorted_in.ring, ways, present, strict=True) if here)
+    ring = sum(speed / way for speed, (_, way) in zip(sorted_in.ring, ways, strict=True))
     met = BEARING_209.balls * (1.0 - found.cage) / (2.0 * math.pi)  # per angular speed
     assert ring == pytest.approx(met, rel=0.02)  # gross slip is none, differential sliding little
-    ball = sum(speed / way for speed, (way, _), here in zip(sorted_in.ball, ways, present, strict=True) if here)
+    ball = sum(speed / way for speed, (way, _) in zip(sorted_in.ball, ways, strict=True))
     assert ball == pytest.approx(found.rolling[:, 1].mean() / (2.0 * math.pi), rel=0.02)
 
 
