@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 from regression_check import curves_page, deterministic, hours_page, level_page
-from regression_fit import Fit, Table, constants_page, draw
+from regression_fit import Fit, Table, constants_page, draw, shared
 from regression_points import (
     SCENES,
     Columns,
@@ -25,6 +25,8 @@ from regression_points import (
     run,
     sweep_points,
 )
+from regression_shapes_points import COUNTS, FIT
+from regression_shapes_points import solved as solved_shapes
 
 from contact_core.laws.load_sharing import FittedSharing
 
@@ -48,7 +50,7 @@ def sweep() -> dict[str, Columns]:
 
 def write_golden(table: Table) -> None:
     """A few points of the sweep for the tests."""
-    named = ("clearance", "flattening", "resolution", "load_ratio", "area_ratio", "film_ratio")
+    named = ("clearance", "flattening", "resolution", "floors", "dense", "load_ratio", "area_ratio", "film_ratio")
     rows = np.column_stack([getattr(table, name) for name in named])[::GOLDEN]
     file = ROOT / "tests" / "golden" / "load_sharing.csv"
     file.parent.mkdir(exist_ok=True)
@@ -57,7 +59,9 @@ def write_golden(table: Table) -> None:
 
 def write_page(*, fast: bool) -> None:
     """Fit, compare, and write what came out."""
-    fit, solved = Fit(sweep()), deterministic()
+    tables, solved = sweep(), deterministic()
+    others = shared([solved_shapes(shape, FIT, COUNTS[shape]) for shape in ("circle", "ellipse")])
+    fit = Fit(FittedSharing(), tables["sweep"], others, tables["dry"], tables["pass"])
     draw(fit).savefig(ROOT / "docs" / "regression.png", dpi=130)
     lines = [
         "# The fast level: load-sharing curves and their errors",

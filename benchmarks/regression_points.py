@@ -4,6 +4,7 @@ import time
 from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -14,7 +15,7 @@ from contact_core.evolution import track_rows
 from contact_core.film.instant import Grid
 from contact_core.film.outputs import film_outputs
 from contact_core.laws.load_sharing import rms_slope
-from contact_core.reference import SmoothContact, nijenbanning_venner_moes
+from contact_core.reference.point_films import at_no_pressure
 
 STORE = Path(__file__).parent.parent / "results" / "regression"
 SCENES = ("azam_case_a", "mtm_zddp")
@@ -68,11 +69,9 @@ class Point:
 
 
 def smooth_film(scene: Scene, load: float, speed: float, temperature: float) -> float:
-    """Central film [m] of the smooth bodies by Nijenbanning, Venner & Moes."""
-    oil, shape = (scene.lubricant.viscosity, temperature), scene.geometry
-    return nijenbanning_venner_moes(
-        SmoothContact.of(load, speed, *oil, shape.radius_x, shape.radius_y, scene.solids.reduced_modulus)
-    )
+    """Central film [m] of the smooth bodies by the formula of their shape."""
+    oil = at_no_pressure(scene.lubricant.viscosity, temperature)
+    return scene.shape().film(load, speed, *oil, scene.solids.reduced_modulus)
 
 
 def composite_roughness(scene: Scene) -> float:
@@ -115,7 +114,7 @@ def observe(point: Point, overrides: Overrides) -> dict[str, float]:
     rows = track_rows(scene, state.rows)
     for name, i in (("exposed_rougher", rougher), ("exposed_smoother", 1 - rougher)):
         found[name] = float(state.bodies[i].exposure[rows].mean())
-    return found | _numbers_of(scene, point)
+    return found | numbers_of(scene, op)
 
 
 def observe_dry(point: Point, overrides: Overrides) -> dict[str, float]:
@@ -123,23 +122,31 @@ def observe_dry(point: Point, overrides: Overrides) -> dict[str, float]:
     scene, op = point.build(overrides), point.operating_point
     fields = solve(scene, op, initial_state(scene), dry=True)
     out = film_outputs(Grid(fields.x, fields.y), fields.film, fields.gap, op.load, scene.hertz(op.load))
-    return {name: out[name] for name in ("contact_area_ratio", "h_c", "pressure_max")} | _numbers_of(scene, point)
+    return {name: out[name] for name in ("contact_area_ratio", "h_c", "pressure_max")} | numbers_of(scene, op)
 
 
-def _numbers_of(scene: Scene, point: Point) -> dict[str, float]:
+def numbers_of(scene: Scene, op: OperatingPoint) -> dict[str, float]:
     """What the laws may depend on."""
-    sigma, hertz = composite_roughness(scene), scene.hertz(point.load)
+    sigma, hertz, shape = composite_roughness(scene), scene.hertz(op.load), scene.shape()
     rq, lengths = zip(*((s.rq, s.correlation_length) for s in (scene.surface_1, scene.surface_2)), strict=True)
+    film = smooth_film(scene, op.load, op.entrainment_speed, op.temperature)
+    thick = shape.depths(film, hertz.a, hertz.b)
     return {
         "sigma": sigma,
-        "lambda": smooth_film(scene, point.load, point.speed, point.temperature) / sigma,
+        "lambda": film / sigma,
         "slope": float(rms_slope(rq[0], lengths[0], rq[1], lengths[1])),
-        "mean_pressure": 2.0 / 3.0 * hertz.pressure_max,
+        "mean_pressure": hertz.pressure_mean,
+        "largest_pressure": hertz.pressure_max,
+        "density": float(scene.lubricant.density(np.array(hertz.pressure_mean))),
         "modulus": scene.solids.reduced_modulus,
         "hardness": scene.plasticity.hardness,
         "width": hertz.a,
+        "thick_x": thick[0],
+        "thick_y": thick[1],
         "correlation_length": lengths[int(np.argmax(rq))],
         "spacing": scene.film.spacing,
+        "floor": scene.film.floor,
+        "spin": op.spin,
     }
 
 
@@ -155,7 +162,7 @@ def run(
     if file.exists():
         stored = dict(np.load(file))
         if str(stored.pop("overrides")) == repr(sorted(overrides.items())) and _hold(stored, points):
-            return stored
+            return stored | with_numbers(points, overrides)
     rows = []
     for point in points:
         try:
@@ -175,6 +182,12 @@ def run(
     STORE.mkdir(parents=True, exist_ok=True)
     np.savez_compressed(file, overrides=repr(sorted(overrides.items())), **columns)
     return columns
+
+
+def with_numbers(points: list[Any], overrides: Overrides) -> Columns:
+    """Columns of `numbers_of`, which cost nothing."""
+    rows = [numbers_of(point.build(overrides), point.operating_point) for point in points]
+    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
 
 def _hold(stored: Columns, points: list[Point]) -> bool:

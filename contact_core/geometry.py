@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
+from .laws.load_sharing import FittedSharing, LineSharing
 from .laws.profile import Logarithmic, Rounded
 from .quantities import input_parameter, parameter
 from .shapes import Line, Point, Roller, Shape
@@ -24,6 +25,7 @@ class PointGeometry(_Bodies):
     name: ClassVar[str] = "point"
     source: ClassVar[str] = ""
     lacks: ClassVar[frozenset[str]] = frozenset()  # quantities that mean nothing to it
+    sharing: ClassVar[type[FittedSharing]] = FittedSharing  # fitted to its like
 
     radius_y: float = input_parameter("radius_y")
 
@@ -39,6 +41,7 @@ class LineGeometry(_Bodies):
     name: ClassVar[str] = "line"
     source: ClassVar[str] = ""
     lacks: ClassVar[frozenset[str]] = frozenset({"radius_y", "spin", "spin_torque"})
+    sharing: ClassVar[type[FittedSharing]] = LineSharing
 
     face_width: float = parameter("m", "length of the line that carries the load", above=0.0, most=10.0)
 
@@ -54,6 +57,7 @@ class RollerGeometry(_Bodies):
     name: ClassVar[str] = "roller"
     source: ClassVar[str] = ""
     lacks: ClassVar[frozenset[str]] = frozenset({"radius_y"})
+    sharing: ClassVar[type[FittedSharing]] = LineSharing
 
     face_width: float = parameter("m", "length of the roller, ends included", above=0.0, most=10.0, shapes_arrays=True)
     profile: Rounded | Logarithmic

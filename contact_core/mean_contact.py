@@ -64,6 +64,7 @@ class MeanContact(NamedTuple):
     into_1: float  # part of it that goes into body 1 [W]
     spin_torque: float  # on body 1 [N m]
     rolling: float  # resistance of the oil [N]
+    oil_slope: float  # d ln(its friction) / d ln(sliding speed)
 
 
 class _Surfaces(NamedTuple):
@@ -119,7 +120,7 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
     sigma, cover = composite_roughness(films), mean_cover(scene, films)
     if op.load == 0.0:
         gap = max(sigma, scene.film.floor)
-        return MeanContact(films, sigma, cover, _UNFITTED, gap, *(0.0,) * 4, (0.0,) * 4, *(0.0,) * 9)
+        return MeanContact(films, sigma, cover, _UNFITTED, gap, *(0.0,) * 4, (0.0,) * 4, *(0.0,) * 10)
     sliding = op.sliding_speed
     further = _D * math.copysign(max(abs(sliding), scene.boundary_friction.slip_speed), sliding)
     hertz = scene.unit_hertz_at(op)
@@ -153,7 +154,16 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
         into_1,
         -lever * lever * op.spin * pull / max(slide, _SLOWEST),
         smooth.rolling * (1.0 - now.shares.load),  # solids make no oil flow
+        _slope(points, fluid),
     )
+
+
+def _slope(points: list[_Point], fluid: list[float]) -> float:
+    """Power of the sliding speed with which the friction of the oil grows; where nothing slides, a Newtonian oil's."""
+    now, sliding = points[0].rubbing, points[1].rubbing
+    if now == sliding or fluid[0] == 0.0:
+        return 1.0
+    return (fluid[1] / fluid[0] - 1.0) * now / (sliding - now)
 
 
 def _points(
@@ -164,10 +174,9 @@ def _points(
     """
     (root, wide), (longer, wider), slide = hertz.growth(op.load), hertz.growth(1.0 + _D), op.sliding_speed
     grown, more = (root, wide), (root * longer, wide * wider)
-    largest = hertz.pressure_max
-    shares = _shared(scene, surfaces, film, root * largest)
-    thicker = _shared(scene, surfaces, film * (1.0 + _D), root * largest)
-    heavier = _shared(scene, surfaces, film, more[0] * largest)
+    shares = _shared(scene, op, hertz, surfaces, film, grown)
+    thicker = _shared(scene, op, hertz, surfaces, film * (1.0 + _D), grown)
+    heavier = _shared(scene, op, hertz, surfaces, film, more)
     now = _point(scene, hertz, surfaces, shares, grown, slide, op.spin)
     points = [
         now,
@@ -293,17 +302,28 @@ def _surfaces(scene: Scene, hertz: Hertz, films: Films, sigma: float, cover: flo
     return _Surfaces(sigma, cover, hardness_of(scene, films), per_pressure, resolution)
 
 
-def _shared(scene: Scene, surfaces: _Surfaces, film: float, pressure: float) -> _Shares:
-    """Of rough bodies, for a film of smooth ones [m] and Hertz's largest pressure [Pa]."""
-    floor, sharing = scene.film.floor, scene_film(scene).sharing
+def _shared(
+    scene: Scene, op: OperatingPoint, hertz: Hertz, surfaces: _Surfaces, film: float, grown: tuple[float, float]
+) -> _Shares:
+    """Of rough bodies, for a film of smooth ones [m] and the load at which the contact at 1 N, `hertz`, has
+    `grown` by so much along x and y.
+    """
+    root, wide = grown
+    floor, sharing, shape = scene.film.floor, scene_film(scene).sharing, scene.shape(op)
     sigma = max(surfaces.sigma, floor)  # smooth bodies touch where their adsorbed layers do
+    pressure, half = root * hertz.pressure_max, root * hertz.a
     clearance, flattening, resolution = fit = Fit(film / sigma, surfaces.flattening * pressure, surfaces.resolution)
     if not sharing.covers(*fit):  # powers of them mean nothing far from the fit
         flattening, resolution = sharing.nearest(flattening, resolution)
-    share = sharing.load_ratio(clearance, flattening, resolution)
-    gap = max(sigma * sharing.film_ratio(clearance, share, flattening, resolution), floor)
-    area, raised = sharing.area_ratio(share, flattening), sharing.oil_pressure(clearance, flattening)
-    return _Shares(fit, gap, share, area, raised)
+    density: Law = scene.lubricant.density
+    share = sharing.load_ratio(clearance, flattening, resolution, film / floor)
+    dense = clearance / float(density(hertz.mean_share * pressure))
+    gap = max(sigma * sharing.film_ratio(dense, share, flattening, resolution), floor)
+    raised = sharing.oil_pressure(clearance, flattening, *shape.depths(film, half, wide * hertz.b))
+    # no pressure is above the hardness
+    return _Shares(
+        fit, gap, share, sharing.area_ratio(share, flattening), min(raised, scene.plasticity.hardness / pressure)
+    )
 
 
 # friction and heat

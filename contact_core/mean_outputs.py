@@ -1,8 +1,8 @@
 """What the fast level can tell of a contact."""
 
+import math
 from typing import Any
 
-from .geometry import PointGeometry
 from .laws.load_sharing import FittedSharing
 from .mean_contact import MeanContact
 from .mean_surfaces import Films, Means, scene_film
@@ -14,6 +14,10 @@ _LONGEST = 10.0  # times the duty: no step need be shorter than that
 _LAMBDA_CAPPED, _OUTSIDE_FIT = int(RangeFlag.LAMBDA_CAPPED), int(RangeFlag.OUTSIDE_FIT)
 _TRIBOFILM_TEMPERATURE = int(RangeFlag.TRIBOFILM_TEMPERATURE)  # numbers are faster to add up
 _BLANK = Outputs()
+# half widths of errors grow: twice beyond the fit, and by so much where a film or wear has changed the heights by this
+# share of the roughness or more, for curves of fresh surfaces
+_BEYOND, _RUN_IN, _CHANGED = 2.0, 1.6, 0.1
+_UNKNOWN = 1e3  # relative, of wear where next to no solids touch: nobody knows
 _LOCAL = 1.0  # error of films that feel local stresses, of which this level knows the mean
 
 
@@ -96,7 +100,7 @@ def _flags(scene: Scene, op: OperatingPoint, contact: MeanContact) -> int:
     flags = 0
     if contact.sigma == 0.0 or op.load == 0.0:
         flags |= _LAMBDA_CAPPED
-    elif not (isinstance(scene.geometry, PointGeometry) and scene_film(scene).sharing.covers(*contact.fit)):
+    elif not scene_film(scene).sharing.covers(*contact.fit):
         flags |= _OUTSIDE_FIT
     one, two = op.bodies
     if not (scene.tribofilm.covers(one) and scene.tribofilm.covers(two)):
@@ -105,20 +109,32 @@ def _flags(scene: Scene, op: OperatingPoint, contact: MeanContact) -> int:
 
 
 def _errors(scene: Scene, op: OperatingPoint, contact: MeanContact) -> dict[str, Any]:
-    """Half widths (two sigma) of the errors by the fit, relative. Friction is wrong where load counts for solids and is
-    oil's.
+    """Half widths (95 %) of the errors by the fit, relative. Friction is wrong where load counts for solids and is
+    oil's, and by the oil's own, but never by more than if solids carried all.
     """
     force, share = abs(contact.solid + contact.fluid), contact.load_ratio
     if force == 0.0:
         return {}
     sharing = scene_film(scene).sharing
-    # the scatter of the fit is that of its middle; where hardly any solids touch, there is less to be wrong about
-    error = 2.0 * sharing.load_scatter * min(1.0, 0.15 + share / 0.1)
-    solid = abs(contact.solid) / share if share > 0.0 else 0.0
+    widths, clearance = sharing.WIDTHS, contact.fit.clearance
+    wider = _run_in(scene, contact) * (1.0 if sharing.covers(*contact.fit) else _BEYOND)
+    load = wider * widths.of_load(share)
+    oil = wider * widths.of_oil(clearance, contact.oil_slope)
+    solid = abs(contact.solid) / share if share > 0.0 else scene.boundary_friction.bare * op.load
     fluid = abs(contact.fluid) / (1.0 - share) if share < 1.0 else 0.0
+    friction = math.hypot(abs(solid - fluid) * load, abs(contact.fluid) * oil) / force
     return {
-        "error_friction": min(abs(solid - fluid) * error / force, 1.0),
-        "error_film": 2.0 * sharing.film_scatter,
+        "error_friction": min(friction, max(solid / force, 1.0)),
+        "error_film": min(wider * widths.of_film(clearance), 1.0),
         "error_tribofilm": _LOCAL if scene.tribofilm.abrades else _exposure_error(sharing),
-        "error_wear": min(error / share, 1.0) if share > 0.0 else 0.0,
+        "error_wear": min(load / share, _UNKNOWN) if share > 0.0 else 0.0,
     }
+
+
+def _run_in(scene: Scene, contact: MeanContact) -> float:
+    """How many times wider errors are of surfaces that rubbing has changed."""
+    if contact.sigma == 0.0:
+        return 1.0
+    pairs = zip((scene.surface_1, scene.surface_2), contact.films, strict=True)
+    changed = sum(film.thickness + abs(film.both - surface.rq) for surface, film in pairs)
+    return 1.0 + (_RUN_IN - 1.0) * min(changed / (_CHANGED * contact.sigma), 1.0)

@@ -13,7 +13,7 @@ from typing import Any
 
 from .errors import OperatingPointError, SceneError
 from .film import FILMS, Deterministic, Regression
-from .geometry import Geometry, LineGeometry, PointGeometry, RollerGeometry
+from .geometry import GEOMETRIES, Geometry, LineGeometry, PointGeometry, RollerGeometry
 from .laws.boundary_friction import FilmBlend
 from .laws.density import DowsonHigginson, Incompressible
 from .laws.heat import FlashTemperature, NoHeat, TemperatureField
@@ -219,6 +219,19 @@ def _rank(item: tuple[str, str]) -> int:
     return {"set": 0, "model": 1}.get(item[0].rpartition(".")[2], 2)
 
 
+def _with_sharing(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Nested tables of a scene; curves of load sharing that are not named are those fitted to its geometry's like."""
+    film, geometry = table.get("film"), table.get("geometry")
+    if not isinstance(film, Mapping) or not isinstance(geometry, Mapping) or film.get("model") != Regression.name:
+        return dict(table)
+    bodies = {law.name: law for law in GEOMETRIES}  # type: ignore[attr-defined]
+    usual = bodies.get(geometry.get("model"), PointGeometry).sharing  # type: ignore[attr-defined]
+    sharing = film.get("sharing", {})
+    if isinstance(sharing, Mapping) and "model" not in sharing:
+        film = {**film, "sharing": {"model": usual.name, **sharing}}
+    return {**table, "film": film}
+
+
 @dataclass(frozen=True)
 class Scene:
     """One contact: geometry, surfaces, materials and a law in every slot."""
@@ -255,7 +268,7 @@ class Scene:
     @staticmethod
     def from_dict(table: Mapping[str, Any]) -> "Scene":
         """Build and check a scene from nested tables as TOML gives them."""
-        scene: Scene = build(Scene, dict(table), "")
+        scene: Scene = build(Scene, _with_sharing(table), "")
         errors = scene.check()
         if errors:
             raise SceneError(" ".join(sentence for _, sentence in errors))
@@ -278,7 +291,10 @@ class Scene:
         shared = {f.name for f in fields(films[level])} & {f.name for f in fields(self.film)}
         if level == self.film.name:
             return self
-        return replace(self, film=films[level](**{name: getattr(self.film, name) for name in shared}))
+        kept = {name: getattr(self.film, name) for name in shared}
+        if level == Regression.name:
+            kept["sharing"] = self.geometry.sharing()
+        return replace(self, film=films[level](**kept))
 
     def realisation(self, seed: int) -> "Scene":
         """The scene with other surfaces of the same statistics; 0: its own. Raises SceneError for a negative seed.

@@ -72,6 +72,10 @@ class Point:
             return 1.0
         return np.pi * self.radius_x * hertz.pressure_max / (reduced_modulus * hertz.a)
 
+    def depths(self, film: float, a: float, b: float) -> tuple[float, float]:
+        """A film [m] over the depth of Hertz's contact of half widths a and b [m], along x and along y."""
+        return film * self.radius_x / (a * a), film * self.radius_y / (b * b)
+
     def carried(self, hertz: Hertz, size: float, depth: float) -> float:
         """Load over p_H a^n l^(2 - n), n = `order` and l = `size` [m], of a grid that is `depth` [m] deep."""
         return 2.0 * np.pi / 3.0 * (hertz.b / hertz.a)
@@ -119,6 +123,10 @@ class Line:
     def softness(self, hertz: Hertz, reduced_modulus: float) -> float:
         """What the half space gives in Hertz's units."""
         return 0.25 * np.pi
+
+    def depths(self, film: float, a: float, b: float) -> tuple[float, float]:
+        """As of a point; a line is as deep all along y."""
+        return film * self.radius_x / (a * a), 0.0
 
     def carried(self, hertz: Hertz, size: float, depth: float) -> float:
         """Load of a grid in these units."""

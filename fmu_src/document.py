@@ -302,8 +302,6 @@ def _fitted(scene: Scene, film: Regression) -> Iterator[tuple[str, str, str]]:
         "flattening": _number(flattening_of(pressure, scene.solids.reduced_modulus, slope)) if slope > 0.0 else "none",
         "resolution": _number(rougher.correlation_length / film.spacing),
     }
-    if not _is_point(scene):
-        yield "shape of the fit", "none", "fitted to circular contacts; what it says of lines is a guess"
     symbols = {"clearance": "λ", "flattening": "s", "resolution": "r"}
     for name, (low, high) in film.sharing.FITTED.items():
         yield f"{symbols[name]} of the fit", here[name], f"fitted from {low:g} to {high:g}"
@@ -319,9 +317,10 @@ def _warmth(scene: Scene) -> str:
 
 def _errors(scene: Scene) -> Iterator[str]:
     yield paragraph(
-        "error_friction, error_film, error_tribofilm and error_wear are half widths (two sigma), relative. "
+        "error_friction, error_film, error_tribofilm and error_wear are half widths of 95 % intervals, relative. "
         + (
-            "They come from the fit of the level, and do not hold where range_flags says outside the fit."
+            "They come from the fit of the level to the deterministic one, and are twice as wide where range_flags says "
+            "outside the fit: a guess."
             if isinstance(scene.film, Regression)
             else "They come from time steps and sampling. The grid's error is in none of them and is larger where "
             "solids carry load: compare two grids. Wear driven by 'auto' was found beyond them more often than within."

@@ -134,11 +134,26 @@ FRICTION: dict[str, tuple[Lines, str]] = {
         (
             "F = −(μ W_c W + ⟨τ_{oil}⟩ A_{oil}) (u_1 − u_2)/|u_1 − u_2|",
             "τ_N = η(p, T) |u_1 − u_2|/h_c",
+            "A_{oil} = (1 − W_c) A_H/k,   p = k p_H",
+            "k = [1 + K z exp(−d λ z^q)] [(1 + S h_s R_x/a^2) (1 + S h_s R_y/b^2)]^{−1/2},   z = 0.2/s",
         ),
-        "⟨τ⟩ is the oil's mean stress under Hertz's pressure; A is the part of Hertz's area A H on which oil carries "
-        "load, A = (1 − Wc) A H / [1 + K (0.2/s) exp(−λ)].",
+        "⟨τ⟩ is the oil's mean stress under k times Hertz's pressure, on the part of Hertz's area A H that makes up "
+        "for it: between rough bodies oil carries load in spots, a thick film carries it on a larger area (lines spread "
+        "it along x only). No pressure is above the hardness.",
     ),
 }
+
+_SHARING: tuple[Lines, str] = (
+    (
+        "1 − W_c = [1 − exp(−B Λ^C)] [1 − exp(−b (h_s/h_{floor})^c)],   Λ = λ (s/0.2)^m (r/2)",
+        "A_c = [1 − exp(−c s)] W_c^D",
+        "h_c/σ = W_c g + (1 − W_c) [(E λ/ρ)^n + f^n]^{1/n}",
+        "g = (G/k) ln[1 + k (s/0.2)^{−1.5}],   f = F (s r/0.4)^{−0.75} ≥ g",
+    ),
+    "λ: film of the smooth bodies over composite roughness; s: mean Hertz pressure over what would press the "
+    "roughness flat; r: correlation length over the distance of the nodes; ρ: density of the oil under Hertz's mean "
+    "pressure.",
+)
 
 # (slot, law): lines and a sentence. Sources are the laws' own.
 LAWS: dict[tuple[str, str], tuple[Lines, str]] = {
@@ -266,16 +281,8 @@ LAWS: dict[tuple[str, str], tuple[Lines, str]] = {
         "ps is the mean pressure that a point of the surface feels from the other solid over its track, c how much of "
         "its full thickness its tribofilm has; wear.sliding says which speed v is.",
     ),
-    ("sharing", "fitted"): (
-        (
-            "W_c = exp(−B Λ^C),   Λ = λ (s/0.2)^2 (r/2)",
-            "A_c = [1 − exp(−c s)] W_c^D",
-            "h_c/σ = W_c g + (1 − W_c) [(E λ)^n + f^n]^{1/n}",
-            "g = G (s/0.2)^{−1.5},   f = F (s r/0.4)^{−0.75} ≥ g",
-        ),
-        "λ: film of the smooth bodies over composite roughness; s: mean Hertz pressure over what would press the "
-        "roughness flat; r: correlation length over the distance of the nodes.",
-    ),
+    ("sharing", "fitted"): _SHARING,
+    ("sharing", "fitted_lines"): _SHARING,
 }
 
 # By tribofilm.dose: how the instants of a pass become growth over test time.

@@ -9,8 +9,14 @@
     check/         a verdict per rule on an FMU, anybody's
     master/        couples FMUs, anybody's, and controls its own error
     cosim_command  simulates a system of FMUs from a TOML file; cosim_report: its tables and picture
+    machines       machines from TOML: ball_on_disc, ball_bearing, gear_pair (and *_report: what each of them says)
+    assembly       a machine's contacts, components and connections; parts/: components that are no contacts
+    bearing/, gear/   what a ball bearing and a pair of spur gears are
+    timeline       the duty of a machine; duty_table: from a CSV
+    resolve        contact states of a finished run, solved again deterministically
+    machine_command, machine_report, export   runs a machine, says what it has cost, makes an SSP of it
     cli            the command line; console: what its commands share
 
-A system sees the contact only through its scene, the quantities and the FMU; the Stribeck curves, which go back to one
-state again and again, use the core itself. In a ball-on-disc scene body 1 is the ball and body 2 the disc.
+A system sees the contact only through its scene, the quantities and the FMU; the Stribeck curves and the states that
+are solved again, which go back to one state again and again, use the core itself. In a ball-on-disc scene body 1 is the ball and body 2 the disc.
 """

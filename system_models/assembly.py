@@ -81,7 +81,8 @@ class Assembly:
         told = [f"{name}.{q.name}" for name, part in self.parts.items() for q in part.responses]
         valid = [f"{name}.valid" for name in self.parts]
         lacks = {name: contact.scene.geometry.lacks for name, contact in self.contacts.items()}
-        return [*told, *valid, *(f"{name}.{key}" for name in self.contacts for key in TOLD if key not in lacks[name])]
+        found = [*told, *valid, *(f"{name}.{key}" for name in self.contacts for key in TOLD if key not in lacks[name])]
+        return [*found, *(f"{name}.{key}" for name in self.contacts for key in self.inputs_of(name))]
 
     def system(self, folder: Path, flavour: Flavour = "embedded") -> System:
         """Build the FMUs into a folder and couple them; contacts of one scene share a file.
@@ -103,11 +104,7 @@ class Assembly:
         duration, step = self.settings["stop_time"], self.settings["step_size"]
         return build_part(part, folder / f"{name}.fmu", duration, step)
 
-    def inputs_of(self, contact: str) -> dict[str, tuple[str, float]]:
-        """Which recorded output, times which factor, sets each connected input of a contact."""
-        found = {}
-        for source, target, *factor in self.connections:
-            owner, _, variable = target.partition(".")
-            if owner == contact:
-                found[variable] = (source, float(factor[0]) if factor else 1.0)
-        return found
+    def inputs_of(self, contact: str) -> list[str]:
+        """The connected inputs of a contact."""
+        targets = (target.partition(".") for _, target, *_ in self.connections)
+        return [variable for owner, _, variable in targets if owner == contact]

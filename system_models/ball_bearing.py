@@ -6,8 +6,8 @@
     [housing]          parts.thermal.ThermalNetwork with the nodes balls, inner, outer and oil (heat_flows = 1)
     [contact]          a scene with a point contact and heat.bulk = "inputs"; radii and tracks are the class's
 
-Signals of the duty: speed (of the shaft), load (radial), axial_load, moment (about the axis across both) and ambient. The
-tracks of the contacts are those at the duty's largest loads.
+Signals of the duty: speed (of the shaft), load (radial), axial_load, moment (about the axis across both) and ambient.
+The tracks of the contacts are those at the duty's largest loads.
 """
 
 from collections.abc import Mapping

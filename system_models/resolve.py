@@ -8,10 +8,11 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from contact_core import ContactError, ContactState, OperatingPoint, Outputs, advance, initial_state
 from contact_core.quantities import LEVELS
@@ -20,6 +21,7 @@ from contact_core.scene import Scene, tunables, with_values
 from .assembly import Assembly
 
 FAST, DEEP = LEVELS
+_IDLE = 0.1
 COMPARED = {"friction_coefficient": "error_friction", "h_c": "error_film"}  # and the error output of each
 
 
@@ -32,6 +34,7 @@ class Resolved:
     point: OperatingPoint
     fast: Outputs
     deep: Outputs | None  # None: there is no solution
+    replayed: float  # by how much the fast level is off from the run's row, relative
     reason: str = ""
 
     def deviation(self, name: str) -> float:
@@ -40,11 +43,8 @@ class Resolved:
         return abs(value - solved) / abs(value) if value else math.inf
 
     def allowed(self, name: str) -> float:
-        """Half width of the error that the fast level states, and of the solution's own."""
-        if self.deep is None:
-            return 0.0
-        error, value, solved = COMPARED[name], getattr(self.fast, name), getattr(self.deep, name)
-        return getattr(self.fast, error) + getattr(self.deep, error) * abs(solved / value) if value else 0.0
+        """Relative half width of the error that the fast level states."""
+        return float(getattr(self.fast, COMPARED[name]))
 
     @property
     def valid(self) -> bool:
@@ -56,60 +56,83 @@ def resolve(assembly: Assembly, dataset: xr.Dataset, count: int = 6) -> list[Res
     """Solve `count` states again, spread over the contacts that carry load and over the time of the run."""
     found = []
     for contact, row in _chosen(assembly, dataset, count):
-        scene, point, state, fast = _replayed(assembly, dataset, contact, row)
-        time = float(dataset["time"].values[row])
+        replay = _replayed(assembly, dataset, contact, row)
+        time, deep, reason = float(dataset["time"].values[row]), None, ""
         try:
-            _, deep = advance(scene.at_level(DEEP), point, state, 0.0)
-            found.append(Resolved(contact, time, point, fast, deep))
+            _, deep = advance(replay.scene.at_level(DEEP), replay.point, replay.state, 0.0)
         except ContactError as error:
-            found.append(Resolved(contact, time, point, fast, None, str(error)))
+            reason = str(error)
+        found.append(Resolved(contact, time, replay.point, replay.fast, deep, replay.off, reason))
     return found
 
 
 def _chosen(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[tuple[str, int]]:
     """Contacts and rows: the first, then the last of each of `count` - 1 equal times; the contacts in turn."""
-    names, times, found = sorted(assembly.contacts), dataset["time"].values, []
+    names, times, found = _fast(dataset, assembly), dataset["time"].values, []
+    usable = {name: _usable(dataset, name) for name in names}
     stride = max(1, len(names) // count)
     edges = np.searchsorted(times, np.linspace(0.0, times[-1], count), "right")
     windows = [range(1, len(times)), *(range(end - 1, begin - 1, -1) for begin, end in pairwise(edges.tolist()))]
     for k, rows in enumerate(windows):
         for shift in range(len(names)):
             name = names[(k * stride + stride // 2 + shift) % len(names)]
-            row = next((row for row in rows if _usable(assembly, dataset, name, row)), None)
+            row = next((row for row in rows if usable[name][row]), None)
             if row is not None:
                 found.append((name, row))
                 break
     return found
 
 
-def _usable(assembly: Assembly, dataset: xr.Dataset, name: str, row: int) -> bool:
-    if not bool(dataset[f"{name}.valid"].values[row]):
-        return False
-    point = _inputs(assembly, dataset, name, row)
-    moving = abs(point.get("speed_1", 1.0)) + abs(point.get("speed_2", 1.0)) > 0.0
-    return point.get("load", 1.0) > 0.0 and moving
+def _fast(dataset: xr.Dataset, assembly: Assembly) -> list[str]:
+    """The contacts that the run has at the fast level."""
+    level = 1 + LEVELS.index(FAST)
+    return [name for name in sorted(assembly.contacts) if (dataset[f"{name}.fidelity_used"].values == level).all()]
 
 
-def _inputs(assembly: Assembly, dataset: xr.Dataset, name: str, row: int) -> dict[str, float]:
-    sources = assembly.inputs_of(name)
-    return {target: factor * float(dataset[source].values[row]) for target, (source, factor) in sources.items()}
+def _usable(dataset: xr.Dataset, name: str) -> NDArray[np.bool_]:
+    """The rows in which a contact works: at more than a tenth of its largest load and speed, now and before."""
+    load, speed = dataset[f"{name}.load"].values, dataset[f"{name}.speed_1"].values + dataset[f"{name}.speed_2"].values
+    working = (
+        (load > _IDLE * load.max()) & (np.abs(speed) > _IDLE * np.abs(speed).max()) & dataset[f"{name}.valid"].values
+    )
+    return working & np.roll(working, 1)
 
 
-def _replayed(
-    assembly: Assembly, dataset: xr.Dataset, name: str, last: int
-) -> tuple[Scene, OperatingPoint, ContactState, Outputs]:
-    """The contact as it is at a row, by the fast level and the inputs at the end of every step."""
+class _Replay(NamedTuple):
+    """A contact led once more to a row of its run."""
+
+    scene: Scene
+    point: OperatingPoint
+    state: ContactState
+    fast: Outputs
+    off: float  # largest relative difference from what the run has recorded
+
+
+def _replayed(assembly: Assembly, dataset: xr.Dataset, name: str, last: int) -> _Replay:
+    """The contact at a row, by the fast level, under the inputs recorded at the end or at the beginning of each step:
+    the master has told it one of them, as its place in the sequence is, and that is the one that gives the same.
+    """
+    return min((_led(assembly, dataset, name, last, lag) for lag in (0, 1)), key=lambda replay: replay.off)
+
+
+def _led(assembly: Assembly, dataset: xr.Dataset, name: str, last: int, lag: int) -> _Replay:
     contact = assembly.contacts[name]
     numbers = {key: value for key, value in contact.parameters.items() if key in tunables(contact.scene)}
     scene = with_values(contact.scene, numbers).at_level(FAST)  # type: ignore[arg-type]
     names = {*OperatingPoint.__dataclass_fields__}
     start = replace(scene.operation.point, **{k: v for k, v in contact.parameters.items() if k in names})  # type: ignore[arg-type]
+    columns = {key: dataset[f"{name}.{key}"].values for key in assembly.inputs_of(name)}
     times = dataset["time"].values
-    state, point = initial_state(scene), start
+    state = initial_state(scene)
     for row in range(1, last + 1):
-        point = replace(start, **_inputs(assembly, dataset, name, row))
+        point = replace(start, **{key: float(values[row - lag]) for key, values in columns.items()})
         state, fast = advance(scene, point, state, float(times[row] - times[row - 1]))
-    return scene, point, state, fast
+    off = max(_difference(getattr(fast, key), float(dataset[f"{name}.{key}"].values[last])) for key in COMPARED)
+    return _Replay(scene, point, state, fast, off)
+
+
+def _difference(one: float, other: float) -> float:
+    return abs(one - other) / max(abs(one), abs(other)) if one != other else 0.0
 
 
 def to_dataset(states: Sequence[Resolved]) -> xr.Dataset:
@@ -128,7 +151,7 @@ def to_dataset(states: Sequence[Resolved]) -> xr.Dataset:
             (FAST, [getattr(s.fast, name) for s in states], "by the fast level"),
             (DEEP, [getattr(s.deep, name) if s.deep else np.nan for s in states], "solved deterministically"),
             ("deviation", [s.deviation(name) for s in states], "relative to the fast level's"),
-            (error, [s.allowed(name) for s in states], "relative half width that both levels state"),
+            (error, [s.allowed(name) for s in states], "relative half width that the fast level states"),
         ):
             unit = "m" if name == "h_c" and suffix in LEVELS else "1"
             columns[f"resolved.{name}.{suffix}"] = ("state", np.array(values), {"units": unit, "long_name": text})
@@ -137,7 +160,10 @@ def to_dataset(states: Sequence[Resolved]) -> xr.Dataset:
 
 
 def lines(states: Sequence[Resolved]) -> Iterator[str]:
-    """A table, and what it means."""
+    """A table, and how well the contacts were led again."""
+    if not states:
+        yield "No contact was at the fast level, so there is none to solve again."
+        return
     heads = f"{'fast':>9} {'solved':>9} {'off':>7} {'stated':>7}"
     yield f"{'state':>24}  mu: {heads}  h_c: {heads}  valid"
     for s in states:
@@ -151,3 +177,5 @@ def lines(states: Sequence[Resolved]) -> Iterator[str]:
             f"{s.deviation(mu):7.1%} {s.allowed(mu):7.1%}       {1e9 * s.fast.h_c:6.1f} nm {1e9 * s.deep.h_c:6.1f} nm "
             f"{s.deviation(film):7.1%} {s.allowed(film):7.1%}  {'yes' if s.valid else 'NO'}"
         )
+    worst = max(s.replayed for s in states)
+    yield f"The states were led to once more by the inputs recorded, and are those of the run to {worst:.1g}."

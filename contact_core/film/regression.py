@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from ..laws.load_sharing import FittedSharing
+from ..laws.load_sharing import FittedSharing, LineSharing
 from ..quantities import parameter
 
 
@@ -38,7 +38,7 @@ class Regression:
         default=0.0,
         shapes_arrays=True,
     )
-    sharing: FittedSharing = field(default=FittedSharing())
+    sharing: FittedSharing | LineSharing = field(default=FittedSharing())
     smoothing: float = parameter(
         "",
         "mean height of what touches, over composite roughness: wear takes it away",

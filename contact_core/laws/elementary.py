@@ -27,6 +27,11 @@ def log(x: Numbers) -> Numbers:
     return math.log(x) if isinstance(x, float) else np.log(x)
 
 
+def log1p(x: Numbers) -> Numbers:
+    """ln(1 + x), exact for small x."""
+    return math.log1p(x) if isinstance(x, float) else np.log1p(x)
+
+
 def log10(x: Numbers) -> Numbers:
     """Logarithm to the base of ten."""
     return math.log10(x) if isinstance(x, float) else np.log10(x)

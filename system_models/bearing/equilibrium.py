@@ -1,8 +1,9 @@
 """Where the inner ring comes to rest under its loads: five degrees of freedom, balls with inertia.
 
-Source: Jones, J. Basic Eng. 82 (1960) 309, doi:10.1115/1.3662587, with three choices of our own: the balls' inertia is
-that of one speed of orbit, the cage's; friction on the outer race holds the gyroscopic moments; both equilibria, of the
-balls and of the ring, are the minimum of one convex energy (see `kernels`).
+Source: Jones, J. Basic Eng. 82 (1960) 309, doi:10.1115/1.3662587, with choices of our own: the balls' inertia is that
+of one speed of orbit, the cage's, and their gyroscopic moments are those of outer race control, held by friction on
+that race; for these forces, both equilibria, of the balls and of the ring, are the minimum of one convex energy (see
+`kernels`), and the forces follow from the equilibrium before until they stay.
 
 Not in it: rings that bend, the shoulders at which a groove ends, friction forces other than the gyroscopic ones,
 weight, the change of curvatures with the contact angles.
@@ -21,7 +22,7 @@ from .kernels import cage, settle
 
 Array = NDArray[np.float64]
 
-_CENTRING = 1.0  # N/m: holds the ring where no ball does, such as in its clearance
+_CENTRING = 1e-2  # N/m: holds the ring where no ball does, such as in its clearance
 _BALANCED = 1e-9  # of the largest force, at least of 1 N: more left over is no equilibrium
 
 

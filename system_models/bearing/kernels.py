@@ -19,8 +19,9 @@ _jit = njit(cache=True, nogil=True, error_model="numpy")
 
 _STEPS, _CUTS, _ROUNDS = 200, 60, 200
 _EPS = 2.3e-16
-_UNTOUCHED = 1e-6  # N: less on all inner contacts together drives no cage
+_UNTOUCHED = 1e-2  # N: less on all inner contacts together hardly drives the cage
 _SHARP = 4.0
+_GRAZING = 0.1  # least cosine between a ball's axis and the plane of its contact, where no groove reaches any more
 
 
 @_jit
@@ -38,11 +39,34 @@ def pull(x, r, stiffness, free):  # type: ignore[no-untyped-def]
 
 
 @_jit
+def _is_far_enough(along, down, part):  # type: ignore[no-untyped-def]
+    """Whether a part of Newton's step may end here, where the slope along it is `along` after `down` at its start."""
+    return abs(along) <= -0.5 * down or (along < 0.0 and part == 1.0)
+
+
+@_jit
+def _between(part, along, low, below, high, above):  # type: ignore[no-untyped-def]
+    """The next part of a step to try, and the parts `low`, `high` between which the slope changes its sign."""
+    if along < 0.0:
+        low, below = part, along
+    else:
+        high, above = part, along
+    cut = below / (below - above)
+    return low + (high - low) * min(max(cut, 0.1), 0.9), low, below, high, above
+
+
+@_jit
 def _at_ball(x, r, cx, cr, bx, br, springs):  # type: ignore[no-untyped-def]
     """First and second derivatives of a ball's energy by its position between the origin and (cx, cr), under b."""
     _, ox, oy, oxx, oxr, orr = pull(x, r, springs[0], springs[1])
     _, ix, iy, ixx, ixr, irr = pull(cx - x, cr - r, springs[2], springs[3])
     return ox - ix - bx, oy - iy - br, oxx + ixx, oxr + ixr, orr + irr
+
+
+@_jit
+def _determinant(xx, xr, rr):  # type: ignore[no-untyped-def]
+    """Of a symmetric matrix that is not negative, not less than rounding leaves of it."""
+    return max(xx * rr - xr * xr, _EPS * (xx + rr) ** 2)
 
 
 @_jit
@@ -56,15 +80,16 @@ def _seat_ball(x, r, cx, cr, bx, br, springs):  # type: ignore[no-untyped-def]
         if norm <= floor:
             break
         hxx, hrr = hxx + norm / size, hrr + norm / size  # no step beyond the bearing's size where nothing holds it
-        scale = 1.0 / (hxx * hrr - hxr * hxr)
+        scale = 1.0 / _determinant(hxx, hxr, hrr)
         sx, sr = (hxr * gr - hrr * gx) * scale, (hxr * gx - hxx * gr) * scale
         down, part = gx * sx + gr * sr, 1.0
+        low, below, high, above = 0.0, down, 1.0, 0.0
         for _ in range(_CUTS):
             gx, gr, hxx, hxr, hrr = _at_ball(x + part * sx, r + part * sr, cx, cr, bx, br, springs)
-            slope = gx * sx + gr * sr
-            if slope <= -0.5 * down:
+            along = gx * sx + gr * sr
+            if _is_far_enough(along, down, part):
                 break
-            part *= max(down / (down - slope), 0.1)
+            part, low, below, high, above = _between(part, along, low, below, high, above)
         x, r = x + part * sx, r + part * sr
         before, norm = norm, np.hypot(gx, gr)
         if norm <= 100.0 * floor and norm > 0.5 * before:
@@ -82,14 +107,19 @@ def _product(one, other):  # type: ignore[no-untyped-def]
 
 @_jit
 def _solved(matrix, right):  # type: ignore[no-untyped-def]
-    """Solution of a symmetric positive definite system, by Cholesky's factors; overwrites both."""
-    n = right.size
+    """Solution of a symmetric positive definite system, by Cholesky's factors; overwrites both.
+
+    Pivots that rounding has made too small are raised to what it leaves of the largest entry.
+    """
+    n, least = right.size, 0.0
+    for i in range(n):
+        least = max(least, _EPS * matrix[i, i])
     for i in range(n):
         for j in range(i + 1):
             total = matrix[i, j]
             for k in range(j):
                 total -= matrix[i, k] * matrix[j, k]
-            matrix[i, j] = np.sqrt(total) if i == j else total / matrix[j, j]
+            matrix[i, j] = np.sqrt(max(total, least)) if i == j else total / matrix[j, j]
     for i in range(n):
         for k in range(i):
             right[i] -= matrix[i, k] * right[k]
@@ -130,7 +160,7 @@ def _at_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, 
         hxx, hxr, hrr = ixx + oxx, ixr + oxr, irr + orr
         if hxx + hrr == 0.0:
             continue
-        scale = 1.0 / max(hxx * hrr - hxr * hxr, _EPS * (hxx + hrr) ** 2)
+        scale = 1.0 / _determinant(hxx, hxr, hrr)
         a, b = (hrr * oxx - hxr * oxr) * scale, (hrr * oxr - hxr * orr) * scale
         c, d = (hxx * oxr - hxr * oxx) * scale, (hxx * orr - hxr * oxr) * scale
         sxx, sxr, srr = ixx * a + ixr * c, ixx * b + ixr * d, ixr * b + irr * d
@@ -156,13 +186,14 @@ def seat_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring,
             curvature[i, i] += norm / size
         step = _solved(curvature, -slope)
         down, part = _product(slope, step), 1.0
+        low, below, high, above = 0.0, down, 1.0, 0.0
         for _ in range(_CUTS):
             trial[:] = ring + part * step
             _at_ring(trial, balls, pressed, azimuths, centre, springs, forces, centring, slope, curvature)
             along = _product(slope, step)
-            if along <= -0.5 * down:
+            if _is_far_enough(along, down, part):
                 break
-            part *= max(down / (down - along), 0.1)
+            part, low, below, high, above = _between(part, along, low, below, high, above)
         ring[:] = trial
         before, norm = norm, np.abs(slope).max()
         if norm <= least and norm > 0.5 * before:
@@ -188,8 +219,8 @@ def rolling(inner, outer, held_inner, held_outer, ratio):  # type: ignore[no-unt
         part = 0.5
     tilt = free_outer + part * (free_inner - free_outer)
     over_inner, over_outer = inner - tilt, outer - tilt
-    by_inner = (1.0 - ratio * np.cos(inner)) / np.cos(over_inner)
-    by_outer = (1.0 + ratio * np.cos(outer)) / np.cos(over_outer)
+    by_inner = (1.0 - ratio * np.cos(inner)) / max(np.cos(over_inner), _GRAZING)
+    by_outer = (1.0 + ratio * np.cos(outer)) / max(np.cos(over_outer), _GRAZING)
     orbit = by_inner / (by_inner + by_outer)
     roll = orbit * by_outer / ratio
     return (
@@ -242,10 +273,10 @@ def settle(  # type: ignore[no-untyped-def]
     """Bring ring and balls to rest under forces on the ring and the balls' inertia at an angular speed of the ring.
 
     inertia [Z, 2]: forces of inertia on the balls over speed^2; a first guess, improved in place. masses: ball's mass
-    times pitch radius, and twice its moment of inertia over its diameter. Gyroscopic moments are held by friction on
-    the outer race. Returns the largest force left over, the largest force, and all Newton steps.
+    times pitch radius, and twice its moment of inertia over its diameter. Gyroscopic moments are those of outer race
+    control, held by friction on that race. Returns the largest force left over, the largest force, and Newton's steps.
     """
-    square, steps = speed * speed, 0
+    square, steps, before, wanted = speed * speed, 0, np.inf, np.empty_like(inertia)
     for _ in range(_ROUNDS):
         pressed = square * inertia
         largest = max(np.abs(forces).max(), np.abs(pressed).max(), 1.0)
@@ -254,12 +285,14 @@ def settle(  # type: ignore[no-untyped-def]
         motions(ring, balls, azimuths, centre, springs, holds, ratio, found)
         orbit, change = cage(found, idle), 0.0
         for j in range(balls.shape[0]):
-            outer, tilt = found[j, 3], found[j, 6]
-            roll = orbit * (1.0 + ratio * np.cos(outer)) / (ratio * np.cos(outer - tilt))
-            gyration = masses[1] * orbit * roll * np.sin(tilt)
-            x, r = -gyration * np.cos(outer), masses[0] * orbit * orbit + gyration * np.sin(outer)
+            # under outer race control the spin's radial part is orbit sin(outer) / ratio
+            outer, squared = found[j, 3], orbit * orbit
+            gyration = masses[1] * squared * np.sin(outer) / ratio
+            x, r = -gyration * np.cos(outer), masses[0] * squared + gyration * np.sin(outer)
+            wanted[j, 0], wanted[j, 1] = x, r
             change = max(change, square * np.hypot(x - inertia[j, 0], r - inertia[j, 1]))
-            inertia[j, 0], inertia[j, 1] = x, r
+        inertia += (1.0 if change < 0.5 * before else 0.5) * (wanted - inertia)
+        before = change
         if change <= 1e-13 * largest:
             break
     return max(left, change), largest, steps

@@ -1,10 +1,15 @@
-"""Balls in classes of contacts: one contact stands for all balls on a race that carry about one load.
+"""Balls in classes of contacts: a few contacts stand for all balls on a race, each for those that carry about its load.
 
-Class k of K has the load k/K of the largest one. A ball whose load lies between those of two classes is shared by both,
-in the parts that keep its load; below the lowest class a part of it is no ball at all. So each class has a number of
-balls that need not be whole, loads and counts go continuously with the load on the bearing, and the sum of count times
-load is that of the balls. Sums of another power of the load are approximate: what bends upward with load is too large.
-Speeds and spin of a class are means over its balls; sliding is that of its own ellipse.
+Loads and numbers of balls of the classes are nodes and weights of Gauss' quadrature for the sum over the balls, in the
+variable Q^(1/3) in which the ellipses grow, and weighted with it, as rolling resistance grows about so. With K classes
+sum count Q^(p/3) is that of the balls for p = 1, 2 ... 2 K: from two classes on that of the loads, of spin friction
+Q^(4/3), from three on of differential sliding Q^(5/3). Counts need not be whole; a ball without load is in no class.
+What differs from ball to ball otherwise, such as spin, is in each class a mean of positive weights, the squares of
+Lagrange's polynomials: exact for what is even or goes with Q^(1/3).
+
+Nodes and means are Ritz values and squared Ritz vectors of Lanczos' method. All goes continuously with the loads: each
+ball is a tiny cloud of balls, so that there are enough of them for any number of classes, also where all loads are
+equal; then all classes carry that load.
 """
 
 import math
@@ -18,7 +23,7 @@ from .kinematics import SLIDE_COULOMB, Motion
 
 Array = NDArray[np.float64]
 
-_TRACE = 1e-9  # part that each ball has in each class, so that a class without balls moves as they do on average
+_CLOUD = 1e-4  # half width of a ball's cloud over its Q^(1/3)
 _FEWEST = 1e-2  # balls that a class has at least where its track is asked for
 
 
@@ -46,11 +51,7 @@ class Classes:
 
 def classify(geometry: BallBearingGeometry, race: Race, loads: Array, motion: Motion, levels: int) -> Classes:
     """The balls [Z] with these loads [N] on a race in `levels` classes."""
-    shares = memberships(loads, levels)
-    count = shares.sum(axis=1)
-    weights = shares + _TRACE
-    weights /= weights.sum(axis=1)[:, None]
-    load = loads.max() * np.arange(1, levels + 1) / levels
+    load, count, weights = gathered(loads, levels)
     width = race.unit.b * np.cbrt(load)
     outward = -1.0 if race.name == "inner" else 1.0
     radius = 0.5 * geometry.ball_diameter * (1.0 + outward * geometry.ratio * np.cos(motion.angle))
@@ -64,13 +65,33 @@ def classify(geometry: BallBearingGeometry, race: Race, loads: Array, motion: Mo
     )
 
 
-def memberships(loads: Array, levels: int) -> Array:
-    """Part of each ball [levels, Z] in each class; all zero without load."""
-    largest = loads.max()
-    if largest == 0.0:
-        return np.zeros((levels, loads.size))
-    place = loads / largest * levels
-    return np.maximum(1.0 - np.abs(place[None, :] - np.arange(1, levels + 1)[:, None]), 0.0)
+def gathered(loads: Array, levels: int) -> tuple[Array, Array, Array]:
+    """Loads [N] and counts of `levels` classes, and the weights [levels, Z] of the balls in means over each."""
+    size = np.cbrt(loads)
+    total = float(size.sum())
+    if total == 0.0:
+        return np.zeros(levels), np.zeros(levels), np.full((levels, loads.size), 1.0 / loads.size)
+    cloud = 1.0 + _CLOUD * (2.0 * np.arange(levels) + 1.0 - levels) / levels
+    points = np.outer(cloud, size).ravel()
+    values, vectors, start = _ritz(points, np.sqrt(np.tile(size, levels) / (levels * total)), levels)
+    weights = (vectors**2).reshape(levels, loads.size, levels).sum(axis=0).T
+    return values**3, total * start**2 / values, weights
+
+
+def _ritz(diagonal: Array, start: Array, steps: int) -> tuple[Array, Array, Array]:
+    """Ritz values and vectors of a diagonal matrix after Lanczos' steps from a unit vector, and its part in each."""
+    basis, matrix = np.zeros((diagonal.size, steps)), np.zeros((steps, steps))
+    basis[:, 0] = start
+    for k in range(steps):
+        image = diagonal * basis[:, k]
+        matrix[k, k] = basis[:, k] @ image
+        if k + 1 < steps:
+            for _ in range(2):  # orthogonal to rounding
+                image = image - basis @ (basis.T @ image)
+            matrix[k, k + 1] = matrix[k + 1, k] = np.linalg.norm(image)
+            basis[:, k + 1] = image / matrix[k + 1, k]
+    values, vectors = np.linalg.eigh(matrix)
+    return values, basis @ vectors, vectors[0]
 
 
 def track_lengths(geometry: BallBearingGeometry, race: Race, count: Array, motion: Motion) -> list[tuple[float, float]]:

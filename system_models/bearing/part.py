@@ -117,17 +117,7 @@ class BallBearing(Part):
         heat = {race: tuple(indexed(f"heat_flow_2_{race}", k) for k in self._numbers) for race in RACES}
         into_balls = self._all("heat_flow_1")
         return (
-            *(
-                Output(**_alike(name, race, k, nominal), direct=_BY_LOAD)
-                for race in RACES
-                for name, nominal in _SENT.items()
-                for k in self._numbers
-            ),
-            *(
-                told(indexed(f"count_{race}", k), "Z_k", "1", 1.0, f"balls in class {k} of the {race} race")
-                for race in RACES
-                for k in self._numbers
-            ),
+            *(output for race in RACES for output in self._given_to(race)),
             told("friction_torque", "M", "N m", 0.1, "torque that resists the shaft's speed", by=friction),
             told("power_loss", "P", "W", 10.0, "friction_torque times speed", by=friction),
             told("heat_flow_balls", "Q_b", "W", 10.0, "heat into all balls", by=(*_BY_LOAD, *into_balls)),
@@ -153,6 +143,15 @@ class BallBearing(Part):
                 for j in range(1, self.bearing.balls + 1)
             ),
         )  # fmt: skip
+
+    def _given_to(self, race: RaceName) -> Iterator[Output]:
+        """What the classes of a race are given, and how many balls they stand for."""
+        for name, nominal in _SENT.items():
+            for k in self._numbers:
+                yield Output(**_alike(name, race, k, nominal), direct=_BY_LOAD)
+        for k in self._numbers:
+            text = f"balls in class {k} of the {race} race"
+            yield Output(indexed(f"count_{race}", k), "Z_k", "1", text, direct=_BY_LOAD)
 
     @property
     def _numbers(self) -> range:

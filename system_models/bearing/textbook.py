@@ -9,6 +9,8 @@ from typing import NamedTuple
 
 import scipy  # its parts are loaded at their first use
 
+from .geometry import BallBearingGeometry
+
 
 def sjovall(extent: float) -> tuple[float, float]:
     """Radial and axial load integral J_r, J_a of point contacts for an extent epsilon > 0 of the load zone.
@@ -69,6 +71,24 @@ class CatalogueBearing:
 # ratings of 6209 and 7218: from memory
 CATALOGUE_209 = CatalogueBearing(DEEP_GROOVE_62, 45e-3, 85e-3, 21.6e3)
 CATALOGUE_218 = CatalogueBearing(ANGULAR_CONTACT, 90e-3, 160e-3, 104e3)
+_BALL_SHARE = 0.635  # of the ring section's height: that of the ball in both of these
+_STATIC_PRESSURE = 4.2e9  # Pa: at the static rating of ball bearings, ISO 76 (from memory)
+
+
+def catalogue_of(geometry: BallBearingGeometry) -> CatalogueBearing:
+    """A bearing of which only the inner geometry is known, proportioned as 209 and 218 are.
+
+    Its static rating is the load at which the most loaded ball, with 5 times the mean load of all, has ISO 76's
+    pressure on the inner race.
+    """
+    angle, section = geometry.contact_angle, geometry.ball_diameter / _BALL_SHARE
+    largest = (_STATIC_PRESSURE / geometry.inner.unit.pressure_max) ** 3
+    return CatalogueBearing(
+        ANGULAR_CONTACT if angle > 0.0 else DEEP_GROOVE_62,
+        geometry.pitch_diameter - section,
+        geometry.pitch_diameter + section,
+        largest * geometry.balls * math.cos(angle) / 5.0,
+    )
 
 
 class Torque(NamedTuple):

@@ -46,6 +46,7 @@ class ControlledStepper(Stepper):
         """What was before an event says nothing about what follows."""
         super().begin_anew()
         self.control.after_event()
+        self.size = min(self.size, self.step_size)
 
     def stored(self) -> dict[str, Any]:
         """All that is needed to go on from now in another process."""

@@ -1,0 +1,57 @@
+"""Ball bearings under any loads and speeds: they come to rest, in balance with their loads."""
+
+import math
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from system_models.bearing.equilibrium import RingLoads, solve
+from system_models.bearing.geometry import BEARING_209, BEARING_218
+from system_models.bearing.kinematics import motion
+from system_models.bearing.levels import classify
+
+BEARINGS = st.sampled_from([BEARING_209, BEARING_218])
+
+
+def sizes(largest):
+    """Zero, or any size over five decades, of either sign."""
+    some = st.builds(
+        lambda sign, decades: sign * largest * 10.0**-decades, st.sampled_from([-1.0, 1.0]), st.floats(0, 5)
+    )
+    return st.one_of(st.just(0.0), some)
+
+
+LOADS = st.builds(RingLoads, sizes(1e4), sizes(2e4), sizes(2e4), sizes(200.0), sizes(200.0))
+SPEEDS = st.one_of(st.just(0.0), st.floats(-1048.0, 1048.0))
+
+
+@given(BEARINGS, LOADS, SPEEDS)
+def test_any_bearing_comes_to_rest_in_balance(bearing, loads, speed):
+    found = solve(bearing, loads, speed)
+    assert found.converged
+    again = solve(bearing, loads, speed, found.start)
+    assert again.converged
+    assert np.abs(again.load_outer - found.load_outer).max() <= 1e-7 * max(found.load_outer.max(), 1.0)
+    radial = np.stack([np.cos(found.azimuth), np.sin(found.azimuth)])
+    axial, outward = (found.load_inner * f(found.angle_inner) for f in (np.sin, np.cos))
+    carried = np.array([axial.sum(), *(radial @ outward), *(radial[::-1] @ axial) * np.array([1.0, -1.0])])
+    carried[3:] *= bearing.groove_centre_radius
+    largest = max(np.abs(loads).max(), found.load_outer.max(), 1.0)
+    assert np.abs(carried - loads).max() <= 1e-8 * largest + 1e-4
+    assert np.all(found.load_inner >= 0.0)
+    assert np.all(found.load_outer >= 0.0)
+
+
+@given(BEARINGS, LOADS, SPEEDS, st.sampled_from([1, 2, 3, 5]))
+def test_classes_are_contacts_that_can_be_solved_and_carry_what_the_balls_carry(bearing, loads, speed, levels):
+    found = solve(bearing, loads, speed)
+    for race, carried in (("inner", found.load_inner), ("outer", found.load_outer)):
+        c = classify(bearing, bearing.race(race), carried, motion(bearing, found, race), levels)
+        if levels > 1:
+            assert math.isclose(c.count @ c.load, carried.sum(), rel_tol=1e-7, abs_tol=1e-15)
+        assert c.count.sum() <= bearing.balls * (1.0 + 1e-6)
+        for values in (c.entrainment, c.sliding, c.spin, c.radius_x):
+            assert np.all(np.isfinite(values))
+        assert np.all(c.radius_x > 0.2 * bearing.ball_diameter)
+        assert np.all(np.abs(c.spin) < 10.0)
