@@ -1,0 +1,162 @@
+"""A gear pair as a machine: what its contacts say adds up, flanks wear where they slide, duties and reports."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from numpy.typing import NDArray
+
+from system_models import gear_pair_pictures, gear_pair_report, machines
+from system_models.assembly import Assembly
+from system_models.gear.mesh import GearMesh
+from system_models.gear.textbook import ohlendorf
+from system_models.gear_pair_record import Record
+from system_models.master import simulate
+
+STATIONS = 6
+SMALL = {"mesh.stations": f"{STATIONS}", "simulate.max_step": '"20 s"', "gearbox.thermostats": "[]"}
+CONSTANT = {"speed": "2250 rpm", "torque": "135.3 N m", "ambient": "25 degC"}
+STAGES = {**CONSTANT, "duration": "4 min", "steps": [{"time": "2 min", "torque": "239.25 N m"}]}
+Array = NDArray[np.float64]
+
+
+def assembled(duty: dict[str, Any], folder: Path = Path()) -> Assembly:
+    machine = machines.read("gear_fzg_c", SMALL)._replace(folder=folder)
+    machine.table["duty"] = duty
+    return machines.assemble(machine)
+
+
+def run(assembly: Assembly, folder: Path) -> xr.Dataset:
+    return simulate(assembly.system(folder), **assembly.settings, outputs=assembly.outputs())
+
+
+@pytest.fixture(scope="module")
+def record(tmp_path_factory: pytest.TempPathFactory) -> Record:
+    assembly = assembled(STAGES)
+    return Record(assembly, run(assembly, tmp_path_factory.mktemp("fmus")))
+
+
+def worn(record: Record, body: int) -> Array:
+    return record.along(f"wear_depth_{body}")[-1]
+
+
+def test_all_contacts_and_components_use_their_inputs_in_every_row(record: Record) -> None:
+    names = [*record.assembly.parts, *record.assembly.contacts]
+    assert len(record.assembly.contacts) == STATIONS
+    assert all(record.of(f"{name}.valid").all() for name in names)
+
+
+def test_the_mean_friction_is_the_power_that_the_contacts_rub_away(record: Record) -> None:
+    sliding = record.along("speed_1")[-1] - record.along("speed_2")[-1]
+    rubbed = (record.weights * np.abs(record.along("friction_force")[-1] * sliding)).sum()
+    power = record.of("shafts.mesh_torque")[-1] * record.of("shafts.speed_1")[-1]
+    assert record.friction[-1] == pytest.approx(rubbed / power / ohlendorf(record.pair), rel=1e-4)
+
+
+def test_the_loads_of_the_stations_carry_the_force_between_the_gears(record: Record) -> None:
+    carried = (record.weights * record.along("load")[-1]).sum()
+    force = record.of("shafts.mesh_torque")[-1] / record.pair.base_radius_1
+    assert carried == pytest.approx(force, rel=5e-3)  # the midpoint rule of six stations
+
+
+def test_all_lost_power_heats_the_gears_and_the_oil(record: Record) -> None:
+    flows = [record.of(f"mesh.{name}") for name in ("heat_flow_1", "heat_flow_2", "power_rolling")]
+    lost = record.of("mesh.power_loss")
+    assert lost[-1] > 50.0
+    np.testing.assert_allclose(sum(flows), lost, rtol=1e-6, atol=1e-6)
+
+
+def test_the_energy_that_is_lost_is_in_the_gearbox_or_gone(record: Record) -> None:
+    nodes = record.assembly.parts["gearbox"].nodes  # type: ignore[attr-defined]
+    stored = sum(
+        node.heat_capacity * (record.of(f"gearbox.temperature_{node.name}")[-1] - node.temperature) for node in nodes
+    )
+    found = stored + record.of("gearbox.energy_to_ambient")[-1]
+    assert found == pytest.approx(np.trapezoid(record.of("mesh.power_loss"), record.time), rel=0.02)
+
+
+@pytest.mark.parametrize("body", [1, 2])
+def test_flanks_wear_least_at_the_pitch_point_where_they_roll(record: Record, body: int) -> None:
+    near = np.abs(record.positions - record.pair.pitch_point).argmin()
+    assert worn(record, body).argmin() in (near, near + 1, near - 1)
+    assert worn(record, body).max() > 5.0 * worn(record, body).min() > 0.0
+
+
+def test_each_gear_wears_most_at_its_root(record: Record) -> None:
+    assert worn(record, 1).argmax() == 0
+    assert worn(record, 2).argmax() == STATIONS - 1
+
+
+def test_each_place_of_the_flanks_has_its_own_film_and_tribofilm(record: Record) -> None:
+    for quantity in ("h_c", "tribofilm_1", "tribofilm_2"):
+        values = np.sort(record.along(quantity)[-1])
+        assert values[0] > 0.0
+        assert (np.diff(values) / values[:-1]).min() > 1e-6, quantity
+
+
+def test_stages_are_the_stretches_of_the_duty(record: Record) -> None:
+    assert [(stage.start, stage.end) for stage in record.stages] == [(0.0, 120.0), (120.0, 240.0)]
+    assert [stage.torque for stage in record.stages] == pytest.approx([135.3, 239.25])
+    reached = [record.of("shafts.mesh_torque")[stage.last] for stage in record.stages]
+    assert reached == pytest.approx([135.3, 239.25], rel=0.01)
+
+
+def test_pressures_at_the_pitch_point_are_those_of_the_load_stages(record: Record) -> None:
+    """As tabulated for type C: 1108 MPa at 135.3 N m, 1474 MPa at 239.25 N m."""
+    found = [1e-6 * record.pressure_at_pitch_point(torque) for torque in (135.3, 239.25)]
+    assert found == pytest.approx([1108.0, 1474.0], rel=1e-3)
+
+
+def test_the_report_has_a_row_for_each_stage_and_three_pictures(record: Record, tmp_path: Path) -> None:
+    lines = gear_pair_report.lines(record.assembly, record.dataset)
+    table = lines[2 : lines.index("")]
+    assert [line.split()[0] for line in table] == ["1", "2"]
+    written = gear_pair_report.write(record.assembly, record.dataset, tmp_path)
+    assert [path.name for path in written] == ["overview.png", "path.png", "time.png"]
+    assert all(path.stat().st_size > 20_000 for path in written)
+
+
+def test_starts_and_stops_wear_the_flanks_anew_each_time(tmp_path: Path) -> None:
+    duty = {**CONSTANT, "start_stop": {"signals": ["speed"], "run": "20 s", "standstill": "20 s"}, "repeat": 2}
+    assembly = assembled(duty)
+    record = Record(assembly, run(assembly, tmp_path))
+    assert len(record.stages) == 2
+    depths = [record.along("wear_depth_1")[stage.last].max() for stage in record.stages]
+    assert 0.0 < depths[0] < depths[1]
+    assert np.isnan(record.friction[-1])  # standing still
+    assert record.of("mesh.power_loss")[-1] == pytest.approx(0.0, abs=1.0)
+    assert len(gear_pair_report.lines(record.assembly, record.dataset)) > 5
+    assert len(gear_pair_pictures.time(record).axes) == 8
+
+
+def test_a_duty_from_a_table_is_followed(tmp_path: Path) -> None:
+    (tmp_path / "cycle.csv").write_text(
+        "time [s],speed [rpm],torque [N m]\n0,1000,50\n20,2000,100\n40,1500,0\n60,1500,0\n"
+    )
+    assembly = assembled({"file": "cycle.csv", "ambient": "25 degC"}, tmp_path)
+    record = Record(assembly, run(assembly, tmp_path))
+    reached = [
+        (30.0 / np.pi * record.of("shafts.speed_1")[s.last], record.of("shafts.mesh_torque")[s.last])
+        for s in record.stages
+    ]
+    assert reached == [pytest.approx((1000.0, 50.0), rel=0.02), pytest.approx((2000.0, 100.0), rel=0.02)]
+
+
+def test_a_duty_without_load_is_told_so(tmp_path: Path) -> None:
+    assembly = assembled({**CONSTANT, "torque": "0 N m", "duration": "10 s"})
+    dataset = run(assembly, tmp_path)
+    assert "no stretch" in gear_pair_report.lines(assembly, dataset)[0]
+    assert len(gear_pair_pictures.overview(Record(assembly, dataset)).axes) == 8
+
+
+@pytest.mark.parametrize(("name", "count", "last"), [("gear_fzg_a", 12, 534.5), ("gear_fzg_c", 7, 265.0)])
+def test_shipped_gears_run_the_load_stages_of_their_tests(name: str, count: int, last: float) -> None:
+    assembly = machines.assemble(machines.read(name))
+    mesh = assembly.parts["mesh"]
+    assert isinstance(mesh, GearMesh)
+    torques = [torque / mesh.pair.ratio for _, torque in assembly.schedule["brake.torque_setpoint"]]
+    assert len(torques) == count
+    assert torques[-1] == pytest.approx(last)
+    assert len(assembly.contacts) == 21
