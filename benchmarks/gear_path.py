@@ -15,7 +15,7 @@ from scipy.integrate import quad
 from contact_core import Scene
 from contact_core.reference import hertz_line
 from system_models.gear.geometry import FZG_A, FZG_C, FZG_STAGES, SpurGearPair
-from system_models.gear.path import Array, radius, slide_to_roll, stations_of, steps, surface_speeds
+from system_models.gear.path import Array, named_points, radius, slide_to_roll, stations_of, steps, surface_speeds
 from system_models.gear.sharing import Sharing, loads, mean_stiffness, pair_stiffness, single_stiffness
 from system_models.gear.textbook import iso_14179_1, load_intensity, loss_factor, ohlendorf, schlenk, sliding_share
 
@@ -35,14 +35,6 @@ OIL, WARM = "fzg_flank", 363.15
 def force_of(pair: SpurGearPair, stage: int) -> float:
     """Along the line of action [N]."""
     return FZG_STAGES[0.5][stage - 1] / pair.base_radius_1
-
-
-def points_of(pair: SpurGearPair) -> dict[str, float]:
-    """Positions [m] by name, in order."""
-    points = {
-        "A": pair.start, "B": pair.single_start, "C": pair.pitch_point, "D": pair.single_end, "E": pair.end,
-    }  # fmt: skip
-    return dict(sorted(points.items(), key=lambda point: point[1]))
 
 
 def pressure(pair: SpurGearPair, load: float, place: float) -> float:
@@ -83,7 +75,7 @@ def along(report: Page) -> None:
     )
     report.header("type", "point", "s [mm]", "R [mm]", "SRR", "u1 [m/s]", "u2 [m/s]", "share", "elastic")
     for name, pair in PAIRS.items():
-        for point, place in points_of(pair).items():
+        for point, place in named_points(pair).items():
             after = np.array(place + 1e-9)
             shares = [float(loads(pair, SHARINGS[model], 1.0, after)) for model in ("rigid", "elastic")]
             u1, u2 = surface_speeds(pair, place, PINION, PINION / pair.ratio)
@@ -207,7 +199,7 @@ def friction(report: Page) -> None:
 
 def marked(axes: Axes, pair: SpurGearPair, places: Array) -> None:
     """Names of the points above, stations below."""
-    for point, place in points_of(pair).items():
+    for point, place in named_points(pair).items():
         axes.axvline(1e3 * place, color="0.85", lw=0.8, zorder=0)
         axes.text(1e3 * place, 1.01, point, transform=axes.get_xaxis_transform(), ha="center", fontsize=7)
     axes.plot(1e3 * places, np.full(len(places), 0.02), "|", color="0.4", ms=5, transform=axes.get_xaxis_transform())

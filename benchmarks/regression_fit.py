@@ -99,7 +99,9 @@ class Fit:
             ("load_factor", "load_exponent", *(("load_flattening",) if isinstance(law, LineSharing) else ())),
             lambda law: law.load_ratio(rows.clearance, rows.flattening, rows.resolution, rows.floors) - rows.load_ratio,
         )
-        self._fit(("area_factor", "area_exponent"), self._area_residual(rows, None if dry is None else Table(solved(dry))))
+        self._fit(
+            ("area_factor", "area_exponent"), self._area_residual(rows, None if dry is None else Table(solved(dry)))
+        )
         open_gap = rows.of(rows.columns["h_c"] > 3.0 * rows.columns["floor"])
         self._fit(
             ("film_dry", "film_parted", "film_mixed", "film_factor", "film_exponent"),

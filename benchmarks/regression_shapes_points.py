@@ -2,24 +2,28 @@
 
 import math
 import time
-from dataclasses import asdict, dataclass, fields
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
 import numpy as np
 from regression_points import Columns, with_numbers
 
-from contact_core import ContactError, OperatingPoint, Scene, advance, initial_state
+from contact_core import ContactError, ContactState, OperatingPoint, Scene, advance, initial_state
 from contact_core.film.fitted import Extent
 from contact_core.film.scaled import inlet_length
 from contact_core.reference import Hertz
 from contact_core.reference.point_films import at_no_pressure
 from contact_core.shapes import Point
+from contact_core.state import Outputs
 
 STORE = Path(__file__).parent.parent / "results" / "regression_shapes"
 ORIGIN = {"line": "fzg_flank", "ellipse": "ball_209_inner", "circle": "mtm_zddp"}  # scene of each shape
 FIT, WIDTH, CHECK = 1, 2, 5  # seeds: what constants are fitted to, what half widths, too, and what tells if they hold
 COUNTS = {"line": 90, "ellipse": 45, "circle": 45}  # points of the fit
 OTHERS = 40  # of the other seeds
+RUBBED, RUNS, MINUTES = 3, 6, 10.0  # seed, contacts of each shape, and for how long they rub
+LIGHT = 600.0  # N, at most, of ellipses that rub: others take long
 KELVIN = 273.15
 BALL = 6.35e-3  # m, radius
 RACES = (5.1093e-3, 7.590e-3)  # m, radii along x on the inner and the outer ring
@@ -60,7 +64,6 @@ class ShapePoint:
     temperature: float  # K
     rq_1: float  # m
     rq_2: float  # m
-    minutes: float = 0.0  # of rubbing before
 
     def build(self, changes: dict[str, str] | None = None) -> Scene:
         """The scene on a grid that holds the contact."""
@@ -137,15 +140,10 @@ def points(shape: str, seed: int, count: int) -> list[ShapePoint]:
     return found
 
 
-def observe(point: ShapePoint, level: str) -> dict[str, float]:
-    """Outputs of a level; of surfaces that have run in, too, by the deterministic level in both cases."""
-    scene, op = point.build(), point.operating_point
-    state = initial_state(scene)
-    if point.minutes > 0.0:
-        state, _ = advance(scene, op, state, 60.0 * point.minutes)
-    asked = scene.at_level(level)
-    start = time.process_time()
-    _, out = advance(asked, op, state, 0.0)
+def observe(point: ShapePoint) -> dict[str, float]:
+    """Outputs of the deterministic level."""
+    scene, start = point.build(), time.process_time()
+    _, out = advance(scene, point.operating_point, initial_state(scene), 0.0)
     return {name: float(getattr(out, name)) for name in OBSERVED} | {"seconds": time.process_time() - start}
 
 
@@ -157,7 +155,7 @@ def solved(shape: str, seed: int, count: int) -> Columns:
     rows = _stored(file, asked)
     for point in asked[len(rows) :]:
         try:
-            found = observe(point, "deterministic")
+            found = observe(point)
         except ContactError as error:
             print(f"refused: {point}: {error}", flush=True)
             found = {}
@@ -190,3 +188,19 @@ def _stored(file: Path, asked: list[ShapePoint]) -> list[dict[str, float]]:
             break
         rows.append({name: float(kept[name][k]) for name in (*OBSERVED, "seconds")})
     return rows
+
+
+def rubbed(shape: str) -> Iterator[tuple[Outputs, Outputs]]:
+    """A few contacts that the deterministic level has rubbed: its outputs, and those of the fast level on the same
+    surfaces. States stay in the store.
+    """
+    for k, drawn in enumerate(points(shape, RUBBED, RUNS)):
+        point = replace(drawn, load=min(drawn.load, LIGHT)) if shape == "ellipse" else drawn
+        file, scene, op = STORE / f"rubbed_{shape}_{k}.state", point.build(), point.operating_point
+        if file.exists():
+            state = ContactState.from_bytes(file.read_bytes(), scene)
+        else:
+            state = advance(scene, op, initial_state(scene), 60.0 * MINUTES)[0]
+            STORE.mkdir(parents=True, exist_ok=True)
+            file.write_bytes(state.to_bytes())
+        yield state.outputs, advance(scene.at_level("regression"), op, state, 0.0)[1]

@@ -103,7 +103,8 @@ class _Point(NamedTuple):
 
     shares: _Shares
     rubbing: float  # sliding speed, with spin [m/s]
-    along: float  # share of it along x
+    along: float  # share of it along x, of friction in proportion to the speed
+    turned: float  # of friction that is the same at any speed
     touching: float  # contact_area_ratio
     pressure: float  # of the solids, mean over the real contact [Pa]
     shear: float  # of the solids [Pa], with the sign of `rubbing`
@@ -132,8 +133,11 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
         rise, into_1 = _flash_rise(scene, abs(now.shear), slide), 0.5 * pull * slide
     else:
         rise, into_1 = heat.surface(pull * slide)
-    forces = [(point.solid + oil) * point.along for point, oil in zip(points, fluid, strict=True)]
-    lever = hertz.lever_share * hertz.b * hertz.growth(op.load)[1]
+    slope = _slope(points, fluid)
+    solid = [point.solid * point.turned for point in points]
+    oil = [force * _between(point, slope) for point, force in zip(points, fluid, strict=True)]
+    forces = [one + other for one, other in zip(solid, oil, strict=True)]
+    turning = pull * slide - abs(forces[0] * op.sliding_speed)  # what power sliding leaves to spin
     return MeanContact(
         films,
         sigma,
@@ -142,8 +146,8 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
         now.shares.gap,
         now.shares.load,
         now.touching,
-        -now.solid * now.along,
-        -fluid[0] * now.along,
+        -solid[0],
+        -oil[0],
         _derivatives(op, smooth, forces, further),
         now.pressure,
         abs(now.shear),
@@ -152,9 +156,9 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
         slide,
         pull * slide,
         into_1,
-        -lever * lever * op.spin * pull / max(slide, _SLOWEST),
+        -turning / op.spin if op.spin != 0.0 else 0.0,
         smooth.rolling * (1.0 - now.shares.load),  # solids make no oil flow
-        _slope(points, fluid),
+        slope,
     )
 
 
@@ -164,6 +168,12 @@ def _slope(points: list[_Point], fluid: list[float]) -> float:
     if now == sliding or fluid[0] == 0.0:
         return 1.0
     return (fluid[1] / fluid[0] - 1.0) * now / (sliding - now)
+
+
+def _between(point: _Point, slope: float) -> float:
+    """Share of friction along x that grows with a power, 0 to 1, of the sliding speed."""
+    newtonian = min(max(slope, 0.0), 1.0)
+    return point.turned + (point.along - point.turned) * newtonian
 
 
 def _points(
@@ -346,10 +356,12 @@ def _point(
     carried = hertz.mean_share * shares.load * largest  # mean over the Hertz area
     touching = max(shares.area, carried / surfaces.hardness)  # the hardness allows no smaller contact
     pressure = carried / (touching + 1e-300)
-    rubbing, along = slide, 1.0
+    rubbing, along, turned = slide, 1.0, 1.0
     if spin != 0.0:
-        rubbing = math.hypot(slide, hertz.lever_share * spin * hertz.b * wide)
+        edge = spin * hertz.b * wide
+        rubbing = math.hypot(slide, hertz.lever_share * edge)
         along = slide / max(rubbing, _SLOWEST)
+        turned = slide / max(math.hypot(slide, hertz.turn_share * edge), _SLOWEST)
     boundary: Law = scene.boundary_friction
     shear = boundary(pressure, surfaces.cover, rubbing)
     oily = area * (1.0 - shares.load) / shares.raised
@@ -357,6 +369,7 @@ def _point(
         shares,
         rubbing,
         along,
+        turned,
         touching,
         pressure,
         shear,

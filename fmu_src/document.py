@@ -319,8 +319,7 @@ def _errors(scene: Scene) -> Iterator[str]:
     yield paragraph(
         "error_friction, error_film, error_tribofilm and error_wear are half widths of 95 % intervals, relative. "
         + (
-            "They come from the fit of the level to the deterministic one, and are twice as wide where range_flags says "
-            "outside the fit: a guess."
+            "They come from the fit of the level; where range_flags says outside the fit, twice as wide, a guess."
             if isinstance(scene.film, Regression)
             else "They come from time steps and sampling. The grid's error is in none of them and is larger where "
             "solids carry load: compare two grids. Wear driven by 'auto' was found beyond them more often than within."

@@ -138,8 +138,8 @@ FRICTION: dict[str, tuple[Lines, str]] = {
             "k = [1 + K z exp(−d λ z^q)] [(1 + S h_s R_x/a^2) (1 + S h_s R_y/b^2)]^{−1/2},   z = 0.2/s",
         ),
         "⟨τ⟩ is the oil's mean stress under k times Hertz's pressure, on the part of Hertz's area A H that makes up "
-        "for it: between rough bodies oil carries load in spots, a thick film carries it on a larger area (lines spread "
-        "it along x only). No pressure is above the hardness.",
+        "for it: between rough bodies oil carries load in spots, a thick film carries it on a larger area, of lines "
+        "along x only. No pressure is above the hardness.",
     ),
 }
 

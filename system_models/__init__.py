@@ -18,5 +18,6 @@
     cli            the command line; console: what its commands share
 
 A system sees the contact only through its scene, the quantities and the FMU; the Stribeck curves and the states that
-are solved again, which go back to one state again and again, use the core itself. In a ball-on-disc scene body 1 is the ball and body 2 the disc.
+are solved again, which go back to one state again and again, use the core itself. In a ball-on-disc scene body 1 is the
+ball and body 2 the disc.
 """

@@ -27,7 +27,7 @@ from .parts.thermal import ThermalNetwork
 
 SENT = ("load", "speed_1", "speed_2", "spin", "radius_x")
 RECEIVED = ("friction_force", "spin_torque", "rolling_resistance", "heat_flow_1", "heat_flow_2")
-_SIGNALS = {
+SIGNALS = {
     "speed": Quantity("speed", "w", "rad/s", "speed of the shaft", "input", display="rpm", minimum=-1e4, maximum=1e4),
     "load": Quantity("load", "F_r", "N", "radial load on the inner ring", "input", minimum=0.0, maximum=1e6),
     "axial_load": Quantity(
@@ -71,7 +71,7 @@ def assemble(machine: machines.Machine) -> Assembly:
         "bearing": bearing,
         "housing": machines.record(ThermalNetwork, table, "housing"),
     }
-    duty = timeline.read(table.get("duty", {}), _SIGNALS, machine.folder, ("speed",))
+    duty = timeline.read(table.get("duty", {}), SIGNALS, machine.folder, ("speed",))
     designs = bearing.designs(*_largest(duty))
     return Assembly(
         machine.name,

@@ -215,9 +215,8 @@ class BearingRun:
         for shift in np.arange(_POSITIONS) / _POSITIONS * 2.0 * np.pi / part.bearing.balls:
             rest = solve(part.bearing, loads, speed, start, float(shift), part.tilt_stiffness)
             start, carried = rest.start, rest.load_inner if race == "inner" else rest.load_outer
-            found += zip(
-                (np.remainder(rest.azimuth + np.pi, 2.0 * np.pi) - np.pi).tolist(), carried.tolist(), strict=True
-            )
+            place = np.remainder(rest.azimuth + np.pi, 2.0 * np.pi) - np.pi
+            found += zip(place.tolist(), carried.tolist(), strict=True)
         azimuth, load = np.array(sorted(found)).T
         return Passage(azimuth, load, self.pressure(race, load))
 

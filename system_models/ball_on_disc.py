@@ -22,13 +22,16 @@ from .parts.load_arm import LoadArm
 from .parts.spindle import Spindle
 from .parts.thermal import ThermalNetwork
 
-_SIGNALS = (
-    Quantity("entrainment_speed", "u_e", "m/s", "mean speed of both surfaces", "input", minimum=-100.0, maximum=100.0),
-    Quantity("slide_roll_ratio", "SRR", "", "(u_1 - u_2) / u_e", "input", minimum=-1e3, maximum=1e3),
-    TABLE["load"],
-    TABLE["temperature"],
-    replace(TABLE["temperature"], name="ambient", text="temperature of the surroundings"),
-)
+SIGNALS = {
+    q.name: q
+    for q in (
+        Quantity("entrainment_speed", "u_e", "m/s", "mean speed of both surfaces", "input", 1.0, -100.0, 100.0),
+        Quantity("slide_roll_ratio", "SRR", "", "(u_1 - u_2) / u_e", "input", minimum=-1e3, maximum=1e3),
+        TABLE["load"],
+        TABLE["temperature"],
+        replace(TABLE["temperature"], name="ambient", text="temperature of the surroundings"),
+    )
+}
 _SETS = {"load": "arm.load_setpoint", "temperature": "bath.setpoint_oil", "ambient": "bath.temperature_ambient"}
 
 
@@ -51,9 +54,8 @@ def assemble(machine: machines.Machine) -> Assembly:
     contacts = machines.at_levels({"contact": Contact(scene, tracks)}, table)
     if not any(node.name == "oil" and node.heat_flows == 2 for node in parts["bath"].nodes):
         raise SceneError("The [[bath.nodes]] have no 'oil' with heat_flows = 2, one from each body. Add it.")
-    signals = {q.name: q for q in _SIGNALS}
     duty = timeline.read(
-        table.get("duty", {}), signals, machine.folder, ("entrainment_speed", "slide_roll_ratio", "load")
+        table.get("duty", {}), SIGNALS, machine.folder, ("entrainment_speed", "slide_roll_ratio", "load")
     )
     return Assembly(
         machine.name,

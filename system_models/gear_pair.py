@@ -39,7 +39,7 @@ RECEIVED = (
     "heat_flow_1",
     "heat_flow_2",
 )
-_SIGNALS = {
+SIGNALS = {
     "speed": Quantity("speed", "w_1", "rad/s", "speed of the pinion", "input", display="rpm", minimum=0.0, maximum=1e4),
     "torque": Quantity("torque", "T_1", "N m", "torque of the pinion", "input", minimum=0.0, maximum=1e6),
     "temperature": TABLE["temperature"],
@@ -69,7 +69,7 @@ def assemble(machine: machines.Machine) -> Assembly:
         "mesh": mesh,
         "gearbox": machines.record(ThermalNetwork, table, "gearbox"),
     }
-    duty = timeline.read(table.get("duty", {}), _SIGNALS, machine.folder, ("speed", "torque"))
+    duty = timeline.read(table.get("duty", {}), SIGNALS, machine.folder, ("speed", "torque"))
     contacts = {flank(k): _contact(table, mesh.pair, station) for k, station in enumerate(mesh.contacts, 1)}
     schedule: Schedule = dict(
         duty.schedule(

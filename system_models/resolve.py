@@ -109,23 +109,25 @@ class _Replay(NamedTuple):
 
 
 def _replayed(assembly: Assembly, dataset: xr.Dataset, name: str, last: int) -> _Replay:
-    """The contact at a row, by the fast level, under the inputs recorded at the end or at the beginning of each step:
-    the master has told it one of them, as its place in the sequence is, and that is the one that gives the same.
+    """The contact at a row, by the fast level, under the inputs recorded at the end or at the beginning of each step,
+    or their mean: the master has told it one of them, as its place in the sequence and the hold order are, and that is
+    the one that gives the same.
     """
-    return min((_led(assembly, dataset, name, last, lag) for lag in (0, 1)), key=lambda replay: replay.off)
+    return min((_led(assembly, dataset, name, last, share) for share in (0.0, 1.0, 0.5)), key=lambda replay: replay.off)
 
 
-def _led(assembly: Assembly, dataset: xr.Dataset, name: str, last: int, lag: int) -> _Replay:
+def _led(assembly: Assembly, dataset: xr.Dataset, name: str, last: int, begin: float) -> _Replay:
     contact = assembly.contacts[name]
     numbers = {key: value for key, value in contact.parameters.items() if key in tunables(contact.scene)}
     scene = with_values(contact.scene, numbers).at_level(FAST)  # type: ignore[arg-type]
     names = {*OperatingPoint.__dataclass_fields__}
     start = replace(scene.operation.point, **{k: v for k, v in contact.parameters.items() if k in names})  # type: ignore[arg-type]
-    columns = {key: dataset[f"{name}.{key}"].values for key in assembly.inputs_of(name)}
+    recorded = {key: dataset[f"{name}.{key}"].values for key in assembly.inputs_of(name)}
+    columns = {key: begin * np.roll(values, 1) + (1.0 - begin) * values for key, values in recorded.items()}
     times = dataset["time"].values
     state = initial_state(scene)
     for row in range(1, last + 1):
-        point = replace(start, **{key: float(values[row - lag]) for key, values in columns.items()})
+        point = replace(start, **{key: float(values[row]) for key, values in columns.items()})
         state, fast = advance(scene, point, state, float(times[row] - times[row - 1]))
     off = max(_difference(getattr(fast, key), float(dataset[f"{name}.{key}"].values[last])) for key in COMPARED)
     return _Replay(scene, point, state, fast, off)

@@ -84,7 +84,7 @@ class FittedSharing:
         "flattening": (0.068, 6.4),
         "resolution": (2.0, 9.3),
     }
-    WIDTHS: ClassVar[Widths] = Widths(0.23, 0.25, 0.44, 0.6, 0.12, 0.25, 0.8)
+    WIDTHS: ClassVar[Widths] = Widths(0.23, 0.25, 0.44, 0.6, 0.12, 0.25, 0.65)
     CHOSEN: ClassVar[frozenset[str]] = frozenset(
         {"load_flattening", "floor_factor", "floor_exponent", "oil_pressure_power", "oil_spread"}
     )

@@ -138,8 +138,11 @@ class AstmD341:
         at_40, slope = self._chart
         double_log = minimum(at_40 - slope * log10(temperature / 313.15), _STIFFEST_DOUBLE_LOG)
         kinematic = 1e-6 * (10.0 ** (10.0**double_log) - 0.7)
-        density = self.density * maximum(1.0 - self.expansion * (temperature - 288.15), 0.1)  # far beyond any oil
-        return log(kinematic * density) - _LN_ETA_INF
+        return log(kinematic * self.density_at(temperature)) - _LN_ETA_INF
+
+    def density_at(self, temperature: Numbers) -> Numbers:
+        """Density [kg/m3] at p = 0."""
+        return self.density * maximum(1.0 - self.expansion * (temperature - 288.15), 0.1)  # far beyond any oil
 
     @cached_property
     def _chart(self) -> tuple[float, float]:

@@ -50,6 +50,14 @@ class Hertz:
             return 3.0 * math.pi / 16.0
         return 0.75 * float(scipy.special.elliprg(0.0, 1.0, (self.a / self.b) ** 2))
 
+    @cached_property
+    def turn_share(self) -> float:
+        """Sliding speed over spin b at which the friction of sliding is as large as that of no spin, if friction is in
+        proportion to pressure whatever the speed, carried on from slow sliding: 1 / mean of b x^2 / r^3.
+        """
+        slim = (self.a / self.b) ** 2
+        return 2.0 / (slim * float(scipy.special.elliprd(0.0, 1.0, slim)))
+
     def growth(self, times: float) -> tuple[float, float]:
         """By how much `times` the load makes a and the pressure larger, and b."""
         root = times ** (1 / 3)
@@ -90,6 +98,11 @@ class HertzLine(Hertz):
     def lever_share(self) -> float:
         """Mean distance from the centre over b, for a strip much longer than wide."""
         return 0.5
+
+    @cached_property
+    def turn_share(self) -> float:
+        """As of a point, for a strip much longer than wide: the part within this distance slides with the others."""
+        return 1.0
 
     def growth(self, times: float) -> tuple[float, float]:
         """By how much `times` the load makes a and the pressure larger, and b."""

@@ -45,6 +45,14 @@ def track_lengths(pair: SpurGearPair, position: Numbers) -> tuple[Numbers, Numbe
     return 2.0 * math.pi * position, 2.0 * math.pi * (pair.line_length - position)
 
 
+def named_points(pair: SpurGearPair) -> dict[str, float]:
+    """A, B, C, D and E with their positions [m], in the order in which the contact passes them."""
+    points = {
+        "A": pair.start, "B": pair.single_start, "C": pair.pitch_point, "D": pair.single_end, "E": pair.end,
+    }  # fmt: skip
+    return dict(sorted(points.items(), key=lambda point: point[1]))
+
+
 @dataclass(frozen=True)
 class Stations:
     """Where contacts are solved, and the part of the path each of them stands for; arrays [n] from A to E."""

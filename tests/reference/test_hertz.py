@@ -228,3 +228,17 @@ def test_palmgrens_rollers_approach_as_half_spaces_do_to_15_percent():
         measured = palmgren_approach(load, 12e-3, E)
         assert measured == pytest.approx(3.84e-5 * load**0.9 / 12.0**0.8 * 1e-3, rel=0.02)  # as printed, N and mm
         assert measured == pytest.approx(hertz_line(load, 5e-3, 12e-3, E).approach, rel=0.15)
+
+
+@pytest.mark.parametrize("ratio", [0.3, 1.0, 4.0, 30.0])
+def test_slow_sliding_of_a_spinning_contact_is_a_matter_of_its_middle(ratio):
+    """Friction in proportion to pressure, in the direction of (u - w y, w x): its sum along x for a small u."""
+    hertz = hertz_point(50.0, 0.01, 0.01 * ratio, 2.3e11)
+    t = np.sin(0.5 * np.pi * (np.arange(400) + 0.5) / 400)[:, None] ** 2  # finer at the middle and at the edge
+    angle = 2.0 * np.pi * (np.arange(4000) + 0.5)[None, :] / 4000
+    width = np.gradient(t[:, 0])[:, None]
+    x, y, part = hertz.a * t * np.cos(angle), hertz.b * t * np.sin(angle), np.sqrt(1.0 - t**2) * t * width
+    slow = 1e-3 * min(hertz.a, hertz.b)  # sliding speed over spin
+    along = (slow - y) / np.hypot(slow - y, x)
+    found = float((part * along).sum() / (part * np.ones_like(along)).sum())
+    assert found == pytest.approx(slow / (hertz.turn_share * hertz.b), rel=0.02)

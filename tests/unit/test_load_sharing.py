@@ -26,7 +26,7 @@ def golden():
 def test_solids_carry_all_without_film_and_nothing_under_a_thick_one(flattening, resolution):
     for law in LAWS:
         assert law.load_ratio(0.0, flattening, resolution, 0.0) == 1.0
-        assert law.load_ratio(1e-9, flattening, resolution, FAR) > 0.998
+        assert law.load_ratio(1e-12, flattening, resolution, FAR) > 0.998
         assert law.load_ratio(1e4, flattening, resolution, FAR) < 1e-12
         assert law.load_ratio(np.inf, flattening, resolution, FAR) == 0.0
 

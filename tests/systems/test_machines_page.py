@@ -1,0 +1,46 @@
+"""The page of the machines says what there is, and its examples run."""
+
+import re
+import tomllib
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+from system_models import machines, timeline
+
+PAGE = Path(__file__).parents[2].joinpath("docs", "machines.md").read_text("utf-8")
+ROWS = re.findall(r"^\| `(\w+)` \| (.+?) \| (.+?) \| (.+?) \|$", PAGE, re.MULTILINE)
+TOML = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
+
+
+def test_the_page_names_every_kind_of_machine():
+    assert [kind for kind, *_ in ROWS] == list(machines._KINDS)
+
+
+@pytest.mark.parametrize(("kind", "others", "contacts", "signals"), ROWS)
+def test_the_page_names_the_signals_of_a_kind(kind, others, contacts, signals):
+    assert re.findall(r"`(\w+)`", signals) == list(import_module(f"system_models.{kind}").SIGNALS)
+
+
+@pytest.mark.parametrize(("kind", "others", "contacts", "signals"), ROWS)
+def test_the_page_names_the_fmus_of_a_kind(kind, others, contacts, signals):
+    name = {"ball_on_disc": "mtm_rig", "ball_bearing": "bearing_209", "gear_pair": "gear_fzg_c"}[kind]
+    assembly = machines.assemble(machines.read(name))
+    assert set(re.findall(r"`(\w+)`", others)) == set(assembly.parts)
+    assert set(re.findall(r"`(\w+)`", contacts)) <= set(assembly.contacts)
+
+
+@pytest.mark.parametrize("text", TOML)
+def test_the_duties_on_the_page_can_be_read(text):
+    duty = tomllib.loads(text)["duty"]
+    found = timeline.read(duty, import_module("system_models.ball_bearing").SIGNALS, Path(str(machines._folder())))
+    assert found.end > 0.0
+
+
+def test_the_lines_of_python_run(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (code,) = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
+    names = {}
+    exec(code.replace("10 min", "20 s"), names)
+    assert names["dataset"]["bearing.friction_torque"].values[-1] > 0.0
