@@ -15,6 +15,8 @@ from .surfaces import rms_roughness
 Array = NDArray[np.float64]
 Means = tuple[Mean, Mean]
 
+_HALVINGS = 40  # of an interval of heights
+
 
 def means_of(scene: Scene, state: ContactState) -> Means:
     """Means of the patches over the track."""
@@ -41,8 +43,9 @@ def _mean_of(scene: Scene, state: ContactState, i: int) -> Mean:
 def folded(scene: Scene, state: ContactState) -> ContactState:
     """The state with its patches brought up to date: the change of the means added to them.
 
-    Tribofilm goes on where there is some and on the highest points that had none, wear in proportion to the pressure
-    that the points felt last. Means that have not changed change nothing.
+    Tribofilm goes on where there is some and on the highest points that had none. Wear cuts off what is highest, as far
+    as the roughness has to fall, and takes the rest in proportion to the pressure that the points felt last. Means that
+    have not changed change nothing.
     """
     if state.means is None:
         return state
@@ -66,12 +69,50 @@ def _folded(scene: Scene, rows: int, i: int, body: Body, then: Mean, now: Mean) 
     changed: dict[str, Any] = {
         "growth": _raised(body.growth[track], covered, then.growth, now.growth, full),
         "removal": _raised(body.removal[track], covered, then.removal, now.removal, full),
-        "wear": body.wear[track] + (now.wear - then.wear) * felt,
+        "wear": body.wear[track] + _lost(scene, rows, bare, heights, felt, now.wear - then.wear, now.roughness),
     }
     arrays = {name: getattr(body, name).copy() for name in changed}
     for name, array in arrays.items():
         array[track] = changed[name]
     return replace(body, **arrays, worn=now.worn, cycles=now.cycles)
+
+
+def _lost(
+    scene: Scene, rows: int, bare: Array, heights: Array, felt: Array, wear: float, roughness: float
+) -> Array:
+    """Wear [m] of the track's heights of the solid, of a given mean, after which its roughness [m] is that or, if no
+    cut through the highest points takes away enough, as little as can be.
+    """
+    track, middle = track_rows(scene, rows), track_rows(scene, rows, 2.0 / 3.0)
+    if wear <= 0.0:
+        return wear * felt
+
+    def lost(cut: float) -> Array:
+        peaks = np.maximum(heights - cut, 0.0)
+        return peaks + (wear - peaks.mean()) * felt
+
+    def too_rough(cut: float) -> bool:
+        solid = bare.copy()
+        solid[track] = heights - lost(cut)
+        return rms_roughness(roughness_of(bare, solid), middle) > roughness
+
+    high = float(heights.max())
+    if not too_rough(high):
+        return lost(high)
+    low = _level(heights, wear)
+    for _ in range(_HALVINGS):
+        cut = 0.5 * (low + high)
+        low, high = (low, cut) if too_rough(cut) else (cut, high)
+    return lost(high)
+
+
+def _level(heights: Array, mean: float) -> float:
+    """The height [m] above which there is `mean` of the solid, averaged over all."""
+    high, low = float(heights.max()), float(heights.min()) - mean
+    for _ in range(_HALVINGS):
+        cut = 0.5 * (low + high)
+        low, high = (cut, high) if np.maximum(heights - cut, 0.0).mean() > mean else (low, cut)
+    return high
 
 
 def _covered(heights: Array, before: NDArray[np.bool_], coverage: float) -> NDArray[np.bool_]:

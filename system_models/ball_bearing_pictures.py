@@ -1,7 +1,7 @@
 """Pictures of a run of a ball bearing: the whole at a glance, the load zone, the surfaces of all classes."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,11 +21,12 @@ _RACE_COLOURS: dict[RaceName, str] = {"inner": "#0072B2", "outer": "#D55E00"}
 _GREEN, _PURPLE, _ORANGE, _SKY = "#009E73", "#CC79A7", "#E69F00", "#56B4E9"
 _PART_COLOURS = {"rolling": _SKY, "sliding": _ORANGE, "spin": _PURPLE}
 _NODE_COLOURS = {"balls": "black", "inner": _RACE_COLOURS["inner"], "outer": _RACE_COLOURS["outer"], "oil": _ORANGE}
+_SKF, _PALMGREN = _GREEN, "0.3"
+_KEY: dict[str, Any] = {"framealpha": 0.8, "edgecolor": "none", "fontsize": "small"}
 _BODIES = ((1, "ball", "-"), (2, "ring", "--"))
 _DECADES = 1e-4  # of the largest value are shown on log axes
 _LEAST = 1e-4  # nm: films and wear that are always less are none
 _CAPPED = 1e3  # film ratios from here on say nothing
-_FEW = 6  # starts that are all drawn in colours of their own
 
 
 def write(run: BearingRun, folder: Path) -> list[Path]:
@@ -113,7 +114,7 @@ def _passages(axes: Any, run: BearingRun, name: str, factor: float, title: str) 
         azimuth, values = np.append(way.azimuth, way.azimuth[0] + 2.0 * math.pi), factor * getattr(way, name)
         axes.plot(azimuth, np.append(values, values[0]), style, color=_RACE_COLOURS[race], label=f"{race} race")
     _polar(axes, title)
-    axes.legend(frameon=False, fontsize="small", loc="lower left", bbox_to_anchor=(-0.12, -0.1))
+    axes.legend(**_KEY, loc="lower left", bbox_to_anchor=(-0.12, -0.1))
 
 
 def _balls_around(axes: Any, run: BearingRun, name: str, factor: float, title: str) -> None:
@@ -141,7 +142,7 @@ def _films_around(axes: "Axes", run: BearingRun) -> None:
     axes.spines["top"].set_visible(False)
     right.spines["top"].set_visible(False)
     handles = [(line, line.get_label()) for each in (axes, right) for line in each.lines]
-    axes.legend(*zip(*handles, strict=True), frameon=False, fontsize="small", ncols=2, loc="lower center")
+    axes.legend(*zip(*handles, strict=True), **_KEY, ncols=2, loc="lower center")
 
 
 # against time
@@ -164,7 +165,7 @@ def _timed(axes: "Axes", run: BearingRun, label: str) -> None:
 def _plain(axes: "Axes") -> None:
     axes.spines[["top", "right"]].set_visible(False)
     if axes.get_legend_handles_labels()[1]:
-        axes.legend(frameon=False, fontsize="small")
+        axes.legend(**_KEY)
 
 
 def _total(parts: Mapping[str, Array]) -> Array:
@@ -180,8 +181,8 @@ def _torque(axes: "Axes", run: BearingRun) -> None:
             axes.fill_between(time, _NMM * below, _NMM * (below + part), color=_PART_COLOURS[name], label=name, lw=0.0)
         below = below + part
     axes.plot(time, _NMM * below, color="black", linewidth=1.0)
-    axes.plot(time, _NMM * _total(run.skf), "--", color=_GREEN, linewidth=1.2, label="SKF")
-    axes.plot(time, _NMM * _total(run.palmgren), ":", color=_RACE_COLOURS["outer"], linewidth=1.4, label="Palmgren")
+    axes.plot(time, _NMM * _total(run.skf), "--", color=_SKF, linewidth=1.2, label="SKF")
+    axes.plot(time, _NMM * _total(run.palmgren), ":", color=_PALMGREN, linewidth=1.4, label="Palmgren")
     axes.set_ylim(bottom=0.0)
     _timed(axes, run, "friction torque [N mm]")
 
@@ -204,6 +205,7 @@ def _temperatures(axes: "Axes", run: BearingRun) -> None:
 def _over_speed(axes: "Axes", run: BearingRun) -> None:
     """Torque over speed in each start, the textbooks for the last one."""
     from matplotlib import colormaps
+    from matplotlib.ticker import LogLocator, NullFormatter
 
     starts = run.starts
     if not starts:
@@ -212,16 +214,21 @@ def _over_speed(axes: "Axes", run: BearingRun) -> None:
     torque, speed = _NMM * run.of("bearing.friction_torque"), np.abs(run.speed) * _RPM
     for k, rows in enumerate(starts):
         turning = rows[run.runs[rows]]
-        colour = colormaps["viridis_r"](0.15 + 0.85 * k / max(len(starts) - 1, 1))
+        shade = colormaps["viridis_r"](0.15 + 0.85 * k / max(len(starts) - 1, 1))
         label = f"start {k + 1}" if k in (0, len(starts) - 1) else None
-        axes.plot(speed[turning], torque[turning], color=colour, linewidth=1.2, label=label, marker=".", markersize=3)
+        axes.plot(speed[turning], torque[turning], color=shade, linewidth=1.2, label=label, marker=".", markersize=3)
     turning = starts[-1][run.runs[starts[-1]]]
     for name, parts, style, colour in (
-        ("SKF", run.skf, "--", _GREEN),
-        ("Palmgren", run.palmgren, ":", _RACE_COLOURS["outer"]),
+        ("SKF", run.skf, "--", _SKF),
+        ("Palmgren", run.palmgren, ":", _PALMGREN),
     ):
         axes.plot(speed[turning], _NMM * _total(parts)[turning], style, color=colour, linewidth=1.2, label=name)
     axes.set(xscale="log", yscale="log", xlabel="speed [rpm]", ylabel="friction torque [N mm]")
+    for axis in (axes.xaxis, axes.yaxis):
+        low, high = axis.get_view_interval()
+        axis.set_major_locator(LogLocator(subs=(1.0,) if high > 100.0 * low else (1.0, 2.0, 5.0)))
+        axis.set_major_formatter(lambda value, _: f"{value:g}")
+        axis.set_minor_formatter(NullFormatter())
     _plain(axes)
 
 
@@ -234,7 +241,7 @@ def _of_bodies(axes: "Axes", run: BearingRun, name: str, label: str, log: bool =
     """A length of balls and rings in all classes."""
     time, _ = _clock(run)
     largest = 0.0
-    for which in run.classes:
+    for which in run.carrying:
         for body, _, style in _BODIES:
             values = _NM * run.told(which, f"{name}_{body}")
             largest = max(largest, float(values.max()))
@@ -257,7 +264,7 @@ def _of_contacts(axes: "Axes", run: BearingRun, name: str, label: str) -> None:
     """An output of the contacts of all classes, where the shaft turns."""
     time, _ = _clock(run)
     largest = 0.0
-    for which in run.classes:
+    for which in run.carrying:
         values = np.where(run.runs, run.told(which, name), np.nan)
         values[values >= _CAPPED] = np.nan
         largest = max(largest, float(np.nanmax(values, initial=0.0)))
@@ -279,4 +286,4 @@ def _key(axes: "Axes", run: BearingRun, bodies: bool) -> None:
         entries += [(name, {"color": "0.3", "linestyle": style}) for _, name, style in _BODIES]
     handles = [Line2D([], [], label=name, **style) for name, style in entries]
     title = "darker: more load" if run.bearing.levels > 1 else None
-    axes.legend(handles=handles, frameon=False, fontsize="small", title=title, title_fontsize="small", ncols=2)
+    axes.legend(handles=handles, **_KEY, title=title, title_fontsize="small", ncols=2)

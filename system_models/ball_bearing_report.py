@@ -102,8 +102,8 @@ def _motion(run: BearingRun, row: int) -> list[str]:
     cage, speed = run.of("bearing.cage_speed")[row], run.speed[row]
     inner, outer = (run.of(f"bearing.contact_angle_{race}")[row] for race in ("inner", "outer"))
     return [
-        f"Cage: {cage * _RPM:.0f} rpm, {cage / speed:.4f} of the shaft. Contact angles: inner {math.degrees(inner):.2f} "
-        f"deg, outer {math.degrees(outer):.2f} deg."
+        f"Cage: {cage * _RPM:.0f} rpm, {cage / speed:.4f} of the shaft. Largest contact angles: inner "
+        f"{math.degrees(inner):.2f} deg, outer {math.degrees(outer):.2f} deg."
     ]
 
 

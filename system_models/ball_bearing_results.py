@@ -13,7 +13,7 @@ from contact_core.laws.viscosity import AstmD341
 from contact_core.scene import Lubricant
 
 from .assembly import Assembly
-from .bearing.equilibrium import Equilibrium, RingLoads, solve
+from .bearing.equilibrium import RingLoads, solve
 from .bearing.geometry import RACES, RaceName
 from .bearing.part import BallBearing
 from .bearing.textbook import CatalogueBearing, Torque, catalogue_of, palmgren_torque, skf_torque
@@ -25,6 +25,7 @@ Parts = dict[str, Array]  # friction torque [N m] by cause, arrays [time], NaN a
 Formula = Callable[[CatalogueBearing, float, float, float, float], Torque]  # radial, axial, speed, viscosity
 
 DENSITY = 870.0  # kg/m3, assumed of oils whose viscosity law has none
+_HARDLY = 0.02  # of the largest load: balls with less carry hardly any
 _REACHED = 0.99  # of its largest speed: a start ends there
 _POSITIONS = 24  # of the cage between one ball and the next
 
@@ -76,6 +77,14 @@ class BearingRun:
     def classes(self) -> tuple[ContactClass, ...]:
         """All classes, lightest first, inner race first."""
         return tuple(ContactClass(race, k) for race in RACES for k in range(1, self.bearing.levels + 1))
+
+    @cached_property
+    def carrying(self) -> tuple[ContactClass, ...]:
+        """The classes that have more than hardly any balls and load at some time."""
+        loads = {which: float(self.given(which, "load").max()) for which in self.classes}
+        balls = {which: float(self.given(which, "count").max()) for which in self.classes}
+        least = _HARDLY * max(loads.values())
+        return tuple(which for which in self.classes if loads[which] > least and balls[which] > _HARDLY)
 
     def given(self, which: ContactClass, name: str) -> Array:
         """What the bearing gives a class: load, speeds, count, ..."""
@@ -202,25 +211,24 @@ class BearingRun:
         """A ball on its way around under the loads and speed of a row: the equilibria of many places of the cage."""
         loads, speed, part = self.ring_loads(row), float(self.speed[row]), self.bearing
         found: list[tuple[float, float]] = []
-        rest: Equilibrium | None = None
+        start: tuple[float, ...] | None = None
         for shift in np.arange(_POSITIONS) / _POSITIONS * 2.0 * np.pi / part.bearing.balls:
-            rest = solve(part.bearing, loads, speed, rest and rest.start, float(shift), part.tilt_stiffness)
-            carried = rest.load_inner if race == "inner" else rest.load_outer
-            found += zip(
-                (np.remainder(rest.azimuth + np.pi, 2.0 * np.pi) - np.pi).tolist(), carried.tolist(), strict=True
-            )
+            rest = solve(part.bearing, loads, speed, start, float(shift), part.tilt_stiffness)
+            start, carried = rest.start, rest.load_inner if race == "inner" else rest.load_outer
+            place = np.remainder(rest.azimuth + np.pi, 2.0 * np.pi) - np.pi
+            found += zip(place.tolist(), carried.tolist(), strict=True)
         azimuth, load = np.array(sorted(found)).T
         return Passage(azimuth, load, self.pressure(race, load))
 
     def at_load(self, race: RaceName, name: str, row: int, load: Array) -> Array:
-        """What contacts of a race tell at a row, between the classes by load; NaN without load.
+        """What contacts of a race tell at a row, between the classes by load; NaN with hardly any load.
 
         A ball with less load than the lightest class counts as one of it.
         """
-        own = [which for which in self.classes if which.race == race]
+        own = [which for which in self.carrying if which.race == race]
         loads = np.array([self.given(which, "load")[row] for which in own])
         values = np.array([self.told(which, name)[row] for which in own])
-        return np.where(load > 0.0, np.interp(load, loads, values), np.nan)
+        return np.where(load > _HARDLY * load.max(), np.interp(load, loads, values), np.nan)
 
     @property
     def heat_stored(self) -> float:

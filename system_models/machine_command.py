@@ -78,7 +78,7 @@ def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str
     written = [*results.write(dataset, folder), results.write(resolve.to_dataset(states), folder, "resolved")[0]]
     written += pictures.write(assembly, dataset, folder)
     print(f"Written: {', '.join(map(str, written))}")
-    uncovered = sum(not state.valid for state in states)
-    if uncovered:
-        note(f"The fast level's errors do not cover its deviation in {uncovered} of {len(states)} states: see 'NO'.")
+    solved = [state for state in states if state.solved]
+    if uncovered := sum(not state.valid for state in solved):
+        note(f"The fast level's errors do not cover its deviation in {uncovered} of {len(solved)} states: see 'NO'.")
     return 1 if cosim_report.missed_steps(dataset) or machine_report.invalid_rows(assembly, dataset) else 0

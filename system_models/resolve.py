@@ -14,14 +14,16 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from contact_core import ContactError, ContactState, OperatingPoint, Outputs, advance, initial_state
+from contact_core import ContactError, ContactState, OperatingPoint, Outputs, RangeFlag, advance, initial_state
 from contact_core.quantities import LEVELS
 from contact_core.scene import Scene, tunables, with_values
 
 from .assembly import Assembly
 
 FAST, DEEP = LEVELS
-_IDLE = 0.1
+_IDLE = 0.1  # of the largest load and speed
+_TRIES = 3  # contacts at a time
+_UNSURE = RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK | RangeFlag.DOMAIN_EDGE
 COMPARED = {"friction_coefficient": "error_friction", "h_c": "error_film"}  # and the error output of each
 
 
@@ -47,39 +49,61 @@ class Resolved:
         return float(getattr(self.fast, COMPARED[name]))
 
     @property
+    def solved(self) -> bool:
+        """Whether the deterministic level has an answer that can judge: one that met its tolerance."""
+        return self.deep is not None and not RangeFlag(self.deep.range_flags) & _UNSURE
+
+    @property
     def valid(self) -> bool:
-        """Whether all errors cover the deviations."""
-        return self.deep is not None and all(self.deviation(name) <= self.allowed(name) for name in COMPARED)
+        """Whether all errors cover the deviations, as far as there is a solution to tell."""
+        return self.solved and all(self.deviation(name) <= self.allowed(name) for name in COMPARED)
+
+    @property
+    def verdict(self) -> str:
+        """One word for it, and why there is none."""
+        if self.deep is None:
+            return f"no solution: {self.reason}"
+        return ("yes" if self.valid else "NO") if self.solved else "not decided: the solution missed its tolerance"
 
 
 def resolve(assembly: Assembly, dataset: xr.Dataset, count: int = 6) -> list[Resolved]:
-    """Solve `count` states again, spread over the contacts that carry load and over the time of the run."""
-    found = []
-    for contact, row in _chosen(assembly, dataset, count):
-        replay = _replayed(assembly, dataset, contact, row)
-        time, deep, reason = float(dataset["time"].values[row]), None, ""
-        try:
-            _, deep = advance(replay.scene.at_level(DEEP), replay.point, replay.state, 0.0)
-        except ContactError as error:
-            reason = str(error)
-        found.append(Resolved(contact, time, replay.point, replay.fast, deep, replay.off, reason))
+    """Solve states again, spread over the contacts that carry load and over the time of the run: `count` of them that
+    can be judged, or twice as many tries.
+    """
+    found: list[Resolved] = []
+    for candidates in _chosen(assembly, dataset, count):
+        for contact, row in candidates:
+            if len(found) == 2 * count:
+                return found
+            found.append(_resolved(assembly, dataset, contact, row))
+            if found[-1].solved:
+                break
     return found
 
 
-def _chosen(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[tuple[str, int]]:
-    """Contacts and rows: the first, then the last of each of `count` - 1 equal times; the contacts in turn."""
+def _resolved(assembly: Assembly, dataset: xr.Dataset, contact: str, row: int) -> Resolved:
+    replay = _replayed(assembly, dataset, contact, row)
+    time, deep, reason = float(dataset["time"].values[row]), None, ""
+    try:
+        _, deep = advance(replay.scene.at_level(DEEP), replay.point, replay.state, 0.0)
+    except ContactError as error:
+        reason = str(error)
+    return Resolved(contact, time, replay.point, replay.fast, deep, replay.off, reason)
+
+
+def _chosen(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[list[tuple[str, int]]]:
+    """Contacts and rows: the first, then the last of each of `count` - 1 equal times; the contacts in turn, some others
+    for each in case that one has no solution.
+    """
     names, times, found = _fast(dataset, assembly), dataset["time"].values, []
     usable = {name: _usable(dataset, name) for name in names}
     stride = max(1, len(names) // count)
     edges = np.searchsorted(times, np.linspace(0.0, times[-1], count), "right")
     windows = [range(1, len(times)), *(range(end - 1, begin - 1, -1) for begin, end in pairwise(edges.tolist()))]
     for k, rows in enumerate(windows):
-        for shift in range(len(names)):
-            name = names[(k * stride + stride // 2 + shift) % len(names)]
-            row = next((row for row in rows if usable[name][row]), None)
-            if row is not None:
-                found.append((name, row))
-                break
+        turn = [names[(k * stride + stride // 2 + shift) % len(names)] for shift in range(len(names))]
+        first = [(name, next((row for row in rows if usable[name][row]), 0)) for name in turn]
+        found.append([(name, row) for name, row in first if row][:_TRIES])
     return found
 
 
@@ -142,6 +166,11 @@ def to_dataset(states: Sequence[Resolved]) -> xr.Dataset:
     columns: dict[str, Any] = {
         "resolved.contact": ("state", [s.contact for s in states], {"units": "1", "long_name": "contact"}),
         "resolved.time": ("state", [s.time for s in states], {"units": "s", "long_name": "time of the state"}),
+        "resolved.solved": (
+            "state",
+            [s.solved for s in states],
+            {"units": "1", "long_name": "whether the deterministic solution met its tolerance"},
+        ),
         "resolved.valid": (
             "state",
             [s.valid for s in states],
@@ -171,13 +200,13 @@ def lines(states: Sequence[Resolved]) -> Iterator[str]:
     for s in states:
         where = f"{s.contact} at {s.time:.4g} s"
         if s.deep is None:
-            yield f"{where:>24}  no solution: {s.reason}"
+            yield f"{where:>24}  {s.verdict}"
             continue
         mu, film = "friction_coefficient", "h_c"
         yield (
             f"{where:>24}      {s.fast.friction_coefficient:9.4f} {s.deep.friction_coefficient:9.4f} "
             f"{s.deviation(mu):7.1%} {s.allowed(mu):7.1%}       {1e9 * s.fast.h_c:6.1f} nm {1e9 * s.deep.h_c:6.1f} nm "
-            f"{s.deviation(film):7.1%} {s.allowed(film):7.1%}  {'yes' if s.valid else 'NO'}"
+            f"{s.deviation(film):7.1%} {s.allowed(film):7.1%}  {s.verdict}"
         )
     worst = max(s.replayed for s in states)
     yield f"The states were led to once more by the inputs recorded, and are those of the run to {worst:.1g}."

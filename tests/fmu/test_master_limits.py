@@ -1,0 +1,55 @@
+"""The longest step, and the outputs that are to meet the tolerance."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from models.systems import two_mass_force
+
+from system_models.master import CouplingError, simulate
+
+
+@pytest.fixture(scope="module")
+def case(tmp_path_factory: pytest.TempPathFactory):
+    folder: Path = tmp_path_factory.mktemp("fmus")
+    return two_mass_force(folder)
+
+
+def run(case, **settings):
+    return simulate(case.system, 2.0, 1e-3, outputs=case.states, **{"order": 2, "tolerance": 1e-3, **settings})
+
+
+def test_no_step_is_longer_than_the_longest(case):
+    free, bounded = run(case), run(case, max_step=4e-3)
+    longest = free["master.step_size"].values.max()
+    assert longest > 8e-3
+    assert bounded["master.step_size"].values.max() == pytest.approx(2e-3)  # the halves of steps stand
+    assert bounded.attrs["steps"] > free.attrs["steps"]
+
+
+def test_only_the_outputs_that_are_named_are_to_meet_the_tolerance(case):
+    """A speed is rougher than a position: left out, it does not ask for short steps."""
+    every, named = run(case), run(case, controlled=["one.x"])
+    assert named.attrs["steps"] < every.attrs["steps"]
+    exact = case.solution(named["time"].values)
+    position = np.abs(named["one.x"].values - exact[:, case.states.index("one.x")])
+    assert position.max() < 3e-3 * np.abs(exact).max()
+
+
+def test_all_coupled_outputs_named_are_as_none_named(case):
+    every, named = run(case), run(case, controlled=["two.F", "one.v", "one.x"])
+    assert all((every[name].values == named[name].values).all() for name in case.states)
+
+
+@pytest.mark.parametrize(
+    ("settings", "sentence"),
+    [
+        ({"max_step": 1e-4}, "max_step = 0.0001 s is below step_size = 0.001 s. Raise it."),
+        ({"max_step": 1e-2, "tolerance": None}, "limits steps chosen by a tolerance. Give one as well."),
+        ({"controlled": ["one.x"], "tolerance": None}, "are to meet a tolerance. Give one as well."),
+        ({"controlled": ["one.y"]}, "controlled has 'one.y', which sets no input. Did you mean 'one.x'?"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(case, settings, sentence):
+    with pytest.raises(CouplingError, match=sentence.replace(".", r"\.").replace("?", r"\?")):
+        run(case, **settings)

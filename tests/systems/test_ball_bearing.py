@@ -1,0 +1,170 @@
+"""The ball bearing as a machine: closed loop with its heat, memory from start to start, and what its report shows."""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.image import imread
+
+from system_models import ball_bearing_report, machines, timeline
+from system_models.assembly import Assembly
+from system_models.ball_bearing_results import BearingRun
+from system_models.bearing.geometry import BEARING_209, BEARING_218
+from system_models.bearing.textbook import CATALOGUE_209, CATALOGUE_218, catalogue_of
+from system_models.master import simulate
+
+Result = tuple[Assembly, xr.Dataset]
+LIGHTER = 1 / 60  # heat capacities that many times smaller: minutes become seconds
+MEMORYLESS = {"contact.tribofilm.model": "none", "contact.wear.bare": "0", "contact.wear.film": "0"}
+CYCLE = "time [s],speed [rpm],load [N]\n0,0,800\n1,600,2000\n6,300,3000\n8,0,800\n12,900,1500\n20,900,1500\n"
+
+
+def run(folder: Path, machine: machines.Machine) -> Result:
+    assembly = machines.assemble(machine)
+    return assembly, simulate(assembly.system(folder), **assembly.settings, outputs=assembly.outputs())
+
+
+def lighter(machine: machines.Machine) -> machines.Machine:
+    for node in machine.table["housing"]["nodes"]:
+        number, unit = node["heat_capacity"].split(" ", 1)
+        node["heat_capacity"] = f"{LIGHTER * float(number)} {unit}"
+    return machine
+
+
+@pytest.fixture(scope="module")
+def warm(tmp_path_factory: pytest.TempPathFactory) -> Result:
+    changes = {"bearing.levels": "2", "duty.duration": "4 min", "simulate.max_step": "4 s"}
+    return run(tmp_path_factory.mktemp("warm"), lighter(machines.read("bearing_209", changes)))
+
+
+def starting(folder: Path, changes: dict[str, str]) -> BearingRun:
+    few = {"bearing.levels": "1", "duty.repeat": "4", "duty.speed": "40 rpm", "simulate.max_step": "1 s"}
+    return BearingRun(*run(folder, machines.read("bearing_209_start_stop", few | changes)))
+
+
+@pytest.fixture(scope="module")
+def starts(tmp_path_factory: pytest.TempPathFactory) -> BearingRun:
+    return starting(tmp_path_factory.mktemp("starts"), {})
+
+
+def test_a_cold_start_ends_where_heat_in_is_heat_out(warm: Result) -> None:
+    _, dataset = warm
+    last = dataset.isel(time=-1)
+    loss, left = float(last["bearing.power_loss"]), float(last["housing.heat_to_ambient"])
+    assert loss > 10.0
+    assert left == pytest.approx(loss, rel=1e-3)
+    by_ring = 0.25 * (last["housing.temperature_inner"] - 293.15) + 0.75 * (last["housing.temperature_outer"] - 293.15)
+    assert float(by_ring) == pytest.approx(loss, rel=1e-3)
+
+
+def test_the_motor_gives_what_the_bearing_loses(warm: Result) -> None:
+    last = warm[1].isel(time=-1)
+    slip = float(last["shaft.torque_coupling"]) * float(last["drive.speed"] - last["shaft.speed"])
+    assert float(last["drive.power"]) == pytest.approx(float(last["bearing.power_loss"]) + slip, rel=1e-3)
+
+
+def test_warm_oil_makes_the_torque_less(warm: Result) -> None:
+    run = BearingRun(*warm)
+    torque = run.of("bearing.friction_torque")
+    assert torque[run.last] < 0.5 * torque.max()
+
+
+def test_energy_is_conserved_but_for_the_steps(warm: Result) -> None:
+    run = BearingRun(*warm)
+    kept = run.heat_stored + float(run.of("housing.energy_to_ambient")[-1])
+    assert kept == pytest.approx(run.heat_in, rel=2e-2)
+
+
+def test_all_rows_are_valid_and_all_steps_made(warm: Result) -> None:
+    assembly, dataset = warm
+    assert all(dataset[f"{name}.valid"].values.all() for name in (*assembly.parts, *assembly.contacts))
+    assert dataset.attrs["unconverged"] == dataset.attrs["below_min_step"] == 0
+
+
+def test_the_causes_of_the_torque_are_all_of_it(warm: Result) -> None:
+    run = BearingRun(*warm)
+    total = sum(part[run.last] for part in run.torque.values())
+    assert total == pytest.approx(run.of("bearing.friction_torque")[run.last], rel=1e-3)
+
+
+def test_the_torque_is_of_the_size_that_skf_and_palmgren_have(warm: Result) -> None:
+    run = BearingRun(*warm)
+    own = run.of("bearing.friction_torque")[run.last]
+    for model in (run.skf, run.palmgren):
+        assert 0.4 < own / sum(part[run.last] for part in model.values()) < 2.5
+
+
+def test_balls_of_the_load_zone_carry_the_load(warm: Result) -> None:
+    run = BearingRun(*warm)
+    azimuth, load = run.balls("inner", run.last)
+    assert load @ np.cos(azimuth) == pytest.approx(2000.0, rel=1e-6)
+    assert (np.diff(azimuth) > 0.0).all()
+
+
+def test_a_balls_way_around_passes_the_balls(warm: Result) -> None:
+    run = BearingRun(*warm)
+    way = run.passage("outer", run.last)
+    azimuth, load = run.balls("outer", run.last)
+    there = np.interp(azimuth, way.azimuth, way.load)
+    assert there == pytest.approx(load, abs=1e-3 * load.max())
+
+
+def test_every_start_is_found(starts: BearingRun) -> None:
+    assert len(starts.starts) == 4
+    for rows in starts.starts:
+        assert not starts.runs[rows[0]]
+        assert starts.speed[rows[-1]] > 0.98 * 40.0 * math.pi / 30.0
+
+
+def test_the_next_start_feels_the_film_that_the_last_has_left(starts: BearingRun, tmp_path: Path) -> None:
+    film = np.array([starts.told(starts.classes[0], "tribofilm_1")[rows[0]] for rows in starts.starts])
+    wear = np.array([starts.told(starts.classes[1], "wear_depth_2")[rows[0]] for rows in starts.starts])
+    assert (np.diff(film) > 1e-9).all()
+    assert (np.diff(wear) > 0.0).all()
+    forgetful = starting(tmp_path / "none", MEMORYLESS)
+    finer = starting(tmp_path / "fine", {"simulate.max_step": "0.5 s"})
+    remembered, forgotten, fine = (each.of("bearing.friction_torque")[each.last] for each in (starts, forgetful, finer))
+    assert abs(remembered - forgotten) > 10.0 * abs(remembered - fine)
+    assert abs(remembered / forgotten - 1.0) > 0.02
+
+
+@pytest.mark.parametrize("duty", ["cycle", "standstill"])
+def test_the_report_takes_any_duty(duty: str, tmp_path: Path) -> None:
+    machine = machines.read("bearing_209", {"bearing.levels": "1"})
+    if duty == "cycle":
+        (tmp_path / "cycle.csv").write_text(CYCLE)
+        machine.table["duty"] = timeline.with_file(machine.table["duty"], tmp_path / "cycle.csv")
+    else:
+        machine.table["duty"] = {"speed": "0 rpm", "load": "2 kN", "duration": "2 s"}
+    assembly, dataset = run(tmp_path / "fmus", machine)
+    said = "\n".join(ball_bearing_report.lines(assembly, dataset))
+    assert "inner_1" in said
+    assert ("2 starts" in said) == (duty == "cycle")
+    assert ("does not turn" in said) == (duty == "standstill")
+    _check_pictures(ball_bearing_report.write(assembly, dataset, tmp_path))
+
+
+def _check_pictures(paths: list[Path]) -> None:
+    assert [path.name for path in paths] == ["overview.png", "load_zone.png", "surfaces.png"]
+    for path in paths:
+        picture: Any = imread(path)
+        assert picture[..., :3].std() > 0.02
+
+
+def test_the_report_says_that_the_heat_is_closed(warm: Result) -> None:
+    said = "\n".join(ball_bearing_report.lines(*warm))
+    assert "by SKF (rolling" in said
+    assert "by Palmgren (by oil" in said
+    assert "Cage: 120" in said
+
+
+@pytest.mark.parametrize(("geometry", "known"), [(BEARING_209, CATALOGUE_209), (BEARING_218, CATALOGUE_218)])
+def test_what_a_catalogue_would_have_is_near_it(geometry: Any, known: Any) -> None:
+    found = catalogue_of(geometry)
+    assert found.series == known.series
+    assert found.bore == pytest.approx(known.bore, rel=5e-3)
+    assert found.outside == pytest.approx(known.outside, rel=5e-3)
+    assert found.static_rating == pytest.approx(known.static_rating, rel=0.2)

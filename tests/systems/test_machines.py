@@ -1,0 +1,168 @@
+"""`tribofmu run` of machines: what it writes, that it goes on after a kill, what it refuses, and its SSP."""
+
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fmpy.ssp.ssd import get_connections, read_ssd
+from test_cosim_command import result
+from test_resume import KILLED, bits
+from test_ssp import SPACES, imported, structure
+
+from system_models import machines
+from system_models.cli import main
+from system_models.export import with_timetable
+from system_models.resolve import Resolved
+
+SHORT = """time [s],entrainment_speed [m/s],slide_roll_ratio [1]
+0,1,0.5
+1,0.3,0.5
+2,0.1,0.5
+3,0.03,0.5
+4,0.1,0.05
+9,0.1,0.05
+"""
+COARSE = [
+    "--grid",
+    "17",
+    "--set",
+    "contact.surface_1.correlation_length=32 um",
+    "contact.surface_2.correlation_length=32 um",
+]
+SHIPPED = tuple(machines.shipped())
+
+
+@pytest.fixture
+def rig(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The command that runs the MTM rig through a short duty, from a working folder of its own."""
+    monkeypatch.chdir(tmp_path)
+    Path("short.csv").write_text(SHORT)
+    return ["run", "mtm_rig", "--duty", "short.csv", *COARSE]
+
+
+def test_a_machine_runs_from_one_command(rig: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(rig) == 0
+    out = capsys.readouterr().out
+    folder = Path("results/mtm_rig")
+    for name in ("result.nc", "result.csv", "resolved.nc", "overview.png"):
+        assert str(folder / name) in out
+        assert (folder / name).stat().st_size > 1000
+    assert not list(folder.glob("checkpoint*"))
+    dataset = result(str(folder))
+    assert dataset["time"].values[-1] == 9.0
+    assert dataset["contact.valid"].values.all()
+    assert dataset["ball.surface_speed"].values[-1] == pytest.approx(0.1025, rel=1e-3)
+    assert dataset["contact.tribofilm_1"].values[-1] > 0.0
+    assert "Friction in the sweeps" in out
+    assert "0.03 m/s" in out
+    assert "Contact solutions, with those of steps tried or repeated" in out
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
+def test_a_killed_run_goes_on_to_the_same_rows(
+    rig: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    without_solutions(monkeypatch)
+    assert main([*rig, "--resume", "--out", "whole"]) == 0
+    child = subprocess.run(
+        [sys.executable, "-c", KILLED, "between two steps", "20", *rig, "--resume", "--out", "killed"],
+        capture_output=True,
+        text=True,
+    )
+    assert child.returncode == -signal.SIGKILL, child.stderr
+    assert Path("killed/checkpoint.tribofmu").exists()
+    capsys.readouterr()
+    assert main([*rig, "--resume", "--out", "killed"]) == 0
+    assert "Going on from 'killed/checkpoint.tribofmu'" in capsys.readouterr().err
+    whole = result("whole")
+    assert whole.sizes["time"] > 25
+    assert bits(result("killed")) == bits(whole)
+    assert Path("killed/result.csv").read_bytes() == Path("whole/result.csv").read_bytes()
+
+
+def without_solutions(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Spare the time of solving states again."""
+
+    def none(*arguments: Any) -> list[Resolved]:
+        return []
+
+    monkeypatch.setattr("system_models.resolve.resolve", none)
+
+
+def test_any_contact_can_be_deterministic(
+    rig: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    without_solutions(monkeypatch)
+    assert main([*rig, 'deterministic=["contact"]', "simulate.stop_time=2 s"]) == 0
+    assert " deterministic." in capsys.readouterr().out
+    dataset = result("results/mtm_rig")
+    assert set(dataset["contact.fidelity_used"].values.tolist()) == {2}
+    assert dataset["contact.wear_volume_1"].values[-1] > 0.0
+
+
+@pytest.mark.parametrize(
+    ("machine", "changes", "says"),
+    [
+        ("mtm_rig", ["motor.power=3"], "A ball_on_disc has no 'motor'. Known are"),
+        ("mtm_rig", ["ball.mass=3"], "mass"),
+        ("mtm_rig", ["duty.speed=3 m/s"], "[duty] has no 'speed'."),
+        (
+            "mtm_rig",
+            ['deterministic=["contacts"]'],
+            "deterministic names no contact: 'contacts'. Did you mean 'contact'?",
+        ),
+        ("mtm_rig", ["simulate.tolerance=-1"], "tolerance"),
+        ("mtm_rig", ["ball.radius=-1 mm"], "radius"),
+        ("mtm_rig", ["kind=rig"], "is not one of ball_on_disc, ball_bearing, gear_pair"),
+        ("gear_fzg_c", ["mesh.pair=fzg_b"], "mesh.pair = 'fzg_b' is not known. Did you mean"),
+        ("bearing_209", ["duty.torque=3 N m"], "[duty] has no 'torque'."),
+    ],
+)
+def test_what_makes_no_sense_is_refused_with_a_sentence(
+    machine: str, changes: list[str], says: str, capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: Any
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["run", machine, "--set", *changes]) == 2
+    last = capsys.readouterr().err.splitlines()[-1]
+    assert last.startswith("tribofmu: ")
+    assert says in last
+    assert not list(Path().rglob("result.nc"))
+
+
+@pytest.mark.parametrize("importer", ["libcosimpy", "ecospy"])
+def test_importers_run_the_rig(importer: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TRIBOFMU_PYTHON", sys.executable)
+    file = tmp_path / "rig.ssp"
+    assert main(["run", "mtm_rig", "--ssp", str(file)]) == 0
+    names = ["arm.load", "ball.surface_speed", "bath.temperature_oil", "contact.friction_force"]
+    rows = imported(importer, file, names)
+    assert rows[-1, :2] == pytest.approx([53.7, 2.5], rel=1e-3)
+    assert 350.0 < rows[-1, 2] < 354.0
+    assert -10.0 < rows[-1, 3] < -1.0
+
+
+@pytest.mark.parametrize("machine", SHIPPED)
+def test_each_machine_exports_as_ssp_that_others_read(machine: str, tmp_path: Path) -> None:
+    file = tmp_path / f"{machine}.ssp"
+    assert main(["run", machine, "--ssp", str(file)]) == 0
+    assembly = with_timetable(machines.assemble(machines.read(machine)))
+    ssd = read_ssd(str(file))  # validates it
+    found = {(f"{a.parent.name}.{a.name}", f"{b.parent.name}.{b.name}") for a, b in get_connections(ssd.system)}
+    assert found == {tuple(connection[:2]) for connection in assembly.connections}
+    assert len(found) >= 10
+    root = structure(file)
+    components = root.findall(".//ssd:Component", SPACES)
+    assert {c.get("name") for c in components} == {*assembly.parts, *assembly.contacts}
+    values = {
+        (component.get("name"), parameter.get("name")): parameter[0].get("value")
+        for component in components
+        for parameter in component.findall(".//ssv:Parameter", SPACES)
+    }
+    for name, contact in assembly.contacts.items():
+        for key, value in contact.parameters.items():
+            assert float(values[name, key]) == value
+    for target, value in assembly.parameters.items():
+        assert float(values[tuple(target.split(".", 1))]) == value
