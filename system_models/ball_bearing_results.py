@@ -25,7 +25,7 @@ Parts = dict[str, Array]  # friction torque [N m] by cause, arrays [time], NaN a
 Formula = Callable[[CatalogueBearing, float, float, float, float], Torque]  # radial, axial, speed, viscosity
 
 DENSITY = 870.0  # kg/m3, assumed of oils whose viscosity law has none
-_HARDLY = 0.02  # of the largest load: balls with less carry hardly any
+_HARDLY = 0.02  # of the largest load or speed
 _REACHED = 0.99  # of its largest speed: a start ends there
 _POSITIONS = 24  # of the cage between one ball and the next
 
@@ -184,6 +184,8 @@ class BearingRun:
         found = []
         for first, end in zip(edges[::2], edges[1::2], strict=True):
             speed = np.abs(self.speed[first:end])
+            if speed.max() < _HARDLY * np.abs(self.speed).max():
+                continue
             there = first + int(np.argmax(speed >= _REACHED * speed.max()))
             found.append(np.arange(max(first - 1, 0), there + 1))
         return found

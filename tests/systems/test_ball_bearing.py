@@ -19,6 +19,7 @@ from system_models.master import simulate
 Result = tuple[Assembly, xr.Dataset]
 LIGHTER = 1 / 60  # heat capacities that many times smaller: minutes become seconds
 MEMORYLESS = {"contact.tribofilm.model": "none", "contact.wear.bare": "0", "contact.wear.film": "0"}
+COARSE = {"simulate.max_step": "1 s", "simulate.order": "0"}  # steps through which no speed is carried on to below 0
 CYCLE = "time [s],speed [rpm],load [N]\n0,0,800\n1,600,2000\n6,300,3000\n8,0,800\n12,900,1500\n20,900,1500\n"
 
 
@@ -36,12 +37,12 @@ def lighter(machine: machines.Machine) -> machines.Machine:
 
 @pytest.fixture(scope="module")
 def warm(tmp_path_factory: pytest.TempPathFactory) -> Result:
-    changes = {"bearing.levels": "2", "duty.duration": "4 min", "simulate.max_step": "4 s"}
+    changes = {"bearing.levels": "2", "duty.duration": "3 min", "simulate.max_step": "6 s", "simulate.order": "0"}
     return run(tmp_path_factory.mktemp("warm"), lighter(machines.read("bearing_209", changes)))
 
 
 def starting(folder: Path, changes: dict[str, str]) -> BearingRun:
-    few = {"bearing.levels": "1", "duty.repeat": "4", "duty.speed": "40 rpm", "simulate.max_step": "1 s"}
+    few = {"bearing.levels": "1", "duty.repeat": "4", "duty.speed": "40 rpm"} | COARSE
     return BearingRun(*run(folder, machines.read("bearing_209_start_stop", few | changes)))
 
 
