@@ -24,7 +24,11 @@ def run(arguments: argparse.Namespace) -> int:
     assembly = machines.assemble(machine)
     if arguments.ssp:
         return _export(assembly, arguments.ssp)
-    return _run_in(output_folder(arguments.out, machine.name), assembly, machine.kind, arguments.resume)
+    folder = output_folder(arguments.out, machine.name)
+    code = _run_in(folder, assembly, machine.kind, arguments.resume)
+    if arguments.finer:
+        _compare(folder, assembly)
+    return code
 
 
 def _changes(arguments: argparse.Namespace) -> dict[str, str]:
@@ -61,6 +65,19 @@ def _run_in(folder: Path, assembly: "Assembly", kind: str, resume: bool) -> int:
         return _report(dataset, folder, assembly, kind)
 
     return carry_out(system, settings, assembly.name, folder, resume, report)
+
+
+def _compare(folder: Path, assembly: "Assembly") -> None:
+    """Say by how much the result is off by its communication steps."""
+    import xarray as xr
+
+    from . import coupling_error
+    from .master import simulate
+
+    settings = coupling_error.finer(assembly.settings)
+    fine = simulate(assembly.system(folder / "fmus"), **settings, outputs=assembly.outputs())
+    with xr.open_dataset(folder / "result.nc", engine="h5netcdf") as coarse:
+        print(*coupling_error.lines(coupling_error.errors(coarse, fine, assembly.schedule)), sep="\n")
 
 
 def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str) -> int:
