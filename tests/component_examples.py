@@ -1,7 +1,6 @@
 """One component of each kind with inputs that take it through what it can do."""
 
 from system_models.parts.brake import Brake
-from system_models.parts.drive import Drive
 from system_models.parts.load_arm import LoadArm
 from system_models.parts.part import Part, State, Values
 from system_models.parts.shaft import Shaft
@@ -20,7 +19,6 @@ BATH = ThermalNetwork(
 )
 
 EXAMPLES: dict[str, tuple[Part, dict[str, float]]] = {
-    "drive": (Drive(2.0, 0.5, 30.0, 50.0), {"speed_setpoint": 100.0, "speed": 96.0}),
     "speed_source": (SpeedSource(20.0), {"speed_setpoint": -30.0, "torque": 3.0}),
     "shaft": (
         Shaft(0.02, 0.01, initial_speed=12.0),

@@ -1,14 +1,12 @@
-"""Drive, shaft, brake, spindle and load arm against closed forms and another integrator."""
+"""Motor, shaft, brake, spindle and load arm against closed forms and another integrator."""
 
 import math
 
 import numpy as np
 import pytest
-from component_examples import marched
 from scipy.integrate import solve_ivp
 
 from system_models.parts.brake import Brake
-from system_models.parts.drive import Drive
 from system_models.parts.linear import advance
 from system_models.parts.load_arm import LoadArm
 from system_models.parts.shaft import Shaft
@@ -102,51 +100,6 @@ def test_a_speed_source_goes_up_and_down_its_ramp_and_gives_the_power_asked_for(
     assert source.advance((0.0,), up, 5.5) == (50.0,)
     assert source.advance((0.0,), {"speed_setpoint": -50.0, "torque": 3.0}, 2.0) == (-20.0,)
     assert source.outputs((20.0,), up) == {"speed": 20.0, "power": 60.0}
-
-
-def test_a_drive_follows_its_ramp_and_integrates_the_error_on_the_way():
-    drive = Drive(proportional_gain=2.0, integral_time=4.0, torque_limit=1e4, ramp=10.0)
-    reference, integral = drive.advance((0.0, 0.0), {"speed_setpoint": 50.0, "speed": 20.0}, 8.0)
-    assert reference == 50.0
-    # the error is 10 t - 20 for 5 s and 30 for the other 3 s
-    assert integral == pytest.approx(2.0 / 4.0 * (10.0 * 12.5 - 100.0 + 90.0), rel=1e-13)
-    assert drive.advance((0.0, 0.0), {"speed_setpoint": -50.0, "speed": 0.0}, 2.0)[0] == -20.0
-
-
-def test_the_integral_part_stops_at_the_limit_and_comes_back_at_once():
-    drive = Drive(proportional_gain=2.0, integral_time=4.0, torque_limit=30.0, ramp=1e6)
-    stalled = drive.advance((50.0, 0.0), {"speed_setpoint": 50.0, "speed": 0.0}, 600.0)
-    assert stalled == (50.0, 30.0)
-    outputs = drive.outputs(stalled, {"speed_setpoint": 50.0, "speed": 0.0})
-    assert (outputs["torque"], outputs["dtorque_dspeed"]) == (30.0, 0.0)
-    _, integral = drive.advance(stalled, {"speed_setpoint": 50.0, "speed": 54.0}, 1.0)
-    assert integral == pytest.approx(30.0 - 2.0 / 4.0 * 4.0, rel=1e-13)
-
-
-def test_an_error_that_changes_sign_on_the_ramp_meets_the_limit_on_both_sides():
-    drive = Drive(proportional_gain=2.0, integral_time=0.1, torque_limit=30.0, ramp=10.0)
-    inputs, state = {"speed_setpoint": 100.0, "speed": 50.0}, (0.0, 10.0)
-    fine = marched(drive, state, inputs, 0.01, 600)
-    assert drive.advance(state, inputs, 6.0) == pytest.approx(fine, rel=1e-11)
-    # down to -30 before the error turns at 5 s, and from there by 20/s * 10 t^2/2
-    assert fine[1] == pytest.approx(min(-30.0 + 20.0 * 5.0, 30.0), rel=1e-11)
-
-
-def test_drive_and_shaft_reach_the_setpoint_and_carry_the_load():
-    drive, shaft = Drive(0.5, 0.2, 20.0, 40.0), Shaft(0.05, 0.001)
-    inputs = {"speed_setpoint": 120.0, "speed": 0.0}
-    motor, turning, largest = drive.initial(inputs), shaft.initial({}), 0.0
-    for _ in range(20_000):
-        torque = drive.outputs(motor, inputs)["torque"]
-        turning = shaft.advance(turning, _torques(torque, 3.0), 1e-3)
-        inputs["speed"] = turning[0]
-        motor = drive.advance(motor, inputs, 1e-3)
-        largest = max(largest, turning[0])
-    outputs = drive.outputs(motor, inputs)
-    assert inputs["speed"] == pytest.approx(120.0, rel=1e-6)
-    assert outputs["torque"] == pytest.approx(3.0 + 0.001 * 120.0, rel=1e-6)
-    assert outputs["power"] == pytest.approx(outputs["torque"] * 120.0, rel=1e-6)
-    assert largest < 1.05 * 120.0
 
 
 def test_a_brake_rises_to_its_setpoint_and_opposes_the_motion():
