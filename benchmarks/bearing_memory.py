@@ -20,7 +20,7 @@ MEMORYLESS = {"contact.tribofilm.model": "none", "contact.wear.bare": "0", "cont
 NO_FILM = {"contact.tribofilm.model": "none"}
 SPEEDS = (20.0, 50.0, 100.0)  # rpm
 RPM = 30.0 / math.pi
-CYCLES = 15
+CYCLES = 10
 FEW = {"duty.repeat": str(CYCLES)}
 
 
