@@ -176,35 +176,31 @@ def explain(report: Page, by_load: dict[str, Found], by_speed: dict[str, Found])
     slow = by_speed["machine"]
     at = STAGES.index(STAGE)
     solid, oil, formula = machine.friction[at] - smooth.friction[at], smooth.friction[at], machine.schlenk[at]
+    high, *_, low = machine.friction / machine.schlenk
     stressed, limited = by_load["Eyring stress 10 MPa"].friction[at], over_load(LOW_LIMIT).friction[at]
     report.say(
         f"### Why they differ\n\nAt load stage {STAGE} the machine has {machine.friction[at]:.4f}, Schlenk {formula:.4f}, "
-        f"ISO/TR 14179-1 {machine.iso[at]:.4f}.\n\n"
+        f"ISO/TR 14179-1 {machine.iso[at]:.4f}. Over Schlenk's it is {high:.2f} at load stage {STAGES[0]}, {low:.2f} at "
+        f"{STAGES[-1]}.\n\n"
         f"- *Solids.* Smooth flanks have {oil:.4f}; roughness adds {solid:.4f}, with {machine.solids[at]:.1%} of the load "
         f"on solids, whose coefficient is 0.13. Light loads flatten the roughness less: at load stage {STAGES[0]} solids "
         f"carry {machine.solids[0]:.1%}, and the machine lies highest above both formulas; at {STAGES[-1]} it is "
         f"{machine.solids[-1]:.1%}. That is why new flanks in hot oil lose friction with load, as ISO/TR 14179-1 has it, "
         f"while smooth ones go up from {smooth.friction[0]:.4f} to {smooth.friction[-1]:.4f}, as Schlenk's formula does. "
         "How many solids touch is what the fast level knows least (`error_friction`), and flanks that run in lose them "
-        "(`tribofmu run gear_fzg_c`); Schlenk measured flanks that had run in.\n"
+        "(`tribofmu run gear_fzg_c`).\n"
         f"- *Temperature.* Without the heat of friction in the film it would be {cold.friction[at]:.4f}: the more load and "
         "sliding, the warmer and thinner the oil that is sheared, which levels the curve of the smooth flanks. Oil and "
         f"gears at 60 degC instead of 90 have {by_load['oil at 60 degC'].friction[at]:.4f}: thicker films part the flanks. "
         "Both formulas fall with viscosity as well, by powers of 0.05 and 0.22.\n"
         f"- *Rheology.* An Eyring stress of 10 MPa instead of 6.5, which is assumed, makes it {stressed:.4f}. The limiting "
-        f"stress, 0.047 p, is not reached in hot oil: 0.02 p gives {limited:.4f}. In cold oil it is the cap.\n"
+        f"stress, 0.047 p, is not reached in hot oil: 0.02 p gives {limited:.4f}.\n"
         f"- *Speed.* From {SPEEDS[0]:.0f} to {SPEEDS[-1]:.0f} rpm the machine goes from {slow.friction[0]:.4f} to "
         f"{slow.friction[-1]:.4f}, Schlenk from {slow.schlenk[0]:.4f} to {slow.schlenk[-1]:.4f} (power -0.2), ISO/TR "
         f"14179-1 from {slow.iso[0]:.4f} to {slow.iso[-1]:.4f} (power -0.7): solids carry {slow.solids[0]:.1%} and "
         f"{slow.solids[-1]:.1%} of the load. Smooth flanks hardly depend on speed.\n"
         "- *What it is a mean of.* mu_mz is the lost power over transmitted power times Ohlendorf's H_V, which has rigid "
         "teeth. Elastic ones unload the ends of the path, where sliding is fast, by 2.6 %."
-    )
-    worst = float(np.max(np.abs(np.log(machine.friction / machine.schlenk))))
-    report.verdict(
-        "mean friction within a factor of 3 of Schlenk's over the load",
-        f"{np.exp(worst):.2f}",
-        bool(worst < np.log(3.0)),
     )
 
 
