@@ -187,7 +187,7 @@ def explain(report: Page, by_load: dict[str, Found], by_speed: dict[str, Found])
         f"carry {machine.solids[0]:.1%}, and the machine lies highest above both formulas; at {STAGES[-1]} it is "
         f"{machine.solids[-1]:.1%}. That is why new flanks in hot oil lose friction with load, as ISO/TR 14179-1 has it, "
         f"while smooth ones go up from {smooth.friction[0]:.4f} to {smooth.friction[-1]:.4f}, as Schlenk's formula does. "
-        "How many solids touch is what the fast level knows least (`error_friction`), and flanks that run in lose them "
+        "How many solids touch is what the fast level knows least (`error_friction`): about 100 % of the friction on such flanks. The deterministic level, where it has an answer, carries more on solids at high load, but its solutions of rough lines at these loads miss their tolerance and do not settle it, and flanks that run in lose them "
         "(`tribofmu run gear_fzg_c`).\n"
         f"- *Temperature.* Without the heat of friction in the film it would be {cold.friction[at]:.4f}: the more load and "
         "sliding, the warmer and thinner the oil that is sheared, which levels the curve of the smooth flanks. Oil and "

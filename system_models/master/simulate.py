@@ -48,7 +48,8 @@ def simulate(
 ) -> xr.Dataset:
     """Simulate a system from the time 0 to `stop_time` [s].
 
-    step_size [s]: the communication step; with a tolerance, the first one. algorithm: whether the FMUs of a step see
+    step_size [s]: the communication step; with a tolerance, the first one and
+    the first behind each change of a schedule and each event. algorithm: whether the FMUs of a step see
     each other's past only, or those late in the sequence what the early ones have reached; the sequence follows from
     the connections. order: of the polynomials by which inputs go on within a step, through derivatives where the FMU
     takes them; another holds their mean.
