@@ -48,11 +48,10 @@ def simulate(
 ) -> xr.Dataset:
     """Simulate a system from the time 0 to `stop_time` [s].
 
-    step_size [s]: the communication step; with a tolerance, the first one and
-    the first behind each change of a schedule and each event. algorithm: whether the FMUs of a step see
-    each other's past only, or those late in the sequence what the early ones have reached; the sequence follows from
-    the connections. order: of the polynomials by which inputs go on within a step, through derivatives where the FMU
-    takes them; another holds their mean.
+    step_size [s]: the communication step; with a tolerance, the first one, also behind changes of a schedule and events.
+    algorithm: whether the FMUs of a step see each other's past only, or those late in the sequence what the early ones
+    have reached; the sequence follows from the connections. order: of the polynomials by which inputs go on within a
+    step, through derivatives where the FMU takes them; another holds their mean.
 
     iterate: repeat each step until the inputs at its end are what the outputs make of them, to iteration_tolerance
     (1e-6 of their magnitude); a step that does not get there stands, and is counted in `unconverged`.
