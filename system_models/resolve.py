@@ -101,7 +101,10 @@ def _chosen(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[list[tu
     edges = np.searchsorted(times, np.linspace(0.0, times[-1], count), "right")
     windows = [range(1, len(times)), *(range(end - 1, begin - 1, -1) for begin, end in pairwise(edges.tolist()))]
     for k, rows in enumerate(windows):
-        turn = [names[(k * stride + stride // 2 + shift) % len(names)] for shift in range(len(names))]
+        far = [shift * len(names) // _TRIES for shift in range(_TRIES)]  # others carry another load
+        turn = dict.fromkeys(
+            names[(k * stride + stride // 2 + shift) % len(names)] for shift in (*far, *range(len(names)))
+        )
         first = [(name, next((row for row in rows if usable[name][row]), 0)) for name in turn]
         found.append([(name, row) for name, row in first if row][:_TRIES])
     return found
