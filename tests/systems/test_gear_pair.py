@@ -156,7 +156,7 @@ def test_shipped_gears_run_the_load_stages_of_their_tests(name: str, count: int,
     assembly = machines.assemble(machines.read(name))
     mesh = assembly.parts["mesh"]
     assert isinstance(mesh, GearMesh)
-    torques = [torque / mesh.pair.ratio for _, torque in assembly.schedule["brake.torque_setpoint"]]
+    torques = [torque / mesh.pair.ratio for _, torque in assembly.schedule["brake.torque_setpoint"] if torque]
     assert len(torques) == count
     assert torques[-1] == pytest.approx(last)
     assert len(assembly.contacts) == 21
