@@ -48,7 +48,7 @@ def simulate(
 ) -> xr.Dataset:
     """Simulate a system from the time 0 to `stop_time` [s].
 
-    step_size [s]: the communication step; with a tolerance, the first one, also behind changes of a schedule and events.
+    step_size [s]: the communication step; with a tolerance, the first one, also after a change of a schedule or event.
     algorithm: whether the FMUs of a step see each other's past only, or those late in the sequence what the early ones
     have reached; the sequence follows from the connections. order: of the polynomials by which inputs go on within a
     step, through derivatives where the FMU takes them; another holds their mean.
