@@ -57,6 +57,7 @@ class Contact:
 
     scene: Scene
     parameters: Mapping[str, Value] = field(default_factory=dict)
+    count: str = ""  # output that says for how many contacts it stands, if that changes
 
 
 @dataclass(frozen=True)

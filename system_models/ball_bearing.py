@@ -96,7 +96,8 @@ def _largest(duty: timeline.Timeline) -> tuple[RingLoads, float]:
 def _contact(table: Mapping[str, Any], design: Design) -> Contact:
     """The contact of a class: what its FMU is told beside what changes."""
     tracks = {f"geometry.track_length_{i}": getattr(design, f"track_length_{i}") for i in (1, 2)}
-    return Contact(machines.scene_of(table), {"radius_x": design.radius_x, "radius_y": design.radius_y, **tracks})
+    told = {"radius_x": design.radius_x, "radius_y": design.radius_y, **tracks}
+    return Contact(machines.scene_of(table), told, "bearing." + indexed(f"count_{design.race}", design.level))
 
 
 def _links(design: Design) -> list[tuple[Any, ...]]:

@@ -136,13 +136,14 @@ def _films_around(axes: "Axes", run: BearingRun) -> None:
         ratio = run.at_load(race, "lambda_ratio", run.last, way.load)
         right.plot(place, ratio, "--", color=colour, label=rf"$\lambda$, {race}")
     axes.set(xlabel="azimuth from the load [deg]", ylabel="mean gap $h_c$ [nm]", xticks=range(-180, 181, 90))
-    axes.set_ylim(bottom=0.0)
     right.set_ylabel(r"film ratio $\lambda$")
-    right.set_ylim(bottom=0.0)
+    for each in (axes, right):  # balls without load have films many times as thick
+        each.set_yscale("log")
+        each.margins(y=0.3)
     axes.spines["top"].set_visible(False)
     right.spines["top"].set_visible(False)
     handles = [(line, line.get_label()) for each in (axes, right) for line in each.lines]
-    axes.legend(*zip(*handles, strict=True), **_KEY, ncols=2, loc="lower center")
+    axes.legend(*zip(*handles, strict=True), **_KEY, ncols=2, loc="upper center")
 
 
 # against time

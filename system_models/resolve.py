@@ -5,7 +5,7 @@ goes to the deterministic level, on its own shape and surfaces.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -22,6 +22,7 @@ from .assembly import Assembly
 
 FAST, DEEP = LEVELS
 _IDLE = 0.1  # of the largest load and speed
+_ENOUGH = 5  # states to tell something of a machine
 _TRIES = 3  # contacts at a time
 _UNSURE = RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK | RangeFlag.DOMAIN_EDGE
 COMPARED = {"friction_coefficient": "error_friction", "h_c": "error_film"}  # and the error output of each
@@ -32,6 +33,7 @@ class Resolved:
     """One state at both levels; values and errors by output, errors are relative half widths."""
 
     contact: str
+    row: int  # of the run
     time: float  # [s]
     point: OperatingPoint
     fast: Outputs
@@ -66,9 +68,9 @@ class Resolved:
         return ("yes" if self.valid else "NO") if self.solved else "not decided: the solution missed its tolerance"
 
 
-def resolve(assembly: Assembly, dataset: xr.Dataset, count: int = 6) -> list[Resolved]:
+def resolve(assembly: Assembly, dataset: xr.Dataset, progress: Callable[[str], None], count: int = 6) -> list[Resolved]:
     """Solve states again, spread over the contacts that carry load and over the time of the run: `count` of them that
-    can be judged, or twice as many tries.
+    can be judged, or twice as many tries. `progress` is told each.
     """
     found: list[Resolved] = []
     for candidates in _chosen(assembly, dataset, count):
@@ -76,6 +78,7 @@ def resolve(assembly: Assembly, dataset: xr.Dataset, count: int = 6) -> list[Res
             if len(found) == 2 * count:
                 return found
             found.append(_resolved(assembly, dataset, contact, row))
+            progress(f"{contact} at {found[-1].time:.4g} s, {len(found)} of {count} to {2 * count}")
             if found[-1].solved:
                 break
     return found
@@ -88,7 +91,7 @@ def _resolved(assembly: Assembly, dataset: xr.Dataset, contact: str, row: int) -
         _, deep = advance(replay.scene.at_level(DEEP), replay.point, replay.state, 0.0)
     except ContactError as error:
         reason = str(error)
-    return Resolved(contact, time, replay.point, replay.fast, deep, replay.off, reason)
+    return Resolved(contact, row, time, replay.point, replay.fast, deep, replay.off, reason)
 
 
 def _chosen(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[list[tuple[str, int]]]:
@@ -96,7 +99,7 @@ def _chosen(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[list[tu
     for each in case that one has no solution.
     """
     names, times, found = _fast(dataset, assembly), dataset["time"].values, []
-    usable = {name: _usable(dataset, name) for name in names}
+    usable = {name: _usable(dataset, name, assembly.contacts[name].count) for name in names}
     stride = max(1, len(names) // count)
     edges = np.searchsorted(times, np.linspace(0.0, times[-1], count), "right")
     windows = [range(1, len(times)), *(range(end - 1, begin - 1, -1) for begin, end in pairwise(edges.tolist()))]
@@ -116,12 +119,16 @@ def _fast(dataset: xr.Dataset, assembly: Assembly) -> list[str]:
     return [name for name in sorted(assembly.contacts) if (dataset[f"{name}.fidelity_used"].values == level).all()]
 
 
-def _usable(dataset: xr.Dataset, name: str) -> NDArray[np.bool_]:
-    """The rows in which a contact works: at more than a tenth of its largest load and speed, now and before."""
+def _usable(dataset: xr.Dataset, name: str, count: str) -> NDArray[np.bool_]:
+    """The rows in which a contact works: at more than a tenth of its largest load and speed, now and before, and where
+    it stands for something.
+    """
     load, speed = dataset[f"{name}.load"].values, dataset[f"{name}.speed_1"].values + dataset[f"{name}.speed_2"].values
     working = (
         (load > _IDLE * load.max()) & (np.abs(speed) > _IDLE * np.abs(speed).max()) & dataset[f"{name}.valid"].values
     )
+    if count:
+        working &= dataset[count].values > _IDLE
     return working & np.roll(working, 1)
 
 
@@ -162,6 +169,15 @@ def _led(assembly: Assembly, dataset: xr.Dataset, name: str, last: int, begin: f
 
 def _difference(one: float, other: float) -> float:
     return abs(one - other) / max(abs(one), abs(other)) if one != other else 0.0
+
+
+def marked(dataset: xr.Dataset, states: Sequence[Resolved]) -> xr.Dataset:
+    """The run with `valid` false in the rows where a contact's errors do not cover its deviation, or nothing tells."""
+    found = dataset.copy(deep=True)
+    for state in states:
+        if not state.valid:
+            found[f"{state.contact}.valid"].values[state.row] = False
+    return found
 
 
 def to_dataset(states: Sequence[Resolved]) -> xr.Dataset:
@@ -211,5 +227,8 @@ def lines(states: Sequence[Resolved]) -> Iterator[str]:
             f"{s.deviation(mu):7.1%} {s.allowed(mu):7.1%}       {1e9 * s.fast.h_c:6.1f} nm {1e9 * s.deep.h_c:6.1f} nm "
             f"{s.deviation(film):7.1%} {s.allowed(film):7.1%}  {s.verdict}"
         )
+    judged = sum(s.solved for s in states)
+    if judged < _ENOUGH:
+        yield f"WARNING: only {judged} states could be JUDGED; elsewhere nothing tells how far off the fast level is."
     worst = max(s.replayed for s in states)
     yield f"The states were led to once more by the inputs recorded, and are those of the run to {worst:.1g}."

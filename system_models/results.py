@@ -66,7 +66,9 @@ def write(dataset: xr.Dataset, folder: Path, name: str = "result") -> list[Path]
     The CSV has a row for each point of the dataset's dimensions; what does not vary along one of them is repeated.
     """
     netcdf, table = folder / f"{name}.nc", folder / f"{name}.csv"
-    dataset.to_netcdf(netcdf, engine="h5netcdf")
+    unfinished = netcdf.with_suffix(".new")
+    dataset.to_netcdf(unfinished, engine="h5netcdf")
+    unfinished.replace(netcdf)  # a kill leaves the old file or the new one
     columns = xr.broadcast(*(dataset[column] for column in (*dataset.dims, *dataset.data_vars)))
     with table.open("w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
