@@ -193,3 +193,21 @@ class GuardedSlave(Fmi2Slave):
     def set_string(self, vrs: list[int], values: list[str | None]) -> None:
         """Set String parameters; a host's null is an empty text."""
         self._set(vrs, [value or "" for value in values], "String")
+
+    # state: a handle is a frozen record with `data`, or its bytes until they are set (the binary decodes without the
+    # instance)
+
+    def _set_fmu_state(self, handle: Any) -> None:
+        self._guard(self._restore, handle)
+
+    @abstractmethod
+    def _restore(self, handle: Any) -> None:
+        """Go to the state of a handle. One that cannot be used is an error: the host takes it for the model's."""
+
+    @staticmethod
+    def _fmu_state_to_bytes(handle: Any) -> bytes:
+        return handle if isinstance(handle, bytes) else handle.data
+
+    @staticmethod
+    def _fmu_state_from_bytes(data: bytes) -> bytes:
+        return data

@@ -158,13 +158,8 @@ class ContactSlave(GuardedSlave):
             category = "logSolver" if flag in _OF_SOLVER else "logValidity"
             self._tell(f"range_flags: {flag.text}.", Fmi2Status.ok, category)
 
-    # state: a handle is a Snapshot, or its bytes until they are set (the binary decodes without the instance)
-
     def _get_fmu_state(self) -> Snapshot:
         return Snapshot(self._module, self.phase, self._fault, tuple(self.values), self._scenes, self._state)
-
-    def _set_fmu_state(self, handle: Snapshot | bytes) -> None:
-        self._guard(self._restore, handle)
 
     def _restore(self, handle: Snapshot | bytes) -> None:
         """Go back to a state. One that cannot be used is an error: the host takes it for the contact's from now on."""
@@ -185,11 +180,3 @@ class ContactSlave(GuardedSlave):
     def parts(handle: Snapshot) -> list[bytes | memoryview]:
         """Buffers whose join is `_fmu_state_to_bytes`: what has not changed since another state is the same object."""
         return handle.parts
-
-    @staticmethod
-    def _fmu_state_to_bytes(handle: Snapshot | bytes) -> bytes:
-        return handle if isinstance(handle, bytes) else handle.data
-
-    @staticmethod
-    def _fmu_state_from_bytes(data: bytes) -> bytes:
-        return data

@@ -30,7 +30,7 @@ from contact_core.scene import Scene
 from .assembly import Assembly, Contact
 from .master.reading import settings, value
 
-_KINDS = {"ball_on_disc": "ball_on_disc", "ball_bearing": "ball_bearing", "gear_pair": "gear_pair"}  # and its module
+_KINDS = ("ball_on_disc", "ball_bearing", "gear_pair")  # and the modules that assemble them
 
 
 class Machine(NamedTuple):
@@ -98,7 +98,7 @@ def _put(table: dict[str, Any], key: str, item: Any) -> None:
 
 def assemble(machine: Machine) -> Assembly:
     """The co-simulation of a machine. Raises SceneError for what is missing, unknown or out of range."""
-    assembler: Callable[[Machine], Assembly] = import_module(f".{_KINDS[machine.kind]}", __package__).assemble
+    assembler: Callable[[Machine], Assembly] = import_module(f".{machine.kind}", __package__).assemble
     return assembler(machine)
 
 

@@ -110,13 +110,8 @@ class PartSlave(GuardedSlave):
             self._guard(self._evaluate)
         return super()._get(references, kind)
 
-    # state: a handle is a Snapshot, or its bytes until they are set (the binary decodes without the instance)
-
     def _get_fmu_state(self) -> Snapshot:
         return Snapshot(self._module, self.phase, self._stale, tuple(self.values), self._part, self._state)
-
-    def _set_fmu_state(self, handle: Snapshot | bytes) -> None:
-        self._guard(self._restore, handle)
 
     def _restore(self, handle: Snapshot | bytes) -> None:
         try:
@@ -140,11 +135,3 @@ class PartSlave(GuardedSlave):
             raise StateError("The stored state is none of this component, or damaged. Use one that it has serialised.")
         part = None if state is None else self._rebuilt(found.values)
         return Snapshot(found.module, found.phase, found.stale, found.values, part, found.state)
-
-    @staticmethod
-    def _fmu_state_to_bytes(handle: Snapshot | bytes) -> bytes:
-        return handle if isinstance(handle, bytes) else handle.data
-
-    @staticmethod
-    def _fmu_state_from_bytes(data: bytes) -> bytes:
-        return data
