@@ -9,7 +9,8 @@
     check/         a verdict per rule on an FMU, anybody's
     master/        couples FMUs, anybody's, and controls its own error
     cosim_command  simulates a system of FMUs from a TOML file; cosim_report: its tables and picture
-    machines       machines from TOML: ball_on_disc, ball_bearing, gear_pair (and *_report: what each of them says)
+    machines       machines from TOML: ball_on_disc, ball_bearing, gear_pair (and *_report: what each of them says);
+                   machine_files: those that are shipped
     assembly       a machine's contacts, components and connections; parts/: components that are no contacts
     bearing/, gear/   what a ball bearing and a pair of spur gears are
     timeline       the duty of a machine; duty_table: from a CSV

@@ -16,11 +16,11 @@ from typing import TYPE_CHECKING
 
 from contact_core import units
 from contact_core.errors import ContactError, StateError
-from contact_core.reading import shipped_scenes
+from contact_core.reading import did_you_mean, shipped_scenes
 from contact_core.scene import Scene
 from fmu_src import command as fmu_command
 
-from . import cosim_command, machine_command, machines
+from . import cosim_command, machine_command, machine_files
 from .console import add_settings, note, output_folder
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ def _add_scene(command: argparse.ArgumentParser) -> None:
 
 
 def _list(arguments: argparse.Namespace) -> int:
-    shipped = shipped_scenes() | machines.shipped()
+    shipped = shipped_scenes() | machine_files.shipped()
     width = max(map(len, shipped))
     for name, description in shipped.items():
         print(f"{name:{width}}  {description}")
@@ -123,8 +123,9 @@ def _list(arguments: argparse.Namespace) -> int:
 def _run(arguments: argparse.Namespace) -> int:
     from .checkpoint import alone
 
-    if machines.is_machine(arguments.scene):
+    if machine_files.is_machine(arguments.scene):
         return machine_command.run(arguments)
+    _check_name(arguments.scene)
     if arguments.ssp is not None:
         raise ContactError(f"'{arguments.scene}' is one contact, not a machine. Export it with `tribofmu build`.")
     scene, duty = _contact(arguments)
@@ -132,6 +133,16 @@ def _run(arguments: argparse.Namespace) -> int:
     _warn(scene)
     with alone(folder):
         return _run_in(folder, scene, duty, arguments.resume)
+
+
+def _check_name(name: str) -> None:
+    """Raise ContactError if nothing that is shipped is called so, and it is no file."""
+    shipped = [*shipped_scenes(), *machine_files.shipped()]
+    if not name.endswith(".toml") and name not in shipped:
+        raise ContactError(
+            f"There is no scene or machine '{name}'.{did_you_mean(name, shipped)} Shipped are {', '.join(shipped)}; or "
+            "give the path of a .toml file."
+        )
 
 
 def _contact(arguments: argparse.Namespace) -> "tuple[Scene, Duty]":

@@ -18,7 +18,6 @@ import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from importlib import import_module
-from importlib.resources import files
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -28,6 +27,7 @@ from contact_core.reading import build, did_you_mean, flat
 from contact_core.scene import Scene
 
 from .assembly import Assembly, Contact
+from .machine_files import folder, shipped
 from .master.reading import settings, value
 
 _KINDS = ("ball_on_disc", "ball_bearing", "gear_pair")  # and the modules that assemble them
@@ -42,26 +42,6 @@ class Machine(NamedTuple):
     folder: Path  # from which the paths in it start
 
 
-def shipped() -> dict[str, str]:
-    """Names and descriptions of the machines that come with the package."""
-    found = {p.name.removesuffix(".toml"): p for p in _folder().iterdir() if p.name.endswith(".toml")}
-    return {name: str(tomllib.loads(found[name].read_text("utf-8"))["description"]) for name in sorted(found)}
-
-
-def _folder() -> Any:
-    return files(__package__) / "systems"
-
-
-def is_machine(source: str) -> bool:
-    """Whether this is the name of a shipped machine, or a file that says its kind."""
-    if not source.endswith(".toml"):
-        return (_folder() / f"{source}.toml").is_file()
-    try:
-        return "kind" in tomllib.loads(Path(source).read_text("utf-8"))
-    except (OSError, tomllib.TOMLDecodeError, UnicodeDecodeError):
-        return False  # whoever reads it as a scene will say so
-
-
 def read(source: str, changes: Mapping[str, str] | None = None) -> Machine:
     """A machine by name or by the path of a file; `changes` maps dotted keys to new values.
 
@@ -69,7 +49,7 @@ def read(source: str, changes: Mapping[str, str] | None = None) -> Machine:
     """
     path = Path(source)
     try:
-        file = path if source.endswith(".toml") else _folder() / f"{source}.toml"
+        file = path if source.endswith(".toml") else folder() / f"{source}.toml"
         table = tomllib.loads(file.read_text("utf-8"))
     except OSError as error:
         raise SceneError(

@@ -9,17 +9,21 @@ import xarray as xr
 from contact_core import OperatingPoint, Scene, shipped_scenes
 from system_models.cli import main
 from system_models.duty import Duty
+from system_models.machine_files import shipped
 
 STILL = [  # nothing grows or wears: one solution serves for ever
     part for setting in ("tribofilm.model=none", "wear.model=none", "heat.model=none") for part in ("--set", setting)
 ]
 
 
-def test_list_names_the_shipped_scenes(capsys: pytest.CaptureFixture[str]) -> None:
+def test_list_names_the_shipped_scenes_and_machines(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["list"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert [line.split()[0] for line in lines] == ["azam_case_a", "ball_209_inner", "fzg_flank", "mtm_zddp"]
-    assert all(text in line for text, line in zip(shipped_scenes().values(), lines, strict=True))
+    scenes, gears = ["azam_case_a", "ball_209_inner", "fzg_flank", "mtm_zddp"], ["gear_fzg_a", "gear_fzg_c"]
+    bearings = ["bearing_209", "bearing_209_start_stop", "bearing_218"]
+    assert [line.split()[0] for line in lines] == [*scenes, *bearings, *gears, "mtm_rig"]
+    texts = [*shipped_scenes().values(), *shipped().values()]
+    assert all(text in line for text, line in zip(texts, lines, strict=True))
 
 
 def test_list_does_not_load_what_only_a_run_needs() -> None:
@@ -93,7 +97,7 @@ def test_a_duty_in_a_scenes_file_is_looked_for_beside_it(
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["mtm_zdp"], "There is no scene 'mtm_zdp'. Did you mean 'mtm_zddp'?"),
+        (["mtm_zdp"], "There is no scene or machine 'mtm_zdp'. Did you mean 'mtm_zddp'?"),
         (["nowhere.toml"], "The scene file 'nowhere.toml' cannot be read"),
         (["mtm_zddp", "--set", "film.pionts=65"], "[film] has no key 'pionts'. Did you mean 'points'?"),
         (["mtm_zddp", "--set", "operation.load=50 kg"], "operation.load = '50 kg' has the wrong unit"),

@@ -16,6 +16,7 @@ from test_ssp import SPACES, imported, structure
 from system_models import machines
 from system_models.cli import main
 from system_models.export import with_timetable
+from system_models.machine_files import shipped
 from system_models.resolve import Resolved
 
 SHORT = """time [s],entrainment_speed [m/s],slide_roll_ratio [1]
@@ -33,7 +34,7 @@ COARSE = [
     "contact.surface_1.correlation_length=32 um",
     "contact.surface_2.correlation_length=32 um",
 ]
-SHIPPED = tuple(machines.shipped())
+SHIPPED = tuple(shipped())
 
 
 @pytest.fixture

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from system_models import machines, timeline
+from system_models.machine_files import folder
 
 PAGE = Path(__file__).parents[2].joinpath("docs", "machines.md").read_text("utf-8")
 ROWS = re.findall(r"^\| `(\w+)` \| (.+?) \| (.+?) \| (.+?) \|$", PAGE, re.MULTILINE)
@@ -34,7 +35,7 @@ def test_the_page_names_the_fmus_of_a_kind(kind, others, contacts, signals):
 @pytest.mark.parametrize("text", TOML)
 def test_the_duties_on_the_page_can_be_read(text):
     duty = tomllib.loads(text)["duty"]
-    found = timeline.read(duty, import_module("system_models.ball_bearing").SIGNALS, Path(str(machines._folder())))
+    found = timeline.read(duty, import_module("system_models.ball_bearing").SIGNALS, Path(str(folder())))
     assert found.end > 0.0
 
 
