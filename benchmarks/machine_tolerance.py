@@ -27,7 +27,7 @@ def rows(name: str) -> list[str]:
         system = assembly.system(Path(folder))
         both = (assembly.settings, finer(assembly.settings))
         runs = [simulate(system, **{**settings, "outputs": assembly.outputs()}) for settings in both]
-    found = errors(*runs, assembly.schedule)
+    found = errors(*runs, assembly.schedule, assembly.nominals())
     worst = sorted(found, key=found.__getitem__, reverse=True)[:MOST]
     steps = " and ".join(str(run.attrs["steps"]) for run in runs)
     print(name, steps, f"{time.process_time() - begin:.0f} s", flush=True)
@@ -41,8 +41,8 @@ if __name__ == "__main__":
 Written by `python benchmarks/machine_tolerance.py`. Each machine is simulated as it is shipped, and again with half the
 tolerance and half of `step_size` and `max_step`. The coupling is of first order, so its error is twice the difference
 (`system_models.coupling_error`): the largest at any time, of any output that a result keeps, over the output's largest
-value (temperatures in degC). Left out are the first three steps after a change of the duty, in which a jump may lie
-anywhere. The {MOST} outputs with the largest error:
+value or a hundredth of its nominal (temperatures in degC). Left out are the first three steps after a change of the duty, in which a jump may lie
+anywhere. Of the gears, the coefficients of friction belong to the moment before they are loaded. The {MOST} outputs with the largest error:
 
 | machine | steps | output | error |
 |---|---|---|---|

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from contact_core.quantities import TABLE
 from contact_core.scene import Scene
 from fmu_src.build import build as build_contact
 from fmu_src.flavours import Flavour
@@ -84,6 +85,11 @@ class Assembly:
         lacks = {name: contact.scene.geometry.lacks for name, contact in self.contacts.items()}
         found = [*told, *valid, *(f"{name}.{key}" for name in self.contacts for key in TOLD if key not in lacks[name])]
         return [*found, *(f"{name}.{key}" for name in self.contacts for key in self.inputs_of(name))]
+
+    def nominals(self) -> dict[str, float]:
+        """What is typical of the outputs that a result keeps."""
+        found = {f"{name}.{q.name}": q.nominal for name, part in self.parts.items() for q in part.responses}
+        return found | {f"{name}.{key}": TABLE[key].nominal for name in self.contacts for key in TOLD}
 
     def system(self, folder: Path, flavour: Flavour = "embedded") -> System:
         """Build the FMUs into a folder and couple them; contacts of one scene share a file.

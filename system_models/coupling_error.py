@@ -18,6 +18,7 @@ _ZERO = 273.15  # K: temperatures are read in degC
 _FINER = ("tolerance", "max_step", "step_size")
 _STATED = ".error_"  # what a contact says of its own errors
 _TOLD = 5
+_SMALL = 0.01  # of the nominal: what stays below is nothing
 _SETTLED = 3.0  # steps after a change of the duty: where a jump lies in its step is no error
 
 
@@ -26,8 +27,10 @@ def finer(settings: Mapping[str, Any]) -> dict[str, Any]:
     return {**settings, **{key: 0.5 * settings[key] for key in _FINER if settings.get(key)}}
 
 
-def errors(coarse: xr.Dataset, fine: xr.Dataset, schedule: Schedule) -> dict[str, float]:
-    """Largest error of each Real of `coarse`, over its largest value, away from changes of the schedule.
+def errors(
+    coarse: xr.Dataset, fine: xr.Dataset, schedule: Schedule, nominals: Mapping[str, float] | None = None
+) -> dict[str, float]:
+    """Largest error of each Real of `coarse`, over its largest value or, if that is more, a hundredth of its nominal.
 
     schedule: that of the machine; the first steps after a change of it are left out.
     """
@@ -39,7 +42,7 @@ def errors(coarse: xr.Dataset, fine: xr.Dataset, schedule: Schedule) -> dict[str
             continue
         shift = _ZERO if values.attrs["units"] == "K" and "rise" not in name else 0.0
         better = np.interp(times, fine["time"].values, fine[name].values)
-        largest = float(np.abs(values.values - shift).max())
+        largest = max(float(np.abs(values.values - shift).max()), _SMALL * (nominals or {}).get(name, 0.0))
         change = float(np.abs(values.values - better)[rows].max())
         found[name] = 2.0 * change / largest if largest else 0.0
     return found

@@ -78,7 +78,8 @@ def _compare(folder: Path, assembly: "Assembly") -> None:
     settings = coupling_error.finer(assembly.settings)
     fine = simulate(assembly.system(folder / "fmus"), **settings, outputs=assembly.outputs())
     with xr.open_dataset(folder / "result.nc", engine="h5netcdf") as coarse:
-        print(*coupling_error.lines(coupling_error.errors(coarse, fine, assembly.schedule)), sep="\n")
+        found = coupling_error.errors(coarse, fine, assembly.schedule, assembly.nominals())
+    print(*coupling_error.lines(found), sep="\n")
 
 
 def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str) -> int:
