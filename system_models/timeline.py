@@ -27,11 +27,11 @@ no duration says otherwise, and signals without a column are as in [duty]:
     load = "2 kN"
     repeat = 2
 
-`repeat` does all of it again. Which signals there are is up to the machine; any input of a component can be one.
+`repeat` does all of it again. Which signals there are is up to the machine.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -43,7 +43,6 @@ from contact_core.reading import did_you_mean, flat
 
 from . import duty_table
 from .duty_table import Row
-from .parts.part import Part
 
 _KEYS = ("duration", "steps", "start_stop", "file", "repeat")
 _START_STOP = ("signals", "run", "standstill")
@@ -74,12 +73,6 @@ class Timeline:
         """The rows with all signals in each, for signals that make others."""
         now: dict[str, float] = {}
         return [(time, now := now | values) for time, values in self.rows]
-
-
-def inputs_of(parts: Mapping[str, Part]) -> dict[str, Quantity]:
-    """All inputs of components as signals, by "part.variable"."""
-    every = ((f"{owner}.{q.name}", q) for owner, part in parts.items() for q in part.inputs)
-    return {name: replace(q, name=name) for name, q in every}
 
 
 def with_file(table: Mapping[str, Any], path: str | Path) -> dict[str, Any]:

@@ -5,7 +5,6 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from component_examples import EXAMPLES
 
 import system_models
 from contact_core import SceneError
@@ -104,15 +103,6 @@ def test_a_duration_holds_the_last_row(tmp_path: Path) -> None:
 def test_a_file_takes_the_place_of_steps_and_cycles(tmp_path: Path) -> None:
     table = timeline.with_file(tomllib.loads(STEPS)["duty"], write(tmp_path, TABLE) / "cycle.csv")
     assert timeline.read(table, SIGNALS, Path()).schedule()["load"] == [(0.0, 1000.0)]
-
-
-def test_inputs_of_components_are_signals() -> None:
-    signals = timeline.inputs_of({"motor": EXAMPLES["drive"][0], "box": EXAMPLES["network"][0]})
-    table = tomllib.loads('duration = "1 s"\nmotor.speed_setpoint = "600 rpm"\n"box.heat_ring[2]" = "1 kW"')
-    assert timeline.read(table, signals, Path()).schedule() == {
-        "motor.speed_setpoint": [(0.0, pytest.approx(20.0 * math.pi))],
-        "box.heat_ring[2]": [(0.0, 1000.0)],
-    }
 
 
 def test_the_shipped_cycle_runs_ten_minutes_with_standstills() -> None:
