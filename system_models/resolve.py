@@ -35,7 +35,6 @@ class Resolved:
     contact: str
     row: int  # of the run
     time: float  # [s]
-    point: OperatingPoint
     fast: Outputs
     deep: Outputs | None  # None: there is no solution
     replayed: float  # by how much the fast level is off from the run's row, relative
@@ -91,7 +90,7 @@ def _resolved(assembly: Assembly, dataset: xr.Dataset, contact: str, row: int) -
         _, deep = advance(replay.scene.at_level(DEEP), replay.point, replay.state, 0.0)
     except ContactError as error:
         reason = str(error)
-    return Resolved(contact, row, time, replay.point, replay.fast, deep, replay.off, reason)
+    return Resolved(contact, row, time, replay.fast, deep, replay.off, reason)
 
 
 def _chosen(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[list[tuple[str, int]]]:
