@@ -11,8 +11,8 @@ import numpy as np
 from core_common import Page
 from matplotlib.figure import Figure
 
-from system_models import machines
-from system_models.ball_bearing_results import Array, BearingRun
+from system_models.machine import reading
+from system_models.machine.ball_bearing_results import Array, BearingRun
 from system_models.master import simulate
 
 MACHINE = "bearing_209_start_stop"
@@ -26,7 +26,7 @@ FEW = {"duty.repeat": str(CYCLES)}
 
 
 def run(changes: dict[str, str]) -> BearingRun:
-    assembly = machines.assemble(machines.read(MACHINE, changes))
+    assembly = reading.assemble(reading.read(MACHINE, changes))
     with tempfile.TemporaryDirectory() as folder:
         return BearingRun(
             assembly, simulate(assembly.system(Path(folder)), **assembly.settings, outputs=assembly.outputs())

@@ -11,12 +11,12 @@ from core_common import Page
 from matplotlib.figure import Figure
 
 from contact_core import OperatingPoint, advance, initial_state
-from system_models import machines
-from system_models.ball_bearing_results import kinematic_viscosity
 from system_models.bearing.equilibrium import RingLoads
 from system_models.bearing.geometry import RACES
 from system_models.bearing.part import BallBearing
 from system_models.bearing.textbook import CATALOGUE_209, palmgren_torque, skf_torque
+from system_models.machine import reading
+from system_models.machine.ball_bearing_results import kinematic_viscosity
 
 RPM = math.pi / 30.0
 SPEEDS = (100.0, 200.0, 500.0, 1000.0, 2000.0, 3000.0, 5000.0, 7000.0, 10000.0)
@@ -30,8 +30,8 @@ Torques = dict[str, float]
 
 def machine(levels: int, inlet: str = "gupta"):  # type: ignore[no-untyped-def]
     """Bearing and scene of the shipped machine."""
-    found = machines.read("bearing_209", {"bearing.levels": str(levels), "contact.heat.inlet_shear": inlet})
-    assembly = machines.assemble(found)
+    found = reading.read("bearing_209", {"bearing.levels": str(levels), "contact.heat.inlet_shear": inlet})
+    assembly = reading.assemble(found)
     bearing = assembly.parts["bearing"]
     assert isinstance(bearing, BallBearing)
     return bearing, next(iter(assembly.contacts.values())).scene

@@ -14,11 +14,11 @@ from core_common import Page
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from system_models import machines
 from system_models.gear.geometry import FZG_STAGES
 from system_models.gear.path import Array
 from system_models.gear.textbook import ohlendorf
-from system_models.gear_pair_record import Record
+from system_models.machine import reading
+from system_models.machine.gear_pair_record import Record
 from system_models.master import simulate
 
 STAGES = (3, 5, 7, 9, 10, 11, 12)
@@ -44,7 +44,7 @@ class Case:
     def record(self, torques: list[float], speed: float) -> Record:
         """One run through torques [N m] of the pinion, each for `duration` [s], at a speed [rpm]."""
         own = {"mesh.stations": str(self.stations), "mesh.load_sharing.model": self.sharing}
-        machine = machines.read("gear_fzg_c", {**own, **(FRESH if self.fresh else {}), **self.changes})
+        machine = reading.read("gear_fzg_c", {**own, **(FRESH if self.fresh else {}), **self.changes})
         warm = f"{self.oil} degC"
         nodes = [
             {**node, "temperature": warm, "heat_capacity": "1e7 J/K"} for node in machine.table["gearbox"]["nodes"]
@@ -62,7 +62,7 @@ class Case:
             ],
         }
         machine.table["brake"]["rise_time"] = "0.2 s"
-        assembly = machines.assemble(machine)
+        assembly = reading.assemble(machine)
         with tempfile.TemporaryDirectory() as folder:
             return Record(
                 assembly, simulate(assembly.system(Path(folder)), **assembly.settings, outputs=assembly.outputs())

@@ -10,8 +10,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from system_models import machines
-from system_models.coupling_error import errors, finer
+from system_models.machine import reading
+from system_models.machine.coupling_error import errors, finer
 from system_models.master import simulate
 
 DOCS = Path(__file__).parents[1] / "docs"
@@ -21,7 +21,7 @@ MOST = 5  # outputs of each that are shown
 
 def rows(name: str) -> list[str]:
     """The largest errors of a machine's outputs."""
-    assembly = machines.assemble(machines.read(name))
+    assembly = reading.assemble(reading.read(name))
     begin = time.process_time()
     with tempfile.TemporaryDirectory() as folder:
         system = assembly.system(Path(folder))
@@ -40,7 +40,7 @@ if __name__ == "__main__":
 
 Written by `python benchmarks/machine_tolerance.py`. Each machine is simulated as it is shipped, and again with half the
 tolerance and half of `step_size` and `max_step`. The coupling is of first order, so its error is twice the difference
-(`system_models.coupling_error`): the largest at any time, of any output that a result keeps, over the output's largest
+(`system_models.machine.coupling_error`): the largest at any time, of any output that a result keeps, over the output's largest
 value or a hundredth of its nominal (temperatures in degC). Left out are the first three steps after a change of the duty, in which a jump may lie
 anywhere. Of the gears, the coefficients of friction belong to the moment before they are loaded. The {MOST} outputs with the largest error:
 

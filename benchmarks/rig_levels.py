@@ -17,8 +17,9 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from contact_core.quantities import LEVELS
-from system_models import ball_on_disc_report, machines, results
-from system_models.assembly import Assembly
+from system_models import results
+from system_models.machine import ball_on_disc_report, reading
+from system_models.machine.assembly import Assembly
 from system_models.master import simulate
 from system_models.master.saving import identity
 
@@ -60,10 +61,10 @@ def duty() -> dict[str, object]:
 
 def assembled(level: str) -> Assembly:
     """The rig with its contact at a level."""
-    machine = machines.read("mtm_rig")
+    machine = reading.read("mtm_rig")
     machine.table["duty"] = duty()
     machine.table["deterministic"] = [CONTACT] if level == LEVELS[1] else []
-    return machines.assemble(machine)
+    return reading.assemble(machine)
 
 
 def run(level: str) -> xr.Dataset:

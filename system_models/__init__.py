@@ -1,6 +1,6 @@
 """Systems around the contact's FMU, and the command `tribofmu`.
 
-    duty           load, speeds and temperature against time: constant, steps, or a CSV
+    duty           load, speeds and temperature against time: constant, steps, or a CSV; duty_table: a CSV
     driven_contact   drives the FMU of a contact through a duty, with fmpy
     checkpoint     the point a run has reached, on disk: a killed run goes on from there
     results        the run as an xarray Dataset, as netCDF and as CSV
@@ -9,13 +9,9 @@
     check/         a verdict per rule on an FMU, anybody's
     master/        couples FMUs, anybody's, and controls its own error
     cosim_command  simulates a system of FMUs from a TOML file; cosim_report: its tables and picture
-    machines       machines from TOML: ball_on_disc, ball_bearing, gear_pair (and *_report: what each of them says);
-                   machine_files: those that are shipped
-    assembly       a machine's contacts, components and connections; parts/: components that are no contacts
+    machine/       ball on disc, ball bearing, gear pair: from a TOML file to a simulation, its pictures and its report
+    parts/         components of machines that are no contacts
     bearing/, gear/   what a ball bearing and a pair of spur gears are
-    timeline       the duty of a machine; duty_table: from a CSV
-    resolve        contact states of a finished run, solved again deterministically
-    machine_command, machine_report, export   runs a machine, says what it has cost, makes an SSP of it
     cli            the command line; console: what its commands share
 
 A system sees the contact only through its scene, the quantities and the FMU; the Stribeck curves and the states that

@@ -20,8 +20,10 @@ from contact_core.reading import did_you_mean, shipped_scenes
 from contact_core.scene import Scene
 from fmu_src import command as fmu_command
 
-from . import cosim_command, machine_command, machine_files
+from . import cosim_command
 from .console import add_settings, note, output_folder
+from .machine import command as machine_command
+from .machine import files as machine_files
 
 if TYPE_CHECKING:
     import xarray as xr

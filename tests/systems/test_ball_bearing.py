@@ -9,11 +9,11 @@ import pytest
 import xarray as xr
 from matplotlib.image import imread
 
-from system_models import ball_bearing_report, machines, timeline
-from system_models.assembly import Assembly
-from system_models.ball_bearing_results import BearingRun
 from system_models.bearing.geometry import BEARING_209, BEARING_218
 from system_models.bearing.textbook import CATALOGUE_209, CATALOGUE_218, catalogue_of
+from system_models.machine import ball_bearing_report, reading, timeline
+from system_models.machine.assembly import Assembly
+from system_models.machine.ball_bearing_results import BearingRun
 from system_models.master import simulate
 
 Result = tuple[Assembly, xr.Dataset]
@@ -23,12 +23,12 @@ COARSE = {"simulate.tolerance": "1e-3", "simulate.order": "0"}  # no speed is ca
 CYCLE = "time [s],speed [rpm],load [N]\n0,0,800\n1,600,2000\n6,300,3000\n8,0,800\n12,900,1500\n20,900,1500\n"
 
 
-def run(folder: Path, machine: machines.Machine) -> Result:
-    assembly = machines.assemble(machine)
+def run(folder: Path, machine: reading.Machine) -> Result:
+    assembly = reading.assemble(machine)
     return assembly, simulate(assembly.system(folder), **assembly.settings, outputs=assembly.outputs())
 
 
-def lighter(machine: machines.Machine) -> machines.Machine:
+def lighter(machine: reading.Machine) -> reading.Machine:
     for node in machine.table["housing"]["nodes"]:
         number, unit = node["heat_capacity"].split(" ", 1)
         node["heat_capacity"] = f"{LIGHTER * float(number)} {unit}"
@@ -38,12 +38,12 @@ def lighter(machine: machines.Machine) -> machines.Machine:
 @pytest.fixture(scope="module")
 def warm(tmp_path_factory: pytest.TempPathFactory) -> Result:
     changes = {"bearing.levels": "2", "duty.duration": "3 min", "simulate.max_step": "6 s"} | COARSE
-    return run(tmp_path_factory.mktemp("warm"), lighter(machines.read("bearing_209", changes)))
+    return run(tmp_path_factory.mktemp("warm"), lighter(reading.read("bearing_209", changes)))
 
 
 def starting(folder: Path, changes: dict[str, str]) -> BearingRun:
     few = {"bearing.levels": "1", "duty.repeat": "4", "duty.speed": "40 rpm", "simulate.max_step": "1 s"} | COARSE
-    return BearingRun(*run(folder, machines.read("bearing_209_start_stop", few | changes)))
+    return BearingRun(*run(folder, reading.read("bearing_209_start_stop", few | changes)))
 
 
 @pytest.fixture(scope="module")
@@ -134,7 +134,7 @@ def test_the_next_start_feels_the_film_that_the_last_has_left(starts: BearingRun
 
 @pytest.mark.parametrize("duty", ["cycle", "standstill"])
 def test_the_report_takes_any_duty(duty: str, tmp_path: Path) -> None:
-    machine = machines.read("bearing_209", {"bearing.levels": "1"} | COARSE)
+    machine = reading.read("bearing_209", {"bearing.levels": "1"} | COARSE)
     if duty == "cycle":
         (tmp_path / "cycle.csv").write_text(CYCLE)
         machine.table["duty"] = timeline.with_file(machine.table["duty"], tmp_path / "cycle.csv")

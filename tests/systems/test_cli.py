@@ -9,7 +9,7 @@ import xarray as xr
 from contact_core import OperatingPoint, Scene, shipped_scenes
 from system_models.cli import main
 from system_models.duty import Duty
-from system_models.machine_files import shipped
+from system_models.machine.files import shipped
 
 STILL = [  # nothing grows or wears: one solution serves for ever
     part for setting in ("tribofilm.model=none", "wear.model=none", "heat.model=none") for part in ("--set", setting)

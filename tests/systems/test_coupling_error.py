@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from system_models.coupling_error import errors, finer, settled
+from system_models.machine.coupling_error import errors, finer, settled
 
 
 def euler(step: float, jump: float = 2.0) -> xr.Dataset:

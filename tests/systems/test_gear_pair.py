@@ -8,11 +8,11 @@ import pytest
 import xarray as xr
 from numpy.typing import NDArray
 
-from system_models import gear_pair_pictures, gear_pair_report, machines
-from system_models.assembly import Assembly
 from system_models.gear.mesh import GearMesh
 from system_models.gear.textbook import ohlendorf
-from system_models.gear_pair_record import Record
+from system_models.machine import gear_pair_pictures, gear_pair_report, reading
+from system_models.machine.assembly import Assembly
+from system_models.machine.gear_pair_record import Record
 from system_models.master import simulate
 
 STATIONS = 6
@@ -23,9 +23,9 @@ Array = NDArray[np.float64]
 
 
 def assembled(duty: dict[str, Any], folder: Path = Path()) -> Assembly:
-    machine = machines.read("gear_fzg_c", SMALL)._replace(folder=folder)
+    machine = reading.read("gear_fzg_c", SMALL)._replace(folder=folder)
     machine.table["duty"] = duty
-    return machines.assemble(machine)
+    return reading.assemble(machine)
 
 
 def run(assembly: Assembly, folder: Path) -> xr.Dataset:
@@ -153,7 +153,7 @@ def test_a_duty_without_load_is_told_so(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("name", "count", "last"), [("gear_fzg_a", 12, 534.5), ("gear_fzg_c", 7, 265.0)])
 def test_shipped_gears_run_the_load_stages_of_their_tests(name: str, count: int, last: float) -> None:
-    assembly = machines.assemble(machines.read(name))
+    assembly = reading.assemble(reading.read(name))
     mesh = assembly.parts["mesh"]
     assert isinstance(mesh, GearMesh)
     torques = [torque / mesh.pair.ratio for _, torque in assembly.schedule["brake.torque_setpoint"] if torque]

@@ -13,11 +13,11 @@ from test_cosim_command import result
 from test_resume import KILLED, bits
 from test_ssp import SPACES, imported, structure
 
-from system_models import machines
 from system_models.cli import main
-from system_models.export import with_timetable
-from system_models.machine_files import shipped
-from system_models.resolve import Resolved
+from system_models.machine import reading
+from system_models.machine.export import with_timetable
+from system_models.machine.files import shipped
+from system_models.machine.resolve import Resolved
 
 SHORT = """time [s],entrainment_speed [m/s],slide_roll_ratio [1]
 0,1,0.5
@@ -94,7 +94,7 @@ def without_solutions(monkeypatch: pytest.MonkeyPatch) -> None:
     def none(*arguments: Any) -> list[Resolved]:
         return []
 
-    monkeypatch.setattr("system_models.resolve.resolve", none)
+    monkeypatch.setattr("system_models.machine.resolve.resolve", none)
 
 
 def test_any_contact_can_be_deterministic(
@@ -153,7 +153,7 @@ def test_importers_run_the_rig(importer: str, tmp_path: Path, monkeypatch: pytes
 def test_each_machine_exports_as_ssp_that_others_read(machine: str, tmp_path: Path) -> None:
     file = tmp_path / f"{machine}.ssp"
     assert main(["run", machine, "--ssp", str(file)]) == 0
-    assembly = with_timetable(machines.assemble(machines.read(machine)))
+    assembly = with_timetable(reading.assemble(reading.read(machine)))
     ssd = read_ssd(str(file))  # validates it
     found = {(f"{a.parent.name}.{a.name}", f"{b.parent.name}.{b.name}") for a, b in get_connections(ssd.system)}
     assert found == {tuple(connection[:2]) for connection in assembly.connections}

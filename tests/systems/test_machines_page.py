@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from system_models import machines, timeline
-from system_models.machine_files import folder
+from system_models.machine import reading, timeline
+from system_models.machine.files import folder
 
 PAGE = Path(__file__).parents[2].joinpath("docs", "machines.md").read_text("utf-8")
 ROWS = re.findall(r"^\| `(\w+)` \| (.+?) \| (.+?) \| (.+?) \|$", PAGE, re.MULTILINE)
@@ -16,18 +16,18 @@ TOML = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
 
 
 def test_the_page_names_every_kind_of_machine():
-    assert [kind for kind, *_ in ROWS] == list(machines._KINDS)
+    assert [kind for kind, *_ in ROWS] == list(reading._KINDS)
 
 
 @pytest.mark.parametrize(("kind", "others", "contacts", "signals"), ROWS)
 def test_the_page_names_the_signals_of_a_kind(kind, others, contacts, signals):
-    assert re.findall(r"`(\w+)`", signals) == list(import_module(f"system_models.{kind}").SIGNALS)
+    assert re.findall(r"`(\w+)`", signals) == list(import_module(f"system_models.machine.{kind}").SIGNALS)
 
 
 @pytest.mark.parametrize(("kind", "others", "contacts", "signals"), ROWS)
 def test_the_page_names_the_fmus_of_a_kind(kind, others, contacts, signals):
     name = {"ball_on_disc": "mtm_rig", "ball_bearing": "bearing_209", "gear_pair": "gear_fzg_c"}[kind]
-    assembly = machines.assemble(machines.read(name))
+    assembly = reading.assemble(reading.read(name))
     assert set(re.findall(r"`(\w+)`", others)) == set(assembly.parts)
     assert set(re.findall(r"`(\w+)`", contacts)) <= set(assembly.contacts)
 
@@ -35,7 +35,7 @@ def test_the_page_names_the_fmus_of_a_kind(kind, others, contacts, signals):
 @pytest.mark.parametrize("text", TOML)
 def test_the_duties_on_the_page_can_be_read(text):
     duty = tomllib.loads(text)["duty"]
-    found = timeline.read(duty, import_module("system_models.ball_bearing").SIGNALS, Path(str(folder())))
+    found = timeline.read(duty, import_module("system_models.machine.ball_bearing").SIGNALS, Path(str(folder())))
     assert found.end > 0.0
 
 

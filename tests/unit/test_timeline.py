@@ -9,8 +9,8 @@ import pytest
 import system_models
 from contact_core import SceneError
 from contact_core.quantities import Quantity
-from system_models import timeline
-from system_models.timeline import Timeline
+from system_models.machine import timeline
+from system_models.machine.timeline import Timeline
 
 SIGNALS = {
     "speed": Quantity("speed", "n", "rad/s", "speed of the shaft", "input", display="rpm"),

@@ -8,8 +8,8 @@ import xarray as xr
 
 from contact_core.quantities import LEVELS
 
+from ..cosim_report import aligned
 from .assembly import Assembly
-from .cosim_report import aligned
 
 
 def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:

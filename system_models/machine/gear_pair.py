@@ -19,16 +19,16 @@ from contact_core.errors import SceneError
 from contact_core.quantities import TABLE, Quantity
 from contact_core.reading import did_you_mean, unbuild
 
-from . import machines, timeline
+from ..gear.geometry import FZG_A, FZG_C, SpurGearPair
+from ..gear.mesh import GearMesh, Station
+from ..gear.shafts import GearShafts
+from ..gear.sharing import mean_stiffness
+from ..parts.brake import Brake
+from ..parts.part import Part, indexed
+from ..parts.speed_source import SpeedSource
+from ..parts.thermal import ThermalNetwork
+from . import reading, timeline
 from .assembly import Assembly, Contact, Schedule
-from .gear.geometry import FZG_A, FZG_C, SpurGearPair
-from .gear.mesh import GearMesh, Station
-from .gear.shafts import GearShafts
-from .gear.sharing import mean_stiffness
-from .parts.brake import Brake
-from .parts.part import Part, indexed
-from .parts.speed_source import SpeedSource
-from .parts.thermal import ThermalNetwork
 
 PAIRS = {"fzg_a": FZG_A, "fzg_c": FZG_C}
 RECEIVED = (
@@ -52,22 +52,22 @@ def flank(k: int) -> str:
     return f"flank_{k:02d}"
 
 
-def assemble(machine: machines.Machine) -> Assembly:
+def assemble(machine: reading.Machine) -> Assembly:
     """The co-simulation of a gear pair. Raises SceneError for what is missing, unknown or out of range."""
-    machines.check_keys(
+    reading.check_keys(
         machine,
         *("description", "drive", "brake", "shafts", "mesh", "gearbox", "contact", "deterministic", "duty", "simulate"),
     )
     table = {**machine.table, "mesh": _with_pair(machine.table.get("mesh", {}))}
-    mesh: GearMesh = machines.record(GearMesh, table, "mesh")
+    mesh: GearMesh = reading.record(GearMesh, table, "mesh")
     shafts = {"stiffness": f"{mean_stiffness(mesh.pair) * mesh.pair.face_width!r} N/m", **table.get("shafts", {})}
     table["shafts"] = {"pair": table["mesh"]["pair"], **shafts}
     parts: dict[str, Part] = {
-        "drive": machines.record(SpeedSource, table, "drive"),
-        "brake": machines.record(Brake, table, "brake"),
-        "shafts": machines.record(GearShafts, table, "shafts"),
+        "drive": reading.record(SpeedSource, table, "drive"),
+        "brake": reading.record(Brake, table, "brake"),
+        "shafts": reading.record(GearShafts, table, "shafts"),
         "mesh": mesh,
-        "gearbox": machines.record(ThermalNetwork, table, "gearbox"),
+        "gearbox": reading.record(ThermalNetwork, table, "gearbox"),
     }
     duty = timeline.read(table.get("duty", {}), SIGNALS, machine.folder, ("speed", "torque"))
     contacts = {flank(k): _contact(table, mesh.pair, station) for k, station in enumerate(mesh.contacts, 1)}
@@ -86,11 +86,11 @@ def assemble(machine: machines.Machine) -> Assembly:
         machine.name,
         str(table["description"]),
         parts,
-        machines.at_levels(contacts, table),
+        reading.at_levels(contacts, table),
         (*_SHAFTS, *(link for k in range(1, mesh.stations + 1) for link in _links(k))),
         {},
         schedule,
-        machines.simulation(table, duty.end),
+        reading.simulation(table, duty.end),
     )
 
 
@@ -141,7 +141,7 @@ def _with_pair(table: Mapping[str, Any]) -> dict[str, Any]:
 def _contact(table: Mapping[str, Any], pair: SpurGearPair, station: Station) -> Contact:
     """The contact at a station: what its FMU is told beside load, speeds and temperatures."""
     return Contact(
-        machines.scene_of(table),
+        reading.scene_of(table),
         {
             "solids.reduced_modulus": pair.reduced_modulus,
             "radius_x": station.radius_x,

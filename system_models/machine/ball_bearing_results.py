@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 from contact_core.laws.viscosity import AstmD341
 from contact_core.scene import Lubricant
 
+from ..bearing.equilibrium import RingLoads, solve
+from ..bearing.geometry import RACES, RaceName
+from ..bearing.part import BallBearing
+from ..bearing.textbook import CatalogueBearing, Torque, catalogue_of, palmgren_torque, skf_torque
+from ..parts.part import indexed
+from ..parts.thermal import ThermalNetwork
 from .assembly import Assembly
-from .bearing.equilibrium import RingLoads, solve
-from .bearing.geometry import RACES, RaceName
-from .bearing.part import BallBearing
-from .bearing.textbook import CatalogueBearing, Torque, catalogue_of, palmgren_torque, skf_torque
-from .parts.part import indexed
-from .parts.thermal import ThermalNetwork
 
 Array = NDArray[np.float64]
 Parts = dict[str, Array]  # friction torque [N m] by cause, arrays [time], NaN at standstill

@@ -11,8 +11,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..cosim_report import aligned
 from .assembly import Assembly
-from .cosim_report import aligned
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

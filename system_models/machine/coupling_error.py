@@ -11,8 +11,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from ..cosim_report import recorded
 from .assembly import Schedule
-from .cosim_report import recorded
 
 _ZERO = 273.15  # K: temperatures are read in degC
 _FINER = ("tolerance", "max_step", "step_size")

@@ -16,14 +16,14 @@ from typing import Any
 
 from contact_core.quantities import TABLE, Quantity
 
-from . import machines, timeline
+from ..bearing.equilibrium import RingLoads
+from ..bearing.part import BallBearing, Design
+from ..parts.part import Part, indexed
+from ..parts.shaft import Shaft
+from ..parts.speed_source import SpeedSource
+from ..parts.thermal import ThermalNetwork
+from . import reading, timeline
 from .assembly import Assembly, Contact
-from .bearing.equilibrium import RingLoads
-from .bearing.part import BallBearing, Design
-from .parts.part import Part, indexed
-from .parts.shaft import Shaft
-from .parts.speed_source import SpeedSource
-from .parts.thermal import ThermalNetwork
 
 SENT = ("load", "speed_1", "speed_2", "spin", "radius_x")
 RECEIVED = ("friction_force", "spin_torque", "rolling_resistance", "heat_flow_1", "heat_flow_2")
@@ -57,19 +57,19 @@ def class_name(design: Design) -> str:
     return f"{design.race}_{design.level}"
 
 
-def assemble(machine: machines.Machine) -> Assembly:
+def assemble(machine: reading.Machine) -> Assembly:
     """The co-simulation of a bearing. Raises SceneError for what is missing, unknown or out of range."""
-    machines.check_keys(
+    reading.check_keys(
         machine,
         *("description", "drive", "shaft", "bearing", "housing", "contact", "deterministic", "duty", "simulate"),
     )
     table = machine.table
-    bearing: BallBearing = machines.record(BallBearing, table, "bearing")
+    bearing: BallBearing = reading.record(BallBearing, table, "bearing")
     parts: dict[str, Part] = {
-        "drive": machines.record(SpeedSource, table, "drive"),
-        "shaft": machines.record(Shaft, table, "shaft"),
+        "drive": reading.record(SpeedSource, table, "drive"),
+        "shaft": reading.record(Shaft, table, "shaft"),
         "bearing": bearing,
-        "housing": machines.record(ThermalNetwork, table, "housing"),
+        "housing": reading.record(ThermalNetwork, table, "housing"),
     }
     duty = timeline.read(table.get("duty", {}), SIGNALS, machine.folder, ("speed",))
     designs = bearing.designs(*_largest(duty))
@@ -77,11 +77,11 @@ def assemble(machine: machines.Machine) -> Assembly:
         machine.name,
         str(table["description"]),
         parts,
-        machines.at_levels({class_name(design): _contact(table, design) for design in designs}, table),
+        reading.at_levels({class_name(design): _contact(table, design) for design in designs}, table),
         (*_SHAFT, *(link for design in designs for link in _links(design))),
         {},
         dict(duty.schedule(_SETS)),
-        machines.simulation(table, duty.end),
+        reading.simulation(table, duty.end),
     )
 
 
@@ -97,7 +97,7 @@ def _contact(table: Mapping[str, Any], design: Design) -> Contact:
     """The contact of a class: what its FMU is told beside what changes."""
     tracks = {f"geometry.track_length_{i}": getattr(design, f"track_length_{i}") for i in (1, 2)}
     told = {"radius_x": design.radius_x, "radius_y": design.radius_y, **tracks}
-    return Contact(machines.scene_of(table), told, "bearing." + indexed(f"count_{design.race}", design.level))
+    return Contact(reading.scene_of(table), told, "bearing." + indexed(f"count_{design.race}", design.level))
 
 
 def _links(design: Design) -> list[tuple[Any, ...]]:

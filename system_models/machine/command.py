@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from contact_core.errors import ContactError
 
-from .console import note, output_folder
+from ..console import note, output_folder
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 
 def run(arguments: argparse.Namespace) -> int:
     """Do what the command line asks for; return the exit code. Raises ContactError with a sentence if it cannot."""
-    from . import machines, timeline
+    from . import reading, timeline
 
-    machine = machines.read(arguments.scene, _changes(arguments))
+    machine = reading.read(arguments.scene, _changes(arguments))
     if arguments.duty:
         machine.table["duty"] = timeline.with_file(machine.table.get("duty", {}), Path(arguments.duty).absolute())
-    assembly = machines.assemble(machine)
+    assembly = reading.assemble(machine)
     if arguments.ssp:
         return _export(assembly, arguments.ssp)
     folder = output_folder(arguments.out, machine.name)
@@ -47,8 +47,8 @@ def _changes(arguments: argparse.Namespace) -> dict[str, str]:
 def _export(assembly: "Assembly", path: str) -> int:
     import tempfile
 
+    from ..master import export_ssp
     from .export import with_timetable
-    from .master import export_ssp
 
     with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder:
         system = with_timetable(assembly).system(Path(folder), "isolated")
@@ -57,7 +57,7 @@ def _export(assembly: "Assembly", path: str) -> int:
 
 
 def _run_in(folder: Path, assembly: "Assembly", kind: str, resume: bool) -> int:
-    from .cosim_command import carry_out
+    from ..cosim_command import carry_out
 
     system = assembly.system(folder / "fmus")
     settings = {**assembly.settings, "outputs": assembly.outputs()}
@@ -72,8 +72,8 @@ def _compare(folder: Path, assembly: "Assembly") -> None:
     """Say by how much the result is off by its communication steps."""
     import xarray as xr
 
+    from ..master import simulate
     from . import coupling_error
-    from .master import simulate
 
     settings = coupling_error.finer(assembly.settings)
     fine = simulate(assembly.system(folder / "fmus"), **settings, outputs=assembly.outputs())
@@ -86,7 +86,9 @@ def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str
     """Print and write the result, then solve some of its states again; return the exit code."""
     from importlib import import_module
 
-    from . import cosim_report, machine_report, resolve, results
+    from .. import cosim_report, results
+    from . import report as machine_report
+    from . import resolve
 
     dataset = dataset.assign_attrs(title=assembly.description)
     pictures = import_module(f".{kind}_report", __package__)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..bearing.geometry import RACES, RaceName
 from .ball_bearing_results import Array, BearingRun
-from .bearing.geometry import RACES, RaceName
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

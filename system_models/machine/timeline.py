@@ -41,8 +41,8 @@ from contact_core.errors import SceneError
 from contact_core.quantities import Quantity, value_out_of_range
 from contact_core.reading import did_you_mean, flat
 
-from . import duty_table
-from .duty_table import Row
+from .. import duty_table
+from ..duty_table import Row
 
 _KEYS = ("duration", "steps", "start_stop", "file", "repeat")
 _START_STOP = ("signals", "run", "standstill")

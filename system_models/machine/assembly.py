@@ -15,9 +15,9 @@ from contact_core.scene import Scene
 from fmu_src.build import build as build_contact
 from fmu_src.flavours import Flavour
 
-from .master import System
-from .parts.build import build as build_part
-from .parts.part import Part
+from ..master import System
+from ..parts.build import build as build_part
+from ..parts.part import Part
 
 Value = float | int | bool | str
 Schedule = dict[str, Sequence[tuple[float, Value]]]  # by "part.variable": times [s] and values

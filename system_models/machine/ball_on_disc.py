@@ -16,11 +16,11 @@ from typing import Any
 from contact_core.errors import SceneError
 from contact_core.quantities import TABLE, Quantity
 
-from . import machines, timeline
+from ..parts.load_arm import LoadArm
+from ..parts.spindle import Spindle
+from ..parts.thermal import ThermalNetwork
+from . import reading, timeline
 from .assembly import Assembly, Contact, Schedule
-from .parts.load_arm import LoadArm
-from .parts.spindle import Spindle
-from .parts.thermal import ThermalNetwork
 
 SIGNALS = {
     q.name: q
@@ -35,23 +35,23 @@ SIGNALS = {
 _SETS = {"load": "arm.load_setpoint", "temperature": "bath.setpoint_oil", "ambient": "bath.temperature_ambient"}
 
 
-def assemble(machine: machines.Machine) -> Assembly:
+def assemble(machine: reading.Machine) -> Assembly:
     """The co-simulation of a rig. Raises SceneError for what is missing, unknown or out of range."""
-    machines.check_keys(
+    reading.check_keys(
         machine, "description", "ball", "disc", "arm", "bath", "contact", "deterministic", "duty", "simulate"
     )
     table = machine.table
     parts = {
-        "ball": machines.record(Spindle, table, "ball"),
-        "disc": machines.record(Spindle, table, "disc"),
-        "arm": machines.record(LoadArm, table, "arm"),
-        "bath": machines.record(ThermalNetwork, table, "bath"),
+        "ball": reading.record(Spindle, table, "ball"),
+        "disc": reading.record(Spindle, table, "disc"),
+        "arm": reading.record(LoadArm, table, "arm"),
+        "bath": reading.record(ThermalNetwork, table, "bath"),
     }
-    scene = machines.scene_of(table)
+    scene = reading.scene_of(table)
     tracks: dict[str, Any] = {
         f"geometry.track_length_{i}": 2.0 * math.pi * parts[name].radius for i, name in ((1, "ball"), (2, "disc"))
     }
-    contacts = machines.at_levels({"contact": Contact(scene, tracks)}, table)
+    contacts = reading.at_levels({"contact": Contact(scene, tracks)}, table)
     if not any(node.name == "oil" and node.heat_flows == 2 for node in parts["bath"].nodes):
         raise SceneError("The [[bath.nodes]] have no 'oil' with heat_flows = 2, one from each body. Add it.")
     duty = timeline.read(
@@ -76,7 +76,7 @@ def assemble(machine: machines.Machine) -> Assembly:
         ),
         {},
         _schedule(duty),
-        machines.simulation(table, duty.end),
+        reading.simulation(table, duty.end),
     )
 
 

@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from ..cosim_report import aligned
+from ..gear.path import Array
+from ..gear.textbook import ohlendorf
 from . import gear_pair_pictures
 from .assembly import Assembly
-from .cosim_report import aligned
-from .gear.path import Array
-from .gear.textbook import ohlendorf
 from .gear_pair_record import Record, Stage
 
 _MOST_ROWS = 16

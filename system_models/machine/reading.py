@@ -26,9 +26,9 @@ from contact_core.quantities import LEVELS, out_of_range
 from contact_core.reading import build, did_you_mean, flat
 from contact_core.scene import Scene
 
+from ..master.reading import settings, value
 from .assembly import Assembly, Contact
-from .machine_files import folder, shipped
-from .master.reading import settings, value
+from .files import folder, shipped
 
 _KINDS = ("ball_on_disc", "ball_bearing", "gear_pair")  # and the modules that assemble them
 

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import xarray as xr
 
+from ..cosim_report import aligned
 from . import ball_bearing_pictures
 from .assembly import Assembly
 from .ball_bearing_results import BearingRun
-from .cosim_report import aligned
 
 _RPM = 30.0 / math.pi
 _CELSIUS = 273.15

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .gear.path import Array, named_points
+from ..gear.path import Array, named_points
 from .gear_pair_record import Record, Stage
 
 if TYPE_CHECKING:

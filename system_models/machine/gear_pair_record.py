@@ -14,11 +14,11 @@ from contact_core.laws.viscosity import AstmD341
 from contact_core.reference import hertz_line
 from contact_core.scene import Scene
 
+from ..gear.geometry import SpurGearPair
+from ..gear.mesh import GearMesh
+from ..gear.path import Array, steps
+from ..gear.textbook import iso_14179_1, load_intensity, ohlendorf, schlenk
 from .assembly import Assembly
-from .gear.geometry import SpurGearPair
-from .gear.mesh import GearMesh
-from .gear.path import Array, steps
-from .gear.textbook import iso_14179_1, load_intensity, ohlendorf, schlenk
 from .gear_pair import flank
 
 _RA_OF_RQ = math.sqrt(2.0 / math.pi)  # of Gaussian heights

@@ -5,8 +5,8 @@ from dataclasses import replace
 from contact_core.errors import ContactError
 from contact_core.quantities import numbers
 
+from ..parts.timetable import Entry, Signal, Timetable
 from .assembly import Assembly, Value
-from .parts.timetable import Entry, Signal, Timetable
 
 _DUTY = "duty"
 
