@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-import system_models
+import system_models.machine
 from contact_core import SceneError
 from contact_core.quantities import Quantity
 from system_models.machine import timeline
@@ -106,7 +106,7 @@ def test_a_file_takes_the_place_of_steps_and_cycles(tmp_path: Path) -> None:
 
 
 def test_the_shipped_cycle_runs_ten_minutes_with_standstills() -> None:
-    folder = Path(system_models.__file__).parent / "systems"
+    folder = Path(system_models.machine.__file__).parent / "systems"
     duty = read('[duty]\nfile = "drive_cycle.csv"', folder)
     assert duty.end == 600.0
     speeds = duty.course("speed")
