@@ -24,6 +24,7 @@ from .shapes import Line
 from .state import ContactState, Mean, Outputs, changed
 
 _SAME = 1e-4  # a contact evaluated before the surfaces changed by less, relative, is the contact after it
+_AGREED = 0.05  # of control.change: contacts before and after a step that make of the surfaces what differs less
 _TRIAL = 1.0  # s: step that tells how fast the surfaces change
 # pressures over their mean and what they weigh, of an exponential distribution
 _PARTS, _OF_PARTS = np.polynomial.laguerre.laggauss(6)
@@ -40,10 +41,15 @@ def advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: flo
     contact = evaluate(scene, op, films)
     speed = 0.0  # at which the surfaces change [m/s]
     while left > 0.0:
-        step, means, films, speed = _stepped(scene, op, contact, means, left)
+        start = means
+        step, means, films, speed = _stepped(scene, op, contact, start, left)
         left -= step
         if _has_changed(scene, contact, films):
             contact = evaluate(scene, op, films)
+            settled = _settled(scene, start, means, _evolved(scene, op, contact, start, step))
+            if settled is not means:
+                means, films = settled, films_of(settled)
+                contact = evaluate(scene, op, films)
     if dt > 0.0:
         rates = [(now.worn - then.worn) / dt for now, then in zip(means, before, strict=True)]
     else:
@@ -71,10 +77,36 @@ def _stepped(
         step *= min(max(budget / change, 0.05), 0.95)
 
 
+def _settled(scene: Scene, start: Means, after: Means, again: Means) -> Means:
+    """The surfaces after a step that contacts of its beginning and its end agree on, to first order.
+
+    The contact of the start makes `after` of them, the contact after that makes `again`. Where more tribofilm grows
+    less, the first goes too far, and a long step would swing about the balance of growth and removal.
+    """
+    first = np.array([_change(*pair) for pair in zip(start, after, strict=True)])
+    second = np.array([_change(*pair) for pair in zip(start, again, strict=True)])
+    back = float(np.vdot(first - second, first))
+    if back <= 0.0 or float(np.abs(first - second).max()) < _AGREED * scene.control.change:
+        return after
+    share = 1.0 / (1.0 + back / float(np.vdot(first, first)))
+    one, two = (_between(*pair, share) for pair in zip(after, again, strict=True))
+    return one, two
+
+
+def _between(one: Mean, other: Mean, share: float) -> Mean:
+    return Mean(*(a + share * (b - a) for a, b in zip(one.__dict__.values(), other.__dict__.values(), strict=True)))
+
+
+def _change(then: Mean, now: Mean) -> tuple[float, float]:
+    """Changes [m] of a body's tribofilm, as rms over the track, and of its solid's roughness."""
+    film = (now.growth - now.removal) - (then.growth - then.removal)
+    return film / math.sqrt(max(now.coverage, 1e-3)), now.roughness - then.roughness
+
+
 def _distance(then: Mean, now: Mean) -> float:
-    """Change [m] of a body's tribofilm, as rms over the track, and of its solid's roughness."""
-    film = abs((now.growth - now.removal) - (then.growth - then.removal))
-    return film / math.sqrt(max(now.coverage, 1e-3)) + abs(now.roughness - then.roughness)
+    """Size of the change [m]."""
+    film, roughness = _change(then, now)
+    return abs(film) + abs(roughness)
 
 
 def _has_changed(scene: Scene, contact: MeanContact, films: Films) -> bool:

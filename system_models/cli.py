@@ -65,7 +65,9 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--hours", metavar="H", help="duration of the test, instead of operation.duration")
     run.add_argument("--duty", metavar="FILE.csv", help="CSV of the duty, instead of operation.file")
     run.add_argument(
-        "--finer", action="store_true", help="simulate a machine again with half the steps, and say what that changes"
+        "--unchecked",
+        action="store_true",
+        help="leave out what checks a machine's result: a simulation with double steps, and states solved again",
     )
     run.add_argument("--ssp", metavar="FILE.ssp", help="export a machine as SSP 1.0, do not run it")
     stribeck = commands.add_parser("stribeck", help="rub a scene's contact and sweep its Stribeck curves")

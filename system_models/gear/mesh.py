@@ -29,7 +29,7 @@ _RECEIVED = {
 }
 _SENT = {"load": 1000.0, "speed_1": 1.0, "speed_2": 1.0}
 _CAUSE = {"load": "torque", "speed_1": "speed_1", "speed_2": "speed_2"}
-_NOTHING = 1e-6  # W or N: too little to divide by
+_IDLE = 1.0  # N: a force between the teeth of which ratios say nothing
 
 
 @dataclass(frozen=True)
@@ -137,10 +137,11 @@ class GearMesh(Part):
             mean("heat_flow_1", "Q_1", "W", 50.0, heat_1, "heat of sliding into the pinion"),
             mean("heat_flow_2", "Q_2", "W", 50.0, heat_2, "heat of sliding into the wheel"),
             mean("friction_coefficient", "mu_mz", "1", 0.1, power + loss,
-                 "sliding loss over power times Ohlendorf's loss factor, 0 at no power"),
+                 f"sliding loss over power times Ohlendorf's loss factor, 0 below {_IDLE:g} N"),
             mean("friction_coefficient_mean", "mu_m", "1", 0.1, torque + friction,
-                 "mean friction force over mean load, 0 at no load"),
-            mean("loss_factor", "H_V", "1", 0.1, torque, "loss factor under the loads as they are, 0 at no load"),
+                 f"mean friction force over mean load, 0 below {_IDLE:g} N"),
+            mean("loss_factor", "H_V", "1", 0.1, torque,
+                 f"loss factor under the loads as they are, 0 below {_IDLE:g} N"),
             Output("flash_temperature_rise", "dT_f", "K", "largest of the stations", nominal=10.0, relative=True,
                    direct=flash),
             mean("hottest_station", "k", "1", float(self.stations), flash, "number of the station where it is largest"),
@@ -195,17 +196,21 @@ class GearMesh(Part):
             "power_transmitted": power,
             "heat_flow_1": self._mean(found["heat_flow_1"]),
             "heat_flow_2": self._mean(found["heat_flow_2"]),
-            "friction_coefficient": _ratio(sliding, abs(power) * ohlendorf(self.pair)),
-            "friction_coefficient_mean": _ratio(self._mean(np.abs(friction)), self._mean(load)),
-            "loss_factor": loss_factor(self.pair, self._places, load / force) if force > _NOTHING else 0.0,
+            **self._ratios(force, load, sliding, abs(power), np.abs(friction)),
             "flash_temperature_rise": float(flash.max()),
             "hottest_station": float(flash.argmax() + 1),
+        }
+
+    def _ratios(self, force: float, load: Array, sliding: float, power: float, friction: Array) -> dict[str, float]:
+        """Coefficients of friction and loss factor."""
+        if force < _IDLE:
+            return {"friction_coefficient": 0.0, "friction_coefficient_mean": 0.0, "loss_factor": 0.0}
+        return {
+            "friction_coefficient": sliding / (power * ohlendorf(self.pair)) if power else 0.0,
+            "friction_coefficient_mean": self._mean(friction) / self._mean(load),
+            "loss_factor": loss_factor(self.pair, self._places, load / force),
         }
 
     def _mean(self, values: Array) -> float:
         """Of what all pairs in contact do together, over a mesh cycle, from the values [n] at the stations."""
         return float((self._weights * values).sum())
-
-
-def _ratio(part: float, whole: float) -> float:
-    return part / whole if whole > _NOTHING else 0.0

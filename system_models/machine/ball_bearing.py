@@ -23,7 +23,7 @@ from ..parts.shaft import Shaft
 from ..parts.speed_source import SpeedSource
 from ..parts.thermal import ThermalNetwork
 from . import reading, timeline
-from .assembly import Assembly, Contact
+from .assembly import Assembly, Contact, Schedule
 
 SENT = ("load", "speed_1", "speed_2", "spin", "radius_x")
 RECEIVED = ("friction_force", "spin_torque", "rolling_resistance", "heat_flow_1", "heat_flow_2")
@@ -65,13 +65,16 @@ def assemble(machine: reading.Machine) -> Assembly:
     )
     table = machine.table
     bearing: BallBearing = reading.record(BallBearing, table, "bearing")
+    drive: SpeedSource = reading.record(SpeedSource, table, "drive")
     parts: dict[str, Part] = {
-        "drive": reading.record(SpeedSource, table, "drive"),
+        "drive": drive,
         "shaft": reading.record(Shaft, table, "shaft"),
         "bearing": bearing,
         "housing": reading.record(ThermalNetwork, table, "housing"),
     }
     duty = timeline.read(table.get("duty", {}), SIGNALS, machine.folder, ("speed",))
+    schedule: Schedule = dict(duty.schedule(_SETS))
+    schedule["drive.speed_setpoint"] = drive.with_arrivals(duty.course("speed"))
     designs = bearing.designs(*_largest(duty))
     return Assembly(
         machine.name,
@@ -80,7 +83,7 @@ def assemble(machine: reading.Machine) -> Assembly:
         reading.at_levels({class_name(design): _contact(table, design) for design in designs}, table),
         (*_SHAFT, *(link for design in designs for link in _links(design))),
         {},
-        dict(duty.schedule(_SETS)),
+        schedule,
         reading.simulation(table, duty.end),
     )
 

@@ -62,8 +62,9 @@ def assemble(machine: reading.Machine) -> Assembly:
     mesh: GearMesh = reading.record(GearMesh, table, "mesh")
     shafts = {"stiffness": f"{mean_stiffness(mesh.pair) * mesh.pair.face_width!r} N/m", **table.get("shafts", {})}
     table["shafts"] = {"pair": table["mesh"]["pair"], **shafts}
+    drive: SpeedSource = reading.record(SpeedSource, table, "drive")
     parts: dict[str, Part] = {
-        "drive": reading.record(SpeedSource, table, "drive"),
+        "drive": drive,
         "brake": reading.record(Brake, table, "brake"),
         "shafts": reading.record(GearShafts, table, "shafts"),
         "mesh": mesh,
@@ -81,6 +82,7 @@ def assemble(machine: reading.Machine) -> Assembly:
             }
         )
     )
+    schedule["drive.speed_setpoint"] = drive.with_arrivals(duty.course("speed"))
     schedule["brake.torque_setpoint"] = [(time, mesh.pair.ratio * value) for time, value in duty.course("torque")]
     return Assembly(
         machine.name,

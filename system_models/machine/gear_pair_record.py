@@ -4,7 +4,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -160,7 +161,7 @@ class Record:
         speeds = self.assembly.schedule["drive.speed_setpoint"]
         torques = self.assembly.schedule["brake.torque_setpoint"]
         end = float(self.time[-1])
-        edges = sorted({time for time, _ in (*speeds, *torques) if time < end})
+        edges = sorted({time for time in (*_changes(speeds), *_changes(torques)) if time < end})
         found: list[Stage] = []
         for start, stop in zip(edges, (*edges[1:], end), strict=True):
             speed, torque = _held(speeds, start), _held(torques, start) / self.pair.ratio
@@ -175,6 +176,11 @@ class Record:
         if len(self.stages) <= most:
             return self.stages
         return [self.stages[k] for k in np.linspace(0, len(self.stages) - 1, most).round().astype(int)]
+
+
+def _changes(course: Sequence[tuple[float, Any]]) -> list[float]:
+    """Times at which a value differs from the one before, and the first."""
+    return [course[0][0], *(later[0] for before, later in pairwise(course) if later[1] != before[1])]
 
 
 def _held(course: Sequence[tuple[float, float | int | bool | str]], time: float) -> float:

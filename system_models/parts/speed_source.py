@@ -1,7 +1,9 @@
 """A motor that is stronger than all it drives."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import ClassVar
 
 from contact_core.quantities import parameter
@@ -35,6 +37,19 @@ class SpeedSource(Part):
                 "power", "P", "W", "torque times speed: power that the motor gives", nominal=1e3, direct=("torque",)
             ),
         )
+
+    def with_arrivals(self, course: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
+        """Times [s] and setpoints [rad/s], each setpoint again when the speed gets there, where the torque jumps."""
+        steps = [*course]
+        found, speed = [], steps[0][1]
+        for (time, setpoint), (end, _) in pairwise([*steps, (math.inf, 0.0)]):
+            change = setpoint - speed
+            arrival = time + abs(change) / self.ramp
+            found.append((time, setpoint))
+            if time < arrival < end:
+                found.append((arrival, setpoint))
+            speed = setpoint if arrival <= end else speed + math.copysign(self.ramp * (end - time), change)
+        return found
 
     @property
     def at_start(self) -> tuple[str, ...]:

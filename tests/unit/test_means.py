@@ -516,3 +516,23 @@ def test_oil_without_a_limit_finds_the_temperature_that_it_makes_of_itself(speed
     slower, found = (now(scene, replace(op, speed_1=u, speed_2=0.0), state) for u in (0.5 * speed, speed))
     assert found.flash_temperature_rise > 0.8 * slower.flash_temperature_rise > 1.0
     assert 0.3 < found.friction_coefficient / slower.friction_coefficient < 1.0
+
+
+def test_long_steps_keep_a_tribofilm_at_its_balance_where_more_of_it_grows_less():
+    """Growth that fades as the film spreads is stiff: in 5 min it would go past the balance and back, by 2 %."""
+    scene = Scene.from_toml(
+        "fzg_flank", {**FAST, "tribofilm.set": "zhang_spikes_80c_ethylhexyl", "surface_1.rq": "0.4 um"}
+    )
+    scene = replace(scene, surface_2=replace(scene.surface_2, rq=0.4e-6))
+    op = replace(scene.operation.point, load=1256.0, speed_1=4.6, speed_2=2.6, temperature=362.6)
+    films = {}
+    for step, count in ((300.0, 60), (20.0, 900)):
+        state, found = initial_state(scene), []
+        for _ in range(count):
+            state, outputs = advance(scene, op, state, step)
+            found.append(outputs.tribofilm_1)
+        films[step] = np.array(found)
+    settled = films[300.0][30:]
+    assert settled.mean() > 100e-9
+    assert (np.diff(settled) < 0.0).all()  # as wear goes on
+    assert settled == pytest.approx(films[20.0][464::15][: len(settled)], rel=3e-3)

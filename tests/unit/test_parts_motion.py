@@ -1,6 +1,7 @@
 """Motor, shaft, brake, spindle and load arm against closed forms and another integrator."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -100,6 +101,17 @@ def test_a_speed_source_goes_up_and_down_its_ramp_and_gives_the_power_asked_for(
     assert source.advance((0.0,), up, 5.5) == (50.0,)
     assert source.advance((0.0,), {"speed_setpoint": -50.0, "torque": 3.0}, 2.0) == (-20.0,)
     assert source.outputs((20.0,), up) == {"speed": 20.0, "power": 60.0}
+
+
+def test_a_speed_source_says_when_it_arrives_and_that_it_does_not_when_it_is_called_elsewhere_before():
+    source = SpeedSource(ramp=10.0)
+    course = [(0.0, 0.0), (1.0, 50.0), (10.0, -20.0), (12.0, 20.0)]  # at 12 s it has come down to 30 rad/s
+    told = [(0.0, 0.0), (1.0, 50.0), (6.0, 50.0), (10.0, -20.0), (12.0, 20.0), (13.0, 20.0)]
+    assert source.with_arrivals(course) == told
+    state, now = (0.0,), 0.0
+    for (time, setpoint), (end, _) in pairwise([*told, (20.0, 0.0)]):
+        state, now = source.advance(state, {"speed_setpoint": setpoint, "torque": 0.0}, end - time), end
+    assert (state, now) == ((20.0,), 20.0)
 
 
 def test_a_brake_rises_to_its_setpoint_and_opposes_the_motion():
