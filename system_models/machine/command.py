@@ -91,8 +91,9 @@ def _check(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", system: "S
     from . import coupling_error, resolve
 
     begin = monotonic()
-    coarse = simulate(system, **coupling_error.coarser(assembly.settings), outputs=assembly.outputs())
-    dataset = coupling_error.stated(dataset, coarse, assembly)
+    settings = coupling_error.coarser(dataset, assembly.settings, assembly.schedule)
+    coarse = simulate(system, **settings, outputs=assembly.outputs())
+    dataset = coupling_error.stated(dataset, coarse, assembly.schedule)
     print("", *coupling_error.lines(dataset, assembly.nominals()), sep="\n")
     print(f"This took {monotonic() - begin:.0f} s.", "", sep="\n", flush=True)
     begin = monotonic()

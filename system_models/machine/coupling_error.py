@@ -1,7 +1,7 @@
-"""The error of the coupling: what a coarser simulation of the same machine changes in what is recorded.
+"""The error of the coupling: what steps of double size change in what is recorded.
 
-Steps of double size, to four times the tolerance: of first order, as all machines are, the coarser simulation has twice
-the error. Hence the difference is the error of the finer one.
+The coarser simulation has every second communication point of the result. Of first order, as all machines are, it has
+twice the error; hence the difference is the error of the finer one.
 """
 
 from collections.abc import Mapping
@@ -12,51 +12,54 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ..cosim_report import recorded
-from .assembly import Assembly, Schedule
+from .assembly import Schedule
 
 ATTRIBUTE = "error_coupling"  # of each Real output of a result, in the output's unit
-_FACTORS = {"tolerance": 4.0, "max_step": 2.0, "step_size": 2.0}
+_CHOOSING = ("tolerance", "horizon", "max_step", "controlled")  # what chooses steps
 _ZERO = 273.15  # K: temperatures are read in degC
 _STATED = ".error_"  # what a contact says of its own errors
 _TOLD = 5
 _SMALL = 0.01  # of the nominal: what stays below is nothing
-_SETTLED = 3.0  # steps after a change of the duty: where a jump lies in its step is no error
+_FIRST = 3  # steps after a change of the duty: where a jump lies in its step is no error
 
 
-def coarser(settings: Mapping[str, Any]) -> dict[str, Any]:
-    """The settings of a simulation with twice the error."""
-    return {key: _FACTORS.get(key, 1.0) * value if key in _FACTORS else value for key, value in settings.items()}
+def coarser(dataset: xr.Dataset, settings: Mapping[str, Any], schedule: Schedule) -> dict[str, Any]:
+    """Settings of the simulation with steps twice as large as those of a result."""
+    times = dataset["time"].values[1:]
+    points = [float(time) for part in np.split(times, _after_changes(times, schedule)) for time in _every_second(part)]
+    return {key: value for key, value in settings.items() if key not in _CHOOSING} | {"points": points}
 
 
-def stated(dataset: xr.Dataset, coarse: xr.Dataset, assembly: Assembly) -> xr.Dataset:
+def _every_second(times: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The second, the fourth and so on, and the last."""
+    return np.union1d(times[1::2], times[-1:])
+
+
+def _after_changes(times: NDArray[np.float64], schedule: Schedule) -> NDArray[np.int_]:
+    """Indices of the first times [s] after each change of the schedule."""
+    changes = sorted({float(time) for steps in schedule.values() for time, _ in steps if time < times[-1]})
+    return np.unique(np.searchsorted(times, changes, "right"))
+
+
+def stated(dataset: xr.Dataset, coarse: xr.Dataset, schedule: Schedule) -> xr.Dataset:
     """The result with the error of each Real as its attribute."""
     found = dataset.copy()
-    for name, error in errors(dataset, coarse, assembly.schedule).items():
+    for name, error in differences(dataset, coarse, settled(coarse, schedule)).items():
         found[name].attrs[ATTRIBUTE] = error
     return found
 
 
-def errors(dataset: xr.Dataset, coarse: xr.Dataset, schedule: Schedule) -> dict[str, float]:
-    """Largest error of each Real of `dataset`, in its unit, by a coarser simulation of it.
-
-    schedule: that of the machine; the first steps after a change of it are left out.
-    """
-    rows = settled(coarse, schedule)
+def differences(dataset: xr.Dataset, other: xr.Dataset, times: NDArray[np.float64]) -> dict[str, float]:
+    """Largest difference of each Real between two results at some times [s], in its unit."""
     names = [name for name in recorded(dataset) if dataset[name].dtype.kind == "f" and _STATED not in name]
-    return {name: _difference(coarse[name], dataset[name], rows) for name in names}
+    both = ([np.interp(times, each["time"].values, each[name].values) for each in (dataset, other)] for name in names)
+    return {name: float(np.abs(one - two).max(initial=0.0)) for name, (one, two) in zip(names, both, strict=True)}
 
 
-def _difference(coarse: xr.DataArray, fine: xr.DataArray, rows: NDArray[np.bool_]) -> float:
-    between = np.interp(coarse["time"].values, fine["time"].values, fine.values)
-    return float(np.abs(coarse.values - between)[rows].max(initial=0.0))
-
-
-def settled(dataset: xr.Dataset, schedule: Schedule) -> NDArray[np.bool_]:
-    """Which rows are some steps of their size later than the last change of the schedule, or the start."""
-    times, sizes = dataset["time"].values, dataset["master.step_size"].values
-    changes = np.array(sorted({0.0, *(float(time) for steps in schedule.values() for time, _ in steps)}))
-    last = changes[np.maximum(np.searchsorted(changes, times) - 1, 0)]
-    return np.asarray(times - last > _SETTLED * sizes)
+def settled(dataset: xr.Dataset, schedule: Schedule) -> NDArray[np.float64]:
+    """The times [s] of a result without the first ones after each change of the schedule, and after the start."""
+    times = dataset["time"].values[1:]
+    return np.concatenate([part[_FIRST:] for part in np.split(times, _after_changes(times, schedule))])
 
 
 def relative(dataset: xr.Dataset, nominals: Mapping[str, float]) -> dict[str, float]:

@@ -148,6 +148,10 @@ def _seconds(key: str, value: Any) -> float:
     return _number(key, value) if not isinstance(value, str) else units.parse(value, "s", key)
 
 
+def _times(key: str, value: Any) -> list[float]:
+    return [_seconds(f"{key}[{i}]", time) for i, time in enumerate(_list(key, value, 'times, such as ["1 s", "3 s"]'))]
+
+
 def _number(key: str, value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise CouplingError(f"{key} = {_shown(value)} must be a number.")
@@ -237,6 +241,7 @@ _SIMULATE: dict[str, Callable[[str, Any], Any]] = {
     "horizon": _seconds,
     "max_step": _seconds,
     "controlled": _names,
+    "points": _times,
     "outputs": _names,
 }
 _KEYS: dict[str, dict[str, Callable[[str, Any], Any]]] = {"coupling": _COUPLING, "simulate": _SIMULATE}

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 from numbers import Real
 
 from contact_core.reading import did_you_mean
@@ -30,6 +31,7 @@ class Settings:
     horizon: float | None = None
     max_step: float | None = None
     controlled: tuple[str, ...] = ()
+    points: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         _choose("algorithm", self.algorithm, ["jacobi", "gauss_seidel"])
@@ -54,6 +56,11 @@ class Settings:
             raise CouplingError(f"controlled = {list(self.controlled)} are to meet a tolerance. Give one as well.")
         if self.max_step is not None and self.tolerance is None:
             raise CouplingError(f"max_step = {self.max_step:g} s limits steps chosen by a tolerance. Give one as well.")
+
+        if self.points and self.tolerance is not None:
+            raise CouplingError(f"tolerance = {self.tolerance:g} chooses the steps, and so do points. Leave one out.")
+        if any(not one < other for one, other in pairwise((0.0, *self.points))):
+            raise CouplingError("points, times in s, must be above 0 and rise.")
 
     @property
     def smallest_step(self) -> float:

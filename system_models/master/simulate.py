@@ -43,6 +43,7 @@ def simulate(
     horizon: float | None = None,
     max_step: float | None = None,
     controlled: Iterable[str] = (),
+    points: Iterable[float] = (),
     history: Mapping[str, Callable[[float], float]] | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> xr.Dataset:
@@ -64,6 +65,9 @@ def simulate(
     FMUs evolve slowly inside, rows stay close enough to show it. controlled: the coupled outputs that are to meet the
     tolerance, all if none are named; where some follow others at once, as a friction force its speed, it is enough to
     name what has inertia or heat capacity.
+
+    points [s]: communication points in place of the multiples of step_size, as another simulation has had them, or
+    every second of those.
 
     checkpoint: a folder in which the state is kept; with `resume` the simulation goes on from there, bit for bit.
     outputs: the variables to record, all outputs if none are named. history: the course of coupled outputs before the
@@ -90,6 +94,7 @@ def simulate(
         horizon,
         max_step,
         tuple(controlled),
+        tuple(points),
     )
     settings.check(system)
     ports = system.outputs(outputs)

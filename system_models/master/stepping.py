@@ -1,5 +1,6 @@
 """One accepted communication step of a given size, up to an event at most."""
 
+import bisect
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
@@ -139,8 +140,11 @@ class Stepper:
             )
 
     def _proposed_end(self, limit: float) -> float:
-        """The next multiple of the step, or the limit."""
-        time = self.coupled.time
+        """The next of the given points or else multiple of the step, or the limit."""
+        time, points = self.coupled.time, self.coupled.settings.points
+        following = bisect.bisect_right(points, time)
+        if following < len(points):
+            return min(points[following], limit)
         end = self.step_size * (math.floor(time / self.step_size + 1e-9) + 1)
         return limit if end > limit - 1e-9 * self.step_size else end
 

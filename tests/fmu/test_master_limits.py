@@ -41,12 +41,26 @@ def test_all_coupled_outputs_named_are_as_none_named(case):
     assert all((every[name].values == named[name].values).all() for name in case.states)
 
 
+def test_communication_points_are_those_that_are_given_and_multiples_of_the_step_after_them(case):
+    chosen = run(case)
+    times = chosen["time"].values[1:]
+    again = run(case, tolerance=None, points=times)
+    assert again["time"].values.tolist() == chosen["time"].values.tolist()
+    for name in case.states:
+        np.testing.assert_allclose(again[name].values, chosen[name].values, rtol=1e-9, atol=1e-12)
+    few = run(case, tolerance=None, points=[3e-4, 1.1e-3])
+    assert few["time"].values[1:5].tolist() == [3e-4, 1.1e-3, 2e-3, 3e-3]
+
+
 @pytest.mark.parametrize(
     ("settings", "sentence"),
     [
         ({"max_step": 1e-4}, "max_step = 0.0001 s is below step_size = 0.001 s. Raise it."),
         ({"max_step": 1e-2, "tolerance": None}, "limits steps chosen by a tolerance. Give one as well."),
         ({"controlled": ["one.x"], "tolerance": None}, "are to meet a tolerance. Give one as well."),
+        ({"points": [1.0]}, "tolerance = 0.001 chooses the steps, and so do points. Leave one out."),
+        ({"points": [1.0, 1.0], "tolerance": None}, "points, times in s, must be above 0 and rise."),
+        ({"points": [0.0, 1.0], "tolerance": None}, "points, times in s, must be above 0 and rise."),
         ({"controlled": ["one.y"]}, "controlled has 'one.y', which sets no input. Did you mean 'one.x'?"),
     ],
 )

@@ -1,29 +1,35 @@
-"""The error that a finer simulation tells is the error there is; jumps of the duty are none."""
+"""The error that steps of double size tell is the error there is; jumps of the duty are none."""
 
 import numpy as np
 import pytest
 import xarray as xr
 
-from system_models.machine.coupling_error import errors, finer, settled
+from system_models.machine.coupling_error import ATTRIBUTE, coarser, differences, relative, settled, stated
+
+SCHEDULE = {"a.setpoint": [(0.0, 1.0), (2.0, 3.0)]}
 
 
-def euler(step: float, jump: float = 2.0) -> xr.Dataset:
-    """x' = a - x by explicit Euler, a = 1 and from `jump` on 3, with what follows a at once."""
-    times = np.arange(round(6.0 / step) + 1) * step
-    values = [0.0]
-    for time in times[:-1]:
-        values.append(values[-1] + step * ((3.0 if time >= jump else 1.0) - values[-1]))
+def euler(times: np.ndarray, jump: float = 2.0) -> xr.Dataset:
+    """x' = a - x by explicit Euler, a = 1 and from `jump` on 3, with what follows a, two steps late."""
+    values, setpoints = [0.0], [1.0, 1.0]
+    for time, size in zip(times[:-1], np.diff(times), strict=True):
+        setpoints.append(3.0 if time >= jump else 1.0)
+        values.append(values[-1] + size * (setpoints[-1] - values[-1]))
     columns = {
         "a.x": ("time", np.array(values), {"units": "m"}),
         "a.T": ("time", np.array(values) + 373.15, {"units": "K"}),
-        "a.at_once": ("time", np.where(times > jump + 1.5 * step, 3.0, 1.0), {"units": "1"}),
+        "a.at_once": ("time", np.array(setpoints[:-1]), {"units": "1"}),
+        "a.error_film": ("time", np.array(values), {"units": "1"}),
         "a.on": ("time", times > 1.0, {"units": "1"}),
-        "master.step_size": ("time", np.full(len(times), step), {"units": "s"}),
+        "master.step_size": ("time", np.diff(times, prepend=0.0), {"units": "s"}),
     }
     return xr.Dataset(columns, {"time": times})
 
 
-SCHEDULE = {"a.setpoint": [(0.0, 1.0), (2.0, 3.0)]}
+def uneven() -> np.ndarray:
+    """Steps that grow from the start, and again from the jump at 2 s, their number odd and even."""
+    grown = np.cumsum(np.geomspace(1e-3, 0.05, 40))
+    return np.concatenate([[0.0], 2.0 * grown[:39] / grown[38], 2.0 + 4.0 * grown / grown[-1]])
 
 
 def exact(times: np.ndarray) -> np.ndarray:
@@ -31,25 +37,49 @@ def exact(times: np.ndarray) -> np.ndarray:
     return np.where(times < 2.0, before, 3.0 + (before - 3.0) * np.exp(-np.maximum(times - 2.0, 0.0)))
 
 
-def test_the_error_is_that_against_the_exact_solution() -> None:
-    coarse, fine = euler(0.02), euler(0.01)
-    found = errors(coarse, fine, SCHEDULE)
-    rows = settled(coarse, SCHEDULE)
-    true = np.abs(coarse["a.x"].values - exact(coarse["time"].values))[rows].max()
-    largest = float(coarse["a.x"].max())
-    assert found["a.x"] == pytest.approx(true / largest, rel=0.03)
-    assert found["a.x"] > 0.002
-    assert found["a.T"] == pytest.approx(found["a.x"] * largest / (100.0 + largest), rel=1e-9)
+@pytest.fixture
+def result() -> xr.Dataset:
+    return euler(uneven())
 
 
-def test_a_jump_is_no_error_and_truths_have_none() -> None:
-    found = errors(euler(0.02), euler(0.01), SCHEDULE)
-    assert found["a.at_once"] == 0.0
-    assert errors(euler(0.02), euler(0.01), {})["a.at_once"] > 0.1
-    assert "a.on" not in found
-    assert "master.step_size" not in found
+@pytest.fixture
+def doubled(result: xr.Dataset) -> xr.Dataset:
+    return euler(np.array([0.0, *coarser(result, {}, SCHEDULE)["points"]]))
 
 
-def test_finer_settings_are_halved() -> None:
-    settings = {"tolerance": 1e-3, "max_step": 30.0, "step_size": 0.01, "stop_time": 5.0, "algorithm": "jacobi"}
-    assert finer(settings) == settings | {"tolerance": 5e-4, "max_step": 15.0, "step_size": 0.005}
+def test_the_error_stated_is_that_against_the_exact_solution(result: xr.Dataset, doubled: xr.Dataset) -> None:
+    found = stated(result, doubled, SCHEDULE)
+    true = np.abs(result["a.x"].values - exact(result["time"].values)).max()
+    assert true > 0.02
+    assert found["a.x"].attrs[ATTRIBUTE] == pytest.approx(true, rel=0.1)
+    assert found["a.T"].attrs[ATTRIBUTE] == pytest.approx(found["a.x"].attrs[ATTRIBUTE], rel=1e-9)
+    assert ATTRIBUTE not in result["a.x"].attrs
+
+
+def test_errors_are_told_relative_to_the_largest_value_in_degrees_celsius(
+    result: xr.Dataset, doubled: xr.Dataset
+) -> None:
+    found = relative(stated(result, doubled, SCHEDULE), {"a.x": 1e4})
+    error, largest = stated(result, doubled, SCHEDULE)["a.x"].attrs[ATTRIBUTE], float(result["a.x"].max())
+    assert found["a.T"] == pytest.approx(error / (100.0 + largest), rel=1e-9)
+    assert found["a.x"] == pytest.approx(error / 100.0, rel=1e-9)  # a hundredth of its nominal is more
+
+
+def test_a_jump_is_no_error_and_truths_and_stated_errors_have_none(result: xr.Dataset, doubled: xr.Dataset) -> None:
+    found = stated(result, doubled, SCHEDULE)
+    assert found["a.at_once"].attrs[ATTRIBUTE] == 0.0
+    assert differences(result, doubled, doubled["time"].values)["a.at_once"] > 0.1
+    for name in ("a.on", "a.error_film", "master.step_size"):
+        assert ATTRIBUTE not in found[name].attrs
+
+
+def test_double_steps_end_at_every_second_time_and_at_every_change_of_the_duty(result: xr.Dataset) -> None:
+    settings = {"tolerance": 1e-3, "horizon": 1.0, "max_step": 30.0, "step_size": 0.01, "controlled": ["a.x"]}
+    found = coarser(result, settings, SCHEDULE)
+    times, points = result["time"].values, found.pop("points")
+    assert found == {"step_size": 0.01}
+    assert 2.0 in points
+    assert points[-1] == times[-1]
+    assert points[:3] == times[2:7:2].tolist()
+    assert points[20:22] == times[41:44:2].tolist()  # the 39 steps before the jump have made 20
+    assert settled(result, SCHEDULE).tolist() == [*times[4:40], *times[43:]]

@@ -17,7 +17,6 @@ from system_models.cli import main
 from system_models.machine import reading
 from system_models.machine.export import with_timetable
 from system_models.machine.files import shipped
-from system_models.machine.resolve import Resolved
 
 SHORT = """time [s],entrainment_speed [m/s],slide_roll_ratio [1]
 0,1,0.5
@@ -59,6 +58,8 @@ def test_a_machine_runs_from_one_command(rig: list[str], capsys: pytest.CaptureF
         judged, covered = (resolved[f"resolved.{name}"].values.astype(bool) for name in ("solved", "valid"))
     assert (~dataset["contact.valid"].values.astype(bool)).sum() == (~covered).sum()  # false there, and only there
     assert code == int((judged & ~covered).any())
+    assert 0.0 < dataset["contact.friction_force"].attrs["error_coupling"] < 0.1
+    assert "Error of the coupling, from steps of double size" in out
     assert dataset["ball.surface_speed"].values[-1] == pytest.approx(0.1025, rel=1e-3)
     assert dataset["contact.tribofilm_1"].values[-1] > 0.0
     assert "Friction in the sweeps" in out
@@ -67,10 +68,8 @@ def test_a_machine_runs_from_one_command(rig: list[str], capsys: pytest.CaptureF
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
-def test_a_killed_run_goes_on_to_the_same_rows(
-    rig: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    without_solutions(monkeypatch)
+def test_a_killed_run_goes_on_to_the_same_rows(rig: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    rig = [*rig, "--unchecked"]
     assert main([*rig, "--resume", "--out", "whole"]) == 0
     child = subprocess.run(
         [sys.executable, "-c", KILLED, "between two steps", "20", *rig, "--resume", "--out", "killed"],
@@ -88,20 +87,8 @@ def test_a_killed_run_goes_on_to_the_same_rows(
     assert Path("killed/result.csv").read_bytes() == Path("whole/result.csv").read_bytes()
 
 
-def without_solutions(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Spare the time of solving states again."""
-
-    def none(*arguments: Any) -> list[Resolved]:
-        return []
-
-    monkeypatch.setattr("system_models.machine.resolve.resolve", none)
-
-
-def test_any_contact_can_be_deterministic(
-    rig: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    without_solutions(monkeypatch)
-    assert main([*rig, 'deterministic=["contact"]', "simulate.stop_time=2 s"]) == 0
+def test_any_contact_can_be_deterministic(rig: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([*rig, 'deterministic=["contact"]', "simulate.stop_time=2 s", "--unchecked"]) == 0
     assert " deterministic." in capsys.readouterr().out
     dataset = result("results/mtm_rig")
     assert set(dataset["contact.fidelity_used"].values.tolist()) == {2}
