@@ -135,7 +135,7 @@ class BallBearing(Part):
                 for axis in "xyz"
             ),
             *(told(f"tilt_{axis}", f"theta_{axis}", "rad", 1e-4, f"of the inner ring about {axis}") for axis in "yz"),
-            told("residual", "r", "1", 1e-9, "largest force out of balance over the largest force, at least 1 N"),
+            told("residual", "r", "1", 1e-6, "largest force out of balance over the largest force, at least 1 N"),
             told("unconverged", "", "1", 1.0, "1 where the forces do not balance, else 0"),
             *(
                 told(indexed(f"load_ball_{race}", j), "Q_j", "N", 100.0, f"load of ball {j} on the {race} race")

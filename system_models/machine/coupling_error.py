@@ -21,6 +21,7 @@ _STATED = ".error_"  # what a contact says of its own errors
 _TOLD = 5
 _SMALL = 0.01  # of the nominal: what stays below is nothing
 _FIRST = 3  # steps after a change of the duty: where a jump lies in its step is no error
+_JUMP = 0.1  # of its largest value: an output that changes by more in a step is not resolved there
 
 
 def coarser(dataset: xr.Dataset, settings: Mapping[str, Any], schedule: Schedule) -> dict[str, Any]:
@@ -50,10 +51,18 @@ def stated(dataset: xr.Dataset, coarse: xr.Dataset, schedule: Schedule) -> xr.Da
 
 
 def differences(dataset: xr.Dataset, other: xr.Dataset, times: NDArray[np.float64]) -> dict[str, float]:
-    """Largest difference of each Real between two results at some times [s], in its unit."""
-    names = [name for name in recorded(dataset) if dataset[name].dtype.kind == "f" and _STATED not in name]
-    both = ([np.interp(times, each["time"].values, each[name].values) for each in (dataset, other)] for name in names)
-    return {name: float(np.abs(one - two).max(initial=0.0)) for name, (one, two) in zip(names, both, strict=True)}
+    """Largest difference of each Real between two results, in its unit, at those of some times [s] that lie beside no
+    jump of it.
+    """
+    found = {}
+    for name in recorded(dataset):
+        if dataset[name].dtype.kind != "f" or _STATED in name:
+            continue
+        one, two = (np.interp(times, each["time"].values, each[name].values) for each in (dataset, other))
+        jumps = np.abs(np.diff(one)) > _JUMP * np.abs(one).max(initial=0.0)
+        beside = np.append(False, jumps) | np.append(jumps, False)
+        found[name] = float(np.abs(one - two)[~beside].max(initial=0.0))
+    return found
 
 
 def settled(dataset: xr.Dataset, schedule: Schedule) -> NDArray[np.float64]:

@@ -83,3 +83,12 @@ def test_double_steps_end_at_every_second_time_and_at_every_change_of_the_duty(r
     assert points[:3] == times[2:7:2].tolist()
     assert points[20:22] == times[41:44:2].tolist()  # the 39 steps before the jump have made 20
     assert settled(result, SCHEDULE).tolist() == [*times[4:40], *times[43:]]
+
+
+def test_a_jump_that_lies_in_another_step_is_left_out(result: xr.Dataset) -> None:
+    times = result["time"].values
+    early, late = (result.assign({"a.y": ("time", np.where(times > at, 1.0, 0.01 * times))}) for at in (4.0, 4.1))
+    assert np.count_nonzero(early["a.y"].values != late["a.y"].values) == 1
+    assert differences(early, late, times)["a.y"] == 0.0
+    much_later = result.assign({"a.y": ("time", np.where(times > 5.0, 1.0, 0.01 * times))})
+    assert differences(early, much_later, times)["a.y"] > 0.9
