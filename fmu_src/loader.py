@@ -22,7 +22,8 @@ def _release_at_exit(folder: str, model: str) -> None:
 
     On Linux it does so twice otherwise, in a static destructor and again when it is unloaded, if the C++ runtime
     has pinned it until then: a use after free that now and then aborts a Python host at its exit. By then the host may
-    have deleted the folder: the library is found by the very name it was loaded by, and a URI of ecos's has a slash more.
+    have deleted the folder: only the very name by which it was loaded finds the library, and ecos's URIs have a slash
+    more.
     """
     if sys.platform == "linux":
         library = Path("/" + folder.lstrip("/")).parent / "binaries" / "linux64" / f"{model}.so"
