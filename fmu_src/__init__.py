@@ -2,7 +2,7 @@
 
     command     the command line that builds an FMU
     flavours    their names
-    build       build: scene -> FMU file
+    build       build: scene -> FMU file; pack: the files of any model -> FMU file
     variables   the FMU's variables, one per value reference, from the quantity table and the scene
     describe    modelDescription.xml
     document    documentation/index.html; from markup (HTML), equations, drawings, measured (errors and costs)

@@ -1,4 +1,4 @@
-"""Build a scene's FMU: model description, documentation, resources and binaries, in one zip.
+"""Build an FMU: model description, documentation, resources and binaries, in one zip; `build` that of a scene.
 
 pythonfmu's own builder is not used: it stamps time and a random guid into every FMU, runs the model to
 describe it, and packs a copy of itself that would hide the installed one.
@@ -6,16 +6,17 @@ describe it, and packs a copy of itself that would hide the installed one.
 
 import io
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
 
 from contact_core.scene import Scene
 
 from . import evidence, icon, packages, resources
-from .describe import model_description
+from .describe import Model, described, xml
 from .document import documentation
 from .flavours import Flavour
+from .variables import Variable, variables
 
 _LIBRARIES = (".so", ".dll", ".dylib")
 
@@ -30,23 +31,32 @@ def build(
     `reference`: with reference data, for which the contact is solved at five operating points.
     Raises OSError if the file cannot be written, or the binaries or a licence are missing.
     """
-    return pack(
-        {
-            "modelDescription.xml": model_description(scene, flavour),
-            "model.png": icon.png(),
-            "documentation/index.html": documentation(scene, flavour, reference),
-            "documentation/externalDependencies.txt": packages.external_dependencies(flavour),
-            **{f"documentation/licenses/{name}": text for name, text in packages.licences(flavour).items()},
-            **(evidence.reference(scene) if reference else {}),
-            **{f"resources/{name}": data for name, data in resources.files(scene, flavour, python).items()},
-            **binaries(flavour, resources.MODEL),
-        },
-        out,
-    )
+    own = {
+        "model.png": icon.png(),
+        "documentation/index.html": documentation(scene, flavour, reference),
+        **(evidence.reference(scene) if reference else {}),
+        **{f"resources/{name}": data for name, data in resources.files(scene).items()},
+    }
+    return pack(described(scene, flavour), variables(scene), own, out, flavour, python)
 
 
-def pack(parts: Mapping[str, bytes], out: Path) -> Path:
-    """Write an FMU of these files."""
+def pack(
+    model: Model, table: Sequence[Variable], own: Mapping[str, bytes], out: Path, flavour: Flavour, python: str | None
+) -> Path:
+    """Write an FMU of the files that are its `own`, of its description, and of what its flavour brings."""
+    files = {
+        **own,
+        "modelDescription.xml": xml(model, table, flavour),
+        "documentation/externalDependencies.txt": packages.external_dependencies(flavour),
+        **{f"documentation/licenses/{name}": text for name, text in packages.licences(flavour).items()},
+        **binaries(flavour, model.name),
+    }
+    if flavour == "isolated":
+        files |= {f"resources/{name}": data for name, data in resources.of_process(model.guid, python).items()}
+    return _write(files, out)
+
+
+def _write(parts: Mapping[str, bytes], out: Path) -> Path:
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         for name in sorted(parts):

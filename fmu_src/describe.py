@@ -1,4 +1,4 @@
-"""modelDescription.xml of a scene's FMU: variables, units, structure and capabilities."""
+"""modelDescription.xml: variables, units, structure and capabilities."""
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -15,7 +15,7 @@ from contact_core.scene import Scene
 from .flavours import Flavour
 from .guarded import LOG_CATEGORIES
 from .resources import MODEL, guid
-from .variables import Value, Variable, variables
+from .variables import Value, Variable
 
 _CAPABILITIES = {
     "canHandleVariableCommunicationStepSize": True,
@@ -37,16 +37,16 @@ class Model:
     experiment: Mapping[str, float]  # startTime, stopTime, stepSize, tolerance
 
 
-def model_description(scene: Scene, flavour: Flavour) -> bytes:
-    """The XML document of a contact's FMU; the same scene and versions give the same bytes."""
+def described(scene: Scene, flavour: Flavour) -> Model:
+    """What it says of a contact."""
     experiment = {"startTime": 0.0, "stopTime": scene.operation.duration, "stepSize": scene.operation.interval}
     if isinstance(scene.film, Deterministic):
         experiment["tolerance"] = scene.film.tolerance
-    return xml(Model(MODEL, guid(scene, flavour), scene.description, experiment), variables(scene), flavour)
+    return Model(MODEL, guid(scene, flavour), scene.description, experiment)
 
 
 def xml(model: Model, table: Sequence[Variable], flavour: Flavour) -> bytes:
-    """modelDescription.xml of a model with these variables, in order of their value references."""
+    """The document of a model with these variables, in order of their value references. The same, the same bytes."""
     root = ET.Element(
         "fmiModelDescription",
         {

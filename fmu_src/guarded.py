@@ -11,7 +11,7 @@ for its category, or for none.
 import sys
 import traceback
 from abc import abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import Any
 
 from pythonfmu import Fmi2Slave
@@ -38,8 +38,8 @@ class CallError(ContactError):
 class GuardedSlave(Fmi2Slave):
     """All variables of a model by value reference, one of them the output `valid`.
 
-    `values` are theirs, always the same list, `layout` has kind and causality of each, `phase` is where in its life it
-    is: all to be read only.
+    `values` are theirs, always the same list, `layout` has kind and role of each, `phase` is where in its life it is:
+    all to be read only.
     """
 
     log_categories = LOG_CATEGORIES
@@ -55,7 +55,8 @@ class GuardedSlave(Fmi2Slave):
             raise
         self._references = {v.name: vr for vr, v in enumerate(self._variables)}
         self.values: list[Value] = [v.start for v in self._variables]
-        self.layout = tuple((v.kind, "tunable" if v.variability == "tunable" else v.causality) for v in self._variables)
+        direct = {name for v in self._variables for name in v.direct}
+        self.layout = tuple((v.kind, _role(v, direct)) for v in self._variables)
         self._inputs = [(v.name, vr) for vr, v in enumerate(self._variables) if v.causality == "input"]
         self.phase = Phase.NEW
         self._interrupted = False
@@ -94,6 +95,11 @@ class GuardedSlave(Fmi2Slave):
             self._guard(self._advance, step_size)
         return not self._interrupted
 
+    def refresh(self) -> None:
+        """Make the outputs those of the parameters, inputs and state as they are, where these may have changed them."""
+        if self.phase is Phase.UNSETTLED:
+            self._settle()
+
     def _value(self, name: str) -> Value:
         return self.values[self._references[name]]
 
@@ -131,8 +137,8 @@ class GuardedSlave(Fmi2Slave):
     # variables by value reference
 
     def _get(self, references: list[int], kind: Kind) -> list[Any]:
-        if self.phase is Phase.UNSETTLED and any(self._causality(vr) == "output" for vr in references):
-            self._settle()
+        if any(self._causality(vr) == "output" for vr in references):
+            self.refresh()
         found = []
         for vr in references:
             known = self._causality(vr) is not None and self._variables[vr].kind == kind
@@ -205,9 +211,21 @@ class GuardedSlave(Fmi2Slave):
         """Go to the state of a handle. One that cannot be used is an error: the host takes it for the model's."""
 
     @staticmethod
+    def parts(handle: Any) -> Sequence[bytes | memoryview]:
+        """Buffers whose join is `_fmu_state_to_bytes`: what has not changed since another state is the same object."""
+        return [handle.data]
+
+    @staticmethod
     def _fmu_state_to_bytes(handle: Any) -> bytes:
         return handle if isinstance(handle, bytes) else handle.data
 
     @staticmethod
     def _fmu_state_from_bytes(data: bytes) -> bytes:
         return data
+
+
+def _role(variable: Variable, direct: Collection[str]) -> str:
+    """Its causality; of a parameter that may change, and of an input on which outputs depend at once, what it is."""
+    if variable.name in direct:
+        return "direct"
+    return "tunable" if variable.variability == "tunable" else variable.causality

@@ -21,10 +21,13 @@ def _release_at_exit(folder: str, model: str) -> None:
     """Let the binary of pythonfmu 0.7 give up its interpreter before the process ends.
 
     On Linux it does so twice otherwise, in a static destructor and again when it is unloaded, if the C++ runtime
-    has pinned it until then: a use after free that now and then aborts a Python host at its exit.
+    has pinned it until then: a use after free that now and then aborts a Python host at its exit. By then the host may
+    have deleted the folder: only the very name by which it was loaded finds the library, and ecos's URIs have a slash
+    more.
     """
     if sys.platform == "linux":
-        atexit.register(_release, Path(folder).parent / "binaries" / "linux64" / f"{model}.so")
+        library = Path("/" + folder.lstrip("/")).parent / "binaries" / "linux64" / f"{model}.so"
+        atexit.register(_release, library)
 
 
 def _release(library: Path) -> None:

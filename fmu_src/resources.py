@@ -50,7 +50,12 @@ def script(model: str, slave: str, text: str) -> bytes:
 
 def guid(scene: Scene, flavour: Flavour) -> str:
     """The FMU's identity as a UUID, from scene, versions and flavour."""
-    return str(uuid.uuid5(uuid.UUID(hex=_fingerprint(scene)[:32]), flavour))
+    return identity(_fingerprint(scene), flavour)
+
+
+def identity(fingerprint: str, flavour: Flavour) -> str:
+    """The UUID of an FMU, from the fingerprint of what it is built from."""
+    return str(uuid.uuid5(uuid.UUID(hex=fingerprint[:32]), flavour))
 
 
 def module_name(scene: Scene) -> str:
@@ -62,21 +67,21 @@ def _fingerprint(scene: Scene) -> str:
     return hashlib.sha256(json.dumps([scene.to_dict(), VERSIONS], sort_keys=True).encode()).hexdigest()
 
 
-def files(scene: Scene, flavour: Flavour, python: str | None) -> dict[str, bytes]:
-    """Name and content of every file in `resources/`; `python` is the interpreter of an isolated FMU."""
+def files(scene: Scene) -> dict[str, bytes]:
+    """Name and content of every file in `resources/` that both flavours have."""
     module = module_name(scene)
-    found = {
+    return {
         "scene.json": (json.dumps(scene.to_dict(), indent=1) + "\n").encode(),
         "versions.json": (json.dumps(VERSIONS, indent=1) + "\n").encode(),
         "slavemodule.txt": module.encode(),
         f"{module}.py": script(MODEL, "fmu_src.slave.ContactSlave", "The contact of scene.json."),
     }
-    if flavour == "isolated":
-        found["start.py"] = (package_files("fmu_src") / "native" / "start.py").read_bytes()
-        found["guid.txt"] = guid(scene, flavour).encode()
-        if python:
-            found["python.txt"] = python.encode()
-    return found
+
+
+def of_process(guid: str, python: str | None) -> dict[str, bytes]:
+    """Name and content of the files in `resources/` that start an isolated FMU; `python` is its interpreter."""
+    found = {"start.py": (package_files("fmu_src") / "native" / "start.py").read_bytes(), "guid.txt": guid.encode()}
+    return found | ({"python.txt": python.encode()} if python else {})
 
 
 @functools.lru_cache(maxsize=64)

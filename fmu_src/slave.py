@@ -178,5 +178,5 @@ class ContactSlave(GuardedSlave):
 
     @staticmethod
     def parts(handle: Snapshot) -> list[bytes | memoryview]:
-        """Buffers whose join is `_fmu_state_to_bytes`: what has not changed since another state is the same object."""
+        """See GuardedSlave."""
         return handle.parts

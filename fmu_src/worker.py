@@ -35,7 +35,7 @@ _OK, _ERROR = Fmi2Status.ok.value, Fmi2Status.error.value
 _PHASES = {Phase.NEW: 0, Phase.UNSETTLED: 1, Phase.SETTLED: 1, Phase.STEPPING: 2}
 _STEPPING = _PHASES[Phase.STEPPING]
 _KINDS = ("Real", "Integer", "Boolean", "String")
-_CAUSALITIES = ("input", "parameter", "tunable", "output")
+_CAUSALITIES = ("input", "parameter", "tunable", "output", "direct")
 _TYPES: tuple[type, ...] = (float, int, bool, str)
 
 Buffer = bytes | memoryview
@@ -152,7 +152,7 @@ class Worker:
             case Operation.RESET:
                 self._instantiate()
             case Operation.LOOK:
-                self._evaluate()
+                slave.refresh()
             case Operation.RESTORE:
                 slave._set_fmu_state(self._saved[state] if state else slave._fmu_state_from_bytes(payload))
         return self._table() if operation in _TABLES else ()
@@ -163,14 +163,14 @@ class Worker:
     def _head(self, outputs: bool) -> list[Buffer]:
         """Status, outputs if they stand until the next step and are asked for, and what was logged."""
         slave = self._slave
+        phase = _PHASES[slave.phase] if slave is not None else 0
+        values = self._outputs(self._values()) if phase == _STEPPING and outputs else ()
         entries, self._entries = self._entries, []
         if slave is not None and (queue := slave._get_log_queue()):
             entries += [(message.status.value, message.category, message.msg) for message in queue]
             queue.clear()
         status = _ERROR if any(entry[0] >= _ERROR for entry in entries) else _OK
-        phase = _PHASES[slave.phase] if slave is not None else 0
-        if phase == _STEPPING and outputs:
-            values = self._outputs(slave.values)
+        if values:
             return [self._row.pack(status, phase, len(values), len(entries), *values), *map(_entry, entries)]
         return [_ANSWER.pack(status, phase, 0, len(entries)), *map(_entry, entries)]
 
@@ -215,13 +215,6 @@ class Worker:
         self._outputs = itemgetter(*outputs) if len(outputs) > 1 else lambda values: tuple(values[i] for i in outputs)
         self._row = struct.Struct(f"{_ANSWER.format}{len(outputs)}d")
 
-    def _evaluate(self) -> None:
-        """Ask for every output: in initialisation mode that makes the slave compute them."""
-        for kind, get in zip(
-            _KINDS, (self._slave.get_real, self._slave.get_integer, self._slave.get_boolean), strict=False
-        ):
-            get([vr for vr, description in enumerate(self._slave.layout) if description == (kind, "output")])
-
     def _save(self, number: int, known: bool) -> list[Buffer]:
         """Keep the state; return its parts, of those that the host knows from the state saved before only the place."""
         handle = self._slave._get_fmu_state()
@@ -234,9 +227,15 @@ class Worker:
         new = [chunk for part, k in zip(parts, same, strict=True) if k < 0 for chunk in (part, _padding(_size(part)))]
         return [_COUNT.pack(len(parts)), *heads, *new]
 
+    def _values(self) -> Sequence[Value]:
+        """Of every variable. Once it steps, outputs are those of the inputs; before, the host says when to look."""
+        if self._slave.phase is Phase.STEPPING:
+            self._slave.refresh()
+        return self._slave.values
+
     def _table(self) -> list[Buffer]:
         """Every variable's kind, causality and value."""
-        layout, values = self._slave.layout, self._slave.values
+        layout, values = self._slave.layout, self._values()
         return [_COUNT.pack(len(layout)), *map(_record, range(len(layout)), layout, values)]
 
 

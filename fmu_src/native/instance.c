@@ -25,7 +25,7 @@ struct Instance {
     Channel *worker;
     uint64_t life;       /* counts the workers */
     double limit;        /* seconds for a call; 0: none */
-    enum phase phase;    /* stepping: outputs stand until the next step, whatever inputs are set */
+    enum phase phase;    /* stepping: outputs stand until the next step, unless a direct input is set */
     int terminated;
     int mending;         /* a worker that turns out to be lost is replaced */
     int stale;           /* outputs are older than what they depend on */
@@ -480,10 +480,12 @@ fmi2Status instance_set(Instance *instance, enum kind kind, const uint32_t refer
         Variable *variable = variable_of(instance, kind, references[i]);
         if (!variable || !settable(instance, variable, kind, references[i])) return fmi2Error;
     }
-    for (size_t i = 0; i < count; i++)
-        if (!set_one(instance, &instance->variables[references[i]], references[i], values, i))
+    for (size_t i = 0; i < count; i++) {
+        Variable *variable = &instance->variables[references[i]];
+        if (!set_one(instance, variable, references[i], values, i))
             return instance_fail(instance, "There is no memory for the values that are set.");
-    if (instance->phase != STEPPING) instance->stale = 1;
+        if (instance->phase != STEPPING || variable->causality == DIRECT) instance->stale = 1;
+    }
     return instance->sets_count > MANY ? request_table(instance, LOOK, 0, 0) : fmi2OK;
 }
 

@@ -30,7 +30,7 @@ enum operation {
 
 enum kind { REAL, INTEGER, BOOLEAN, STRING };
 
-enum causality { INPUT, FIXED, TUNABLE, OUTPUT };
+enum causality { INPUT, FIXED, TUNABLE, OUTPUT, DIRECT }; /* direct: an input that outputs depend on at once */
 
 struct request {
     uint32_t operation, sets;

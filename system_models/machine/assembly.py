@@ -94,9 +94,12 @@ class Assembly:
     def system(self, folder: Path, flavour: Flavour = "embedded") -> System:
         """Build the FMUs into a folder and couple them; contacts of one scene share a file.
 
-        `flavour` is that of the contacts. Raises ContactError for what does not go together.
+        Raises ContactError for what does not go together.
         """
-        files = {name: self._part_file(folder, name, part) for name, part in self.parts.items()}
+        proposed = {"duration": self.settings["stop_time"], "step_size": self.settings["step_size"]}
+        files = {
+            name: build_part(part, folder / f"{name}.fmu", flavour, **proposed) for name, part in self.parts.items()
+        }
         scenes: dict[str, Path] = {}
         for name, contact in self.contacts.items():
             key = json.dumps(contact.scene.to_dict(), sort_keys=True)
@@ -106,10 +109,6 @@ class Assembly:
             files[name] = scenes[key]
         told = {f"{name}.{key}": value for name, c in self.contacts.items() for key, value in c.parameters.items()}
         return System(files, self.connections, {**self.parameters, **told}, self.schedule)
-
-    def _part_file(self, folder: Path, name: str, part: Part) -> Path:
-        duration, step = self.settings["stop_time"], self.settings["step_size"]
-        return build_part(part, folder / f"{name}.fmu", duration, step)
 
     def inputs_of(self, contact: str) -> list[str]:
         """The connected inputs of a contact."""

@@ -1,12 +1,12 @@
-"""Build a component's FMU: model description, documentation, resources and pythonfmu's binaries, in one zip."""
+"""Build a component's FMU: what a host is told of it, and the component itself."""
 
 import inspect
 from collections.abc import Iterator
 from pathlib import Path
 
-from fmu_src import packages
-from fmu_src.build import binaries, pack
-from fmu_src.describe import Model, xml
+from fmu_src.build import pack
+from fmu_src.describe import Model
+from fmu_src.flavours import Flavour
 from fmu_src.markup import paragraph, plain, table
 from fmu_src.variables import Variable
 
@@ -15,26 +15,28 @@ from .part import Part
 from .variables import variables
 
 
-def build(part: Part, out: Path, duration: float = 1.0, step_size: float = 1e-2) -> Path:
-    """Write the FMU of a component to `out` and return it; `duration` and `step_size` [s] are proposals to its host.
+def build(
+    part: Part,
+    out: Path,
+    flavour: Flavour = "isolated",
+    *,
+    python: str | None = None,
+    duration: float = 1.0,
+    step_size: float = 1e-2,
+) -> Path:
+    """Write the FMU of a component to `out` and return it. The same arguments and versions give the same bytes.
 
-    It runs in hosts that are Python themselves. The same arguments and versions give the same bytes. Raises SceneError
-    if the component's numbers cannot be used, OSError if the file cannot be written.
+    `flavour` and `python`: as for a contact, see `fmu_src.build`. `duration` and `step_size` [s] are proposals to its
+    host. Raises SceneError if the component's numbers cannot be used, OSError if the file cannot be written.
     """
     resources.check(part)
     experiment = {"startTime": 0.0, "stopTime": duration, "stepSize": step_size}
-    model = Model(part.name, resources.guid(part), part.text, experiment)
-    return pack(
-        {
-            "modelDescription.xml": xml(model, variables(part), "embedded"),
-            "documentation/index.html": "\n".join(_page(part, variables(part))).encode(),
-            "documentation/externalDependencies.txt": packages.external_dependencies("embedded"),
-            **{f"documentation/licenses/{name}": text for name, text in packages.licences("embedded").items()},
-            **{f"resources/{name}": data for name, data in resources.files(part).items()},
-            **binaries("embedded", part.name),
-        },
-        out,
-    )
+    own = {
+        "documentation/index.html": "\n".join(_page(part, variables(part))).encode(),
+        **{f"resources/{name}": data for name, data in resources.files(part).items()},
+    }
+    model = Model(part.name, resources.guid(part, flavour), part.text, experiment)
+    return pack(model, variables(part), own, out, flavour, python)
 
 
 def _page(part: Part, listed: tuple[Variable, ...]) -> Iterator[str]:

@@ -4,7 +4,6 @@ import functools
 import hashlib
 import importlib
 import json
-import uuid
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +11,8 @@ import contact_core
 from contact_core.errors import SceneError
 from contact_core.quantities import out_of_range
 from contact_core.reading import build, unbuild
-from fmu_src.resources import script
+from fmu_src.flavours import Flavour
+from fmu_src.resources import identity, script
 
 from .part import Part
 
@@ -20,7 +20,7 @@ _HOME = "system_models."  # what an FMU's resources may name lies in this packag
 
 
 def files(part: Part) -> dict[str, bytes]:
-    """Name and content of every file in `resources/`."""
+    """Name and content of every file in `resources/` that both flavours have."""
     module = _module(part)
     return {
         "part.json": (json.dumps(_table(part), indent=1) + "\n").encode(),
@@ -29,9 +29,9 @@ def files(part: Part) -> dict[str, bytes]:
     }
 
 
-def guid(part: Part) -> str:
-    """The FMU's identity as a UUID, from part and version."""
-    return str(uuid.uuid5(uuid.UUID(hex=_fingerprint(part)[:32]), part.name))
+def guid(part: Part, flavour: Flavour) -> str:
+    """The FMU's identity as a UUID, from part, version and flavour."""
+    return identity(_fingerprint(part), flavour)
 
 
 def check(part: Part) -> None:

@@ -1,10 +1,12 @@
 """The slave of a component's FMU: callbacks in, the three functions of a `Part` out; guarded, no physics."""
 
+import contextlib
 import json
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 from pythonfmu.enums import Fmi2Status
@@ -20,6 +22,7 @@ from .part import Part, State
 from .variables import variables
 
 _MAGIC = "tribofmu part 1"
+_ANY_STEP = 1e-3  # s
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +49,6 @@ class PartSlave(GuardedSlave):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._responses = [(v.name, vr) for vr, v in enumerate(self._variables) if v.causality == "output"][:-1]
-        self._direct = {name for v in self._variables for name in v.direct}
         self._part: Part | None = None
         self._state: State | None = None
         self._stale = False
@@ -54,6 +56,17 @@ class PartSlave(GuardedSlave):
     def _read(self) -> Sequence[Variable]:
         self._design = resources.read(self.resources, self._module)
         return variables(self._design)
+
+    @classmethod
+    def warm_up(cls, folder: Path) -> None:
+        """Load what the first steps of the component in these resources need, before processes are forked.
+
+        Raises SceneError if it cannot be used.
+        """
+        part = resources.read(str(folder), cls.__module__)
+        inputs = {q.name: q.start for q in part.inputs}
+        with contextlib.suppress(ContactError):  # which the first instance will say
+            part.outputs(part.advance(part.initial(inputs), inputs, _ANY_STEP), inputs)
 
     def _initialise(self) -> None:
         self._part = self._state = None
@@ -71,6 +84,7 @@ class PartSlave(GuardedSlave):
         if self._part is None or self._state is None:
             raise ContactError("The component is not set up: its initialisation has failed. Correct what was logged.")
         before = self._state
+        self._stale = False  # if the step fails, the outputs stand
         if step_size > 0.0:
             self._state = self._part.advance(before, self._checked_inputs(), step_size)
         try:
@@ -83,7 +97,7 @@ class PartSlave(GuardedSlave):
         """The outputs of the state, for the inputs as they are."""
         assert self._part is not None
         assert self._state is not None
-        self._stale = False
+        self._stale = False  # also if they cannot be had: they stand
         found = self._part.outputs(self._state, self._checked_inputs())
         results = [float(found[name]) for name, _ in self._responses]
         if not math.isfinite(math.fsum(results)):
@@ -102,13 +116,14 @@ class PartSlave(GuardedSlave):
 
     def _store(self, reference: int, value: Value, kind: Any) -> None:
         super()._store(reference, value, kind)
-        if self.phase is Phase.STEPPING and self._variables[reference].name in self._direct:
+        if self.phase is Phase.STEPPING and self.layout[reference][1] == "direct":
             self._stale = True
 
-    def _get(self, references: list[int], kind: Any) -> list[Any]:
+    def refresh(self) -> None:
+        """Evaluate anew if an input has been set on which outputs depend at once."""
         if self._stale and self.phase is Phase.STEPPING and self._part is not None:
             self._guard(self._evaluate)
-        return super()._get(references, kind)
+        super().refresh()
 
     def _get_fmu_state(self) -> Snapshot:
         return Snapshot(self._module, self.phase, self._stale, tuple(self.values), self._part, self._state)

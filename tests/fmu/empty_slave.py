@@ -63,6 +63,9 @@ class Empty(Fmi2Slave):
     def exit_initialization_mode(self) -> None:
         self.phase = Phase.STEPPING
 
+    def refresh(self) -> None:
+        """y stands until the next step."""
+
     def do_step(self, current_time: float, step_size: float) -> bool:
         self.values[OUTPUT] = self.values[PARAMETER] * self.values[INPUT]
         return True

@@ -1,5 +1,7 @@
 """Several FMUs and many instances live in one process."""
 
+import atexit
+import ctypes
 import json
 import os
 import shutil
@@ -10,6 +12,7 @@ from pathlib import Path
 import pytest
 from fmu_host import environment, hosted, unpacked
 
+from fmu_src import loader
 from fmu_src.build import build
 
 
@@ -51,6 +54,19 @@ def test_a_process_that_only_runs_the_fmu_ends_cleanly(fmu_file):
     code = f"import fmpy; print(len(fmpy.simulate_fmu({str(fmu_file)!r}, stop_time=2.0, output_interval=1.0)))"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment())
     assert (run.returncode, run.stdout, run.stderr) == (0, "3\n", "")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only there must it be released")
+def test_the_binary_is_found_at_exit_though_its_folder_is_gone_and_its_uri_had_a_slash_more(
+    folder, tmp_path, monkeypatch
+):
+    copy, registered = shutil.copytree(folder, tmp_path / "copy"), []
+    ctypes.CDLL(str(copy / "binaries/linux64/MixedContact.so"))
+    monkeypatch.setattr(atexit, "register", lambda _, *arguments: registered.extend(arguments))
+    loader.tidy(f"/{copy}/resources", "MixedContact")
+    shutil.rmtree(copy)
+    (library,) = registered
+    assert ctypes.CDLL(str(library), mode=os.RTLD_NOLOAD | os.RTLD_LAZY).finalizePythonInterpreter
 
 
 def test_an_fmu_of_another_version_is_refused_by_name(folder, tmp_path, capfd):

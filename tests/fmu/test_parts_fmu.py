@@ -50,7 +50,7 @@ def example(request: pytest.FixtureRequest) -> tuple[Part, dict[str, float]]:
 
 @pytest.fixture(scope="module")
 def file(example: tuple[Part, dict[str, float]], tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return build(example[0], tmp_path_factory.mktemp("part") / "part.fmu")
+    return build(example[0], tmp_path_factory.mktemp("part") / "part.fmu", "embedded")
 
 
 @pytest.fixture(scope="module")

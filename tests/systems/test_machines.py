@@ -1,8 +1,10 @@
 """`tribofmu run` of machines: what it writes, that it goes on after a kill, what it refuses, and its SSP."""
 
+import io
 import signal
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +15,12 @@ from test_cosim_command import result
 from test_resume import KILLED, bits
 from test_ssp import SPACES, imported, structure
 
+from fmu_src.flavours import FLAVOURS
 from system_models.cli import main
 from system_models.machine import reading
 from system_models.machine.export import with_timetable
 from system_models.machine.files import shipped
+from system_models.master import simulate
 
 SHORT = """time [s],entrainment_speed [m/s],slide_roll_ratio [1]
 0,1,0.5
@@ -124,6 +128,16 @@ def test_what_makes_no_sense_is_refused_with_a_sentence(
     assert not list(Path().rglob("result.nc"))
 
 
+def test_isolated_fmus_run_the_rig_to_the_same_rows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TRIBOFMU_PYTHON", sys.executable)
+    assembly = reading.assemble(reading.read("mtm_rig"))
+    settings = {**assembly.settings, "stop_time": 5.0, "outputs": assembly.outputs()}
+    runs = [simulate(assembly.system(tmp_path / flavour, flavour), **settings) for flavour in FLAVOURS]
+    first, second = (bits(run[assembly.outputs()]) for run in runs)
+    assert first == second
+    assert runs[0].sizes["time"] > 5
+
+
 @pytest.mark.parametrize("importer", ["libcosimpy", "ecospy"])
 def test_importers_run_the_rig(importer: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("TRIBOFMU_PYTHON", sys.executable)
@@ -153,6 +167,10 @@ def test_each_machine_exports_as_ssp_that_others_read(machine: str, tmp_path: Pa
         for component in components
         for parameter in component.findall(".//ssv:Parameter", SPACES)
     }
+    with zipfile.ZipFile(file) as archive:
+        fmus = [zipfile.ZipFile(io.BytesIO(archive.read(n))) for n in archive.namelist() if n.endswith(".fmu")]
+    assert len(fmus) > len(assembly.parts)
+    assert all("resources/start.py" in fmu.namelist() for fmu in fmus)  # isolated: for any host
     for name, contact in assembly.contacts.items():
         for key, value in contact.parameters.items():
             assert float(values[name, key]) == value
