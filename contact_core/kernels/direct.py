@@ -221,7 +221,7 @@ class _Direct(Iteration):
             reynolds.wrap(self.lever)
         self._solve_free(base)
         base += p
-        yields = self.stiff & (p >= q.cap) & (self.h < q.floor)  # stays at the cap until its gap opens
+        yields = self.stiff & (p >= q.cap) & (self.dh >= 0.0)  # stay at the cap until their gap opens too far
         base[yields], self.lever[yields] = p[yields], 0.0
         image = self._pressure_of(self.memory.image)
         shift = self._meet_load(base, image)

@@ -195,7 +195,7 @@ def _load_beyond(p, weight):  # type: ignore[no-untyped-def]
 
 @_jit
 def _next_pressure(  # type: ignore[no-untyped-def]
-    p, cap, h, floor, stiff, unit, damping, load, edge, weight, wrapped, dp, image
+    p, cap, dh, stiff, unit, damping, load, edge, weight, wrapped, dp, image
 ):
     """Damp and bound the corrections dp, meet the load. Returns the rigid gap's change and sum |image - p|."""
     ny, nx = p.shape
@@ -203,8 +203,8 @@ def _next_pressure(  # type: ignore[no-untyped-def]
     for j in range(1, ny - 1):
         for i in range(1, nx - 1):
             step, here = dp[j, i], p[j, i]
-            if stiff[j, i] and here >= cap[j, i] and h[j, i] < floor:
-                stiff[j, i] = False  # yields: stays at the cap until its gap opens
+            if stiff[j, i] and here >= cap[j, i] and dh[j, i] >= 0.0:
+                stiff[j, i] = False  # the solids yield to it: it stays at the cap until its gap opens too far
                 step = 0.0
             bound = 0.2 + 0.5 * here
             step = min(max(step, -bound), bound)
@@ -304,7 +304,7 @@ class Iteration:
         reynolds.relax_lines(p, self.solid, self.stiff, *film, *near, *relaxation)
         lever = (self.stiff, self.unit, self.damping, q.load, q.edge, q.weight, q.wrapped)
         vector = self.memory.image
-        shift, change = _next_pressure(p, q.cap, self.h, q.floor, *lever, self.dp, self._pressure_of(vector))
+        shift, change = _next_pressure(p, q.cap, self.dh, *lever, self.dp, self._pressure_of(vector))
         vector[-1] = self.x[-1] + self.weight * shift
         self.change = change / q.load
         if self.change > 0.03 and self.change > 3.0 * self.least:  # it runs away
