@@ -20,7 +20,7 @@ from system_models.machine.coupling_error import coarser, differences, relative,
 from system_models.master import simulate
 
 DOCS = Path(__file__).parents[1] / "docs"
-MACHINES = ("mtm_rig", "bearing_209", "bearing_209_start_stop", "bearing_218", "gear_fzg_c", "gear_fzg_a")
+MACHINES = ("mtm_rig", "bearing_209", "bearing_218", "gear_fzg_c", "gear_fzg_a")
 MOST = 5  # outputs of each that are shown
 SMALL = 1e-3  # of the largest value: changes that nobody sees
 
