@@ -95,8 +95,9 @@ class Fit:
         self.law, self.half_widths = law, dict[str, float]()
         self.sweep = Table(solved(sweep))
         self.all = rows = self.sweep if others is None else Table(shared([self.sweep.columns, told(solved(others))]))
+        further = ("load_flattening", "load_bending") if isinstance(law, LineSharing) else ()
         self._fit(
-            ("load_factor", "load_exponent", *(("load_flattening",) if isinstance(law, LineSharing) else ())),
+            ("load_factor", "load_exponent", *further),
             lambda law: law.load_ratio(rows.clearance, rows.flattening, rows.resolution, rows.floors) - rows.load_ratio,
         )
         self._fit(

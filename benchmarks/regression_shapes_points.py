@@ -18,18 +18,25 @@ from contact_core.shapes import Point
 from contact_core.state import Outputs
 
 STORE = Path(__file__).parent.parent / "results" / "regression_shapes"
-ORIGIN = {"line": "fzg_flank", "ellipse": "ball_209_inner", "circle": "mtm_zddp"}  # scene of each shape
+ORIGIN = {  # scene of each shape; soft: lines under a tribofilm's hardness
+    "line": "fzg_flank",
+    "ellipse": "ball_209_inner",
+    "circle": "mtm_zddp",
+    "soft line": "fzg_flank",
+}
 FIT, WIDTH, CHECK = 1, 2, 5  # seeds: what constants are fitted to, what half widths, too, and what tells if they hold
-COUNTS = {"line": 90, "ellipse": 45, "circle": 45}  # points of the fit
-OTHERS = 40  # of the other seeds
+COUNTS = {"line": 90, "ellipse": 45, "circle": 45, "soft line": 20}  # points of the fit
+OTHERS = {"line": 40, "ellipse": 40, "circle": 40, "soft line": 10}  # of the other seeds
 RUBBED, RUNS, MINUTES = 3, 6, 10.0  # seed, contacts of each shape, and for how long they rub
 LIGHT = 600.0  # N, at most, of ellipses that rub: others take long
 KELVIN = 273.15
+STEEL = 6e9  # Pa, hardness
 BALL = 6.35e-3  # m, radius
 RACES = (5.1093e-3, 7.590e-3)  # m, radii along x on the inner and the outer ring
 NODES = (65, 81, 97, 129)  # along x, of an ellipse
 INLET = 3.0  # nodes that resolve an inlet
 SPINNING = 0.5  # share of the ellipses that spin
+PRESSED = 0.8  # of the hardness, at most, by Hertz's pressure
 OBSERVED = (
     "friction_coefficient",
     "friction_solid",
@@ -64,6 +71,7 @@ class ShapePoint:
     temperature: float  # K
     rq_1: float  # m
     rq_2: float  # m
+    hardness: float = STEEL  # Pa, of bodies without a tribofilm
 
     def build(self, changes: dict[str, str] | None = None) -> Scene:
         """The scene on a grid that holds the contact."""
@@ -77,6 +85,8 @@ class ShapePoint:
         }
         if self.shape == "ellipse":
             made |= self._grid(shipped)
+        if self.hardness != STEEL:
+            made |= {"plasticity.hardness": f"{self.hardness} Pa", "plasticity.film_hardness": f"{self.hardness} Pa"}
         return Scene.from_toml(ORIGIN[self.shape], made | (changes or {}))
 
     def _grid(self, shipped: Scene) -> dict[str, str]:
@@ -101,6 +111,11 @@ class ShapePoint:
         return self.shape != "ellipse" or self._grid(Scene.from_toml(ORIGIN[self.shape]))["film.points"] != "0"
 
     @property
+    def squashed(self) -> bool:
+        """Whether the bodies are pressed together all but as hard as they can bear."""
+        return self.hardness < STEEL and self.build().hertz(self.load).pressure_max > PRESSED * self.hardness
+
+    @property
     def operating_point(self) -> OperatingPoint:
         """With the surface speeds."""
         half = 0.5 * self.srr * self.speed
@@ -119,11 +134,13 @@ def points(shape: str, seed: int, count: int) -> list[ShapePoint]:
 
     found = list[ShapePoint]()
     while len(found) < count:
-        spin = 0.0
-        if shape == "line":
-            radius, load = draw.uniform(3.9e-3, 8.8e-3), 14.0 * log(5.0, 540.0)
+        spin, hardness = 0.0, STEEL
+        if shape in ("line", "soft line"):
+            radius, load = draw.uniform(3.9e-3, 8.8e-3), 14.0 * log(5.0 if shape == "line" else 50.0, 540.0)
             speed, srr, warm = log(0.3, 5.0), draw.uniform(-1.3, 1.3), draw.uniform(40.0, 120.0)
             rough = log(0.1e-6, 0.4e-6), log(0.1e-6, 0.4e-6)
+            if shape == "soft line":
+                hardness = draw.uniform(2e9, 4e9)
         elif shape == "ellipse":
             radius, load = draw.choice(RACES), log(20.0, 4500.0)
             speed, srr, warm = log(0.05, 15.0), sign() * log(1e-3, 2e-2), draw.uniform(30.0, 120.0)
@@ -134,8 +151,9 @@ def points(shape: str, seed: int, count: int) -> list[ShapePoint]:
             radius, load = 9.525e-3, log(5.0, 75.0)
             speed, srr, warm = log(5e-3, 4.0), sign() * log(5e-3, 2.0), draw.uniform(40.0, 120.0)
             rough = log(10e-9, 40e-9), log(10e-9, 200e-9)
-        point = ShapePoint(shape, float(radius), load, speed, float(srr), spin, KELVIN + float(warm), *rough)
-        if point.resolved:
+        numbers = float(radius), load, speed, float(srr), spin, KELVIN + float(warm), *rough, float(hardness)
+        point = ShapePoint(shape, *numbers)
+        if point.resolved and not point.squashed:
             found.append(point)
     return found
 
@@ -177,6 +195,7 @@ def _stored(file: Path, asked: list[ShapePoint]) -> list[dict[str, float]]:
     if not file.exists():
         return []
     kept, rows = dict(np.load(file)), list[dict[str, float]]()
+    kept.setdefault("hardness", np.full(kept["load"].size, STEEL))
     for k, point in enumerate(asked[: kept["load"].size]):
         same = all(
             kept[f.name][k] == value

@@ -8,7 +8,8 @@ from .elementary import Numbers, exp, expm1, log1p, maximum, minimum, sqrt
 
 _FLATTENING = 0.2  # where the constants hold as they are: about that of the shipped circles,
 _RESOLUTION = 2.0  # and theirs on their grids
-_THICKEST = 1e30  # films beyond which no solid carries anything: their powers need not overflow
+# films and flattening beyond which no solid carries anything, and power of the film: no power of them may overflow
+_THICKEST, _FLATTEST, _STEEPEST = 1e30, 1e3, 10.0
 
 
 def rms_slope(rq_1: Numbers, length_1: Numbers, rq_2: Numbers, length_2: Numbers) -> Numbers:
@@ -66,7 +67,8 @@ class FittedSharing:
     resolution  r, correlation length of the rougher body / distance of the nodes,
     floors      f, that film / the gap at which solids touch.
 
-    1 - W_c = [1 - exp(-B L^C)] [1 - exp(-b f^c)], L = lambda (s / 0.2)^m (r / 2); A_c = [1 - exp(-c s)] W_c^D;
+    1 - W_c = [1 - exp(-B t^(m C) L^(C t^-q))] [1 - exp(-b f^c)], t = s / 0.2, L = lambda r / 2;
+    A_c = [1 - exp(-c s)] W_c^D;
     h_c / sigma = W_c g + (1 - W_c) {(E lambda / rho)^n + f^n}^(1/n), rho the density of the oil under Hertz's mean
     pressure, g = G ln[1 + k (s / 0.2)^-1.5] / k, f = F (s r / 0.4)^-0.75 >= g.
 
@@ -86,7 +88,7 @@ class FittedSharing:
     }
     WIDTHS: ClassVar[Widths] = Widths(0.23, 0.25, 0.44, 0.6, 0.12, 0.25, 0.65)
     CHOSEN: ClassVar[frozenset[str]] = frozenset(
-        {"load_flattening", "floor_factor", "floor_exponent", "oil_pressure_power", "oil_spread"}
+        {"load_flattening", "load_bending", "floor_factor", "floor_exponent", "oil_pressure_power", "oil_spread"}
     )
     HALF_WIDTHS: ClassVar[dict[str, float]] = {
         "load_factor": 0.2,
@@ -109,7 +111,10 @@ class FittedSharing:
 
     load_factor: float = parameter("", "B", above=0.0, most=100.0, default=2.08)
     load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=0.597)
-    load_flattening: float = parameter("", "m, power of s in L", above=0.0, most=10.0, default=2.0)
+    load_flattening: float = parameter("", "m, power of s beside lambda", above=0.0, most=10.0, default=2.0)
+    load_bending: float = parameter(
+        "", "q, how much less of lambda decides where roughness is pressed flat", least=0.0, most=2.0, default=0.0
+    )
     floor_factor: float = parameter("", "b, of films as thin as the floor", above=0.0, most=100.0, default=0.8)
     floor_exponent: float = parameter("", "c, of them", above=0.0, most=10.0, default=0.8)
     area_factor: float = parameter("", "c, of the dry contact's area", above=0.0, most=100.0, default=2.84)
@@ -147,8 +152,11 @@ class FittedSharing:
 
     def load_ratio(self, clearance: Numbers, flattening: Numbers, resolution: Numbers, floors: Numbers) -> Numbers:
         """contact_load_ratio at lambda = `clearance`, of a film of smooth bodies that is `floors` floors thick."""
-        reduced = clearance * (flattening / _FLATTENING) ** self.load_flattening * resolution / _RESOLUTION
-        rough = exp(-self.load_factor * minimum(reduced, _THICKEST) ** self.load_exponent)
+        flat, film = flattening / _FLATTENING, minimum(clearance * resolution / _RESOLUTION, _THICKEST)
+        flat = minimum(flat, _FLATTEST)
+        steep = flat ** (self.load_flattening * self.load_exponent)
+        power = minimum(self.load_exponent * flat**-self.load_bending, _STEEPEST)
+        rough = exp(-self.load_factor * steep * film**power)
         layers = exp(-self.floor_factor * minimum(floors, _THICKEST) ** self.floor_exponent)
         return rough + layers - rough * layers
 
@@ -217,39 +225,43 @@ class LineSharing(FittedSharing):
     }
     CHOSEN: ClassVar[frozenset[str]] = frozenset({"floor_factor", "floor_exponent", "oil_pressure_power", "oil_spread"})
     HALF_WIDTHS: ClassVar[dict[str, float]] = {
-        "load_factor": 0.27,
-        "load_exponent": 0.14,
-        "load_flattening": 0.17,
-        "area_factor": 0.11,
+        "load_factor": 0.16,
+        "load_exponent": 0.1,
+        "load_flattening": 0.25,
+        "load_bending": 0.17,
+        "area_factor": 0.12,
         "area_exponent": 0.032,
         "film_dry": 0.35,
         "film_parted": 1.2,
         "film_mixed": 0.16,
-        "film_factor": 0.14,
-        "film_exponent": 0.85,
-        "oil_pressure_excess": 5.0,
-        "oil_pressure_decay": 0.49,
+        "film_factor": 0.12,
+        "film_exponent": 0.69,
+        "oil_pressure_excess": 3.8,
+        "oil_pressure_decay": 0.41,
         "exposure_rougher": FittedSharing.HALF_WIDTHS["exposure_rougher"],
     }
-    WIDTHS: ClassVar[Widths] = Widths(0.21, 1 / 6, 0.36, 0.8, 0.16, 0.5, 0.6)
+    WIDTHS: ClassVar[Widths] = Widths(0.2, 0.25, 0.4, 0.8, 0.16, 0.4, 0.45)
 
-    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=2.25)
-    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=1.02)
-    load_flattening: float = parameter("", "m, power of s in L", above=0.0, most=10.0, default=1.06)
-    area_factor: float = parameter("", "c, of the dry contact's area", above=0.0, most=100.0, default=2.95)
-    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.977)
-    film_dry: float = parameter("", "G, mean gap of the dry contact / roughness", least=0.0, most=10.0, default=0.641)
-    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=1.13)
-    film_mixed: float = parameter(
-        "", "F, mean gap that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.782
+    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=2.04)
+    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=0.649)
+    load_flattening: float = parameter("", "m, power of s beside lambda", above=0.0, most=10.0, default=1.63)
+    load_bending: float = parameter(
+        "", "q, how much less of lambda decides where roughness is pressed flat", least=0.0, most=2.0, default=0.592
     )
-    film_factor: float = parameter("", "E, mean gap / film of smooth bodies", above=0.0, most=10.0, default=0.965)
-    film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=1.85)
+    area_factor: float = parameter("", "c, of the dry contact's area", above=0.0, most=100.0, default=2.9)
+    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.939)
+    film_dry: float = parameter("", "G, mean gap of the dry contact / roughness", least=0.0, most=10.0, default=0.584)
+    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=1.03)
+    film_mixed: float = parameter(
+        "", "F, mean gap that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.747
+    )
+    film_factor: float = parameter("", "E, mean gap / film of smooth bodies", above=0.0, most=10.0, default=0.961)
+    film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=1.72)
     oil_pressure_excess: float = parameter(
-        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=5.62
+        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=5.39
     )
     oil_pressure_decay: float = parameter(
-        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=1.01
+        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=1.0
     )
     oil_pressure_power: float = parameter("", "q, the more so of rougher bodies", least=0.0, most=5.0, default=0.0)
 

@@ -76,14 +76,15 @@ def resolve(assembly: Assembly, dataset: xr.Dataset, progress: Callable[[str], N
         for contact, row in candidates:
             if len(found) == 2 * count:
                 return found
-            found.append(_resolved(assembly, dataset, contact, row))
+            found.append(solved_again(assembly, dataset, contact, row))
             progress(f"{contact} at {found[-1].time:.4g} s, {len(found)} of {count} to {2 * count}")
             if found[-1].solved:
                 break
     return found
 
 
-def _resolved(assembly: Assembly, dataset: xr.Dataset, contact: str, row: int) -> Resolved:
+def solved_again(assembly: Assembly, dataset: xr.Dataset, contact: str, row: int) -> Resolved:
+    """The state of a contact at a row of its run, at both levels."""
     replay = _replayed(assembly, dataset, contact, row)
     time, deep, reason = float(dataset["time"].values[row]), None, ""
     try:

@@ -26,9 +26,21 @@ def golden():
 def test_solids_carry_all_without_film_and_nothing_under_a_thick_one(flattening, resolution):
     for law in LAWS:
         assert law.load_ratio(0.0, flattening, resolution, 0.0) == 1.0
-        assert law.load_ratio(1e-12, flattening, resolution, FAR) > 0.998
+        assert law.load_ratio(1e-15, flattening, resolution, FAR) > 0.998
         assert law.load_ratio(1e4, flattening, resolution, FAR) < 1e-12
         assert law.load_ratio(np.inf, flattening, resolution, FAR) == 0.0
+
+
+def test_the_flatter_roughness_is_pressed_the_less_the_film_of_lines_decides():
+    def power(law, flattening):  # of lambda in -ln(W_c), by its two values
+        few, many = (-np.log(law.load_ratio(film, flattening, 4.0, FAR)) for film in (0.1, 0.2))
+        return np.log(many / few) / np.log(2.0)
+
+    points, lines = FittedSharing(), LineSharing()
+    assert [power(points, s) for s in (0.05, 0.2, 0.6)] == pytest.approx(3 * [points.load_exponent])
+    assert power(lines, 0.2) == pytest.approx(lines.load_exponent)
+    assert power(lines, 0.1) == pytest.approx(lines.load_exponent * 2.0**lines.load_bending)
+    assert power(lines, 0.05) > power(lines, 0.6) > 0.0
 
 
 def test_films_as_thin_as_the_floor_leave_load_to_the_solids_however_flat_they_are():
