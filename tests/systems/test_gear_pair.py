@@ -81,7 +81,7 @@ def test_the_energy_that_is_lost_is_in_the_gearbox_or_gone(record: Record) -> No
 def test_flanks_wear_least_at_the_pitch_point_where_they_roll(record: Record, body: int) -> None:
     near = np.abs(record.positions - record.pair.pitch_point).argmin()
     assert worn(record, body).argmin() in (near, near + 1, near - 1)
-    assert worn(record, body).max() > 5.0 * worn(record, body).min() > 0.0
+    assert worn(record, body).max() > 4.0 * worn(record, body).min() > 0.0
 
 
 def test_each_gear_wears_most_at_its_root(record: Record) -> None:
