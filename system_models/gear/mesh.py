@@ -144,7 +144,6 @@ class GearMesh(Part):
                  f"loss factor under the loads as they are, 0 below {_IDLE:g} N"),
             Output("flash_temperature_rise", "dT_f", "K", "largest of the stations", nominal=10.0, relative=True,
                    direct=flash),
-            mean("hottest_station", "k", "1", float(self.stations), flash, "number of the station where it is largest"),
         )  # fmt: skip
 
     @property
@@ -198,7 +197,6 @@ class GearMesh(Part):
             "heat_flow_2": self._mean(found["heat_flow_2"]),
             **self._ratios(force, load, sliding, abs(power), np.abs(friction)),
             "flash_temperature_rise": float(flash.max()),
-            "hottest_station": float(flash.argmax() + 1),
         }
 
     def _ratios(self, force: float, load: Array, sliding: float, power: float, friction: Array) -> dict[str, float]:
