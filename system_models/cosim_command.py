@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
     from .master import System
 
+EXIT_CODE = "exit_code"  # of the run, as an attribute of its result
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What `run` wants to know."""
@@ -61,13 +63,15 @@ def carry_out(
     folder: Path,
     resume: bool,
     report: Callable[["xr.Dataset", Path], int],
+    **attributes: str,
 ) -> int:
     """Simulate with a checkpoint in the folder and hand the result to `report`, whose exit code is returned.
 
     With `resume` go on from the checkpoint; if there is none, but the result of this very simulation, leave that. The
-    settings are the arguments of `master.simulate`.
+    settings are the arguments of `master.simulate`. `report` writes the result with its exit code as the attribute
+    EXIT_CODE; `attributes` are others of it that tell it from results of another kind.
     """
-    origin = _origin(system, settings, name)
+    origin = _origin(system, settings, name) | attributes
     checkpoint = _checkpoint(folder, system, settings, resume)
     go_on = resume and checkpoint is not None and checkpoint.exists()
     if resume and not go_on and (code := _finished(folder, origin)) is not None:
@@ -121,14 +125,14 @@ def _checkpoint(folder: Path, system: "System", settings: Mapping[str, Any], res
 
 def _finished(folder: Path, origin: Mapping[str, str]) -> int | None:
     """The exit code of this very simulation if its result is there already."""
-    from . import cosim_report, results
+    from . import results
 
     dataset = results.find_by(origin, folder)
     if dataset is None:
         note(f"There is no checkpoint in '{folder}': the simulation starts from the beginning.")
         return None
     note(f"This simulation is finished, its result is in '{folder}'. Leave out --resume to compute it again.")
-    return 1 if cosim_report.missed_steps(dataset) else 0
+    return int(dataset.attrs.get(EXIT_CODE, 0))
 
 
 def _simulated(
@@ -181,9 +185,11 @@ def _report(dataset: "xr.Dataset", folder: Path) -> int:
 
     print(cosim_report.table(dataset), "", cosim_report.costs(dataset), "", sep="\n")
     print(*cosim_report.closing_lines(dataset), sep="\n")
+    code = 1 if cosim_report.missed_steps(dataset) else 0
+    dataset = dataset.assign_attrs({EXIT_CODE: code})
     written = [*results.write(dataset, folder), cosim_report.write_overview(dataset, folder / "overview.png")]
     print(f"Written: {', '.join(map(str, written))}")
-    return 1 if cosim_report.missed_steps(dataset) else 0
+    return code
 
 
 def _remove_checkpoint(folder: Path) -> None:

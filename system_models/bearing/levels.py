@@ -3,7 +3,8 @@
 Loads and numbers of balls of the classes are nodes and weights of Gauss' quadrature for the sum over the balls, in the
 variable Q^(1/3) in which the ellipses grow, and weighted with it, as rolling resistance grows about so. With K classes
 sum count Q^(p/3) is that of the balls for p = 1, 2 ... 2 K: from two classes on that of the loads, of spin friction
-Q^(4/3), from three on of differential sliding Q^(5/3). Counts need not be whole; a ball without load is in no class.
+Q^(4/3), from three on of differential sliding Q^(5/3). Counts need not be whole. A ball without load is in no class of
+the inner race; on the outer one, which it only leaves as the shaft stops, it keeps almost none, and so its class.
 What differs from ball to ball otherwise, such as spin, is in each class a mean of positive weights, the squares of
 Lagrange's polynomials: exact for what is even or goes with Q^(1/3).
 
@@ -24,6 +25,7 @@ from .kinematics import SLIDE_COULOMB, Motion
 Array = NDArray[np.float64]
 
 _CLOUD = 1e-4  # half width of a ball's cloud over its Q^(1/3)
+_LEAST = 1e-6  # load that each ball has on the outer race at least, over the largest one
 _FEWEST = 1e-2  # balls that a class has at least where its track is asked for
 
 
@@ -51,7 +53,8 @@ class Classes:
 
 def classify(geometry: BallBearingGeometry, race: Race, loads: Array, motion: Motion, levels: int) -> Classes:
     """The balls [Z] with these loads [N] on a race in `levels` classes."""
-    load, count, weights = gathered(loads, levels)
+    least = _LEAST * float(loads.max()) if race.name == "outer" else 0.0
+    load, count, weights = gathered(np.maximum(loads, least), levels)
     width = race.unit.b * np.cbrt(load)
     outward = -1.0 if race.name == "inner" else 1.0
     radius = 0.5 * geometry.ball_diameter * (1.0 + outward * geometry.ratio * np.cos(motion.angle))

@@ -36,7 +36,7 @@ def _changes(arguments: argparse.Namespace) -> dict[str, str]:
             raise ContactError(f"--{option} is empty. Give a value, or leave --{option} out.")
     changes = dict(arguments.settings)
     if arguments.hours:
-        changes["duty.duration"] = f"{arguments.hours} h"
+        changes["simulate.stop_time"] = f"{arguments.hours} h"
     if arguments.grid:
         changes["contact.film.points"] = arguments.grid
     return changes
@@ -55,18 +55,20 @@ def _export(assembly: "Assembly", path: str) -> int:
 
 
 def _run_in(folder: Path, assembly: "Assembly", kind: str, resume: bool, unchecked: bool) -> int:
+    import tempfile
+
     from ..cosim_command import carry_out
 
-    system = assembly.system(folder / "fmus")
+    settings = {**assembly.settings, "outputs": assembly.outputs()}
+    attributes = {"title": assembly.description, "checks": "left out" if unchecked else "error_coupling, resolved.nc"}
+    with tempfile.TemporaryDirectory(prefix="tribofmu-") as files:
+        system = assembly.system(Path(files))
 
-    def report(dataset: "xr.Dataset", folder: Path) -> int:
-        dataset = dataset.assign_attrs(title=assembly.description)
-        code = _report(dataset, folder, assembly, kind)
-        return code if unchecked else max(code, _check(dataset, folder, assembly, system))
+        def report(dataset: "xr.Dataset", folder: Path) -> int:
+            code = _report(dataset, folder, assembly, kind)
+            return code if unchecked else _check(dataset, folder, assembly, system, code)
 
-    return carry_out(
-        system, {**assembly.settings, "outputs": assembly.outputs()}, assembly.name, folder, resume, report
-    )
+        return carry_out(system, settings, assembly.name, folder, resume, report, **attributes)
 
 
 def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str) -> int:
@@ -74,19 +76,25 @@ def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str
     from importlib import import_module
 
     from .. import cosim_report, results
+    from ..cosim_command import EXIT_CODE
     from . import report as machine_report
 
     pictures = import_module(f".{kind}_report", __package__)
     print(assembly.description, "", *pictures.lines(assembly, dataset), "", sep="\n")
     print(*machine_report.lines(assembly, dataset), "", *cosim_report.closing_lines(dataset), "", sep="\n")
-    written = [*results.write(dataset, folder), *pictures.write(assembly, dataset, folder)]
-    print(f"Written: {', '.join(map(str, written))}", flush=True)
-    return 1 if cosim_report.missed_steps(dataset) or machine_report.invalid_rows(assembly, dataset) else 0
+    code = 1 if cosim_report.missed_steps(dataset) or machine_report.invalid_rows(assembly, dataset) else 0
+    written = results.write(dataset.assign_attrs({EXIT_CODE: code}), folder)
+    print(f"Written: {', '.join(map(str, [*written, *pictures.write(assembly, dataset, folder)]))}", flush=True)
+    return code
 
 
-def _check(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", system: "System") -> int:
-    """Simulate with double steps and solve states again; write what that says of the result; return the exit code."""
+def _check(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", system: "System", code: int) -> int:
+    """Simulate with double steps and solve states again; write what that says of the result.
+
+    Return the exit code, which has been `code` so far.
+    """
     from .. import results
+    from ..cosim_command import EXIT_CODE
     from ..master import simulate
     from . import coupling_error, resolve
 
@@ -99,9 +107,10 @@ def _check(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", system: "S
     begin = monotonic()
     states = resolve.resolve(assembly, dataset, lambda done: note(f"Solved again: {done}."))
     print(*resolve.lines(states), f"This took {monotonic() - begin:.0f} s.", sep="\n")
-    results.write(resolve.marked(dataset, states), folder)
-    print(f"Written: {results.write(resolve.to_dataset(states), folder, 'resolved')[0]}")
     wrong = [state for state in states if state.solved and not state.valid]
     if wrong:
         note(f"The fast level's errors do not cover its deviation in {len(wrong)} of {len(states)} states: see 'NO'.")
-    return 1 if wrong else 0
+        code = 1
+    print(f"Written: {results.write(resolve.to_dataset(states), folder, 'resolved')[0]}")
+    results.write(resolve.marked(dataset, states).assign_attrs({EXIT_CODE: code}), folder)
+    return code

@@ -30,6 +30,7 @@ from ..master.reading import settings, value
 from .assembly import Assembly, Contact
 from .files import folder, shipped
 
+_VALUES = ("description", "deterministic")  # what is no table
 _KINDS = ("ball_on_disc", "ball_bearing", "gear_pair")  # and the modules that assemble them
 
 
@@ -60,6 +61,9 @@ def read(source: str, changes: Mapping[str, str] | None = None) -> Machine:
         raise SceneError(f"The machine's file '{source}' is not valid TOML: {error}.") from None
     for key, text in (changes or {}).items():
         _put(table, key, value(text))
+    table.setdefault("description", path.stem)
+    if changes:
+        table["description"] = f"{table['description']} (changed)"
     kind = table.pop("kind", None)
     if kind not in _KINDS:
         raise SceneError(f"kind = {kind!r} is not one of {', '.join(_KINDS)}.{did_you_mean(str(kind), list(_KINDS))}")
@@ -104,6 +108,8 @@ def scene_of(table: Mapping[str, Any]) -> Scene:
 def at_levels(contacts: Mapping[str, Contact], table: Mapping[str, Any]) -> dict[str, Contact]:
     """The contacts at the level of their scene, those that the file names under `deterministic` at that one."""
     deep = table.get("deterministic", [])
+    if not isinstance(deep, list):
+        raise SceneError(f'deterministic = {deep!r} must be a list of contacts, such as ["{next(iter(contacts))}"].')
     for name in deep:
         if name not in contacts:
             raise SceneError(
@@ -119,13 +125,18 @@ def at_levels(contacts: Mapping[str, Contact], table: Mapping[str, Any]) -> dict
 
 def simulation(table: Mapping[str, Any], duration: float) -> dict[str, Any]:
     """The arguments for `master.simulate`; a duty of `duration` [s] is simulated to its end if nothing is said."""
-    return {"stop_time": duration, **settings(table.get("simulate", {}))}
+    given = settings(table.get("simulate", {}))
+    if "step_size" not in given:
+        raise SceneError("simulate.step_size is missing. Write for example step_size = \"10 ms\".")
+    return {"stop_time": duration, **given}
 
 
 def check_keys(machine: Machine, *known: str) -> None:
-    """Raise SceneError if the file has a table or key at its top that its kind does not know."""
-    for key in machine.table:
+    """Raise SceneError if the file has a table or key at its top that its kind does not know, or no table for one."""
+    for key, item in machine.table.items():
         if key not in known:
             raise SceneError(
                 f"A {machine.kind} has no '{key}'.{did_you_mean(key, list(known))} Known are {', '.join(known)}."
             )
+        if key not in _VALUES and not isinstance(item, Mapping):
+            raise SceneError(f"{key} = {item!r} must be a table: [{key}] with its keys, or --set {key}.KEY=VALUE.")

@@ -141,8 +141,8 @@ def _of_start_stop(table: Any, start: dict[str, float], duration: float | None) 
             "[duty] has start_stop and duration. Leave the duration out: `repeat` is the number of cycles."
         )
     run, standstill = (_seconds(table[key], f"{where}.{key}") for key in ("run", "standstill"))
-    names = table["signals"]
-    for name in names if isinstance(names, list) else [names]:
+    names = table["signals"] if isinstance(table["signals"], list) else [table["signals"]]
+    for name in names:
         if name not in start:
             raise SceneError(
                 f"{where}.signals names '{name}', which has no value in [duty].{did_you_mean(str(name), list(start))} "

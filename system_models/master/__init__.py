@@ -9,6 +9,7 @@ What it couples:
 How it runs:
 
     simulate      the time loop; recorder: rows, and the Dataset made of them; saving: what a checkpoint holds
+    interrupt     Ctrl-C waits for the end of a step
     stepping      a communication step of a given size; controlled: as large as a tolerance allows
     events        the moment of an event within a step
     coupled       the running FMUs of a system: exchange, advance, save, restore

@@ -16,6 +16,7 @@ from . import saving
 from .controlled import ControlledStepper
 from .coupled import Coupled
 from .errors import CouplingError
+from .interrupt import deferred
 from .recorder import Recorder
 from .sequence import direct_loops
 from .settings import Settings
@@ -118,7 +119,8 @@ def simulate(
             recorder.restore(store.saved.rows)
         else:
             recorder.add(recorder.start())
-        _run(coupled, recorder, stepper, progress or (lambda time: None), store)
+        check_interrupt = exits.enter_context(deferred())
+        _run(coupled, recorder, stepper, progress or (lambda time: None), store, check_interrupt)
         _report(coupled, stepper.statistics)
         return recorder.dataset(_attributes(coupled, stepper))
 
@@ -129,6 +131,7 @@ def _run(
     stepper: Stepper,
     progress: Callable[[float], None],
     store: Checkpoint | None,
+    check_interrupt: Callable[[], None],
 ) -> None:
     stop_time = coupled.settings.stop_time
     times = sorted({time for steps in coupled.system.schedule.values() for time, _ in steps if 0.0 < time < stop_time})
@@ -145,6 +148,7 @@ def _run(
         if store and store.due():
             _save(store, coupled, recorder, stepper)
         progress(coupled.time)
+        check_interrupt()
     if store and recorder.count > store.count and not stepper.statistics.ended_by:
         _save(store, coupled, recorder, stepper)
 

@@ -21,6 +21,7 @@ from system_models.machine import reading
 from system_models.machine.export import with_timetable
 from system_models.machine.files import shipped
 from system_models.master import simulate
+from system_models.parts.load_arm import LoadArm
 
 SHORT = """time [s],entrainment_speed [m/s],slide_roll_ratio [1]
 0,1,0.5
@@ -91,6 +92,32 @@ def test_a_killed_run_goes_on_to_the_same_rows(rig: list[str], capsys: pytest.Ca
     assert Path("killed/result.csv").read_bytes() == Path("whole/result.csv").read_bytes()
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows knows no signals of this kind")
+def test_an_interrupt_within_a_component_ends_the_run_after_the_step_and_it_goes_on(
+    rig: list[str], capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole, calls = LoadArm.advance, []
+
+    def pressed(self: LoadArm, *arguments: Any) -> Any:
+        calls.append(arguments)
+        if len(calls) == 40:
+            signal.raise_signal(signal.SIGINT)
+        return whole(self, *arguments)
+
+    monkeypatch.setattr(LoadArm, "advance", pressed)
+    assert main([*rig, "--unchecked", "--resume"]) == 130
+    assert "Interrupted. What was computed is kept in" in capsys.readouterr().err
+    assert 0 < len(calls) - 40 < 10
+    assert main([*rig, "--unchecked", "--resume"]) == 0
+    assert result("results/mtm_rig")["time"].values[-1] == 9.0
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    capsys.readouterr()
+    steps = len(calls)
+    assert main([*rig, "--unchecked", "--resume"]) == 0
+    assert "This simulation is finished" in capsys.readouterr().err
+    assert len(calls) == steps
+
+
 def test_any_contact_can_be_deterministic(rig: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert main([*rig, 'deterministic=["contact"]', "simulate.stop_time=2 s", "--unchecked"]) == 0
     assert " deterministic." in capsys.readouterr().out
@@ -104,6 +131,9 @@ def test_any_contact_can_be_deterministic(rig: list[str], capsys: pytest.Capture
     [
         ("mtm_rig", ["motor.power=3"], "A ball_on_disc has no 'motor'. Known are"),
         ("mtm_rig", ["ball.mass=3"], "mass"),
+        ("mtm_rig", ["contact=3"], "contact = 3 must be a table"),
+        ("mtm_rig", ["deterministic=contact"], "deterministic = 'contact' must be a list of contacts"),
+        ("mtm_rig", ["simulate={}"], "simulate.step_size is missing"),
         ("mtm_rig", ["duty.speed=3 m/s"], "[duty] has no 'speed'."),
         (
             "mtm_rig",
