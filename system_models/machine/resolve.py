@@ -5,7 +5,8 @@ goes to the deterministic level, on its own shape and surfaces.
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -21,7 +22,7 @@ from contact_core.scene import Scene, tunables, with_values
 from .assembly import Assembly
 
 FAST, DEEP = LEVELS
-_IDLE = 0.1  # of the largest load and speed
+_IDLE = 0.1  # of the mean load and speed
 _ENOUGH = 5  # states to tell something of a machine
 _TRIES = 3  # contacts at a time
 _UNSURE = RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK | RangeFlag.DOMAIN_EDGE
@@ -68,18 +69,47 @@ class Resolved:
 
 
 def resolve(assembly: Assembly, dataset: xr.Dataset, progress: Callable[[str], None], count: int = 6) -> list[Resolved]:
-    """Solve states again, spread over the contacts that carry load and over the time of the run: `count` of them that
-    can be judged, or twice as many tries. `progress` is told each.
+    """Solve states again, spread over the contacts and over the time of the run: `count` of them that can be judged, or
+    twice as many tries. `progress` is told each.
     """
     found: list[Resolved] = []
-    for candidates in _chosen(assembly, dataset, count):
-        for contact, row in candidates:
+    usable = {name: _usable(dataset, name, assembly.contacts[name].count) for name in _spread(assembly, dataset, count)}
+    for rows in _windows(dataset["time"].values, count):
+        tried = Counter(state.contact for state in found)
+        for contact, row in _candidates(rows, usable, tried):
             if len(found) == 2 * count:
                 return found
             found.append(solved_again(assembly, dataset, contact, row))
-            progress(f"{contact} at {found[-1].time:.4g} s, {len(found)} of {count} to {2 * count}")
+            judged = sum(state.solved for state in found)
+            progress(f"{contact} at {found[-1].time:.4g} s, {judged} of {count} judged")
             if found[-1].solved:
                 break
+    return found
+
+
+def _windows(times: NDArray[np.float64], count: int) -> Iterator[Sequence[int]]:
+    """Rows from which one state is to be taken, best from the front: all; and those of `count` - 1 equal times, from
+    their ends.
+    """
+    yield range(1, len(times))
+    edges = np.searchsorted(times, np.linspace(0.0, times[-1], count), "right")
+    for begin, end in pairwise(edges.tolist()):
+        yield range(end - 1, begin - 1, -1)
+
+
+def _candidates(
+    rows: Sequence[int], usable: Mapping[str, NDArray[np.bool_]], tried: Mapping[str, int]
+) -> list[tuple[str, int]]:
+    """A contact and a row that may tell something, and some more in case that it has no solution: of other contacts,
+    those that were tried least, and if there are none, of other rows.
+    """
+    working = {name: [row for row in rows if at_work[row]] for name, at_work in usable.items()}
+    turn = sorted((name for name, its in working.items() if its), key=lambda name: tried.get(name, 0))
+    found = []
+    for k in range(_TRIES if turn else 0):
+        again, place = divmod(k, len(turn))
+        its = working[turn[place]]
+        found.append((turn[place], its[again * len(its) // _TRIES]))
     return found
 
 
@@ -94,42 +124,26 @@ def solved_again(assembly: Assembly, dataset: xr.Dataset, contact: str, row: int
     return Resolved(contact, row, time, replay.fast, deep, replay.off, reason)
 
 
-def _chosen(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[list[tuple[str, int]]]:
-    """Contacts and rows: the first, then the last of each of `count` - 1 equal times; the contacts in turn, some others
-    for each in case that one has no solution.
-    """
-    names, times, found = _fast(dataset, assembly), dataset["time"].values, []
-    usable = {name: _usable(dataset, name, assembly.contacts[name].count) for name in names}
-    stride = max(1, len(names) // count)
-    edges = np.searchsorted(times, np.linspace(0.0, times[-1], count), "right")
-    windows = [range(1, len(times)), *(range(end - 1, begin - 1, -1) for begin, end in pairwise(edges.tolist()))]
-    for k, rows in enumerate(windows):
-        far = [shift * len(names) // _TRIES for shift in range(_TRIES)]  # others carry another load
-        turn = dict.fromkeys(
-            names[(k * stride + stride // 2 + shift) % len(names)] for shift in (*far, *range(len(names)))
-        )
-        first = [(name, next((row for row in rows if usable[name][row]), 0)) for name in turn]
-        found.append([(name, row) for name, row in first if row][:_TRIES])
-    return found
-
-
-def _fast(dataset: xr.Dataset, assembly: Assembly) -> list[str]:
-    """The contacts that the run has at the fast level."""
+def _spread(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[str]:
+    """The contacts that the run has at the fast level: first `count` that lie far apart, then those beside them."""
     level = 1 + LEVELS.index(FAST)
-    return [name for name in sorted(assembly.contacts) if (dataset[f"{name}.fidelity_used"].values == level).all()]
+    names = [name for name in sorted(assembly.contacts) if (dataset[f"{name}.fidelity_used"].values == level).all()]
+    stride = max(1, len(names) // count)
+    return [name for shift in range(stride) for name in names[(shift + stride // 2) % stride :: stride]]
 
 
 def _usable(dataset: xr.Dataset, name: str, count: str) -> NDArray[np.bool_]:
-    """The rows in which a contact works: at more than a tenth of its largest load and speed, now and before, and where
-    it stands for something.
+    """The rows in which a contact works: at more than a tenth of its mean load and speed, now and before, and where it
+    stands for something.
     """
-    load, speed = dataset[f"{name}.load"].values, dataset[f"{name}.speed_1"].values + dataset[f"{name}.speed_2"].values
-    working = (
-        (load > _IDLE * load.max()) & (np.abs(speed) > _IDLE * np.abs(speed).max()) & dataset[f"{name}.valid"].values
-    )
+    load, speed = (dataset[f"{name}.{key}"].values for key in ("load", "speed_1"))
+    speed = np.abs(speed + dataset[f"{name}.speed_2"].values)
+    steps = np.diff(dataset["time"].values, prepend=0.0)
+    means = [float(values @ steps) / float(steps.sum()) for values in (load, speed)]
+    working = (load > _IDLE * means[0]) & (speed > _IDLE * means[1]) & dataset[f"{name}.valid"].values.astype(bool)
     if count:
         working &= dataset[count].values > _IDLE
-    return working & np.roll(working, 1)
+    return np.asarray(working & np.roll(working, 1))
 
 
 class _Replay(NamedTuple):

@@ -176,7 +176,7 @@ def test_rubbing_stops_between_the_steps_of_a_run(scene: Scene, duty: Duty) -> N
 
 def test_a_rougher_disc_needs_more_speed() -> None:
     found = []
-    for rq in ("60 nm", "120 nm"):
+    for rq in ("80 nm", "120 nm"):
         scene = Scene.from_toml(
             "mtm_zddp",
             {
