@@ -79,8 +79,8 @@ Written by `python benchmarks/machine_tolerance.py`.
 `tribofmu run` simulates each machine a second time, at every second of its communication points. The coupling is of
 first order, so the difference is the error of the result (`system_models.machine.coupling_error`). It is stated for each
 output: the largest at any time, as the attribute `error_coupling` in result.nc. Left out are the first three of the double
-steps after a change of the duty, and those in which an output jumps, by more than a tenth of its largest value: where in
-a step a jump lies is not resolved.
+steps after a change of the duty, and three on either side of where an output jumps by more than a tenth of its largest value:
+where in a step a jump lies is not resolved.
 
 Does it hold? Each machine is simulated as it is shipped, with half the tolerance, and with half of each step, which halves
 the error. Errors and changes are relative to the output's largest value or, if that is more, a hundredth of its nominal

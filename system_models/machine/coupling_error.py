@@ -20,7 +20,7 @@ _ZERO = 273.15  # K: temperatures are read in degC
 _STATED = ".error_"  # what a contact says of its own errors
 _TOLD = 5
 _SMALL = 0.01  # of the nominal: what stays below is nothing
-_FIRST = 3  # steps after a change of the duty: where a jump lies in its step is no error
+_FIRST = 3  # steps after a change of the duty, or beside a jump of an output: where in a step it lies is no error
 _JUMP = 0.1  # of its largest value: an output that changes by more in a step is not resolved there
 
 
@@ -51,17 +51,18 @@ def stated(dataset: xr.Dataset, coarse: xr.Dataset, schedule: Schedule) -> xr.Da
 
 
 def differences(dataset: xr.Dataset, other: xr.Dataset, times: NDArray[np.float64]) -> dict[str, float]:
-    """Largest difference of each Real between two results, in its unit, at those of some times [s] that lie beside no
-    jump of it.
+    """Largest difference of each Real between two results, in its unit, at those of some times [s] that lie three steps
+    or more from its jumps.
     """
     found = {}
     for name in recorded(dataset):
         if dataset[name].dtype.kind != "f" or _STATED in name:
             continue
         one, two = (np.interp(times, each["time"].values, each[name].values) for each in (dataset, other))
-        jumps = np.abs(np.diff(one)) > _JUMP * np.abs(one).max(initial=0.0)
-        beside = np.append(False, jumps) | np.append(jumps, False)
-        found[name] = float(np.abs(one - two)[~beside].max(initial=0.0))
+        jumps = np.flatnonzero(np.abs(np.diff(one)) > _JUMP * np.abs(one).max(initial=0.0))
+        near = jumps[:, None] + np.arange(1 - _FIRST, 1 + _FIRST)
+        resolved = np.isin(np.arange(len(times)), near, invert=True)
+        found[name] = float(np.abs(one - two)[resolved].max(initial=0.0))
     return found
 
 

@@ -190,7 +190,9 @@ def marked(dataset: xr.Dataset, states: Sequence[Resolved]) -> xr.Dataset:
     found = dataset.copy(deep=True)
     for state in states:
         if not state.valid:
-            found[f"{state.contact}.valid"].values[state.row] = False
+            valid = found[f"{state.contact}.valid"]
+            valid.values[state.row] = False
+            valid.attrs["comment"] = "also false where errors do not cover a state solved again, or nothing tells"
     return found
 
 

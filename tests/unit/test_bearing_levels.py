@@ -117,3 +117,13 @@ def test_a_place_of_the_outer_ring_meets_every_ball():
     assert [way for _, way in ways] == pytest.approx([math.pi * (65e-3 + 12.7e-3) / 9.0] * 3, rel=1e-12)
     # a ball meets the class once in 9 / count turns, at least in 900
     assert [way for way, _ in ways] == pytest.approx([math.pi * 12.7e-3 * n for n in (4.5, 9.0, 900.0)], rel=1e-4)
+
+
+def test_classes_of_the_outer_race_stay_as_the_shaft_stops():
+    """Balls without load press on it by their centrifugal force only."""
+    turning, *_ = classes(BEARING_209, RingLoads(y=4000.0), 1e-3, "outer", 3)
+    still, *_ = classes(BEARING_209, RingLoads(y=4000.0), 0.0, "outer", 3)
+    assert still.count == pytest.approx(turning.count, rel=1e-3)
+    assert still.count.sum() == pytest.approx(9.0, abs=0.1)
+    assert still.load == pytest.approx(turning.load, rel=1e-3)
+    assert still.load[0] < 1e-5 * still.load[-1]

@@ -67,10 +67,11 @@ def test_rows_can_be_had_with_all_signals() -> None:
     ]
 
 
-def test_start_stop_cycles_run_and_stand() -> None:
+@pytest.mark.parametrize("signals", ['["speed"]', '"speed"'])
+def test_start_stop_cycles_run_and_stand(signals: str) -> None:
     duty = read(
         '[duty]\nspeed = "10 rad/s"\nload = "1 kN"\nrepeat = 2\n'
-        'start_stop = { signals = ["speed"], run = "1 min", standstill = "30 s" }'
+        'start_stop = { signals = SIGNALS, run = "1 min", standstill = "30 s" }'.replace("SIGNALS", signals)
     )
     assert duty.end == 180.0
     assert duty.schedule() == {
