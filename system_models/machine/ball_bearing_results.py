@@ -89,6 +89,11 @@ class BearingRun:
         least = _HARDLY * max(loads.values())
         return tuple(which for which in self.classes if loads[which] > least and balls[which] > FEWEST)
 
+    def loaded(self, which: ContactClass) -> NDArray[np.bool_]:
+        """Where a class has balls that carry more than hardly any load: others idle, on oil as thick as it may be."""
+        load, balls = self.given(which, "load"), self.given(which, "count")
+        return (balls > FEWEST) & (load > _HARDLY * self.of("bearing.load_max"))
+
     def given(self, which: ContactClass, name: str) -> Array:
         """What the bearing gives a class: load, speeds, count, ..."""
         return self.of("bearing." + indexed(f"{name}_{which.race}", which.level))
@@ -236,9 +241,9 @@ class BearingRun:
         told = [
             (float(self.given(which, "load")[row]), float(self.told(which, name)[row]), which)
             for which in self.classes
-            if which.race == race and self.given(which, "count")[row] > FEWEST
+            if which.race == race and self.loaded(which)[row]
         ]
-        told = sorted(each for each in told if each[0] > _HARDLY * load.max() and each[1] < CAPPED)
+        told = sorted(each for each in told if each[1] < CAPPED)
         if told and self.runs[row]:
             loads, values, own = zip(*told, strict=True)
             shares = np.array(values) / self._fresh_gaps(own[-1], row, loads)
