@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..bearing.geometry import RACES, RaceName
-from .ball_bearing_results import Array, BearingRun
+from .ball_bearing_results import CAPPED, Array, BearingRun
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,10 +23,10 @@ _PART_COLOURS = {"rolling": _SKY, "sliding": _ORANGE, "spin": _PURPLE}
 _NODE_COLOURS = {"balls": "black", "inner": _RACE_COLOURS["inner"], "outer": _RACE_COLOURS["outer"], "oil": _ORANGE}
 _SKF, _PALMGREN = _GREEN, "0.3"
 _KEY: dict[str, Any] = {"framealpha": 0.8, "edgecolor": "none", "fontsize": "small"}
+_ABOVE: dict[str, Any] = {"ncols": 4, "columnspacing": 1.0, "handlelength": 1.6}
 _BODIES = ((1, "ball", "-"), (2, "ring", "--"))
 _DECADES = 1e-4  # of the largest value are shown on log axes
 _LEAST = 1e-4  # nm: films and wear that are always less are none
-_CAPPED = 1e3  # film ratios from here on say nothing
 
 
 def write(run: BearingRun, folder: Path) -> list[Path]:
@@ -127,23 +127,14 @@ def _balls_around(axes: Any, run: BearingRun, name: str, factor: float, title: s
 
 
 def _films_around(axes: "Axes", run: BearingRun) -> None:
-    """Mean gap in full lines, film ratio in dashes on the right."""
-    right = axes.twinx()
+    """Mean gap of a ball on its way around; the film ratio is in proportion but for the roughness."""
     for race in RACES:
-        way, colour = run.passage(race, run.last), _RACE_COLOURS[race]
-        place = way.azimuth * _DEGREES
-        axes.plot(place, _NM * run.at_load(race, "h_c", run.last, way.load), color=colour, label=f"$h_c$, {race}")
-        ratio = run.at_load(race, "lambda_ratio", run.last, way.load)
-        right.plot(place, ratio, "--", color=colour, label=rf"$\lambda$, {race}")
+        way = run.passage(race, run.last)
+        gap = _NM * run.at_load(race, "h_c", run.last, way.load)
+        axes.plot(way.azimuth * _DEGREES, gap, color=_RACE_COLOURS[race], label=f"{race} race")
     axes.set(xlabel="azimuth from the load [deg]", ylabel="mean gap $h_c$ [nm]", xticks=range(-180, 181, 90))
-    right.set_ylabel(r"film ratio $\lambda$")
-    for each in (axes, right):  # balls without load have films many times as thick
-        each.set_yscale("log")
-        each.margins(y=0.3)
-    axes.spines["top"].set_visible(False)
-    right.spines["top"].set_visible(False)
-    handles = [(line, line.get_label()) for each in (axes, right) for line in each.lines]
-    axes.legend(*zip(*handles, strict=True), **_KEY, ncols=2, loc="upper center")
+    axes.set_ylim(bottom=0.0)
+    _plain(axes)
 
 
 # against time
@@ -166,7 +157,12 @@ def _timed(axes: "Axes", run: BearingRun, label: str) -> None:
 def _plain(axes: "Axes") -> None:
     axes.spines[["top", "right"]].set_visible(False)
     if axes.get_legend_handles_labels()[1]:
-        axes.legend(**_KEY)
+        _legend(axes)
+
+
+def _legend(axes: "Axes", **more: Any) -> None:
+    """Above the axes, where it covers no line."""
+    axes.legend(**_KEY, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2, **_ABOVE | more)
 
 
 def _total(parts: Mapping[str, Array]) -> Array:
@@ -204,7 +200,7 @@ def _temperatures(axes: "Axes", run: BearingRun) -> None:
 
 
 def _over_speed(axes: "Axes", run: BearingRun) -> None:
-    """Torque over speed in each start, the textbooks for the last one."""
+    """Size of the torque over speed in each start but the first, unless it is the only one; textbooks for the last."""
     from matplotlib import colormaps
     from matplotlib.ticker import LogLocator, NullFormatter
 
@@ -212,11 +208,12 @@ def _over_speed(axes: "Axes", run: BearingRun) -> None:
     if not starts:
         axes.set_axis_off()
         return
-    torque, speed = _NMM * run.of("bearing.friction_torque"), np.abs(run.speed) * _RPM
-    for k, rows in enumerate(starts):
+    torque, speed = _NMM * np.abs(run.of("bearing.friction_torque")), np.abs(run.speed) * _RPM
+    first, last = min(1, len(starts) - 1), len(starts) - 1  # the motor may be at its speed from the beginning
+    for k, rows in enumerate(starts[first:], first):
         turning = rows[run.runs[rows]]
-        shade = colormaps["viridis_r"](0.15 + 0.85 * k / max(len(starts) - 1, 1))
-        label = f"start {k + 1}" if k in (0, len(starts) - 1) else None
+        shade = colormaps["viridis_r"](0.15 + 0.85 * k / max(last, 1))
+        label = f"start {k + 1}" if k in (first, last) else None
         axes.plot(speed[turning], torque[turning], color=shade, linewidth=1.2, label=label, marker=".", markersize=3)
     turning = starts[-1][run.runs[starts[-1]]]
     for name, parts, style, colour in (
@@ -262,18 +259,19 @@ def _of_bodies(axes: "Axes", run: BearingRun, name: str, label: str, log: bool =
 
 
 def _of_contacts(axes: "Axes", run: BearingRun, name: str, label: str) -> None:
-    """An output of the contacts of all classes, where the shaft turns."""
+    """An output of the contacts of all classes, where the shaft turns and they are loaded."""
     time, _ = _clock(run)
-    largest = 0.0
+    least, largest = math.inf, 0.0
     for which in run.carrying:
-        values = np.where(run.runs, run.told(which, name), np.nan)
-        values[values >= _CAPPED] = np.nan
+        values = np.where(run.runs & run.loaded(which), run.told(which, name), np.nan)
+        values[values >= CAPPED] = np.nan
+        least = min(least, float(np.nanmin(values, initial=math.inf)))
         largest = max(largest, float(np.nanmax(values, initial=0.0)))
         shade = _shade(which.level, run.bearing.levels)
         axes.plot(time, values, color=_RACE_COLOURS[which.race], alpha=shade, linewidth=1.2)
     if largest > 0.0:
         axes.set_yscale("log")
-        axes.set_ylim(bottom=max(axes.get_ylim()[0], _DECADES * largest))
+        axes.set_ylim(max(0.7 * least, _DECADES * largest), 1.4 * largest)
     _timed(axes, run, label)
     _key(axes, run, bodies=False)
 
@@ -287,4 +285,4 @@ def _key(axes: "Axes", run: BearingRun, bodies: bool) -> None:
         entries += [(name, {"color": "0.3", "linestyle": style}) for _, name, style in _BODIES]
     handles = [Line2D([], [], label=name, **style) for name, style in entries]
     title = "darker: more load" if run.bearing.levels > 1 else None
-    axes.legend(handles=handles, **_KEY, title=title, title_fontsize="small", ncols=2)
+    _legend(axes, handles=handles, title=title, title_fontsize="small", alignment="left")

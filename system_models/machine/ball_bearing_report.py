@@ -8,12 +8,13 @@ import xarray as xr
 from ..cosim_report import aligned
 from . import ball_bearing_pictures
 from .assembly import Assembly
-from .ball_bearing_results import BearingRun
+from .ball_bearing_results import CAPPED, FEWEST, BearingRun
 
 _RPM = 30.0 / math.pi
 _CELSIUS = 273.15
 _NM, _NMM = 1e9, 1e3  # per m, per N m
 _NOTHING = 1e-3  # nm: less of a film or wear is none
+_UNLOADED = 0.5  # N: less is printed as none, and its film tells nothing
 _SOLIDS, _LAYERS = "contact_load_ratio", ("tribofilm_1", "tribofilm_2", "wear_depth_1", "wear_depth_2")
 
 
@@ -46,17 +47,16 @@ def _contacts(run: BearingRun, row: int) -> list[str]:
     ]
     for which in run.classes:
         load, balls = (run.given(which, name)[row] for name in ("load", "count"))
+        if balls < FEWEST:
+            continue
         h_c, ratio, mu, solids, *layers = (
             run.told(which, name)[row] for name in ("h_c", "lambda_ratio", "friction_coefficient", _SOLIDS, *_LAYERS)
         )
-        rows.append(
-            [
-                which.contact,
-                *(f"{balls:.2f}", f"{load:.0f}", f"{1e-9 * run.pressure(which.race, load):.2f}"),
-                *(f"{_NM * h_c:.0f}", f"{ratio:.2f}", f"{mu:.4f}", f"{solids:.1%}"),
-                *map(_nanometres, layers),
-            ]
-        )
+        pressure = 1e-9 * run.pressure(which.race, load)
+        film = f"{ratio:.2f}" if ratio < CAPPED else "-"
+        carried = [f"{pressure:.2f}", f"{_NM * h_c:.0f}", film, f"{mu:.4f}", f"{solids:.1%}"]
+        told = carried if load >= _UNLOADED else len(carried) * ["-"]
+        rows.append([which.contact, f"{balls:.2f}", f"{load:.0f}", *told, *map(_nanometres, layers)])
     return [
         *aligned(rows, 1),
         "balls: how many a class stands for; solids: load on asperities; film, wear: mean of tribofilm and wear depth "
@@ -93,7 +93,10 @@ def _heat(run: BearingRun, row: int) -> list[str]:
 
 
 def _apart(value: float, reference: float) -> str:
-    return f", {value / reference - 1.0:+.2%}" if reference > 0.0 else ""
+    if reference <= 0.0:
+        return ""
+    apart = round(value / reference - 1.0, 4)
+    return f", {apart:+.2%}" if apart else ", 0.00%"
 
 
 def _motion(run: BearingRun, row: int) -> list[str]:
@@ -111,7 +114,8 @@ def _starts(run: BearingRun) -> list[str]:
     peaks = run.start_peaks
     if len(peaks) < 2:
         return []
+    last = f", {_NMM * peaks[-1]:.3g} N mm in the last" if len(peaks) > 2 else ""
     return [
-        f"{len(peaks)} starts: largest friction torque {_NMM * peaks[0]:.3g} N mm in the first, {_NMM * peaks[-1]:.3g} "
-        "N mm in the last."
+        f"{len(peaks)} starts: largest friction torque while the shaft turns {_NMM * peaks[1]:.3g} N mm in the second"
+        f"{last}. The first is not compared: the motor may be at its speed from the beginning."
     ]

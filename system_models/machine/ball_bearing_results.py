@@ -1,7 +1,7 @@
 """What a run of a ball bearing tells beside its outputs: torque in parts and by textbooks, each ball's film, starts."""
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from contact_core import OperatingPoint, advance, initial_state
 from contact_core.laws.viscosity import AstmD341
 from contact_core.scene import Lubricant
 
@@ -25,6 +26,8 @@ Parts = dict[str, Array]  # friction torque [N m] by cause, arrays [time], NaN a
 Formula = Callable[[CatalogueBearing, float, float, float, float], Torque]  # radial, axial, speed, viscosity
 
 DENSITY = 870.0  # kg/m3, assumed of oils whose viscosity law has none
+CAPPED = 1e3  # film ratios from here on say nothing
+FEWEST = 0.02  # balls: a class of fewer stands for none
 _HARDLY = 0.02  # of the largest load or speed
 _REACHED = 0.99  # of its largest speed: a start ends there
 _POSITIONS = 24  # of the cage between one ball and the next
@@ -84,7 +87,12 @@ class BearingRun:
         loads = {which: float(self.given(which, "load").max()) for which in self.classes}
         balls = {which: float(self.given(which, "count").max()) for which in self.classes}
         least = _HARDLY * max(loads.values())
-        return tuple(which for which in self.classes if loads[which] > least and balls[which] > _HARDLY)
+        return tuple(which for which in self.classes if loads[which] > least and balls[which] > FEWEST)
+
+    def loaded(self, which: ContactClass) -> NDArray[np.bool_]:
+        """Where a class has balls that carry more than hardly any load: others idle, on oil as thick as it may be."""
+        load, balls = self.given(which, "load"), self.given(which, "count")
+        return (balls > FEWEST) & (load > _HARDLY * self.of("bearing.load_max"))
 
     def given(self, which: ContactClass, name: str) -> Array:
         """What the bearing gives a class: load, speeds, count, ..."""
@@ -192,9 +200,9 @@ class BearingRun:
 
     @property
     def start_peaks(self) -> Array:
-        """Largest friction torque of each start [N m]."""
-        torque = self.of("bearing.friction_torque")
-        return np.array([torque[rows].max() for rows in self.starts])
+        """Size of the largest friction torque of each start [N m] while the shaft turns: friction at rest is given."""
+        torque = np.abs(self.of("bearing.friction_torque"))
+        return np.array([torque[rows[self.runs[rows]]].max() for rows in self.starts])
 
     def pressure(self, race: RaceName, load: Array) -> Array:
         """Hertz's largest pressure [Pa] of balls with loads [N]."""
@@ -223,14 +231,35 @@ class BearingRun:
         return Passage(azimuth, load, self.pressure(race, load))
 
     def at_load(self, race: RaceName, name: str, row: int, load: Array) -> Array:
-        """What contacts of a race tell at a row, between the classes by load; NaN with hardly any load.
+        """Mean gap ("h_c") or film ratio ("lambda_ratio") of balls with loads [N] on a race at a row.
 
-        A ball with less load than the lightest class counts as one of it.
+        Interpolated between the classes is not the film, of which idle balls have many times as much, but its share of
+        what the fast level has with fresh surfaces at the same load: that hardly changes. NaN with hardly any load and
+        at rest.
         """
-        own = [which for which in self.carrying if which.race == race]
-        loads = np.array([self.given(which, "load")[row] for which in own])
-        values = np.array([self.told(which, name)[row] for which in own])
-        return np.where(load > _HARDLY * load.max(), np.interp(load, loads, values), np.nan)
+        found, loaded = np.full(load.shape, np.nan), load > _HARDLY * load.max()
+        told = [
+            (float(self.given(which, "load")[row]), float(self.told(which, name)[row]), which)
+            for which in self.classes
+            if which.race == race and self.loaded(which)[row]
+        ]
+        told = sorted(each for each in told if each[1] < CAPPED)
+        if told and self.runs[row]:
+            loads, values, own = zip(*told, strict=True)
+            shares = np.array(values) / self._fresh_gaps(own[-1], row, loads)
+            gaps = self._fresh_gaps(own[-1], row, load[loaded].tolist())
+            found[loaded] = np.interp(load[loaded], loads, shares) * gaps
+        return found
+
+    def _fresh_gaps(self, which: ContactClass, row: int, loads: Sequence[float]) -> Array:
+        """Mean gaps [m] of the fast level under loads [N], with fresh surfaces and all else as in a class at a row."""
+        contact = self.assembly.contacts[which.contact]
+        names = {field.name for field in fields(OperatingPoint)}
+        given = {name: float(value) for name, value in contact.parameters.items() if name in names}
+        given |= {name: float(self.told(which, name)[row]) for name in self.assembly.inputs_of(which.contact)}
+        scene = contact.scene.at_level("regression")
+        op, fresh = OperatingPoint(**given), initial_state(scene)
+        return np.array([advance(scene, replace(op, load=load), fresh, 0.0)[1].h_c for load in loads])
 
     @property
     def heat_stored(self) -> float:

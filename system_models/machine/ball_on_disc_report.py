@@ -267,7 +267,7 @@ def _finish(axis: "Axes", dataset: xr.Dataset, found: list[Sweep]) -> None:
         if not valid:
             axis.axvspan(start, end, color="0.7", linewidth=0.0, zorder=0)
     if len(axis.lines) > 1:
-        axis.legend(frameon=False, fontsize="small", loc="best" if axis.get_yscale() == "linear" else "center right")
+        axis.legend(frameon=False, fontsize="small", ncols=2, loc="lower right", bbox_to_anchor=(1.0, 0.97))
     axis.set_xlim(minutes[0], minutes[-1])
     axis.spines["top"].set_visible(False)
     axis.spines["right"].set_visible(False)

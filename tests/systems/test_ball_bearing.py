@@ -9,7 +9,8 @@ import pytest
 import xarray as xr
 from matplotlib.image import imread
 
-from system_models.bearing.geometry import BEARING_209, BEARING_218
+from contact_core.reference import nijenbanning_venner_moes
+from system_models.bearing.geometry import BEARING_209, BEARING_218, RaceName
 from system_models.bearing.textbook import CATALOGUE_209, CATALOGUE_218, catalogue_of
 from system_models.machine import ball_bearing_report, reading, timeline
 from system_models.machine.assembly import Assembly
@@ -113,11 +114,69 @@ def test_a_balls_way_around_passes_the_balls(warm: Result) -> None:
     assert there == pytest.approx(load, abs=1e-3 * load.max())
 
 
+@pytest.mark.parametrize("race", ["inner", "outer"])
+def test_the_film_at_a_balls_load_grows_as_the_formula_says_and_not_toward_that_of_idle_balls(
+    warm: Result, race: RaceName
+) -> None:
+    run = BearingRun(*warm)
+    heaviest = next(which for which in reversed(run.classes) if which.race == race)
+    most, film = (float(values[run.last]) for values in (run.given(heaviest, "load"), run.told(heaviest, "h_c")))
+    speed, warmth = (float(run.told(heaviest, name)[run.last]) for name in ("speed_1", "body_temperature_1"))
+    scene = warm[0].contacts[heaviest.contact].scene
+    loads = most * np.array([1.0, 0.6, 0.3, 0.1])
+
+    def smooth(load: float) -> float:
+        oil = scene.lubricant.viscosity, warmth
+        contact = scene.shape().smooth(load, speed, *oil, scene.solids.reduced_modulus)
+        return nijenbanning_venner_moes(contact) / float(scene.lubricant.density(scene.hertz(load).pressure_mean))
+
+    found = run.at_load(race, "h_c", run.last, loads) / film
+    assert found == pytest.approx([smooth(load) / smooth(most) for load in loads], rel=0.05)
+    assert found[0] == pytest.approx(1.0, rel=1e-6)
+    assert (np.diff(found) > 0.02).all()
+    ratio = run.at_load(race, "lambda_ratio", run.last, loads) / float(run.told(heaviest, "lambda_ratio")[run.last])
+    assert ratio == pytest.approx(found, rel=0.1)
+
+
+def test_balls_without_load_and_at_rest_have_no_film_to_show(warm: Result, starts: BearingRun) -> None:
+    run, loads = BearingRun(*warm), np.array([1000.0, 1.0])
+    assert np.isnan(run.at_load("outer", "h_c", run.last, loads)).tolist() == [False, True]
+    assert np.isnan(starts.at_load("outer", "h_c", 0, loads)).all()
+
+
 def test_every_start_is_found(starts: BearingRun) -> None:
     assert len(starts.starts) == 4
     for rows in starts.starts:
         assert not starts.runs[rows[0]]
         assert starts.speed[rows[-1]] > 0.98 * 40.0 * math.pi / 30.0
+
+
+def test_peaks_of_starts_are_sizes_while_the_shaft_turns(starts: BearingRun) -> None:
+    names = ("shaft.speed", "bearing.friction_torque")
+    backward = BearingRun(starts.assembly, starts.dataset.assign({name: -starts.dataset[name] for name in names}))
+    assert (starts.start_peaks > 0.0).all()
+    assert backward.start_peaks == pytest.approx(starts.start_peaks)
+    torque = starts.dataset["bearing.friction_torque"]
+    stuck = starts.dataset.assign({torque.name: torque.where(starts.runs, 1e3)})
+    assert BearingRun(starts.assembly, stuck).start_peaks == pytest.approx(starts.start_peaks)
+
+
+def test_the_report_compares_starts_from_the_second_on(starts: BearingRun) -> None:
+    said = "\n".join(ball_bearing_report.lines(starts.assembly, starts.dataset))
+    second, last = 1e3 * starts.start_peaks[[1, -1]]
+    assert (
+        f"4 starts: largest friction torque while the shaft turns {second:.3g} N mm in the second, {last:.3g}" in said
+    )
+
+
+def test_the_table_tells_nothing_of_classes_without_balls_or_load(warm: Result) -> None:
+    assembly, dataset = warm
+    empty = {"bearing.count_inner[1]": 0.0, "bearing.load_outer[1]": 0.1}
+    changed = dataset.assign({name: xr.full_like(dataset[name], value) for name, value in empty.items()})
+    rows = {line.split()[0]: line.split() for line in ball_bearing_report.lines(assembly, changed) if "er_" in line}
+    assert list(rows) == ["inner_2", "outer_1", "outer_2"]
+    assert rows["outer_1"][3:8] == 5 * ["-"]
+    assert "-" not in rows["outer_2"]
 
 
 def test_the_next_start_feels_the_film_that_the_last_has_left(starts: BearingRun, tmp_path: Path) -> None:
