@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -186,16 +187,20 @@ class BearingRun:
 
     @property
     def starts(self) -> list[NDArray[np.int_]]:
-        """Rows of each start, from the last at rest to where the speed has nearly reached its largest."""
-        turns = np.concatenate([[False], self.runs, [False]])
-        edges = np.flatnonzero(turns[1:] != turns[:-1])
+        """Rows of each start, from the last at rest, or the first in a direction, to where the speed has nearly reached
+        its largest.
+        """
+        direction = np.concatenate([[0.0], np.where(self.runs, np.sign(self.speed), 0.0), [0.0]])
         found = []
-        for first, end in zip(edges[::2], edges[1::2], strict=True):
+        for first, end in pairwise(np.flatnonzero(np.diff(direction))):
+            if direction[first + 1] == 0.0:
+                continue
+            rest = 1 if first > 0 and not self.runs[first - 1] else 0
             speed = np.abs(self.speed[first:end])
             if speed.max() < _HARDLY * np.abs(self.speed).max():
                 continue
             there = first + int(np.argmax(speed >= _REACHED * speed.max()))
-            found.append(np.arange(max(first - 1, 0), there + 1))
+            found.append(np.arange(first - rest, there + 1))
         return found
 
     @property

@@ -151,6 +151,15 @@ def test_every_start_is_found(starts: BearingRun) -> None:
         assert starts.speed[rows[-1]] > 0.98 * 40.0 * math.pi / 30.0
 
 
+def test_a_shaft_that_is_reversed_starts_again(starts: BearingRun) -> None:
+    there, rest = int(starts.starts[0][-1]), int(starts.starts[1][0])
+    speed = starts.dataset["shaft.speed"].copy()
+    speed[there + 1 : rest] *= -1.0
+    reversed_ = BearingRun(starts.assembly, starts.dataset.assign({"shaft.speed": speed}))
+    assert len(reversed_.starts) == 5
+    assert all(np.ptp(np.sign(speed.values[rows[starts.runs[rows]]])) == 0.0 for rows in reversed_.starts)
+
+
 def test_peaks_of_starts_are_sizes_while_the_shaft_turns(starts: BearingRun) -> None:
     names = ("shaft.speed", "bearing.friction_torque")
     backward = BearingRun(starts.assembly, starts.dataset.assign({name: -starts.dataset[name] for name in names}))
