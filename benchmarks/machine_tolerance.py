@@ -77,8 +77,8 @@ if __name__ == "__main__":
 Written by `python benchmarks/machine_tolerance.py`.
 
 `tribofmu run` simulates each machine a second time, at every second of its communication points. The coupling is of
-first order, so the difference is the error of the result (`system_models.machine.coupling_error`). It is stated for each
-output: the largest at any time, as the attribute `error_coupling` in result.nc. Left out are the first three of the double
+first order, so the difference is the error of the result; one and a half times the difference is stated for each output
+(`system_models.machine.coupling_error`): the largest at any time, as the attribute `error_coupling` in result.nc. Left out are the first three of the double
 steps after a change of the duty, and three on either side of where an output jumps by more than a tenth of its largest value:
 where in a step a jump lies is not resolved.
 

@@ -51,7 +51,7 @@ def test_the_error_stated_is_that_against_the_exact_solution(result: xr.Dataset,
     found = stated(result, doubled, SCHEDULE)
     true = np.abs(result["a.x"].values - exact(result["time"].values)).max()
     assert true > 0.02
-    assert found["a.x"].attrs[ATTRIBUTE] == pytest.approx(true, rel=0.1)
+    assert found["a.x"].attrs[ATTRIBUTE] == pytest.approx(1.5 * true, rel=0.1)
     assert found["a.T"].attrs[ATTRIBUTE] == pytest.approx(found["a.x"].attrs[ATTRIBUTE], rel=1e-9)
     assert ATTRIBUTE not in result["a.x"].attrs
 
