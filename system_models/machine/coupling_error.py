@@ -1,7 +1,7 @@
 """The error of the coupling: what steps of double size change in what is recorded.
 
 The coarser simulation has every second communication point of the result. Of first order, as all machines are, it has
-twice the error; hence the difference is the error of the finer one. Half of it is added for what is not yet of that order.
+twice the error; hence the difference is the error of the finer one. Half as much is added for what is not quite so.
 """
 
 from collections.abc import Mapping
