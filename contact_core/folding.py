@@ -77,9 +77,7 @@ def _folded(scene: Scene, rows: int, i: int, body: Body, then: Mean, now: Mean) 
     return replace(body, **arrays, worn=now.worn, cycles=now.cycles)
 
 
-def _lost(
-    scene: Scene, rows: int, bare: Array, heights: Array, felt: Array, wear: float, roughness: float
-) -> Array:
+def _lost(scene: Scene, rows: int, bare: Array, heights: Array, felt: Array, wear: float, roughness: float) -> Array:
     """Wear [m] of the track's heights of the solid, of a given mean, after which its roughness [m] is that or, if no
     cut through the highest points takes away enough, as little as can be.
     """

@@ -127,7 +127,7 @@ def simulation(table: Mapping[str, Any], duration: float) -> dict[str, Any]:
     """The arguments for `master.simulate`; a duty of `duration` [s] is simulated to its end if nothing is said."""
     given = settings(table.get("simulate", {}))
     if "step_size" not in given:
-        raise SceneError("simulate.step_size is missing. Write for example step_size = \"10 ms\".")
+        raise SceneError('simulate.step_size is missing. Write for example step_size = "10 ms".')
     return {"stop_time": duration, **given}
 
 
