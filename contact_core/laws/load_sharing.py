@@ -67,7 +67,7 @@ class FittedSharing:
     resolution  r, correlation length of the rougher body / distance of the nodes,
     floors      f, that film / the gap at which solids touch.
 
-    1 - W_c = [1 - exp(-B t^(m C) L^(C t^-q))] [1 - exp(-b f^c)], t = s / 0.2, L = lambda r / 2;
+    1 - W_c = [1 - exp(-B t^(m C) L^(C t^-v))] [1 - exp(-b f^c)], t = s / 0.2, L = lambda r / 2;
     A_c = [1 - exp(-c s)] W_c^D;
     h_c / sigma = W_c g + (1 - W_c) {(E lambda / rho)^n + f^n}^(1/n), rho the density of the oil under Hertz's mean
     pressure, g = G ln[1 + k (s / 0.2)^-1.5] / k, f = F (s r / 0.4)^-0.75 >= g.
@@ -113,7 +113,7 @@ class FittedSharing:
     load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=0.597)
     load_flattening: float = parameter("", "m, power of s beside lambda", above=0.0, most=10.0, default=2.0)
     load_bending: float = parameter(
-        "", "q, how much less of lambda decides where roughness is pressed flat", least=0.0, most=2.0, default=0.0
+        "", "v, how much less of lambda decides where roughness is pressed flat", least=0.0, most=2.0, default=0.0
     )
     floor_factor: float = parameter("", "b, of films as thin as the floor", above=0.0, most=100.0, default=0.8)
     floor_exponent: float = parameter("", "c, of them", above=0.0, most=10.0, default=0.8)
@@ -246,7 +246,7 @@ class LineSharing(FittedSharing):
     load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=0.649)
     load_flattening: float = parameter("", "m, power of s beside lambda", above=0.0, most=10.0, default=1.63)
     load_bending: float = parameter(
-        "", "q, how much less of lambda decides where roughness is pressed flat", least=0.0, most=2.0, default=0.592
+        "", "v, how much less of lambda decides where roughness is pressed flat", least=0.0, most=2.0, default=0.592
     )
     area_factor: float = parameter("", "c, of the dry contact's area", above=0.0, most=100.0, default=2.9)
     area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.939)
