@@ -42,7 +42,7 @@ def cycles(program: Path, folder: Path) -> Iterator[str]:
     with NativeHost(program, plain_environment()) as host:
         fmu = host.load(folder)
         host.ask("cycles", fmu.number, 100)
-        (supervisor,) = children(host.process.pid)
+        (supervisor,) = host.supervisors()
         before = [(resident(pid), descriptors(pid)) for pid in (host.process.pid, supervisor)]
         start = time.perf_counter()
         if host.ask("cycles", fmu.number, CYCLES).status != OK:
@@ -60,7 +60,7 @@ def steps(program: Path, folder: Path) -> Iterator[str]:
     """A long run."""
     with NativeHost(program, plain_environment()) as host:
         instance = started(host, folder)
-        (supervisor,) = children(host.process.pid)
+        (supervisor,) = host.supervisors()
         (worker,) = children(supervisor)
         load, output = (instance.fmu.variables[name].valueReference for name in ("load", "friction_force"))
         duty = (STEP, STEP, load, SCENE.operation.load, 0.9 * SCENE.operation.load, output)
@@ -74,7 +74,7 @@ def steps(program: Path, folder: Path) -> Iterator[str]:
 
 def starts(program: Path, folder: Path, model: str) -> Iterator[str]:
     """The first calls of a host."""
-    calls = (("instantiate", 0, 0, 0), ("setup", 0), ("enter", 0), ("exit", 0), ("step", 0, 0.0, STEP))
+    calls = (("instantiate", 0, 0, 0), ("setup", 0, 0.0), ("enter", 0), ("exit", 0), ("step", 0, 0.0, STEP))
     with NativeHost(program, plain_environment()) as host:
         host.load(folder)
         taken = {}
@@ -94,7 +94,7 @@ def losses(program: Path, folder: Path, model: str) -> Iterator[str]:
         instance.ask("save", 0)
 
         def supervisor() -> int:
-            return children(host.process.pid)[0]
+            return host.supervisors()[0]
 
         def worker() -> int:
             return children(supervisor())[0]

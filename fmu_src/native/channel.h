@@ -7,9 +7,14 @@
 
 #include <stddef.h>
 
-#define START_LIMIT 120 /* seconds for the imports of a worker, with kernels that are not compiled yet */
+#define START_LIMIT 120.0 /* seconds, where the host sets none: imports, with kernels that are not compiled yet */
 
 typedef struct Channel Channel;
+
+/* Longest times [s] of a call (0: none) and of a worker's start. */
+typedef struct {
+    double call, start;
+} Limits;
 
 /* Why something failed: a sentence for the host's log, and what the worker left behind. */
 typedef struct {
@@ -22,7 +27,7 @@ char *channel_resources(const char *uri, Reason *why);
 
 /* Start a worker for the FMU with these resources, give it the first message in `message` and wait for its answer
    as channel_call does. NULL and a reason if there is no worker or no answer. */
-Channel *channel_open(const char *resources, const void *message, size_t *size, double limit, Reason *why);
+Channel *channel_open(const char *resources, const void *message, size_t *size, Limits limits, Reason *why);
 
 /* Where the next message of `size` bytes is to be written, with what has been written of it; NULL without memory. */
 unsigned char *channel_room(Channel *channel, size_t size);

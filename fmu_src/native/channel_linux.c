@@ -4,7 +4,10 @@
    the supervisor's last words on the worker, and room for one message. The supervisor takes orders over a socket
    (supervisor.py): "F", a number and the channel's file: fork a worker, answered by "R", or by "E" and why not; "K" and
    a number: kill it. When a worker ends, the supervisor writes why into the channel and takes its turn; when the host
-   ends, the socket closes, and the supervisor kills the workers and ends. */
+   ends, the socket closes, and the supervisor kills the workers and ends.
+
+   The supervisor is no child of the host, which may wait for all of its own: the process that is started forks it and
+   ends (start.py). The two have a process group of their own, by which they can be killed. */
 
 #include <dlfcn.h>
 #include <errno.h>
@@ -49,7 +52,7 @@ struct head {
 typedef struct {
     int socket, users;
     int foreign; /* it is that of the process from which this one was forked */
-    pid_t process;
+    pid_t group;
 } Supervisor;
 
 struct Channel {
@@ -60,10 +63,11 @@ struct Channel {
     struct head *head;
 };
 
+Lock shared_lock = LOCK_INITIAL; /* here, of the supervisors and of who uses them */
+static Lock talk_lock = LOCK_INITIAL; /* of what is said to a supervisor and waits for an answer, its start included */
 static Supervisor *current;
 static Supervisor *starting; /* not ready yet; then it is `current` */
 static uint64_t channels;
-static Lock supervisor_lock = LOCK_INITIAL;
 
 static int failed(Reason *why, const char *what) {
     snprintf(why->text, sizeof why->text, "%s (%s).", what, strerror(errno));
@@ -83,39 +87,65 @@ static int hung_up(const Supervisor *supervisor) {
     return supervisor->foreign || poll(&end, 1, 0) > 0;
 }
 
-static void release(Supervisor *supervisor) {
-    if (--supervisor->users) return;
-    if (supervisor->socket >= 0) close(supervisor->socket);
-    if (supervisor->process > 0) {
-        double end = now() + END_LIMIT;
-        const struct timespec pause = {0, 1000000};
-        pid_t found;
-        while (!(found = waitpid(supervisor->process, NULL, WNOHANG)) && now() < end) nanosleep(&pause, NULL);
-        if (!found && kill(supervisor->process, SIGKILL) == 0) waitpid(supervisor->process, NULL, 0);
+/* Whether it ends within so many seconds: its end of the socket closes with it. */
+static int ends_within(const Supervisor *supervisor, double seconds) {
+    struct pollfd end = {supervisor->socket, 0, 0};
+    double last = now() + seconds;
+    int found = 0;
+    while (!found && now() < last) found = poll(&end, 1, (int)(1000.0 * (last - now())) + 1) > 0;
+    return found;
+}
+
+static void kill_group(const Supervisor *supervisor) {
+    if (supervisor->group > 0 && !hung_up(supervisor)) kill(-supervisor->group, SIGKILL); /* else the number is free */
+}
+
+/* Let a supervisor end that has no users any more. */
+static void finish(Supervisor *supervisor) {
+    if (!supervisor->foreign && supervisor->socket >= 0) {
+        shutdown(supervisor->socket, SHUT_WR);
+        if (!ends_within(supervisor, END_LIMIT)) {
+            kill_group(supervisor);
+            ends_within(supervisor, END_LIMIT);
+        }
+        close(supervisor->socket);
     }
     free(supervisor);
 }
 
-/* The workers are the parent's: a process that was forked from the host has none, and does not keep them alive. */
-static void after_fork(void) {
+static void release(Supervisor *supervisor) {
+    lock(&shared_lock);
+    int left = --supervisor->users;
+    unlock(&shared_lock);
+    if (!left) finish(supervisor);
+}
+
+/* A fork finds what is shared whole, and talks to nobody. The workers are the parent's: the child has none, and does
+   not keep them alive. */
+static void before_fork(void) { lock(&shared_lock); }
+
+static void after_fork(void) { unlock(&shared_lock); }
+
+static void after_fork_in_child(void) {
     Supervisor *known[] = {current, starting};
     for (int i = 0; i < 2; i++)
         if (known[i]) {
             close(known[i]->socket);
             known[i]->socket = -1;
-            known[i]->process = 0;
             known[i]->foreign = 1;
         }
     current = starting = NULL;
-    supervisor_lock = (Lock)LOCK_INITIAL; /* another thread may have held it */
+    shared_lock = talk_lock = (Lock)LOCK_INITIAL; /* another thread may have been talking */
 }
 
-/* What pthread_atfork calls: by itself it leaves the handler behind when this library is unloaded, unless the compiler
+/* What pthread_atfork calls: by itself it leaves the handlers behind when this library is unloaded, unless the compiler
    has seen to it. `current` stands for the library. */
 int __register_atfork(void (*prepare)(void), void (*parent)(void), void (*child)(void), void *library);
 void __cxa_finalize(void *library);
 
-__attribute__((constructor)) static void loaded(void) { __register_atfork(NULL, NULL, after_fork, &current); }
+__attribute__((constructor)) static void loaded(void) {
+    __register_atfork(before_fork, after_fork, after_fork_in_child, &current);
+}
 
 __attribute__((destructor)) static void unloaded(void) {
     __cxa_finalize(&current);
@@ -149,10 +179,10 @@ static int spawn(Supervisor *supervisor, const char *resources, const char *pyth
                              POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
     errno = ENOMEM;
     if (start && environment)
-        errno = posix_spawn(&supervisor->process, python, &files, &attributes, arguments, environment);
+        errno = posix_spawn(&supervisor->group, python, &files, &attributes, arguments, environment);
     int started = errno == 0;
     if (!started) {
-        supervisor->process = 0;
+        supervisor->group = 0;
         snprintf(why->text, sizeof why->text, "'%s' cannot be run (%s). %s", python, strerror(errno), PYTHON_HINT);
     }
     posix_spawn_file_actions_destroy(&files);
@@ -164,30 +194,35 @@ static int spawn(Supervisor *supervisor, const char *resources, const char *pyth
 
 enum word { AGREED, REFUSED, GONE, LATE };
 
-/* Wait for the supervisor's "R", or for "E" and the reason. */
-static enum word heard(const Supervisor *supervisor, Reason *why) {
+/* Wait for the supervisor's "R", or for "E" and the reason, at most `limit` seconds. */
+static enum word heard(const Supervisor *supervisor, double limit, Reason *why) {
     struct pollfd word = {supervisor->socket, POLLIN, 0};
-    double end = now() + START_LIMIT;
+    double last = now() + limit;
     ssize_t length = -1;
     errno = EINTR;
-    while (length < 0 && errno == EINTR && now() < end)
-        if (poll(&word, 1, (int)(1000.0 * (end - now())) + 1) > 0)
+    while (length < 0 && errno == EINTR && now() < last)
+        if (poll(&word, 1, (int)(1000.0 * (last - now() < 1e6 ? last - now() : 1e6)) + 1) > 0)
             length = recv(supervisor->socket, why->text, sizeof why->text - 1, 0);
     why->text[length > 0 ? length : 0] = 0;
     if (length > 0 && why->text[0] == 'R') return AGREED;
     if (length > 0) memmove(why->text, why->text + 1, (size_t)length);
-    return length > 0 ? REFUSED : now() < end ? GONE : LATE;
+    return length > 0 ? REFUSED : now() < last ? GONE : LATE;
 }
 
-/* Wait until it has imported the model. */
-static int ready(const Supervisor *supervisor, const char *python, Reason *why) {
-    enum word word = heard(supervisor, why);
+/* Wait until it has imported the model, at most `limit` seconds; then the process that has forked it is gone. */
+static int ready(const Supervisor *supervisor, const char *python, double limit, Reason *why) {
+    enum word word = heard(supervisor, limit, why);
     size_t used = word == REFUSED ? strlen(why->text) : 0;
     if (word == REFUSED)
         snprintf(why->text + used, sizeof why->text - used, "\nIt was run by '%s'. %s", python, PYTHON_HINT);
-    else if (word != AGREED)
-        snprintf(why->text, sizeof why->text, "'%s' %s. %s", python,
-                 word == GONE ? "ended before it was ready" : "was not ready in time", PYTHON_HINT);
+    else if (word == LATE)
+        snprintf(why->text, sizeof why->text,
+                 "'%s' was not ready within %g s. TRIBOFMU_START_TIMEOUT sets the limit of a start. %s", python, limit,
+                 PYTHON_HINT);
+    else if (word == GONE)
+        snprintf(why->text, sizeof why->text, "'%s' ended before it was ready. %s", python, PYTHON_HINT);
+    if (word != AGREED) kill(-supervisor->group, SIGKILL);
+    while (waitpid(supervisor->group, NULL, 0) < 0 && errno == EINTR) continue;
     return word == AGREED;
 }
 
@@ -202,7 +237,7 @@ static int socket_pair(int ends[2]) {
     return ends[0] >= 0 && ends[1] >= 0;
 }
 
-static Supervisor *supervisor_new(const char *resources, Reason *why) {
+static Supervisor *supervisor_new(const char *resources, double limit, Reason *why) {
     int ends[2] = {-1, -1};
     char *python = interpreter(resources, why);
     Supervisor *supervisor = python ? calloc(1, sizeof *supervisor) : NULL;
@@ -213,13 +248,17 @@ static Supervisor *supervisor_new(const char *resources, Reason *why) {
         if (!socket_pair(ends))
             failed(why, "There is no socket for the model's process");
         else {
+            lock(&shared_lock);
             supervisor->socket = ends[0];
             starting = supervisor;
+            unlock(&shared_lock);
             started = spawn(supervisor, resources, python, ends[1], why);
         }
         if (ends[1] >= 0) close(ends[1]);
-        if (started) started = ready(supervisor, python, why);
+        if (started) started = ready(supervisor, python, limit, why);
+        lock(&shared_lock);
         starting = NULL;
+        unlock(&shared_lock);
         if (!started) {
             release(supervisor);
             supervisor = NULL;
@@ -229,15 +268,22 @@ static Supervisor *supervisor_new(const char *resources, Reason *why) {
     return supervisor;
 }
 
-/* The supervisor, with one user more; started if there is none. */
-static Supervisor *supervised(const char *resources, Reason *why) {
-    if (current && hung_up(current)) {
-        release(current);
-        current = NULL;
-    }
-    if (!current) current = supervisor_new(resources, why);
-    if (current) current->users++;
-    return current;
+/* The present supervisor, with one user more, if it is there. */
+static Supervisor *present(void) {
+    lock(&shared_lock);
+    Supervisor *found = current && !hung_up(current) ? current : NULL;
+    if (found) found->users++;
+    unlock(&shared_lock);
+    return found;
+}
+
+/* Make `next`, or none, the present one in place of the one before. */
+static void replace(Supervisor *next) {
+    lock(&shared_lock);
+    Supervisor *before = current;
+    current = next;
+    unlock(&shared_lock);
+    if (before) release(before);
 }
 
 static int order(const Supervisor *supervisor, char what, uint64_t number, int file) {
@@ -257,7 +303,8 @@ static int order(const Supervisor *supervisor, char what, uint64_t number, int f
                                         .cmsg_len = CMSG_LEN(sizeof(int))};
         memcpy(CMSG_DATA(&control.head), &file, sizeof file);
     }
-    return sendmsg(supervisor->socket, &message, MSG_NOSIGNAL) == (ssize_t)sizeof bytes;
+    /* one that is stopped takes no more at some time */
+    return sendmsg(supervisor->socket, &message, MSG_NOSIGNAL | MSG_DONTWAIT) == (ssize_t)sizeof bytes;
 }
 
 /* turns */
@@ -289,8 +336,9 @@ static int supervisor_lost(Reason *why) {
 
 static int timed_out(Channel *channel, double limit, Reason *why) {
     snprintf(why->text, sizeof why->text,
-             "There was no answer within %g s, so it was killed. TRIBOFMU_TIMEOUT sets the limit; a start has %d s.",
-             limit, START_LIMIT);
+             "There was no answer within %g s, so it was killed. TRIBOFMU_TIMEOUT sets the limit of a call, "
+             "TRIBOFMU_START_TIMEOUT that of a start.",
+             limit);
     order(channel->supervisor, 'K', channel->number, -1);
     return 0;
 }
@@ -344,47 +392,56 @@ static Channel *channel_new(Reason *why) {
 }
 
 static void channel_free(Channel *channel) {
-    lock(&supervisor_lock);
     if (channel->supervisor) release(channel->supervisor);
-    unlock(&supervisor_lock);
     munmap(channel->head, channel->mapped);
     close(channel->file);
     free(channel);
 }
 
-/* Order a worker for the channel: of a new supervisor if the present one is lost meanwhile. One that does not answer is
-   killed, as what it might say later would be taken for the answer to another order. */
-static int worker_ordered(Channel *channel, const char *resources, Reason *why) {
+/* Ask a supervisor to fork a worker for the channel. */
+static enum word worker_asked(Channel *channel, Supervisor *supervisor, double limit, Reason *why) {
+    channel->supervisor = supervisor;
     enum word word = GONE;
-    lock(&supervisor_lock);
+    if (order(supervisor, 'F', channel->number, channel->file)) word = heard(supervisor, limit, why);
+    if (word == LATE) kill_group(supervisor); /* what it might say later would be taken for the answer to another order */
+    if (word != AGREED) {
+        channel->supervisor = NULL;
+        release(supervisor);
+    }
+    return word;
+}
+
+/* Order a worker for the channel: of a new supervisor if the present one is lost, or does not answer. */
+static int worker_ordered(Channel *channel, const char *resources, Limits limits, Reason *why) {
+    double soon = limits.call > 0.0 && limits.call < limits.start ? limits.call : limits.start;
+    lock(&talk_lock);
     channel->number = ++channels;
-    for (int attempt = 0; attempt < 2 && word == GONE; attempt++) {
-        channel->supervisor = supervised(resources, why);
-        if (!channel->supervisor) {
-            unlock(&supervisor_lock);
+    Supervisor *supervisor = present();
+    enum word word = supervisor ? worker_asked(channel, supervisor, soon, why) : GONE;
+    if (word == GONE || word == LATE) {
+        replace(NULL);
+        replace(supervisor_new(resources, limits.start, why));
+        supervisor = present();
+        if (!supervisor) {
+            unlock(&talk_lock);
             return 0;
         }
-        if (order(channel->supervisor, 'F', channel->number, channel->file)) word = heard(channel->supervisor, why);
-        if (word == LATE) kill(channel->supervisor->process, SIGKILL);
-        if (word != AGREED) {
-            release(channel->supervisor);
-            channel->supervisor = NULL;
-        }
+        word = worker_asked(channel, supervisor, limits.start, why);
     }
-    unlock(&supervisor_lock);
+    unlock(&talk_lock);
     if (word == GONE || word == LATE)
         snprintf(why->text, sizeof why->text, "Its supervisor %s.", word == GONE ? "ended" : "did not answer in time");
     return word == AGREED;
 }
 
-Channel *channel_open(const char *resources, const void *message, size_t *size, double limit, Reason *why) {
+Channel *channel_open(const char *resources, const void *message, size_t *size, Limits limits, Reason *why) {
     Channel *channel = channel_new(why);
     unsigned char *room = channel ? channel_room(channel, *size) : NULL;
     if (room) {
         memcpy(room, message, *size);
         channel->head->size = *size;
         channel->head->turn = WORKER;
-        if (worker_ordered(channel, resources, why) && answered(channel, limit, why)) {
+        if (worker_ordered(channel, resources, limits, why) && answered(channel, limits.start, why)) {
             *size = channel->head->size;
             return channel;
         }

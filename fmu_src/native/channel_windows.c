@@ -30,6 +30,8 @@ struct Channel {
     size_t capacity;          /* of a message */
 };
 
+Lock shared_lock = LOCK_INITIAL;
+
 void lock(Lock *held) { AcquireSRWLockExclusive((SRWLOCK *)held); }
 
 void unlock(Lock *held) { ReleaseSRWLockExclusive((SRWLOCK *)held); }
@@ -191,9 +193,9 @@ static int lost_because(Channel *channel, enum outcome outcome, double limit, Re
     DWORD code = 0;
     if (outcome == LATE)
         snprintf(why->text, sizeof why->text,
-                 "There was no answer within %g s, so it was killed. TRIBOFMU_TIMEOUT sets the limit; a start has "
-                 "%d s.",
-                 limit, START_LIMIT);
+                 "There was no answer within %g s, so it was killed. TRIBOFMU_TIMEOUT sets the limit of a call, "
+                 "TRIBOFMU_START_TIMEOUT that of a start.",
+                 limit);
     else if (outcome == TOO_LONG)
         snprintf(why->text, sizeof why->text, "There is no room for its answer, so it was killed.");
     else if (!WaitForSingleObject(channel->process, END_LIMIT) && GetExitCodeProcess(channel->process, &code))
@@ -216,7 +218,9 @@ static int ready(Channel *channel, const char *python, ULONGLONG end, Reason *wh
                  PYTHON_HINT);
     else {
         snprintf(why->text, sizeof why->text, "'%s' %s. %s", python,
-                 outcome == LATE ? "was not ready in time" : "ended before it was ready", PYTHON_HINT);
+                 outcome == LATE ? "was not ready in time, which TRIBOFMU_START_TIMEOUT sets"
+                                 : "ended before it was ready",
+                 PYTHON_HINT);
         quote(channel->complaints, why);
     }
     return 0;
@@ -250,13 +254,14 @@ static int worker_new(Channel *channel, const char *resources, ULONGLONG end, Re
 
 static ULONGLONG end_of(double limit) { return limit > 0.0 ? GetTickCount64() + (ULONGLONG)(limit * 1000.0) : 0; }
 
-Channel *channel_open(const char *resources, const void *message, size_t *size, double limit, Reason *why) {
+Channel *channel_open(const char *resources, const void *message, size_t *size, Limits limits, Reason *why) {
     Channel *channel = calloc(1, sizeof *channel);
     unsigned char *room = channel ? channel_room(channel, *size) : NULL;
     snprintf(why->text, sizeof why->text, "There is no memory for its messages.");
-    if (room && worker_new(channel, resources, end_of(limit), why) && (room = channel_room(channel, *size)) != NULL) {
+    if (room && worker_new(channel, resources, end_of(limits.start), why) &&
+        (room = channel_room(channel, *size)) != NULL) {
         memcpy(room, message, *size);
-        if (channel_call(channel, size, limit, why)) return channel;
+        if (channel_call(channel, size, limits.start, why)) return channel;
     }
     if (channel) channel_close(channel, NULL, 0);
     return NULL;

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "instance.h"
+#include "python.h"
 
 /* Hosts call with components that were freed: such a call is an error, not a crash. */
 #define INSTANCE(component)                                    \
@@ -40,7 +41,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
 }
 
 void fmi2FreeInstance(fmi2Component c) {
-    if (instance_known(c)) instance_free(c);
+    library_release(instance_known(c) ? instance_free(c) : NULL);
 }
 
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined, fmi2Real tolerance, fmi2Real startTime,

@@ -8,6 +8,7 @@
 #include "buffer.h"
 #include "channel.h"
 #include "lock.h"
+#include "python.h"
 #include "state.h"
 
 typedef struct {
@@ -18,13 +19,14 @@ typedef struct {
 
 struct Instance {
     struct Instance *next;
+    void *library; /* kept loaded */
     char *name, *guid, *resources;
     fmi2CallbackFunctions host;
     enum { QUIET, USUAL, LOUD } logging; /* errors; warnings, too; all in `categories` */
     char **categories;                   /* NULL-terminated; NULL: all */
     Channel *worker;
     uint64_t life;       /* counts the workers */
-    double limit;        /* seconds for a call; 0: none */
+    Limits limits;
     enum phase phase;    /* stepping: outputs stand until the next step, unless a direct input is set */
     int terminated;
     int mending;         /* a worker that turns out to be lost is replaced */
@@ -43,8 +45,7 @@ struct Instance {
     char plain[sizeof(Reason) + 256], escaped[2 * sizeof(Reason) + 512]; /* not on the stack: hosts have small ones */
 };
 
-static Instance *instances;
-static Lock instances_lock = LOCK_INITIAL;
+static Instance *instances; /* under shared_lock */
 
 /* log */
 
@@ -225,7 +226,7 @@ static fmi2Status request(Instance *instance, enum operation operation, const do
     unsigned char *room = channel_room(instance->worker, size);
     if (!room) return instance_fail(instance, "There is no memory for a message of %zu bytes.", size);
     write_request(instance, room, operation, numbers, state, payload);
-    if (channel_call(instance->worker, &size, instance->limit, &instance->why)) return answered(instance, size, rest);
+    if (channel_call(instance->worker, &size, instance->limits.call, &instance->why)) return answered(instance, size, rest);
     lose_worker(instance);
     return instance->mending ? fmi2Error : lost(instance);
 }
@@ -241,8 +242,7 @@ static fmi2Status open_worker(Instance *instance) {
     write_request(instance, message, OPEN, NONE, 0, payload);
     append(append(message + size - payload, instance->name, name), *instance->guid ? instance->guid : nothing,
            payload - name);
-    double limit = instance->limit > START_LIMIT ? instance->limit : START_LIMIT;
-    instance->worker = channel_open(instance->resources, message, &size, limit, &instance->why);
+    instance->worker = channel_open(instance->resources, message, &size, instance->limits, &instance->why);
     free(message);
     if (!instance->worker) return instance_fail(instance, "The model cannot be started: %s", instance->why.text);
     instance->life++;
@@ -322,20 +322,26 @@ fmi2Status instance_reset(Instance *instance) {
 
 /* instances */
 
-/* Read TRIBOFMU_TIMEOUT: digits, a point, digits. Not by strtod, whose point is a comma in some hosts. */
-static int read_limit(double *limit, Reason *why) {
-    const char *text = getenv("TRIBOFMU_TIMEOUT"), *at = text ? text : "";
+/* Read seconds from an environment variable, `usual` if it is not set: digits, a point, digits. Not by strtod, whose
+   point is a comma in some hosts. */
+static int read_limit(const char *name, double usual, double *limit, Reason *why) {
+    const char *text = getenv(name), *at = text ? text : "";
     double whole = 0.0, scale = 1.0;
     for (; '0' <= *at && *at <= '9'; at++) whole = 10.0 * whole + (*at - '0');
     if (*at == '.')
         for (at++; '0' <= *at && *at <= '9'; at++) whole += (*at - '0') * (scale /= 10.0);
-    *limit = whole;
+    *limit = text && *text ? whole : usual;
     if (!*at && (whole > 0.0 || !text || !*text)) return 1;
     snprintf(why->text, sizeof why->text,
-             "TRIBOFMU_TIMEOUT = '%.100s' must be a number of seconds above 0, such as 600 or 0.5. Leave it unset for "
-             "no limit.",
-             text);
+             "%s = '%.100s' must be a number of seconds above 0, such as 600 or 0.5. Leave it unset for %s.", name, text,
+             usual > 0.0 ? "two minutes" : "no limit");
     return 0;
+}
+
+static int read_limits(Limits *limits, Reason *why) {
+    return read_limit("TRIBOFMU_TIMEOUT", 0.0, &limits->call, why) &&
+           read_limit("TRIBOFMU_START_TIMEOUT", limits->call > START_LIMIT ? limits->call : START_LIMIT, &limits->start,
+                      why);
 }
 
 Instance *instance_new(const char *name, const char *guid, const char *uri, const fmi2CallbackFunctions *host,
@@ -349,13 +355,14 @@ Instance *instance_new(const char *name, const char *guid, const char *uri, cons
     instance->stale = 1;
     if (instance->name && instance->guid) {
         instance->resources = channel_resources(uri, &instance->why);
-        if (!instance->resources || !read_limit(&instance->limit, &instance->why))
+        if (!instance->resources || !read_limits(&instance->limits, &instance->why))
             instance_fail(instance, "%s", instance->why.text);
         else if (open_worker(instance) == fmi2OK) {
-            lock(&instances_lock);
+            instance->library = library_keep();
+            lock(&shared_lock);
             instance->next = instances;
             instances = instance;
-            unlock(&instances_lock);
+            unlock(&shared_lock);
             return instance;
         }
     }
@@ -364,21 +371,22 @@ Instance *instance_new(const char *name, const char *guid, const char *uri, cons
 }
 
 int instance_known(const void *component) {
-    lock(&instances_lock);
+    lock(&shared_lock);
     const Instance *known = instances;
     while (known && known != component) known = known->next;
-    unlock(&instances_lock);
+    unlock(&shared_lock);
     return known != NULL;
 }
 
-void instance_free(Instance *instance) {
-    lock(&instances_lock);
+void *instance_free(Instance *instance) {
+    void *library = instance->library;
+    lock(&shared_lock);
     for (Instance **link = &instances; *link; link = &(*link)->next)
         if (*link == instance) {
             *link = instance->next;
             break;
         }
-    unlock(&instances_lock);
+    unlock(&shared_lock);
     if (instance->worker) {
         const struct request quit = {QUIT, 0, 0, 0, 0, {0.0, 0.0, 0.0}};
         channel_close(instance->worker, &quit, sizeof quit);
@@ -395,6 +403,7 @@ void instance_free(Instance *instance) {
     free(instance->guid);
     free(instance->resources);
     free(instance);
+    return library;
 }
 
 /* variables */

@@ -18,7 +18,8 @@ Instance *instance_new(const char *name, const char *guid, const char *uri, cons
                        fmi2Boolean logging);
 /* Whether `component` is an instance that has not been freed. */
 int instance_known(const void *component);
-void instance_free(Instance *instance);
+/* What library_release is to be given at the end of the call. */
+void *instance_free(Instance *instance);
 
 /* Which entries the host wants to hear: all, or those of the categories it names, or none. It hears errors anyway, and
    warnings, too, until it has asked for none. */

@@ -30,6 +30,14 @@ int readable(const char *path);
 /* Path of this library, to be freed; NULL if it cannot be told. */
 char *library_path(void);
 
+/* Keep this library loaded while an instance lives: there are hosts that unload it and load it again for the next
+   instance. NULL if it cannot be kept. */
+void *library_keep(void);
+
+/* Let go of it. The last call of the function that the host has called, which the compiler so makes a jump: there may be
+   nothing to return to. */
+void library_release(void *library);
+
 #ifdef _WIN32
 /* Text is UTF-8 everywhere but in calls of Windows; both to be freed, NULL without memory. */
 wchar_t *wide(const char *text);

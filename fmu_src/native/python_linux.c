@@ -104,14 +104,25 @@ char **clean_environment(void) {
 
 int readable(const char *path) { return access(path, R_OK) == 0; }
 
-/* Told when the library is loaded: its path may be relative to where the host is then. */
-static char *library;
+/* Told when the library is loaded: its name may be relative to where the host is then. */
+static char *library, *name_of_library;
 
 __attribute__((constructor)) static void loaded(void) {
     Dl_info info;
-    if (dladdr((void *)&library, &info)) library = realpath(info.dli_fname, NULL);
+    if (!dladdr((void *)&library, &info)) return;
+    library = realpath(info.dli_fname, NULL);
+    name_of_library = strdup(info.dli_fname);
 }
 
-__attribute__((destructor)) static void unloaded(void) { free(library); }
+__attribute__((destructor)) static void unloaded(void) {
+    free(library);
+    free(name_of_library);
+}
+
+void *library_keep(void) { return name_of_library ? dlopen(name_of_library, RTLD_LAZY | RTLD_NOLOAD) : NULL; }
+
+void library_release(void *kept) {
+    if (kept) dlclose(kept);
+}
 
 char *library_path(void) { return library ? strdup(library) : NULL; }

@@ -151,3 +151,13 @@ char *library_path(void) {
     free(path);
     return found;
 }
+
+void *library_keep(void) {
+    static const char here;
+    HMODULE module;
+    return GetModuleHandleExW(GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS, (const wchar_t *)&here, &module) ? module : NULL;
+}
+
+void library_release(void *kept) {
+    if (kept) FreeLibrary(kept);
+}

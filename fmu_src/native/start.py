@@ -1,7 +1,7 @@
 """Run by the FMU's library: serves its instances, in the Python in which tribofmu is installed.
 
-With --pipe it serves one instance over its standard streams; else it forks a worker for each, and the library's
-socket tells it to.
+With --pipe it serves one instance over its standard streams; else it leaves the host's children and forks a worker for
+each instance, as the library's socket tells it to.
 """
 
 import contextlib
@@ -52,6 +52,8 @@ def _say(data: bytes) -> None:
         os.write(_outgoing, len(data).to_bytes(8, "little") + data if _PIPE else data)
 
 
+if not _PIPE and os.fork():
+    os._exit(0)  # the host, which may wait for all of its children, has none of ours
 signal.signal(signal.SIGINT, signal.SIG_IGN)  # an interrupt is the host's
 _incoming = _outgoing = _SOCKET
 if _PIPE:  # what the model reads and prints is no message

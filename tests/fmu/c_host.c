@@ -7,36 +7,60 @@
  *     value <value> ...                                  reals are hexadecimal
  * F, K and S number FMUs, instances and states; R and Q are value references.
  *
- *     fmu F LIBRARY URI GUID      instantiate K F LOGGING     setup|enter|exit|terminate|reset|free K
+ *     fmu F LIBRARY URI GUID      instantiate K F LOGGING     enter|exit|terminate|reset|free K
+ *     unload F                    the library, which may stay if something else holds it
+ *     reload F                    the library and its functions anew, after unloading it
+ *     setup K START [STOP]
  *     set(r|i|b|s) K R VALUE ...  get(r|i|b|s) K R ...        step K T H       terminated K
  *     save|restore|freestate K S  (de)serialize K S FILE      derivative K R Q
  *     bench K N T H R A B Q ...   N times: set R to A or B in turn, step, get Q ...; nanoseconds of each time
  *     cycles F N                  N times: instantiate and free
- *     together N                  the next N commands, each in a thread of its own, all at once
+ *     later MS COMMAND ...        the command after so many milliseconds
+ *     together N                  the next N commands, each in a thread of its own, all at once; the place at which
+ *                                 each has ended
  *     fork                        a child that only waits; its process id
+ *     forks K N F                 N times: a child that frees instance K and ends, while one thread instantiates and
+ *                                 frees F and another makes calls; the number of children that did not end within 5 s
+ *     wait                        for all children, as a careless host does
  *     alarms MICROSECONDS         SIGALRM so often from now on; 0: no more
  */
 #include "c_host.h"
 
 /* life of an FMU and of an instance */
 
-static int load(char **field, int count)
+static int open_library(Fmu *fmu)
 {
-    Fmu *fmu = &fmus[slot(field[1], FMUS)];
-    void *library = dlopen(field[2], RTLD_NOW | RTLD_LOCAL);
-    if (!library) {
+    fmu->library = dlopen(fmu->file, RTLD_NOW | RTLD_LOCAL);
+    if (!fmu->library) {
         printf("log\t-1\t3\tdlopen\t%s\n", dlerror());
         return NONE;
     }
 #define RESOLVE(name) \
-    if (!(*(void **)&fmu->name = dlsym(library, "fmi2" #name))) { \
+    if (!(*(void **)&fmu->name = dlsym(fmu->library, "fmi2" #name))) { \
         printf("log\t-1\t3\tdlsym\tfmi2" #name "\n"); \
         return NONE; \
     }
     FUNCTIONS(RESOLVE)
+    return fmi2OK;
+}
+
+static int load(char **field, int count)
+{
+    Fmu *fmu = &fmus[slot(field[1], FMUS)];
+    fmu->file = strdup(field[2]);
     fmu->uri = strdup(field[3]);
     fmu->guid = strdup(field[4]);
-    return fmi2OK;
+    return open_library(fmu);
+}
+
+static int unload(char **field, int count)
+{
+    return dlclose(fmus[slot(field[1], FMUS)].library) ? NONE : fmi2OK;
+}
+
+static int reload(char **field, int count)
+{
+    return unload(field, count) == fmi2OK ? open_library(&fmus[slot(field[1], FMUS)]) : NONE;
 }
 
 static int create(Instance *host, const Fmu *fmu, int logging)
@@ -61,7 +85,8 @@ static int release(char **field, int count)
 
 static int setup(char **field, int count)
 {
-    return instance(field)->fmu->SetupExperiment(instance(field)->component, 0, 0.0, 0.0, 0, 0.0);
+    double start = strtod(field[2], NULL), stop = count > 3 ? strtod(field[3], NULL) : 0.0;
+    return instance(field)->fmu->SetupExperiment(instance(field)->component, 0, 0.0, start, count > 3, stop);
 }
 
 #define PLAIN(name, function) \
@@ -241,6 +266,77 @@ static int fork_child(char **field, int count)
     return fmi2OK;
 }
 
+#ifdef _WIN32
+static int forks(char **field, int count) { return NONE; }
+static int wait_for_all(char **field, int count) { return NONE; }
+#else
+static volatile int forking;
+
+static void *come_and_go(void *argument)
+{
+    Instance *host = &instances[INSTANCES - 1];
+    while (forking)
+        if (create(host, argument, 0) == fmi2OK)
+            host->fmu->FreeInstance(host->component);
+    return NULL;
+}
+
+static void *chatter(void *argument)
+{
+    int nothing;
+    while (forking)
+        ((Fmu *)argument)->Reset(&nothing); /* unknown to the FMU */
+    return NULL;
+}
+
+static int ended_within(pid_t child, int seconds)
+{
+    const struct timespec pause = {0, 1000000};
+    for (long i = 0; i < 1000L * seconds; i++) {
+        if (waitpid(child, NULL, WNOHANG) == child)
+            return 1;
+        nanosleep(&pause, NULL);
+    }
+    kill(child, SIGKILL);
+    waitpid(child, NULL, 0);
+    return 0;
+}
+
+static int forks(char **field, int count)
+{
+    Instance *host = instance(field);
+    int hung = 0;
+    pthread_t threads[2];
+    Fmu *fmu = &fmus[slot(field[3], FMUS)];
+    fflush(stdout);
+    forking = 1;
+    if (pthread_create(&threads[0], NULL, come_and_go, fmu) || pthread_create(&threads[1], NULL, chatter, fmu))
+        fail("no thread", field[3]);
+    for (long i = atol(field[2]); i > 0; i--) {
+        const struct timespec pause = {0, 100000 * (i % 50)};
+        nanosleep(&pause, NULL);
+        pid_t child = fork();
+        if (child == 0) {
+            host->fmu->FreeInstance(host->component);
+            _exit(0);
+        }
+        hung += !ended_within(child, 5);
+    }
+    forking = 0;
+    pthread_join(threads[0], NULL);
+    pthread_join(threads[1], NULL);
+    printf("value\t%d\n", hung);
+    return fmi2OK;
+}
+
+static int wait_for_all(char **field, int count)
+{
+    while (wait(NULL) > 0)
+        continue;
+    return fmi2OK;
+}
+#endif
+
 /* signals that come all the time, as of a host's own clock */
 
 #ifdef _WIN32
@@ -261,8 +357,10 @@ static int alarms(char **field, int count)
 typedef struct {
     pthread_t thread;
     char line[1 << 16];
-    int status;
+    int status, place;
 } Job;
+
+static atomic_int ended;
 
 static int together(char **field, int count);
 
@@ -272,19 +370,20 @@ static const struct {
     int fields;
 } commands[] = {
     {"fmu", load, 5}, {"instantiate", instantiate, 4}, {"free", release, 2},
-    {"setup", setup, 2}, {"enter", enter, 2}, {"exit", leave, 2},
+    {"unload", unload, 2}, {"reload", reload, 2}, {"setup", setup, 3}, {"enter", enter, 2}, {"exit", leave, 2},
     {"terminate", terminate, 2}, {"reset", reset, 2}, {"step", step, 4}, {"terminated", terminated, 2},
     {"setr", set_reals, 2}, {"seti", set_integers, 2}, {"setb", set_booleans, 2}, {"sets", set_strings, 2},
     {"getr", get_reals, 2}, {"geti", get_integers, 2}, {"getb", get_booleans, 2}, {"gets", get_strings, 2},
     {"save", save, 3}, {"restore", restore, 3}, {"freestate", free_state, 3},
     {"serialize", serialize, 4}, {"deserialize", deserialize, 4}, {"derivative", derivative, 4},
-    {"bench", bench, 8}, {"cycles", cycles, 3}, {"together", together, 2}, {"fork", fork_child, 1}, {"alarms", alarms, 2},
+    {"bench", bench, 8}, {"cycles", cycles, 3}, {"together", together, 2}, {"fork", fork_child, 1},
+    {"forks", forks, 4}, {"wait", wait_for_all, 1}, {"alarms", alarms, 2},
 };
 
 static void *obey(void *argument)
 {
     Job *job = argument;
-    char *field[FIELDS];
+    char *fields[FIELDS], **field = fields;
     int count = 0;
     for (char *rest = job->line; rest && count < FIELDS; count++) {
         field[count] = rest;
@@ -292,11 +391,18 @@ static void *obey(void *argument)
         if (rest)
             *rest++ = '\0';
     }
+    if (count > 2 && !strcmp(field[0], "later")) {
+        const struct timespec pause = {atol(field[1]) / 1000, atol(field[1]) % 1000 * 1000000L};
+        nanosleep(&pause, NULL);
+        field += 2;
+        count -= 2;
+    }
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
         if (!strcmp(commands[i].name, field[0])) {
             if (count < commands[i].fields)
                 fail("too few fields", field[0]);
             job->status = commands[i].run(field, count);
+            job->place = atomic_fetch_add(&ended, 1);
             return NULL;
         }
     fail("no such command", field[0]);
@@ -318,6 +424,7 @@ static int together(char **field, int count)
     for (int i = 0; i < n; i++)
         if (!next(&jobs[i]))
             fail("too few commands", field[1]);
+    ended = 0;
     for (int i = 0; i < n; i++)
         if (pthread_create(&jobs[i].thread, NULL, obey, &jobs[i]))
             fail("no thread", field[1]);
@@ -326,6 +433,10 @@ static int together(char **field, int count)
         if (jobs[i].status < fmi2OK || jobs[i].status > worst)
             worst = jobs[i].status;
     }
+    printf("value");
+    for (int i = 0; i < n; i++)
+        printf("\t%d", jobs[i].place);
+    putchar('\n');
     free(jobs);
     return worst;
 }

@@ -3,12 +3,16 @@
 #include <pthread.h>
 #include <signal.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
 #include <time.h>
 #include <unistd.h>
+#ifndef _WIN32
+#include <sys/wait.h>
+#endif
 
 #include "fmi2FunctionTypes.h"
 
@@ -23,7 +27,8 @@ enum { FMUS = 16, INSTANCES = 256, STATES = 256, FIELDS = 4096, NONE = -1 };
 #define MEMBER(name) fmi2##name##TYPE *name;
 typedef struct {
     FUNCTIONS(MEMBER)
-    char *uri, *guid;
+    void *library;
+    char *file, *uri, *guid;
 } Fmu;
 
 typedef struct {

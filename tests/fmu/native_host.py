@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import subprocess
 import sys
@@ -11,6 +12,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import fmpy
+from processes import marked, without_children
+
+_numbers = itertools.count()
 
 OK, WARNING, DISCARD, ERROR, FATAL = range(5)  # fmi2Status
 NONE = -1  # no library, function or instance
@@ -22,7 +26,7 @@ def compiled(folder: Path) -> Path:
     program = folder / "c_host"
     headers = Path(fmpy.__file__).parent / "c-code"
     options = [
-        "-std=c99",
+        "-std=c11",
         "-D_XOPEN_SOURCE=700",
         "-Wall",
         "-Wextra",
@@ -80,10 +84,17 @@ class NativeHost:
     """A running host. Closing it ends its input, so that it leaves by itself; `code` is its exit code then."""
 
     def __init__(self, program: Path, environment: Mapping[str, str]):
+        self._mark = f"TEST_HOST={os.getpid()}-{next(_numbers)}"
+        name, _, value = self._mark.partition("=")
         self.process = subprocess.Popen(
-            [str(program)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=dict(environment), text=True
+            [str(program)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env=dict(environment) | {name: value},
+            text=True,
         )
         self.code: int | None = None
+        self.times: dict[object, float] = {}  # of states
         self._fmus = 0
 
     def __enter__(self) -> NativeHost:
@@ -97,6 +108,10 @@ class NativeHost:
         self.code = self.process.wait()
         self.process.stdout.close()
         return self.code
+
+    def supervisors(self) -> list[int]:
+        """The processes that fork workers for this host: they inherit its environment, and are not its children."""
+        return without_children(marked(self._mark.encode(), b"start.py"))
 
     def tell(self, *words: object) -> None:
         """Send a command without waiting for its answer."""
@@ -122,7 +137,10 @@ class NativeHost:
         return self.answer(str(words[0]))
 
     def together(self, commands: Iterable[tuple[object, ...]]) -> Answer:
-        """Commands without values, each in a thread of its own, all at once; the worst status and the whole log."""
+        """Commands without values, each in a thread of its own, all at once.
+
+        The worst status, the whole log, and for each the place at which it ended.
+        """
         listed = list(commands)
         for words in (("together", len(listed)), *listed):
             self.tell(*words)
@@ -164,11 +182,29 @@ class Instance:
     def ask(self, command: str, *words: object) -> Answer:
         answer = self.fmu.host.ask(command, self.number, *words)
         self.log += answer.log
+        if answer.status in (OK, WARNING):
+            self._keep_time(command, words)
         return answer
+
+    def _keep_time(self, command: str, words: tuple[object, ...]) -> None:
+        """Time goes with steps and states, as in every host; states by number, their files by path."""
+        times = self.fmu.host.times
+        if command in ("save", "deserialize"):
+            times[words[0]] = self.time if command == "save" else times.get(words[1], 0.0)
+        elif command == "serialize":
+            times[words[1]] = times.get(words[0], 0.0)
+        elif command == "restore":
+            self.time = times.get(words[0], 0.0)
+        elif command == "step":
+            self.time = words[0] + words[1]
+        elif command == "setup":
+            self.time = words[0]
+        elif command == "reset":
+            self.time = 0.0
 
     def initialise(self, **values: float | int | str) -> list[int]:
         """Status of the three calls, and of every set between them."""
-        begun = [self.ask(command).status for command in ("setup", "enter")]
+        begun = [self.ask(*command).status for command in (("setup", 0.0), ("enter",))]
         return [*begun, *self.set(**values), self.ask("exit").status]
 
     def set(self, **values: float | int | str) -> list[int]:
@@ -187,9 +223,7 @@ class Instance:
     def step(self, dt: float, **inputs: float) -> int:
         """Status of a step under new inputs; time goes on."""
         self.set(**inputs)
-        answer = self.ask("step", self.time, dt)
-        self.time += dt
-        return answer.status
+        return self.ask("step", self.time, dt).status
 
     def outputs(self) -> dict[str, float | int | str]:
         found: dict[str, float | int | str] = {}

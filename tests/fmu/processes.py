@@ -1,5 +1,6 @@
 """Processes as Linux's /proc knows them."""
 
+import contextlib
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -9,6 +10,26 @@ def children(pid: int) -> list[int]:
     """Processes whose parent is `pid`."""
     found = Path(f"/proc/{pid}/task").glob("*/children")
     return sorted(int(child) for listed in found for child in listed.read_text().split())
+
+
+def marked(environment: bytes, command: bytes) -> list[int]:
+    """Processes that have an entry in their environment and a word in their command."""
+    found = []
+    for folder in Path("/proc").iterdir():
+        if folder.name.isdigit():
+            with contextlib.suppress(OSError):  # they come and go
+                if (
+                    environment in folder.joinpath("environ").read_bytes().split(b"\0")
+                    and command in folder.joinpath("cmdline").read_bytes()
+                ):
+                    found.append(int(folder.name))
+    return sorted(found)
+
+
+def without_children(pids: list[int]) -> list[int]:
+    """Those that are no children of others among them."""
+    below = {child for pid in pids for child in children(pid)}
+    return [pid for pid in pids if pid not in below]
 
 
 def alive(pid: int) -> bool:

@@ -184,7 +184,7 @@ def test_a_state_saved_after_one_that_could_not_be_is_whole(host, faulty_folder,
 
 def test_an_interrupt_is_not_for_the_model(host, isolated_folder):
     instance = started(host, isolated_folder)
-    (supervisor,) = children(host.process.pid)
+    (supervisor,) = host.supervisors()
     (worker,) = children(supervisor)
     for process in (supervisor, worker):
         os.kill(process, signal.SIGINT)
@@ -200,7 +200,7 @@ def test_a_worker_that_ends_between_calls_is_replaced(host, isolated_folder):
     instance = started(host, isolated_folder)
     instance.ask("save", 0)
     expected = rows(instance)
-    (supervisor,) = children(host.process.pid)
+    (supervisor,) = host.supervisors()
     (worker,) = children(supervisor)
     os.kill(worker, signal.SIGKILL)
     assert soon(lambda: not alive(worker))
@@ -213,7 +213,7 @@ def test_a_lost_supervisor_is_replaced(host, isolated_folder):
     for k, instance in enumerate(instances):
         instance.ask("save", k)
     expected = rows(instances[0])
-    (supervisor,) = children(host.process.pid)
+    (supervisor,) = host.supervisors()
     workers = children(supervisor)
     os.kill(supervisor, signal.SIGKILL)
     assert soon(lambda: not any(map(alive, workers)))
@@ -228,7 +228,7 @@ def test_the_reason_of_a_loss_between_calls_is_told(host, isolated_folder):
     first, second = started(host, isolated_folder), started(host, isolated_folder, 1)
     for number, instance in enumerate((first, second)):
         instance.ask("save", number)
-    (supervisor,) = children(host.process.pid)
+    (supervisor,) = host.supervisors()
     workers = children(supervisor)
     for worker in workers:
         os.kill(worker, signal.SIGKILL)
@@ -256,11 +256,11 @@ def test_signals_to_the_host_neither_disturb_nor_delay(native_program, faulty_fo
     with NativeHost(native_program, plain_environment() | limit) as host:
         instance = started(host, faulty_folder)
         instance.ask("save", 0)
-        (supervisor,) = children(host.process.pid)
+        (supervisor,) = host.supervisors()
         assert host.ask("alarms", 1000).status == OK
         for _ in range(300):
             assert instance.ask("restore", 0).status == OK
-        assert children(host.process.pid) == [supervisor]
+        assert host.supervisors() == [supervisor]
         instance.set(load=1008.0)
         host.tell("step", 0, 1.0, 1.0)
         if victim == "supervisor":
@@ -282,7 +282,7 @@ def test_an_instance_for_which_there_is_no_descriptor_is_refused_alone(host, iso
     assert "Free other instances, or raise limits" in instance.log[0][3]
     assert {instance.step(1.0) for instance in instances} == {OK}
     instances.pop().free()
-    (supervisor,) = children(host.process.pid)
+    (supervisor,) = host.supervisors()
     assert soon(lambda: len(children(supervisor)) == len(instances))
     assert fmu.instance(len(instances)).created.status == OK
 
@@ -291,7 +291,7 @@ def test_an_instance_for_which_there_is_no_descriptor_is_refused_alone(host, iso
 def test_the_models_processes_end_with_a_host_that_is_killed(native_program, faulty_folder, load):
     host = NativeHost(native_program, plain_environment())
     instance = started(host, faulty_folder)
-    (supervisor,) = children(host.process.pid)
+    (supervisor,) = host.supervisors()
     processes = [supervisor, *children(supervisor)]
     if load:
         instance.set(load=load)
@@ -305,7 +305,7 @@ def test_the_models_processes_end_with_a_host_that_is_killed(native_program, fau
 def test_the_models_processes_end_with_a_host_that_forgets_to_free(native_program, isolated_folder):
     with NativeHost(native_program, plain_environment()) as host:
         started(host, isolated_folder)
-        (supervisor,) = children(host.process.pid)
+        (supervisor,) = host.supervisors()
         processes = [supervisor, *children(supervisor)]
     assert host.code == 0
     assert soon(lambda: not any(map(alive, processes)))
@@ -315,7 +315,7 @@ def test_a_child_forked_from_the_host_does_not_keep_the_model_alive(native_progr
     host = NativeHost(native_program, plain_environment())
     started(host, isolated_folder)
     child = int(host.ask("fork").values[0])
-    (supervisor,) = set(children(host.process.pid)) - {child}
+    (supervisor,) = host.supervisors()
     host.process.kill()
     host.close()
     try:
@@ -411,13 +411,13 @@ def test_two_contact_fmus_live_in_one_host(host, isolated_folder, other_scene, t
     assert first.outputs() != second.outputs()
     alone = started(host, isolated_folder, 2)
     assert rows(first) == rows(alone)
-    assert len(children(host.process.pid)) == 2
+    assert len(host.supervisors()) == 2
 
 
 def test_fifty_instances_live_at_once(host, isolated_folder):
     fmu = host.load(isolated_folder)
     instances = [stepped(fmu, k) for k in range(50)]
-    (supervisor,) = children(host.process.pid)
+    (supervisor,) = host.supervisors()
     assert len(children(supervisor)) == 50
     first = rows(instances[0])
     assert all(rows(instance) == first for instance in instances[1:])
@@ -448,10 +448,10 @@ def test_calls_out_of_turn_are_errors_and_change_nothing(host, isolated_folder):
     instance = host.load(isolated_folder).instance()
     before = [instance.ask(*call) for call in (("step", 0.0, 1.0), ("exit",), ("terminate",))]
     instance.ask("enter")
-    within = [instance.ask(*call) for call in (("setup",), ("enter",), ("step", 0.0, 1.0), ("terminate",))]
+    within = [instance.ask(*call) for call in (("setup", 0.0), ("enter",), ("step", 0.0, 1.0), ("terminate",))]
     instance.ask("exit")
     outputs = instance.outputs()
-    after = [instance.ask(*call) for call in (("setup",), ("enter",), ("exit",))]
+    after = [instance.ask(*call) for call in (("setup", 0.0), ("enter",), ("exit",))]
     assert instance.outputs() == outputs
     instance.ask("save", 0)
     assert instance.ask("terminate").status == OK
@@ -512,7 +512,7 @@ def test_instances_that_come_and_go_leave_nothing_behind(host, isolated_folder):
     size = resident(host.process.pid)
     assert host.ask("cycles", fmu.number, 100).status == OK
     assert resident(host.process.pid) - size < 500  # kB
-    (supervisor,) = children(host.process.pid)
+    (supervisor,) = host.supervisors()
     assert soon(lambda: children(supervisor) == [])
     assert descriptors(host.process.pid) < 10
     assert descriptors(supervisor) < 12

@@ -150,7 +150,7 @@ def test_a_parameter_out_of_its_range_is_told(host: NativeHost, shaft_folder: Pa
 def test_a_killed_process_is_an_error_until_a_state_is_restored(host: NativeHost, shaft: Instance) -> None:
     shaft.ask("save", 0)
     expected = [(shaft.step(0.01), shaft.outputs()) for _ in range(2)]
-    (supervisor,) = children(host.process.pid)
+    (supervisor,) = host.supervisors()
     (worker,) = children(supervisor)
     os.kill(worker, signal.SIGKILL)
     assert shaft.step(0.01) == ERROR

@@ -22,6 +22,11 @@ static inline void *dlsym(void *library, const char *name)
     return (void *)GetProcAddress(library, name);
 }
 
+static inline int dlclose(void *library)
+{
+    return !FreeLibrary(library);
+}
+
 static inline const char *dlerror(void)
 {
     static char text[32];
