@@ -25,6 +25,7 @@ _CAPABILITIES = {
     "canGetAndSetFMUstate": True,
     "canSerializeFMUstate": True,
 }
+_INITIAL = {"parameter": "exact", "output": "calculated"}  # of others FMI knows only one kind, which goes unsaid
 
 
 @dataclass(frozen=True)
@@ -125,8 +126,8 @@ def _scalar_variable(reference: int, variable: Variable) -> ET.Element:
         "causality": variable.causality,
         "variability": variable.variability,
     }
-    if variable.causality != "input":  # of which FMI knows only one kind
-        attributes["initial"] = "exact" if variable.causality == "parameter" else "calculated"
+    if initial := _INITIAL.get(variable.causality):
+        attributes["initial"] = initial
     element = ET.Element("ScalarVariable", attributes)
     typed = ET.SubElement(element, variable.kind)
     if variable.kind == "Real":
@@ -140,7 +141,7 @@ def _scalar_variable(reference: int, variable: Variable) -> ET.Element:
             typed.set(name, str(int(bound)) if variable.kind == "Integer" else _text(float(bound)))
     if variable.nominal is not None:
         typed.set("nominal", _text(variable.nominal))
-    if variable.causality != "output":
+    if variable.has_start:
         typed.set("start", _text(variable.start))
     return element
 

@@ -419,7 +419,7 @@ def _variables(scene: Scene) -> Iterator[str]:
 def _row(v: Variable) -> tuple[str, ...]:
     low, high = (f"{bound:.10g}" if math.isfinite(bound) else "" for bound in (v.minimum, v.maximum))
     start = f"{v.start:.10g}" if isinstance(v.start, float) else str(v.start)
-    return v.name, v.unit, low, high, "" if v.causality == "output" else start, v.text
+    return v.name, v.unit, low, high, start if v.has_start else "", v.text
 
 
 def _state() -> Iterator[str]:

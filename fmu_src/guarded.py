@@ -8,6 +8,7 @@ A message has one of `LOG_CATEGORIES`. pythonfmu's binary hands it on if the hos
 for its category, or for none.
 """
 
+import math
 import sys
 import traceback
 from abc import abstractmethod
@@ -21,7 +22,7 @@ from contact_core import ContactError, ConvergenceError
 
 from . import loader
 from .snapshot import Phase
-from .variables import ZERO, Causality, Kind, Value, Variable
+from .variables import TIME, ZERO, Causality, Kind, Value, Variable
 
 LOG_CATEGORIES = {
     "logStatusWarning": "calls that FMI does not allow, and the user's interrupt",
@@ -36,7 +37,7 @@ class CallError(ContactError):
 
 
 class GuardedSlave(Fmi2Slave):
-    """All variables of a model by value reference, one of them the output `valid`.
+    """All variables of a model by value reference, one of them the output `valid`, one the independent `time`.
 
     `values` are theirs, always the same list, `layout` has kind and role of each, `phase` is where in its life it is:
     all to be read only.
@@ -75,6 +76,15 @@ class GuardedSlave(Fmi2Slave):
 
     # initialisation and steps
 
+    def setup_experiment(self, start_time: float, stop_time: float | None, tolerance: float | None) -> None:
+        """Time starts at `start_time` [s]; the others are the host's matter."""
+        self._guard(self._start_time, start_time)
+
+    def _start_time(self, time: float) -> None:
+        if not math.isfinite(time):
+            raise CallError(f"startTime = {time} s must be a finite number. Correct it in fmi2SetupExperiment.")
+        self.values[self._references[TIME]] = float(time)
+
     def enter_initialization_mode(self) -> None:
         """From here on the outputs follow inputs and parameters until initialisation ends."""
         self.phase = Phase.UNSETTLED
@@ -93,6 +103,10 @@ class GuardedSlave(Fmi2Slave):
         """Advance under held inputs. False, which ends the simulation, only after the user's interrupt."""
         if not self._interrupted:
             self._guard(self._advance, step_size)
+        if not self._interrupted and self.phase is not Phase.NEW:
+            reached = current_time + step_size
+            if step_size >= 0.0 and math.isfinite(reached):  # also if the step could not be computed
+                self.values[self._references[TIME]] = reached
         return not self._interrupted
 
     def refresh(self) -> None:
@@ -159,6 +173,8 @@ class GuardedSlave(Fmi2Slave):
         name = self._variables[reference].name
         if causality == "output":
             raise CallError(f"{name} is an output and cannot be set.")
+        if causality == "independent":
+            raise CallError(f"{name} is the independent variable: fmi2SetupExperiment and fmi2DoStep set it.")
         if self.phase is Phase.STEPPING and self._variables[reference].variability == "fixed":
             raise CallError(f"{name} is a parameter: set it before initialisation ends, or reset the FMU first.")
         self.values[reference] = value
@@ -225,7 +241,9 @@ class GuardedSlave(Fmi2Slave):
 
 
 def _role(variable: Variable, direct: Collection[str]) -> str:
-    """Its causality; of a parameter that may change, and of an input on which outputs depend at once, what it is."""
+    """How the host is to treat it: its causality, but for time and for what outputs or later steps depend on."""
     if variable.name in direct:
         return "direct"
+    if variable.causality == "independent":
+        return "output"  # like one, it changes in every step
     return "tunable" if variable.variability == "tunable" else variable.causality

@@ -1,4 +1,4 @@
-"""The variables of the FMU: inputs, parameters and outputs of a scene, in order of their value references."""
+"""The variables of the FMU: inputs, parameters and outputs of a scene, time, in order of their value references."""
 
 import math
 from dataclasses import Field, dataclass
@@ -8,11 +8,12 @@ from contact_core.quantities import INPUTS, LEVELS, OUTPUTS, Quantity
 from contact_core.scene import Scene, tunables
 
 Kind = Literal["Real", "Integer", "Boolean", "String"]
-Causality = Literal["input", "parameter", "output"]
+Causality = Literal["input", "parameter", "output", "independent"]
 Variability = Literal["continuous", "discrete", "fixed", "tunable"]
 Value = float | int | bool | str
 
 FIDELITY, SEED, INITIAL_STATE = "fidelity", "seed", "initial_state"
+TIME = "time"
 SPECIAL = (FIDELITY, SEED, INITIAL_STATE)  # parameters that are no numbers of the scene
 ZERO: dict[Kind, Value] = {"Real": 0.0, "Integer": 0, "Boolean": False, "String": ""}
 
@@ -37,6 +38,11 @@ class Variable:
     at_start: tuple[str, ...] | None = None  # on which its first value depends besides; None: all
 
     @property
+    def has_start(self) -> bool:
+        """Whether a host can set it, and is told where it starts."""
+        return self.causality in ("input", "parameter")
+
+    @property
     def variability(self) -> Variability:
         """As FMI says it; what is not Real has no derivative."""
         if self.causality == "parameter":
@@ -44,8 +50,11 @@ class Variable:
         return "continuous" if self.kind == "Real" else "discrete"
 
 
+CLOCK = Variable(TIME, "simulation time at the last communication point", "Real", "independent", 0.0, unit="s")
+
+
 def variables(scene: Scene) -> tuple[Variable, ...]:
-    """Inputs, parameters and outputs of a scene's FMU. Index + 1 is the index of the model description.
+    """Inputs, parameters and outputs of a scene's FMU, and time. Index + 1 is the index of the model description.
 
     What the scene's level cannot tell, or means nothing to its geometry, is absent.
     """
@@ -83,6 +92,7 @@ def variables(scene: Scene) -> tuple[Variable, ...]:
             for q in OUTPUTS
             if scene.film.name in q.levels and q.name not in lacks
         ),
+        CLOCK,
     )
 
 

@@ -43,6 +43,6 @@ def _page(part: Part, listed: tuple[Variable, ...]) -> Iterator[str]:
     """The documentation: what the class says of its equations, and its variables."""
     yield f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{plain(part.name)}</title></head><body>'
     yield f"<h1>{plain(part.name)}</h1>{paragraph(part.text)}<pre>{plain(inspect.getdoc(type(part)) or '')}</pre>"
-    rows = ([v.name, v.causality, v.unit or "1", "" if v.causality == "output" else v.start, v.text] for v in listed)
+    rows = ([v.name, v.causality, v.unit or "1", v.start if v.has_start else "", v.text] for v in listed)
     yield table(("variable", "causality", "unit", "start", "meaning"), rows)
     yield "</body></html>"

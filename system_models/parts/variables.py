@@ -1,7 +1,7 @@
-"""The variables of a component's FMU, in order of their value references: inputs, parameters, outputs, `valid`."""
+"""The variables of a component's FMU: inputs, parameters, outputs, `valid`, time, in order of value references."""
 
 from contact_core.quantities import TABLE, numbers
-from fmu_src.variables import Variable, of_number, of_quantity
+from fmu_src.variables import CLOCK, Variable, of_number, of_quantity
 
 from .part import Part
 
@@ -13,4 +13,5 @@ def variables(part: Part) -> tuple[Variable, ...]:
         *(of_number(name, value, field) for name, value, field in numbers(part) if isinstance(value, float)),
         *(of_quantity(q, "output", 0.0, q.direct, part.at_start) for q in part.responses),
         of_quantity(TABLE["valid"], "output", False, (), part.at_start),
+        CLOCK,
     )

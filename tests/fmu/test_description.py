@@ -50,7 +50,7 @@ def test_every_quantity_is_a_variable_with_its_unit_and_nominal(by_name):
 
 
 def test_every_real_has_a_unit_and_a_nominal_above_zero(by_name):
-    reals = [v for v in by_name.values() if v.type == "Real"]
+    reals = [v for v in by_name.values() if v.type == "Real" and v.name != "time"]
     assert {v.causality for v in reals} == {"input", "output", "parameter"}
     assert all(v.unit and 0.0 < float(v.nominal) < math.inf for v in reals)
 
@@ -72,9 +72,16 @@ def test_the_kinds_of_change_are_those_that_fmi_allows(by_name, xml):
         ("parameter", False, "tunable", "exact"),
         ("output", True, "continuous", "calculated"),
         ("output", False, "discrete", "calculated"),
+        ("independent", True, "continuous", None),
     }
     assert [v.name for v in by_name.values() if v.variability == "tunable"] == ["fidelity"]
     assert all(v.get("initial") is None for v in xml.iter("ScalarVariable") if v.get("causality") == "input")
+
+
+def test_time_is_the_last_variable_and_has_what_fmi_allows_it(xml):
+    last = xml.find("ModelVariables")[-1]
+    assert (last.get("name"), last.get("causality"), last.get("initial")) == ("time", "independent", None)
+    assert last[0].attrib == {"unit": "s"}
 
 
 def test_temperature_differences_are_marked_as_relative(xml):
@@ -135,7 +142,7 @@ def test_display_units_convert_from_si(xml):
 
 
 def test_outputs_depend_on_the_state_between_steps_and_on_every_known_at_the_start(description):
-    knowns = [v for v in description.modelVariables if v.causality != "output"]
+    knowns = [v for v in description.modelVariables if v.causality in ("input", "parameter")]
     outputs = [v for v in description.modelVariables if v.causality == "output"]
     assert [u.variable for u in description.outputs] == outputs
     assert all(u.dependencies == [] for u in description.outputs)
@@ -190,7 +197,7 @@ def test_the_documentation_names_laws_variables_and_flags(fmu_file):
 def test_an_fmu_has_the_quantities_of_its_shape(shape, absent, level):
     name, changes = SHAPES[shape]
     scene = Scene.from_toml(name, changes).at_level(level)
-    listed = {v.name for v in variables(scene) if v.causality != "parameter"}
+    listed = {v.name for v in variables(scene) if v.causality in ("input", "output")}
     assert listed == {q.name for q in (*INPUTS, *OUTPUTS) if q.role == "input" or level in q.levels} - absent
     assert "geometry.radius_x" not in {v.name for v in variables(scene)}
 

@@ -28,7 +28,9 @@ def test_an_unusable_input_is_named_and_the_next_good_one_recovers(stepped, inpu
     stepped.fmu.setFMUstate(handle)
     stepped.fmu.freeFMUstate(handle)
 
+    began = stepped.get("time")
     assert stepped.step(60.0, **inputs) == before | {"valid": False}
+    assert stepped.get("time") == began + 60.0
     assert len(stepped.log) == 1
     assert named in stepped.log[0][1]
     assert stepped.step(60.0, **good) == expected
@@ -36,9 +38,10 @@ def test_an_unusable_input_is_named_and_the_next_good_one_recovers(stepped, inpu
 
 @pytest.mark.parametrize("dt", [-1.0, math.nan, math.inf])
 def test_an_unusable_step_size_is_refused(stepped, dt):
-    before = stepped.outputs()
+    before, time = stepped.outputs(), stepped.get("time")
     stepped.fmu.doStep(stepped.time, dt)
     assert stepped.outputs() == before | {"valid": False}
+    assert stepped.get("time") == time
     assert len(stepped.log) == 1
     assert stepped.step(60.0)["valid"]
 
@@ -91,6 +94,13 @@ def test_an_output_cannot_be_set(stepped):
     stepped.set(h_c=1.0)
     assert stepped.get("h_c") == before
     assert "h_c is an output" in stepped.log[0][1]
+
+
+def test_time_cannot_be_set(stepped):
+    before = stepped.get("time")
+    stepped.set(time=1.0)
+    assert stepped.get("time") == before
+    assert "time is the independent variable" in stepped.log[0][1]
 
 
 def test_an_unknown_value_reference_is_refused(stepped):

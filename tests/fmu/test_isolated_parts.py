@@ -31,7 +31,7 @@ SHAFT = Shaft(0.02, 0.01, coupling=COUPLING, initial_speed=-5.0)
 def life(host: Host, part: Part, inputs: dict[str, float]) -> dict[str, list[object]]:
     """What a host can see: a run, inputs set between steps, states, going back to them, a bad input, and a reset."""
     host.initialise(**at_rest(part))
-    told = {"run": [host.outputs(), *(host.step(step, **inputs) for step in STEPS)]}
+    told = {"run": [host.outputs(), *(host.step(step, **inputs) for step in STEPS)], "time": [host.get("time")]}
     handle, data = host.fmu.getFMUstate(), host.state()
     told["between steps"] = [host.outputs()]
     for name, value in inputs.items():
@@ -41,7 +41,7 @@ def life(host: Host, part: Part, inputs: dict[str, float]) -> dict[str, list[obj
     host.step(0.1)
     for number, (restore, state) in enumerate(((host.fmu.setFMUstate, handle), (host.restore, data))):
         restore(state)
-        told[f"restored {number}"] = [host.outputs(), host.state(), host.step(0.1)]
+        told[f"restored {number}"] = [host.outputs(), host.get("time"), host.state(), host.step(0.1)]
     told["bad input"] = [host.step(0.1, **{q.name: math.inf}) for q in part.inputs[-1:]]
     host.fmu.reset()
     told["reset"] = [host.initialise(**at_rest(part)).outputs()]
@@ -60,7 +60,8 @@ def test_both_flavours_give_the_same_bits(kind: str, tmp_path: Path) -> None:
     assert told == embedded
     assert told["run"][-1] != told["run"][0] == told["reset"][0]
     assert told["restored 0"] == told["restored 1"]
-    assert told["restored 0"][:2] == [told["run"][-1], told["states"][0]]
+    assert told["time"] == [math.fsum(STEPS)]
+    assert told["restored 0"][:3] == [told["run"][-1], *told["time"], told["states"][0]]
     assert len(told["log"]) == len(told["bad input"]) == min(1, len(part.inputs))
     moved = [before != after for before, after in pairwise(told["between steps"])]
     assert any(moved) == (kind != "shaft" and any(q.direct for q in part.responses))  # this shaft has no coupling

@@ -136,6 +136,23 @@ def test_a_state_goes_back_and_into_another_instance_bit_for_bit(host, folder, e
         assert [other.step(0.01), other.step(7.0)] == once
 
 
+def test_time_is_where_the_last_step_ended_and_travels_with_the_state(host, example):
+    _, inputs = example
+    host.fmu.setupExperiment(startTime=5.0)
+    host.fmu.enterInitializationMode()
+    assert host.get("time") == 5.0
+    host.fmu.exitInitializationMode()
+    host.time = 5.0
+    host.step(0.5, **inputs)
+    state = host.state()
+    host.step(2.0)
+    assert host.get("time") == 7.5
+    host.restore(state)
+    assert host.get("time") == 5.5
+    host.fmu.reset()
+    assert host.get("time") == 0.0
+
+
 def test_a_bad_input_makes_it_invalid_and_it_goes_on(host, example):
     part, inputs = example
     if not part.inputs:
