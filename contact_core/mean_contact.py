@@ -28,7 +28,7 @@ _D, _KELVIN = 1e-6, 1e-4  # how far the points lie apart, relative and in temper
 _WARMER = np.array([0.0, 0.0, 0.0, 0.0, _KELVIN, 0.0])
 _PROBE = 1e6  # Pa: pressure that tells the pressure coefficient
 _THICKEST = 0.01  # of the radius: thicker a film, and the bodies are no parabolas on its scale
-_SLOWEST, _LIGHTEST = 1e-30, 1e-9  # m/s, N: less makes no other film, and would divide by zero
+_SLOWEST, _LIGHTEST = 1e-30, 1e-9  # m/s, N: less is at rest, and without load: it would divide by zero
 
 
 class Fit(NamedTuple):
@@ -119,7 +119,7 @@ class _Point(NamedTuple):
 def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
     """The contact of an operating point and its derivatives; without load the bodies just touch."""
     sigma, cover = composite_roughness(films), mean_cover(scene, films)
-    if op.load == 0.0:
+    if op.load < _LIGHTEST:
         gap = max(sigma, scene.film.floor)
         return MeanContact(films, sigma, cover, _UNFITTED, gap, *(0.0,) * 4, (0.0,) * 4, *(0.0,) * 10)
     sliding = op.sliding_speed
@@ -248,7 +248,7 @@ def _smooth(scene: Scene, op: OperatingPoint, hertz: Hertz, further: float) -> _
     return _Smooth(
         min(now, _THICKEST * shape.radius_x),
         by_sliding / further,
-        by_speed / (_D * entrainment) if speed > 0.0 else 0.0,
+        by_speed / math.copysign(_D * max(speed, _SLOWEST), entrainment),
         by_load / (_D * load),
         by_temperature / _KELVIN,
         _rolling(scene, op, oil, now if thins or starves else None),
@@ -260,7 +260,7 @@ def _rolling(scene: Scene, op: OperatingPoint, oil: tuple[float, float], film: f
     taken to leave as little of the force.
     """
     speed = op.entrainment_speed
-    if speed == 0.0:
+    if abs(speed) < _SLOWEST:
         return 0.0
     shape, modulus, load = scene.shape(op), scene.solids.reduced_modulus, max(op.load, _LIGHTEST)
     left = 1.0 if film is None else film / shape.film(load, abs(speed), *oil, modulus)

@@ -2,7 +2,8 @@
 
 An exception that reaches pythonfmu's binary can end the host's process, and its only other answer, Discard,
 ends a simulation without a word. So every callback returns OK; what could not be used is logged, `valid`
-turns false, and state and outputs stand until the next step that can be computed.
+turns false, and state and outputs stand until the next step that can be computed. An isolated FMU answers with the
+status of what was logged.
 
 A message has one of `LOG_CATEGORIES`. pythonfmu's binary hands it on if the host has switched logging on and asked
 for its category, or for none.
@@ -32,8 +33,23 @@ LOG_CATEGORIES = {
 }
 
 
+_PART, _ROUNDED = 1e-3, 1e-12  # of a step and of a time: communication points that differ by less are the same
+_PAST = 1e-5  # of the stop time: hosts that take more for rounding are not known
+
+_WHEN = {
+    Phase.NEW: "before initialisation",
+    Phase.UNSETTLED: "in initialisation mode",
+    Phase.SETTLED: "in initialisation mode",
+    Phase.STEPPING: "after initialisation",
+}
+
+
 class CallError(ContactError):
     """A call that FMI does not allow."""
+
+
+class StepError(CallError):
+    """A step that does not begin where the last one has ended, or that goes beyond the stop time."""
 
 
 class GuardedSlave(Fmi2Slave):
@@ -60,7 +76,9 @@ class GuardedSlave(Fmi2Slave):
         self.layout = tuple((v.kind, _role(v, direct)) for v in self._variables)
         self._inputs = [(v.name, vr) for vr, v in enumerate(self._variables) if v.causality == "input"]
         self.phase = Phase.NEW
-        self._interrupted = False
+        self._due: float | None = None  # where the next step begins [s]; None: anywhere
+        self._stop: float | None = None  # [s], if the host has defined it
+        self._interrupted = self._terminated = False
 
     @abstractmethod
     def _read(self) -> Sequence[Variable]:
@@ -77,23 +95,39 @@ class GuardedSlave(Fmi2Slave):
     # initialisation and steps
 
     def setup_experiment(self, start_time: float, stop_time: float | None, tolerance: float | None) -> None:
-        """Time starts at `start_time` [s]; the others are the host's matter."""
-        self._guard(self._start_time, start_time)
+        """Time starts at `start_time` and may not pass `stop_time` [s]; the tolerance is the host's matter."""
+        self._guard(self._set_up, start_time, stop_time)
 
-    def _start_time(self, time: float) -> None:
-        if not math.isfinite(time):
-            raise CallError(f"startTime = {time} s must be a finite number. Correct it in fmi2SetupExperiment.")
-        self.values[self._references[TIME]] = float(time)
+    def _set_up(self, start: float, stop: float | None) -> None:
+        self._must_be("fmi2SetupExperiment", Phase.NEW)
+        if not math.isfinite(start):
+            raise CallError(f"startTime = {start} s must be a finite number. Correct it in fmi2SetupExperiment.")
+        self.values[self._references[TIME]] = self._due = float(start)
+        self._stop = stop
 
     def enter_initialization_mode(self) -> None:
         """From here on the outputs follow inputs and parameters until initialisation ends."""
+        self._guard(self._enter)
+
+    def _enter(self) -> None:
+        self._must_be("fmi2EnterInitializationMode", Phase.NEW)
         self.phase = Phase.UNSETTLED
 
     def exit_initialization_mode(self) -> None:
         """Set up the model and evaluate it, without moving time."""
-        if self.phase is not Phase.SETTLED:
+        self._guard(self._exit)
+
+    def _exit(self) -> None:
+        self._must_be("fmi2ExitInitializationMode", Phase.UNSETTLED, Phase.SETTLED)
+        if self.phase is not Phase.SETTLED or not self._value("valid"):  # what is wrong is told by this call, too
             self._settle()
         self.phase = Phase.STEPPING
+
+    def _must_be(self, call: str, *phases: Phase) -> None:
+        """Raise CallError for a call out of its turn."""
+        if self._terminated or self.phase not in phases:
+            when = "after fmi2Terminate" if self._terminated else _WHEN[self.phase]
+            raise CallError(f"{call} is not allowed {when}. Nothing was done.")
 
     def _settle(self) -> None:
         self.phase = Phase.SETTLED
@@ -102,12 +136,42 @@ class GuardedSlave(Fmi2Slave):
     def do_step(self, current_time: float, step_size: float) -> bool:
         """Advance under held inputs. False, which ends the simulation, only after the user's interrupt."""
         if not self._interrupted:
-            self._guard(self._advance, step_size)
-        if not self._interrupted and self.phase is not Phase.NEW:
-            reached = current_time + step_size
-            if step_size >= 0.0 and math.isfinite(reached):  # also if the step could not be computed
-                self.values[self._references[TIME]] = reached
+            self._guard(self._step, current_time, step_size)
         return not self._interrupted
+
+    def _step(self, time: float, size: float) -> None:
+        """Advance from `time` by `size` [s]. Time goes on also if the step could not be computed."""
+        self._must_be("fmi2DoStep", Phase.STEPPING)
+        size = 0.0 if -_ROUNDED * abs(time) <= size < 0.0 else size  # a host's rounding at the end
+        self._check_times(time, size)
+        reached = time + size if size >= 0.0 and math.isfinite(time + size) else time
+        self.values[self._references[TIME]] = reached
+        self._due = None  # after an unexpected error some hosts go on, and some try again
+        try:
+            self._advance(size)
+        except ContactError:
+            self._due = reached
+            raise
+        self._due = reached
+
+    def _check_times(self, time: float, size: float) -> None:
+        if not math.isfinite(time):
+            raise StepError(f"currentCommunicationPoint = {time} s must be a finite number. Nothing was done.")
+        length = abs(size) if math.isfinite(size) else 0.0
+        if self._due is not None and not abs(time - self._due) <= _PART * length + _ROUNDED * abs(time):
+            raise StepError(
+                f"currentCommunicationPoint = {time!r} s must be {self._due!r} s, where the last step has ended. Begin "
+                "there, or restore a saved state. Nothing was done."
+            )
+        if self._stop is not None and time + size > self._stop + _PAST * max(abs(self._stop), length):
+            raise StepError(
+                f"The step from {time!r} s to {time + size!r} s goes beyond stopTime = {self._stop!r} s. Give a later "
+                "one, or none, in fmi2SetupExperiment. Nothing was done."
+            )
+
+    def terminate(self) -> None:
+        """No step from here on, until a state is restored."""
+        self._terminated = True
 
     def refresh(self) -> None:
         """Make the outputs those of the parameters, inputs and state as they are, where these may have changed them."""
@@ -127,6 +191,8 @@ class GuardedSlave(Fmi2Slave):
         """Run `action`; whatever it raises becomes one log entry and valid = false."""
         try:
             action(*arguments)
+        except StepError as error:
+            self._refuse(str(error), Fmi2Status.error, "logStatusError")
         except CallError as error:
             self._refuse(str(error), Fmi2Status.warning, "logStatusWarning")
         except ConvergenceError as error:
@@ -225,6 +291,13 @@ class GuardedSlave(Fmi2Slave):
     @abstractmethod
     def _restore(self, handle: Any) -> None:
         """Go to the state of a handle. One that cannot be used is an error: the host takes it for the model's."""
+
+    def _go_to(self, values: Sequence[Value], phase: Phase) -> None:
+        """Take over the values of a state and where in its life the model is."""
+        self.values[:] = values
+        self.phase = phase
+        self._due = float(self._value(TIME))
+        self._interrupted = self._terminated = False
 
     @staticmethod
     def parts(handle: Any) -> Sequence[bytes | memoryview]:

@@ -171,10 +171,8 @@ class ContactSlave(GuardedSlave):
         except ContactError as error:
             self._refuse(str(error), Fmi2Status.error, "logValidity")
             return
-        self.values[:] = handle.values
-        self._scenes, self._state = handle.scenes, handle.state
-        self.phase, self._fault = handle.phase, handle.fault
-        self._interrupted = False
+        self._go_to(handle.values, handle.phase)
+        self._scenes, self._state, self._fault = handle.scenes, handle.state, handle.fault
 
     @staticmethod
     def parts(handle: Snapshot) -> list[bytes | memoryview]:

@@ -169,7 +169,7 @@ class Worker:
         if slave is not None and (queue := slave._get_log_queue()):
             entries += [(message.status.value, message.category, message.msg) for message in queue]
             queue.clear()
-        status = _ERROR if any(entry[0] >= _ERROR for entry in entries) else _OK
+        status = max((entry[0] for entry in entries), default=_OK)
         if values:
             return [self._row.pack(status, phase, len(values), len(entries), *values), *map(_entry, entries)]
         return [_ANSWER.pack(status, phase, 0, len(entries)), *map(_entry, entries)]

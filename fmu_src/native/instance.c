@@ -171,6 +171,8 @@ static int take_table(Instance *instance, Reader *reader) {
 
 /* requests */
 
+static int done(fmi2Status status) { return status == fmi2OK || status == fmi2Warning; }
+
 static const double NONE[3] = {0.0, 0.0, 0.0};
 
 static size_t request_size(const Instance *instance, size_t payload) {
@@ -248,9 +250,9 @@ static fmi2Status open_worker(Instance *instance) {
     instance->life++;
     Reader rest;
     fmi2Status status = answered(instance, size, &rest);
-    if (status == fmi2OK && !take_table(instance, &rest))
+    if (done(status) && !take_table(instance, &rest))
         status = instance_fail(instance, "The worker's table of variables is damaged.");
-    if (status != fmi2OK) {
+    if (!done(status)) {
         snprintf(instance->why.text, sizeof instance->why.text, "It could not be instantiated.");
         lose_worker(instance);
     }
@@ -291,7 +293,7 @@ fmi2Status instance_do(Instance *instance, enum operation operation, const doubl
         return out_of_turn(instance, CALLS[operation].name);
     fmi2Status status = request(instance, operation, numbers ? numbers : NONE, 0, 0, &rest);
     instance->stale = instance->phase != STEPPING;
-    instance->terminated = operation == TERMINATE && status == fmi2OK;
+    instance->terminated = operation == TERMINATE && done(status);
     return status;
 }
 
@@ -306,7 +308,7 @@ static fmi2Status renewed(Instance *instance, fmi2Status (*work)(Instance *, con
     if (had)
         warn(instance, "The process that runs the model was lost between two calls: %s A new one takes its place.",
              instance->why.text);
-    return open_worker(instance) == fmi2OK ? work(instance, state) : fmi2Error;
+    return done(open_worker(instance)) ? work(instance, state) : fmi2Error;
 }
 
 static fmi2Status reset(Instance *instance, const State *state) {
@@ -316,7 +318,7 @@ static fmi2Status reset(Instance *instance, const State *state) {
 
 fmi2Status instance_reset(Instance *instance) {
     fmi2Status status = renewed(instance, reset, NULL);
-    if (status == fmi2OK) instance->terminated = 0;
+    if (done(status)) instance->terminated = 0;
     return status;
 }
 
@@ -357,7 +359,7 @@ Instance *instance_new(const char *name, const char *guid, const char *uri, cons
         instance->resources = channel_resources(uri, &instance->why);
         if (!instance->resources || !read_limits(&instance->limits, &instance->why))
             instance_fail(instance, "%s", instance->why.text);
-        else if (open_worker(instance) == fmi2OK) {
+        else if (done(open_worker(instance))) {
             instance->library = library_keep();
             lock(&shared_lock);
             instance->next = instances;
@@ -419,13 +421,12 @@ static Variable *variable_of(Instance *instance, enum kind kind, uint32_t refere
 
 fmi2Status instance_get(Instance *instance, enum kind kind, const uint32_t references[], size_t count, void *values) {
     if (!instance->worker) return lost(instance);
-    fmi2Status status = fmi2OK;
     for (size_t i = 0; i < count; i++) {
         const Variable *variable = variable_of(instance, kind, references[i]);
         if (!variable) return fmi2Error;
         if (instance->stale && variable->causality == OUTPUT) {
-            status = request_table(instance, LOOK, 0, 0);
-            if (status != fmi2OK) return status;
+            fmi2Status status = request_table(instance, LOOK, 0, 0);
+            if (!done(status)) return status; /* a warning is about the model, and logged: the values are right */
         }
         if (kind == REAL)
             ((fmi2Real *)values)[i] = variable->value;
@@ -434,7 +435,7 @@ fmi2Status instance_get(Instance *instance, enum kind kind, const uint32_t refer
         else
             ((fmi2Integer *)values)[i] = (fmi2Integer)variable->value;
     }
-    return status;
+    return fmi2OK;
 }
 
 static int settable(Instance *instance, const Variable *variable, enum kind kind, uint32_t reference) {
@@ -495,7 +496,9 @@ fmi2Status instance_set(Instance *instance, enum kind kind, const uint32_t refer
             return instance_fail(instance, "There is no memory for the values that are set.");
         if (instance->phase != STEPPING || variable->causality == DIRECT) instance->stale = 1;
     }
-    return instance->sets_count > MANY ? request_table(instance, LOOK, 0, 0) : fmi2OK;
+    if (instance->sets_count <= MANY) return fmi2OK;
+    fmi2Status status = request_table(instance, LOOK, 0, 0);
+    return done(status) ? fmi2OK : status;
 }
 
 /* states */
@@ -533,13 +536,13 @@ fmi2Status instance_save(Instance *instance, State **state) {
     uint64_t count, number = ++instance->numbers;
     const State *before = instance->last && instance->last->life == instance->life ? instance->last : NULL;
     fmi2Status status = request(instance, SAVE, (double[3]){before != NULL, 0.0, 0.0}, number, 0, &rest);
-    const void *head = status == fmi2OK ? taken(&rest, sizeof count) : NULL;
+    const void *head = done(status) ? taken(&rest, sizeof count) : NULL;
     if (head) memcpy(&count, head, sizeof count);
     int whole = head && count <= (size_t)(rest.end - rest.at) / sizeof(struct part);
     State *saved = whole ? state_taken(count, &rest, before) : NULL;
     state_free(instance->last);
     instance->last = saved ? state_shared(saved) : NULL; /* after a failure the worker is to send all of the next one */
-    if (status != fmi2OK) return status;
+    if (!done(status)) return status;
     if (!saved) return instance_fail(instance, "The state could not be kept: there is no memory, or it is damaged.");
     saved->number = number;
     saved->life = instance->life;
@@ -564,7 +567,7 @@ static fmi2Status restore(Instance *instance, const State *state) {
 
 fmi2Status instance_restore(Instance *instance, State *state) {
     fmi2Status status = renewed(instance, restore, state);
-    if (status == fmi2OK) instance->terminated = 0;
+    if (done(status)) instance->terminated = 0;
     return status;
 }
 

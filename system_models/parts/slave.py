@@ -136,9 +136,8 @@ class PartSlave(GuardedSlave):
         except ContactError as error:
             self._refuse(str(error), Fmi2Status.error, "logValidity")
             return
-        self.values[:] = found.values
-        self.phase, self._stale, self._part, self._state = found.phase, found.stale, found.part, found.state
-        self._interrupted = False
+        self._go_to(found.values, found.phase)
+        self._stale, self._part, self._state = found.stale, found.part, found.state
 
     def _parsed(self, data: bytes) -> Snapshot:
         try:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import fmpy
@@ -61,6 +61,16 @@ class Host:
         self.variables = {v.name: v for v in description.modelVariables}
         self.fmu = instantiate_fmu(str(folder), description, debug_logging=logging, logger=self._logged)
         self.time = 0.0
+        for call in ("setFMUstate", "reset"):  # time goes with states, as in every host
+            setattr(self.fmu, call, self._with_time(getattr(self.fmu, call)))
+
+    def _with_time(self, call: Callable[..., None]) -> Callable[..., None]:
+        def made(*arguments: object) -> None:
+            call(*arguments)
+            if "time" in self.variables:
+                self.time = self.get("time")
+
+        return made
 
     def _logged(self, component, instance, status, category, message) -> None:
         self.entries.append((status, (category or b"").decode(), message.decode()))

@@ -94,7 +94,6 @@ class NativeHost:
             text=True,
         )
         self.code: int | None = None
-        self.times: dict[object, float] = {}  # of states
         self._fmus = 0
 
     def __enter__(self) -> NativeHost:
@@ -187,20 +186,15 @@ class Instance:
         return answer
 
     def _keep_time(self, command: str, words: tuple[object, ...]) -> None:
-        """Time goes with steps and states, as in every host; states by number, their files by path."""
-        times = self.fmu.host.times
-        if command in ("save", "deserialize"):
-            times[words[0]] = self.time if command == "save" else times.get(words[1], 0.0)
-        elif command == "serialize":
-            times[words[1]] = times.get(words[0], 0.0)
-        elif command == "restore":
-            self.time = times.get(words[0], 0.0)
-        elif command == "step":
+        """Time goes with steps and states, as in every host."""
+        if command == "step":
             self.time = words[0] + words[1]
         elif command == "setup":
             self.time = words[0]
         elif command == "reset":
             self.time = 0.0
+        elif command == "restore" and "time" in self.fmu.variables:
+            (self.time,) = self.get("time")
 
     def initialise(self, **values: float | int | str) -> list[int]:
         """Status of the three calls, and of every set between them."""

@@ -1,13 +1,14 @@
 """Any sequence of calls that FMI's state machine allows, with any input: no crash, no NaN, no lost state."""
 
 import math
+import os
 import sys
 
 import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import Bundle, RuleBasedStateMachine, consumes, initialize, invariant, precondition, rule
-from native_host import ERROR, OK, NativeHost, plain_environment
+from native_host import ERROR, OK, WARNING, NativeHost, plain_environment
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the processes are looked at as Linux shows them")
 
@@ -65,20 +66,29 @@ class Calls(RuleBasedStateMachine):
             self.begin()
             self.end_initialisation()
             self.instance.set(**GOOD)
-            self.called("step", 0.0, 1.0)
+            assert self.instance.step(1.0) == OK
             assert self.instance.outputs()["valid"]
 
     @precondition(lambda self: self.phase == "new")
     @rule()
     def begin(self):
-        self.called("setup")
+        self.called("setup", 0.0)
         self.called("enter")
         self.phase = "initialising"
+
+    @precondition(lambda self: self.phase == "stepping")
+    @rule(gap=st.sampled_from([-1.0, 1e-3, 1.0, math.nan, math.inf]), dt=STEPS)
+    def step_from_elsewhere(self, gap, dt):
+        """A step that leaves out time, or repeats it, changes nothing."""
+        before = self.seen()
+        if not abs(gap) <= 1e-3 * abs(dt) + 1e-12 * abs(self.instance.time + gap):
+            assert self.instance.ask("step", self.instance.time + gap, dt).status == ERROR
+            assert dict(self.seen()) == dict(before) | {"valid": 0}
 
     @precondition(lambda self: self.phase == "initialising")
     @rule()
     def end_initialisation(self):
-        self.called("exit")
+        assert self.instance.ask("exit").status == (OK if self.instance.outputs()["valid"] else WARNING)
         self.phase = "stepping"
 
     @rule(name=st.sampled_from(sorted(INPUTS)), data=st.data())
@@ -109,11 +119,13 @@ class Calls(RuleBasedStateMachine):
         if good:
             self.instance.set(**GOOD)
         before = self.instance.outputs()
-        self.called("step", 0.0, dt)
+        answer = self.instance.ask("step", self.instance.time, dt)
         after = self.instance.outputs()
+        assert answer.status == (OK if after["valid"] else WARNING), answer.log
         Calls.steps[after["valid"]] += 1
         if not after["valid"]:
             assert after == before | {"valid": 0}
+        (self.instance.time,) = self.instance.get("time")
 
     @rule(target=states)
     def save(self):
@@ -132,7 +144,8 @@ class Calls(RuleBasedStateMachine):
             for _ in range(2):
                 self.called("restore", state)
                 self.instance.set(**GOOD)
-                self.called("step", 0.0, 1.0)
+                status = self.instance.step(1.0)
+                assert status == (OK if self.instance.outputs()["valid"] else WARNING)
                 ends.append(self.seen())
             assert ends[0] == ends[1]
 
@@ -195,7 +208,7 @@ def test_any_sequence_of_calls(native_program, isolated_folder, tmp_path):
         Calls.host, Calls.fmu, Calls.folder = host, host.load(isolated_folder), tmp_path
         machine = Calls.TestCase()
         machine.settings = settings(
-            max_examples=500, stateful_step_count=20, deadline=None, suppress_health_check=list(HealthCheck)
+            max_examples=int(os.environ.get("EX","500")), stateful_step_count=20, deadline=None, suppress_health_check=list(HealthCheck)
         )
         machine.runTest()
     assert host.code == 0

@@ -113,7 +113,73 @@ def test_an_unknown_value_reference_is_refused(stepped):
 
 def test_a_step_before_initialisation_is_refused(host):
     assert not host.step(60.0)["valid"]
-    assert "not set up" in host.log[0][1]
+    assert "fmi2DoStep is not allowed before initialisation" in host.log[0][1]
+
+
+def test_initialisation_cannot_begin_again_while_stepping(stepped):
+    """The contact and its outputs stand; only a reset begins anew."""
+    before = stepped.outputs()
+    for call in (stepped.fmu.enterInitializationMode, stepped.fmu.exitInitializationMode, stepped.fmu.setupExperiment):
+        stepped.log.clear()
+        call()
+        assert stepped.outputs() == before | {"valid": False}
+        assert "is not allowed after initialisation. Nothing was done." in stepped.log[0][1]
+    assert stepped.step(60.0)["wear_volume_1"] > before["wear_volume_1"]
+
+
+def test_a_step_after_the_end_is_refused_until_a_state_is_restored(stepped):
+    handle, before = stepped.fmu.getFMUstate(), stepped.outputs()
+    stepped.fmu.terminate()
+    assert stepped.step(60.0) == before | {"valid": False}
+    assert "fmi2DoStep is not allowed after fmi2Terminate" in stepped.log[0][1]
+    stepped.fmu.setFMUstate(handle)
+    stepped.fmu.freeFMUstate(handle)
+    assert stepped.step(60.0)["valid"]
+
+
+@pytest.mark.parametrize("time", [0.0, 30.0, 60.1, 7200.0, math.nan, math.inf])
+def test_a_step_that_leaves_out_time_or_repeats_it_is_refused(stepped, time):
+    assert stepped.time == 60.0
+    before = stepped.outputs()
+    stepped.fmu.doStep(time, 60.0)
+    assert stepped.outputs() == before | {"valid": False}
+    status, text = stepped.log[0]
+    assert status == fmi2Error
+    assert f"currentCommunicationPoint = {time}" in text
+    assert stepped.step(60.0)["valid"]
+
+
+@pytest.mark.parametrize("time", [60.0 + 1e-12, 60.0 - 1e-9])
+def test_what_a_host_rounds_is_no_gap_in_time(stepped, time):
+    """libcosim counts in nanoseconds."""
+    stepped.fmu.doStep(time, 60.0)
+    assert stepped.get("valid")
+
+
+def started_until(host, stop):
+    host.fmu.setupExperiment(startTime=10.0, stopTime=stop)
+    host.fmu.enterInitializationMode()
+    host.fmu.exitInitializationMode()
+    host.time = 10.0
+
+
+def test_a_step_beyond_the_stop_time_is_refused_and_one_that_ends_there_is_not(host):
+    started_until(host, 11.0)
+    assert host.step(0.5)["valid"]
+    before = host.outputs()
+    host.fmu.doStep(10.5, 0.6)
+    assert host.outputs() == before | {"valid": False}
+    assert host.log[0][0] == fmi2Error
+    assert "goes beyond stopTime = 11.0 s" in host.log[0][1]
+    assert host.step(0.5 + 1e-9)["valid"]  # rounding
+    assert host.get("time") == pytest.approx(11.0)
+
+
+def test_the_first_step_begins_at_the_start_time(host):
+    started_until(host, None)
+    host.fmu.doStep(0.0, 1.0)
+    assert "currentCommunicationPoint = 0.0 s must be 10.0 s" in host.log[0][1]
+    assert host.step(1.0)["valid"]
 
 
 def test_no_nan_leaves(stepped, monkeypatch):

@@ -536,3 +536,21 @@ def test_long_steps_keep_a_tribofilm_at_its_balance_where_more_of_it_grows_less(
     assert settled.mean() > 100e-9
     assert (np.diff(settled) < 0.0).all()  # as wear goes on
     assert settled == pytest.approx(films[20.0][464::15][: len(settled)], rel=3e-3)
+
+
+@pytest.mark.parametrize("name", ["mtm_zddp", "fzg_flank", "ball_209_inner"])
+@pytest.mark.parametrize(
+    "inputs",
+    [
+        {"load": 5e-324},
+        {"load": 1e-310},
+        {"speed_1": 5e-324, "speed_2": 0.0},
+        {"speed_1": 5e-324, "speed_2": 5e-324},
+        {"load": 5e-324, "speed_1": 5e-324, "speed_2": -5e-324},
+    ],
+)
+def test_the_smallest_inputs_that_there_are_divide_by_no_zero(name: str, inputs: dict[str, float]) -> None:
+    scene = Scene.from_toml(name).at_level("regression")
+    _, found = advance(scene, replace(scene.operation.point, **inputs), initial_state(scene), 1.0)
+    assert all(math.isfinite(value) for value in vars(found).values())
+    assert abs(found.friction_force) < 1e-300
