@@ -21,6 +21,7 @@ from contact_core import (
     initial_state,
     warm_up,
 )
+from contact_core.kernels import NOTICE
 from contact_core.quantities import LEVELS, OF_CALLER
 from contact_core.scene import with_values
 
@@ -70,6 +71,8 @@ class ContactSlave(GuardedSlave):
         self._scenes: Scenes | None = None
         self._state: ContactState | None = None
         self._fault = "its initialisation has not ended."
+        if NOTICE:
+            self._tell(NOTICE, Fmi2Status.ok, "logStatusWarning")
 
     def _read(self) -> Sequence[Variable]:
         self._design = resources.read(self.resources, self._module)

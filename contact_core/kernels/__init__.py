@@ -11,7 +11,10 @@
     multigrid     smooth films: full approximation scheme (level, relaxation, transfer, coarsest, mirrored)
     far_field     what lies beyond the edge of the grid
     grids         between a grid and that of half its nodes
+    cache         where compiled kernels are kept
 
 All kernels are serial, release the GIL, keep the order of summation and use no fast-math: the same input gives the
 same bits.
 """
+
+from .cache import NOTICE as NOTICE  # before any kernel is read

@@ -15,6 +15,8 @@ holds it. balls [Z, 2]: their centres; pressed [Z, 2]: what else acts on them.
 import numpy as np
 from numba import njit
 
+import contact_core.kernels  # noqa: F401  # decides where compiled kernels are kept
+
 _jit = njit(cache=True, nogil=True, error_model="numpy")
 
 _STEPS, _CUTS, _ROUNDS = 200, 60, 200
