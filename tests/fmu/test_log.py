@@ -133,3 +133,10 @@ def test_a_host_hears_the_categories_it_names(isolated_folder, categories, heard
         host.fmu.setDebugLogging(True, categories)
         host.step(1.0, load=-1.0)
         assert [category for _, category, _ in host.entries] == ["logValidity"] * heard
+
+
+def test_where_kernels_are_kept_apart_is_a_note_of_every_instance(folder, monkeypatch):
+    monkeypatch.setattr(slave, "NOTICE", "Compiled kernels are kept in '/somewhere'.")
+    with hosted(folder) as host:
+        host.initialise()
+        assert host.entries[0] == (fmi2OK, "logStatusWarning", "Compiled kernels are kept in '/somewhere'.")
