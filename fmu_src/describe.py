@@ -101,8 +101,8 @@ def _units(root: ET.Element, table: Iterable[Variable]) -> None:
             displays.setdefault(_unit_name(variable), set()).update({variable.display} - {""})
     definitions = ET.SubElement(root, "UnitDefinitions")
     for name in sorted(displays):
-        factor, (metre, kilogram, second, kelvin) = units.unit(name)
-        exponents = {"kg": kilogram, "m": metre, "s": second, "K": kelvin}
+        factor, (metre, kilogram, second, kelvin, radian) = units.unit(name)
+        exponents = {"kg": kilogram, "m": metre, "s": second, "K": kelvin, "rad": radian}
         unit = ET.SubElement(definitions, "Unit", {"name": name})
         base = ET.SubElement(unit, "BaseUnit", {key: str(n) for key, n in exponents.items() if n})
         if factor != 1.0:

@@ -142,6 +142,7 @@ def unit_of_reals(description: ModelDescription) -> Answer:
 def unit_audit(description: ModelDescription) -> Answer:
     """A unit with the name of an SI unit is that unit, and one for display is converted to what it is called."""
     known = count = 0
+    without_rad = []
     for unit in description.unitDefinitions:
         count += 1 + len(unit.displayUnits)
         base, expected = unit.baseUnit, _si(unit.name)
@@ -153,13 +154,20 @@ def unit_audit(description: ModelDescription) -> Answer:
             if not right or _dimension(base) != _dimension(expected):
                 declared = f"The unit '{unit.name}' is declared as {_base(base)}"
                 return failed(f"{declared}; by its name it is {_base(expected)}.")
+            if expected.rad and not base.rad:
+                without_rad.append(f"'{unit.name}'")
         for shown in unit.displayUnits:
             meant = _si(shown.name)
-            if meant is None or ("rad" in str(unit.name)) != ("rad" in shown.name):  # 1/min may count turns
+            if meant is None or meant.rad != (expected or base).rad:  # 1/min may count turns
                 continue
             known += 1
             if wrong := _misconverted(base, shown, meant):
                 return failed(f"The display unit '{shown.name}' of '{unit.name}' {wrong}.")
+    if without_rad:
+        return noted(
+            f"The BaseUnit of {some(without_rad)} lacks rad. Hosts that compare exponents, such as OMSimulator, refuse "
+            "to connect it with a unit that has it."
+        )
     return passed(f"{known} of {count} unit names are known here, and mean what they say.")
 
 
@@ -180,10 +188,10 @@ def _si(name: str | None) -> BaseUnit | None:
     if name in ("degC", "°C"):
         return BaseUnit(K=1, offset=273.15)
     try:
-        factor, (m, kg, s, kelvin) = units.unit(name or "?")
+        factor, (m, kg, s, kelvin, rad) = units.unit(name or "?")
     except (SceneError, OverflowError):
         return None
-    return BaseUnit(m=m, kg=kg, s=s, K=kelvin, factor=factor) if 0.0 < factor < math.inf else None
+    return BaseUnit(m=m, kg=kg, s=s, K=kelvin, rad=rad, factor=factor) if 0.0 < factor < math.inf else None
 
 
 def _dimension(base: BaseUnit) -> tuple[int, ...]:

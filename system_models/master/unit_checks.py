@@ -62,4 +62,4 @@ def _base(unit: str, model: ModelDescription) -> tuple[tuple[int, ...], float, f
         factor, exponents = known_unit(unit)
     except (SceneError, ValueError, KeyError):
         return None
-    return (*exponents, 0, 0, 0), factor, 0.0
+    return (*exponents[:4], 0, 0, 0), factor, 0.0

@@ -21,6 +21,8 @@ UNITS: dict[str, dict[str, float]] = {
     "N/m": {"kg": 1, "s": -2},
     "N.s/m": {"kg": 1, "s": -1},
     "N.s2/m2": {"kg": 1, "m": -1},
+    "rad/s": {"s": -1, "rad": 1},
+    "1/s": {"s": -1},
 }
 FMI3_TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean", "String": "String"}
 

@@ -1,5 +1,6 @@
 """The command `check`: each defect of an FMU is told by the rule concerned, and by no other."""
 
+import math
 import os
 import re
 import sys
@@ -197,6 +198,26 @@ def test_a_file_that_is_no_fmu_is_refused_with_a_sentence(
         printed = capsys.readouterr()
         assert said in printed.err
         assert printed.out == ""
+
+
+def test_a_unit_of_angles_without_rad_is_worth_a_note(fmu: Path, tmp_path: Path) -> None:
+    assert static_findings(fmu)["unit audit"].verdict == Verdict.PASS
+    without = replaced(r'(<Unit name="rad/s">\s*<BaseUnit .*)rad="1"', r"\1")
+    old = static_findings(edited(fmu, tmp_path / "old.fmu", without))
+    assert old["unit audit"].verdict == Verdict.NOTE
+    assert "The BaseUnit of 'rad/s' lacks rad." in old["unit audit"].evidence
+
+
+def test_a_display_unit_of_turns_is_converted_to_radians(fmu: Path, tmp_path: Path) -> None:
+    def shown(factor: float) -> Finding:
+        by = rf'\1<DisplayUnit name="rpm" factor="{factor!r}"/></Unit>'
+        turning = edited(
+            fmu, tmp_path / f"{factor}.fmu", replaced(r'(<Unit name="rad/s">\s*<BaseUnit [^>]*>)\s*</Unit>', by)
+        )
+        return static_findings(turning)["unit audit"]
+
+    assert shown(30.0 / math.pi).verdict == Verdict.PASS
+    assert shown(60.0).verdict == Verdict.FAIL
 
 
 def test_a_failed_rule_is_told_by_the_exit_code(fmu: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -83,7 +83,14 @@ def test_what_is_not_the_quantity_is_refused_with_its_name_and_a_way_out(given, 
         assert part in sentence
 
 
-def test_a_unit_has_its_factor_and_exponents_of_metre_kilogram_second_kelvin():
-    assert units.unit("W/(m K)") == (1.0, (1, 1, -3, -1))
-    assert units.unit("mN") == (1e-3, (1, 1, -2, 0))
-    assert units.unit("") == (1.0, (0, 0, 0, 0))
+def test_a_unit_has_its_factor_and_exponents_of_metre_kilogram_second_kelvin_radian():
+    assert units.unit("W/(m K)") == (1.0, (1, 1, -3, -1, 0))
+    assert units.unit("mN") == (1e-3, (1, 1, -2, 0, 0))
+    assert units.unit("") == (1.0, (0, 0, 0, 0, 0))
+    assert units.unit("N m s/rad") == (1.0, (2, 1, -1, 0, -1))
+    assert units.unit("rpm")[1] == units.unit("rad/s")[1] == (0, 0, -1, 0, 1)
+
+
+@pytest.mark.parametrize(("text", "si_unit"), [("3 1/s", "rad/s"), ("3 rad/s", "1/s"), ("3", "rad"), (3, "rad")])
+def test_an_angle_may_be_given_as_the_number_that_it_is(text, si_unit):
+    assert units.parse(text, si_unit, "field") == 3.0
