@@ -403,10 +403,13 @@ def _status(flavour: Flavour) -> Iterator[str]:
     yield table(("value", "name", "meaning"), ((flag.value, flag.name, flag.text) for flag in RangeFlag))
 
 
+_KINDS = (("Inputs", "input"), ("Outputs", "output"), ("Parameters", "parameter"), ("Time", "independent"))
+
+
 def _variables(scene: Scene) -> Iterator[str]:
     yield paragraph("All values are SI. Bounds are those of modelDescription.xml.")
     listed = variables(scene)
-    for title, causality in (("Inputs", "input"), ("Outputs", "output"), ("Parameters", "parameter")):
+    for title, causality in _KINDS:
         yield f"<h3>{title}</h3>"
         if causality == "parameter":
             yield paragraph(
