@@ -14,6 +14,38 @@ Kind = Literal["Real", "Integer", "Boolean"]
 
 LEVELS = ("regression", "deterministic")  # film models by rising fidelity: 1, 2
 
+# What is measured in a unit, in the words of the Modelica standard library, where nothing else is said
+_MEASURED_IN = {
+    "J": "Energy",
+    "K": "ThermodynamicTemperature",
+    "N": "Force",
+    "N m": "Torque",
+    "N m s/rad": "RotationalDampingConstant",
+    "N m/rad": "RotationalSpringConstant",
+    "N.s/m": "TranslationalDampingConstant",
+    "N/m": "TranslationalSpringConstant",
+    "Pa": "Pressure",
+    "Pa s": "DynamicViscosity",
+    "W": "Power",
+    "W/(m K)": "ThermalConductivity",
+    "kg m2": "MomentOfInertia",
+    "kg/m3": "Density",
+    "m": "Length",
+    "m/s": "Velocity",
+    "m3": "Volume",
+    "m3/s": "VolumeFlowRate",
+    "rad": "Angle",
+    "rad/s": "AngularVelocity",
+    "rad/s2": "AngularAcceleration",
+    "s": "Time",
+}
+DIFFERENCE = "TemperatureDifference"
+
+
+def measured(unit: str, said: str = "") -> str:
+    """The kind of physical quantity of a variable: as said of it, else what its unit tells, else empty."""
+    return said or _MEASURED_IN.get(unit, "")
+
 
 @dataclass(frozen=True)
 class Quantity:
@@ -31,6 +63,11 @@ class Quantity:
     kind: Kind = "Real"
     relative: bool = False  # a temperature difference, not a temperature
     levels: tuple[str, ...] = LEVELS  # film models that can tell it; others leave it zero
+
+    @property
+    def quantity(self) -> str:
+        """What is measured."""
+        return measured(self.unit, DIFFERENCE if self.relative else "")
 
 
 def _pair(name: str, symbol: str, unit: str, text: str, **rest: Any) -> tuple[Quantity, Quantity]:
@@ -127,11 +164,13 @@ def parameter(
     default: Any = ...,
     choices: tuple[str, ...] = (),
     shapes_arrays: bool = False,
+    quantity: str = "",
 ) -> Any:
     """A dataclass field with its SI unit, text and allowed range.
 
     `above` excludes its bound, `least` and `most` include theirs. `shapes_arrays` marks what decides the size of an
-    array (such a field cannot become a tunable FMU parameter).
+    array (such a field cannot become a tunable FMU parameter). `quantity` says what is measured, where the unit alone
+    does not: see `measured`.
     """
     metadata = {
         "unit": unit,
@@ -141,6 +180,7 @@ def parameter(
         "most": most,
         "choices": choices,
         "shapes_arrays": shapes_arrays,
+        "quantity": measured(unit, quantity),
     }
     return field(metadata=metadata) if default is ... else field(default=default, metadata=metadata)
 

@@ -39,7 +39,9 @@ _INPUTS_ANYWAY = ("geometry.radius_x", "geometry.radius_y")
 class Solids:
     """Elasticity of the pair."""
 
-    reduced_modulus: float = parameter("Pa", "E' = 2 / [(1 - v1^2)/E1 + (1 - v2^2)/E2]", above=1e3, most=1e13)
+    reduced_modulus: float = parameter(
+        "Pa", "E' = 2 / [(1 - v1^2)/E1 + (1 - v2^2)/E2]", above=1e3, most=1e13, quantity="Stress"
+    )
 
 
 @dataclass(frozen=True)

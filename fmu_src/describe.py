@@ -10,6 +10,7 @@ import pythonfmu
 import contact_core
 from contact_core import units
 from contact_core.film import Deterministic
+from contact_core.quantities import measured
 from contact_core.scene import Scene
 
 from .flavours import Flavour
@@ -72,6 +73,7 @@ def xml(model: Model, table: Sequence[Variable], flavour: Flavour) -> bytes:
         },
     )
     _units(root, table)
+    _types(root, table)
     categories = ET.SubElement(root, "LogCategories")
     for name, text in LOG_CATEGORIES.items():
         ET.SubElement(categories, "Category", {"name": name, "description": text})
@@ -111,6 +113,29 @@ def _units(root: ET.Element, table: Iterable[Variable]) -> None:
             ET.SubElement(unit, "DisplayUnit", {"name": display, **_conversion(display)})
 
 
+def _types(root: ET.Element, table: Iterable[Variable]) -> None:
+    """Every kind of physical quantity in use."""
+    alike: dict[str, list[Variable]] = {}
+    for variable in table:
+        if variable.quantity:
+            alike.setdefault(variable.quantity, []).append(variable)
+    definitions = ET.SubElement(root, "TypeDefinitions")
+    for name in sorted(alike):
+        simple = ET.SubElement(definitions, "SimpleType", {"name": name})
+        ET.SubElement(simple, "Real", _of_quantity(name, alike[name]))
+
+
+def _of_quantity(name: str, alike: Sequence[Variable]) -> dict[str, str]:
+    """What variables of one quantity have in common."""
+    (unit,) = {_unit_name(v) for v in alike}
+    (relative,) = {v.relative for v in alike}
+    common = {"quantity": measured(unit) if relative else name, "unit": unit}
+    displays = {v.display for v in alike}
+    if len(displays) == 1 and (display := displays.pop()):
+        common["displayUnit"] = display
+    return common | ({"relativeQuantity": "true"} if relative else {})
+
+
 def _conversion(display: str) -> dict[str, str]:
     """Attributes with which display value = factor * SI value + offset."""
     if display == "degC":
@@ -130,6 +155,8 @@ def _scalar_variable(reference: int, variable: Variable) -> ET.Element:
         attributes["initial"] = initial
     element = ET.Element("ScalarVariable", attributes)
     typed = ET.SubElement(element, variable.kind)
+    if variable.quantity:
+        typed.set("declaredType", variable.quantity)
     if variable.kind == "Real":
         typed.set("unit", _unit_name(variable))
         if variable.display:
@@ -147,16 +174,20 @@ def _scalar_variable(reference: int, variable: Variable) -> ET.Element:
 
 
 def _structure(root: ET.Element, table: Sequence[Variable]) -> None:
-    """Between steps an output depends on the state and what it says; at the start, on every input and parameter."""
+    """Between steps an output depends on the state and what it says; at the start, on all that can be set, for which
+    FMI needs no list, or on part of it.
+    """
     index = {v.name: i for i, v in enumerate(table, 1)}
     outputs = [v for v in table if v.causality == "output"]
+    every = [v.name for v in table if v.has_start]
     structure = ET.SubElement(root, "ModelStructure")
     for name in ("Outputs", "InitialUnknowns"):
         listed = ET.SubElement(structure, name)
         for v in outputs:
             depends = v.direct if name == "Outputs" else _at_start(v, table)
-            indices = sorted({index[known] for known in depends})
-            ET.SubElement(listed, "Unknown", {"index": str(index[v.name]), **_dependencies(indices)})
+            unknown = ET.SubElement(listed, "Unknown", {"index": str(index[v.name])})
+            if name == "Outputs" or depends != every:
+                unknown.attrib |= _dependencies(sorted({index[known] for known in depends}))
 
 
 def _at_start(output: Variable, table: Sequence[Variable]) -> list[str]:

@@ -4,7 +4,8 @@ import math
 from dataclasses import Field, dataclass
 from typing import Any, Literal
 
-from contact_core.quantities import INPUTS, LEVELS, OUTPUTS, Quantity
+from contact_core import units
+from contact_core.quantities import DIFFERENCE, INPUTS, LEVELS, OUTPUTS, Quantity, measured
 from contact_core.scene import Scene, tunables
 
 Kind = Literal["Real", "Integer", "Boolean", "String"]
@@ -16,6 +17,15 @@ FIDELITY, SEED, INITIAL_STATE = "fidelity", "seed", "initial_state"
 TIME = "time"
 SPECIAL = (FIDELITY, SEED, INITIAL_STATE)  # parameters that are no numbers of the scene
 ZERO: dict[Kind, Value] = {"Real": 0.0, "Integer": 0, "Boolean": False, "String": ""}
+
+# units in which people read numbers, the largest first
+_READ_IN = {
+    "Pa": ("GPa", "MPa"),
+    "Pa s": ("mPa s",),
+    "Pa^-1": ("GPa^-1",),
+    "m": ("mm", "um", "nm"),
+    "m2/s": ("mm2/s",),
+}
 
 
 @dataclass(frozen=True)
@@ -32,10 +42,15 @@ class Variable:
     nominal: float | None = None
     minimum: float = -math.inf
     maximum: float = math.inf
-    relative: bool = False
+    quantity: str = ""  # what is measured: see contact_core.quantities.measured
     levels: tuple[str, ...] = LEVELS  # that fill an output
     direct: tuple[str, ...] = ()  # inputs on which an output depends without delay
     at_start: tuple[str, ...] | None = None  # on which its first value depends besides; None: all
+
+    @property
+    def relative(self) -> bool:
+        """Whether it is a difference, to which no offset between units applies."""
+        return self.quantity == DIFFERENCE
 
     @property
     def has_start(self) -> bool:
@@ -50,7 +65,9 @@ class Variable:
         return "continuous" if self.kind == "Real" else "discrete"
 
 
-CLOCK = Variable(TIME, "simulation time at the last communication point", "Real", "independent", 0.0, unit="s")
+CLOCK = Variable(
+    TIME, "simulation time at the last communication point", "Real", "independent", 0.0, "s", quantity=measured("s")
+)
 
 
 def variables(scene: Scene) -> tuple[Variable, ...]:
@@ -65,7 +82,7 @@ def variables(scene: Scene) -> tuple[Variable, ...]:
         Variable(
             FIDELITY,
             "film model from the next step on: 1 regression (means), 2 deterministic (fields)",
-            "Integer",
+            "Integer",  # as an Enumeration, libcosim and ecos would leave it out, and set nothing without a word
             "parameter",
             fidelity_of(scene.film.name),
             minimum=1,
@@ -126,7 +143,7 @@ def of_quantity(
         nominal=q.nominal if q.kind == "Real" else None,
         minimum=q.minimum,
         maximum=q.maximum,
-        relative=q.relative,
+        quantity=q.quantity,
         levels=q.levels,
         direct=direct,
         at_start=at_start,
@@ -140,19 +157,31 @@ def of_number(name: str, value: float | int, field: "Field[Any]") -> Variable:
     above, least, most = (field.metadata[key] for key in ("above", "least", "most"))
     low = above if above is not None else least if least is not None else -math.inf
     kind: Kind = "Integer" if isinstance(value, int) else "Real"
+    unit, quantity = field.metadata["unit"], field.metadata["quantity"]
+    magnitude = _magnitude(value, most)
     return Variable(
         name,
         field.metadata["text"],
         kind,
         "parameter",
         value,
-        unit=field.metadata["unit"],
-        nominal=_magnitude(value, most) if kind == "Real" else None,
+        unit=unit,
+        display=_read_in(unit, quantity, magnitude),
+        nominal=magnitude if kind == "Real" else None,
         minimum=low,
         maximum=math.inf if most is None else most,
+        quantity=quantity,
     )
 
 
 def _magnitude(value: float, most: float | None) -> float:
     """Nominal of a parameter: its value; of one that is switched off by zero, a thousandth of the most it may be."""
     return abs(value) or 1e-3 * (1e3 if most is None else most)
+
+
+def _read_in(unit: str, quantity: str, magnitude: float) -> str:
+    """The unit in which people read a parameter: the largest of which it has at least one."""
+    if unit == "K":
+        return "" if quantity == DIFFERENCE else "degC"
+    listed = _READ_IN.get(unit, ("",))
+    return next((name for name in listed if magnitude >= units.unit(name)[0] * (1.0 - 1e-9)), listed[-1])

@@ -99,7 +99,7 @@ def _conductivity(body: int) -> Any:
 
 
 def _diffusivity(body: int) -> Any:
-    return parameter("m2/s", f"thermal diffusivity of body {body}", above=0.0, most=1.0)
+    return parameter("m2/s", f"thermal diffusivity of body {body}", above=0.0, most=1.0, quantity="ThermalDiffusivity")
 
 
 def _inlet_shear() -> Any:

@@ -82,7 +82,9 @@ class Eyring(_Limited):
     source: ClassVar[str] = "Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129"
     thins: ClassVar[bool] = True
 
-    eyring_stress: float = parameter("Pa", "shear stress at which the fluid begins to thin", above=0.0, most=1e12)
+    eyring_stress: float = parameter(
+        "Pa", "shear stress at which the fluid begins to thin", above=0.0, most=1e12, quantity="Stress"
+    )
     limiting_coefficient: float = _limiting_coefficient()
 
     def _stress(self, newtonian: Array) -> Array:
@@ -106,7 +108,7 @@ class Carreau(_Limited):
     thins: ClassVar[bool] = True
 
     critical_stress: float = parameter(
-        "Pa", "G, Newtonian stress at which the fluid begins to thin", above=0.0, most=1e12
+        "Pa", "G, Newtonian stress at which the fluid begins to thin", above=0.0, most=1e12, quantity="Stress"
     )
     exponent: float = parameter("", "n, power of the shear rate in a thin fluid", above=0.0, most=1.0)
     limiting_coefficient: float = _limiting_coefficient()

@@ -89,8 +89,12 @@ class Modulus:
     )
 
     vogel_viscosity: float = parameter("Pa s", "K, viscosity of the hot oil", above=0.0, most=1.0)
-    vogel_slope: float = parameter("K", "C, fall of ln(viscosity) by 1 / (D + T)", least=0.0, most=1e4)
-    vogel_offset: float = parameter("K", "D, minus the temperature of solidification", least=-225.0, most=273.15)
+    vogel_slope: float = parameter(
+        "K", "C, fall of ln(viscosity) by 1 / (D + T)", least=0.0, most=1e4, quantity="TemperatureDifference"
+    )
+    vogel_offset: float = parameter(
+        "K", "D, minus the temperature of solidification", least=-225.0, most=273.15, quantity="TemperatureDifference"
+    )
     modulus: float = parameter("Pa", "a1, inverse of the pressure coefficient, at T = 0 K", least=-1e9, most=1e9)
     modulus_slope: float = parameter("Pa/K", "a2, rise of that with temperature", least=0.0, most=1e7)
     bend: float = parameter("", "b1, rise of the modulus with pressure, at T = 0 K", least=-1.0, most=1.0)
@@ -121,8 +125,12 @@ class AstmD341:
         "Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of oils, TU Delft 1966"
     )
 
-    viscosity_40: float = parameter("m2/s", "kinematic viscosity at 40 degC, p = 0", least=2e-6, most=0.1)
-    viscosity_100: float = parameter("m2/s", "kinematic viscosity at 100 degC, p = 0", least=1e-6, most=0.1)
+    viscosity_40: float = parameter(
+        "m2/s", "kinematic viscosity at 40 degC, p = 0", least=2e-6, most=0.1, quantity="KinematicViscosity"
+    )
+    viscosity_100: float = parameter(
+        "m2/s", "kinematic viscosity at 100 degC, p = 0", least=1e-6, most=0.1, quantity="KinematicViscosity"
+    )
     density: float = parameter("kg/m3", "density at 15 degC, p = 0", least=600.0, most=2500.0)
     pressure_coefficient: float = parameter(
         "Pa^-1", "d ln(viscosity)/dp at p = 0 and the reference temperature", least=0.0, most=1e-7

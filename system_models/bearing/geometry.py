@@ -70,7 +70,7 @@ class BallBearingGeometry:
     conformity_outer: float = parameter("", "radius of the outer groove over ball diameter", above=0.5, most=1.0)
     clearance: float = parameter("m", "diametral clearance; below 0 a press fit", least=-1e-3, most=1e-2, default=0.0)
     contact_angle: float = parameter("rad", "free contact angle; 0: deep groove", least=0.0, most=1.2, default=0.0)
-    modulus: float = parameter("Pa", "Young's modulus", above=0.0, most=1e13, default=210e9)
+    modulus: float = parameter("Pa", "Young's modulus", above=0.0, most=1e13, default=210e9, quantity="Stress")
     poisson: float = parameter("", "Poisson's ratio", least=0.0, most=0.5, default=0.3)
     density: float = parameter("kg/m3", "density of the balls", above=0.0, most=1e5, default=7800.0)
 

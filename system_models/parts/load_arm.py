@@ -16,7 +16,9 @@ class LoadArm(Part):
     name: ClassVar[str] = "LoadArm"
     text: ClassVar[str] = "Loading arm: dead weight, and a load that follows its setpoint"
 
-    natural_frequency: float = parameter("rad/s", "f, natural frequency", least=1e-3, most=1e5, default=20.0)
+    natural_frequency: float = parameter(
+        "rad/s", "f, natural frequency", least=1e-3, most=1e5, default=20.0, quantity="AngularFrequency"
+    )
     damping_ratio: float = parameter(
         "", "D, damping ratio; 1: as fast as it can be without swinging", least=0.0, most=100.0, default=1.0
     )

@@ -22,7 +22,9 @@ class Spindle(Part):
 
     radius: float = parameter("m", "R, from the axis to the contact", least=1e-5, most=10.0)
     inertia: float = parameter("kg m2", "J, moment of inertia of motor, shaft and body", least=1e-9, most=1e6)
-    bandwidth: float = parameter("rad/s", "b, bandwidth of the servo", least=1e-3, most=1e5)
+    bandwidth: float = parameter(
+        "rad/s", "b, bandwidth of the servo", least=1e-3, most=1e5, quantity="AngularFrequency"
+    )
 
     @property
     def inputs(self) -> tuple[Input, ...]:

@@ -81,7 +81,7 @@ def test_the_kinds_of_change_are_those_that_fmi_allows(by_name, xml):
 def test_time_is_the_last_variable_and_has_what_fmi_allows_it(xml):
     last = xml.find("ModelVariables")[-1]
     assert (last.get("name"), last.get("causality"), last.get("initial")) == ("time", "independent", None)
-    assert last[0].attrib == {"unit": "s"}
+    assert last[0].attrib == {"declaredType": "Time", "unit": "s"}
 
 
 def test_temperature_differences_are_marked_as_relative(xml):
@@ -132,6 +132,61 @@ def test_units_are_exponents_of_the_base_units(xml):
     assert units["1"] == {}
 
 
+QUANTITIES = {
+    "load": "Force",
+    "spin": "AngularVelocity",
+    "temperature": "ThermodynamicTemperature",
+    "flash_temperature_rise": "TemperatureDifference",
+    "pressure_max": "Pressure",
+    "lubricant.rheology.eyring_stress": "Stress",
+    "heat.diffusivity_1": "ThermalDiffusivity",
+    "wear_rate_1": "VolumeFlowRate",
+    "suggested_step": "Time",
+    "time": "Time",
+    "friction_coefficient": None,
+    "fidelity": None,
+}
+
+
+def test_a_variable_says_what_it_measures(by_name):
+    declared = {name: by_name[name].declaredType for name in QUANTITIES}
+    assert {name: found and found.name for name, found in declared.items()} == QUANTITIES
+
+
+def test_a_type_is_that_of_its_variables(xml):
+    types = {t.get("name"): t.find("Real").attrib for t in xml.iter("SimpleType")}
+    used = set()
+    for variable in xml.iter("ScalarVariable"):
+        if name := variable[0].get("declaredType"):
+            used.add(name)
+            for attribute in ("unit", "relativeQuantity"):
+                assert types[name].get(attribute) == variable[0].get(attribute), (variable.get("name"), attribute)
+            assert types[name].get("displayUnit") in (None, variable[0].get("displayUnit"))
+    assert used == set(types)
+    assert {t["quantity"] for n, t in types.items() if "Temperature" in n} == {"ThermodynamicTemperature"}
+
+
+def test_no_difference_of_temperatures_is_shown_with_an_offset():
+    law = {"model": "modulus", "vogel_viscosity": "6e-5 Pa s", "vogel_slope": "1000 K", "vogel_offset": "-110 K"}
+    law |= {"modulus": "30 MPa", "modulus_slope": "50 kPa/K", "bend": "0.5", "bend_slope": "1e-3 K^-1"}
+    scene = Scene.from_toml("mtm_zddp", {f"lubricant.viscosity.{key}": value for key, value in law.items()})
+    shown = {v.name.rpartition(".")[2]: (v.relative, v.display) for v in variables(scene)}
+    assert shown["vogel_slope"] == shown["vogel_offset"] == (True, "")
+    assert shown["temperature"] == (False, "degC")
+
+
+def test_parameters_are_shown_in_the_units_that_people_read(by_name):
+    names = ("plasticity.hardness", "lubricant.rheology.eyring_stress", "surface_2.rq", "geometry.track_length_1")
+    assert [by_name[name].displayUnit for name in names] == ["GPa", "MPa", "nm", "mm"]
+    assert by_name["lubricant.viscosity.reference_temperature"].displayUnit == "degC"
+    assert all(v.displayUnit for v in by_name.values() if v.unit in ("Pa", "m"))
+
+
+def test_fidelity_is_of_a_type_that_every_host_sets(by_name):
+    """libcosim and ecos set no Enumeration, and say nothing."""
+    assert by_name["fidelity"].type == by_name["fidelity_used"].type == "Integer"
+
+
 def test_display_units_convert_from_si(xml):
     units = {d.get("name"): d for d in xml.iter("DisplayUnit")}
     displays = {name: (float(d.get("factor", 1)), float(d.get("offset", 0))) for name, d in units.items()}
@@ -142,13 +197,11 @@ def test_display_units_convert_from_si(xml):
 
 
 def test_outputs_depend_on_the_state_between_steps_and_on_every_known_at_the_start(description):
-    knowns = [v for v in description.modelVariables if v.causality in ("input", "parameter")]
     outputs = [v for v in description.modelVariables if v.causality == "output"]
     assert [u.variable for u in description.outputs] == outputs
     assert all(u.dependencies == [] for u in description.outputs)
     assert [u.variable for u in description.initialUnknowns] == outputs
-    assert all(u.dependencies == knowns for u in description.initialUnknowns)
-    assert all(set(u.dependenciesKind) == {"dependent"} for u in description.initialUnknowns)
+    assert all(u.dependencies is None for u in description.initialUnknowns)  # which says all
 
 
 def test_the_default_experiment_is_the_scenes_operation(description, scene):

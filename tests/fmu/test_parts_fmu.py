@@ -94,6 +94,19 @@ def test_the_file_is_valid_and_says_what_the_component_has(file, example):
         assert "documentation/index.html" in archive.namelist()
 
 
+def test_the_description_names_what_the_first_outputs_depend_on_unless_it_is_all(file, example):
+    part, inputs = example
+    description = read_model_description(str(file))
+    parameters = {v.name for v in description.modelVariables if v.causality == "parameter"}
+    direct = {q.name: q.direct for q in part.responses} | {"valid": ()}
+    every = {*parameters, *inputs}
+    assert [u.variable.name for u in description.initialUnknowns] == list(direct)
+    for unknown in description.initialUnknowns:
+        expected = {*parameters, *part.at_start, *direct[unknown.variable.name]}
+        found = None if unknown.dependencies is None else {v.name for v in unknown.dependencies}
+        assert found == (None if expected == every else expected)
+
+
 def test_a_run_is_that_of_the_component(host, example):
     part, inputs = example
     host.initialise(**at_rest(part))

@@ -14,6 +14,8 @@ from lxml import etree
 from models import build
 from ssp_importers import UNUSABLE
 
+from contact_core import Scene
+from fmu_src.build import build as build_contact
 from system_models.master import CouplingError, System, export_ssp, simulate
 
 STEP, COUNT = 0.01, 40
@@ -131,6 +133,18 @@ def test_importers_simulate_what_we_do(importer: str, lag: int, instrumented: Sy
     np.testing.assert_allclose(theirs[:, :4], ours[1:, :4], rtol=1e-9, atol=1e-12)
     np.testing.assert_allclose(theirs[:, 4], ours[1 - lag : COUNT + 1 - lag, 4], rtol=1e-9)
     assert np.ptp(ours[:, 4]) == pytest.approx(0.5 * 2000.0 * np.ptp(ours[:, 2]), rel=1e-9)
+
+
+@pytest.mark.parametrize("importer", ["libcosimpy", "ecospy"])
+def test_importers_set_the_level_of_a_contact(importer: str, folder: Path) -> None:
+    grid = {"film.points": "17"} | {f"surface_{i}.correlation_length": "32 um" for i in (1, 2)}
+    scene = Scene.from_toml("mtm_zddp", grid).at_level("regression")
+    contact = build_contact(scene, folder / "contact.fmu", python=sys.executable)
+    systems = {level: System({"contact": contact}, [], {"contact.fidelity": level}) for level in (1, 2)}
+    fast, full = (own(system, ["contact.h_c"])[1:] for system in systems.values())
+    assert np.all(np.abs(fast - full) > 0.1 * full)
+    file = export_ssp(systems[2], folder / "level.ssp")
+    np.testing.assert_allclose(imported(importer, file, ["contact.h_c"]), full, rtol=1e-9)
 
 
 def test_fmpy_simulates_what_we_do(fmus: dict[str, Path], folder: Path) -> None:

@@ -58,7 +58,7 @@ def _edge_weight() -> Any:
 
 def _least_shear() -> Any:
     text = "shear stress below which a node is not rubbed: no growth by temperature alone"
-    return parameter("Pa", text, above=0.0, most=1e10, default=1e7)
+    return parameter("Pa", text, above=0.0, most=1e10, default=1e7, quantity="Stress")
 
 
 def edge_tension(position: Array) -> Array:

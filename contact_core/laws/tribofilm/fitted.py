@@ -100,7 +100,12 @@ class Ghanbarzadeh(_Unabraded):
     dose: str = parameter("", "how long a node counts as rubbed", choices=("clock", "contact_length"), default="clock")
     nodes: str = parameter("", "which nodes are rubbed", choices=("contacts", "stressed"), default="contacts")
     least_shear: float = parameter(
-        "Pa", "shear stress above which oil alone rubs a node, for nodes = stressed", least=0.0, most=1e10, default=1e8
+        "Pa",
+        "shear stress above which oil alone rubs a node, for nodes = stressed",
+        least=0.0,
+        most=1e10,
+        default=1e8,
+        quantity="Stress",
     )
     beyond_fit: str = beyond_fit()
 
