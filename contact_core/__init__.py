@@ -36,7 +36,7 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     tracks       the rubbed surfaces as they are, for profiles and pictures
     reference/   closed forms: Hertz, films of points and lines, starvation, heat, wear
     data/        named oils, solids and tribofilms, and the shipped scenes
-    checksum     of bytes joined from parts whose checksums are known
+    storage      records of numbers and arrays as bytes and back
     errors       what can go wrong, each message with a way out
 
 Imports run one way: kernels <- laws <- film <- friction <- oil <- patches <- evolution <- contact <- following

@@ -5,26 +5,28 @@ Arrays are read-only and lie on body-fixed patches [ny, nx], periodic along x, e
 grid of the contact.
 """
 
-import json
-import math
 import struct
 import zlib
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from enum import IntFlag
-from typing import Any, ClassVar, NamedTuple, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .checksum import joined
 from .errors import StateError
 from .film.instant import FilmState
 from .scene import OperatingPoint, Scene
+from .storage import Reader, numbers, stored
 from .trends import Trends
 
 Array = NDArray[np.float64]
 _Record = TypeVar("_Record", "ContactState", "Outputs", "Mean")
-_MAGIC, _SCHEMA = b"tribofmu", 5
+_MAGIC, _SCHEMA = b"tribofmu", 6
+_FEWEST = 100  # bytes that a header of schema 5 or before has at least
+_CHECKSUM, _SIGNED = struct.Struct("<I"), struct.Struct("<II")
+_TEXTS = struct.Struct("<4?II")  # what is there of film, solved_for, means, temperatures; lengths of digest, law
+_PAIR = struct.Struct("<2d")
 
 
 class RangeFlag(IntFlag):
@@ -194,7 +196,8 @@ class ContactState:
         return self.bodies[0].wear.shape[0]
 
     def to_bytes(self) -> bytes:
-        """Serialise: magic, checksum of the rest, length of a JSON header, header, raw little-endian arrays.
+        """Serialise: magic, checksum of the head, the head (schema, length, texts, numbers, what the arrays are, their
+        checksums), raw little-endian arrays.
 
         The same state gives the same bytes.
         """
@@ -203,18 +206,26 @@ class ContactState:
     def parts(self) -> list[bytes | memoryview]:
         """What `to_bytes` joins: all up to the arrays, then the memory of each array, which is not copied.
 
-        An array that has not changed since an earlier state is the same object in both (`obj` of its part): at the
-        fast level that is all of them, between two solutions of the deterministic one all but what grows and wears.
+        An array of one value everywhere has no part: fresh surfaces take up no room. One that has not changed since an
+        earlier state is the same object in both (`obj` of its part): at the fast level that is all of them, between two
+        solutions of the deterministic one all but what grows and wears.
         """
-        stored = [_stored(record) for record in (*self.bodies, self.film, self.trends) if record is not None]
-        shapes = [shape for record in stored for shape in record.shapes]
-        header = json.dumps({"schema": _SCHEMA, "arrays": shapes, "state": _pack(self)}).encode()
-        head = struct.pack("<I", len(header)) + header
-        checksum = zlib.crc32(head)
-        for record in stored:
-            checksum = joined(checksum, record.checksum, record.size)
-        arrays = [array.data for record in stored for array in record.arrays]
-        return [_MAGIC + struct.pack("<I", checksum) + head, *arrays]
+        kept = [stored(record) for record in (*self.bodies, self.trends, self.film) if record is not None]
+        texts = self.digest.encode(), self.law.encode()
+        given = [record is not None for record in (self.film, self.solved_for, self.means, self.temperatures)]
+        single = [r for r in (self, self.outputs, self.solved_for, *(self.means or ())) if r is not None]
+        head = b"".join(
+            [
+                _TEXTS.pack(*given, *map(len, texts)),
+                *texts,
+                *map(numbers, single),
+                _PAIR.pack(*self.temperatures or (0.0, 0.0)),
+                *[record.head for record in kept],
+            ]
+        )
+        signed = _SIGNED.pack(_SCHEMA, len(head)) + head
+        memory = [array for record in kept for array in record.memory]
+        return [b"".join([_MAGIC, _CHECKSUM.pack(zlib.crc32(signed)), signed]), *memory]
 
     @staticmethod
     def from_bytes(data: bytes, scene: Scene) -> "ContactState":
@@ -228,102 +239,48 @@ class ContactState:
         return state
 
 
-class _Stored(NamedTuple):
-    """The arrays of a record as they are stored."""
-
-    arrays: list[NDArray[Any]]
-    shapes: list[list[Any]]
-    size: int  # bytes
-    checksum: int
-
-
-def _stored(record: Body | FilmState | Trends) -> _Stored:
-    """Made once and kept with the record, whose arrays never change."""
-    kept: _Stored | None = vars(record).get("_stored")
-    if kept is None:
-        values = (getattr(record, name) for name in _NAMES[type(record)])
-        arrays = [_little_endian(value) for value in values if isinstance(value, np.ndarray)]
-        checksum = 0
-        for array in arrays:
-            checksum = zlib.crc32(array.data, checksum)
-        shapes = [[array.dtype.str, list(array.shape)] for array in arrays]
-        kept = _Stored(arrays, shapes, sum(array.nbytes for array in arrays), checksum)
-        vars(record)["_stored"] = kept
-    return kept
-
-
-def _little_endian(array: NDArray[Any]) -> NDArray[Any]:
-    return np.ascontiguousarray(array).astype(array.dtype.newbyteorder("<"), copy=False)
-
-
-def _pack(value: Any) -> Any:
-    """What JSON can hold of a value; None for an array."""
-    if isinstance(value, float):
-        return value.hex()
-    if isinstance(value, np.ndarray):
-        return None
-    if isinstance(value, tuple):
-        return [_pack(item) for item in value]
-    names = _NAMES.get(type(value))
-    return {name: _pack(getattr(value, name)) for name in names} if names else value
-
-
-_RECORDS = (ContactState, Body, Mean, FilmState, Trends, Outputs, OperatingPoint)
-_NAMES = {record: tuple(f.name for f in fields(record)) for record in _RECORDS}
-
-
 def _read(data: bytes) -> ContactState:
-    start = len(_MAGIC) + 8
-    if data[: len(_MAGIC)] != _MAGIC or len(data) < start:
+    start = len(_MAGIC) + _CHECKSUM.size
+    if data[: len(_MAGIC)] != _MAGIC or len(data) < start + _SIGNED.size:
         raise StateError("The stored state is not one of tribofmu's. Give a file that a run has written.")
-    checksum, length = struct.unpack("<II", data[len(_MAGIC) : start])
-    if zlib.crc32(memoryview(data)[start - 4 :]) != checksum:
+    (checksum,) = _CHECKSUM.unpack_from(data, len(_MAGIC))
+    schema, length = _SIGNED.unpack_from(data, start)
+    if schema != _SCHEMA:  # 5 and before had the length of their header there
+        found = schema if schema < _FEWEST else "5 or less"
+        raise StateError(
+            f"The stored state has schema {found} or is damaged; this version reads {_SCHEMA}. Give a file that a run "
+            "of this version has written."
+        )
+    end = start + _SIGNED.size + length
+    if zlib.crc32(memoryview(data)[start:end]) != checksum:
         raise StateError("The stored state is damaged: it was cut or changed. Use an earlier one.")
+    reader = Reader(data, start + _SIGNED.size, end)
     try:
-        header = json.loads(data[start : start + length])
-        if header["schema"] != _SCHEMA:
-            raise StateError(f"The stored state has schema {header['schema']}, this version reads {_SCHEMA}.")
-        arrays, at = [], start + length
-        for dtype, shape in header["arrays"]:
-            array = np.frombuffer(data, np.dtype(dtype), math.prod(shape), at).reshape(shape)
-            at += array.nbytes
-            arrays.append(array.copy())  # a copy, because the bytes need not be aligned
-        return _unpack_state(header["state"], iter(arrays))
-    except (ValueError, KeyError, TypeError) as error:
+        state = _unpacked(reader)
+        reader.close()
+    except (ValueError, struct.error) as error:
         raise StateError(f"The stored state is damaged ({error}). Use an earlier one.") from None
+    return state
 
 
-def _unpack_state(tree: dict[str, Any], arrays: Any) -> ContactState:
-    def numbers(values: dict[str, Any]) -> dict[str, Any]:
-        return {name: number(x) for name, x in values.items()}
-
-    def number(value: Any) -> Any:
-        return float.fromhex(value) if isinstance(value, str) else value
-
-    def record(cls: Any, values: dict[str, Any]) -> Any:
-        pairs = ((name, values[name]) for name in _NAMES[cls])
-        return cls(**{name: next(arrays) if value is None else number(value) for name, value in pairs})
-
-    bodies = (record(Body, tree["bodies"][0]), record(Body, tree["bodies"][1]))
+def _unpacked(reader: Reader) -> ContactState:
+    film, solved_for, means, temperatures, digest, law = reader.values(_TEXTS)
+    texts: dict[str, Any] = {"digest": reader.text(digest), "law": reader.text(law)}
+    own = reader.numbers(ContactState)
+    outputs = Outputs(**reader.numbers(Outputs))
+    point = OperatingPoint(**reader.numbers(OperatingPoint)) if solved_for else None
+    both = (Mean(**reader.numbers(Mean)), Mean(**reader.numbers(Mean))) if means else None
+    warm = reader.values(_PAIR)
     return ContactState(
-        digest=tree["digest"],
-        time=float.fromhex(tree["time"]),
-        bodies=bodies,
-        film=None if tree["film"] is None else record(FilmState, tree["film"]),
-        law=tree["law"],
-        solved_for=None if tree["solved_for"] is None else OperatingPoint(**numbers(tree["solved_for"])),
-        change=float.fromhex(tree["change"]),
-        held=float.fromhex(tree["held"]),
-        hold=float.fromhex(tree["hold"]),
-        settling=float.fromhex(tree["settling"]),
-        dry_blocks_left=tree["dry_blocks_left"],
-        share=float.fromhex(tree["share"]),
-        trends=record(Trends, tree["trends"]),
-        temperatures=None
-        if tree["temperatures"] is None
-        else (number(tree["temperatures"][0]), number(tree["temperatures"][1])),
-        outputs=Outputs(**numbers(tree["outputs"])),
-        means=None if tree["means"] is None else (record(Mean, tree["means"][0]), record(Mean, tree["means"][1])),
+        **texts,
+        **own,
+        outputs=outputs,
+        solved_for=point,
+        means=both,
+        temperatures=(warm[0], warm[1]) if temperatures else None,
+        bodies=(reader.record(Body), reader.record(Body)),
+        trends=reader.record(Trends),
+        film=reader.record(FilmState) if film else None,
     )
 
 

@@ -1,0 +1,146 @@
+"""Frozen records of numbers and arrays as little-endian bytes and back, bit for bit.
+
+Numbers take 8 bytes each, in the order of their fields. Of an array its kind, its shape and a checksum stand with the
+numbers, and its memory is kept apart, so that it need not be copied; an array of one value everywhere has no memory of
+its own, but that value.
+"""
+
+import math
+import struct
+import zlib
+from dataclasses import fields
+from functools import cache, lru_cache
+from operator import attrgetter
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+_ARRAY = struct.Struct("<3s?IIQ")  # dtype, of one value, rows, columns (0: no rows), its bits or the checksum
+_LETTERS: dict[Any, str] = {float: "d", float | None: "d", int: "q"}
+
+
+class Kind:
+    """How records of a class are stored."""
+
+    def __init__(self, record: type) -> None:
+        letters = {f.name: _LETTERS[f.type] for f in fields(record) if f.type in _LETTERS}
+        self.record = record
+        self.numbers = tuple(letters)
+        self.maybe = tuple(f.name for f in fields(record) if f.type == float | None)
+        self.arrays = tuple(f.name for f in fields(record) if f.type in (_REALS, _BOOLEANS))
+        self.layout = struct.Struct("<" + "".join(letters.values()))
+        self.fetch = attrgetter(*letters)
+
+
+_REALS, _BOOLEANS = NDArray[np.float64], NDArray[np.bool_]
+_kind = cache(Kind)
+
+
+def numbers(record: Any) -> bytes:
+    """Those of a record; None, where it may stand for a number, becomes NaN."""
+    kind = _kind(record.__class__)
+    values = kind.fetch(record)
+    if kind.maybe:
+        values = tuple([math.nan if value is None else value for value in values])
+    return kind.layout.pack(*values)
+
+
+class Stored(NamedTuple):
+    """A record as it is stored."""
+
+    head: bytes  # its numbers, and what its arrays are
+    memory: list[memoryview]  # of its arrays
+
+
+def stored(record: Any) -> Stored:
+    """Made once and kept with the record, whose arrays never change."""
+    kept: Stored | None = vars(record).get("_stored")
+    if kept is None:
+        head, memory = [numbers(record)], []
+        for name in _kind(record.__class__).arrays:
+            array = _little_endian(getattr(record, name))
+            value = _one_value(array)
+            rows, columns = array.shape if array.ndim == 2 else (0, array.size)
+            mark = zlib.crc32(array.data) if value is None else value
+            head.append(_ARRAY.pack(array.dtype.str.encode(), value is not None, rows, columns, mark))
+            if value is None:
+                memory.append(array.data)
+        kept = Stored(b"".join(head), memory)
+        vars(record)["_stored"] = kept
+    return kept
+
+
+def _little_endian(array: NDArray[Any]) -> NDArray[Any]:
+    return np.ascontiguousarray(array).astype(array.dtype.newbyteorder("<"), copy=False)
+
+
+def _one_value(array: NDArray[Any]) -> int | None:
+    """The bits of an array's value, if it has no other."""
+    bits = array.reshape(-1).view(_bits(array.dtype))
+    if bits.size and bits[0] == bits[-1] and (bits == bits[0]).all():
+        return int(bits[0])
+    return None
+
+
+def _bits(dtype: np.dtype[Any]) -> str:
+    return f"<u{dtype.itemsize}"
+
+
+@lru_cache(maxsize=16)
+def _filled(dtype: str, shape: tuple[int, ...], value: int) -> NDArray[Any]:
+    """An array of the value with these bits: one object for all records that have it."""
+    kind = np.dtype(dtype)
+    array = np.full(shape, value, _bits(kind)).view(kind)
+    array.setflags(write=False)
+    return array
+
+
+class Reader:
+    """Reads what was stored, in the same order. Raises ValueError or struct.error where the bytes do not fit."""
+
+    def __init__(self, data: bytes, start: int, end: int) -> None:
+        """`data` has the numbers from `start` to `end`, and then the memory of the arrays."""
+        self._data = data
+        self._at, self._stop, self._end = start, end, end
+
+    def values(self, layout: struct.Struct) -> tuple[Any, ...]:
+        """The next values, of a layout."""
+        found = layout.unpack_from(self._data, self._at)
+        self._at += layout.size
+        return found
+
+    def text(self, size: int) -> str:
+        """The next text."""
+        self._at += size
+        return self._data[self._at - size : self._at].decode()
+
+    def numbers(self, record: type) -> dict[str, Any]:
+        """The next numbers, by the names of their fields."""
+        kind = _kind(record)
+        found = dict(zip(kind.numbers, self.values(kind.layout), strict=True))
+        for name in kind.maybe:
+            if math.isnan(found[name]):
+                found[name] = None
+        return found
+
+    def record(self, record: Any) -> Any:
+        """The next record of a class with nothing but numbers and arrays."""
+        values = self.numbers(record)
+        return record(**values, **{name: self._array() for name in _kind(record).arrays})
+
+    def _array(self) -> NDArray[Any]:
+        name, same, rows, columns, mark = self.values(_ARRAY)
+        dtype, shape = np.dtype(name.decode()), (rows, columns) if rows else (columns,)
+        if same:
+            return _filled(dtype.str, shape, mark)
+        array = np.frombuffer(self._data, dtype, math.prod(shape), self._end)
+        self._end += array.nbytes
+        if zlib.crc32(array.data) != mark:
+            raise ValueError("an array was changed")
+        return array.reshape(shape).copy()  # a copy, because the bytes need not be aligned
+
+    def close(self) -> None:
+        """Raise ValueError if there is more than what was read."""
+        if self._at != self._stop or self._end != len(self._data):
+            raise ValueError("it has another length")
