@@ -27,7 +27,7 @@ from contact_core.scene import with_values
 
 from . import resources
 from .guarded import GuardedSlave
-from .snapshot import Scenes, Snapshot, check_owner
+from .snapshot import Layout, Scenes, Snapshot, check_owner
 from .variables import FIDELITY, INITIAL_STATE, SEED, SPECIAL, Value, Variable, variables
 
 _OF_SOLVER = RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK
@@ -67,6 +67,7 @@ class ContactSlave(GuardedSlave):
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
+        self._layout = Layout(self.values)
         self._told = [_Told(self._variables, level) for level in LEVELS]
         self._scenes: Scenes | None = None
         self._state: ContactState | None = None
@@ -162,14 +163,14 @@ class ContactSlave(GuardedSlave):
             self._tell(f"range_flags: {flag.text}.", Fmi2Status.ok, category)
 
     def _get_fmu_state(self) -> Snapshot:
-        return Snapshot(self._module, self.phase, self._fault, tuple(self.values), self._scenes, self._state)
+        values = tuple(self.values)
+        return Snapshot(self._module, self._layout, self.phase, self._fault, values, self._scenes, self._state)
 
     def _restore(self, handle: Snapshot | bytes) -> None:
         """Go back to a state. One that cannot be used is an error: the host takes it for the contact's from now on."""
         try:
             if isinstance(handle, bytes):
-                starts = tuple(v.start for v in self._variables)
-                handle = Snapshot.from_bytes(handle, self._module, starts, self._rebuilt)
+                handle = Snapshot.from_bytes(handle, self._module, self._layout, self._rebuilt)
             check_owner(handle.module, self._module)
         except ContactError as error:
             self._refuse(str(error), Fmi2Status.error, "logValidity")

@@ -3,10 +3,11 @@
 import hashlib
 import json
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import cached_property
+from functools import cached_property, lru_cache
+from operator import itemgetter
 
 from contact_core.errors import StateError
 from contact_core.scene import Scene
@@ -14,9 +15,9 @@ from contact_core.state import ContactState
 
 from .variables import Value
 
-_MAGIC = b"tribofmu FMU 2\n"
+_MAGIC = b"tribofmu FMU 3\n"
 _DIGEST = 16  # bytes
-_LENGTH = struct.Struct("<I")
+_LENGTHS = struct.Struct("<II")  # of the texts, of the numbers
 _SIGNED = 32  # first bytes of a contact state: they hold the checksum of its rest
 
 Values = tuple[Value, ...]
@@ -32,11 +33,35 @@ class Phase(StrEnum):
     STEPPING = "stepping"
 
 
+class Layout:
+    """How the values of an FMU's variables are stored: texts in JSON, all else as 8 bytes each."""
+
+    def __init__(self, starts: Sequence[Value]) -> None:
+        """For variables of the types of these values."""
+        self._types = tuple(map(type, starts))
+        self.kinds = "".join(kind.__name__[0] for kind in self._types)
+        self._texts = [k for k, kind in enumerate(self._types) if kind is str]
+        numbers = [k for k, kind in enumerate(self._types) if kind is not str]
+        self._numbers = itemgetter(*numbers)
+        self._row = struct.Struct(f"<{len(numbers)}d")
+        self._places = [*numbers, *self._texts]
+
+    def split(self, values: Values) -> tuple[tuple[Value, ...], bytes]:
+        """The texts in `values`, and the numbers as bytes."""
+        return tuple([values[k] for k in self._texts]), self._row.pack(*self._numbers(values))
+
+    def joined(self, texts: Sequence[str], numbers: bytes) -> Values:
+        """What was split."""
+        found = dict(zip(self._places, (*self._row.unpack(numbers), *texts), strict=True))
+        return tuple([kind(found[k]) for k, kind in enumerate(self._types)])
+
+
 @dataclass(frozen=True, eq=False)
 class Snapshot:
     """Everything that can change the FMU's next answer. It is never changed, so it needs no copy."""
 
     module: str  # fingerprint of the FMU it belongs to
+    layout: Layout  # of `values`
     phase: Phase
     fault: str  # why the contact could not be set up; for `state` None
     values: Values  # by value reference
@@ -45,22 +70,22 @@ class Snapshot:
 
     @property
     def data(self) -> bytes:
-        """Magic, digest, length of a JSON header, header, contact state. The same state, the same bytes."""
+        """Magic, digest, length of texts and numbers, both, contact state. The same state, the same bytes."""
         return b"".join(self.parts)
 
     @cached_property
     def parts(self) -> list[bytes | memoryview]:
         """What `data` joins, without a copy of the contact's arrays: see ContactState.parts."""
-        header = json.dumps(
-            {"module": self.module, "phase": self.phase, "fault": self.fault, "values": self.values}
-        ).encode()
-        contact = [] if self.state is None else self.state.parts()
-        signed = bytes(contact[0][:_SIGNED]) if contact else b""
-        return [b"".join([_MAGIC, _digest(header, signed), _LENGTH.pack(len(header)), header]), *contact]
+        texts, numbers = self.layout.split(self.values)
+        header = _header(self.module, self.phase, self.fault, self.layout.kinds, texts)
+        contact = [b""] if self.state is None else self.state.parts()
+        lengths = _LENGTHS.pack(len(header), len(numbers))
+        digest = _digest(lengths, header, numbers, contact[0][:_SIGNED])
+        return [b"".join([_MAGIC, digest, lengths, header, numbers, contact[0]]), *contact[1:]]
 
     @staticmethod
-    def from_bytes(data: bytes, module: str, starts: Values, rebuild: Callable[[Values], Scenes]) -> "Snapshot":
-        """Restore what `data` wrote, bit for bit; `rebuild` makes the scenes from the values, which are like `starts`.
+    def from_bytes(data: bytes, module: str, layout: Layout, rebuild: Callable[[Values], Scenes]) -> "Snapshot":
+        """Restore what `data` wrote, bit for bit; `rebuild` makes the scenes from the values.
 
         Raises StateError if damaged or of another FMU.
         """
@@ -69,20 +94,17 @@ class Snapshot:
                 "The stored FMU state is not one that this version of tribofmu writes. Give one that this FMU has "
                 "serialised."
             )
-        header, contact = _parts(data)
-        try:
-            table = json.loads(header)
-            phase, fault, values = Phase(table["phase"]), str(table["fault"]), tuple(table["values"])
-            owner = table["module"]
-        except (ValueError, KeyError, TypeError, RecursionError) as error:
-            raise StateError(f"The stored FMU state is damaged ({error}). Use an earlier one.") from None
+        header, numbers, contact = _parts(data)
+        owner, phase, fault, kinds, *texts = json.loads(header)
         check_owner(owner, module)
-        if [type(value) for value in values] != [type(start) for start in starts]:
+        if kinds != layout.kinds:
             raise StateError("The stored FMU state has other variables than this FMU. Give one that it has serialised.")
+        values = layout.joined(texts, numbers)
         if not contact:
-            return Snapshot(module, phase, fault, values, None, None)
+            return Snapshot(module, layout, Phase(phase), fault, values, None, None)
         scenes = rebuild(values)
-        return Snapshot(module, phase, fault, values, scenes, ContactState.from_bytes(contact, scenes[0]))
+        state = ContactState.from_bytes(contact, scenes[0])
+        return Snapshot(module, layout, Phase(phase), fault, values, scenes, state)
 
 
 def check_owner(owner: str, module: str) -> None:
@@ -91,17 +113,26 @@ def check_owner(owner: str, module: str) -> None:
         raise StateError("The FMU state belongs to another FMU. Use one that an FMU of the same scene has given.")
 
 
-def _parts(data: bytes) -> tuple[bytes, bytes]:
-    """Header and contact state, if they are as they were written."""
-    start = len(_MAGIC) + _DIGEST + _LENGTH.size
+@lru_cache(maxsize=16)
+def _header(module: str, phase: Phase, fault: str, kinds: str, texts: tuple[Value, ...]) -> bytes:
+    """It stays the same from step to step."""
+    return json.dumps([module, phase, fault, kinds, *texts]).encode()
+
+
+def _parts(data: bytes) -> tuple[bytes, bytes, bytes]:
+    """Header, numbers and contact state, if they are as they were written."""
+    at = len(_MAGIC) + _DIGEST
+    start = at + _LENGTHS.size
     if len(data) >= start:
-        (length,) = _LENGTH.unpack_from(data, start - _LENGTH.size)
-        header, contact = data[start : start + length], data[start + length :]
-        if len(header) == length and data[len(_MAGIC) : start - _LENGTH.size] == _digest(header, contact[:_SIGNED]):
-            return header, contact
+        lengths = data[at:start]
+        texts, numbers = _LENGTHS.unpack(lengths)
+        middle, end = start + texts, start + texts + numbers
+        parts = data[start:middle], data[middle:end], data[end:]
+        if len(data) >= end and data[len(_MAGIC) : at] == _digest(lengths, *parts[:2], parts[2][:_SIGNED]):
+            return parts
     raise StateError("The stored FMU state is damaged: it was cut or changed. Use an earlier one.")
 
 
-def _digest(header: bytes, signed: bytes) -> bytes:
-    """Fingerprint of the header and of the checksum that covers the contact state: its megabytes are read once."""
-    return hashlib.blake2b(_LENGTH.pack(len(header)) + header + signed, digest_size=_DIGEST).digest()
+def _digest(*parts: bytes | memoryview) -> bytes:
+    """Fingerprint of all up to the checksum that covers the rest of the contact state: its megabytes are read once."""
+    return hashlib.blake2b(b"".join(parts), digest_size=_DIGEST).digest()
