@@ -21,7 +21,7 @@ from .storage import Reader, numbers, stored
 from .trends import Trends
 
 Array = NDArray[np.float64]
-_Record = TypeVar("_Record", "ContactState", "Outputs", "Mean")
+_Record = TypeVar("_Record", "ContactState", "Outputs", "Mean", OperatingPoint)
 _MAGIC, _SCHEMA = b"tribofmu", 6
 _FEWEST = 100  # bytes that a header of schema 5 or before has at least
 _CHECKSUM, _SIGNED = struct.Struct("<I"), struct.Struct("<II")

@@ -10,7 +10,7 @@ import struct
 import zlib
 from dataclasses import fields
 from functools import cache, lru_cache
-from operator import attrgetter
+from operator import itemgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -30,7 +30,7 @@ class Kind:
         self.maybe = tuple(f.name for f in fields(record) if f.type == float | None)
         self.arrays = tuple(f.name for f in fields(record) if f.type in (_REALS, _BOOLEANS))
         self.layout = struct.Struct("<" + "".join(letters.values()))
-        self.fetch = attrgetter(*letters)
+        self.fetch = itemgetter(*letters)
 
 
 _REALS, _BOOLEANS = NDArray[np.float64], NDArray[np.bool_]
@@ -40,7 +40,7 @@ _kind = cache(Kind)
 def numbers(record: Any) -> bytes:
     """Those of a record; None, where it may stand for a number, becomes NaN."""
     kind = _kind(record.__class__)
-    values = kind.fetch(record)
+    values = kind.fetch(vars(record))
     if kind.maybe:
         values = tuple([math.nan if value is None else value for value in values])
     return kind.layout.pack(*values)
