@@ -3,7 +3,8 @@
 import contextlib
 import math
 from collections.abc import Sequence
-from operator import attrgetter
+from itertools import pairwise
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ from contact_core import (
 from contact_core.kernels import NOTICE
 from contact_core.quantities import LEVELS, OF_CALLER
 from contact_core.scene import with_values
+from contact_core.state import changed
 
 from . import resources
 from .guarded import GuardedSlave
@@ -31,6 +33,7 @@ from .snapshot import Layout, Scenes, Snapshot, check_owner
 from .variables import FIDELITY, INITIAL_STATE, SEED, SPECIAL, Value, Variable, variables
 
 _OF_SOLVER = RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK
+_NOWHERE = OperatingPoint(load=0.0, speed_1=0.0, speed_2=0.0, temperature=0.0)
 _OTHER_LEVEL = int(RangeFlag.OTHER_LEVEL)
 
 
@@ -38,20 +41,29 @@ class _Told:
     """The outputs that the core fills at a level, and how to read them all at once."""
 
     def __init__(self, table: Sequence[Variable], level: str) -> None:
-        told = [
-            (v.name, vr, type(v.start))
+        told = {
+            vr: v.name
             for vr, v in enumerate(table)
             if v.causality == "output" and v.name not in OF_CALLER and level in v.levels
+        }
+        self.names, self.references = tuple(told.values()), tuple(told)
+        self._fetch = itemgetter(*self.names)
+        # as few copies as there are gaps between the references
+        first = [k for k, vr in enumerate(self.references) if vr - 1 not in told]
+        self._runs = [
+            (slice(self.references[k], self.references[end - 1] + 1), slice(k, end))
+            for k, end in pairwise([*first, len(told)])
         ]
-        self.names, self.references, self._kinds = zip(*told, strict=True)
-        self._fetch = attrgetter(*self.names)
 
     def values(self, outputs: Outputs) -> tuple[Any, ...]:
         """In the order of `names`."""
-        found = self._fetch(outputs)
-        if tuple(map(type, found)) == self._kinds:
-            return found
-        return tuple(kind(value) for kind, value in zip(self._kinds, found, strict=True))
+        found: tuple[Any, ...] = self._fetch(vars(outputs))
+        return found
+
+    def store(self, found: tuple[Any, ...], values: list[Value]) -> None:
+        """Put what was found among the values of all variables."""
+        for places, part in self._runs:
+            values[places] = found[part]
 
     def check(self, values: tuple[Any, ...], point: OperatingPoint) -> None:
         """Raise ConvergenceError if a value is not finite."""
@@ -132,7 +144,7 @@ class ContactSlave(GuardedSlave):
             raise ContactError(f"The contact is not set up: {self._fault}")
         fidelity = self._fidelity()
         inputs: dict[str, Any] = {name: self.values[reference] for name, reference in self._inputs}
-        point = OperatingPoint(**inputs)
+        point = changed(_NOWHERE, **inputs)
         state, outputs = advance(self._scenes[fidelity - 1], point, self._state, step_size)
         told = self._told[fidelity - 1]
         results = told.values(outputs)
@@ -142,8 +154,7 @@ class ContactSlave(GuardedSlave):
         appeared = flags & ~int(self._value("range_flags"))
         self._state = state
         values, references = self.values, self._references
-        for reference, value in zip(told.references, results, strict=True):
-            values[reference] = value
+        told.store(results, values)
         values[references["range_flags"]] = flags
         values[references["fidelity_used"]] = fidelity
         values[references["valid"]] = True
