@@ -75,6 +75,11 @@ class GuardedSlave(Fmi2Slave):
         direct = {name for v in self._variables for name in v.direct}
         self.layout = tuple((v.kind, _role(v, direct)) for v in self._variables)
         self._inputs = [(v.name, vr) for vr, v in enumerate(self._variables) if v.causality == "input"]
+        self._settable = {
+            (kind, stepping): {vr for vr in self._references.values() if not self._objection(vr, kind, stepping)}
+            for kind in ZERO
+            for stepping in (False, True)
+        }
         self.phase = Phase.NEW
         self._due: float | None = None  # where the next step begins [s]; None: anywhere
         self._stop: float | None = None  # [s], if the host has defined it
@@ -229,23 +234,37 @@ class GuardedSlave(Fmi2Slave):
         return found
 
     def _set(self, references: list[int], values: Sequence[Value], kind: Kind) -> None:
-        for vr, value in zip(references, values, strict=True):
-            self._guard(self._store, vr, value, kind)
+        stepping = self.phase is Phase.STEPPING
+        settable = self._settable[kind, stepping]
+        pairs = list(zip(references, values, strict=True))
+        if not settable.issuperset(references):
+            for reference in references:
+                if objection := self._objection(reference, kind, stepping):
+                    self._refuse(objection, Fmi2Status.warning, "logStatusWarning")
+            pairs = [(reference, value) for reference, value in pairs if reference in settable]
+        if pairs:
+            self._guard(self._store, pairs)
 
-    def _store(self, reference: int, value: Value, kind: Kind) -> None:
-        causality = self._causality(reference)
-        if causality is None or self._variables[reference].kind != kind:
-            raise CallError(f"There is no {kind} variable with value reference {reference}.")
-        name = self._variables[reference].name
-        if causality == "output":
-            raise CallError(f"{name} is an output and cannot be set.")
-        if causality == "independent":
-            raise CallError(f"{name} is the independent variable: fmi2SetupExperiment and fmi2DoStep set it.")
-        if self.phase is Phase.STEPPING and self._variables[reference].variability == "fixed":
-            raise CallError(f"{name} is a parameter: set it before initialisation ends, or reset the FMU first.")
-        self.values[reference] = value
+    def _store(self, pairs: Sequence[tuple[int, Value]]) -> None:
+        """Take over values by reference."""
+        for reference, value in pairs:
+            self.values[reference] = value
         if self.phase is Phase.SETTLED:
             self.phase = Phase.UNSETTLED
+
+    def _objection(self, reference: int, kind: Kind, stepping: bool) -> str:
+        """Why a variable cannot be set as one of this kind, before it steps or then; empty if it can."""
+        causality = self._causality(reference)
+        if causality is None or self._variables[reference].kind != kind:
+            return f"There is no {kind} variable with value reference {reference}."
+        name = self._variables[reference].name
+        if causality == "output":
+            return f"{name} is an output and cannot be set."
+        if causality == "independent":
+            return f"{name} is the independent variable: fmi2SetupExperiment and fmi2DoStep set it."
+        if stepping and self._variables[reference].variability == "fixed":
+            return f"{name} is a parameter: set it before initialisation ends, or reset the FMU first."
+        return ""
 
     def _causality(self, reference: int) -> Causality | None:
         return self._variables[reference].causality if 0 <= reference < len(self._variables) else None

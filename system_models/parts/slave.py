@@ -114,9 +114,9 @@ class PartSlave(GuardedSlave):
                 raise ContactError(f"{name} = {value} must be a finite number.")
         return inputs
 
-    def _store(self, reference: int, value: Value, kind: Any) -> None:
-        super()._store(reference, value, kind)
-        if self.phase is Phase.STEPPING and self.layout[reference][1] == "direct":
+    def _store(self, pairs: Sequence[tuple[int, Value]]) -> None:
+        super()._store(pairs)
+        if self.phase is Phase.STEPPING and any(self.layout[reference][1] == "direct" for reference, _ in pairs):
             self._stale = True
 
     def refresh(self) -> None:

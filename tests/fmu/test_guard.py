@@ -111,6 +111,25 @@ def test_an_unknown_value_reference_is_refused(stepped):
     assert "no Boolean variable" in stepped.log[2][1]
 
 
+def test_of_values_set_together_those_that_can_be_are_taken_over(stepped):
+    references = [stepped.variables[name].valueReference for name in ("load", "h_c", "speed_1")]
+    before = stepped.get("h_c")
+    stepped.fmu.setReal([*references, 9999], [21.0, 1.0, 0.3, 2.0])
+    assert [stepped.get(name) for name in ("load", "h_c", "speed_1")] == [21.0, before, 0.3]
+    assert not stepped.get("valid")
+    assert ["9999" in text for _, text in stepped.log] == [False, True]
+
+
+def test_what_is_refused_in_initialisation_mode_stays_refused_when_outputs_are_read(host):
+    host.fmu.setupExperiment()
+    host.fmu.enterInitializationMode()
+    assert host.get("valid")
+    host.set(h_c=1.0)
+    assert not host.get("valid")
+    host.set(load=20.0)
+    assert host.get("valid")
+
+
 def test_a_step_before_initialisation_is_refused(host):
     assert not host.step(60.0)["valid"]
     assert "fmi2DoStep is not allowed before initialisation" in host.log[0][1]
