@@ -24,7 +24,7 @@ from contact_core.errors import ContactError, SceneError
 from .snapshot import Phase
 from .variables import Value
 
-_REQUEST = struct.Struct("<IIQQQ3d")
+_REQUEST = struct.Struct("<IIQQQQ3d")
 _ANSWER = struct.Struct("<IIQQ")
 _ENTRY = struct.Struct("<IIII")
 _RECORD = struct.Struct("<HHId")
@@ -103,7 +103,7 @@ class Worker:
         self._entries: list[tuple[int, str, str]] = []  # log that no slave can keep
         self._saved: dict[int, Any] = {}
         self._before: list[Buffer] = []  # parts of the state saved last
-        self._outputs: Callable[[Sequence[Value]], tuple[Any, ...]] = lambda values: ()
+        self._outputs = _picked([])
         self._row = _ANSWER  # and the outputs
 
     def serve(self) -> None:
@@ -112,11 +112,13 @@ class Worker:
             pass
 
     def _answer(self, message: bytes) -> bool:
-        operation, sets, forgotten, state, size, *numbers = _REQUEST.unpack_from(message)
+        operation, sets, forgotten, back, state, size, *numbers = _REQUEST.unpack_from(message)
         if operation == Operation.QUIT:
             return False
         results: Sequence[Buffer] = ()
         try:
+            if back:
+                self._slave._set_fmu_state(self._saved[back])
             offset = _REQUEST.size + 8 * forgotten
             for (number,) in _COUNT.iter_unpack(message[_REQUEST.size : offset]):
                 self._saved.pop(number, None)
@@ -212,7 +214,7 @@ class Worker:
     def _instantiate(self) -> None:
         self._slave = slave = slave_class(self._resources)(**self._arguments)
         outputs = [vr for vr, (_, causality) in enumerate(slave.layout) if causality == "output"]
-        self._outputs = itemgetter(*outputs) if len(outputs) > 1 else lambda values: tuple(values[i] for i in outputs)
+        self._outputs = _picked(outputs)
         self._row = struct.Struct(f"{_ANSWER.format}{len(outputs)}d")
 
     def _save(self, number: int, known: bool) -> list[Buffer]:
@@ -237,6 +239,14 @@ class Worker:
         """Every variable's kind, causality and value."""
         layout, values = self._slave.layout, self._values()
         return [_COUNT.pack(len(layout)), *map(_record, range(len(layout)), layout, values)]
+
+
+def _picked(references: Sequence[int]) -> Callable[[Sequence[Value]], Sequence[Value]]:
+    """Takes the values of these references, which rise, out of those of all; at once if there is no gap."""
+    if len(references) > 1 and references[-1] - references[0] >= len(references):
+        return itemgetter(*references)
+    first = references[0] if references else 0
+    return itemgetter(slice(first, first + len(references)))
 
 
 def _defined(value: float) -> float | None:

@@ -35,6 +35,8 @@ struct Instance {
     size_t count;
     uint32_t *outputs;
     size_t outputs_count;
+    uint64_t texts;   /* counts the changes of texts */
+    uint64_t back;    /* number of the state to which the next request goes back; 0: to none */
     Buffer sets;      /* records to send with the next request */
     uint32_t sets_count;
     Buffer forgotten; /* numbers of states that the worker need not keep */
@@ -129,7 +131,7 @@ static int take_outputs(Instance *instance, Reader *reader, uint64_t outputs) {
     return 1;
 }
 
-static int take_variable(Variable *variable, Reader *reader) {
+static int take_variable(Instance *instance, Variable *variable, Reader *reader) {
     struct record record;
     const void *place = taken(reader, sizeof record);
     if (!place) return 0;
@@ -144,6 +146,7 @@ static int take_variable(Variable *variable, Reader *reader) {
     if (!copy) return 0;
     memcpy(copy, text, length);
     copy[length] = 0;
+    if (!variable->text || strcmp(variable->text, copy)) instance->texts++;
     free(variable->text);
     variable->text = copy;
     return 1;
@@ -163,7 +166,7 @@ static int take_table(Instance *instance, Reader *reader) {
     if (count != instance->count) return 0;
     instance->outputs_count = 0;
     for (size_t i = 0; i < count; i++) {
-        if (!take_variable(&instance->variables[i], reader)) return 0;
+        if (!take_variable(instance, &instance->variables[i], reader)) return 0;
         if (instance->variables[i].causality == OUTPUT) instance->outputs[instance->outputs_count++] = (uint32_t)i;
     }
     return 1;
@@ -179,14 +182,19 @@ static size_t request_size(const Instance *instance, size_t payload) {
     return sizeof(struct request) + instance->forgotten.size + instance->sets.size + payload;
 }
 
+static void nothing_to_send(Instance *instance) {
+    instance->forgotten.size = instance->sets.size = instance->sets_count = 0;
+    instance->back = 0;
+}
+
 static void write_request(Instance *instance, unsigned char *to, enum operation operation, const double numbers[3],
                           uint64_t state, size_t payload) {
-    struct request request = {(uint32_t)operation, instance->sets_count, instance->forgotten.size / 8, state, payload,
-                              {numbers[0], numbers[1], numbers[2]}};
+    struct request request = {(uint32_t)operation, instance->sets_count, instance->forgotten.size / 8, instance->back,
+                              state, payload, {numbers[0], numbers[1], numbers[2]}};
     to = append(to, &request, sizeof request);
     to = append(to, instance->forgotten.bytes, instance->forgotten.size);
     append(to, instance->sets.bytes, instance->sets.size);
-    instance->forgotten.size = instance->sets.size = instance->sets_count = 0;
+    nothing_to_send(instance);
 }
 
 /* The status of an answer of `size` bytes; what the operation returns is left in `rest`. */
@@ -206,7 +214,7 @@ static fmi2Status answered(Instance *instance, size_t size, Reader *rest) {
 static void lose_worker(Instance *instance) {
     channel_close(instance->worker, NULL, 0);
     instance->worker = NULL;
-    instance->forgotten.size = instance->sets.size = instance->sets_count = 0;
+    nothing_to_send(instance);
 }
 
 static fmi2Status lost(Instance *instance) {
@@ -237,7 +245,7 @@ static fmi2Status request(Instance *instance, enum operation operation, const do
 static fmi2Status open_worker(Instance *instance) {
     static const char nothing[1] = "";
     size_t name = strlen(instance->name) + 1, payload = name + strlen(instance->guid), size;
-    instance->forgotten.size = instance->sets.size = instance->sets_count = 0;
+    nothing_to_send(instance);
     size = request_size(instance, payload);
     unsigned char *message = malloc(size);
     if (!message) return instance_fail(instance, "There is no memory for a message of %zu bytes.", size);
@@ -390,7 +398,7 @@ void *instance_free(Instance *instance) {
         }
     unlock(&shared_lock);
     if (instance->worker) {
-        const struct request quit = {QUIT, 0, 0, 0, 0, {0.0, 0.0, 0.0}};
+        const struct request quit = {QUIT, 0, 0, 0, 0, 0, {0.0, 0.0, 0.0}};
         channel_close(instance->worker, &quit, sizeof quit);
     }
     while (instance->states) instance_forget(instance, instance->states);
@@ -452,11 +460,12 @@ static int settable(Instance *instance, const Variable *variable, enum kind kind
     return 0;
 }
 
-static int set_text(Variable *variable, const char *text) {
+static int set_text(Instance *instance, Variable *variable, const char *text) {
     char *copy = strdup(text);
     if (!copy) return 0;
     free(variable->text);
     variable->text = copy;
+    instance->texts++;
     return 1;
 }
 
@@ -473,7 +482,7 @@ static int set_one(Instance *instance, Variable *variable, uint32_t reference, c
     } else
         record.value = ((const fmi2Integer *)values)[i];
     unsigned char *place = extended(&instance->sets, sizeof record + PADDED(length));
-    if (!place || (text && !set_text(variable, text))) return 0;
+    if (!place || (text && !set_text(instance, variable, text))) return 0;
     memset(place, 0, sizeof record + PADDED(length));
     append(append(place, &record, sizeof record), text, length);
     variable->value = record.value;
@@ -531,6 +540,24 @@ int instance_owns(const Instance *instance, const State *state) {
     return own != NULL;
 }
 
+/* Keep with a state the values that the host has seen in it. */
+static void keep_values(Instance *instance, State *state) {
+    if (instance->phase != STEPPING || instance->stale) return;
+    state->values = malloc(instance->count * sizeof(double));
+    for (size_t i = 0; state->values && i < instance->count; i++) state->values[i] = instance->variables[i].value;
+    state->texts = instance->texts;
+}
+
+/* Go back to the values of a state; the worker follows with the next request. */
+static fmi2Status restore_values(Instance *instance, const State *state) {
+    for (size_t i = 0; i < instance->count; i++) instance->variables[i].value = state->values[i];
+    instance->sets.size = instance->sets_count = 0;
+    instance->back = state->number;
+    instance->phase = STEPPING;
+    instance->stale = 0;
+    return fmi2OK;
+}
+
 fmi2Status instance_save(Instance *instance, State **state) {
     Reader rest;
     uint64_t count, number = ++instance->numbers;
@@ -546,6 +573,7 @@ fmi2Status instance_save(Instance *instance, State **state) {
     if (!saved) return instance_fail(instance, "The state could not be kept: there is no memory, or it is damaged.");
     saved->number = number;
     saved->life = instance->life;
+    keep_values(instance, saved);
     if (instance->last) instance->last->life = instance->life;
     if (*state && instance_owns(instance, *state)) instance_forget(instance, *state);
     *state = listed(instance, saved);
@@ -561,8 +589,9 @@ static fmi2Status restore_bytes(Instance *instance, const State *state) {
 }
 
 static fmi2Status restore(Instance *instance, const State *state) {
-    return state->number && state->life == instance->life ? request_table(instance, RESTORE, state->number, 0)
-                                                          : restore_bytes(instance, state);
+    if (!state->number || state->life != instance->life) return restore_bytes(instance, state);
+    if (state->values && state->texts == instance->texts) return restore_values(instance, state);
+    return request_table(instance, RESTORE, state->number, 0);
 }
 
 fmi2Status instance_restore(Instance *instance, State *state) {

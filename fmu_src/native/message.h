@@ -24,7 +24,8 @@ enum operation {
     RESET,     /* returns the table */
     SAVE,      /* keep the state under the number `state`; returns its parts: uint64 count, for each struct part,
                   then the bytes of those that are new, each padded to 8 */
-    RESTORE,   /* the state with the number `state`, or, if it is 0, the one in the payload; returns the table */
+    RESTORE,   /* the state with the number `state`, or, if it is 0, the one in the payload; returns the table. A state
+                  whose values the host has kept needs none: the next request goes `back` to it */
     QUIT       /* end without an answer */
 };
 
@@ -34,7 +35,9 @@ enum causality { INPUT, FIXED, TUNABLE, OUTPUT, DIRECT }; /* direct: an input th
 
 struct request {
     uint32_t operation, sets;
-    uint64_t forgotten, state, payload;
+    uint64_t forgotten;
+    uint64_t back; /* number of a state to go back to before anything else; 0: stay */
+    uint64_t state, payload;
     double numbers[3];
 };
 

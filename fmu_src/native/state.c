@@ -55,6 +55,7 @@ State *state_shared(const State *state) {
 void state_free(State *state) {
     for (size_t k = 0; state && k < state->count; k++)
         if (!--state->parts[k]->users) free(state->parts[k]);
+    if (state) free(state->values);
     free(state);
 }
 

@@ -17,6 +17,8 @@ typedef struct State {
     struct State *next; /* of the same instance */
     uint64_t number;    /* under which the worker knows it; 0: it does not */
     uint64_t life;      /* of that worker */
+    double *values;     /* of all variables in it, texts aside; NULL: only the worker knows them */
+    uint64_t texts;     /* which texts they had */
     size_t count;
     Part *parts[];
 } State;
