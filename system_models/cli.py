@@ -102,6 +102,14 @@ def _parser() -> argparse.ArgumentParser:
         default=120.0,
         help="with --deep: seconds after which a call of the FMU counts as hung (default: %(default)g)",
     )
+    check.add_argument(
+        "--budget",
+        metavar="S",
+        type=float,
+        default=20.0,
+        help="with --deep: seconds after which a rule is left with a note on what it has found (default: %(default)g); "
+        "the first run may take as long as it needs",
+    )
     cosim = commands.add_parser("cosim", help="simulate a system of FMUs, anybody's")
     cosim_command.add_arguments(cosim)
     cosim.set_defaults(command=cosim_command.run)
@@ -366,7 +374,7 @@ def _check(arguments: argparse.Namespace) -> int:
 
     found = []
     with opened(arguments.fmu) as package:
-        for finding in report.findings(package, arguments.deep, arguments.limit):
+        for finding in report.findings(package, arguments.deep, arguments.limit, arguments.budget):
             print(report.line(finding), flush=True)
             found.append(finding)
     print(f"{arguments.fmu}: {report.summary(found)}.")

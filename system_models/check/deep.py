@@ -1,56 +1,76 @@
 """Rules that run the FMU. Every stage has a process of its own, watched: a crash or a hang is a verdict."""
 
 import json
+import math
 import os
 import signal
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Iterator
+from enum import Enum, auto
 from pathlib import Path
+from time import monotonic
 
 from . import static
+from .instance import call_in, progress_in
 from .package import Package
-from .verdict import Answer, Finding, Verdict, failed, not_applicable
+from .verdict import Answer, Finding, Verdict, failed, not_applicable, noted
 
 # stages of a rule, each in a new process (check.stages)
 RULES: dict[str, tuple[str, ...]] = {
     "run": ("run",),
     "guid": ("guid",),
+    "interface": ("interface",),
+    "resources": ("resources",),
     "finite": ("finite",),
-    "replay": ("record", "replay"),
+    "replay": ("replay",),
     "rollback": ("rollback",),
     "serialise": ("save", "resume"),
     "step splitting": ("splitting",),
+    "stop time": ("stop_time",),
+    "communication point": ("communication_point",),
+    "order of calls": ("order",),
     "input range": ("sweep",),
     "unusable input": ("unusable",),
+    "text": ("long_text", "foreign_text"),
     "feedthrough": ("feedthrough",),
     "reset": ("reset",),
-    "memory": ("cycles",),
     "two instances": ("interleaved",),
+    "reloading": ("reloading",),
+    "memory": ("memory",),
+    "home": ("home",),
+    "children": ("children",),
+    "fork": ("fork",),
     "reference results": ("reference",),
 }
+# FMI does not ask for it: whatever goes wrong there is worth a note
+_NOT_ASKED = {"resources", "communication_point", "order", "foreign_text", "reloading", "home", "children", "fork"}
+
+LIMIT, BUDGET = 120.0, 20.0  # s of a call, and of a rule
 
 _START = 60.0  # s until the first call at most
 _POLL = 0.1  # s between two looks at a process
 _LONGEST = 300  # characters of what a process has printed
 
 
-def findings(package: Package, limit: float) -> Iterator[Finding]:
-    """Run every rule; a call of the FMU that takes longer than `limit` [s] has hung."""
+def findings(package: Package, limit: float = LIMIT, budget: float = BUDGET) -> Iterator[Finding]:
+    """Run every rule; a call of the FMU that takes longer than `limit` [s] has hung.
+
+    A rule that takes longer than `budget` [s] is left with a note; but `run` may take as long as its calls.
+    """
     reason = _reason_not_to_run(package)
     with tempfile.TemporaryDirectory(prefix="tribofmu-check-", ignore_cleanup_errors=True) as folder:
-        unpacked = Path(folder) / "fmu"
+        unpacked, notebook = Path(folder) / "fmu", Path(folder) / "notebook"
+        notebook.mkdir()
         if not reason:
             package.archive.extractall(unpacked)
-        for number, (rule, stages) in enumerate(RULES.items()):
+        for rule, stages in RULES.items():
             if reason:
                 yield Finding(rule, *not_applicable(reason))
                 continue
-            notebook = Path(folder) / str(number)
-            notebook.mkdir()
-            answer = _answer(unpacked, stages, notebook, limit)
+            watch = _Watch(limit, math.inf if rule == "run" else budget)
+            answer = _answer(unpacked, stages, notebook, watch)
             yield Finding(rule, *answer)
             if rule == "run" and answer.verdict is Verdict.FAIL:
                 reason = "The FMU does not run."
@@ -66,18 +86,21 @@ def _reason_not_to_run(package: Package) -> str:
     return ""
 
 
-def _answer(folder: Path, stages: tuple[str, ...], notebook: Path, limit: float) -> Answer:
+def _answer(folder: Path, stages: tuple[str, ...], notebook: Path, watch: "_Watch") -> Answer:
     for stage in stages:
-        answer = _stage(folder, stage, notebook, limit)
+        answer = _stage(folder, stage, notebook, watch)
         if answer is not None:
-            return answer
+            beyond = answer.verdict is Verdict.FAIL and stage in _NOT_ASKED
+            return noted(answer.evidence) if beyond else answer
     raise AssertionError(f"the last stage of {stages} gives no answer")
 
 
-def _stage(folder: Path, stage: str, notebook: Path, limit: float) -> Answer | None:
+def _stage(folder: Path, stage: str, notebook: Path, watch: "_Watch") -> Answer | None:
     """The answer of a stage; None if the next one gives it."""
     command = [sys.executable, "-m", f"{__package__}.stages", str(folder), stage, str(notebook)]
-    with (notebook / f"{stage}.txt").open("wb") as printed:
+    trace, words = notebook / "call", notebook / "printed.txt"
+    trace.unlink(missing_ok=True)
+    with words.open("wb") as printed:
         process = subprocess.Popen(
             command,
             stdin=subprocess.DEVNULL,
@@ -87,15 +110,19 @@ def _stage(folder: Path, stage: str, notebook: Path, limit: float) -> Answer | N
             start_new_session=True,
         )
         try:
-            ended = _watch(process, notebook / "call", limit)
+            end = watch.until_end(process, trace)
         finally:
             _kill(process)
-    if not ended:
-        return failed(f"Hung in {_last_call(notebook)}: it had not returned after {limit:g} s.")
+    said = trace.read_bytes() if trace.exists() else b""
+    call = call_in(said) or "the start of the process"
+    if end is _End.HUNG:
+        return failed(f"Hung in {call}: it had not returned after {watch.limit:g} s.")
+    if end is _End.OVER:
+        known = progress_in(said)
+        return noted(f"Not finished in {watch.budget:g} s (--budget): {f'{known}; ' if known else ''}it was in {call}.")
     if process.returncode:
-        ending = f"The process ended with {_how(process.returncode)} during {_last_call(notebook)}"
-        return failed(f"{ending}{_last_line(notebook / f'{stage}.txt')}.")
-    file = notebook / "answer.json"
+        return failed(f"The process ended with {_how(process.returncode)} during {call}{_last_line(words)}.")
+    file = notebook / f"{stage}.json"
     if not file.exists():
         return None
     verdict, evidence = json.loads(file.read_text())
@@ -108,19 +135,37 @@ def _environment() -> dict[str, str]:
     return os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, [root, os.environ.get("PYTHONPATH", "")]))}
 
 
-def _watch(process: "subprocess.Popen[bytes]", trace: Path, limit: float) -> bool:
-    """True when the process ends; False when it has written no new call for `limit` seconds."""
-    last, since = b"", time.monotonic()
-    while True:
-        try:
-            process.wait(_POLL)
-            return True
-        except subprocess.TimeoutExpired:
-            call = trace.read_bytes() if trace.exists() else b""
-        if call != last:
-            last, since = call, time.monotonic()
-        elif time.monotonic() - since > (limit if call else _START):
-            return False
+class _End(Enum):
+    """How the time of a process ends."""
+
+    BY_ITSELF = auto()
+    HUNG = auto()
+    OVER = auto()
+
+
+class _Watch:
+    """Waits for the processes of one rule; `limit` [s] is that of a call, `budget` [s] that of all."""
+
+    def __init__(self, limit: float, budget: float):
+        self.limit, self.budget = limit, budget
+        self._begun = monotonic()
+
+    def until_end(self, process: "subprocess.Popen[bytes]", trace: Path) -> _End:
+        """Wait until it ends, or has written no new call into `trace` for too long, or the budget is used up."""
+        last, since = b"", monotonic()
+        while True:
+            try:
+                process.wait(_POLL)
+                return _End.BY_ITSELF
+            except subprocess.TimeoutExpired:
+                call = trace.read_bytes() if trace.exists() else b""
+            now = monotonic()
+            if call != last:
+                last, since = call, now
+            elif now - since > (self.limit if call else _START):
+                return _End.HUNG
+            if now - self._begun > self.budget:
+                return _End.OVER
 
 
 def _kill(process: "subprocess.Popen[bytes]") -> None:
@@ -132,13 +177,6 @@ def _kill(process: "subprocess.Popen[bytes]") -> None:
     else:
         process.kill()
     process.wait()
-
-
-def _last_call(notebook: Path) -> str:
-    """The call that was made last: what the FMU was doing."""
-    trace = notebook / "call"
-    _, _, call = (trace.read_text("utf-8", "replace") if trace.exists() else "").partition(" ")
-    return call or "the start of the process"
 
 
 def _last_line(printed: Path) -> str:

@@ -1,17 +1,27 @@
 """One instance of a co-simulation FMU, every call written down before it is made: after a crash the last one shows."""
 
-import copy
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from ctypes import c_void_p
+from ctypes import byref, c_int, c_void_p, cdll
 from io import FileIO
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import fmpy
+from fmpy import calloc, free, freeLibrary
 from fmpy.fmi1 import FMICallException
-from fmpy.simulation import instantiate_fmu
+from fmpy.fmi2 import (
+    FMU2Slave,
+    fmi2CallbackAllocateMemoryTYPE,
+    fmi2CallbackFreeMemoryTYPE,
+    fmi2CallbackFunctions,
+    fmi2CallbackLoggerTYPE,
+    fmi2CoSimulation,
+    fmi2String,
+    fmi2ValueReference,
+)
+from fmpy.logging import addLoggerProxy
 
 from .variables import base_type, clipped, magnitude
 
@@ -23,8 +33,29 @@ _LONGEST = 300  # characters of a message, its end: there a traceback says what 
 _FEW = 100.0  # steps in an experiment that names no step
 
 
+def call_in(trace: bytes) -> str:
+    """The call that was made last, in a trace."""
+    return trace.decode("utf-8", "replace").partition("\n")[0].partition(" ")[2]
+
+
+def progress_in(trace: bytes) -> str:
+    """How far the rule had come by then."""
+    return trace.decode("utf-8", "replace").partition("\n")[2]
+
+
+class RefusedError(Exception):
+    """The FMU refuses to be instantiated."""
+
+
+class Objection(NamedTuple):
+    """What an FMU does about a wrong call: its status refuses it, or something else says so, or nothing does."""
+
+    refused: bool
+    said: str
+
+
 class Fmu:
-    """An FMU unpacked in `folder`; its last call stands in the file `trace`."""
+    """An FMU unpacked in `folder`; its last call stands in the file `trace`, and how far its rule has come."""
 
     def __init__(self, folder: Path, trace: FileIO):
         self.folder = folder
@@ -37,6 +68,8 @@ class Fmu:
         self.start_time, self.step = _experiment(self.description.defaultExperiment)
         self.messages: list[str] = []  # of errors
         self.fault = ""  # the call that an instance has refused, and how
+        self.where = ""  # what is unusual about the calls to come
+        self.progress = ""  # what is known when the rule must end here
         self._trace = trace
         self._calls = 0
 
@@ -45,14 +78,21 @@ class Fmu:
         self._calls += 1
         after = f" after {self.fault}" if self.fault else ""
         self._trace.seek(0)
-        self._trace.write(f"{self._calls} {call}{after}".encode())
+        self._trace.write(f"{self._calls} {call}{self.where}{after}\n{self.progress}".encode())
         self._trace.truncate()
+
+    def last_call(self) -> str:
+        """What was written down last, by a forked child, too."""
+        return call_in(Path(self._trace.name).read_bytes())
 
     def refused(self, call: str, status: int) -> None:
         """Remember that an instance has answered a call with an error."""
-        self.fault = f"{call} was answered with {_STATUS[status]}" + (
-            f" ({self.messages[-1][-_LONGEST:]})" if self.messages else ""
-        )
+        said = self.complaint()
+        self.fault = f"{call}{self.where} was answered with {_STATUS[status]}{f' ({said})' if said else ''}"
+
+    def complaint(self) -> str:
+        """The end of the error that the FMU has told last."""
+        return self.messages[-1][-_LONGEST:] if self.messages else ""
 
     @contextmanager
     def instance(self) -> Iterator["Instance"]:
@@ -85,42 +125,114 @@ def _experiment(experiment: Any) -> tuple[float, float]:
     return start, float(experiment.stepSize or length / _FEW)
 
 
+class FMU2SlaveOfCheck(FMU2Slave):  # fmpy takes the version of FMI from the name
+    """fmpy's slave, with calls that it does not make."""
+
+    warned = False  # a call was answered with a warning since this was set to False
+    dll: Any
+    arguments: list[Any]  # of fmi2Instantiate, without the last three
+
+    def _call(self, name: str, *arguments: Any) -> Any:
+        answer = super()._call(name, *arguments)
+        self.warned |= self._functions[name].restype is c_int and _STATUS[answer] == "warning"
+        return answer
+
+    def create(self) -> int | None:
+        """A new component, None if it is refused."""
+        return self.fmi2Instantiate(*self.arguments, byref(self.callbacks), False, True)
+
+    def reload(self) -> None:
+        """Unload the library, as far as it lets itself be unloaded, and load it again."""
+        path = self.dll._name
+        freeLibrary(self.dll._handle)
+        self.dll = cdll.LoadLibrary(path)
+        self._loadFunctions()
+
+
 class Instance:
     """An instance of an FMU, with variables by name."""
 
-    def __init__(self, fmu: Fmu, guid: str | None = None):
-        """Instantiate, with a `guid` that is not the FMU's if one is given."""
+    def __init__(self, fmu: Fmu, **instead: Any):
+        """Instantiate; `instead` are other arguments of fmi2Instantiate than the right ones, by FMI's names."""
         self._owner = fmu
-        description = copy.copy(fmu.description)
-        description.guid = description.guid if guid is None else guid
-        fmu.note("fmi2Instantiate" + ("" if guid is None else f" with guid = {guid}"))
-        self._fmu = instantiate_fmu(
-            str(fmu.folder), description, fmi_type="CoSimulation", debug_logging=True, logger=self._logged
-        )
-        self._fatal = False
+        self.fatal = False
         self.time = fmu.start_time
+        description, identifier = fmu.description, fmu.capabilities.modelIdentifier
+        fmu.note("fmi2Instantiate" + "".join(f" with {name} = {value}" for name, value in instead.items()))
+        self._fmu = FMU2SlaveOfCheck(guid=description.guid, modelIdentifier=identifier, unzipDirectory=str(fmu.folder))
+        arguments = {
+            "instanceName": identifier,
+            "fmuType": fmi2CoSimulation,
+            "fmuGUID": description.guid,
+            "fmuResourceLocation": Path(fmu.folder, "resources").absolute().as_uri(),
+        } | instead
+        self._fmu.arguments = [value.encode() if isinstance(value, str) else value for value in arguments.values()]
+        self._fmu.callbacks = self._callbacks()
+        self._fmu.component = self._fmu.create()
+        if self._fmu.component is None:
+            self._fmu.freeLibrary()
+            raise RefusedError(f"It cannot be instantiated{fmu.where}.")
+
+    def _callbacks(self) -> fmi2CallbackFunctions:
+        callbacks = fmi2CallbackFunctions()
+        callbacks.logger = fmi2CallbackLoggerTYPE(self._logged)
+        callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
+        callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
+        addLoggerProxy(byref(callbacks))
+        return callbacks
 
     def _logged(self, component: int, name: bytes, status: int, category: bytes, message: bytes | None) -> None:
         if status > 1 and message:
             self._owner.messages.append(" ".join(message.decode("utf-8", "replace").split()))
 
     def _call(self, method: str, *arguments: Any, about: str = "") -> Any:
-        call = f"fmi2{method[0].upper()}{method[1:]}{about}"
+        call = f"fmi2{method.removeprefix('fmi2')[0].upper()}{method.removeprefix('fmi2')[1:]}{about}"
         self._owner.note(call)
         try:
             return getattr(self._fmu, method)(*arguments)
         except FMICallException as error:
             self._owner.refused(call, error.status)
-            self._fatal = _STATUS[error.status] == "fatal"
+            self.fatal = _STATUS[error.status] == "fatal"
             raise
 
-    def initialise(self, **values: float) -> None:
-        """Set up and initialise with the start values and `values`."""
+    def objection(self, call: Callable[[], None]) -> Objection:
+        """What the FMU says to a call that is wrong: its status, or a Boolean output that turns false."""
+        truths = self._truths()
+        self._fmu.warned = False
+        try:
+            call()
+        except FMICallException as error:
+            self._owner.fault = ""  # it is right
+            return Objection(True, _STATUS[error.status])
+        if self._fmu.warned:
+            return Objection(False, "warning")
+        gone = sorted(truths - self._truths())
+        return Objection(False, f"{gone[0]} = false" if gone else "")
+
+    def _truths(self) -> set[str]:
+        """Boolean outputs that are true."""
+        names = [v.name for v in self._owner.outputs if v.type == "Boolean"]
+        return {name for name, value in self.read(names).items() if value}
+
+    def set_up(self, stop: float | None = None) -> None:
+        """Give the start time and, if there is one, the stop time."""
         self.time = self._owner.start_time
-        self._call("setupExperiment", None, self.time)
+        self._call("setupExperiment", None, self.time, stop)
+
+    def enter(self) -> None:
+        """Begin initialisation."""
         self._call("enterInitializationMode")
-        self.put(values)
+
+    def leave(self) -> None:
+        """End initialisation."""
         self._call("exitInitializationMode")
+
+    def initialise(self, values: dict[str, float] | None = None, stop: float | None = None) -> None:
+        """Set up and initialise with the start values and `values`."""
+        self.set_up(stop)
+        self.enter()
+        self.put(values or {})
+        self.leave()
 
     def put(self, values: dict[str, float]) -> None:
         """Set variables by name."""
@@ -129,6 +241,12 @@ class Instance:
             kind = base_type(variable)
             typed = value if kind == "Real" else int(value)
             self._call(f"set{kind}", [variable.valueReference], [typed], about=f" of {name} = {value:g}")
+
+    def put_text(self, name: str, text: bytes) -> None:
+        """Set a String to any bytes."""
+        reference, value = fmi2ValueReference(self._owner.variables[name].valueReference), fmi2String(text)
+        about = f" of {name} = {text[:8]!r}{'...' if len(text) > 8 else ''}, {len(text)} bytes"
+        self._call("fmi2SetString", self._fmu.component, byref(reference), 1, byref(value), about=about)
 
     def read(self, names: list[str]) -> dict[str, Value]:
         """Values of variables by name."""
@@ -192,7 +310,28 @@ class Instance:
         """End the simulation."""
         self._call("terminate")
 
+    def reload(self) -> None:
+        """Have the library unloaded and loaded again, and go on through what was loaded."""
+        self._owner.note("dlclose and dlopen")
+        self._fmu.reload()
+
+    def be_quiet(self) -> None:
+        """Switch logging off: a call that FMI allows at any time."""
+        self._call("setDebugLogging", False, [])
+
+    # for threads that run beside: not written down
+
+    def be_quiet_unwritten(self) -> None:
+        """The same."""
+        self._fmu.fmi2SetDebugLogging(self._fmu.component, False, 0, None)
+
+    def come_and_go(self) -> None:
+        """Make another instance and free it."""
+        component = self._fmu.create()
+        if component:
+            self._fmu.fmi2FreeInstance(component)
+
     def free(self) -> None:
         """Free the instance; after a fatal status FMI allows no further call."""
-        if not self._fatal:
+        if not self.fatal:
             self._call("freeInstance")

@@ -10,8 +10,10 @@ from .verdict import Finding, Verdict, failed
 _WIDTH = max(map(len, [*static.RULES, *deep.RULES]))
 
 
-def findings(package: Package, thorough: bool, limit: float) -> Iterator[Finding]:
-    """The static rules, and where `thorough` those that run the FMU; `limit` [s] is that of one call."""
+def findings(
+    package: Package, thorough: bool, limit: float = deep.LIMIT, budget: float = deep.BUDGET
+) -> Iterator[Finding]:
+    """The static rules, and where `thorough` those that run the FMU: `limit` [s] is a call's, `budget` [s] a rule's."""
     for name, rule in static.RULES.items():
         try:
             answer = rule(package)
@@ -19,7 +21,7 @@ def findings(package: Package, thorough: bool, limit: float) -> Iterator[Finding
             answer = failed(f"A value cannot be read: {error}.")
         yield Finding(name, *answer)
     if thorough:
-        yield from deep.findings(package, limit)
+        yield from deep.findings(package, limit, budget)
 
 
 def line(finding: Finding) -> str:

@@ -44,6 +44,8 @@ early           y jumps by `jump` = 1 at each multiple of `period` = 0.25, count
                 mode; it returns early at an event if it is allowed to, and otherwise goes on to the end of the step.
 nan             y is no number after t_nan = 0.5.
 failing         doStep is an error, with a message, if it ends after t_fail = 0.5.
+registrar       takes no step once the library has been unloaded and loaded again.
+locker          makes its instances under a lock that a child forked meanwhile never gets.
 bouncer         h, v, bounces (Integer); g, e = 0.7, h0 = 1, v0: a ball, its bounces inside the step.
 tooth           tooth (Integer), stiffness, which changes with the tooth by k a; period = 0.1.
 
@@ -51,8 +53,9 @@ python_mass     mass_1_force by pythonfmu, FMI 2, exact for a held force; no der
 
 In FMI 2, derivatives of inputs hold for the step that follows and are forgotten after it: the inputs then stand at the
 polynomial's value at the end of the step, and so do outputs with feedthrough, until the inputs are set again. A model
-checks its master: a step that does not start where the last one ended, a fixed parameter set late, an output set, and a
-step before a pending event is handled are errors with a message. exact.py has the solutions of the coupled systems.
+checks its master: a step that does not start where the last one ended, one beyond the stop time (FMI 2), a fixed
+parameter set late, an output set, and a step before a pending event is handled are errors with a message. exact.py has
+the solutions of the coupled systems.
 """
 
 from .build import build

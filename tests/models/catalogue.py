@@ -308,6 +308,14 @@ def failing() -> Model:
     return _integrator("failing", parameter("t_fail", "s", 0.5), text="y' = u, an error after t_fail")
 
 
+def registrar() -> Model:
+    return _integrator("registrar", text="y' = u, as long as the library is not loaded again")
+
+
+def locker() -> Model:
+    return _integrator("locker", text="y' = u, its instances made under a lock")
+
+
 def bouncer() -> Model:
     return Model(
         "bouncer",
@@ -367,6 +375,8 @@ MODELS: dict[str, Callable[..., Model]] = {
         early,
         nan,
         failing,
+        registrar,
+        locker,
         bouncer,
         tooth,
         linear,

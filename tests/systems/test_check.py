@@ -1,5 +1,6 @@
 """The command `check`: each defect of an FMU is told by the rule concerned, and by no other."""
 
+import itertools
 import math
 import os
 import re
@@ -8,12 +9,13 @@ import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
+import models
 import pytest
 from pythonfmu.builder import FmuBuilder
 
 from contact_core import Scene
 from fmu_src.build import build
-from system_models.check import deep, report, stages
+from system_models.check import deep, hosts, report, stages
 from system_models.check.instance import Instance
 from system_models.check.package import opened
 from system_models.check.verdict import Answer, Finding, Verdict
@@ -286,8 +288,8 @@ def test_a_binary_of_another_kind_is_not_examined(fmu: Path, tmp_path: Path, dat
 # the FMU at work
 
 SLAVE = """
-import json, math, os, sys, time
-from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability, Real
+import json, math, os, sys, threading, time
+from pythonfmu import Boolean, Fmi2Causality, Fmi2Slave, Fmi2Variability, Real, String
 
 class {name}(Fmi2Slave):
     {body}
@@ -325,32 +327,54 @@ def slave(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Path
     return make
 
 
+# what they do, they do to the process in which they are asked
+ROUGH = {"resources", "text", "reloading", "home", "children", "fork"}
+
+
 def answers(fmu: Path) -> dict[str, Answer]:
-    """The rules that run an FMU, answered in this process."""
+    """The rules that run an FMU, answered in this process where that does it no harm."""
     folder = fmu.with_suffix("")
     with zipfile.ZipFile(fmu) as archive:
         archive.extractall(folder)
     found = {}
-    for rule, names in deep.RULES.items():
-        given = (stages.answer(folder, name, fmu.parent) for name in names)
-        found[rule] = next(answer for answer in given if answer is not None)
+    for rule, names in deep.RULES.items():  # `run` first: others read what it leaves
+        if rule not in ROUGH:
+            given = (stages.answer(folder, name, fmu.parent) for name in names)
+            found[rule] = next(answer for answer in given if answer is not None)
     return found
 
 
-def deep_findings(fmu: Path, limit: float = 60.0) -> dict[str, Finding]:
-    with opened(fmu) as package:
-        return {finding.rule: finding for finding in deep.findings(package, limit)}
+def deep_findings(fmu: Path, *rules: str) -> dict[str, Finding]:
+    """The rules that run an FMU, or some of them, in processes of their own that have all the time in the world."""
+    with pytest.MonkeyPatch.context() as patch, opened(fmu) as package:
+        patch.setattr(deep, "RULES", {rule: deep.RULES[rule] for rule in ("run", *rules)} if rules else deep.RULES)
+        return {finding.rule: finding for finding in deep.findings(package, math.inf, math.inf)}
+
+
+# what pythonfmu's binary lets pass
+LAX = {"guid", "interface", "resources", "stop time", "communication point", "order of calls"}
 
 
 def test_a_good_fmu_fails_no_rule_in_processes_of_its_own(slave: Callable[..., Path]) -> None:
     found = deep_findings(slave("good"))
     assert verdicts(found, Verdict.FAIL) == set()
-    assert verdicts(found, Verdict.NOT_APPLICABLE) == {"reference results"}
-    assert verdicts(found, Verdict.NOTE) - {"memory"} == {"unusable input", "guid"}
-    assert "with another guid, too" in found["guid"].evidence  # pythonfmu's binary never looks
+    assert verdicts(found, Verdict.NOT_APPLICABLE) == {"reference results", "text"}
+    assert verdicts(found, Verdict.NOTE) - {"memory"} == LAX | {"unusable input"}
+    assert "with another guid, too" in found["guid"].evidence
+    assert "for model exchange, too" in found["interface"].evidence
+    assert "SIGABRT during fmi2Instantiate with fmuResourceLocation = None" in found["resources"].evidence
+    assert "beyond the stop time is taken, and nothing says so" in found["stop time"].evidence
+    assert "from 0.02 s after one that has ended at 0.01 s is taken" in found["communication point"].evidence
+    assert "a step before initialisation, fmi2EnterInit" in found["order of calls"].evidence
     assert "2 settings of inputs" in found["feedthrough"].evidence
     assert "u = nan (into y)" in found["unusable input"].evidence
     assert "3 steps with inputs at the ends" in found["input range"].evidence
+
+
+def test_an_fmu_that_keeps_every_rule_passes_every_rule(tmp_path: Path) -> None:
+    found = deep_findings(models.build("echo", tmp_path))
+    assert verdicts(found, Verdict.PASS) == deep.RULES.keys() - {"unusable input", "reference results"}
+    assert verdicts(found, Verdict.NOTE) == {"unusable input"}  # its output is its input
 
 
 FORGETFUL = """
@@ -391,16 +415,40 @@ def test_what_is_worth_knowing_is_a_note(slave: Callable[..., Path], monkeypatch
     monkeypatch.setattr(sys, "hoard", [], raising=False)
     found = answers(slave("hoards", start="sys.hoard.append(b'x' * (1 << 20))", step="self.y += step * 100.0"))
     assert verdicts(found, Verdict.FAIL) == set()
-    assert verdicts(found, Verdict.NOTE) == {"unusable input", "guid", "memory", "step splitting"}
+    assert verdicts(found, Verdict.NOTE) == (LAX - ROUGH) | {"unusable input", "memory", "step splitting"}
     assert "move y by" in found["step splitting"].evidence
     grown = re.search(r"grows by (\d+) kB", found["memory"].evidence)
     assert grown is not None
     assert 500 < int(grown[1]) < 2000  # of 1024 that each hoards: what else was freed meanwhile counts, too
 
 
-def test_an_fmu_that_refuses_unusable_input_passes(slave: Callable[..., Path]) -> None:
-    found = answers(slave("refuses", step="self.x = self.x if math.isfinite(self.x) else 0.0; self.y = self.x"))
-    assert verdicts(found, Verdict.NOTE) <= {"guid", "memory"}
+@pytest.mark.parametrize(
+    ("name", "defect", "verdict", "evidence"),
+    [
+        ("refuses", {"step": "if not math.isfinite(self.u): return False"}, Verdict.PASS, "2 refused by status"),
+        (
+            "freezes",
+            {"step": "if not math.isfinite(self.u): self.x = self.y = 0.0"},
+            Verdict.NOTE,
+            "The outputs stand still, and nothing says so, after u = nan, u = inf",
+        ),
+        (
+            "owns_up",
+            {
+                "step": "self.ok = math.isfinite(self.u); self.x = self.y = self.x if self.ok else 0.0",
+                "start": "self.ok = True; self.register_variable(Boolean('ok', causality=Fmi2Causality.output))",
+            },
+            Verdict.PASS,
+            "2 leave the outputs as they stand, with ok = false.",
+        ),
+    ],
+)
+def test_outputs_that_stand_still_must_be_told(
+    slave: Callable[..., Path], name: str, defect: dict[str, str], verdict: Verdict, evidence: str
+) -> None:
+    found = answers(slave(name, **defect))["unusable input"]
+    assert found.verdict == verdict
+    assert evidence in found.evidence
 
 
 def test_a_dependency_that_is_declared_is_no_fault(slave: Callable[..., Path], tmp_path: Path) -> None:
@@ -455,27 +503,168 @@ def test_reference_results_are_replayed(slave: Callable[..., Path]) -> None:
         ("leaves", "os._exit(7)", "exit code 7 during fmi2DoStep at 0 s, u = 1.5"),
         ("aborts", "os.abort()", "SIGABRT during fmi2DoStep" if os.name == "posix" else "during fmi2DoStep"),
         ("raises", "raise ValueError('too far')", "too far"),
-        ("hangs", "time.sleep(600.0)", "Hung in fmi2DoStep at 0 s, u = 1.5: it had not returned after 4 s."),
     ],
 )
-def test_a_crash_and_a_hang_are_verdicts(slave: Callable[..., Path], name: str, step: str, evidence: str) -> None:
-    found = deep_findings(slave(name, step), limit=4.0)
+def test_a_crash_is_a_verdict(slave: Callable[..., Path], name: str, step: str, evidence: str) -> None:
+    found = deep_findings(slave(name, step))
     assert verdicts(found, Verdict.FAIL) == {"run"}
     assert evidence in found["run"].evidence
     assert verdicts(found, Verdict.NOT_APPLICABLE) == set(deep.RULES) - {"run"}
 
 
-def test_rules_go_on_after_one_that_crashes(slave: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(deep, "RULES", {rule: deep.RULES[rule] for rule in ("run", "input range", "reset")})
-    found = deep_findings(slave("bursts", "if self.u == 10.0: os.abort()"))
+@pytest.fixture
+def stuck(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    """A statement that never ends; the checker's clock stands until it is reached, and then leaps."""
+    reached, leaps = tmp_path / "reached", itertools.count(1e6, 1e6)
+    monkeypatch.setattr(deep, "monotonic", lambda: next(leaps) if reached.exists() else 0.0)
+    return f"(open({str(reached)!r}, 'w').close(), time.sleep(1e6))"
+
+
+def test_a_call_beyond_its_limit_has_hung(
+    slave: Callable[..., Path], stuck: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["check", str(slave("hangs", stuck)), "--deep", "--limit", "4", "--budget", "2"]) == 1
+    printed = capsys.readouterr().out
+    assert re.search(r"run +fail  Hung in fmi2DoStep at 0 s, u = 1.5: it had not returned after 4 s\.\n", printed)
+    assert printed.count("The FMU does not run.") == len(deep.RULES) - 1
+
+
+def test_a_rule_beyond_its_budget_says_how_far_it_came(
+    slave: Callable[..., Path], stuck: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(deep, "RULES", {rule: deep.RULES[rule] for rule in ("run", "input range")})
+    lingers = slave("lingers", f"if self.u == 10.0: {stuck}")
+    assert main(["check", str(lingers), "--deep", "--limit", "1e9", "--budget", "30"]) == 1
+    assert (
+        "note  Not finished in 30 s (--budget): 2 of 3 settings have been stepped with, and are right; it was in "
+        "fmi2DoStep at 0 s, u = 10.\n"
+    ) in capsys.readouterr().out
+
+
+def test_rules_go_on_after_one_that_crashes(slave: Callable[..., Path]) -> None:
+    found = deep_findings(slave("bursts", "if self.u == 10.0: os.abort()"), "input range", "reset")
     assert verdicts(found, Verdict.FAIL) == {"input range"}
     assert "u = 10" in found["input range"].evidence
     assert verdicts(found, Verdict.PASS) == {"run", "reset"}
 
 
-def test_other_processes_are_asked(slave: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(deep, "RULES", {rule: deep.RULES[rule] for rule in ("rollback", "replay")})
-    found = deep_findings(slave("knows", "self.y += os.getpid()"))
+# calls at the edge, and hosts of other kinds
+
+SETUP = """
+    stop = math.inf
+
+    def setup_experiment(self, start, stop, tolerance):
+        self.stop = math.inf if stop is None else stop
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "step", "verdict", "evidence"),
+    [
+        ("stops", "if now + step > self.stop + 1e-9: return False", Verdict.PASS, "answered with discard"),
+        (
+            "haggles",
+            "if now + step > self.stop: return False",
+            Verdict.FAIL,
+            "with 0.009999999999999998 s as stop time",
+        ),
+    ],
+)
+def test_a_stop_time_is_kept_but_for_rounding(
+    slave: Callable[..., Path], name: str, step: str, verdict: Verdict, evidence: str
+) -> None:
+    found = answers(slave(name, step, body=SETUP))
+    assert found["stop time"].verdict == verdict
+    assert evidence in found["stop time"].evidence
+
+
+WIPING = """
+    def enter_initialization_mode(self):
+        self.x = self.y = 0.0
+"""
+
+
+def test_a_second_initialisation_that_wipes_the_state_is_worth_a_note(slave: Callable[..., Path]) -> None:
+    found = answers(slave("wipes", body=WIPING))
+    assert verdicts(found, Verdict.FAIL) == set()
+    assert "an initialisation mode that comes too late, y is 0.0 instead of" in found["order of calls"].evidence
+
+
+TEXT = "self.register_variable(String('s', causality=Fmi2Causality.parameter, variability=Fmi2Variability.fixed))"
+
+
+@pytest.mark.parametrize(
+    ("name", "setter", "verdict", "evidence"),
+    [
+        ("chokes", "os.abort() if len(text) > 1000 else None", Verdict.FAIL, "of s = b'xxxxxxxx'..., 100000 bytes"),
+        ("reads", "None", Verdict.NOTE, r"of s = b'\xff\xfe \xc3( \x80', 7 bytes"),  # pythonfmu's binary cannot
+    ],
+)
+def test_texts_of_all_kinds_are_tried(
+    slave: Callable[..., Path], name: str, setter: str, verdict: Verdict, evidence: str
+) -> None:
+    body = f"s = property(lambda self: 'read', lambda self, text: {setter})"
+    found = deep_findings(slave(name, start=TEXT, body=body), "text")
+    assert found["text"].verdict == verdict
+    assert evidence in found["text"].evidence
+
+
+AT_WORK = "'pytest' not in sys.modules"  # not while the FMU is built
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="asked on Linux only")
+@pytest.mark.parametrize(
+    ("rule", "defect", "evidence"),
+    [
+        ("home", {"start": "os.stat(os.environ['HOME'])"}, "It cannot be instantiated without a home folder"),
+        (
+            "children",
+            {"start": f"{AT_WORK} and (os.fork() or os._exit(0))"},
+            "the host has a child process that it did not start",
+        ),
+    ],
+)
+def test_a_demand_on_the_host_is_worth_a_note(
+    slave: Callable[..., Path], rule: str, defect: dict[str, str], evidence: str
+) -> None:
+    found = deep_findings(slave(f"demands_{rule}", **defect), "home", "children")
+    assert verdicts(found, Verdict.NOTE) == {rule}
+    assert evidence in found[rule].evidence
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="asked on Linux only")
+def test_a_file_written_anywhere_but_in_the_temporary_folder_is_worth_a_note(slave: Callable[..., Path]) -> None:
+    found = deep_findings(
+        slave("scribbles", start=f"{AT_WORK} and open('/proc/self/comm', 'w').write('slave')"), "home"
+    )["home"]
+    if "in /proc" in found.evidence:
+        pytest.skip("this system has no Landlock")
+    assert found.verdict == Verdict.NOTE
+    assert "where only /" in found.evidence
+    assert "Permission denied" in found.evidence
+
+
+def test_a_library_that_forgets_its_instances_when_loaded_again_is_worth_a_note(tmp_path: Path) -> None:
+    found = deep_findings(models.build("registrar", tmp_path), "two instances", "reloading")
+    assert verdicts(found, Verdict.PASS) == {"run", "two instances"}
+    assert "after the library was loaded again was answered with error (This library" in found["reloading"].evidence
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="asked on Linux only")
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+def test_a_lock_that_a_forked_child_cannot_get_is_worth_a_note(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(hosts, "_PATIENCE", 0.1)
+    fmu = models.build("locker", tmp_path)
+    with zipfile.ZipFile(fmu) as archive:
+        archive.extractall(tmp_path / "locker")
+    found = stages.answer(tmp_path / "locker", "fork", tmp_path)
+    assert found is not None
+    assert found.verdict == Verdict.NOTE
+    assert "hangs in fmi2FreeInstance: it had not returned after 0.1 s" in found.evidence
+
+
+def test_other_processes_are_asked(slave: Callable[..., Path]) -> None:
+    found = deep_findings(slave("knows", "self.y += os.getpid()"), "rollback", "replay")
     assert verdicts(found, Verdict.FAIL) == {"replay"}
 
 
@@ -485,10 +674,9 @@ def test_our_own_fmu_is_rolled_back_and_restored_in_another_process(
 ) -> None:
     monkeypatch.setenv("TRIBOFMU_PYTHON", sys.executable)
     rules = {"rollback", "serialise", "feedthrough", "guid"}
-    monkeypatch.setattr(deep, "RULES", {rule: stages for rule, stages in deep.RULES.items() if rule in rules})
-    found = deep_findings(build(scene.at_level("regression"), tmp_path / "contact.fmu", flavour))
+    found = deep_findings(build(scene.at_level("regression"), tmp_path / "contact.fmu", flavour), *rules)
     assert verdicts(found, Verdict.NOTE) == ({"guid"} if flavour == "embedded" else set())
-    assert verdicts(found, Verdict.PASS) == rules - verdicts(found, Verdict.NOTE)
+    assert verdicts(found, Verdict.PASS) == {"run", *rules} - verdicts(found, Verdict.NOTE)
 
 
 def test_what_cannot_be_run_here_is_not_judged(fmu: Path, tmp_path: Path) -> None:

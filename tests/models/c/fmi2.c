@@ -36,8 +36,10 @@ void fmi2FreeInstance(fmi2Component c) { discard(c); }
 fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean has_tolerance, fmi2Real tolerance, fmi2Real start,
                                fmi2Boolean has_stop, fmi2Real stop)
 {
-    (void)has_tolerance, (void)tolerance, (void)has_stop, (void)stop;
-    ((Instance *)c)->start_time = start;
+    (void)has_tolerance, (void)tolerance;
+    Instance *it = c;
+    it->start_time = start;
+    it->stop_time = has_stop ? stop : INFINITY;
     return fmi2OK;
 }
 

@@ -15,6 +15,10 @@ static char *text_of(const Instance *it, unsigned ref)
 
 __attribute__((weak)) size_t model_work(void) { return 0; }
 
+__attribute__((weak)) void model_made(void) {}
+
+__attribute__((weak)) void model_freed(void) {}
+
 __attribute__((weak)) void model_event(State *m) { (void)m; }
 
 __attribute__((weak)) double model_next_event(const State *m) { return (void)m, NAN; }
@@ -36,13 +40,16 @@ Instance *create(const char *name, const char *token)
     it->name = strdup(name);
     it->head = malloc(LAYOUT.state);
     it->work = calloc(1, model_work() + 1);
+    it->stop_time = INFINITY;
     reset(it);
+    model_made();
     return it;
 }
 
 void discard(Instance *it)
 {
     if (it == NULL) return;
+    model_freed();
     free(it->name);
     free(it->head);
     free(it->work);
@@ -205,6 +212,8 @@ Status step(Instance *it, double time, double h)
     if (fabs(time - m->time) > 1e-9 * fmax(1.0, fabs(m->time)))
         return say(it, ERROR, "The step starts at %.17g s, the model stands at %.17g s.", time, m->time);
     if (!(h > 0.0)) return say(it, ERROR, "The step size is %g s and must be above 0.", h);
+    if (time + h > it->stop_time + 1e-9 * fmax(1.0, fabs(it->stop_time)))
+        return say(it, ERROR, "The step ends at %.17g s, beyond the stop time %.17g s.", time + h, it->stop_time);
     m->time = time;
     it->last = model_step(state_of(it), it->work, h, it->may_return_early, it->event_mode);
     m->event_pending = it->last.event;

@@ -11,7 +11,7 @@ struct Instance {
     void *work;
     int stale;       /* outputs are older than inputs or state */
     int event_mode, may_return_early;
-    double start_time;
+    double start_time, stop_time;
     Outcome last;
     char *name;
     void *environment, *logger, *update;

@@ -54,6 +54,8 @@ void model_event(State *);               /* event mode: the pending event happen
 double model_next_event(const State *);  /* its time, or NAN */
 int model_partial(const State *, int output, int input, double *value); /* d output / d input; 0: unknown */
 int model_slope(const State *, int output, double *value);              /* d output / dt; 0: unknown */
+void model_made(void);  /* a new instance */
+void model_freed(void); /* one that is to go */
 size_t model_work(void); /* bytes of scratch memory of an instance, zero at first, never part of the state */
 
 #endif

@@ -1,0 +1,270 @@
+"""Rules on what an FMU answers: outputs that repeat, that can be gone back to, and that are numbers."""
+
+import json
+import math
+import os
+import sys
+from functools import partial
+from pathlib import Path
+from typing import NamedTuple
+
+from .instance import Fmu, Instance, Row
+from .rows import STEPS, again, difference, rows_alone, rows_of
+from .variables import elsewhere, extremes, magnitude
+from .verdict import Answer, failed, not_applicable, noted, passed, some
+
+_SPLIT = 1e-3  # of the magnitude: a difference by the size of the step that is worth a note
+
+
+class FirstRun(NamedTuple):
+    """What `run` leaves in the notebook for rules that need no run of their own."""
+
+    rows: list[Row]
+    has_child: bool | None  # the host has a process that it did not start; None where that cannot be told
+
+    def write(self, notebook: Path) -> None:
+        """Leave it."""
+        (notebook / "first_run.json").write_text(json.dumps(self))
+
+    @classmethod
+    def read(cls, notebook: Path) -> "FirstRun":
+        """What was left."""
+        return cls(*json.loads((notebook / "first_run.json").read_text()))
+
+
+def run(fmu: Fmu, notebook: Path) -> Answer:
+    """Instantiate, initialise, step, terminate, free."""
+    with fmu.started() as instance:
+        rows = rows_of(fmu, instance)
+        FirstRun(rows, _has_child()).write(notebook)
+        instance.terminate()
+    return passed(f"Instantiated, initialised, {STEPS} steps of {fmu.step:g} s, terminated, freed.")
+
+
+def _has_child() -> bool | None:
+    if sys.platform != "linux":
+        return None
+    try:
+        os.waitid(os.P_ALL, 0, os.WEXITED | os.WNOHANG | os.WNOWAIT)
+    except ChildProcessError:
+        return False
+    return True
+
+
+def finite(fmu: Fmu, notebook: Path) -> Answer:
+    """No output of the run was NaN or infinite."""
+    reals = [v.name for v in fmu.outputs if v.type == "Real"]
+    for number, row in enumerate(FirstRun.read(notebook).rows):
+        if broken := sorted(name for name in reals if not math.isfinite(float.fromhex(row[name]))):
+            return failed(f"{some(broken)} not finite after {number} step(s), with inputs about their start values.")
+    return passed(f"{len(reals)} outputs after initialisation and {STEPS} steps.")
+
+
+def replay(fmu: Fmu, notebook: Path) -> Answer:
+    """The same calls in another process give the same bits."""
+    if wrong := difference(rows_alone(fmu), FirstRun.read(notebook).rows):
+        return failed(f"The same calls in another process: {wrong}.")
+    return passed("The same calls in another process give the same bits.")
+
+
+def rollback(fmu: Fmu, notebook: Path) -> Answer:
+    """A state set twice gives the same steps twice."""
+    if not fmu.capabilities.canGetAndSetFMUstate:
+        return not_applicable("canGetAndSetFMUstate is false.")
+    with fmu.started() as instance:
+        instance.step(inputs=fmu.stimulus(1))
+        saved = instance.save()
+        expected = _onward(fmu, instance)
+        for time in ("first", "second"):
+            instance.restore(saved)
+            if wrong := difference(_onward(fmu, instance), expected):
+                return failed(f"After the state was set the {time} time, {wrong}: the state is not whole.")
+            fmu.progress = "set once, it has given the same bits"
+        instance.forget(saved)
+    return passed("A state set twice gives the same bits twice.")
+
+
+def _onward(fmu: Fmu, instance: Instance) -> list[Row]:
+    """Outputs as they stand, after a step with the inputs as they stand, and after one with others."""
+    rows = [instance.row()]
+    for inputs in ({}, fmu.stimulus(4)):
+        instance.step(inputs=inputs)
+        rows.append(instance.row())
+    return rows
+
+
+def save(fmu: Fmu, notebook: Path) -> Answer | None:
+    """First half of `resume`."""
+    if not fmu.capabilities.canSerializeFMUstate:
+        return not_applicable("canSerializeFMUstate is false.")
+    with fmu.started() as instance:
+        instance.step(inputs=fmu.stimulus(1))
+        (notebook / "state").write_bytes(instance.stored())
+        (notebook / "onward.json").write_text(json.dumps([instance.time, _onward(fmu, instance)]))
+    return None
+
+
+def resume(fmu: Fmu, notebook: Path) -> Answer:
+    """Bytes of a state, restored in another process, give the same steps."""
+    data = (notebook / "state").read_bytes()
+    time, expected = json.loads((notebook / "onward.json").read_text())
+    with fmu.started() as instance:
+        instance.resume(data, time)
+        wrong = difference(_onward(fmu, instance), expected)
+    if wrong:
+        return failed(f"Restored in another process, {wrong}: the bytes do not hold the whole state.")
+    return passed(f"{len(data)} bytes restored in another process give the same bits.")
+
+
+def splitting(fmu: Fmu, notebook: Path) -> Answer:
+    """A step in two halves ends where the whole one ends."""
+    if not fmu.capabilities.canHandleVariableCommunicationStepSize:
+        return not_applicable("canHandleVariableCommunicationStepSize is false.")
+    with again(fmu) as get:
+        instance = get()
+        instance.step()
+        whole, already = instance.outputs(), instance.broken()
+        instance = get()
+        instance.step(0.5 * fmu.step)
+        instance.step(0.5 * fmu.step)
+        halves, broken = instance.outputs(), sorted(instance.broken() - already)
+    if broken:
+        return failed(f"{some(broken)} not finite after two steps of {0.5 * fmu.step:g} s.")
+    largest, name = 0.0, ""
+    for variable in fmu.outputs:
+        if variable.type == "Real" and variable.name not in already:
+            size = max(magnitude(variable), abs(float(whole[variable.name])))
+            largest, name = max((largest, name), (_distance(whole, halves, variable.name) / size, variable.name))
+    if largest > _SPLIT:
+        return noted(f"Two half steps move {name} by {largest:.2g} of its magnitude: choose the step with care.")
+    return passed(f"Two half steps move no output by more than {largest:.2g} of its magnitude.")
+
+
+def _distance(first: dict, second: dict, name: str) -> float:
+    return abs(float(first[name]) - float(second[name]))
+
+
+def sweep(fmu: Fmu, notebook: Path) -> Answer:
+    """Every input at both ends of its range and at zero."""
+    settings = [(v.name, x) for v in fmu.inputs if v.variability == "continuous" for x in extremes(v)]
+    if not settings:
+        return not_applicable("There is no continuous input with a range.")
+    with again(fmu) as get:
+        already = _broken_after(get(), {})
+        for number, (name, value) in enumerate(settings):
+            fmu.progress = f"{number} of {len(settings)} settings have been stepped with, and are right"
+            broken = sorted(_broken_after(get(), {name: value}) - already)
+            if broken:
+                return failed(f"{some(broken)} not finite after a step with {name} = {value:g}, which is in its range.")
+    return passed(f"{len(settings)} steps with inputs at the ends of their ranges and at zero.")
+
+
+def _broken_after(instance: Instance, inputs: dict[str, float]) -> set[str]:
+    instance.step(inputs=inputs)
+    return instance.broken()
+
+
+def unusable(fmu: Fmu, notebook: Path) -> Answer:
+    """An input that is NaN or infinite does no harm, and is told where the outputs stand still."""
+    if not fmu.inputs:
+        return not_applicable("There is no Real input.")
+    settings = [(v.name, x) for v in fmu.inputs for x in (math.nan, math.inf)]
+    spoilt: list[str] = []
+    still: dict[str, list[str]] = {}  # settings by what told that they are not used
+    refused = 0
+    with again(fmu) as get:
+        instance = get()
+        before = _reals(fmu, instance)
+        already = _broken_after(instance, {})
+        moves = _reals(fmu, instance) != before
+        for number, (name, value) in enumerate(settings):
+            fmu.progress = f"{number} of {len(settings)} settings have been stepped with"
+            instance, setting = get(), f"{name} = {value:g}"
+            objection = instance.objection(partial(instance.step, inputs={name: value}))
+            if objection.refused:
+                refused += 1
+            elif broken := sorted(instance.broken() - already):
+                spoilt.append(f"{setting} (into {some(broken, 1)})")
+            elif moves and _reals(fmu, instance) == before:
+                still.setdefault(objection.said, []).append(setting)
+    worth = []
+    if spoilt:
+        worth.append(f"Passed on to the outputs: {some(spoilt)}")
+    if silent := still.pop("", []):
+        worth.append(f"The outputs stand still, and nothing says so, after {some(silent)}")
+    if worth:
+        return noted(f"{'. '.join(worth)}: a host must check what it sets.")
+    told = "".join(f" {len(s)} leave the outputs as they stand, with {said}." for said, s in still.items())
+    return passed(f"{len(settings)} settings to NaN and inf: {refused} refused by status, no output spoilt.{told}")
+
+
+def _reals(fmu: Fmu, instance: Instance) -> Row:
+    """The Real outputs."""
+    row = instance.row()
+    return {v.name: row[v.name] for v in fmu.outputs if v.type == "Real"}
+
+
+def feedthrough(fmu: Fmu, notebook: Path) -> Answer:
+    """An output that moves with an input before the next step declares that it depends on it."""
+    settings = [(v.name, x) for v in fmu.inputs if v.variability == "continuous" for x in elsewhere(v)]
+    declared = {
+        u.variable.name: {v.name for v in u.dependencies}
+        for u in fmu.description.outputs
+        if u.dependencies is not None  # else on every input
+    }
+    if not settings or not declared:
+        return not_applicable("There is no continuous input, or no output that declares its dependencies.")
+    with again(fmu, steps=1) as get:
+        for number, (name, value) in enumerate(settings):
+            fmu.progress = f"{number} of {len(settings)} settings have been tried, and are right"
+            instance = get()
+            before = instance.row()
+            instance.put({name: value})
+            moved = [output for output, text in instance.row().items() if text != before[output]]
+            silent = [output for output in moved if name not in declared.get(output, {name})]
+            if silent:
+                return failed(
+                    f"{name} = {value:g} moves {some(silent)} without a step; its dependencies do not list it."
+                )
+    return passed(
+        f"{len(settings)} settings of inputs between steps: no output moves at once that does not declare it."
+    )
+
+
+def reset(fmu: Fmu, notebook: Path) -> Answer:
+    """The run after a reset is the first run."""
+    with fmu.started() as instance:
+        expected = rows_of(fmu, instance)
+        instance.reset()
+        instance.initialise()
+        wrong = difference(rows_of(fmu, instance), expected)
+    if wrong:
+        return failed(f"In the run after a reset, {wrong}.")
+    return passed("The run after a reset gives the same bits.")
+
+
+def interleaved(fmu: Fmu, notebook: Path) -> Answer:
+    """Two instances in one process, step by step in turn, do not touch each other."""
+    if fmu.capabilities.canBeInstantiatedOnlyOncePerProcess:
+        return not_applicable("canBeInstantiatedOnlyOncePerProcess is true.")
+    if wrong := disturbed(fmu, reload=False):
+        return failed(f"With another instance at work, {wrong}.")
+    return passed("Two instances stepped in turn give the bits of each alone.")
+
+
+def disturbed(fmu: Fmu, reload: bool) -> str:
+    """What differs when two instances are stepped in turn; the library loaded again before the second if `reload`."""
+    alone = [rows_alone(fmu, first) for first in (0, STEPS)]
+    together: list[list[Row]] = [[], []]
+    with fmu.started() as first:
+        together[0].append(first.row())
+        if reload:
+            first.reload()
+            fmu.where = " after the library was loaded again"
+        with fmu.started() as second:
+            together[1].append(second.row())
+            for number in range(STEPS):
+                for i, instance in enumerate((first, second)):
+                    instance.step(inputs=fmu.stimulus(number + i * STEPS))
+                    together[i].append(instance.row())
+    return next(filter(None, map(difference, together, alone)), "")

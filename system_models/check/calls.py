@@ -1,0 +1,157 @@
+"""Rules on calls that a host should not make, and on those at the edge: an FMU says so, and stands them."""
+
+import math
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import fmi2ModelExchange
+
+from .instance import Fmu, Instance, RefusedError, Row
+from .rows import again, difference
+from .verdict import Answer, not_applicable, noted, passed, some
+
+_OTHER_GUID = "00000000-0000-0000-0000-000000000000"
+_LONG = b"x" * 100_000
+_FOREIGN = b"\xff\xfe \xc3( \x80"  # no UTF-8
+
+
+def guid(fmu: Fmu, notebook: Path) -> Answer:
+    """The binary takes no description that is not its own."""
+    if _refused(fmu, fmuGUID=_OTHER_GUID):
+        return passed("It refuses to be instantiated with another guid.")
+    return noted("It is instantiated with another guid, too: nothing shows that description and binary do not match.")
+
+
+def interface(fmu: Fmu, notebook: Path) -> Answer:
+    """An interface that it does not have cannot be had."""
+    if fmu.description.modelExchange is not None:
+        return not_applicable("It has both interfaces.")
+    if _refused(fmu, fmuType=fmi2ModelExchange):
+        return passed("It refuses to be instantiated for model exchange.")
+    return noted("It is instantiated for model exchange, too, which it does not have.")
+
+
+def resources(fmu: Fmu, notebook: Path) -> Answer:
+    """A host that names no folder of resources comes to no harm."""
+    if _refused(fmu, fmuResourceLocation=None):
+        return passed("Without a resource location it refuses to be instantiated.")
+    return passed("It is instantiated without a resource location.")
+
+
+def _refused(fmu: Fmu, **instead: object) -> bool:
+    try:
+        instance = Instance(fmu, **instead)
+    except RefusedError:
+        return True
+    instance.free()
+    return False
+
+
+def stop_time(fmu: Fmu, notebook: Path) -> Answer:
+    """A step up to the stop time is taken, and none beyond it."""
+    stop = math.nextafter(fmu.start_time + fmu.step, -math.inf)  # hosts that add up their steps are as far beyond it
+    fmu.where = f", with {stop!r} s as stop time"
+    with fmu.instance() as instance:
+        instance.initialise(stop=stop)
+        instance.step()
+        refused, said = instance.objection(instance.step)
+    if refused:
+        return passed(f"A step up to the stop time is taken, one beyond it is answered with {said}.")
+    # FMI 2.0 demands fmi2Error, but few exporters give it, and what was computed up to the stop time is right
+    told = f" with {said}" if said else ", and nothing says so"
+    return noted(f"A step beyond the stop time is taken{told}; FMI 2.0 wants it to be answered with fmi2Error.")
+
+
+def communication_point(fmu: Fmu, notebook: Path) -> Answer:
+    """A step that does not begin where the last one has ended is noticed."""
+    with fmu.started() as instance:
+        instance.step()
+        ended = instance.time
+        instance.time += fmu.step
+        refused, said = instance.objection(instance.step)
+    about = f"A step from {ended + fmu.step:g} s after one that has ended at {ended:g} s"
+    if refused or said:
+        return passed(f"{about} is answered with {said}.")
+    return noted(f"{about} is taken, and nothing says so: a host that loses a step will not know.")
+
+
+def order(fmu: Fmu, notebook: Path) -> Answer:
+    """Calls out of their turn are refused, and change nothing."""
+    accepted: list[str] = []
+
+    def ask(instance: Instance, name: str, call: Callable[[], None]) -> None:
+        refused, said = instance.objection(call)
+        if not refused and not said:
+            accepted.append(name)
+
+    with fmu.instance() as instance:
+        ask(instance, "a step before initialisation", instance.step)
+    with again(fmu, steps=1) as get:
+        instance = get()
+        expected = [instance.row()]
+        instance.step()
+        expected.append(instance.row())
+        instance = get()
+        ask(instance, "fmi2EnterInitializationMode after a step", instance.enter)
+        ask(instance, "fmi2ExitInitializationMode after a step", instance.leave)
+        wrong = _changed(fmu, instance, expected)
+    if wrong:
+        return noted(f"After an initialisation mode that comes too late, {wrong}.")
+    if accepted:
+        return noted(f"Nothing is said to calls out of their turn: {some(accepted)}. They change nothing.")
+    return passed("A step before initialisation, and an initialisation after a step, are refused and change nothing.")
+
+
+def _changed(fmu: Fmu, instance: Instance, expected: list[Row]) -> str:
+    """What differs from undisturbed rows; nothing where it goes no further, as FMI allows after an error."""
+    rows = []
+    try:
+        rows.append(instance.row())
+        instance.step()
+        rows.append(instance.row())
+    except FMICallException:
+        fmu.fault = ""
+    return difference(rows, expected[: len(rows)])
+
+
+def long_text(fmu: Fmu, notebook: Path) -> Answer | None:
+    """A String may be long. The next stage goes on with other bytes."""
+    if not _settable_texts(fmu):
+        return not_applicable("There is no String to be set.")
+    return _set_texts(fmu, _LONG)
+
+
+def foreign_text(fmu: Fmu, notebook: Path) -> Answer:
+    """A String may be no UTF-8, by a host's mistake."""
+    names = some(_settable_texts(fmu))
+    return _set_texts(fmu, _FOREIGN) or passed(f"{names}: {len(_LONG)} bytes, and bytes that are no UTF-8, do no harm.")
+
+
+def _settable_texts(fmu: Fmu) -> list[str]:
+    """Strings that may be set before initialisation."""
+    variables = fmu.description.modelVariables
+    settable = [v for v in variables if v.causality in ("input", "parameter") and v.variability != "constant"]
+    return [v.name for v in settable if v.type == "String"]
+
+
+def _set_texts(fmu: Fmu, text: bytes) -> Answer | None:
+    """Set each String, get it again and initialise; what is refused is left. An answer if that was fatal."""
+    with fmu.instance() as instance:
+        attempts: list[Callable[[], None]] = [
+            partial(_set_and_get, instance, name, text) for name in _settable_texts(fmu)
+        ]
+        for attempt in (*attempts, instance.initialise):
+            try:
+                attempt()
+            except FMICallException:
+                if instance.fatal:
+                    return noted(f"{fmu.fault}: no instance in the process may be used any more.")
+                fmu.fault = ""  # it may refuse
+    return None
+
+
+def _set_and_get(instance: Instance, name: str, text: bytes) -> None:
+    instance.put_text(name, text)
+    instance.read([name])
