@@ -75,19 +75,19 @@ def rollback(fmu: Fmu, notebook: Path) -> Answer:
         instance.step(inputs=fmu.stimulus(1))
         saved = instance.save()
         expected = _onward(fmu, instance)
-        for time in ("first", "second"):
+        for time, count in (("first", len(expected)), ("second", 2)):
             instance.restore(saved)
-            if wrong := difference(_onward(fmu, instance), expected):
+            if wrong := difference(_onward(fmu, instance, count), expected[:count]):
                 return failed(f"After the state was set the {time} time, {wrong}: the state is not whole.")
-            fmu.progress = "set once, it has given the same bits"
+            fmu.progress = "set once, the state has given the same bits"
         instance.forget(saved)
     return passed("A state set twice gives the same bits twice.")
 
 
-def _onward(fmu: Fmu, instance: Instance) -> list[Row]:
+def _onward(fmu: Fmu, instance: Instance, count: int = 3) -> list[Row]:
     """Outputs as they stand, after a step with the inputs as they stand, and after one with others."""
     rows = [instance.row()]
-    for inputs in ({}, fmu.stimulus(4)):
+    for inputs in ({}, fmu.stimulus(4))[: count - 1]:
         instance.step(inputs=inputs)
         rows.append(instance.row())
     return rows
