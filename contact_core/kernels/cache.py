@@ -32,7 +32,8 @@ def ensure() -> str:
         raise ContactError(
             f"Compiled kernels can be kept nowhere ({error}). Set NUMBA_CACHE_DIR to a folder that can be written."
         ) from None
-    numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"] = str(folder)  # of child processes, too
+    os.environ["NUMBA_CACHE_DIR"] = str(folder)  # of child processes, too
+    setattr(numba.config, "CACHE_DIR", str(folder))  # noqa: B010  # numba declares it nowhere
     notice = (
         f"Neither the folder of contact_core nor the user's cache can be written: compiled kernels are kept in "
         f"'{folder}'. Set NUMBA_CACHE_DIR to a folder that lasts, and the first start will not be slow again."

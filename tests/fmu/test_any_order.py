@@ -215,7 +215,10 @@ def test_any_sequence_of_calls(flavour, native_program, native_environment, quic
         Calls.host, Calls.fmu, Calls.folder = host, host.load(quick_folder), tmp_path
         machine = Calls.TestCase()
         machine.settings = settings(
-            max_examples=EXAMPLES // (5 if Calls.embedded else 1), stateful_step_count=20, deadline=None, suppress_health_check=list(HealthCheck)
+            max_examples=EXAMPLES // (5 if Calls.embedded else 1),
+            stateful_step_count=20,
+            deadline=None,
+            suppress_health_check=list(HealthCheck),
         )
         machine.runTest()
     assert host.code == 0 or Calls.embedded  # a limit of pythonfmu's binary: see test_limits_of_pythonfmu.py

@@ -190,8 +190,8 @@ def test_a_step_beyond_the_stop_time_is_refused_and_one_that_ends_there_is_not(h
     assert host.outputs() == before | {"valid": False}
     assert host.log[0][0] == fmi2Error
     assert "goes beyond stopTime = 11.0 s" in host.log[0][1]
-    assert host.step(0.5 + 1e-9)["valid"]  # rounding
-    assert host.get("time") == pytest.approx(11.0)
+    assert host.step(0.5 + 9e-6)["valid"]  # as fmusim rounds
+    assert host.get("time") == pytest.approx(11.0, rel=1e-6)
 
 
 def test_the_first_step_begins_at_the_start_time(host):

@@ -55,7 +55,8 @@ def test_eight_threads_give_the_bits_of_one(c_host, quick_folder):
     alone.initialise()
     assert [alone.step(60.0) for _ in range(3)] == [OK] * 3
     crowd = range(1, 9)
-    calls = [("instantiate", 0, 1), ("setup", 0.0), ("enter",), ("exit",), *(("step", 60.0 * n, 60.0) for n in range(3))]
+    steps = [("step", 60.0 * n, 60.0) for n in range(3)]
+    calls = [("instantiate", 0, 1), ("setup", 0.0), ("enter",), ("exit",), *steps]
     for command, *words in calls:
         assert c_host.together((command, k, *words) for k in crowd).status == OK
     references = [fmu.variables[name].valueReference for name in OUTPUTS]
