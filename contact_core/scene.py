@@ -203,12 +203,13 @@ class Operation:
     spin: float = input_parameter("spin", default=0.0)
     body_temperature_1: float | None = input_parameter("body_temperature_1", default=None)
     body_temperature_2: float | None = input_parameter("body_temperature_2", default=None)
+    radius_x: float | None = input_parameter("radius_x", default=None)  # None: the geometry's
+    radius_y: float | None = input_parameter("radius_y", default=None)
 
     @property
     def point(self) -> OperatingPoint:
-        """The operating point of reference; its radii are the scene's."""
-        given = {f.name for f in fields(self)}
-        return OperatingPoint(**{f.name: getattr(self, f.name) for f in fields(OperatingPoint) if f.name in given})
+        """The operating point of reference."""
+        return OperatingPoint(**{f.name: getattr(self, f.name) for f in fields(OperatingPoint)})
 
 
 def _full_key(key: str, value: str) -> str:

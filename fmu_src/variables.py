@@ -119,9 +119,9 @@ def fidelity_of(level: str) -> int:
 
 
 def _start(scene: Scene, name: str) -> float:
-    """Start value of an input: the scene's; a body's temperature is the oil's if the scene says nothing else."""
-    value = getattr(scene.geometry if hasattr(scene.geometry, name) else scene.operation, name)
-    return float(scene.operation.temperature if value is None else value)
+    """Start value of an input: the operation's, else the geometry's radius, and for a body the oil's temperature."""
+    value = getattr(scene.operation, name)
+    return float(getattr(scene.geometry, name, scene.operation.temperature) if value is None else value)
 
 
 def of_quantity(

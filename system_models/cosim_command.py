@@ -46,7 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     system, settings = read(arguments.system, arguments.settings)
     if arguments.ssp:
-        return _export(system, arguments.ssp, settings.get("stop_time"))
+        return _export(system, arguments.ssp, settings)
     for key in ("stop_time", "step_size"):
         if key not in settings:
             raise ContactError(
@@ -85,13 +85,13 @@ def carry_out(
     return code
 
 
-def _export(system: "System", path: str, stop_time: float | None) -> int:
+def _export(system: "System", path: str, settings: Mapping[str, Any]) -> int:
     from .master import export_ssp
 
     left_out = [name for name in ("events", "bonds", "derivatives") if getattr(system, name)]
     if left_out:
         note(f"SSP has no place for {', '.join(left_out)}: importers do not learn of them.")
-    print(f"Written: {export_ssp(system, path, stop_time)}")
+    print(f"Written: {export_ssp(system, path, settings.get('stop_time'), settings.get('step_size'))}")
     return 0
 
 

@@ -76,7 +76,7 @@ class BallBearing(Part):
     name: ClassVar[str] = "BallBearing"
     text: ClassVar[str] = "Ball bearing: load distribution, motion of its contacts by classes, their torque and heat"
 
-    bearing: BallBearingGeometry
+    dimensions: BallBearingGeometry
     levels: int = parameter("", "classes of load on each race", least=1, most=50, default=3, shapes_arrays=True)
     first_ball: float = parameter("rad", "azimuth of ball 1 from y towards z", least=-7.0, most=7.0, default=0.0)
     tilt_stiffness: float = parameter(
@@ -89,7 +89,7 @@ class BallBearing(Part):
 
     def check(self) -> None:
         """Raise SceneError if the dimensions do not go together."""
-        self.bearing.check()
+        self.dimensions.check()
 
     @property
     def inputs(self) -> tuple[Input, ...]:
@@ -140,7 +140,7 @@ class BallBearing(Part):
             *(
                 told(indexed(f"load_ball_{race}", j), "Q_j", "N", 100.0, f"load of ball {j} on the {race} race")
                 for race in RACES
-                for j in range(1, self.bearing.balls + 1)
+                for j in range(1, self.dimensions.balls + 1)
             ),
         )  # fmt: skip
 
@@ -164,8 +164,8 @@ class BallBearing(Part):
         """What the contacts of all classes are to be built with, inner race first, for a design load and speed."""
         rest, found = self._at(loads, speed), []
         for race, classes in self._classes(rest):
-            shape, moving = self.bearing.race(race), motion(self.bearing, rest, race)
-            ways = track_lengths(self.bearing, shape, classes.count, moving)
+            shape, moving = self.dimensions.race(race), motion(self.dimensions, rest, race)
+            ways = track_lengths(self.dimensions, shape, classes.count, moving)
             rows = np.stack([classes.load, classes.count, speed * classes.ball, speed * classes.ring, classes.radius_x])
             for k, (row, way) in enumerate(zip(rows.T.tolist(), ways, strict=True), 1):
                 load, balls, ball, ring, radius = row
@@ -191,12 +191,12 @@ class BallBearing(Part):
         return self._at(RingLoads(*loads), speed, state)
 
     def _at(self, loads: RingLoads, speed: float, start: State | None = None) -> Equilibrium:
-        return solve(self.bearing, loads, speed, start, self.first_ball, self.tilt_stiffness)
+        return solve(self.dimensions, loads, speed, start, self.first_ball, self.tilt_stiffness)
 
     def _classes(self, rest: Equilibrium) -> Iterator[tuple[RaceName, Classes]]:
         for race, loads in zip(RACES, (rest.load_inner, rest.load_outer), strict=True):
-            moving = motion(self.bearing, rest, race)
-            yield race, classify(self.bearing, self.bearing.race(race), loads, moving, self.levels)
+            moving = motion(self.dimensions, rest, race)
+            yield race, classify(self.dimensions, self.dimensions.race(race), loads, moving, self.levels)
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
         """Value of each of `responses`, for the inputs as they are."""
@@ -226,7 +226,7 @@ class BallBearing(Part):
         moving = at_rest = 0.0
         for race, c in classes.items():
             felt = {name: np.abs(values) for name, values in self._received(race, inputs).items()}
-            sliding, lever = np.abs(c.sliding), self.bearing.race(race).spin_lever * np.cbrt(c.load)
+            sliding, lever = np.abs(c.sliding), self.dimensions.race(race).spin_lever * np.cbrt(c.load)
             force = felt["friction_force"] * sliding + felt["spin_torque"] * c.spin
             moving += float(c.count @ (force + 2.0 * felt["rolling_resistance"] * c.entrainment))
             at_rest += self.friction_at_rest * float(c.count @ (c.load * np.hypot(sliding, lever * c.spin)))
@@ -252,7 +252,7 @@ class BallBearing(Part):
 
     def _whole(self, rest: Equilibrium, speed: float) -> dict[str, float]:
         """The bearing as a whole, and each ball."""
-        driven, inner, outer = rest.load_inner > 0.0, self.bearing.inner, self.bearing.outer
+        driven, inner, outer = rest.load_inner > 0.0, self.dimensions.inner, self.dimensions.outer
         largest = float(rest.load_inner.max()), float(rest.load_outer.max())
         pressures = [
             race.ellipse(load).pressure_max for race, load in zip((inner, outer), largest, strict=True) if load

@@ -179,7 +179,7 @@ class BearingRun:
         return self._textbook(palmgren_torque, "by oil", "by load")
 
     def _textbook(self, formula: Formula, by_speed: str, by_load: str) -> Parts:
-        bearing, found = catalogue_of(self.bearing.bearing), np.full((2, self.time.size), np.nan)
+        bearing, found = catalogue_of(self.bearing.dimensions), np.full((2, self.time.size), np.nan)
         rows = np.stack([self.radial, self.axial, np.abs(self.speed), self.kinematic_viscosity], axis=1)
         for k in np.flatnonzero(self.runs):
             found[:, k] = formula(bearing, *rows[k].tolist())
@@ -211,11 +211,11 @@ class BearingRun:
 
     def pressure(self, race: RaceName, load: Array) -> Array:
         """Hertz's largest pressure [Pa] of balls with loads [N]."""
-        return self.bearing.bearing.race(race).unit.pressure_max * np.cbrt(load)
+        return self.bearing.dimensions.race(race).unit.pressure_max * np.cbrt(load)
 
     def balls(self, race: RaceName, row: int) -> tuple[Array, Array]:
         """Azimuth [rad] from -pi to pi and load [N] of each ball at a row, by rising azimuth."""
-        count = self.bearing.bearing.balls
+        count = self.bearing.dimensions.balls
         turn = self.bearing.first_ball + 2.0 * np.pi * np.arange(count) / count
         azimuth = np.remainder(turn + np.pi - 1e-12, 2.0 * np.pi) - np.pi + 1e-12
         load = np.array([self.of("bearing." + indexed(f"load_ball_{race}", j))[row] for j in range(1, count + 1)])
@@ -227,8 +227,8 @@ class BearingRun:
         loads, speed, part = self.ring_loads(row), float(self.speed[row]), self.bearing
         found: list[tuple[float, float]] = []
         start: tuple[float, ...] | None = None
-        for shift in np.arange(_POSITIONS) / _POSITIONS * 2.0 * np.pi / part.bearing.balls:
-            rest = solve(part.bearing, loads, speed, start, float(shift), part.tilt_stiffness)
+        for shift in np.arange(_POSITIONS) / _POSITIONS * 2.0 * np.pi / part.dimensions.balls:
+            rest = solve(part.dimensions, loads, speed, start, float(shift), part.tilt_stiffness)
             start, carried = rest.start, rest.load_inner if race == "inner" else rest.load_outer
             place = np.remainder(rest.azimuth + np.pi, 2.0 * np.pi) - np.pi
             found += zip(place.tolist(), carried.tolist(), strict=True)

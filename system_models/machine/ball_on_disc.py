@@ -17,7 +17,7 @@ from contact_core.errors import SceneError
 from contact_core.quantities import TABLE, Quantity
 
 from ..parts.load_arm import LoadArm
-from ..parts.spindle import Spindle
+from ..parts.spindle import OppositeSpindle, Spindle
 from ..parts.thermal import ThermalNetwork
 from . import reading, timeline
 from .assembly import Assembly, Contact, Schedule
@@ -43,7 +43,7 @@ def assemble(machine: reading.Machine) -> Assembly:
     table = machine.table
     parts = {
         "ball": reading.record(Spindle, table, "ball"),
-        "disc": reading.record(Spindle, table, "disc"),
+        "disc": reading.record(OppositeSpindle, table, "disc"),
         "arm": reading.record(LoadArm, table, "arm"),
         "bath": reading.record(ThermalNetwork, table, "bath"),
     }
@@ -68,7 +68,7 @@ def assemble(machine: reading.Machine) -> Assembly:
             ("arm.load", "contact.load"),
             ("bath.temperature_oil", "contact.temperature"),
             ("contact.friction_force", "ball.friction_force"),
-            ("contact.friction_force", "disc.friction_force", -1.0),
+            ("contact.friction_force", "disc.friction_force"),
             ("contact.rolling_resistance", "ball.rolling_resistance"),
             ("contact.rolling_resistance", "disc.rolling_resistance"),
             ("contact.heat_flow_1", "bath.heat_oil[1]"),

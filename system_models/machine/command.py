@@ -50,7 +50,7 @@ def _export(assembly: "Assembly", path: str) -> int:
 
     with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder:
         system = with_timetable(assembly).system(Path(folder), "isolated")
-        print(f"Written: {export_ssp(system, path, assembly.settings['stop_time'])}")
+        print(f"Written: {export_ssp(system, path, assembly.settings['stop_time'], assembly.settings['step_size'])}")
     return 0
 
 

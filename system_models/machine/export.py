@@ -1,12 +1,19 @@
-"""A machine for tools that import SSP: its duty as a component, because SSP knows no schedule."""
+"""A machine for tools that import SSP: its duty as a component, because SSP knows no schedule.
 
-from dataclasses import replace
+Not every importer tells the FMUs the parameters of the system: each starts with its own.
+"""
+
+from dataclasses import fields, replace
+from typing import Any
 
 from contact_core.errors import ContactError
-from contact_core.quantities import numbers
+from contact_core.quantities import LEVELS, numbers
+from contact_core.scene import OperatingPoint, Scene, with_values
+from fmu_src.variables import FIDELITY
 
+from ..parts.part import Start
 from ..parts.timetable import Entry, Signal, Timetable
-from .assembly import Assembly, Value
+from .assembly import Assembly, Contact, Schedule, Value
 
 _DUTY = "duty"
 
@@ -28,11 +35,26 @@ def with_timetable(assembly: Assembly) -> Assembly:
         links.append((f"{_DUTY}.{signal}", name))
     for name, part in assembly.parts.items():  # so that the file tells them
         constant |= {f"{name}.{key}": value for key, value, _ in numbers(part) if isinstance(value, float)}
-    parts = {**assembly.parts, **({_DUTY: Timetable(tuple(signals))} if signals else {})}
+    started = {name: replace(part, starts=_starts(name, assembly.schedule)) for name, part in assembly.parts.items()}
     return replace(
         assembly,
-        parts=parts,
+        parts={**started, **({_DUTY: Timetable(tuple(signals))} if signals else {})},
+        contacts={name: replace(contact, scene=_as_told(contact)) for name, contact in assembly.contacts.items()},
         connections=(*assembly.connections, *links),
         parameters={**assembly.parameters, **constant},
         schedule={},
     )
+
+
+def _starts(part: str, schedule: Schedule) -> tuple[Start, ...]:
+    """The inputs of a part that the duty sets, as it does at first."""
+    first = ((name.partition("."), steps[0][1]) for name, steps in schedule.items())
+    return tuple(Start(variable, float(value)) for (owner, _, variable), value in first if owner == part)
+
+
+def _as_told(contact: Contact) -> Scene:
+    """The scene with what its FMU is told."""
+    told: dict[str, Any] = dict(contact.parameters)
+    scene = contact.scene.at_level(LEVELS[int(told.pop(FIDELITY)) - 1]) if FIDELITY in told else contact.scene
+    inputs: dict[str, Any] = {f.name: told.pop(f.name) for f in fields(OperatingPoint) if f.name in told}
+    return replace(with_values(scene, told), operation=replace(scene.operation, **inputs))

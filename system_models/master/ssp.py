@@ -1,8 +1,10 @@
 """Export of a system as SSP 1.0, the exchange format for systems of FMUs [1].
 
 What the format can say is in the file: the FMUs, their connections with units and factors, parameters and start values.
-How the system is to be simulated, and what is only watched, stays out of it: algorithm, step size, tolerances, events,
-power bonds and derivatives. Inputs that change by a schedule would change what is simulated, so they are refused.
+How the system is to be simulated, and what is only watched, stays out of it: algorithm, tolerances, events, power bonds
+and derivatives. Inputs that change by a schedule would change what is simulated, so they are refused.
+
+A step size has no place in SSP 1.0. It is proposed in an annotation of OMSimulator, which reads no file without it [2].
 
 Where a connection converts units, the conversion is written into its transformation, and importers are told to do none
 (suppressUnitConversion): many of them do none anyway, and would give a wrong result without a word.
@@ -10,12 +12,14 @@ Where a connection converts units, the conversion is written into its transforma
 FMI 3.0 came after SSP 1.0. Its variables are written with the nearest type; not every importer takes such FMUs.
 
 [1] Modelica Association, System Structure and Parameterization 1.0, 2019, https://ssp-standard.org.
+[2] Open Source Modelica Consortium, OMSimulator, schema/oms.xsd, https://github.com/OpenModelica/OMSimulator.
 """
 
 import math
 import re
 import zipfile
 from collections.abc import Iterable
+from decimal import Decimal
 from pathlib import Path
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element, SubElement
@@ -31,22 +35,27 @@ from .system import Connection, Port, System, Value
 _SPACES = {
     name: f"http://ssp-standard.org/SSP1/SystemStructure{title}"
     for name, title in (("ssd", "Description"), ("ssc", "Common"), ("ssv", "ParameterValues"))
-}
+} | {"oms": "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd"}
 _TYPES = {"real": "Real", "float": "Real", "integer": "Integer", "boolean": "Boolean", "string": "String"}
 _BASE = ("kg", "m", "s", "A", "K", "mol", "cd", "rad", "factor", "offset")
 _EPOCH = (1980, 1, 1, 0, 0, 0)  # of every entry: the same system gives the same bytes
 
 
-def export_ssp(system: System, path: str | Path, stop_time: float | None = None) -> Path:
-    """Write a system and its FMUs into an .ssp file, and return its path; stop_time [s] is a proposal to its importers.
+def export_ssp(
+    system: System, path: str | Path, stop_time: float | None = None, step_size: float | None = None
+) -> Path:
+    """Write a system and its FMUs into an .ssp file, and return its path.
 
+    stop_time and step_size [s] are proposals to its importers; without step_size OMSimulator cannot read the file.
     Raises CouplingError if a schedule has more than a start value, or if the file cannot be written.
     """
     path = Path(path)
-    if stop_time is not None and not (math.isfinite(stop_time) and stop_time > 0.0):
-        raise CouplingError(f"stop_time = {stop_time!r} must be a time above 0 s. Give one, or leave it out.")
+    for name, time in (("stop_time", stop_time), ("step_size", step_size)):
+        if time is not None and not (math.isfinite(time) and time > 0.0):
+            raise CouplingError(f"{name} = {time!r} must be a time above 0 s. Give one, or leave it out.")
     sources = _sources(system.models.values())
-    text = ElementTree.tostring(_structure(system, path.stem, stop_time, sources), "utf-8", xml_declaration=True)
+    root = _structure(system, path.stem, stop_time, step_size, sources)
+    text = ElementTree.tostring(root, "utf-8", xml_declaration=True)
     try:
         with zipfile.ZipFile(path, "w") as file:
             file.writestr(zipfile.ZipInfo("SystemStructure.ssd", _EPOCH), text, zipfile.ZIP_DEFLATED)
@@ -68,7 +77,9 @@ def _sources(models: Iterable[Model]) -> dict[Path, str]:
     return found
 
 
-def _structure(system: System, name: str, stop_time: float | None, sources: dict[Path, str]) -> Element:
+def _structure(
+    system: System, name: str, stop_time: float | None, step_size: float | None, sources: dict[Path, str]
+) -> Element:
     for prefix, uri in _SPACES.items():
         ElementTree.register_namespace(prefix, uri)
     tool = f"tribofmu {contact_core.__version__}"
@@ -90,6 +101,8 @@ def _structure(system: System, name: str, stop_time: float | None, sources: dict
         _add_parameters(component, [(system.port(name), value) for name, value in starts.items()], model)
     if system.connections:
         _add_connections(SubElement(top, _tag("ssd:Connections")), system.connections)
+    if step_size is not None:
+        _add_step_size(SubElement(top, _tag("ssd:Annotations")), step_size)
     if units:
         listed = SubElement(root, _tag("ssd:Units"))
         for unit, base in sorted(units.items()):
@@ -187,3 +200,11 @@ def _add_connections(parent: Element, connections: Iterable[Connection]) -> None
         if (connection.factor, connection.offset) != (1.0, 0.0):
             factor, offset = repr(connection.factor), repr(connection.offset)
             SubElement(element, _tag("ssc:LinearTransformation"), factor=factor, offset=offset)
+
+
+def _add_step_size(parent: Element, step_size: float) -> None:
+    """What OMSimulator writes for its master with fixed steps, in decimals, as its schema has them."""
+    annotation = SubElement(parent, _tag("ssc:Annotation"), type="org.openmodelica")
+    information = SubElement(SubElement(annotation, _tag("oms:Annotations")), _tag("oms:SimulationInformation"))
+    told = {"description": "oms-ma", "stepSize": f"{Decimal(repr(float(step_size))):f}", "relativeTolerance": "0.0001"}
+    SubElement(information, _tag("oms:FixedStepMaster"), told)

@@ -5,10 +5,10 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
-from contact_core.quantities import Quantity, Role
+from contact_core.quantities import Quantity, Role, parameter
 
 Values = Mapping[str, float]  # by name, SI
 State = tuple[float, ...]  # all that the next answer depends on beside parameters and inputs
@@ -30,16 +30,27 @@ class Output(Quantity):
 
 
 @dataclass(frozen=True)
+class Start:
+    """The value of an input, in its SI unit, where nothing sets it."""
+
+    name: str
+    value: float = parameter("", "value in the input's SI unit")
+
+
+@dataclass(frozen=True)
 class Part(ABC):
     """A component: a frozen dataclass of numbers declared by `quantities.parameter`, which become the FMU's parameters.
 
     Fields that are whole numbers, records or tuples of records decide which variables it has and are fixed when the
-    FMU is built. `check` raises SceneError, `initial`, `advance` and `outputs` ContactError with a sentence that names
-    the variable, its value, what is allowed and the way out.
+    FMU is built; `starts` has inputs that start elsewhere than they say. `check` raises SceneError, `initial`,
+    `advance` and `outputs` ContactError with a sentence that names the variable, its value, what is allowed and the
+    way out.
     """
 
     name: ClassVar[str]  # of the FMU's model, such as "Shaft"
     text: ClassVar[str]  # one line for its description
+
+    starts: tuple[Start, ...] = field(default=(), kw_only=True)
 
     @property
     @abstractmethod
@@ -70,6 +81,11 @@ class Part(ABC):
     @abstractmethod
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
         """Value of each of `responses`; those without `direct` do not look at `inputs`."""
+
+
+def start_values(part: Part) -> dict[str, float]:
+    """The value of each input where nothing sets it."""
+    return {q.name: q.start for q in part.inputs} | {start.name: start.value for start in part.starts}
 
 
 def indexed(name: str, number: int) -> str:

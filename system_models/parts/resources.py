@@ -9,8 +9,8 @@ from typing import Any
 
 import contact_core
 from contact_core.errors import SceneError
-from contact_core.quantities import out_of_range
-from contact_core.reading import build, unbuild
+from contact_core.quantities import out_of_range, value_out_of_range
+from contact_core.reading import build, did_you_mean, unbuild
 from fmu_src.flavours import Flavour
 from fmu_src.resources import identity, script
 
@@ -35,10 +35,19 @@ def guid(part: Part, flavour: Flavour) -> str:
 
 
 def check(part: Part) -> None:
-    """Raise SceneError if a number is out of its range, or some do not go together."""
+    """Raise SceneError if a number is out of its range, some do not go together, or no such input can start."""
     for sentence in out_of_range(part, ""):
         raise SceneError(sentence)
     part.check()
+    inputs = {q.name: q for q in part.inputs}
+    for start in part.starts:
+        if start.name not in inputs:
+            raise SceneError(
+                f"starts names no input: '{start.name}'.{did_you_mean(start.name, list(inputs))} "
+                f"The inputs of a {part.name} are {', '.join(inputs) or 'none'}."
+            )
+        for sentence in value_out_of_range(inputs[start.name], start.value):
+            raise SceneError(f"starts: {sentence}")
 
 
 @functools.lru_cache(maxsize=256)

@@ -18,7 +18,7 @@ from fmu_src.snapshot import Phase
 from fmu_src.variables import Value, Variable
 
 from . import resources
-from .part import Part, State
+from .part import Part, State, start_values
 from .variables import variables
 
 _MAGIC = "tribofmu part 1"
@@ -64,7 +64,7 @@ class PartSlave(GuardedSlave):
         Raises SceneError if it cannot be used.
         """
         part = resources.read(str(folder), cls.__module__)
-        inputs = {q.name: q.start for q in part.inputs}
+        inputs = start_values(part)
         with contextlib.suppress(ContactError):  # which the first instance will say
             part.outputs(part.advance(part.initial(inputs), inputs, _ANY_STEP), inputs)
 

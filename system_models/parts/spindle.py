@@ -11,7 +11,7 @@ from .part import Input, Output, Part, State, Values
 
 @dataclass(frozen=True)
 class Spindle(Part):
-    """J w' = T + R (F - F_r), T = J b (y - 2 w + w_s), y' = b (w_s - w).
+    """Body 1 of a contact: J w' = T + R (F - F_r), T = J b (y - 2 w + w_s), y' = b (w_s - w).
 
     The servo's gains make both poles -b: the speed follows its setpoint as w' = b (w_s - w) would, and a force moves it
     by R F / (J b) exp(-1) at most, after the time 1/b, and not for long.
@@ -19,6 +19,7 @@ class Spindle(Part):
 
     name: ClassVar[str] = "Spindle"
     text: ClassVar[str] = "Ball or disc of a rig on a servo motor that holds its surface speed"
+    sign: ClassVar[float] = 1.0  # of the friction force on this body, over that on body 1
 
     radius: float = parameter("m", "R, from the axis to the contact", least=1e-5, most=10.0)
     inertia: float = parameter("kg m2", "J, moment of inertia of motor, shaft and body", least=1e-9, most=1e6)
@@ -31,7 +32,7 @@ class Spindle(Part):
         """The speed wanted and what the contact does to the body."""
         return (
             Input("surface_speed_setpoint", "u_s", "m/s", "surface speed to hold", minimum=-100.0, maximum=100.0),
-            Input("friction_force", "F", "N", "friction force on this body along its surface speed"),
+            Input("friction_force", "F", "N", "friction force on body 1 of the contact"),
             Input("rolling_resistance", "F_r", "N", "resistance to rolling, against the surface speed", nominal=0.1),
         )
 
@@ -64,7 +65,8 @@ class Spindle(Part):
 
     def _acceleration(self, inputs: Values) -> float:
         """What the contact does to the body [rad/s2]."""
-        return self.radius * (inputs["friction_force"] - inputs["rolling_resistance"]) / self.inertia
+        friction = self.sign * inputs["friction_force"]
+        return self.radius * (friction - inputs["rolling_resistance"]) / self.inertia
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
         """Surface speed, torque and power."""
@@ -72,3 +74,10 @@ class Spindle(Part):
         setpoint = inputs["surface_speed_setpoint"] / self.radius
         torque = self.inertia * self.bandwidth * (memory - 2.0 * speed + setpoint)
         return {"surface_speed": speed * self.radius, "torque": torque, "power": torque * speed}
+
+
+@dataclass(frozen=True)
+class OppositeSpindle(Spindle):
+    """Body 2 of a contact, which feels the opposite of the friction force: J w' = T - R (F + F_r), the rest alike."""
+
+    sign: ClassVar[float] = -1.0

@@ -30,7 +30,7 @@ MESH = {"torque": 135.0, "speed_1": 230.0, "speed_2": 153.0, indexed("friction_f
 SHAFTS = {"drive_torque": 60.0, "speed_drive": 205.0, "brake_torque": 90.0, "friction_torque_1": -1.0}
 SIGNAL = Signal("load", "N", (Entry(0.0, 20.0), Entry(0.06, 35.0), Entry(0.5, 5.0)))
 SYSTEMS: dict[str, tuple[Part, dict[str, float]]] = {
-    "bearing": (BallBearing(bearing=BEARING_209, levels=2), BEARING),
+    "bearing": (BallBearing(dimensions=BEARING_209, levels=2), BEARING),
     "mesh": (GearMesh(pair=FZG_C, stations=5), MESH),
     "shafts": (
         GearShafts(pair=FZG_C, inertia_1=0.01, inertia_2=0.03, stiffness=1e8, coupling=2.0, start_speed=200.0),

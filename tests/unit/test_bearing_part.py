@@ -13,7 +13,7 @@ from system_models.bearing.part import BallBearing
 from system_models.parts.part import indexed
 
 RACES = ("inner", "outer")
-PART = BallBearing(bearing=BEARING_209)
+PART = BallBearing(dimensions=BEARING_209)
 LOADED = {"force_x": 400.0, "force_y": 5000.0, "force_z": -900.0, "moment_y": 3.0, "moment_z": 2.0, "speed": 300.0}
 
 
@@ -26,7 +26,7 @@ def rubbing(part, friction=0.06, rolling=0.3, **given):
     inputs = inputs_of(part, **given)
     told = part.outputs(part.initial(inputs), inputs)
     for race in RACES:
-        shape = part.bearing.race(race)
+        shape = part.dimensions.race(race)
         for k in range(1, part.levels + 1):
             load, u1, u2, spin = (told[indexed(f"{name}_{race}", k)] for name in ("load", "speed_1", "speed_2", "spin"))
             lever = shape.spin_lever * load ** (1 / 3)
@@ -126,7 +126,7 @@ def test_advance_and_outputs_do_not_depend_on_the_state_but_for_rounding():
 
 
 def test_an_unloaded_bearing_gives_contacts_that_can_be_solved():
-    for part in (PART, BallBearing(bearing=BEARING_218, levels=1)):
+    for part in (PART, BallBearing(dimensions=BEARING_218, levels=1)):
         for speed in (0.0, 1000.0):
             told = told_by(part, inputs_of(part, speed=speed))
             assert told["unconverged"] == 0.0
@@ -178,4 +178,4 @@ def test_a_force_out_of_range_is_told_with_its_limits():
 def test_dimensions_that_do_not_go_together_are_refused(changes, said):
     values = {f: getattr(BEARING_209, f) for f in BEARING_209.__dataclass_fields__} | changes
     with pytest.raises(SceneError, match=said):
-        BallBearing(bearing=BallBearingGeometry(**values)).check()
+        BallBearing(dimensions=BallBearingGeometry(**values)).check()
