@@ -29,6 +29,8 @@ struct Instance {
     Limits limits;
     enum phase phase;    /* stepping: outputs stand until the next step, unless a direct input is set */
     int terminated;
+    int set_up;          /* the host has set up the experiment */
+    double experiment[3]; /* so; a state that is restored does not tell */
     int mending;         /* a worker that turns out to be lost is replaced */
     int stale;           /* outputs are older than what they depend on */
     Variable *variables; /* by value reference */
@@ -302,6 +304,10 @@ fmi2Status instance_do(Instance *instance, enum operation operation, const doubl
     fmi2Status status = request(instance, operation, numbers ? numbers : NONE, 0, 0, &rest);
     instance->stale = instance->phase != STEPPING;
     instance->terminated = operation == TERMINATE && done(status);
+    if (operation == SETUP && done(status)) {
+        instance->set_up = 1;
+        memcpy(instance->experiment, numbers, sizeof instance->experiment);
+    }
     return status;
 }
 
@@ -316,7 +322,11 @@ static fmi2Status renewed(Instance *instance, fmi2Status (*work)(Instance *, con
     if (had)
         warn(instance, "The process that runs the model was lost between two calls: %s A new one takes its place.",
              instance->why.text);
-    return done(open_worker(instance)) ? work(instance, state) : fmi2Error;
+    if (!done(open_worker(instance))) return fmi2Error;
+    Reader rest;
+    if (state && instance->set_up && !done(request(instance, SETUP, instance->experiment, 0, 0, &rest)))
+        return fmi2Error;
+    return work(instance, state);
 }
 
 static fmi2Status reset(Instance *instance, const State *state) {
@@ -326,7 +336,7 @@ static fmi2Status reset(Instance *instance, const State *state) {
 
 fmi2Status instance_reset(Instance *instance) {
     fmi2Status status = renewed(instance, reset, NULL);
-    if (done(status)) instance->terminated = 0;
+    if (done(status)) instance->terminated = instance->set_up = 0;
     return status;
 }
 

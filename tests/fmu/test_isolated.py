@@ -208,6 +208,22 @@ def test_a_worker_that_ends_between_calls_is_replaced(host, isolated_folder):
     assert rows(instance) == expected
 
 
+def test_a_stop_time_stands_after_the_worker_was_lost(host, isolated_folder):
+    instance = host.load(isolated_folder).instance()
+    assert [instance.ask(*call).status for call in (("setup", 2.0, 5.0), ("enter",), ("exit",), ("save", 0))] == [OK] * 4
+    (supervisor,) = host.supervisors()
+    for worker in children(supervisor):
+        os.kill(worker, signal.SIGKILL)
+    assert soon(lambda: children(supervisor) == [])
+    assert instance.ask("restore", 0).status == OK
+    assert instance.step(3.5) == ERROR
+    assert "goes beyond stopTime = 5.0 s" in instance.log[-1][3]
+    assert instance.step(3.0) == OK
+    assert instance.ask("reset").status == OK
+    assert set(instance.initialise()) == {OK}
+    assert instance.step(9.0) == OK
+
+
 def test_a_lost_supervisor_is_replaced(host, isolated_folder):
     instances = [started(host, isolated_folder, k) for k in range(2)]
     for k, instance in enumerate(instances):

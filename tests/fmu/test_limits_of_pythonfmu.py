@@ -185,6 +185,39 @@ def test_another_guid_is_refused(c_host, quick_folder):
     assert instance.created.status != OK
 
 
+@limit("pythonfmu does not look at the kind of interface")
+def test_an_instance_for_model_exchange_is_refused(quick_folder):
+    with hosted(quick_folder) as host:
+        assert not instantiated(host, 0, (quick_folder / "resources").as_uri().encode())
+
+
+@limit("pythonfmu makes a text of the location before it looks at it")
+def test_an_instance_without_resources_does_no_harm_to_the_host(quick_folder):
+    assert exit_code(quick_folder, "from test_limits_of_pythonfmu import instantiated; instantiated(host, 1, None)") == 0
+
+
+@limit("pythonfmu does not look whether a text could be decoded")
+def test_a_text_that_is_no_utf_8_does_no_harm_to_the_host(quick_folder):
+    set_text = """
+import contextlib, gc
+from ctypes import c_char_p, c_uint
+from fmpy.fmi1 import FMICallException
+reference = host.variables["initial_state"].valueReference
+host.fmu.reset()
+with contextlib.suppress(FMICallException):  # it may refuse it
+    host.fmu.fmi2SetString(host.fmu.component, (c_uint * 1)(reference), 1, (c_char_p * 1)(b"\\xff\\xfe"))
+gc.collect()
+host.initialise()
+"""
+    assert exit_code(quick_folder, set_text) == 0
+
+
+def instantiated(host, interface: int, resources: bytes | None) -> int | None:
+    """Another instance of the FMU of `host`."""
+    fmu = host.fmu
+    return fmu.fmi2Instantiate(b"other", interface, fmu.guid.encode(), resources, ctypes.byref(fmu.callbacks), 0, 0)
+
+
 @limit("pythonfmu overwrites the handle it is given, and what that pointed to is kept for good")
 def test_a_state_that_is_saved_over_another_replaces_it(stepped):
     handle = stepped.fmu.getFMUstate()
