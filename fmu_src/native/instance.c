@@ -552,7 +552,7 @@ int instance_owns(const Instance *instance, const State *state) {
 
 /* Keep with a state the values that the host has seen in it. */
 static void keep_values(Instance *instance, State *state) {
-    if (instance->phase != STEPPING || instance->stale) return;
+    if (instance->phase != STEPPING) return; /* whose answers have the outputs as they are */
     state->values = malloc(instance->count * sizeof(double));
     for (size_t i = 0; state->values && i < instance->count; i++) state->values[i] = instance->variables[i].value;
     state->texts = instance->texts;
