@@ -7,7 +7,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property, lru_cache
-from operator import itemgetter
 
 from contact_core.errors import StateError
 from contact_core.scene import Scene
@@ -34,26 +33,28 @@ class Phase(StrEnum):
 
 
 class Layout:
-    """How the values of an FMU's variables are stored: texts in JSON, all else as 8 bytes each."""
+    """How the values of an FMU's variables are stored: 8 bytes each, and texts in JSON besides."""
 
     def __init__(self, starts: Sequence[Value]) -> None:
         """For variables of the types of these values."""
         self._types = tuple(map(type, starts))
         self.kinds = "".join(kind.__name__[0] for kind in self._types)
         self._texts = [k for k, kind in enumerate(self._types) if kind is str]
-        numbers = [k for k, kind in enumerate(self._types) if kind is not str]
-        self._numbers = itemgetter(*numbers)
-        self._row = struct.Struct(f"<{len(numbers)}d")
-        self._places = [*numbers, *self._texts]
+        self._row = struct.Struct(f"<{len(self._types)}d")
 
     def split(self, values: Values) -> tuple[tuple[Value, ...], bytes]:
         """The texts in `values`, and the numbers as bytes."""
-        return tuple([values[k] for k in self._texts]), self._row.pack(*self._numbers(values))
+        numbers = list(values)
+        for k in self._texts:
+            numbers[k] = 0.0
+        return tuple([values[k] for k in self._texts]), self._row.pack(*numbers)
 
     def joined(self, texts: Sequence[str], numbers: bytes) -> Values:
         """What was split."""
-        found = dict(zip(self._places, (*self._row.unpack(numbers), *texts), strict=True))
-        return tuple([kind(found[k]) for k, kind in enumerate(self._types)])
+        found = list(self._row.unpack(numbers))
+        for k, text in zip(self._texts, texts, strict=True):
+            found[k] = text
+        return tuple([kind(value) for kind, value in zip(self._types, found, strict=True)])
 
 
 @dataclass(frozen=True, eq=False)

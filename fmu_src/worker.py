@@ -120,8 +120,9 @@ class Worker:
             if back:
                 self._slave._set_fmu_state(self._saved[back])
             offset = _REQUEST.size + 8 * forgotten
-            for (number,) in _COUNT.iter_unpack(message[_REQUEST.size : offset]):
-                self._saved.pop(number, None)
+            if forgotten:
+                for (number,) in _COUNT.iter_unpack(message[_REQUEST.size : offset]):
+                    self._saved.pop(number, None)
             if sets:
                 self._set(message, offset, sets)
             results = self._do(operation, state, numbers, message[len(message) - size :])
@@ -171,7 +172,7 @@ class Worker:
         if slave is not None and (queue := slave._get_log_queue()):
             entries += [(message.status.value, message.category, message.msg) for message in queue]
             queue.clear()
-        status = max((entry[0] for entry in entries), default=_OK)
+        status = max(entry[0] for entry in entries) if entries else _OK
         if values:
             return [self._row.pack(status, phase, len(values), len(entries), *values), *map(_entry, entries)]
         return [_ANSWER.pack(status, phase, 0, len(entries)), *map(_entry, entries)]
