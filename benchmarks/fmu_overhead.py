@@ -4,13 +4,19 @@
 
 Writes docs/fmu_overhead.md. All of it in one run, for each flavour: the median and the 90 % range of the time of one
 round trip (set one input, step, get five outputs) of an empty slave and of mtm_zddp at the fast level, called directly,
-through fmpy, and from a host in C that knows nothing of Python, all on one CPU; the same in C with processes that may
-change their CPU; of three passes that with the smallest median. Then how long it takes until the instances in the host
-in C have made their first step, and the memory of all processes by then (PSS: a page that n processes share counts 1/n
-in each). Needs gcc, and a shared library of Python for the embedded flavour in C.
+through fmpy, and from a host in C that knows nothing of Python, all on one CPU; the same in C with the state saved before
+each step, and restored and freed after it ("taken back"), and with processes that may change their CPU; of three passes
+that with the smallest median. "direct call, other process between" times the direct call only, each after a byte went
+to another process and back: the change of processes makes the model itself slower, whose caches and predictions the
+CPU has lost meanwhile. Then how long it takes until the instances in the host in C have made their first step, and the
+memory of all processes by then (PSS: a page that n processes share counts 1/n in each). Last, the contact's state
+(ContactState) after a step at the fast level, of fresh surfaces and of such as the deterministic level has left: its size,
+and the medians of the times to make its parts, which a saved state is, and to make a state of its bytes. Needs gcc, and a
+shared library of Python for the embedded flavour in C.
 """
 
 import os
+import subprocess
 import sys
 import tempfile
 import time
@@ -26,7 +32,7 @@ import numpy as np
 from fmpy.simulation import instantiate_fmu
 from regression_cost import unit
 
-from contact_core import Scene, advance, initial_state
+from contact_core import ContactState, Scene, advance, initial_state
 from fmu_src.build import build
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "fmu"))
@@ -36,7 +42,7 @@ from processes import children
 
 ROUNDS, PASSES, STEP, FIRST = 5_000, 3, 1e-3, 60.0  # -, -, s, s
 READ = ("friction_force", "friction_coefficient", "power_loss", "heat_flow_1", "heat_flow_2")
-CROWDS = (1, 20, 50)
+CROWDS, STATES = (1, 20, 50), 200
 SCENE = Scene.from_toml("mtm_zddp").at_level("regression")
 
 
@@ -104,6 +110,20 @@ def contact_directly() -> Iterator[None]:
         yield
 
 
+def contact_between_processes() -> list[float]:
+    """Microseconds of direct calls, before each of which another process of this CPU had its turn."""
+    rounds = contact_directly()
+    found = []
+    with subprocess.Popen(["cat"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0) as other:
+        for _ in range(ROUNDS):
+            other.stdin.write(b".")
+            other.stdout.read(1)
+            start = time.perf_counter_ns()
+            next(rounds)
+            found.append((time.perf_counter_ns() - start) / 1e3)
+    return found
+
+
 def empty_directly() -> Iterator[None]:
     slave = Empty(instance_name="", resources="")
     for i in range(ROUNDS):
@@ -140,12 +160,12 @@ def ready(host: NativeHost, folder: Path, count: int) -> list[Instance]:
     return instances
 
 
-def in_c(program: Path, environment: dict[str, str], folder: Path, duty: Duty) -> list[float]:
-    """Microseconds of each round trip."""
+def in_c(program: Path, environment: dict[str, str], folder: Path, duty: Duty, command: str = "bench") -> list[float]:
+    """Microseconds of each round trip; `retry`: of each that is taken back by the state saved before."""
     host = NativeHost(program, environment)
     (instance,) = ready(host, folder, 1)
     references = [instance.fmu.variables[name].valueReference for name in (duty.input, *duty.outputs)]
-    answer = instance.ask("bench", ROUNDS, FIRST, STEP, references[0], *duty.values, *references[1:])
+    answer = instance.ask(command, ROUNDS, FIRST, STEP, references[0], *duty.values, *references[1:])
     host.close()
     return [float(value) / 1e3 for value in answer.values]
 
@@ -187,6 +207,8 @@ def ways(program: Path, folder: Path) -> Iterator[Way]:
     """All that are compared; the direct call of each slave comes first."""
     for slave, duty, directly in (("empty", EMPTY, empty_directly), ("mtm_zddp", CONTACT, contact_directly)):
         yield Way(slave, "direct call", lambda directly=directly: timed(directly()))
+        if slave == "mtm_zddp":
+            yield Way(slave, "direct call, other process between", contact_between_processes)
         for flavour in FLAVOURS:
             fmu = flavour.empty(folder) if slave == "empty" else flavour.contact(folder)
             yield Way(slave, f"{flavour.name}, fmpy", partial(_timed_in_fmpy, fmu, duty))
@@ -194,6 +216,7 @@ def ways(program: Path, folder: Path) -> Iterator[Way]:
             if environment is not None:
                 run = partial(in_c, program, environment, fmu, duty)
                 yield Way(slave, f"{flavour.name}, host in C", run)
+                yield Way(slave, f"{flavour.name}, host in C, taken back", partial(run, "retry"))
                 yield Way(slave, f"{flavour.name}, host in C, any CPU", run, pinned=False)
 
 
@@ -228,6 +251,24 @@ def crowds(program: Path, folder: Path) -> Iterator[str]:
             yield f"| {flavour.name} | {count} | {taken:.2f} | {memory:.0f} | {processes} |"
 
 
+def states() -> Iterator[str]:
+    """Rows of the table of states."""
+    point, fresh = SCENE.operation.point, initial_state(SCENE)
+    solved, _ = advance(SCENE.at_level("deterministic"), point, fresh, STEP)
+    for name, state in (("fresh", fresh), ("from the deterministic level", solved)):
+        made, read = [], []
+        for _ in range(STATES):
+            state, _ = advance(SCENE, point, state, STEP)
+            start = time.perf_counter_ns()
+            state.parts()
+            made.append(time.perf_counter_ns() - start)
+            data = state.to_bytes()
+            start = time.perf_counter_ns()
+            ContactState.from_bytes(data, SCENE)
+            read.append(time.perf_counter_ns() - start)
+        yield f"| {name} | {len(data) / 1e3:.1f} | {np.median(made) / 1e3:.1f} | {np.median(read) / 1e3:.0f} |"
+
+
 def shown(rows: Iterator[str]) -> list[str]:
     found = []
     for line in rows:
@@ -252,6 +293,7 @@ def main() -> None:
         lines += ["", f"np.exp of nine numbers took {unit():.2f} us in the same run.", ""]
         lines += ["| flavour | instances | ready after [s] | memory [MB] | processes |", "|---|---|---|---|---|"]
         lines += shown(crowds(program, folder))
+    lines += ["", "| surfaces | state [kB] | made in [us] | read in [us] |", "|---|---|---|---|", *shown(states())]
     (Path(__file__).parents[1] / "docs" / "fmu_overhead.md").write_text("\n".join(lines) + "\n")
 
 

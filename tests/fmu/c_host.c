@@ -14,6 +14,7 @@
  *     set(r|i|b|s) K R VALUE ...  get(r|i|b|s) K R ...        step K T H       terminated K
  *     save|restore|freestate K S  (de)serialize K S FILE      derivative K R Q
  *     bench K N T H R A B Q ...   N times: set R to A or B in turn, step, get Q ...; nanoseconds of each time
+ *     retry K N T H R A B Q ...   the same, each step tried and taken back: save the state before, restore and free it
  *     cycles F N                  N times: instantiate and free
  *     later MS COMMAND ...        the command after so many milliseconds
  *     together N                  the next N commands, each in a thread of its own, all at once; the place at which
@@ -217,7 +218,7 @@ static int deserialize(char **field, int count)
 
 /* repetition */
 
-static int bench(char **field, int count)
+static int repeat(char **field, int count, int back)
 {
     Instance *host = instance(field);
     long n = atol(field[2]), done = 0;
@@ -229,10 +230,17 @@ static int bench(char **field, int count)
     int status = fmi2OK;
     for (; done < n && status == fmi2OK; done++) {
         struct timespec start, end;
+        fmi2FMUstate state = NULL;
         clock_gettime(CLOCK_MONOTONIC, &start);
+        if (back)
+            status |= host->fmu->GetFMUstate(host->component, &state);
         status |= host->fmu->SetReal(host->component, &input, 1, &value[done % 2]);
-        status |= host->fmu->DoStep(host->component, t + (double)done * h, h, 1);
+        status |= host->fmu->DoStep(host->component, back ? t : t + (double)done * h, h, !back);
         status |= host->fmu->GetReal(host->component, output, outputs, result);
+        if (back) {
+            status |= host->fmu->SetFMUstate(host->component, state);
+            status |= host->fmu->FreeFMUstate(host->component, &state);
+        }
         clock_gettime(CLOCK_MONOTONIC, &end);
         taken[done] = (end.tv_sec - start.tv_sec) * 1000000000LL + end.tv_nsec - start.tv_nsec;
     }
@@ -243,6 +251,10 @@ static int bench(char **field, int count)
     free(taken);
     return status;
 }
+
+static int bench(char **field, int count) { return repeat(field, count, 0); }
+
+static int retry(char **field, int count) { return repeat(field, count, 1); }
 
 static int cycles(char **field, int count)
 {
@@ -376,7 +388,7 @@ static const struct {
     {"getr", get_reals, 2}, {"geti", get_integers, 2}, {"getb", get_booleans, 2}, {"gets", get_strings, 2},
     {"save", save, 3}, {"restore", restore, 3}, {"freestate", free_state, 3},
     {"serialize", serialize, 4}, {"deserialize", deserialize, 4}, {"derivative", derivative, 4},
-    {"bench", bench, 8}, {"cycles", cycles, 3}, {"together", together, 2}, {"fork", fork_child, 1},
+    {"bench", bench, 8}, {"retry", retry, 8}, {"cycles", cycles, 3}, {"together", together, 2}, {"fork", fork_child, 1},
     {"forks", forks, 4}, {"wait", wait_for_all, 1}, {"alarms", alarms, 2},
 };
 

@@ -224,6 +224,60 @@ def test_a_stop_time_stands_after_the_worker_was_lost(host, isolated_folder):
     assert instance.step(9.0) == OK
 
 
+def test_a_state_that_is_restored_shows_at_once_and_what_was_set_before_is_gone(host, isolated_folder):
+    instance = started(host, isolated_folder)
+    instance.ask("save", 0)
+    told, expected = [*instance.outputs().items(), instance.get("load")], rows(instance)
+    instance.ask("save", 1)
+    instance.set(load=60.0, speed_1=0.3)
+    for slot in (1, 0):  # the last one counts
+        assert instance.ask("restore", slot).status == OK
+    assert [*instance.outputs().items(), instance.get("load")] == told
+    assert rows(instance) == expected
+    assert instance.ask("restore", 0).status == OK
+    instance.ask("save", 2)  # which is the same state then
+    instance.step(1.0, load=60.0)
+    assert instance.ask("restore", 2).status == OK
+    assert rows(instance) == expected
+
+
+def test_a_state_may_be_freed_as_soon_as_it_was_restored(host, isolated_folder):
+    instance = started(host, isolated_folder)
+    instance.ask("save", 0)
+    expected = rows(instance)
+    assert [instance.ask(command, 0).status for command in ("restore", "freestate")] == [OK] * 2
+    assert rows(instance) == expected
+    assert {status for _, status, _, _ in instance.log} <= {OK}
+
+
+def test_a_worker_that_ends_after_a_restore_is_replaced_at_the_next(host, isolated_folder):
+    instance = started(host, isolated_folder)
+    instance.ask("save", 0)
+    expected = rows(instance)
+    assert instance.ask("restore", 0).status == OK
+    (supervisor,) = host.supervisors()
+    (worker,) = children(supervisor)
+    os.kill(worker, signal.SIGKILL)
+    assert soon(lambda: not alive(worker))
+    assert instance.step(1.0) == ERROR
+    assert instance.ask("restore", 0).status == OK
+    assert rows(instance) == expected
+
+
+def test_texts_come_back_with_the_state(host, isolated_folder):
+    instance = started(host, isolated_folder)
+    instance.ask("save", 0)
+    expected = rows(instance)
+    assert instance.ask("reset").status == OK
+    instance.initialise(initial_state="/nowhere")
+    instance.step(1.0)
+    assert [*instance.get("valid"), *instance.get("initial_state")] == [0, "/nowhere"]
+    for _ in range(2):
+        assert instance.ask("restore", 0).status == OK
+        assert [*instance.get("valid"), *instance.get("initial_state")] == [1, ""]
+        assert rows(instance) == expected
+
+
 def test_a_lost_supervisor_is_replaced(host, isolated_folder):
     instances = [started(host, isolated_folder, k) for k in range(2)]
     for k, instance in enumerate(instances):

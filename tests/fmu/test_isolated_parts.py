@@ -102,6 +102,16 @@ def torque(instance: Instance, drive: float) -> float:
     return COUPLING * (drive - instance.get("speed")[0])
 
 
+def test_a_state_saved_before_its_outputs_were_read_comes_back_with_them(shaft: Instance) -> None:
+    shaft.set(speed_drive=-20.0)
+    shaft.ask("save", 0)
+    expected = torque(shaft, -20.0)
+    for drive in (7.0, 8.0):
+        shaft.set(speed_drive=drive)
+        shaft.ask("restore", 0)
+        assert shaft.get("speed_drive", "torque_coupling") == [-20.0, expected]
+
+
 def test_outputs_follow_at_once_the_inputs_they_name(shaft: Instance) -> None:
     before = shaft.outputs()
     assert before["torque_coupling"] == torque(shaft, DRIVE)
