@@ -54,8 +54,8 @@ VARIABLES: dict[Flavour, dict[str, str]] = {
         "TRIBOFMU_PYTHON": "path of the Python that has the packages; without it the one recorded when the FMU was "
         "built, if any, then python3 on PATH",
         "TRIBOFMU_TIMEOUT": "longest time of a call in seconds, after which it ends with an error; without it, none",
-        "TRIBOFMU_START_TIMEOUT": "longest time of a start in seconds; without it, 120, or TRIBOFMU_TIMEOUT if that is more",
-        "NUMBA_CACHE_DIR": "folder for compiled kernels, where neither the packages' folder nor the home can be written",
+        "TRIBOFMU_START_TIMEOUT": "longest time of a start in seconds; without it, 120 or TRIBOFMU_TIMEOUT, if more",
+        "NUMBA_CACHE_DIR": "folder for compiled kernels; without it the packages', the user's cache or a private one",
     },
     "embedded": {
         "LD_PRELOAD": "Linux, host without Python: path of libpython3.x.so",

@@ -210,7 +210,8 @@ def test_a_worker_that_ends_between_calls_is_replaced(host, isolated_folder):
 
 def test_a_stop_time_stands_after_the_worker_was_lost(host, isolated_folder):
     instance = host.load(isolated_folder).instance()
-    assert [instance.ask(*call).status for call in (("setup", 2.0, 5.0), ("enter",), ("exit",), ("save", 0))] == [OK] * 4
+    calls = (("setup", 2.0, 5.0), ("enter",), ("exit",), ("save", 0))
+    assert [instance.ask(*call).status for call in calls] == [OK] * 4
     (supervisor,) = host.supervisors()
     for worker in children(supervisor):
         os.kill(worker, signal.SIGKILL)

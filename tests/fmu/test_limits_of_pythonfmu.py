@@ -193,7 +193,8 @@ def test_an_instance_for_model_exchange_is_refused(quick_folder):
 
 @limit("pythonfmu makes a text of the location before it looks at it")
 def test_an_instance_without_resources_does_no_harm_to_the_host(quick_folder):
-    assert exit_code(quick_folder, "from test_limits_of_pythonfmu import instantiated; instantiated(host, 1, None)") == 0
+    code = "from test_limits_of_pythonfmu import instantiated; instantiated(host, 1, None)"
+    assert exit_code(quick_folder, code) == 0
 
 
 @limit("pythonfmu does not look whether a text could be decoded")
