@@ -2,6 +2,7 @@
 
 import math
 import zipfile
+from dataclasses import replace
 from xml.etree import ElementTree as ET
 
 import fmpy
@@ -202,6 +203,12 @@ def test_outputs_depend_on_the_state_between_steps_and_on_every_known_at_the_sta
     assert all(u.dependencies == [] for u in description.outputs)
     assert [u.variable for u in description.initialUnknowns] == outputs
     assert all(u.dependencies is None for u in description.initialUnknowns)  # which says all
+
+
+def test_radii_start_at_the_operations_else_at_the_geometrys(scene):
+    told = replace(scene, operation=replace(scene.operation, radius_x=0.007))
+    starts = {v.name: v.start for v in variables(told)}
+    assert (starts["radius_x"], starts["radius_y"]) == (0.007, scene.geometry.radius_y)
 
 
 def test_the_default_experiment_is_the_scenes_operation(description, scene):

@@ -1,9 +1,11 @@
 """The FMU of every component: valid, the component's own functions bit for bit, and it goes on after a bad input."""
 
 import math
+import re
 import sys
 import zipfile
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,13 +15,14 @@ from fmpy.model_description import read_model_description
 from fmpy.validation import validate_fmu
 from fmu_host import Host, hosted, unpacked
 
+from contact_core.errors import SceneError
 from system_models.bearing.geometry import BEARING_209
 from system_models.bearing.part import BallBearing
 from system_models.gear.geometry import FZG_C
 from system_models.gear.mesh import GearMesh
 from system_models.gear.shafts import GearShafts
 from system_models.parts.build import build
-from system_models.parts.part import Part, indexed
+from system_models.parts.part import Part, Start, indexed
 from system_models.parts.timetable import Entry, Signal, Timetable
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
@@ -192,3 +195,28 @@ def test_each_input_named_for_the_start_matters_there(example):
     part, inputs = example
     for name in part.at_start:
         assert part.initial(inputs | {name: inputs[name] + 1.0}) != part.initial(inputs)
+
+
+def test_inputs_start_where_the_component_says(tmp_path: Path) -> None:
+    part = replace(EXAMPLES["load_arm"][0], starts=(Start("load_setpoint", 40.0),))
+    folder = unpacked(build(part, tmp_path / "arm.fmu", "embedded"), tmp_path / "arm")
+    starts = {v.name: v.start for v in read_model_description(str(folder)).modelVariables if v.causality == "input"}
+    assert starts == {"load_setpoint": "40.0"}
+    with hosted(folder) as host:
+        host.initialise()
+        assert host.outputs()["load"] == part.outputs((40.0, 0.0), {})["load"]
+
+
+@pytest.mark.parametrize(
+    ("start", "says"),
+    [
+        (Start("load_setpiont", 40.0), "starts names no input: 'load_setpiont'. Did you mean 'load_setpoint'?"),
+        (
+            Start("load_setpoint", -1.0),
+            "starts: load_setpoint = -1 N (load to reach, ",
+        ),
+    ],
+)
+def test_starts_that_cannot_be_used_are_refused(start: Start, says: str, tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match=re.escape(says)):
+        build(replace(EXAMPLES["load_arm"][0], starts=(start,)), tmp_path / "arm.fmu", "embedded")

@@ -24,6 +24,7 @@ SPACES = {
     "ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription",
     "ssc": "http://ssp-standard.org/SSP1/SystemStructureCommon",
     "ssv": "http://ssp-standard.org/SSP1/SystemStructureParameterValues",
+    "oms": "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd",
 }
 MOTION = ["chassis.x", "chassis.v", "wheel.x", "wheel.v"]
 ROAD = [
@@ -58,11 +59,11 @@ def structure(file: Path) -> etree._Element:
         return etree.fromstring(archive.read("SystemStructure.ssd"))
 
 
-def imported(importer: str, file: Path, names: list[str]) -> np.ndarray:
+def imported(importer: str, file: Path, names: list[str], step: float = STEP, count: int = COUNT) -> np.ndarray:
     """Values after each step, a row for each."""
     script = str(Path(__file__).with_name("ssp_importers.py"))
     run = subprocess.run(
-        [sys.executable, script, importer, str(file), str(STEP), str(COUNT), *names], capture_output=True, text=True
+        [sys.executable, script, importer, str(file), str(step), str(count), *names], capture_output=True, text=True
     )
     if run.returncode == UNUSABLE:
         pytest.skip(f"{importer}: {run.stderr.strip()}")
@@ -90,6 +91,16 @@ def test_the_structure_is_valid(instrumented: System, folder: Path) -> None:
     for table in sets:
         schema.assertValid(etree.fromstring(etree.tostring(table)))
     assert root.find("ssd:DefaultExperiment", SPACES).attrib == {"startTime": "0.0", "stopTime": "2.0"}
+    assert root.find(".//ssd:Annotations", SPACES) is None
+
+
+def test_a_step_size_is_proposed_to_omsimulator(fmus: dict[str, Path], folder: Path) -> None:
+    file = export_ssp(System(fmus, ROAD), folder / "stepped.ssp", 2.0, 5e-5)
+    read_ssd(str(file))  # validates it
+    (annotation,) = structure(file).findall("ssd:System/ssd:Annotations/ssc:Annotation", SPACES)
+    assert annotation.get("type") == "org.openmodelica"
+    (master,) = annotation.findall("oms:Annotations/oms:SimulationInformation/oms:FixedStepMaster", SPACES)
+    assert master.attrib == {"description": "oms-ma", "stepSize": "0.00005", "relativeTolerance": "0.0001"}
 
 
 def test_connectors_have_kind_type_and_unit(fmus: dict[str, Path], folder: Path) -> None:
@@ -197,3 +208,5 @@ def test_what_cannot_be_written_is_refused(fmus: dict[str, Path], folder: Path) 
         export_ssp(System(fmus), folder / "no folder" / "x.ssp")
     with pytest.raises(CouplingError, match=r"stop_time = -1.0 must be a time above 0 s"):
         export_ssp(System(fmus), folder / "x.ssp", -1.0)
+    with pytest.raises(CouplingError, match=r"step_size = 0.0 must be a time above 0 s"):
+        export_ssp(System(fmus), folder / "x.ssp", 1.0, 0.0)

@@ -12,7 +12,7 @@ from system_models.parts.linear import advance
 from system_models.parts.load_arm import LoadArm
 from system_models.parts.shaft import Shaft
 from system_models.parts.speed_source import SpeedSource
-from system_models.parts.spindle import Spindle
+from system_models.parts.spindle import OppositeSpindle, Spindle
 
 
 @pytest.mark.parametrize("rate", [0.0, 1e-6, 1.0, 1e4, 1e8])
@@ -153,6 +153,12 @@ def test_a_settled_spindle_stays_and_its_motor_overcomes_both_resistances():
     outputs = SPINDLE.outputs(state, inputs)
     assert outputs["torque"] == pytest.approx(5.4 * 0.0095, rel=1e-10)
     assert outputs["power"] == pytest.approx(5.4 * 2.0, rel=1e-10)
+
+
+def test_body_2_of_a_contact_feels_the_opposite_friction_and_the_same_resistance_to_rolling():
+    second = OppositeSpindle(radius=0.0095, inertia=2e-4, bandwidth=40.0)
+    state = SPINDLE.initial(_inputs(2.0))
+    assert second.advance(state, _inputs(2.0, 5.0, 0.4), 0.02) == SPINDLE.advance(state, _inputs(2.0, -5.0, 0.4), 0.02)
 
 
 @pytest.mark.parametrize("damping", [0.0, 0.2, 1.0, 8.0])
