@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from .instance import Fmu, Instance, Row
-from .rows import STEPS, again, difference, rows_alone, rows_of
+from .rows import STEPS, again, difference, reals_of, rows_alone, rows_of
 from .variables import elsewhere, extremes, magnitude
 from .verdict import Answer, failed, not_applicable, noted, passed, some
 
@@ -174,9 +174,9 @@ def unusable(fmu: Fmu, notebook: Path) -> Answer:
     refused = 0
     with again(fmu) as get:
         instance = get()
-        before = _reals(fmu, instance)
+        before = reals_of(fmu, instance)
         already = _broken_after(instance, {})
-        moves = _reals(fmu, instance) != before
+        moves = reals_of(fmu, instance) != before
         for number, (name, value) in enumerate(settings):
             fmu.progress = f"{number} of {len(settings)} settings have been stepped with"
             instance, setting = get(), f"{name} = {value:g}"
@@ -185,7 +185,7 @@ def unusable(fmu: Fmu, notebook: Path) -> Answer:
                 refused += 1
             elif broken := sorted(instance.broken() - already):
                 spoilt.append(f"{setting} (into {some(broken, 1)})")
-            elif moves and _reals(fmu, instance) == before:
+            elif moves and reals_of(fmu, instance) == before:
                 still.setdefault(objection.said, []).append(setting)
     worth = []
     if spoilt:
@@ -196,12 +196,6 @@ def unusable(fmu: Fmu, notebook: Path) -> Answer:
         return noted(f"{'. '.join(worth)}: a host must check what it sets.")
     told = "".join(f" {len(s)} leave the outputs as they stand, with {said}." for said, s in still.items())
     return passed(f"{len(settings)} settings to NaN and inf: {refused} refused by status, no output spoilt.{told}")
-
-
-def _reals(fmu: Fmu, instance: Instance) -> Row:
-    """The Real outputs."""
-    row = instance.row()
-    return {v.name: row[v.name] for v in fmu.outputs if v.type == "Real"}
 
 
 def feedthrough(fmu: Fmu, notebook: Path) -> Answer:

@@ -1,7 +1,7 @@
 """Rules on calls that a host should not make, and on those at the edge: an FMU says so, and stands them."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
 
@@ -9,7 +9,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2ModelExchange
 
 from .instance import Fmu, Instance, RefusedError, Row
-from .rows import again, difference
+from .rows import again, difference, reals_of
 from .verdict import Answer, not_applicable, noted, passed, some
 
 _OTHER_GUID = "00000000-0000-0000-0000-000000000000"
@@ -89,14 +89,16 @@ def order(fmu: Fmu, notebook: Path) -> Answer:
     with fmu.instance() as instance:
         ask(instance, "a step before initialisation", instance.step)
     with again(fmu, steps=1) as get:
-        instance = get()
-        expected = [instance.row()]
-        instance.step()
-        expected.append(instance.row())
+        expected = list(_onward(fmu, get()))
         instance = get()
         ask(instance, "fmi2EnterInitializationMode after a step", instance.enter)
         ask(instance, "fmi2ExitInitializationMode after a step", instance.leave)
-        wrong = _changed(fmu, instance, expected)
+        rows: list[Row] = []
+        try:
+            rows.extend(_onward(fmu, instance))
+        except FMICallException:  # as FMI allows after an error
+            fmu.fault = ""
+        wrong = difference(rows, expected[: len(rows)])
     if wrong:
         return noted(f"After an initialisation mode that comes too late, {wrong}.")
     if accepted:
@@ -104,16 +106,11 @@ def order(fmu: Fmu, notebook: Path) -> Answer:
     return passed("A step before initialisation, and an initialisation after a step, are refused and change nothing.")
 
 
-def _changed(fmu: Fmu, instance: Instance, expected: list[Row]) -> str:
-    """What differs from undisturbed rows; nothing where it goes no further, as FMI allows after an error."""
-    rows = []
-    try:
-        rows.append(instance.row())
-        instance.step()
-        rows.append(instance.row())
-    except FMICallException:
-        fmu.fault = ""
-    return difference(rows, expected[: len(rows)])
+def _onward(fmu: Fmu, instance: Instance) -> Iterator[Row]:
+    """Outputs as they stand, and after another step."""
+    yield reals_of(fmu, instance)
+    instance.step()
+    yield reals_of(fmu, instance)
 
 
 def long_text(fmu: Fmu, notebook: Path) -> Answer | None:

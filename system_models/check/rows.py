@@ -24,6 +24,12 @@ def rows_alone(fmu: Fmu, first: int = 0) -> list[Row]:
         return rows_of(fmu, instance, first)
 
 
+def reals_of(fmu: Fmu, instance: Instance) -> Row:
+    """The Real outputs alone: others may tell what is wrong."""
+    row = instance.row()
+    return {v.name: row[v.name] for v in fmu.outputs if v.type == "Real"}
+
+
 def difference(rows: list[Row], expected: list[Row]) -> str:
     """The first output that differs, with both values, or nothing."""
     for number, (row, wanted) in enumerate(zip(rows, expected, strict=True)):
