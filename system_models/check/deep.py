@@ -47,14 +47,12 @@ RULES: dict[str, tuple[str, ...]] = {
 # FMI does not ask for it: whatever goes wrong there is worth a note
 _NOT_ASKED = {"resources", "communication_point", "order", "foreign_text", "reloading", "home", "children", "fork"}
 
-LIMIT, BUDGET = 120.0, 20.0  # s of a call, and of a rule
-
 _START = 60.0  # s until the first call at most
 _POLL = 0.1  # s between two looks at a process
 _LONGEST = 300  # characters of what a process has printed
 
 
-def findings(package: Package, limit: float = LIMIT, budget: float = BUDGET) -> Iterator[Finding]:
+def findings(package: Package, limit: float, budget: float) -> Iterator[Finding]:
     """Run every rule; a call of the FMU that takes longer than `limit` [s] has hung.
 
     A rule that takes longer than `budget` [s] is left with a note; but `run` may take as long as its calls.

@@ -10,9 +10,7 @@ from .verdict import Finding, Verdict, failed
 _WIDTH = max(map(len, [*static.RULES, *deep.RULES]))
 
 
-def findings(
-    package: Package, thorough: bool, limit: float = deep.LIMIT, budget: float = deep.BUDGET
-) -> Iterator[Finding]:
+def findings(package: Package, thorough: bool, limit: float, budget: float) -> Iterator[Finding]:
     """The static rules, and where `thorough` those that run the FMU: `limit` [s] is a call's, `budget` [s] a rule's."""
     for name, rule in static.RULES.items():
         try:

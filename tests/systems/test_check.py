@@ -51,7 +51,7 @@ def unchanged(text: str) -> str:
 
 def static_findings(fmu: Path) -> dict[str, Finding]:
     with opened(fmu) as package:
-        return {finding.rule: finding for finding in report.findings(package, False, 1.0)}
+        return {finding.rule: finding for finding in report.findings(package, False, 1.0, 1.0)}
 
 
 def verdicts(found: dict, verdict: Verdict) -> set[str]:
