@@ -33,6 +33,27 @@ _LONGEST = 300  # characters of a message, its end: there a traceback says what 
 _FEW = 100.0  # steps in an experiment that names no step
 
 
+_MESSAGES: list[str] = []  # of errors
+
+
+def _logged(component: int, name: bytes, status: int, category: bytes, message: bytes | None) -> None:
+    if status > 1 and message:
+        _MESSAGES.append(" ".join(message.decode("utf-8", "replace").split()))
+
+
+# fmpy hands the messages of all instances to the logger that was added last, even if that is gone: this one stays
+_LOGGER = fmi2CallbackLoggerTYPE(_logged)
+
+
+def _callbacks() -> fmi2CallbackFunctions:
+    callbacks = fmi2CallbackFunctions()
+    callbacks.logger = _LOGGER
+    callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
+    callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
+    addLoggerProxy(byref(callbacks))
+    return callbacks
+
+
 def call_in(trace: bytes) -> str:
     """The call that was made last, in a trace."""
     return trace.decode("utf-8", "replace").partition("\n")[0].partition(" ")[2]
@@ -66,7 +87,7 @@ class Fmu:
         self.outputs = [v for v in variables if v.causality == "output"]
         self.inputs = [v for v in variables if v.causality == "input" and v.type == "Real"]
         self.start_time, self.step = _experiment(self.description.defaultExperiment)
-        self.messages: list[str] = []  # of errors
+        _MESSAGES.clear()
         self.fault = ""  # the call that an instance has refused, and how
         self.where = ""  # what is unusual about the calls to come
         self.progress = ""  # what is known when the rule must end here
@@ -92,7 +113,7 @@ class Fmu:
 
     def complaint(self) -> str:
         """The end of the error that the FMU has told last."""
-        return self.messages[-1][-_LONGEST:] if self.messages else ""
+        return _MESSAGES[-1][-_LONGEST:] if _MESSAGES else ""
 
     @contextmanager
     def instance(self) -> Iterator["Instance"]:
@@ -167,23 +188,11 @@ class Instance:
             "fmuResourceLocation": Path(fmu.folder, "resources").absolute().as_uri(),
         } | instead
         self._fmu.arguments = [value.encode() if isinstance(value, str) else value for value in arguments.values()]
-        self._fmu.callbacks = self._callbacks()
+        self._fmu.callbacks = _callbacks()
         self._fmu.component = self._fmu.create()
         if self._fmu.component is None:
             self._fmu.freeLibrary()
             raise RefusedError(f"It cannot be instantiated{fmu.where}.")
-
-    def _callbacks(self) -> fmi2CallbackFunctions:
-        callbacks = fmi2CallbackFunctions()
-        callbacks.logger = fmi2CallbackLoggerTYPE(self._logged)
-        callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
-        callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
-        addLoggerProxy(byref(callbacks))
-        return callbacks
-
-    def _logged(self, component: int, name: bytes, status: int, category: bytes, message: bytes | None) -> None:
-        if status > 1 and message:
-            self._owner.messages.append(" ".join(message.decode("utf-8", "replace").split()))
 
     def _call(self, method: str, *arguments: Any, about: str = "") -> Any:
         call = f"fmi2{method.removeprefix('fmi2')[0].upper()}{method.removeprefix('fmi2')[1:]}{about}"
