@@ -19,6 +19,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from .worker import Buffer, Worker, slave_class
 
@@ -35,14 +36,13 @@ _PR_SET_PDEATHSIG = 1
 
 _libc = ctypes.CDLL(None, use_errno=True)
 _syscall = _libc.syscall
-_syscall.argtypes = [
-    ctypes.c_long,
-    ctypes.c_void_p,
-    ctypes.c_int,
-    ctypes.c_uint32,
-    *[ctypes.c_void_p] * 2,
-    ctypes.c_int,
-]
+
+
+def _futex(turn: ctypes.c_uint32, operation: int, value: int) -> tuple[Any, ...]:
+    """What a call of futex on the turn takes, as C has it: to convert it anew would take longer than the call."""
+    address, nothing = ctypes.c_void_p(ctypes.addressof(turn)), ctypes.c_void_p()
+    number, rest = ctypes.c_long(_FUTEX), ctypes.c_int(0)
+    return number, address, ctypes.c_int(operation), ctypes.c_uint32(value), nothing, nothing, rest
 
 
 class SharedMemory:
@@ -55,13 +55,13 @@ class SharedMemory:
     def _map(self) -> None:
         self._memory = mmap.mmap(self._file, os.fstat(self._file).st_size)
         self._turn = ctypes.c_uint32.from_buffer(self._memory)
-        self._address = ctypes.addressof(self._turn)
+        self._wake = _futex(self._turn, _WAKE, 1)
+        self._waits = [_futex(self._turn, _WAIT, whose) for whose in range(_LOST + 1)]
 
     def receive(self) -> bytes:
         """Wait for the host's next message."""
-        turn, address = self._turn, self._address
-        while (whose := turn.value) != _WORKER:
-            _syscall(_FUTEX, address, _WAIT, whose, None, None, 0)
+        while (whose := self._turn.value) != _WORKER:
+            _syscall(*self._waits[whose])
         capacity, size = _SIZES.unpack_from(self._memory, _AT_SIZES)
         if capacity > len(self._memory):
             self._map()
@@ -87,7 +87,7 @@ class SharedMemory:
 
     def _give(self, turn: int) -> None:
         self._turn.value = turn
-        _syscall(_FUTEX, self._address, _WAKE, 1, None, None, 0)
+        _syscall(*self._wake)
 
     def close(self) -> None:
         """Let the file go."""
