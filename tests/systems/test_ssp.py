@@ -17,6 +17,8 @@ from ssp_importers import UNUSABLE
 from contact_core import Scene
 from fmu_src.build import build as build_contact
 from system_models.master import CouplingError, System, export_ssp, simulate
+from system_models.parts.build import build as build_part
+from system_models.parts.shaft import Shaft
 
 STEP, COUNT = 0.01, 40
 SCHEMAS = Path(fmpy.ssp.__file__).parent / "schema"
@@ -156,6 +158,19 @@ def test_importers_set_the_level_of_a_contact(importer: str, folder: Path) -> No
     assert np.all(np.abs(fast - full) > 0.1 * full)
     file = export_ssp(systems[2], folder / "level.ssp")
     np.testing.assert_allclose(imported(importer, file, ["contact.h_c"]), full, rtol=1e-9)
+
+
+@pytest.mark.parametrize("importer", ["libcosimpy", "ecospy"])
+def test_importers_run_three_instances_of_an_isolated_fmu(importer: str, folder: Path) -> None:
+    """ecos loads and unloads the library at each instantiation, under the instances that there are."""
+    shaft = build_part(Shaft(inertia=0.5, coupling=3.0), folder / "shaft.fmu", python=sys.executable)
+    chain = [("first.speed", "second.speed_drive"), ("second.speed", "third.speed_drive")]
+    told = {"first.initial_speed": 80.0, "second.inertia": 0.2, "third.inertia": 0.1}
+    system = System(dict.fromkeys(("first", "second", "third"), shaft), chain, told)
+    names = [f"{name}.speed" for name in system.models]
+    theirs, ours = imported(importer, export_ssp(system, folder / "shafts.ssp"), names), own(system, names)
+    assert np.all(np.ptp(ours, axis=0) > 10.0)
+    np.testing.assert_allclose(theirs, ours[1:], rtol=1e-9)
 
 
 def test_fmpy_simulates_what_we_do(fmus: dict[str, Path], folder: Path) -> None:
