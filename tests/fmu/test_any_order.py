@@ -52,7 +52,7 @@ class Calls(RuleBasedStateMachine):
         self.slots = 0
 
     def teardown(self):
-        for slot in range(1, self.slots + 1):
+        for slot in self.kept:  # none twice, which ends pythonfmu's host
             self.called("freestate", slot)
         self.instance.free()
 
@@ -179,6 +179,7 @@ class Calls(RuleBasedStateMachine):
 
     @rule(state=consumes(states))
     def forget(self, state):
+        del self.kept[state]
         self.called("freestate", state)
 
     @precondition(lambda self: self.phase != "new")
