@@ -187,7 +187,7 @@ def crowd(program: Path, environment: dict[str, str], folder: Path, count: int) 
     host = NativeHost(program, environment)
     ready(host, folder, count)
     taken = time.perf_counter() - start
-    members = family(host.process.pid)
+    members = [member for pid in (host.process.pid, *host.supervisors()) for member in family(pid)]
     memory = sum(proportional_set_size(pid) for pid in members)
     host.close()
     return taken, memory, len(members)

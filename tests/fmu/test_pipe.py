@@ -54,7 +54,7 @@ class PipeHost:
         return data
 
     def ask(self, operation: Operation, payload: bytes = b"", numbers: tuple[float, ...] = (0.0, 0.0, 0.0)) -> bytes:
-        self.send(struct.pack("<IIQQQ3d", operation, 0, 0, 0, len(payload), *numbers) + payload)
+        self.send(struct.pack("<IIQQQQ3d", operation, 0, 0, 0, 0, len(payload), *numbers) + payload)
         return self.receive()
 
     def end(self) -> tuple[int, str]:
@@ -97,7 +97,7 @@ def test_it_is_ready_opens_steps_and_leaves_when_asked(resources: Path, scene: S
         _, phase, outputs, _ = struct.unpack_from("<IIQQ", answer)
         assert (status(answer), phase) == (OK, 2)  # after initialisation
         assert outputs > 20
-        host.send(struct.pack("<IIQQQ3d", Operation.QUIT, 0, 0, 0, 0, 0.0, 0.0, 0.0))
+        host.send(struct.pack("<IIQQQQ3d", Operation.QUIT, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0))
         assert host.end() == (0, "")
 
 
