@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import shutil
 import struct
 import subprocess
@@ -91,7 +92,8 @@ def status(answer: bytes) -> int:
 def test_it_is_ready_opens_steps_and_leaves_when_asked(resources: Path, scene: Scene) -> None:
     with PipeHost(resources) as host:
         opened(host, scene)
-        for operation in (Operation.SETUP, Operation.ENTER, Operation.EXIT):
+        assert status(host.ask(Operation.SETUP, numbers=(0.0, math.nan, math.nan))) == OK
+        for operation in (Operation.ENTER, Operation.EXIT):
             assert status(host.ask(operation)) == OK
         answer = host.ask(Operation.STEP, numbers=(0.0, 1.0, 0.0))
         _, phase, outputs, _ = struct.unpack_from("<IIQQ", answer)
