@@ -3,28 +3,24 @@
 Service accounts and containers often can write neither, and numba then refuses to compile what is to be kept.
 """
 
+import contextlib
 import os
 import stat
+import sys
 import tempfile
 import warnings
 from pathlib import Path
 
-import numba
-
 from ..errors import ContactError
 
 
-def _probe() -> None:
-    """A function of this folder, never called."""
-
-
 def ensure() -> str:
-    """Choose a private folder for compiled kernels if numba finds none that can be written.
+    """Choose a private folder for compiled kernels where numba would find none that can be written.
 
     Return the sentence that says so, and warn with it; empty if there was no need. Raises ContactError if there is no
-    such folder either.
+    such folder either. Loads no compiler: the fast level needs none.
     """
-    if _has_place():
+    if os.environ.get("NUMBA_CACHE_DIR") or any(map(_can_be_written, _places())):
         return ""
     try:
         folder = _private_folder()
@@ -33,7 +29,8 @@ def ensure() -> str:
             f"Compiled kernels can be kept nowhere ({error}). Set NUMBA_CACHE_DIR to a folder that can be written."
         ) from None
     os.environ["NUMBA_CACHE_DIR"] = str(folder)  # of child processes, too
-    setattr(numba.config, "CACHE_DIR", str(folder))  # noqa: B010  # numba declares it nowhere
+    if "numba" in sys.modules:
+        setattr(sys.modules["numba"].config, "CACHE_DIR", str(folder))  # noqa: B010  # numba declares it nowhere
     notice = (
         f"Neither the folder of contact_core nor the user's cache can be written: compiled kernels are kept in "
         f"'{folder}'. Set NUMBA_CACHE_DIR to a folder that lasts, and the first start will not be slow again."
@@ -42,12 +39,24 @@ def ensure() -> str:
     return notice
 
 
-def _has_place() -> bool:
+def _places() -> list[Path]:
+    """Where numba keeps what it has compiled of this folder's functions, if it can."""
+    beside = Path(__file__).with_name("__pycache__")
+    if sys.platform == "win32":
+        return [beside, Path(os.environ.get("LOCALAPPDATA", tempfile.gettempdir()))]
+    caches = "~/Library/Caches" if sys.platform == "darwin" else os.environ.get("XDG_CACHE_HOME", "~/.cache")
+    with contextlib.suppress(RuntimeError):  # a user without a home folder
+        return [beside, Path(caches).expanduser() / "numba"]
+    return [beside]
+
+
+def _can_be_written(folder: Path) -> bool:
     try:
-        numba.njit(cache=True)(_probe)
-    except RuntimeError:  # numba's, for "no locator available"
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return True
+    except OSError:
         return False
-    return True
 
 
 def _private_folder() -> Path:
