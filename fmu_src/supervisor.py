@@ -6,6 +6,7 @@ in a file in memory. The workers end with their supervisor, and the supervisor w
 
 import ctypes
 import faulthandler
+import fcntl
 import gc
 import mmap
 import os
@@ -77,6 +78,12 @@ class SharedMemory:
         self._memory[_AT_MESSAGE:end] = data
         _SIZES.pack_into(self._memory, _AT_SIZES, len(self._memory), len(data))
         self._give(_HOST)
+
+    def hold(self) -> None:
+        """Lock the file by a descriptor of its own, as long as this process lives: the host sees when it has ended."""
+        with suppress(OSError):  # where that cannot be, the supervisor's word must do
+            self._held = os.open(f"/proc/self/fd/{self._file}", os.O_RDWR | os.O_CLOEXEC)
+            fcntl.flock(self._held, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
     def lose(self, reason: str) -> None:
         """Tell the host that there is no worker any more."""
@@ -160,6 +167,7 @@ class Supervisor:
             return b"R"
         try:
             self._become_worker(supervisor, trace)
+            channel.hold()
             Worker(channel, self._resources).serve()
         except BaseException:
             os.write(trace, traceback.format_exc().encode("utf-8", "backslashreplace"))

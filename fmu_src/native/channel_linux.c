@@ -4,7 +4,8 @@
    the supervisor's last words on the worker, and room for one message. The supervisor takes orders over a socket
    (supervisor.py): "F", a number and the channel's file: fork a worker, answered by "R", or by "E" and why not; "K" and
    a number: kill it. When a worker ends, the supervisor writes why into the channel and takes its turn; when the host
-   ends, the socket closes, and the supervisor kills the workers and ends.
+   ends, the socket closes, and the supervisor kills the workers and ends. That a worker has ended shows before, as its
+   lock on the file is free then.
 
    The supervisor is no child of the host, which may wait for all of its own: the process that is started forks it and
    ends (start.py). The two have a process group of their own, by which they can be killed. */
@@ -20,6 +21,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
@@ -59,6 +61,7 @@ struct Channel {
     Supervisor *supervisor;
     uint64_t number;
     int file;
+    int watched; /* the worker holds a lock on the file while it lives */
     size_t mapped;
     struct head *head;
 };
@@ -372,6 +375,8 @@ static int answered(Channel *channel, double limit, Reason *why) {
 
 /* channels */
 
+static int locked(const Channel *channel) { return flock(channel->file, LOCK_SH | LOCK_NB) && errno == EWOULDBLOCK; }
+
 static Channel *channel_new(Reason *why) {
     Channel *channel = calloc(1, sizeof *channel);
     if (!channel) return NULL;
@@ -443,6 +448,7 @@ Channel *channel_open(const char *resources, const void *message, size_t *size, 
         channel->head->turn = WORKER;
         if (worker_ordered(channel, resources, limits, why) && answered(channel, limits.start, why)) {
             *size = channel->head->size;
+            channel->watched = locked(channel);
             return channel;
         }
     }
@@ -471,8 +477,15 @@ int channel_call(Channel *channel, size_t *size, double limit, Reason *why) {
 const unsigned char *channel_answer(const Channel *channel) { return (unsigned char *)channel->head + HEAD; }
 
 int channel_lost(Channel *channel, Reason *why) {
-    if (turn_of(channel) == LOST) return !lost_because(channel, why);
-    return hung_up(channel->supervisor) && !supervisor_lost(why);
+    const struct timespec pause = {0, 1000000};
+    double last = now() + END_LIMIT;
+    while (turn_of(channel) != LOST) {
+        if (hung_up(channel->supervisor)) return !supervisor_lost(why);
+        if (!channel->watched || locked(channel)) return 0;
+        if (now() > last) return snprintf(why->text, sizeof why->text, "Its supervisor does not say why.") > 0;
+        nanosleep(&pause, NULL);
+    }
+    return !lost_because(channel, why);
 }
 
 int channel_ours(Channel *channel, Reason *why) {

@@ -8,6 +8,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -223,6 +224,23 @@ def test_a_stop_time_stands_after_the_worker_was_lost(host, isolated_folder):
     assert instance.ask("reset").status == OK
     assert set(instance.initialise()) == {OK}
     assert instance.step(9.0) == OK
+
+
+def test_that_a_worker_has_ended_shows_before_its_supervisor_says_so(host, isolated_folder):
+    instance = started(host, isolated_folder)
+    instance.ask("save", 0)
+    expected = rows(instance)
+    (supervisor,) = host.supervisors()
+    (worker,) = children(supervisor)
+    os.kill(supervisor, signal.SIGSTOP)
+    os.kill(worker, signal.SIGKILL)
+    assert soon(lambda: not alive(worker))
+    goes_on = threading.Timer(0.2, os.kill, (supervisor, signal.SIGCONT))
+    goes_on.start()
+    assert instance.ask("restore", 0).status == OK
+    goes_on.join()
+    assert rows(instance) == expected
+    assert "killed by signal 9" in instance.log[-1][3]
 
 
 def test_a_state_that_is_restored_shows_at_once_and_what_was_set_before_is_gone(host, isolated_folder):
