@@ -33,8 +33,9 @@ LOG_CATEGORIES = {
 }
 
 
-_PART, _ROUNDED = 1e-3, 1e-12  # of a step and of a time: communication points that differ by less are the same
+_PART, _ROUNDED = 1e-6, 1e-12  # of a step and of a time: communication points that differ by less are the same
 _PAST = 1e-5  # s, and of the stop time: fmusim takes as much for rounding, and no host known takes more
+_HALF = 0.5  # of a step: more is none
 
 _WHEN = {
     Phase.NEW: "before initialisation",
@@ -168,7 +169,7 @@ class GuardedSlave(Fmi2Slave):
                 f"currentCommunicationPoint = {time!r} s must be {self._due!r} s, where the last step has ended. Begin "
                 "there, or restore a saved state. Nothing was done."
             )
-        if self._stop is not None and time + size > self._stop + _PAST * max(1.0, abs(self._stop)):
+        if self._stop is not None and time + size > self._stop + min(_HALF * length, _PAST * max(1.0, abs(self._stop))):
             raise StepError(
                 f"The step from {time!r} s to {time + size!r} s goes beyond stopTime = {self._stop!r} s. Give a later "
                 "one, or none, in fmi2SetupExperiment. Nothing was done."

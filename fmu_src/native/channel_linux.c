@@ -45,6 +45,7 @@ enum {
 /* seconds */
 #define END_LIMIT 2.0
 #define WATCH 0.05 /* between looks at the supervisor */
+#define ORDER_LIMIT 10.0 /* to fork a worker takes milliseconds: one that has not then is lost, and its workers with it */
 
 struct head {
     uint32_t turn, unused;
@@ -123,7 +124,7 @@ static void release(Supervisor *supervisor) {
     if (!left) finish(supervisor);
 }
 
-/* A fork finds what is shared whole, and talks to nobody. The workers are the parent's: the child has none, and does
+/* A fork finds what is shared whole. The workers are the parent's: the child has none, and does
    not keep them alive. */
 static void before_fork(void) { lock(&shared_lock); }
 
@@ -178,8 +179,9 @@ static int spawn(Supervisor *supervisor, const char *resources, const char *pyth
     sigfillset(&signals);
     posix_spawnattr_setsigdefault(&attributes, &signals);
     posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setflags(&attributes,
-                             POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+    /* old C libraries fork otherwise, and call our handlers, which wait for the lock that is held here */
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP |
+                                              POSIX_SPAWN_USEVFORK);
     errno = ENOMEM;
     if (start && environment)
         errno = posix_spawn(&supervisor->group, python, &files, &attributes, arguments, environment);
@@ -248,16 +250,16 @@ static Supervisor *supervisor_new(const char *resources, double limit, Reason *w
     if (supervisor) {
         supervisor->users = 1;
         supervisor->socket = -1;
+        lock(&shared_lock); /* no child of a fork may hold an end: it would hide that the other one is closed */
         if (!socket_pair(ends))
             failed(why, "There is no socket for the model's process");
         else {
-            lock(&shared_lock);
             supervisor->socket = ends[0];
             starting = supervisor;
-            unlock(&shared_lock);
             started = spawn(supervisor, resources, python, ends[1], why);
         }
         if (ends[1] >= 0) close(ends[1]);
+        unlock(&shared_lock);
         if (started) started = ready(supervisor, python, limit, why);
         lock(&shared_lock);
         starting = NULL;
@@ -418,7 +420,7 @@ static enum word worker_asked(Channel *channel, Supervisor *supervisor, double l
 
 /* Order a worker for the channel: of a new supervisor if the present one is lost, or does not answer. */
 static int worker_ordered(Channel *channel, const char *resources, Limits limits, Reason *why) {
-    double soon = limits.call > 0.0 && limits.call < limits.start ? limits.call : limits.start;
+    double soon = limits.start < ORDER_LIMIT ? limits.start : ORDER_LIMIT;
     lock(&talk_lock);
     channel->number = ++channels;
     Supervisor *supervisor = present();

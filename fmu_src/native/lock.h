@@ -19,8 +19,8 @@ static inline void lock(Lock *held) { pthread_mutex_lock(held); }
 static inline void unlock(Lock *held) { pthread_mutex_unlock(held); }
 #endif
 
-/* The lock of everything that instances share, in channel_*.c. It is held for moments only, never while waiting: a
-   fork of the host takes it, so that the child finds all of it whole. */
+/* The lock of everything that instances share, in channel_*.c. It is held for milliseconds at most, never while
+   waiting for another process: a fork of the host takes it, so that the child finds all of it whole. */
 extern Lock shared_lock;
 
 #endif

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,7 +41,7 @@ static int runs(const char *path) {
     struct stat found;
     if (stat(path, &found)) return 0;
     errno = EACCES;
-    return S_ISREG(found.st_mode) && access(path, X_OK) == 0;
+    return S_ISREG(found.st_mode) && faccessat(AT_FDCWD, path, X_OK, AT_EACCESS) == 0;
 }
 
 static char *on_path(const char *name) {

@@ -22,6 +22,7 @@
  *     fork                        a child that only waits; its process id
  *     forks K N F                 N times: a child that frees instance K and ends, while one thread instantiates and
  *                                 frees F and another makes calls; the number of children that did not end within 5 s
+ *     offspring K F N             N children that only wait, forked while a thread instantiates K; their process ids
  *     wait                        for all children, as a careless host does
  *     alarms MICROSECONDS         SIGALRM so often from now on; 0: no more
  */
@@ -281,7 +282,37 @@ static int fork_child(char **field, int count)
 #ifdef _WIN32
 static int forks(char **field, int count) { return NONE; }
 static int wait_for_all(char **field, int count) { return NONE; }
+static int offspring(char **field, int count) { return NONE; }
 #else
+static int first_status;
+
+static void *first(void *field)
+{
+    first_status = create(instance(field), &fmus[slot(((char **)field)[2], FMUS)], 1);
+    return NULL;
+}
+
+static int offspring(char **field, int count)
+{
+    pid_t children[FIELDS];
+    int n = slot(field[3], FIELDS);
+    pthread_t thread;
+    fflush(stdout);
+    if (pthread_create(&thread, NULL, first, field))
+        fail("no thread", field[3]);
+    for (int i = 0; i < n; i++) {
+        children[i] = fork();
+        while (children[i] == 0)
+            pause();
+    }
+    pthread_join(thread, NULL);
+    printf("value");
+    for (int i = 0; i < n; i++)
+        printf("\t%d", (int)children[i]);
+    putchar('\n');
+    return first_status;
+}
+
 static volatile int forking;
 
 static void *come_and_go(void *argument)
@@ -389,7 +420,7 @@ static const struct {
     {"save", save, 3}, {"restore", restore, 3}, {"freestate", free_state, 3},
     {"serialize", serialize, 4}, {"deserialize", deserialize, 4}, {"derivative", derivative, 4},
     {"bench", bench, 8}, {"retry", retry, 8}, {"cycles", cycles, 3}, {"together", together, 2}, {"fork", fork_child, 1},
-    {"forks", forks, 4}, {"wait", wait_for_all, 1}, {"alarms", alarms, 2},
+    {"forks", forks, 4}, {"offspring", offspring, 4}, {"wait", wait_for_all, 1}, {"alarms", alarms, 2},
 };
 
 static void *obey(void *argument)

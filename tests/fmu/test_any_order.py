@@ -87,7 +87,7 @@ class Calls(RuleBasedStateMachine):
     def step_from_elsewhere(self, gap, dt):
         """A step that leaves out time, or repeats it, changes nothing."""
         before = self.seen()
-        rounding = 1e-3 * (abs(dt) if math.isfinite(dt) else 0.0) + 1e-12 * abs(self.instance.time)
+        rounding = 1e-6 * (abs(dt) if math.isfinite(dt) else 0.0) + 1e-12 * abs(self.instance.time)
         if not abs(gap) <= 2.0 * rounding:
             assert self.instance.ask("step", self.instance.time + gap, dt).status == self.told(ERROR)
             assert dict(self.seen()) == dict(before) | {"valid": 0}

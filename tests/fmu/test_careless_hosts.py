@@ -79,6 +79,27 @@ def test_a_child_forked_while_other_threads_call_the_fmu_can_call_it_too(
     assert host.code == 0
 
 
+def test_children_forked_while_an_instance_starts_do_not_hide_that_its_processes_have_ended(
+    native_program: Path, isolated_folder: Path
+) -> None:
+    with NativeHost(native_program, plain_environment() | {"TRIBOFMU_TIMEOUT": "20"}) as host:
+        fmu = host.load(isolated_folder)
+        answer = host.ask("offspring", 0, fmu.number, 60)
+        assert answer.status == OK
+        instance = Instance(fmu, 0, answer)
+        try:
+            assert set(instance.initialise()) == {OK}
+            (supervisor,) = host.supervisors()
+            for pid in (supervisor, *children(supervisor)):
+                os.kill(pid, signal.SIGKILL)
+            assert instance.step(1.0) == ERROR
+            assert "Its supervisor ended" in instance.log[-1][3]
+        finally:
+            for child in map(int, answer.values):
+                os.kill(child, signal.SIGKILL)
+    assert host.code == 0
+
+
 def test_the_models_processes_are_no_children_of_the_host(native_program: Path, isolated_folder: Path) -> None:
     """A host that waits for all of its children would wait for ever."""
     with NativeHost(native_program, plain_environment()) as host:
@@ -97,10 +118,9 @@ def stop(supervisor: int) -> list[int]:
     return halted
 
 
-def test_a_supervisor_that_does_not_answer_is_replaced_within_the_limit_of_a_call(
-    native_program: Path, isolated_folder: Path
-) -> None:
-    with NativeHost(native_program, plain_environment() | {"TRIBOFMU_TIMEOUT": "1"}) as host:
+def test_a_supervisor_that_does_not_answer_is_replaced(native_program: Path, isolated_folder: Path) -> None:
+    limits = {"TRIBOFMU_TIMEOUT": "1", "TRIBOFMU_START_TIMEOUT": "5"}
+    with NativeHost(native_program, plain_environment() | limits) as host:
         instance = started(host.load(isolated_folder))
         instance.ask("save", 0)
         (expected,) = rows(instance)
@@ -126,7 +146,7 @@ def test_a_start_that_hangs_ends_at_its_limit_and_holds_up_nobody_else(
         first, second = started(fmu), started(fmu, 1)
         (tmp_path / "hang").touch()
         stop(*host.supervisors())
-        answer = host.together([("instantiate", 2, fmu.number, 1), ("later", 2000, "free", first.number)])
+        answer = host.together([("instantiate", 2, fmu.number, 1), ("later", 8000, "free", first.number)])
         assert answer.values == ["1", "0"]  # it was freed first
         assert "was not ready within 6 s. TRIBOFMU_START_TIMEOUT sets the limit" in answer.log[-1][3]
         (tmp_path / "hang").unlink()

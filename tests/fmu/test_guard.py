@@ -156,7 +156,7 @@ def test_a_step_after_the_end_is_refused_until_a_state_is_restored(stepped):
     assert stepped.step(60.0)["valid"]
 
 
-@pytest.mark.parametrize("time", [0.0, 30.0, 60.1, 7200.0, math.nan, math.inf])
+@pytest.mark.parametrize("time", [0.0, 30.0, 60.001, 7200.0, math.nan, math.inf])
 def test_a_step_that_leaves_out_time_or_repeats_it_is_refused(stepped, time):
     assert stepped.time == 60.0
     before = stepped.outputs()
@@ -192,6 +192,14 @@ def test_a_step_beyond_the_stop_time_is_refused_and_one_that_ends_there_is_not(h
     assert "goes beyond stopTime = 11.0 s" in host.log[0][1]
     assert host.step(0.5 + 9e-6)["valid"]  # as fmusim rounds
     assert host.get("time") == pytest.approx(11.0, rel=1e-6)
+
+
+def test_a_step_as_small_as_rounding_is_one_step(host):
+    host.fmu.setupExperiment(startTime=0.0, stopTime=1e-6)
+    host.fmu.enterInitializationMode()
+    host.fmu.exitInitializationMode()
+    assert host.step(1e-6)["valid"]
+    assert not host.step(1e-6)["valid"]
 
 
 def test_the_first_step_begins_at_the_start_time(host):
