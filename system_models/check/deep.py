@@ -47,6 +47,7 @@ RULES: dict[str, tuple[str, ...]] = {
 # FMI does not ask for it: whatever goes wrong there is worth a note
 _NOT_ASKED = {"resources", "communication_point", "order", "foreign_text", "reloading", "home", "children", "fork"}
 
+UNFINISHED = "Not finished"  # begins the evidence of a rule whose budget was used up
 _START = 60.0  # s until the first call at most
 _POLL = 0.1  # s between two looks at a process
 _LONGEST = 300  # characters of what a process has printed
@@ -117,7 +118,7 @@ def _stage(folder: Path, stage: str, notebook: Path, watch: "_Watch") -> Answer 
         return failed(f"Hung in {call}: it had not returned after {watch.limit:g} s.")
     if end is _End.OVER:
         known = progress_in(said)
-        return noted(f"Not finished in {watch.budget:g} s (--budget): {f'{known}; ' if known else ''}it was in {call}.")
+        return noted(f"{UNFINISHED} in {watch.budget:g} s (--budget): {f'{known}; ' if known else ''}it was in {call}.")
     if process.returncode:
         return failed(f"The process ended with {_how(process.returncode)} during {call}{_last_line(words)}.")
     file = notebook / f"{stage}.json"

@@ -28,6 +28,9 @@ def line(finding: Finding) -> str:
 
 
 def summary(found: Iterable[Finding]) -> str:
-    """How many of each verdict."""
-    count = Counter(finding.verdict for finding in found)
-    return ", ".join(f"{count[verdict]} {verdict}" for verdict in Verdict)
+    """How many of each verdict, and how many of the notes are of rules that were not finished."""
+    listed = list(found)
+    count = Counter(finding.verdict for finding in listed)
+    text = ", ".join(f"{count[verdict]} {verdict}" for verdict in Verdict)
+    unfinished = sum(finding.evidence.startswith(deep.UNFINISHED) for finding in listed)
+    return f"{text}; {unfinished} not finished within the budget" if unfinished else text
