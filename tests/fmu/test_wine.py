@@ -219,3 +219,18 @@ def test_instances_start_in_threads_at_once_and_end_when_freed(hosts: Hosts, iso
         assert [worker.poll() for worker in relay.workers] == [None] * 4
         assert host.together(("free", number) for number in range(4)).status == OK
         assert all(map(gone, relay.workers))
+
+
+def test_instances_live_on_in_a_host_that_loads_the_library_again_for_each(hosts: Hosts, isolated: Path) -> None:
+    with hosts() as host:
+        fmu = host.load(isolated)
+        instances = []
+        for number in range(2):
+            assert host.ask("reload", fmu.number).status == OK
+            instances.append(fmu.instance(number))
+            assert set(instances[-1].initialise()) == {OK}
+        assert [instance.step(60.0) for instance in instances] == [OK] * 2
+        assert instances[0].outputs() == instances[1].outputs()
+        assert host.ask("unload", fmu.number).status == OK  # before they are freed
+        for instance in instances:
+            instance.free()
