@@ -411,14 +411,18 @@ def test_a_misbehaving_fmu_fails_its_rule_only(
     assert all(evidence in found[rule].evidence for rule in rules)
 
 
-def test_what_is_worth_knowing_is_a_note(slave: Callable[..., Path], monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sys, "hoard", [], raising=False)
-    found = answers(slave("hoards", start="sys.hoard.append(b'x' * (1 << 20))", step="self.y += step * 100.0"))
+def test_what_is_worth_knowing_is_a_note(slave: Callable[..., Path]) -> None:
+    found = answers(slave("leaps", step="self.y += step * 100.0"))
     assert verdicts(found, Verdict.FAIL) == set()
-    assert verdicts(found, Verdict.NOTE) == (LAX - ROUGH) | {"unusable input", "memory", "step splitting"}
+    assert verdicts(found, Verdict.NOTE) - {"memory"} == (LAX - ROUGH) | {"unusable input", "step splitting"}
     assert "move y by" in found["step splitting"].evidence
+
+
+def test_memory_that_instances_leave_behind_is_worth_a_note(slave: Callable[..., Path]) -> None:
+    found = deep_findings(slave("hoards", start="sys.hoard = [*getattr(sys, 'hoard', []), b'x' * (1 << 20)]"), "memory")
     grown = re.search(r"grows by (\d+) kB", found["memory"].evidence)
     assert grown is not None
+    assert found["memory"].verdict == Verdict.NOTE
     assert 500 < int(grown[1]) < 2000  # of 1024 that each hoards: what else was freed meanwhile counts, too
 
 
