@@ -1,7 +1,7 @@
 """Time steps of the evolution are of first order; the sampling error of the dose falls with the instants."""
 
 import numpy as np
-import pytest
+from comparison import approx
 
 from contact_core import Scene, advance, initial_state
 from contact_core.block import sweep_dry
@@ -28,7 +28,7 @@ def test_wear_of_smooth_bodies_converges_with_first_order_in_the_blocks():
     steps = np.abs(np.diff(found))
     orders = np.log2(steps[:-1] / steps[1:])
     assert found[-1] > 1e-7
-    assert orders == pytest.approx([1.0, 1.0], abs=0.3)
+    assert orders == approx([1.0, 1.0], abs=0.3)
 
 
 def test_the_dose_of_a_smooth_body_evens_out_with_the_instants():

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core.dry_contact import dry_contact
 from contact_core.film.fitted import Extent
@@ -70,15 +71,15 @@ def test_a_dry_ellipse_converges_to_hertz_and_lies_the_other_way_if_turned(ratio
                 abs(found.approach / hertz.approach - 1.0),
             )
         )
-        assert found.contact_area_ratio == pytest.approx(1.0, abs=4.0 / nodes)
-        assert found.pressure_max == pytest.approx(hertz.pressure_max, rel=0.5 / nodes)
+        assert found.contact_area_ratio == approx(1.0, abs=4.0 / nodes)
+        assert found.pressure_max == approx(hertz.pressure_max, rel=0.5 / nodes)
         for axis, side in ((0, hertz.a), (1, hertz.b)):
-            assert touch.any(axis=axis).sum() * spacing == pytest.approx(2.0 * side, abs=2.1 * spacing)
+            assert touch.any(axis=axis).sum() * spacing == approx(2.0 * side, abs=2.1 * spacing)
     errors = np.array(errors)
     assert (np.log2(errors[0] / errors[2]) / 2.0 > (1.0, 1.0)).all()
-    assert errors[2] == pytest.approx([0.0, 0.0], abs=(8e-3))
+    assert errors[2] == approx([0.0, 0.0], abs=(8e-3))
     across = dry_contact(np.zeros((nx, ny)), spacing, ratio * RADIUS, LOAD, MODULUS, radius_y=turned * ratio * RADIUS)
-    assert across.pressure == pytest.approx(found.pressure.T, abs=1e-6 * hertz.pressure_max)
+    assert across.pressure == approx(found.pressure.T, abs=1e-6 * hertz.pressure_max)
 
 
 @pytest.mark.parametrize(
@@ -93,14 +94,14 @@ def test_films_converge_to_second_order_on_the_limit_of_finer_grids(ratio, load,
     found = films(given, (33, 65, 129)) / unit
     order = np.log2((found[1] - found[0]) / (found[2] - found[1]))
     assert 1.8 < order < 2.2
-    assert found[2] + (found[2] - found[1]) / 3.0 == pytest.approx(limit, rel=0.01)
+    assert found[2] + (found[2] - found[1]) / 3.0 == approx(limit, rel=0.01)
 
 
 @pytest.mark.parametrize(("ratio", "load"), [(2.843, 20.0), (2.843, 100.0), (2.843, 500.0), (11.83, 100.0)])
 def test_films_across_the_long_axis_are_those_of_the_formula(ratio, load):
     given = of_moes(load, 10.0, ratio)
     coarse, fine = films(given, (65, 129))
-    assert fine + (fine - coarse) / 3.0 == pytest.approx(formula(given), rel=0.05)
+    assert fine + (fine - coarse) / 3.0 == approx(formula(given), rel=0.05)
 
 
 def test_slim_contacts_tend_to_a_film_without_leakage_round_the_tip():
@@ -113,7 +114,7 @@ def test_slim_contacts_tend_to_a_film_without_leakage_round_the_tip():
     loads = (20.0, 100.0, 200.0)
     shares = [films(of_moes(m, 10.0, ratio), (65,))[0] / films(of_moes(m, 10.0, 1.0), (65,))[0] for m in loads]
     assert 0.35 < shares[0] < shares[1] < shares[2] < limit
-    assert limit == pytest.approx(0.67, abs=0.01)
+    assert limit == approx(0.67, abs=0.01)
 
 
 @pytest.mark.parametrize("load", [1.0, 100.0])
@@ -123,7 +124,7 @@ def test_a_nearly_circular_contact_is_nearly_that_of_the_circle(load):
     first = point_contact(**circle, grid=65, tolerance=1e-5)
     domain = (first.x[0], first.x[-1], first.y[0], first.y[-1])
     second = point_contact(**ellipse, grid=(65, 65), domain=domain, tolerance=1e-5)
-    assert second.pressure == pytest.approx(first.pressure, abs=1e-4 * first.pressure_max)
-    assert second.h_central == pytest.approx(first.h_central, rel=1e-4)
-    assert second.approach == pytest.approx(first.approach, rel=1e-4)
-    assert second.load_beyond == pytest.approx(first.load_beyond, abs=1e-5)
+    assert second.pressure == approx(first.pressure, abs=1e-4 * first.pressure_max)
+    assert second.h_central == approx(first.h_central, rel=1e-4)
+    assert second.approach == approx(first.approach, rel=1e-4)
+    assert second.load_beyond == approx(first.load_beyond, abs=1e-5)

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.ndimage import gaussian_filter
 
 from contact_core.film.fitted import fitted_grid
@@ -103,7 +104,7 @@ def test_factors_that_are_no_power_of_two_agree_to_round_off():
     now, grid = contact()
     eased, thinner = (solve_film(each, grid, SETTINGS) for each in two_ways(now, 1.7))
     assert eased.converged
-    assert eased.gap == pytest.approx(thinner.gap, rel=1e-9)
+    assert eased.gap == approx(thinner.gap, rel=1e-9)
 
 
 class Slipping(Thinner):
@@ -127,7 +128,7 @@ def test_what_shear_adds_to_the_fluidity_is_felt_as_that_of_another_oil(method, 
     assert mine.converged
     assert other.converged
     centre = np.s_[24:40, 32:44]
-    assert films[0][centre].mean() == pytest.approx(films[1][centre].mean(), rel=1e-3)
+    assert films[0][centre].mean() == approx(films[1][centre].mean(), rel=1e-3)
     assert abs(films[0][centre].mean() / films[2][centre].mean() - 1.0) > 0.02
 
 
@@ -146,7 +147,7 @@ def test_all_algorithms_find_the_same_film_of_an_uneven_ease():
     found = [solver.best, *(solver.run(*way) for way in others)]
     assert all(solution.converged for solution in found)
     for solution in found[1:]:
-        assert solution.gap[32, 32] == pytest.approx(found[0].gap[32, 32], rel=1e-3)
+        assert solution.gap[32, 32] == approx(found[0].gap[32, 32], rel=1e-3)
         difference = np.abs(solution.iterate.pressure - found[0].iterate.pressure).sum()
         assert difference < 5e-3 * found[0].iterate.pressure.sum()
 
@@ -162,7 +163,7 @@ def test_an_ease_that_differs_on_both_sides_is_solved_on_the_whole_grid():
     assert found.converged
     assert newton.converged
     assert np.abs(found.gap - found.gap[::-1]).max() > 0.02 * found.gap.min()
-    assert found.gap[32, 32] == pytest.approx(newton.gap[32, 32], rel=1e-3)
+    assert found.gap[32, 32] == approx(newton.gap[32, 32], rel=1e-3)
 
 
 def test_the_mirror_and_the_coarser_grid_take_the_ease_along():

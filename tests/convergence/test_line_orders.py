@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from comparison import approx
 from line_contact import line
 
 from contact_core.kernels.mixed import Iterate
@@ -39,7 +40,7 @@ def test_films_of_smooth_lines_converge_to_second_order_and_to_the_formula(load,
     limit = central[-1] + (central[-1] - central[-2]) / 3.0
     print(f"M = {load:g}, L = {oil:g}: film / formula {limit:.4f}, orders {np.round(orders, 2).tolist()}")
     assert orders[-1] > 1.9
-    assert limit == pytest.approx(1.0, abs=0.09)
+    assert limit == approx(1.0, abs=0.09)
 
 
 @pytest.mark.parametrize(("load", "oil"), [(10.0, 1e-3), (10.0, 15.0), (50.0, 10.0), (100.0, 5.0), (100.0, 15.0)])
@@ -62,7 +63,7 @@ def test_a_heavy_load_is_solved_where_the_grid_resolves_its_inlet(oil):
     assert first[1].converged
     assert film.converged
     central = [f.gap[1, np.abs(c.x).argmin()] / c.film for c, f in (first, (case, film))]
-    assert central[1] + (central[1] - central[0]) / 3.0 == pytest.approx(1.0, abs=0.09)
+    assert central[1] + (central[1] - central[0]) / 3.0 == approx(1.0, abs=0.09)
 
 
 def test_heavy_loads_under_thick_oil_press_like_hertz():
@@ -80,5 +81,5 @@ def test_the_datum_of_the_deformation_moves_the_rigid_gap_alone():
     start = replace(case.start, rigid=case.start.rigid - down)
     two = solve_newton(other, case.problem, start, 1e-8, 30)
     assert one.converged
-    assert two.gap == pytest.approx(one.gap, abs=1e-8)
-    assert two.iterate.rigid == pytest.approx(one.iterate.rigid - down, abs=1e-8)
+    assert two.gap == approx(one.gap, abs=1e-8)
+    assert two.iterate.rigid == approx(one.iterate.rigid - down, abs=1e-8)

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from comparison import approx
 from models import build
 from scipy.integrate import solve_ivp
 
@@ -43,13 +44,13 @@ SCHEMES = [
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_derivatives_give_the_second_order_back(fmus: dict[str, Path], scheme: dict[str, object]) -> None:
     found = errors(fmus, known=True, **scheme)
-    assert np.log2(found[-2] / found[-1]) == pytest.approx(2.0, abs=0.15)
+    assert np.log2(found[-2] / found[-1]) == approx(2.0, abs=0.15)
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_without_them_the_order_is_one(fmus: dict[str, Path], scheme: dict[str, object]) -> None:
     found = errors(fmus, known=False, **scheme)
-    assert np.log2(found[-2] / found[-1]) == pytest.approx(1.0, abs=0.15)
+    assert np.log2(found[-2] / found[-1]) == approx(1.0, abs=0.15)
 
 
 def test_held_inputs_without_lag_err_less(fmus: dict[str, Path]) -> None:

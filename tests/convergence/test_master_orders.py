@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from comparison import approx
 from models import build, systems
 from models.systems import Case
 
@@ -55,8 +56,8 @@ def last_order(found: list[float]) -> float:
 @pytest.mark.parametrize("kind", KINDS)
 def test_an_extrapolated_input_gives_order_k_plus_1_and_the_known_errors(folder, kind, algorithm, order):
     found = errors(KINDS[kind](folder), algorithm, order)
-    assert last_order(found) == pytest.approx(order + 1, abs=0.15)
-    assert (found[0], found[-1]) == pytest.approx(REFERENCE[kind, algorithm][order], rel=0.2)
+    assert last_order(found) == approx(order + 1, abs=0.15)
+    assert (found[0], found[-1]) == approx(REFERENCE[kind, algorithm][order], rel=0.2)
 
 
 @pytest.mark.parametrize("order", [0, 1, 2])
@@ -65,13 +66,13 @@ def test_an_extrapolated_input_gives_order_k_plus_1_and_the_known_errors(folder,
 def test_an_iterated_step_gives_order_k_plus_1(folder, method, algorithm, order):
     case = systems.two_mass_force(folder)
     found = errors(case, algorithm, order, (0.01, 0.005), iterate=method, iteration_tolerance=1e-11)
-    assert last_order(found) == pytest.approx(order + 1, abs=0.15)
+    assert last_order(found) == approx(order + 1, abs=0.15)
 
 
 def test_an_iterated_line_is_far_better_than_an_extrapolated_one(folder):
     case = systems.two_mass_force(folder)
     iterated = errors(case, "jacobi", 1, (0.04, 0.005), iterate="quasi_newton", iteration_tolerance=1e-9)
-    assert iterated == pytest.approx([7.2e-3, 1.1e-4], rel=0.2)  # implicit, linear interpolation
+    assert iterated == approx([7.2e-3, 1.1e-4], rel=0.2)  # implicit, linear interpolation
 
 
 @pytest.mark.parametrize("method", ["fixed_point", "aitken", "quasi_newton"])
@@ -81,15 +82,15 @@ def test_what_an_iteration_finds_depends_neither_on_the_method_nor_on_the_sequen
         run(case, 0.04, algorithm, 1, iterate=iterate, iteration_tolerance=1e-11)
         for algorithm, iterate in (("jacobi", method), ("gauss_seidel", method), ("jacobi", "fixed_point"))
     )
-    assert jacobi == pytest.approx(reference, rel=1e-7)
-    assert gauss_seidel == pytest.approx(reference, rel=1e-7)
+    assert jacobi == approx(reference, rel=1e-7)
+    assert gauss_seidel == approx(reference, rel=1e-7)
 
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("order", [0, 1])
 def test_a_held_mean_costs_no_order_up_to_the_second(folder, kind, order):
     found = errors(KINDS[kind](folder, interpolates=False), "jacobi", order)
-    assert last_order(found) == pytest.approx(order + 1, abs=0.15)
+    assert last_order(found) == approx(order + 1, abs=0.15)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -98,7 +99,7 @@ def test_no_more_than_the_second_order_is_there_with_a_held_mean(folder, kind, o
     # Iterated: extrapolation adds an error of third order that hides the one of the mean down to steps of 0.005.
     case = KINDS[kind](folder, interpolates=False)
     found = errors(case, "gauss_seidel", order, iterate="quasi_newton", iteration_tolerance=1e-11)
-    assert last_order(found) == pytest.approx(2, abs=0.15)
+    assert last_order(found) == approx(2, abs=0.15)
 
 
 @pytest.mark.parametrize("iterate", [None, "quasi_newton"])
@@ -107,13 +108,13 @@ def test_fmi_3_asks_for_what_fmi_2_is_given(folder, order, iterate):
     options = {"iterate": iterate, "iteration_tolerance": 1e-11}
     two = run(systems.two_mass_force(folder), 0.02, "jacobi", order, **options)
     three = run(systems.two_mass_force(folder, fmi=3, intermediate=True), 0.02, "jacobi", order, **options)
-    assert three == pytest.approx(two, rel=1e-9 if iterate else 1e-12)
+    assert three == approx(two, rel=1e-9 if iterate else 1e-12)
 
 
 def test_fmi_3_without_intermediate_inputs_holds_the_mean(folder):
     two = run(systems.two_mass_force(folder, interpolates=False), 0.02, "jacobi", 2)
     three = run(systems.two_mass_force(folder, fmi=3), 0.02, "jacobi", 2)
-    assert three == pytest.approx(two, rel=1e-12)
+    assert three == approx(two, rel=1e-12)
 
 
 @pytest.mark.parametrize("order", [0, 1, 2])
@@ -125,4 +126,4 @@ def test_an_input_that_was_told_as_it_is_needs_no_correction(folder, order):
         simulate(System(fmus, wires, derivatives=known), 1.0, 0.02, "gauss_seidel", order, outputs=["drag.F"])
         for known in ({}, {("drag.F", "drag.u"): "drag.dF_du"})
     )
-    assert corrected["drag.F"].values == pytest.approx(plain["drag.F"].values, rel=1e-12, abs=1e-12)
+    assert corrected["drag.F"].values == approx(plain["drag.F"].values, rel=1e-12, abs=1e-12)

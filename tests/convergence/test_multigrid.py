@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from comparison import approx
 from independent import love
 from scipy.signal import fftconvolve
 
@@ -106,13 +107,13 @@ def test_a_film_satisfies_the_equations_written_independently(case):
     h, mass, inflow = balance(problem, solution.iterate)
     assert np.abs(h - solution.gap).max() < 1e-12
     assert np.abs(mass - solution.mass).max() < 1e-6
-    assert (problem.weight * p).sum() == pytest.approx(problem.load, rel=1e-5)
+    assert (problem.weight * p).sum() == approx(problem.load, rel=1e-5)
     wet = p > 0.0
     assert np.abs(inflow[wet]).sum() < 1e-4 * np.abs(np.diff(mass, axis=1)).sum() / problem.spacing
     assert inflow[~wet].max(initial=0.0) <= 1e-12  # no oil comes into the cavity
-    assert p[0, 1:-1] == pytest.approx((problem.edge[0] * p[1])[1:-1], abs=1e-14)
+    assert p[0, 1:-1] == approx((problem.edge[0] * p[1])[1:-1], abs=1e-14)
     imbalance = (np.abs(inflow) * p)[1:-1, 1:-1].sum() / (mass * p)[1:-1, 1:-1].sum()
-    assert solution.imbalance == pytest.approx(imbalance, rel=1e-3, abs=1e-9)
+    assert solution.imbalance == approx(imbalance, rel=1e-3, abs=1e-9)
 
 
 def test_the_film_converges_to_second_order_on_the_limit_of_finer_grids():
@@ -125,7 +126,7 @@ def test_the_film_converges_to_second_order_on_the_limit_of_finer_grids():
     assert 1.9 < orders[0] < 2.1
     assert 1.7 < orders[1] < 2.4
     limit = films[2] + (films[2] - films[1]) / 3.0
-    assert limit == pytest.approx([4.804, 2.961], rel=5e-3)
+    assert limit == approx([4.804, 2.961], rel=5e-3)
 
 
 def test_one_cycle_on_the_finest_grid_errs_less_than_a_third_of_what_the_grid_does():
@@ -137,7 +138,7 @@ def test_one_cycle_on_the_finest_grid_errs_less_than_a_third_of_what_the_grid_do
     assert once.iterations == 1
     assert (np.abs(case.films(once) - exact) < np.abs(exact - limit) / 3.0).all()
     assert (np.abs(exact / limit - 1.0) > 0.05).all()
-    assert np.array(extrapolated(levels)) * case.moes == pytest.approx(limit, rel=0.02)
+    assert np.array(extrapolated(levels)) * case.moes == approx(limit, rel=0.02)
 
 
 def test_the_rigid_ball_floats_on_kapitzas_film():
@@ -146,7 +147,7 @@ def test_the_rigid_ball_floats_on_kapitzas_film():
         case = Case(load, 0.0, 65, FILM_SIZED, light=True, far=True)
         solution, levels = case.solve()
         assert solution.converged
-        assert extrapolated(levels)[0] * case.moes * load**2 == pytest.approx(35.03, rel=0.01)
+        assert extrapolated(levels)[0] * case.moes * load**2 == approx(35.03, rel=0.01)
     without = Case(1.0, 0.0, 65, FILM_SIZED, light=True)
     assert without.films(without.solve()[0])[0] < 20.0
 
@@ -157,7 +158,7 @@ def test_case_a_has_fourteen_nanometres():
     solution, levels = case.solve(tolerance=0.0, cycles=1)
     moes_unit = 10e-3 * np.sqrt(2.0 * 0.004 * 0.25 / (230.47e9 * 10e-3))
     assert case.films(solution)[0] * moes_unit < 13.5e-9
-    assert extrapolated(levels)[0] * case.moes * moes_unit == pytest.approx(14.4e-9, rel=0.05)
+    assert extrapolated(levels)[0] * case.moes * moes_unit == approx(14.4e-9, rel=0.05)
 
 
 def test_multigrid_and_hybrid_agree_on_the_same_grid():
@@ -169,7 +170,7 @@ def test_multigrid_and_hybrid_agree_on_the_same_grid():
     hybrid = solve_mixed(half_space, problem, start, 1e-5, 400)
     assert hybrid.converged
     assert not hybrid.iterate.solid.any()
-    assert case.films(hybrid)[0] == pytest.approx(case.films(solution)[0], rel=1e-3)
+    assert case.films(hybrid)[0] == approx(case.films(solution)[0], rel=1e-3)
     assert np.abs(hybrid.iterate.pressure - ours.pressure).sum() < 3e-3 * ours.pressure.sum()
 
 
@@ -181,7 +182,7 @@ def test_smooth_films_of_any_light_or_moderate_load_converge():
         solution, _ = case.solve(tolerance=1e-4, cycles=15)
         problem = case.problem
         assert solution.converged, (load, oil, solution.shortfall)
-        assert (problem.weight * solution.iterate.pressure).sum() == pytest.approx(problem.load, rel=1e-3)
+        assert (problem.weight * solution.iterate.pressure).sum() == approx(problem.load, rel=1e-3)
         _, mass, inflow = balance(problem, solution.iterate)
         p = solution.iterate.pressure
         assert (np.abs(inflow) * p)[1:-1, 1:-1].sum() < 1e-3 * (mass * p).sum()
@@ -211,7 +212,7 @@ def test_half_of_a_symmetric_contact_gives_what_the_whole_does():
     assert half.converged
     assert whole.converged
     assert np.abs(half.iterate.pressure - whole.iterate.pressure).max() < 1e-4
-    assert half.gap == pytest.approx(whole.gap, abs=1e-6)
+    assert half.gap == approx(whole.gap, abs=1e-6)
 
 
 def test_the_libraries_of_transforms_give_the_same_film():
@@ -245,7 +246,7 @@ def test_dense_elimination_agrees_with_lapack():
     a, b = rng.standard_normal((40, 40)), rng.standard_normal(40)
     x = b.copy()
     assert solve_dense(a.copy(), x)
-    assert x == pytest.approx(np.linalg.solve(a, b), rel=1e-9)
+    assert x == approx(np.linalg.solve(a, b), rel=1e-9)
     assert not solve_dense(np.zeros((3, 3)), np.ones(3))
 
 

@@ -1,6 +1,6 @@
 """Blocks of rough flanks whose oil presses at the hardness, against the same solved ten times as closely."""
 
-import pytest
+from comparison import approx
 
 from contact_core import RangeFlag, Scene, advance, initial_state
 
@@ -22,7 +22,7 @@ def test_a_block_of_flanks_under_high_load_is_that_of_a_tenth_of_the_tolerance()
     usual, closely = found
     for out in found:
         assert not out.range_flags & RangeFlag.NOT_CONVERGED
-        assert out.pressure_max == pytest.approx(2.6e9)
-    assert usual.friction_coefficient == pytest.approx(closely.friction_coefficient, rel=0.02)
-    assert usual.h_c == pytest.approx(closely.h_c, rel=0.02)
-    assert usual.contact_load_ratio == pytest.approx(closely.contact_load_ratio, abs=0.01)
+        assert out.pressure_max == approx(2.6e9)
+    assert usual.friction_coefficient == approx(closely.friction_coefficient, rel=0.02)
+    assert usual.h_c == approx(closely.h_c, rel=0.02)
+    assert usual.contact_load_ratio == approx(closely.contact_load_ratio, abs=0.01)

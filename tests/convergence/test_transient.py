@@ -5,6 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core import Scene, initial_state, march
 from contact_core.film.instant import FilmState, Grid, Instant, Settings, Step
@@ -55,28 +56,28 @@ def test_a_ball_sinks_as_by_its_closed_form_at_second_order_in_space():
     # W = 6 pi eta R^2 V / h of a rigid ball, so h = h0 exp(-W t / (6 pi eta R^2)): exp(-1) after tau
     errors = [extrapolated(points) * np.e - 1.0 for points in (33, 65)]
     assert abs(errors[1]) < 0.04
-    assert np.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.15)
+    assert np.log2(errors[0] / errors[1]) == approx(2.0, abs=0.15)
 
 
 def test_what_lies_beyond_the_grid_carries_its_part():
     narrow, wide = (extrapolated(points, width) for points, width in ((33, 3.0), (65, 6.0)))  # the same nodes
-    assert narrow == pytest.approx(wide, rel=2e-3)
+    assert narrow == approx(wide, rel=2e-3)
 
 
 @pytest.mark.parametrize("order", [1, 2])
 def test_sinking_has_the_order_in_time_that_was_asked_for(order):
     coarse, middle, fine = (sunk(33, steps, order) for steps in (10, 20, 40))
-    assert np.log2((coarse - middle) / (middle - fine)) == pytest.approx(order, abs=0.25)
+    assert np.log2((coarse - middle) / (middle - fine)) == approx(order, abs=0.25)
 
 
 def test_sinking_does_not_notice_a_slight_entrainment_either_way():
     rest, forward, back = (sunk(33, 5, speed=speed) for speed in (0.0, 1e-7, -1e-7))
-    assert forward == pytest.approx(rest, rel=1e-4)
-    assert back == pytest.approx(forward, rel=1e-10)
+    assert forward == approx(rest, rel=1e-4)
+    assert back == approx(forward, rel=1e-10)
 
 
 def test_a_film_without_cavities_sinks_the_same_where_cavities_would_keep_their_oil():
-    assert sunk(33, 5, conserving=True) == pytest.approx(sunk(33, 5), rel=1e-6)
+    assert sunk(33, 5, conserving=True) == approx(sunk(33, 5), rel=1e-6)
 
 
 def test_a_cylinder_sinks_as_by_its_closed_form():
@@ -107,7 +108,7 @@ def test_a_cylinder_sinks_as_by_its_closed_form():
             assert found.converged, found.shortfall
             state = found.state
         ends.append(state.rigid_gap)
-    assert ends[1] + (ends[1] - ends[0]) / 3.0 == pytest.approx(first / 2.25, rel=4e-3)
+    assert ends[1] + (ends[1] - ends[0]) / 3.0 == approx(first / 2.25, rel=4e-3)
 
 
 RAMP = 1e-4  # s: about a passage of the oil
@@ -156,13 +157,13 @@ def after_ramp(name, steps, order):
 def test_ramps_converge_in_time_with_the_order_asked_for(name, order):
     exact = (4.0 * after_ramp(name, 64, 2) - after_ramp(name, 32, 2)) / 3.0
     errors = [np.abs(after_ramp(name, steps, order) / exact - 1.0).max() for steps in (8, 16, 32)]
-    assert 0.5 * np.log2(errors[0] / errors[2]) == pytest.approx(order, abs=0.4)
+    assert 0.5 * np.log2(errors[0] / errors[2]) == approx(order, abs=0.4)
     assert errors[2] < 4e-3 / order
 
 
 def test_both_orders_converge_to_the_same_films_where_the_load_is_ramped():
     first = 2.0 * after_ramp("load", 64, 1) - after_ramp("load", 32, 1)
-    assert first == pytest.approx(after_ramp("load", 64, 2), rel=1e-3)
+    assert first == approx(after_ramp("load", 64, 2), rel=1e-3)
 
 
 def test_a_film_settles_to_the_steady_one_of_the_new_load():
@@ -172,5 +173,5 @@ def test_a_film_settles_to_the_steady_one_of_the_new_load():
     *_, last = march(scene, first.state, lambda time: more if time > 0.0 else op, times)
     steady = next(march(scene, initial_state(scene), lambda time: more, [0.0]))
     for name in ("h_c", "h_central", "friction_force", "approach"):
-        assert last.outputs[name] == pytest.approx(steady.outputs[name], rel=1e-3)
+        assert last.outputs[name] == approx(steady.outputs[name], rel=1e-3)
     assert abs(first.outputs["h_c"] / steady.outputs["h_c"] - 1.0) > 0.02

@@ -15,6 +15,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
+from comparison import approx
 from fmu_host import SHAPES, SMALL, hosted, unpacked
 
 from contact_core import ConvergenceError, RangeFlag, Scene
@@ -211,11 +212,11 @@ def test_the_loads_that_the_page_names_bring_hertz_to_the_hardness_and_to_the_ed
     page = Page(documentation(scene, "isolated", reference=False))
     rows = dict(reversed(list(pairwise(page.cells))))  # the first of each name
     hardest = float(rows["load"].removeprefix("below ").removesuffix(" N"))
-    assert scene.hertz(hardest).pressure_max == pytest.approx(scene.plasticity.hardness, rel=1e-3)
+    assert scene.hertz(hardest).pressure_max == approx(scene.plasticity.hardness, rel=1e-3)
     few, wide = (float(word) for word in rows["load on this grid"].removesuffix(" N").split(" to "))
-    assert scene.hertz(few).a == pytest.approx(4.0 * scene.film.spacing, rel=1e-3)
+    assert scene.hertz(few).a == approx(4.0 * scene.film.spacing, rel=1e-3)
     filled = [half / room for half, room in zip((scene.hertz(wide).a, scene.hertz(wide).b), scene.room, strict=True)]
-    assert max(filled) == pytest.approx(1.0, rel=1e-3)
+    assert max(filled) == approx(1.0, rel=1e-3)
 
 
 STARVED = {"lubricant.supply.model": "film", "lubricant.supply.thickness": "50 nm"}

@@ -7,6 +7,7 @@ from xml.etree import ElementTree as ET
 
 import fmpy
 import pytest
+from comparison import approx
 from fmpy.validation import validate_fmu
 from fmu_host import SHAPES
 
@@ -59,8 +60,8 @@ def test_every_real_has_a_unit_and_a_nominal_above_zero(by_name):
 def test_a_parameter_that_starts_at_zero_has_a_nominal_all_the_same():
     scene = Scene.from_toml("mtm_zddp", {"surface_1.rq": "0 m", "wear.film": "0"})
     nominals = {v.name: (v.start, v.nominal) for v in variables(scene)}
-    assert nominals["surface_1.rq"] == (0.0, pytest.approx(1e-7))
-    assert nominals["wear.film"] == (0.0, pytest.approx(1e-3))
+    assert nominals["surface_1.rq"] == (0.0, approx(1e-7))
+    assert nominals["wear.film"] == (0.0, approx(1e-3))
     assert nominals["surface_2.rq"] == (1.3e-7, 1.3e-7)
 
 

@@ -7,6 +7,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 import pytest
+from comparison import approx
 from fmu_host import environment, hosted, unpacked
 from replay import replay
 from test_run import bits
@@ -62,7 +63,7 @@ def test_what_the_surfaces_have_become_goes_down_and_up_again(stepped):
     fast = stepped.step(600.0, fidelity=FAST)
     back = stepped.step(0.0, fidelity=FULL)
     for name in ("wear_volume_1", "wear_depth_2", "tribofilm_1", "load_cycles_2"):
-        assert before[name] < fast[name] == pytest.approx(back[name], rel=1e-3)
+        assert before[name] < fast[name] == approx(back[name], rel=1e-3)
 
 
 def test_a_roll_back_across_a_switch_leaves_no_trace(stepped):

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from comparison import approx
 from fmpy.fmi1 import FMICallException
 from models import build
 from models.description import inlet, output
@@ -73,7 +74,7 @@ def test_a_chain_takes_one_evaluation_of_each_connection_in_any_order_of_listing
 def test_a_connection_converts_its_value(initialised: Initialised, folder: Path) -> None:
     fmus = {"from": build("celsius", folder, start={"u": 20.0}), "to": build("kelvin", folder)}
     _, values = initialised(fmus, [("from.y", "to.u", 2.0)])
-    assert values["to.u"] == pytest.approx(2.0 * 293.15, rel=1e-15)
+    assert values["to.u"] == approx(2.0 * 293.15, rel=1e-15)
 
 
 def test_a_loop_of_three_linear_gains_is_solved(initialised: Initialised, folder: Path) -> None:
@@ -85,8 +86,8 @@ def test_a_loop_of_three_linear_gains_is_solved(initialised: Initialised, folder
     links = [("a.y", "b.u"), ("b.y", "c.u"), ("c.y", "a.u")]
     evaluations, values = initialised(fmus, links, tolerance=1e-13)
     u = (1.5 * (-2.0 * 1.0 + 0.5) - 4.0) / (1.0 + 9.0)
-    assert values["a.u"] == pytest.approx(u, rel=1e-12)
-    assert values["b.u"] == pytest.approx(3.0 * u + 1.0, rel=1e-12)
+    assert values["a.u"] == approx(u, rel=1e-12)
+    assert values["b.u"] == approx(3.0 * u + 1.0, rel=1e-12)
     assert evaluations < 10
 
 
@@ -96,7 +97,7 @@ def test_what_hangs_on_a_loop_is_worked_out_once(initialised: Initialised, folde
     alone, _ = initialised({name: fmus[name] for name in "bc"}, loop)
     evaluations, values = initialised(fmus, loop + tail)
     assert evaluations == alone + len(tail)
-    assert values["d.u"] == pytest.approx(2.0, rel=1e-9)
+    assert values["d.u"] == approx(2.0, rel=1e-9)
 
 
 def test_coupled_loops_are_solved_together(initialised: Initialised, folder: Path) -> None:
@@ -111,13 +112,13 @@ def test_coupled_loops_are_solved_together(initialised: Initialised, folder: Pat
     links = [link for n in range(3) for link in ((f"full.y{n}", f"g{n}.u"), (f"g{n}.y", f"full.u{n}"))]
     evaluations, values = initialised(fmus, links, tolerance=1e-12)
     expected = np.linalg.solve(np.eye(3) - D, shift)
-    assert [values[f"full.u{n}"] for n in range(3)] == pytest.approx(expected, rel=1e-10)
+    assert [values[f"full.u{n}"] for n in range(3)] == approx(expected, rel=1e-10)
     assert evaluations < 12
 
 
 def test_a_loop_through_one_fmu_alone_is_solved(initialised: Initialised, folder: Path) -> None:
     _, values = initialised({"a": gain(folder, 0.0, 2.0, -1.0)}, [("a.y", "a.u")])  # u = 2 - u^2
-    assert values["a.u"] == pytest.approx(1.0, rel=1e-9)
+    assert values["a.u"] == approx(1.0, rel=1e-9)
 
 
 def test_the_start_value_chooses_among_the_solutions_of_a_quadratic_loop(
@@ -127,7 +128,7 @@ def test_the_start_value_chooses_among_the_solutions_of_a_quadratic_loop(
     links = [("a.y", "b.u"), ("b.y", "a.u")]
     for start, root in ((0.5, 1.0), (-1.5, -2.0)):
         _, values = initialised(fmus, links, {"a.u": start, "b.u": start})
-        assert values["a.u"] == pytest.approx(root, rel=1e-9)
+        assert values["a.u"] == approx(root, rel=1e-9)
 
 
 def plane_and_sphere(folder: Path) -> dict[str, Path]:
@@ -150,7 +151,7 @@ def test_one_of_two_roots_is_found_whatever_the_order_of_listing(initialised: In
     ((a, b, c),) = roots
     both = 0.9 + np.sqrt(0.07) * np.array([-1.0, 1.0])  # of c
     assert min(abs(both - c)) < 1e-11
-    assert (a + b + c, a * a + b * b + c * c) == pytest.approx((0.0, 5.0), abs=1e-11)
+    assert (a + b + c, a * a + b * b + c * c) == approx((0.0, 5.0), abs=1e-11)
 
 
 def test_a_loop_without_value_at_its_start_is_refused_with_its_variables(
@@ -176,8 +177,8 @@ def test_without_declared_dependencies_every_input_counts(initialised: Initialis
     spring = build("mass_2_spring", folder, dependencies=False)
     links = [("mass.x", "spring.x1"), ("mass.v", "spring.v1"), ("spring.F", "mass.F")]
     _, values = initialised({"mass": mass, "spring": spring}, links)
-    assert values["spring.x1"] == pytest.approx(0.25, rel=1e-9)
-    assert values["mass.F"] == pytest.approx(-2.5, rel=1e-9)
+    assert values["spring.x1"] == approx(0.25, rel=1e-9)
+    assert values["mass.F"] == approx(-2.5, rel=1e-9)
 
 
 def test_values_of_all_types_are_passed_on(initialised: Initialised, folder: Path) -> None:

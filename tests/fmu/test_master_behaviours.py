@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from comparison import approx
 from models import build
 
 from system_models.master import CouplingError, System, simulate
@@ -41,8 +42,8 @@ def last(result: xr.Dataset, name: str) -> Any:
 
 def test_a_step_that_is_refused_is_made_in_halves(folder):
     result = simulate(alone(build("discard", folder), u=2.0, h_max=0.06), 1.0, 0.2, outputs=["a.y"])
-    assert result["a.y"].values == pytest.approx(2.0 * result.time.values)
-    assert result.time.values[:3] == pytest.approx([0.0, 0.05, 0.0875])  # a quarter of 0.2, of 0.15, ...
+    assert result["a.y"].values == approx(2.0 * result.time.values)
+    assert result.time.values[:3] == approx([0.0, 0.05, 0.0875])  # a quarter of 0.2, of 0.15, ...
     assert result.attrs["stopped_early"] > 0
     for point in multiples(0.2, 1.0):  # the points of the undivided steps are still there
         assert np.abs(result.time.values - point).min() < 1e-12
@@ -55,17 +56,17 @@ def test_a_step_that_ends_early_is_gone_on_from_there(folder, fmi):
         "mass": build("mass_1_force", folder, fmi=fmi),
     }
     result = simulate(System(fmus, parameters={"short.u": 2.0}), 0.4, 0.2, outputs=["short.y", "mass.x"])
-    assert result["short.y"].values == pytest.approx(2.0 * result.time.values)
-    assert result.time.values == pytest.approx([0.0, 0.06, 0.12, 0.18, 0.2, 0.26, 0.32, 0.38, 0.4])
+    assert result["short.y"].values == approx(2.0 * result.time.values)
+    assert result.time.values == approx([0.0, 0.06, 0.12, 0.18, 0.2, 0.26, 0.32, 0.38, 0.4])
     whole = simulate(alone(build("mass_1_force", folder, fmi=fmi)), 0.4, 0.2, outputs=["a.x"])
-    assert last(result, "mass.x") == pytest.approx(last(whole, "a.x"), rel=1e-12)  # all others went back with it
+    assert last(result, "mass.x") == approx(last(whole, "a.x"), rel=1e-12)  # all others went back with it
 
 
 def test_error_control_takes_the_steps_that_an_fmu_can_make(folder):
     fmus = {"short": build("discard", folder, start={"h_max": 0.01}), "mass": build("mass_1_displacement", folder)}
     system = System(fmus, [("short.y", "mass.x_other"), ("mass.v", "short.u")])
     result = simulate(system, 0.5, 0.1, order=1, tolerance=1e-2, outputs=["short.y", "mass.x"])
-    assert last(result, "short.y") == pytest.approx(last(result, "mass.x") - 1.0, abs=0.03)  # both integrate mass.v
+    assert last(result, "short.y") == approx(last(result, "mass.x") - 1.0, abs=0.03)  # both integrate mass.v
     assert result["master.step_size"].values.max() <= 0.01 * (1.0 + 1e-9)
 
 
@@ -85,14 +86,14 @@ def test_an_fmu_that_refuses_every_step_is_an_error(folder):
 def test_an_fmu_that_ends_the_simulation_ends_it_with_what_there_is(folder, fmi):
     result = simulate(alone(build("terminator", folder, fmi=fmi), u=2.0, t_end=0.43), 1.0, 0.1, outputs=["a.y"])
     assert result.attrs["ended_by"] == "a"
-    assert result.time.values == pytest.approx([*multiples(0.1, 0.4), 0.43])
-    assert result["a.y"].values == pytest.approx(2.0 * result.time.values)
+    assert result.time.values == approx([*multiples(0.1, 0.4), 0.43])
+    assert result["a.y"].values == approx(2.0 * result.time.values)
 
 
 def test_an_end_at_a_communication_point_needs_no_way_back(folder):
     result = simulate(alone(build("terminator", folder, rollback=False), u=2.0), 1.0, 0.1, outputs=["a.y"])
     assert result.attrs["ended_by"] == "a"
-    assert (last(result, "time"), last(result, "a.y")) == pytest.approx((0.5, 1.0))
+    assert (last(result, "time"), last(result, "a.y")) == approx((0.5, 1.0))
 
 
 @pytest.mark.parametrize(("fmi", "end"), [(2, 0.4), (3, 0.5)])  # FMI 3 is not allowed an early return then
@@ -103,8 +104,8 @@ def test_an_end_within_a_step_keeps_what_there_is_without_a_way_back(folder, fmi
     }
     result = simulate(System(fmus), 1.0, 0.1, outputs=["end.y"])
     assert result.attrs["ended_by"] == "end"
-    assert result.time.values == pytest.approx(multiples(0.1, end))
-    assert last(result, "end.y") == pytest.approx(2.0 * end)
+    assert result.time.values == approx(multiples(0.1, end))
+    assert last(result, "end.y") == approx(2.0 * end)
 
 
 # Without a way back
@@ -175,7 +176,7 @@ def test_an_event_is_not_stepped_over_by_error_control(folder):
     )
     found, expected = event_times(result, "teeth.tooth"), 0.0301 * np.arange(1, 7)
     assert len(found) == 6
-    assert found == pytest.approx(expected, abs=2e-8)
+    assert found == approx(expected, abs=2e-8)
 
 
 def test_a_change_of_sign_is_found(folder):
@@ -184,14 +185,14 @@ def test_a_change_of_sign_is_found(folder):
     zeros = (np.arange(2) + 0.5) * math.pi / math.sqrt(10.0)  # x = cos(sqrt(k/m) t)
     behind = result.time.values[1:][np.diff(np.sign(result["mass.x"].values)) != 0]
     assert result.attrs["events"] == 2
-    assert behind == pytest.approx(zeros, abs=2e-9)
+    assert behind == approx(zeros, abs=2e-9)
 
 
 def test_an_fmu_that_announces_its_events_is_met_there(folder):
     fmus = {"early": build("early", folder, fmi=3, start={"period": 0.26}), "mass": build("mass_1_force", folder)}
     result = simulate(System(fmus, parameters={"early.u": 1.0}), 1.0, 0.1, outputs=["early.y", "early.events"])
-    assert event_times(result, "early.events") == pytest.approx(0.26 * np.arange(1, 4), abs=1e-12)
-    assert last(result, "early.y") == pytest.approx(1.0 + 3.0)
+    assert event_times(result, "early.events") == approx(0.26 * np.arange(1, 4), abs=1e-12)
+    assert last(result, "early.y") == approx(1.0 + 3.0)
     assert result.attrs["events"] == 3
 
 
@@ -200,7 +201,7 @@ def test_a_scheduled_value_is_met_exactly(folder):
     system = System({"a": build("discard", folder, start={"h_max": 1.0})}, schedule=schedule)
     result = simulate(system, 1.0, 0.1, outputs=["a.y"])
     assert {0.123, 0.7} <= {*result.time.values}
-    assert last(result, "a.y") == pytest.approx(0.123 - 2.0 * (0.7 - 0.123))
+    assert last(result, "a.y") == approx(0.123 - 2.0 * (0.7 - 0.123))
 
 
 # Types and units
@@ -232,7 +233,7 @@ def test_a_tooth_count_is_passed_on_in_the_step_it_changes(folder):
 def test_units_are_converted(folder):
     fmus = {"mass": build("mass_1_force", folder), "mm": build("millimetre", folder)}
     result = simulate(System(fmus, [("mass.x", "mm.u")]), 0.1, 0.1, outputs=["mass.x", "mm.y"])
-    assert result["mm.y"].values == pytest.approx(10.0 * 1000.0 * result["mass.x"].values)
+    assert result["mm.y"].values == approx(10.0 * 1000.0 * result["mass.x"].values)
     assert result["mm.y"].attrs["units"] == "N"
 
 
@@ -241,7 +242,7 @@ def test_temperatures_are_shifted(folder, there, shift):
     back = {"celsius": "kelvin", "kelvin": "celsius"}[there]
     fmus = {"from": build(back, folder), "to": build(there, folder)}
     system = System(fmus, [("from.y", "to.u")], {"from.u": 300.0})
-    assert last(simulate(system, 0.1, 0.1, outputs=["to.y"]), "to.y") == pytest.approx(300.0 + shift)
+    assert last(simulate(system, 0.1, 0.1, outputs=["to.y"]), "to.y") == approx(300.0 + shift)
 
 
 def test_units_that_do_not_fit_are_refused(folder):
@@ -317,7 +318,7 @@ def test_an_fmu_in_python_gives_what_the_one_in_c_gives(folder, iterate):
         )
         for name in ("mass_1_force", "python_mass")
     ]
-    assert runs[1]["one.x"].values == pytest.approx(runs[0]["one.x"].values, abs=1e-13)
+    assert runs[1]["one.x"].values == approx(runs[0]["one.x"].values, abs=1e-13)
 
 
 @pytest.mark.parametrize("order", [0, 1])
@@ -332,13 +333,13 @@ def test_fmi_2_and_fmi_3_mix(folder, one, two, order):
 
     reference, result = mixed(2, 2), mixed(one, two)
     for name in ("one.x", "two.F"):
-        assert result[name].values == pytest.approx(reference[name].values, rel=1e-12, abs=1e-12)
+        assert result[name].values == approx(reference[name].values, rel=1e-12, abs=1e-12)
 
 
 def test_one_fmu_may_be_there_twice(folder):
     path = build("mass_1_force", folder)
     result = simulate(System({"a": path, "b": path}, parameters={"b.x0": 2.0}), 0.5, 0.1, outputs=["a.x", "b.x"])
-    assert result["b.x"].values == pytest.approx(2.0 * result["a.x"].values)
+    assert result["b.x"].values == approx(2.0 * result["a.x"].values)
 
 
 def test_costs_are_counted_for_each_fmu(folder):

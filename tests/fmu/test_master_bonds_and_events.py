@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from comparison import approx
 from models import build
 
 from system_models.master import CouplingError, System, simulate
@@ -32,7 +33,7 @@ def test_a_power_residual_is_what_the_mass_takes_less_what_the_spring_gives(fold
     result = simulate(oscillator(folder, "a", "b", bonds=[("b.F", "a.v")]), 1.0, 0.01)
     force, speed = result["b.F"].values, result["a.v"].values
     expected = force[:-1] * speed[1:] - force[1:] * speed[:-1]  # held: what was given a step ago
-    assert result["bond.b.F*a.v"].values[1:] == pytest.approx(expected, abs=1e-12)
+    assert result["bond.b.F*a.v"].values[1:] == approx(expected, abs=1e-12)
 
 
 def test_a_power_residual_vanishes_where_the_step_is_iterated(folder: Path) -> None:
@@ -47,7 +48,7 @@ def test_a_controlled_step_finds_events_between_its_halves(folder: Path) -> None
     result = simulate(system, 4.0, 2.0, order=1, tolerance=1e-1, outputs=["a.x"])
     signs = np.sign(result["a.x"].values)
     assert result.attrs["events"] == np.count_nonzero(np.diff(signs)) == 4  # of cos(3.16 t) until 4 s
-    assert result["a.x"].values[np.flatnonzero(np.diff(signs)) + 1] == pytest.approx(0.0, abs=1e-4)
+    assert result["a.x"].values[np.flatnonzero(np.diff(signs)) + 1] == approx(0.0, abs=1e-4)
 
 
 def test_what_starts_at_zero_is_no_event(folder: Path) -> None:
@@ -58,7 +59,7 @@ def test_what_starts_at_zero_is_no_event(folder: Path) -> None:
 def test_a_schedule_that_began_before_the_start_holds_its_last_value(folder: Path) -> None:
     schedule = {"y.u": [(-2.0, 7.0), (-1.0, 2.0), (0.5, 3.0)]}
     system = System({"y": build("nan", folder, start={"t_nan": 9.0})}, [], schedule=schedule)
-    assert simulate(system, 1.0, 0.1, outputs=["y.y"])["y.y"].values[-1] == pytest.approx(2.5)
+    assert simulate(system, 1.0, 0.1, outputs=["y.y"])["y.y"].values[-1] == approx(2.5)
 
 
 def test_a_direct_loop_is_warned_of_unless_it_is_iterated(folder: Path, caplog: pytest.LogCaptureFixture) -> None:
@@ -83,7 +84,7 @@ def test_a_crossing_is_found_wherever_the_steps_meet_zero(
     result = simulate(system, 2.0, step, outputs=["m.x"], **options)
     sides = result["m.x"].values > 0.0
     assert result.attrs["events"] == 1
-    assert result["time"].values[np.flatnonzero(np.diff(sides)) + 1] == pytest.approx(1.0, abs=1e-6)
+    assert result["time"].values[np.flatnonzero(np.diff(sides)) + 1] == approx(1.0, abs=1e-6)
 
 
 def test_a_crossing_in_the_second_half_of_the_first_step_is_found(folder: Path) -> None:

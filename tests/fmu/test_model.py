@@ -4,6 +4,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from comparison import approx
 from models import build
 
 from system_models.master.model import Model, kind
@@ -49,7 +50,7 @@ def test_unit_and_nominal_come_from_the_declared_type_too(tmp_path: Path, fmi: i
     path = with_type(tmp_path, fmi)
     system = System({"a": path, "b": build("kelvin", tmp_path)}, [("a.y", "b.u")])
     assert system.connections[0].source.nominal == 20.0
-    assert system.connections[0].result(20.0) == pytest.approx(293.15, rel=1e-15)
+    assert system.connections[0].result(20.0) == approx(293.15, rel=1e-15)
 
 
 @pytest.mark.parametrize("fmi", [2, 3])

@@ -10,6 +10,7 @@ from typing import Any
 import fmpy
 import numpy as np
 import pytest
+from comparison import approx
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2Error, fmi2LastSuccessfulTime, fmi2Terminated
 from fmpy.fmi3 import FMU3Slave, fmi3Error
@@ -158,15 +159,15 @@ def test_a_linear_system_is_exact(fmi, run):
         enlarged[:4, :4], enlarged[:4, 4:6], enlarged[4:8, 6:] = A, B, np.eye(4)
         x = (expm(h * enlarged) @ np.concatenate([x, u, du, ddu]))[:4]
         end = u + h * du + 0.5 * h**2 * ddu
-        assert [model.get(f"y{i}") for i in range(3)] == pytest.approx(C @ x + D @ end, rel=1e-13, abs=1e-13)
+        assert [model.get(f"y{i}") for i in range(3)] == approx(C @ x + D @ end, rel=1e-13, abs=1e-13)
         references = [model.variables[f"y{i}"].valueReference for i in range(3)]
         call = model.fmu.getRealOutputDerivatives if fmi == 2 else model.fmu.getOutputDerivatives
         slopes = C @ (A @ x + B @ end) + D @ (du + h * ddu)
-        assert call(references, [1, 1, 1]) == pytest.approx(slopes, rel=1e-12, abs=1e-12)
+        assert call(references, [1, 1, 1]) == approx(slopes, rel=1e-12, abs=1e-12)
     model.set(u0=3.0, u1=-2.0)
-    assert model.get("y2") == pytest.approx(C[2] @ x + D[2] @ [3.0, -2.0], rel=1e-12)
+    assert model.get("y2") == approx(C[2] @ x + D[2] @ [3.0, -2.0], rel=1e-12)
     knowns = [model.variables[f"u{i}"].valueReference for i in range(2)]
-    assert model.fmu.getDirectionalDerivative(references, knowns, [1.0, 10.0]) == pytest.approx(D @ [1.0, 10.0])
+    assert model.fmu.getDirectionalDerivative(references, knowns, [1.0, 10.0]) == approx(D @ [1.0, 10.0])
 
 
 def test_slopes_hold_for_one_step_and_only_where_the_model_interpolates(run):
@@ -175,9 +176,9 @@ def test_slopes_hold_for_one_step_and_only_where_the_model_interpolates(run):
         model.set(F=1.0)
         model.slopes((1,), F=(6.0,))
         model.step(1.0)
-    assert [model.get("v") for model in models] == pytest.approx([-4e3, -1e3])
+    assert [model.get("v") for model in models] == approx([-4e3, -1e3])
     models[0].step(1.0)
-    assert models[0].get("v") == pytest.approx(-4e3 - 7e3)
+    assert models[0].get("v") == approx(-4e3 - 7e3)
 
 
 def test_unmoved_neighbours_see_the_forces_of_the_whole(run):
@@ -192,7 +193,7 @@ def test_unmoved_neighbours_see_the_forces_of_the_whole(run):
     for one, two in pairs:
         one.step(h)
         two.step(h)
-        assert [one.get("v"), two.get("v")] == pytest.approx(whole[2:], rel=1e-5)
+        assert [one.get("v"), two.get("v")] == approx(whole[2:], rel=1e-5)
 
 
 def test_the_quarter_car_comes_to_rest_on_the_road(run):
@@ -210,9 +211,9 @@ def test_the_quarter_car_comes_to_rest_on_the_road(run):
         other.set(x_other=other_wheel.get("x"), v_other=other_wheel.get("v"))
         other.step(h)
     whole = exact.quarter_car([t])[0]
-    assert [wheel.get("x"), chassis.get("x")] == pytest.approx(whole[:2], rel=5e-3)
-    assert [other_wheel.get("x"), other.get("x")] == pytest.approx(whole[:2], rel=5e-3)
-    assert exact.quarter_car([20.0])[0, :2] == pytest.approx([0.1, 0.1], abs=1e-8)
+    assert [wheel.get("x"), chassis.get("x")] == approx(whole[:2], rel=5e-3)
+    assert [other_wheel.get("x"), other.get("x")] == approx(whole[:2], rel=5e-3)
+    assert exact.quarter_car([20.0])[0, :2] == approx([0.1, 0.1], abs=1e-8)
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
@@ -242,7 +243,7 @@ def test_a_state_set_keeps_the_slopes_that_were_set_before_it_was_saved(run):
         model.restore(saved, 0.0)
         model.step(1.0)
         speeds.append(model.get("v"))
-    assert speeds[0] == speeds[1] == pytest.approx(-2e3)
+    assert speeds[0] == speeds[1] == approx(-2e3)
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
@@ -288,7 +289,7 @@ def test_a_parameter_set_before_initialisation_ends_counts(run):
     assert model.get("x") == -2.0
     model.set(F=8.0)
     model.step(1.0)
-    assert (model.get("x"), model.get("v")) == pytest.approx((-1.0, 2.0))
+    assert (model.get("x"), model.get("v")) == approx((-1.0, 2.0))
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
@@ -309,7 +310,7 @@ def test_a_model_reports_what_its_master_does_wrong(fmi, run):
 def test_the_contact_is_one_sided_and_its_derivatives_are_right(run):
     model = run("contact_point")
     model.set(x=1.0795e-6)
-    assert model.get("F") == pytest.approx(300.0, rel=1e-12)
+    assert model.get("F") == approx(300.0, rel=1e-12)
     h = 1e-12
     model.set(v=0.01)
     tangents = model.get("dF_dx"), model.get("dF_dv")
@@ -317,7 +318,7 @@ def test_the_contact_is_one_sided_and_its_derivatives_are_right(run):
     for x, v in ((1.0795e-6 + h, 0.01), (1.0795e-6 - h, 0.01), (1.0795e-6, 0.02), (1.0795e-6, 0.0)):
         model.set(x=x, v=v)
         forces.append(model.get("F"))
-    assert tangents == pytest.approx(((forces[0] - forces[1]) / (2 * h), (forces[2] - forces[3]) / 0.02), rel=1e-6)
+    assert tangents == approx(((forces[0] - forces[1]) / (2 * h), (forces[2] - forces[3]) / 0.02), rel=1e-6)
     for x, v, touches in ((-1e-9, 1.0, False), (1e-9, -1.0, True)):
         model.set(x=x, v=v)
         assert (model.get("F"), model.get("dF_dx"), model.get("dF_dv")) == (0.0, 0.0, 0.0)
@@ -332,10 +333,10 @@ def test_friction_falls_with_speed_and_its_derivative_is_right(run):
             model.set(u=at)
             forces.append(model.get("F"))
         model.set(u=u)
-        assert model.get("dF_du") == pytest.approx((forces[0] - forces[1]) / (2 * h), rel=1e-5, abs=1e-5)
+        assert model.get("dF_du") == approx((forces[0] - forces[1]) / (2 * h), rel=1e-5, abs=1e-5)
         assert model.get("F") * u <= 0.0
     model.set(u=0.5)
-    assert model.get("F") == pytest.approx(-10.0 * (0.25 + 0.15 * np.exp(-5.0)), rel=1e-12)
+    assert model.get("F") == approx(-10.0 * (0.25 + 0.15 * np.exp(-5.0)), rel=1e-12)
 
 
 def test_block_and_belt_stick_and_slip(run):
@@ -345,13 +346,13 @@ def test_block_and_belt_stick_and_slip(run):
         friction.set(u=block.get("u"))
         block.set(F=friction.get("F"))
         block.step(h)
-    assert (block.get("x"), block.get("v")) == pytest.approx(exact.stick_slip([0.8])[0], abs=2e-3)
+    assert (block.get("x"), block.get("v")) == approx(exact.stick_slip([0.8])[0], abs=2e-3)
     v = exact.stick_slip(np.linspace(2.0, 6.0, 400))[:, 1]
     assert v.max() < 0.1 and v.min() < -0.2 and np.mean(v > 0.07) > 0.4
 
 
 def test_the_stiff_contact_settles_where_force_and_load_agree():
-    assert exact.stiff_contact([1e-3])[0] == pytest.approx([1.0795e-6, 0.0], rel=1e-9, abs=1e-10)
+    assert exact.stiff_contact([1e-3])[0] == approx([1.0795e-6, 0.0], rel=1e-9, abs=1e-10)
 
 
 def test_echo_returns_every_type(run):
@@ -379,13 +380,13 @@ def test_long_steps_are_refused_in_fmi_2(run):
         model.step(0.2)
     assert model.fmu.getRealStatus(fmi2LastSuccessfulTime) == 0.1
     assert not model.fmu.getBooleanStatus(fmi2Terminated)
-    assert model.get("y") == pytest.approx(1.2)
+    assert model.get("y") == approx(1.2)
     partial = run("discard", partial=True)
     partial.set(u=2.0)
     with refused(fmi2Discard):
         partial.step(0.25)
     assert partial.fmu.getRealStatus(fmi2LastSuccessfulTime) == 0.1
-    assert partial.get("y") == pytest.approx(0.2)
+    assert partial.get("y") == approx(0.2)
 
 
 def test_long_steps_are_refused_or_end_early_in_fmi_3(run):
@@ -404,13 +405,13 @@ def test_the_terminator_ends_the_simulation(run):
     model.step(0.4)
     with refused(fmi2Discard):
         model.step(0.4)
-    assert model.fmu.getRealStatus(fmi2LastSuccessfulTime) == pytest.approx(0.5)
+    assert model.fmu.getRealStatus(fmi2LastSuccessfulTime) == approx(0.5)
     assert model.fmu.getBooleanStatus(fmi2Terminated)
-    assert model.get("y") == pytest.approx(0.5)
+    assert model.get("y") == approx(0.5)
     for allowed, reached in ((True, 0.5), (False, 0.8)):
         model = run("terminator", 3, instantiate={"earlyReturnAllowed": allowed})
         assert model.step(0.4) == (False, False, False, 0.4)
-        assert model.step(0.4) == (False, True, allowed, pytest.approx(reached))
+        assert model.step(0.4) == (False, True, allowed, approx(reached))
 
 
 @pytest.mark.parametrize(("fmi", "options"), [(2, {}), (3, {}), (3, {"earlyReturnAllowed": True})])
@@ -419,7 +420,7 @@ def test_without_event_mode_events_happen_inside_the_step(fmi, options, run):
     model.set(u=1.0)
     model.step(0.6)
     model.step(0.4)
-    assert (model.get("y"), model.get("events")) == (pytest.approx(5.0), 4)
+    assert (model.get("y"), model.get("events")) == (approx(5.0), 4)
 
 
 def test_an_event_ends_the_step_and_is_handled_in_event_mode(run):
@@ -428,13 +429,13 @@ def test_an_event_ends_the_step_and_is_handled_in_event_mode(run):
     model.fmu.enterStepMode()
     model.set(u=1.0)
     assert model.step(0.6) == (True, False, True, 0.25)
-    assert model.get("y") == pytest.approx(0.25)
+    assert model.get("y") == approx(0.25)
     with refused(fmi3Error):
         model.fmu.doStep(0.25, 0.1)
     model.fmu.enterEventMode()
     assert model.fmu.updateDiscreteStates() == (False, False, False, True, True, 0.5)
     model.fmu.enterStepMode()
-    assert (model.get("y"), model.get("events")) == (pytest.approx(1.25), 1)
+    assert (model.get("y"), model.get("events")) == (approx(1.25), 1)
     assert model.fmu.doStep(0.25, 0.25) == (True, False, False, 0.5)
 
 
@@ -443,7 +444,7 @@ def test_where_early_return_is_not_allowed_the_step_goes_on_to_its_end(run):
     model.fmu.enterStepMode()
     model.set(u=1.0)
     assert model.step(0.6) == (False, False, False, 0.6)
-    assert (model.get("y"), model.get("events")) == (pytest.approx(2.6), 2)
+    assert (model.get("y"), model.get("events")) == (approx(2.6), 2)
 
 
 def test_the_ball_loses_the_same_share_of_speed_at_each_bounce(run):
@@ -453,7 +454,7 @@ def test_the_ball_loses_the_same_share_of_speed_at_each_bounce(run):
         model = run("bouncer", fmi)
         model.step(first * (1.0 + 2.0 * 0.7 + 0.7**2))
         assert model.get("bounces") == 2
-        assert (model.get("h"), model.get("v")) == pytest.approx((0.7**4, 0.0), abs=1e-12)
+        assert (model.get("h"), model.get("v")) == approx((0.7**4, 0.0), abs=1e-12)
         model.step(first * 10.0)
         assert (model.get("h"), model.get("v")) == (0.0, 0.0)
 
@@ -493,7 +494,7 @@ def test_the_mass_of_pythonfmu_moves_as_the_one_in_c(run, folder):
     for model in (python, compiled):
         model.set(F=3.0)
         model.step(0.3)
-    assert python.get("x") == pytest.approx(compiled.get("x"), rel=1e-13)
+    assert python.get("x") == approx(compiled.get("x"), rel=1e-13)
     saved = python.bytes()
     python.step(0.3)
     x = python.get("x")

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from comparison import approx
 from fmpy.fmi1 import FMICallException
 from models import build
 
@@ -112,7 +113,7 @@ def test_a_discarded_step_says_how_far_it_came_and_can_be_shorter(start: Start, 
     assert not slave.terminated
     assert slave.step(0.0, 0.1, held(2.0)) == 0.1
     slave.read()
-    assert slave.outputs.values == pytest.approx([0.2], rel=1e-14)
+    assert slave.outputs.values == approx([0.2], rel=1e-14)
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
@@ -121,10 +122,10 @@ def test_the_end_that_an_fmu_asks_for_is_seen_and_taken_back_with_its_state(star
     assert slave.step(0.0, 0.4, held(1.0)) == 0.4
     assert not slave.terminated
     state = slave.save()
-    assert slave.step(0.4, 0.4, held(1.0)) == pytest.approx(0.5, rel=1e-14)
+    assert slave.step(0.4, 0.4, held(1.0)) == approx(0.5, rel=1e-14)
     assert slave.terminated
     slave.read()
-    assert slave.outputs.values == pytest.approx([0.5], rel=1e-14)
+    assert slave.outputs.values == approx([0.5], rel=1e-14)
     slave.restore(state)
     assert not slave.terminated
     slave.release(state)
@@ -145,9 +146,9 @@ def test_a_step_that_may_return_early_ends_at_the_event(start: Start) -> None:
     slave = start("early", 3, early_return=True)
     slave.read()
     assert slave.outputs.values == [0.0] and slave.next_event == 0.25
-    assert slave.step(0.0, 1.0, held(2.0)) == pytest.approx(0.25, rel=1e-14)
+    assert slave.step(0.0, 1.0, held(2.0)) == approx(0.25, rel=1e-14)
     slave.read()
-    assert slave.outputs.values == pytest.approx([0.5 + 1.0], rel=1e-14)  # ramp and jump
+    assert slave.outputs.values == approx([0.5 + 1.0], rel=1e-14)  # ramp and jump
     assert slave.event and slave.next_event == 0.5 and not slave.terminated
     assert slave.step(0.25, 0.125, held(2.0)) == 0.375
     assert not slave.event
@@ -158,13 +159,13 @@ def test_a_step_that_may_not_return_early_ends_where_it_should_and_asks_for_the_
     before = slave.events
     assert slave.step(0.0, 0.6, held(2.0)) == 0.6
     slave.read()
-    assert slave.outputs.values == pytest.approx([1.2 + 2.0], rel=1e-14)  # both events were within the step
+    assert slave.outputs.values == approx([1.2 + 2.0], rel=1e-14)  # both events were within the step
     assert slave.event and slave.events == before + 1 and slave.next_event == 0.75
     slave.step(0.6, 0.1, held(2.0))
     assert not slave.event
     slave.step(0.7, 0.05, held(2.0))
     slave.read()
-    assert slave.event and slave.outputs.values == pytest.approx([1.5 + 3.0], rel=1e-14)
+    assert slave.event and slave.outputs.values == approx([1.5 + 3.0], rel=1e-14)
 
 
 def test_an_announced_event_comes_back_with_the_state(start: Start) -> None:
@@ -230,4 +231,4 @@ def test_inputs_follow_a_parabola_or_are_held_at_its_mean(
     slave.read()
     position = 1 / 8 - 2 / 48 + 9 / 192 if interpolates else 1.25 / 8
     assert slave.outputs.names == ["x", "v"]
-    assert slave.outputs.values == pytest.approx([position, 0.625], rel=1e-13)
+    assert slave.outputs.values == approx([position, 0.625], rel=1e-13)

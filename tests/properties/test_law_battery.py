@@ -5,6 +5,7 @@ from typing import Any, get_type_hints
 
 import numpy as np
 import pytest
+from comparison import approx
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
@@ -124,7 +125,7 @@ def test_a_viscosity_takes_a_field_of_temperatures(law, pressure, temperature):
     found = law(pressure, temperature)
     assert is_field(found)
     one_by_one = [law(np.array([p]), float(t))[0] for p, t in zip(pressure.flat, temperature.flat, strict=True)]
-    assert found.ravel() == pytest.approx(one_by_one, rel=1e-11, abs=0.0)
+    assert found.ravel() == approx(one_by_one, rel=1e-11, abs=0.0)
 
 
 @given(laws_of("viscosity"), pressures, st.floats(230.0, 490.0))
@@ -202,7 +203,7 @@ def test_a_pressure_limit_is_that_of_one_of_three_layers(law, film_1, film_2, de
         ],
         law.hardness,
     )
-    assert law.limit(film_1, film_2, depth, FULL) == pytest.approx(expected, rel=1e-12)
+    assert law.limit(film_1, film_2, depth, FULL) == approx(expected, rel=1e-12)
 
 
 @given(laws_of("plasticity"), films, films, st.floats(-1e-6, 1e-6))
@@ -243,7 +244,7 @@ def test_all_heat_goes_into_the_bodies(law, heat, gap, solid, pressed, speed_1, 
     found = law.temperatures(Rubbing(heat, gap, solid, inside, 4e-6, speed, (first, second), 0.14))
     assert found.solved
     total = heat.sum() * 4e-6**2
-    assert found.into_1 + found.into_2 == pytest.approx(total, rel=1e-12, abs=1e-12 * abs(found.into_1))
+    assert found.into_1 + found.into_2 == approx(total, rel=1e-12, abs=1e-12 * abs(found.into_1))
     for surface in (found.surface_1, found.surface_2, found.film):
         assert np.shape(surface) in ((), SHAPE)
         assert np.all(np.isfinite(surface))
@@ -272,7 +273,7 @@ def test_bulk_temperatures_after_two_steps_are_those_after_their_sum(law, bodies
     by_steps = law.after(law.after(stored, heat, oil, first), heat, oil, second)
     at_once = law.after(stored, heat, oil, first + second)
     assert np.all(np.isfinite(at_once))
-    assert by_steps == pytest.approx(at_once, rel=1e-12)
+    assert by_steps == approx(at_once, rel=1e-12)
 
 
 @given(laws_of("bulk"), temperatures)
@@ -299,7 +300,7 @@ def test_a_wear_rate_is_that_of_its_coefficient_and_its_sliding(law, pressure, c
     assert is_field(coefficient)
     assert np.all((coefficient >= 0.0) & (coefficient <= 1.0))
     assert slide >= 0.0
-    assert found == pytest.approx(coefficient * pressure * slide / 6e9, rel=1e-12, abs=0.0)
+    assert found == approx(coefficient * pressure * slide / 6e9, rel=1e-12, abs=0.0)
 
 
 shears = arrays(float, SHAPE, elements=st.floats(0.0, 1e9))
@@ -324,7 +325,7 @@ def test_a_field_of_temperatures_exposes_each_node_by_its_own(law, pressure, she
     found = law.exposure(pressure, shear, speed, warm)
     node = (1, 2)
     alone = law.exposure(pressure, shear, speed, float(warm[node]))
-    assert found[node] == pytest.approx(alone[node], rel=1e-12, abs=0.0)
+    assert found[node] == approx(alone[node], rel=1e-12, abs=0.0)
 
 
 positions = arrays(float, (SHAPE[0], 1), elements=st.floats(0.0, 2.0))
@@ -339,7 +340,7 @@ def test_rubbing_removes_a_tribofilm_in_proportion_to_pressure_and_not_less_at_t
     assert np.all(found >= even)
     assert np.all(even >= 0.0)
     assert np.array_equal(law.abrasion(pressure, speed, np.zeros_like(position)), even)
-    assert law.abrasion(2.0 * pressure, -speed, position) == pytest.approx(2.0 * found, rel=1e-12, abs=1e-300)
+    assert law.abrasion(2.0 * pressure, -speed, position) == approx(2.0 * found, rel=1e-12, abs=1e-300)
     assert not law.abrasion(pressure, 0.0, position).any()
     assert law.abrades or not found.any()
 

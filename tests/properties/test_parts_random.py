@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from comparison import approx
 from component_examples import EXAMPLES
 from hypothesis import given
 from hypothesis import strategies as st
@@ -33,5 +34,5 @@ def test_any_inputs_give_finite_outputs_however_a_step_is_split(name, data):
         early = step * data.draw(st.floats(0.001, 0.999), label="split")
         split = part.advance(part.advance(state, inputs, early), inputs, step - early)
         state = part.advance(state, inputs, step)
-        assert split == pytest.approx(state, rel=1e-9, abs=1e-6)
+        assert split == approx(state, rel=1e-9, abs=1e-6)
         assert all(math.isfinite(value) for value in part.outputs(state, inputs).values())

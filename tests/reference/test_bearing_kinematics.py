@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.integrate import quad
 
 from system_models.bearing import kinematics
@@ -22,13 +23,13 @@ def test_race_control_is_the_limit(inner, outer):
     by_outer = (1.0 - RATIO * math.cos(inner)) / both
     by_inner = (math.cos(inner - outer) - RATIO * math.cos(outer)) / both
     orbit, _, tilt, _, _, _, spin = rolling(inner, outer, 1.0, MUCH, RATIO)
-    assert orbit == pytest.approx(by_outer, rel=1e-12)
-    assert math.tan(tilt) == pytest.approx(math.sin(outer) / (math.cos(outer) + RATIO), rel=1e-12)
-    assert spin == pytest.approx(0.0, abs=1e-14)
+    assert orbit == approx(by_outer, rel=1e-12)
+    assert math.tan(tilt) == approx(math.sin(outer) / (math.cos(outer) + RATIO), rel=1e-12)
+    assert spin == approx(0.0, abs=1e-14)
     orbit, _, tilt, _, _, spin, _ = rolling(inner, outer, MUCH, 1.0, RATIO)
-    assert orbit == pytest.approx(by_inner, rel=1e-12)
-    assert math.tan(tilt) == pytest.approx(math.sin(inner) / (math.cos(inner) - RATIO), rel=1e-12)
-    assert spin == pytest.approx(0.0, abs=1e-14)
+    assert orbit == approx(by_inner, rel=1e-12)
+    assert math.tan(tilt) == approx(math.sin(inner) / (math.cos(inner) - RATIO), rel=1e-12)
+    assert spin == approx(0.0, abs=1e-14)
 
 
 def velocities(inner, outer, held, y=0.0, groove=0.52):
@@ -56,8 +57,8 @@ def velocities(inner, outer, held, y=0.0, groove=0.52):
 def test_balls_do_not_slip_at_the_centres_and_spin_as_told(inner, outer, held):
     *_, spin_inner, spin_outer = rolling(inner, outer, *held, RATIO)
     for (slip, relative, outward), spin in zip(velocities(inner, outer, held), (spin_inner, spin_outer), strict=True):
-        assert slip == pytest.approx(np.zeros(3), abs=1e-14)
-        assert relative @ outward == pytest.approx(spin, rel=1e-12, abs=1e-13)
+        assert slip == approx(np.zeros(3), abs=1e-14)
+        assert relative @ outward == approx(spin, rel=1e-12, abs=1e-13)
 
 
 @pytest.mark.parametrize(("inner", "outer"), ANGLES)
@@ -71,7 +72,7 @@ def test_sliding_bends_across_the_contact_as_the_square_of_the_distance(inner, o
             there, here, back = (velocities(inner, outer, held, y=s * y)[i][0][2] for s in (1.0, 0.0, -1.0))
             bent = 0.5 * (there + back) - here
             sense = -1.0 if i == 0 else 1.0  # the ball's surface runs the other way past the outer race
-            assert abs(bent) == pytest.approx(bend * y**2, rel=2.0 * y**2)
+            assert abs(bent) == approx(bend * y**2, rel=2.0 * y**2)
             assert sense * bent * roll > 0.0
 
 
@@ -81,13 +82,11 @@ def pressed(of):
 
 def test_shares_of_differential_sliding_are_those_of_no_net_force():
     coulomb, viscous = kinematics.NEUTRAL_COULOMB, kinematics.NEUTRAL_VISCOUS
-    assert pressed(lambda s: math.copysign(1.0, s - coulomb)) == pytest.approx(0.0, abs=1e-12)
-    assert pressed(lambda s: s * s - viscous**2) == pytest.approx(0.0, abs=1e-12)
-    assert pressed(lambda s: abs(s * s - coulomb**2)) == pytest.approx(kinematics.SLIDE_COULOMB, rel=1e-12)
-    assert pressed(lambda s: (s * s - viscous**2) ** 2) == pytest.approx(kinematics.SLIDE_VISCOUS**2, rel=1e-12)
-    assert (coulomb, kinematics.SLIDE_COULOMB, kinematics.SLIDE_VISCOUS) == pytest.approx(
-        (0.347, 0.161, 0.214), abs=5e-4
-    )
+    assert pressed(lambda s: math.copysign(1.0, s - coulomb)) == approx(0.0, abs=1e-12)
+    assert pressed(lambda s: s * s - viscous**2) == approx(0.0, abs=1e-12)
+    assert pressed(lambda s: abs(s * s - coulomb**2)) == approx(kinematics.SLIDE_COULOMB, rel=1e-12)
+    assert pressed(lambda s: (s * s - viscous**2) ** 2) == approx(kinematics.SLIDE_VISCOUS**2, rel=1e-12)
+    assert (coulomb, kinematics.SLIDE_COULOMB, kinematics.SLIDE_VISCOUS) == approx((0.347, 0.161, 0.214), abs=5e-4)
 
 
 def test_spin_is_shared_near_race_control_at_little_more_power():
@@ -110,10 +109,10 @@ def test_motion_of_an_angular_contact_bearing_is_that_of_its_equilibrium():
     moving = kinematics.motion(BEARING_218, found, "inner")
     angle, bend = found.angle_inner[0], moving.bend[0]
     track = 0.5 * BEARING_218.pitch_diameter * (1.0 - BEARING_218.ratio * math.cos(angle))
-    assert moving.entrainment[0] == pytest.approx((1.0 - found.cage) * track, rel=1e-7)
+    assert moving.entrainment[0] == approx((1.0 - found.cage) * track, rel=1e-7)
     b = race.ellipse(found.load_inner[0]).b
     slide = kinematics.SLIDE_COULOMB * bend * b**2 / moving.entrainment[0]
     assert 0.001 < slide < 0.02
     # both contacts share the ring's spin about their normal
     spin = abs(moving.spin[0]) + abs(kinematics.motion(BEARING_218, found, "outer").spin[0])
-    assert spin == pytest.approx(math.sin(angle), rel=1e-12)
+    assert spin == approx(math.sin(angle), rel=1e-12)

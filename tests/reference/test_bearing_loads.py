@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.optimize import brentq
 
 from system_models.bearing.equilibrium import RingLoads, solve
@@ -20,41 +21,41 @@ RPM = math.pi / 30.0
 )
 def test_curvatures_and_stiffness_of_the_209(race, total, difference, stiffness):
     shape = BEARING_209.race(race)
-    assert shape.curvature_sum == pytest.approx(total, rel=5e-5)
-    assert shape.curvature_difference == pytest.approx(difference, rel=1e-5)
-    assert shape.stiffness == pytest.approx(stiffness * MM, rel=1e-4)
+    assert shape.curvature_sum == approx(total, rel=5e-5)
+    assert shape.curvature_difference == approx(difference, rel=1e-5)
+    assert shape.stiffness == approx(stiffness * MM, rel=1e-4)
 
 
 def test_play_of_the_209_and_stiffness_of_both_bearings():
-    assert BEARING_209.stiffness == pytest.approx(3.701e5 * MM, rel=1e-4)
-    assert math.degrees(BEARING_209.free_angle) == pytest.approx(9.858, abs=1e-3)
-    assert BEARING_209.endplay == pytest.approx(0.1739e-3, rel=5e-4)
-    assert BEARING_218.stiffness == pytest.approx(4.659e5 * MM, rel=5e-4)
-    assert BEARING_218.separation == pytest.approx(1.0312e-3, rel=5e-5)
+    assert BEARING_209.stiffness == approx(3.701e5 * MM, rel=1e-4)
+    assert math.degrees(BEARING_209.free_angle) == approx(9.858, abs=1e-3)
+    assert BEARING_209.endplay == approx(0.1739e-3, rel=5e-4)
+    assert BEARING_218.stiffness == approx(4.659e5 * MM, rel=5e-4)
+    assert BEARING_218.separation == approx(1.0312e-3, rel=5e-5)
 
 
 def test_the_209_under_8900_newton():
     found = solve(BEARING_209, RingLoads(y=8900.0), 0.0)
     assert found.converged
-    assert found.load_inner == pytest.approx([4526.6, 2840.6, 61.4, 0.0, 0.0, 0.0, 0.0, 61.4, 2840.6], rel=5e-4)
-    assert found.load_outer == pytest.approx(found.load_inner, rel=1e-12)
-    assert found.displacement[1] == pytest.approx(0.06058e-3, rel=1e-4)
+    assert found.load_inner == approx([4526.6, 2840.6, 61.4, 0.0, 0.0, 0.0, 0.0, 61.4, 2840.6], rel=5e-4)
+    assert found.load_outer == approx(found.load_inner, rel=1e-12)
+    assert found.displacement[1] == approx(0.06058e-3, rel=1e-4)
     extent = 0.5 * (1.0 - BEARING_209.clearance / (2.0 * found.displacement[1]))
-    assert extent == pytest.approx(0.438, abs=5e-4)
+    assert extent == approx(0.438, abs=5e-4)
     for race, long, short, pressure in (("inner", 2.548, 0.2744, 3091.0), ("outer", 2.471, 0.3387, 2582.0)):
         ellipse = BEARING_209.race(race).ellipse(found.load_inner.max())
-        assert (ellipse.b * 1e3, ellipse.a * 1e3, ellipse.pressure_max * 1e-6) == pytest.approx(
+        assert (ellipse.b * 1e3, ellipse.a * 1e3, ellipse.pressure_max * 1e-6) == approx(
             (long, short, pressure), rel=3e-4
         )
 
 
 def test_the_218_under_a_thrust_of_17800_newton():
     found = solve(BEARING_218, RingLoads(x=17800.0), 0.0)
-    assert np.degrees(found.angle_inner) == pytest.approx(41.50, abs=5e-3)
-    assert found.load_inner == pytest.approx(1679.0, rel=1e-4)
-    assert found.displacement[0] == pytest.approx(0.0360e-3, rel=1e-3)
+    assert np.degrees(found.angle_inner) == approx(41.50, abs=5e-3)
+    assert found.load_inner == approx(1679.0, rel=1e-4)
+    assert found.displacement[0] == approx(0.0360e-3, rel=1e-3)
     for race, pressure in (("inner", 1525.0), ("outer", 1348.0)):
-        assert BEARING_218.race(race).ellipse(1679.0).pressure_max * 1e-6 == pytest.approx(pressure, rel=5e-3)
+        assert BEARING_218.race(race).ellipse(1679.0).pressure_max * 1e-6 == approx(pressure, rel=5e-3)
 
 
 @pytest.mark.parametrize("bearing", [BEARING_209, BEARING_218])
@@ -67,8 +68,8 @@ def test_thrust_makes_the_contact_angle_of_the_closed_form(bearing, thrust):
         return math.sin(angle) * (math.cos(free) / math.cos(angle) - 1.0) ** 1.5 - thrust / scale
 
     found = solve(bearing, RingLoads(x=thrust), 0.0)
-    assert found.angle_inner == pytest.approx(brentq(missing, free, 1.5, xtol=1e-14), rel=1e-8)
-    assert found.tilt == pytest.approx((0.0, 0.0), abs=1e-12)
+    assert found.angle_inner == approx(brentq(missing, free, 1.5, xtol=1e-14), rel=1e-8)
+    assert found.tilt == approx((0.0, 0.0), abs=1e-12)
 
 
 def balance(bearing, loads, speed, found):
@@ -151,10 +152,10 @@ def test_a_turned_bearing_under_turned_loads_is_the_same(angle, speed):
         s * loads.moment_y + c * loads.moment_z,
     )
     one, other = solve(BEARING_209, loads, speed), solve(BEARING_209, turned, speed, first_ball=angle)
-    assert other.load_inner == pytest.approx(one.load_inner, rel=1e-11, abs=1e-10)
-    assert other.angle_outer == pytest.approx(one.angle_outer, rel=1e-11, abs=1e-12)
+    assert other.load_inner == approx(one.load_inner, rel=1e-11, abs=1e-10)
+    assert other.angle_outer == approx(one.angle_outer, rel=1e-11, abs=1e-12)
     y, z = one.displacement[1:]
-    assert other.displacement == pytest.approx((one.displacement[0], c * y - s * z, s * y + c * z), rel=1e-10)
+    assert other.displacement == approx((one.displacement[0], c * y - s * z, s * y + c * z), rel=1e-10)
 
 
 def test_zero_load_at_speed_presses_balls_on_the_outer_race_only():
@@ -162,7 +163,7 @@ def test_zero_load_at_speed_presses_balls_on_the_outer_race_only():
     found = solve(BEARING_209, RingLoads(), speed)
     orbit = 0.5 * (1.0 - BEARING_209.ratio * math.cos(BEARING_209.free_angle)) * speed
     centrifugal = BEARING_209.mass * 0.5 * BEARING_209.pitch_diameter * orbit**2
-    assert found.load_outer == pytest.approx(centrifugal, rel=1e-12)
+    assert found.load_outer == approx(centrifugal, rel=1e-12)
     assert np.all(found.load_inner == 0.0)
     assert np.all(found.angle_outer == 0.0)
     assert found.displacement == (0.0, 0.0, 0.0)
@@ -172,8 +173,8 @@ def test_nothing_moves_an_unloaded_bearing_at_rest():
     for bearing in (BEARING_209, BEARING_218):
         found = solve(bearing, RingLoads(), 0.0)
         assert found.converged
-        assert found.displacement == pytest.approx((0.0, 0.0, 0.0), abs=1e-15)
-        assert found.load_outer == pytest.approx(0.0, abs=1e-15)
+        assert found.displacement == approx((0.0, 0.0, 0.0), abs=1e-15)
+        assert found.load_outer == approx(0.0, abs=1e-15)
 
 
 @pytest.mark.parametrize(("bearing", "loads", "speed"), CASES)
@@ -181,8 +182,8 @@ def test_the_answer_does_not_depend_on_where_the_search_starts(bearing, loads, s
     one = solve(bearing, loads, speed)
     for before, at in ((RingLoads(x=5000.0), 0.0), (RingLoads(z=9000.0, moment_y=30.0), 500.0)):
         other = solve(bearing, loads, speed, solve(bearing, before, at).start)
-        assert other.load_inner == pytest.approx(one.load_inner, rel=1e-10, abs=1e-9)
-        assert other.load_outer == pytest.approx(one.load_outer, rel=1e-10, abs=1e-9)
+        assert other.load_inner == approx(one.load_inner, rel=1e-10, abs=1e-9)
+        assert other.load_outer == approx(one.load_outer, rel=1e-10, abs=1e-9)
 
 
 def test_a_stiff_shaft_holds_the_tilt():
@@ -190,28 +191,28 @@ def test_a_stiff_shaft_holds_the_tilt():
     free, held = solve(BEARING_209, loads, 0.0), solve(BEARING_209, loads, 0.0, tilt_stiffness=stiff)
     assert abs(held.tilt[1]) < 1e-3 * abs(free.tilt[1])
     _, moments, _, _ = balance(BEARING_209, loads, 0.0, held)
-    assert moments == pytest.approx(stiff * np.array(held.tilt), rel=1e-6, abs=1e-4)
+    assert moments == approx(stiff * np.array(held.tilt), rel=1e-6, abs=1e-4)
 
 
 @pytest.mark.parametrize("bearing", [BEARING_209, BEARING_218])
 def test_speed_raises_outer_loads_and_parts_the_angles(bearing):
     found = [solve(bearing, RingLoads(x=2000.0), n * RPM) for n in (0, 3000, 6000, 10000)]
     inner, outer = ([float(f.angle_inner[0]) for f in found], [float(f.angle_outer[0]) for f in found])
-    assert inner[0] == pytest.approx(outer[0], rel=1e-12)
+    assert inner[0] == approx(outer[0], rel=1e-12)
     assert inner == sorted(inner)
     assert outer == sorted(outer, reverse=True)
     loads = [float(f.load_outer[0]) for f in found]
     assert loads[1:] == sorted(loads[1:])
     for f in found:  # the thrust of each race
-        assert f.load_inner @ np.sin(f.angle_inner) == pytest.approx(2000.0, rel=1e-9)
+        assert f.load_inner @ np.sin(f.angle_inner) == approx(2000.0, rel=1e-9)
 
 
 def test_slow_bearings_turn_as_epicyclic_gears():
     found, ratio = solve(BEARING_209, RingLoads(y=8900.0), 1e-3), BEARING_209.ratio
     pitch, ball = BEARING_209.pitch_diameter, BEARING_209.ball_diameter
-    assert found.cage == pytest.approx(0.5 * (1.0 - ratio), rel=1e-7)
-    assert found.rolling[0, 1] == pytest.approx(pitch / (2.0 * ball) * (1.0 - ratio**2), rel=1e-12)
+    assert found.cage == approx(0.5 * (1.0 - ratio), rel=1e-7)
+    assert found.rolling[0, 1] == approx(pitch / (2.0 * ball) * (1.0 - ratio**2), rel=1e-12)
     for race in ("inner", "outer"):
         moving = motion(BEARING_209, found, race)
-        assert moving.entrainment == pytest.approx(0.25 * pitch * (1.0 - ratio**2), rel=1e-12)
+        assert moving.entrainment == approx(0.25 * pitch * (1.0 - ratio**2), rel=1e-12)
         assert np.all(moving.spin[found.load_inner > 0.0] == 0.0)

@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from comparison import approx
 
 from system_models.bearing.equilibrium import RingLoads, solve
 from system_models.bearing.geometry import BallBearingGeometry
@@ -38,7 +39,7 @@ SJOVALL = {  # extent: radial, axial; quadrature of the integrals, of which text
 
 @pytest.mark.parametrize("extent", SJOVALL)
 def test_load_integrals_are_the_tabulated_ones(extent):
-    assert sjovall(extent) == pytest.approx(SJOVALL[extent], abs=5.1e-5)
+    assert sjovall(extent) == approx(SJOVALL[extent], abs=5.1e-5)
 
 
 @pytest.mark.parametrize(
@@ -54,8 +55,8 @@ def test_many_small_balls_carry_what_the_integral_says(clearance, displacement):
     radial, _ = sjovall(extent)
     largest = bearing.stiffness * (displacement - 0.5 * clearance) ** 1.5
     found = solve(bearing, RingLoads(y=bearing.balls * radial * largest), 0.0)
-    assert found.displacement[1] == pytest.approx(displacement, rel=1e-4)
-    assert found.load_inner[0] == pytest.approx(largest, rel=2e-4)
+    assert found.displacement[1] == approx(displacement, rel=1e-4)
+    assert found.load_inner[0] == approx(largest, rel=2e-4)
 
 
 @pytest.mark.parametrize(
@@ -72,17 +73,17 @@ def test_skf_torque_of_a_qj308_is_that_of_a_public_program(radial, axial, n, rol
     """N mm, by bearings.py of github.com/cfernandesFEUP/Gear-Calculation at 30 mm2/s, friction 0.12 and 0.05."""
     series = Series(True, (4.78e-7, 2.42, 1.40e-12), (1.20e-2, 0.9, 1.40e-12), 3.1, 2.0, (1e-3, 0.33))
     found = skf_torque(CatalogueBearing(series, 40e-3, 90e-3, 6e4), radial, axial, n * RPM, 30e-6)
-    assert [1e3 * part for part in found] == pytest.approx([rolling, sliding], rel=1e-8)
+    assert [1e3 * part for part in found] == approx([rolling, sliding], rel=1e-8)
 
 
 def test_skf_torque_of_a_deep_groove_bearing_in_its_limits():
     """Without speed friction is 0.15 of G_sl = S_1 dm^-0.26 F_r^(5/3); a slow bearing rolls with (nu n)^0.6."""
     at_rest = skf_torque(CATALOGUE_209, 3000.0, 0.0, 0.0, 20e-6)
-    assert at_rest == pytest.approx((0.0, 0.15e-3 * 3.23e-3 * 65.0**-0.26 * 3000.0 ** (5 / 3)), rel=1e-12)
+    assert at_rest == approx((0.0, 0.15e-3 * 3.23e-3 * 65.0**-0.26 * 3000.0 ** (5 / 3)), rel=1e-12)
     slow = skf_torque(CATALOGUE_209, 3000.0, 0.0, 1.0 * RPM, 20e-6, starvation=0.0)
-    assert slow.speed_dependent == pytest.approx(1e-3 * 3.9e-7 * 65.0**1.96 * 3000.0**0.54 * 20.0**0.6, rel=1e-4)
+    assert slow.speed_dependent == approx(1e-3 * 3.9e-7 * 65.0**1.96 * 3000.0**0.54 * 20.0**0.6, rel=1e-4)
     film = skf_torque(CATALOGUE_209, 3000.0, 0.0, 5000 * RPM, 100e-6, friction_film=0.03)
-    assert film.load_dependent / at_rest.load_dependent == pytest.approx(0.03 / 0.15, rel=1e-6)
+    assert film.load_dependent / at_rest.load_dependent == approx(0.03 / 0.15, rel=1e-6)
     # an axial load changes the formula, which is not continuous there
     assert (
         skf_torque(CATALOGUE_209, 3000.0, 1000.0, 100.0, 20e-6).total
@@ -99,13 +100,13 @@ def test_drag_grows_with_the_oil_level_and_vanishes_without_oil_or_speed():
 
 def test_palmgren_torque_has_both_of_its_branches():
     oil = [palmgren_torque(CATALOGUE_209, 1000.0, 0.0, n * RPM, 20e-6).speed_dependent for n in (10, 50, 99, 101, 800)]
-    assert oil[:3] == pytest.approx([160e-7 * 2.0 * 65.0**3 * 1e-3] * 3)
-    assert oil[3] == pytest.approx(oil[0], rel=0.02)  # the branches meet at 2000 mm2/s rpm
-    assert oil[4] / oil[3] == pytest.approx((800 / 101) ** (2 / 3), rel=1e-12)
+    assert oil[:3] == approx([160e-7 * 2.0 * 65.0**3 * 1e-3] * 3)
+    assert oil[3] == approx(oil[0], rel=0.02)  # the branches meet at 2000 mm2/s rpm
+    assert oil[4] / oil[3] == approx((800 / 101) ** (2 / 3), rel=1e-12)
     light, heavy = (palmgren_torque(CATALOGUE_209, load, 0.0, 1.0, 20e-6).load_dependent for load in (1000.0, 2000.0))
-    assert heavy / light == pytest.approx(2.0**1.55, rel=1e-12)
-    assert light == pytest.approx(6e-4 * (1000.0 / 21.6e3) ** 0.55 * 1000.0 * 65e-3, rel=1e-12)
+    assert heavy / light == approx(2.0**1.55, rel=1e-12)
+    assert light == approx(6e-4 * (1000.0 / 21.6e3) ** 0.55 * 1000.0 * 65e-3, rel=1e-12)
     thrust = palmgren_torque(CATALOGUE_218, 0.0, 17800.0, 1.0, 20e-6).load_dependent
     factor, exponent = ANGULAR_CONTACT.f_1
     felt = 0.9 * 17800.0 / math.tan(math.radians(40.0))
-    assert thrust == pytest.approx(factor * (0.26 * 17.8 / 104.0) ** exponent * felt * 0.125, rel=1e-12)
+    assert thrust == approx(factor * (0.26 * 17.8 / 104.0) ** exponent * felt * 0.125, rel=1e-12)

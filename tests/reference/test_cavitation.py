@@ -13,6 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
@@ -200,14 +201,14 @@ def test_what_flows_in_flows_through_every_section_and_out(name):
     assert told.size > 60
     assert np.ptp(told) < 1e-10 * told.mean()
     if bearing.supply is not None:
-        assert mass[-2] == pytest.approx(bearing.supply, rel=1e-10)
+        assert mass[-2] == approx(bearing.supply, rel=1e-10)
 
 
 def test_the_solution_does_not_depend_on_its_start():
     bearing = pocket()
     first, second = solved(bearing, 131, 0.0), solved(bearing, 131, 0.6)
-    assert first[1] == pytest.approx(second[1], abs=1e-8 * first[1].max())
-    assert first[2] == pytest.approx(second[2], rel=1e-6)
+    assert first[1] == approx(second[1], abs=1e-8 * first[1].max())
+    assert first[2] == approx(second[2], rel=1e-6)
 
 
 def test_theta_is_between_nothing_and_one_and_no_pressure_is_in_a_cavity():

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from comparison import approx
 from independent import deformation, gap, love_matrix
 from scipy.ndimage import gaussian_filter
 from scipy.optimize import brentq, lsq_linear
@@ -46,7 +47,7 @@ def test_hertz_pressure_area_and_approach_are_met_closer_on_every_finer_grid():
     coarse, middle, fine = (np.array(hertz_errors(n)) for n in (33, 65, 129))
     assert fine[0] < 0.5 * middle[0] < 0.25 * coarse[0]
     assert fine[3] < 1.2e-3
-    assert fine == pytest.approx(np.zeros(4), abs=0.02)
+    assert fine == approx(np.zeros(4), abs=0.02)
 
 
 @pytest.mark.parametrize(("radius_y", "domain"), [("5 mm", "0.6 mm"), ("20 mm", "0.6 mm"), ("50 mm", "1.2 mm")])
@@ -59,12 +60,12 @@ def test_ellipses_long_across_and_along(radius_y, domain):
         film__domain=domain,
     )
     hertz, cell = scene.hertz(scene.operation.load), scene.film.spacing**2
-    assert fields.pressure.sum() * cell == pytest.approx(scene.operation.load, rel=1e-12)
-    assert fields.pressure.max() == pytest.approx(hertz.pressure_max, rel=5e-3)
-    assert -fields.film.rigid_gap == pytest.approx(hertz.approach, rel=5e-3)
+    assert fields.pressure.sum() * cell == approx(scene.operation.load, rel=1e-12)
+    assert fields.pressure.max() == approx(hertz.pressure_max, rel=5e-3)
+    assert -fields.film.rigid_gap == approx(hertz.approach, rel=5e-3)
     touched = fields.pressure > 0.0
-    assert np.ptp(fields.x[touched.any(axis=0)]) == pytest.approx(2.0 * hertz.a, abs=2.1 * scene.film.spacing)
-    assert np.ptp(fields.y[touched.any(axis=1)]) == pytest.approx(2.0 * hertz.b, abs=2.1 * scene.film.spacing)
+    assert np.ptp(fields.x[touched.any(axis=0)]) == approx(2.0 * hertz.a, abs=2.1 * scene.film.spacing)
+    assert np.ptp(fields.y[touched.any(axis=1)]) == approx(2.0 * hertz.b, abs=2.1 * scene.film.spacing)
 
 
 def test_rough_bodies_touch_where_they_press_and_press_where_they_touch():
@@ -74,7 +75,7 @@ def test_rough_bodies_touch_where_they_press_and_press_where_they_touch():
     inside = np.hypot(fields.x[None, :], fields.y[:, None]) < 0.8 * scene.hertz(scene.operation.load).a
     assert 0 < pressed[inside].sum() < inside.sum()
     assert fields.pressure.min() == 0.0
-    assert fields.pressure.sum() * scene.film.spacing**2 == pytest.approx(scene.operation.load, rel=1e-12)
+    assert fields.pressure.sum() * scene.film.spacing**2 == approx(scene.operation.load, rel=1e-12)
     assert np.average(np.abs(h - floor)[pressed], weights=fields.pressure[pressed]) < 0.1 * floor
     assert (h - floor)[~pressed].min() > -0.1 * floor
     assert fields.route == "dry"
@@ -87,13 +88,13 @@ def test_the_hardness_bounds_the_pressure_and_the_load_is_met_all_the_same(hardn
     scene, fields = dry(**changes, plasticity__hardness=hardness, plasticity__film_hardness=hardness)
     limit, h, floor = scene.plasticity.hardness, gap(scene, fields), scene.film.floor
     yielding = fields.pressure > limit * (1.0 - 1e-12)
-    assert fields.pressure.max() == pytest.approx(limit, rel=1e-12)
+    assert fields.pressure.max() == approx(limit, rel=1e-12)
     assert yielding.sum() > 5
-    assert fields.pressure.sum() * scene.film.spacing**2 == pytest.approx(scene.operation.load, rel=1e-12)
+    assert fields.pressure.sum() * scene.film.spacing**2 == approx(scene.operation.load, rel=1e-12)
     below = (fields.pressure > 0.0) & ~yielding
     assert np.average(np.abs(h - floor)[below], weights=fields.pressure[below]) < 0.1 * floor
     assert h[yielding].max() < 1.1 * floor
-    assert fields.overlap[yielding] == pytest.approx(np.maximum(floor - h, 0.0)[yielding], abs=1e-6 * floor)
+    assert fields.overlap[yielding] == approx(np.maximum(floor - h, 0.0)[yielding], abs=1e-6 * floor)
     assert not fields.overlap[~yielding].any()
 
 
@@ -129,8 +130,8 @@ def test_pressures_are_those_of_a_quadratic_programme_on_the_dense_matrix(ny, nx
     assert converged
     assert np.abs(p - expected).sum() < 1e-5 * load
     assert ((p > 0.0) == (expected > 1e-9)).all()
-    assert -rigid == pytest.approx(approach, abs=1e-6)
-    assert p.sum() == pytest.approx(load, rel=1e-12)
+    assert -rigid == approx(approach, abs=1e-6)
+    assert p.sum() == approx(load, rel=1e-12)
 
 
 @pytest.mark.parametrize("points", [33, 34])
@@ -139,7 +140,7 @@ def test_a_contact_smaller_than_a_node_still_carries_its_load(points, load):
     scene = Scene.from_toml("azam_case_a", ROUGH | {"film.points": str(points)})
     fields = solve(scene, OperatingPoint(load, 0.0, 0.0, 363.15), initial_state(scene))
     assert np.isfinite(fields.pressure).all()
-    assert fields.pressure.sum() * scene.film.spacing**2 == pytest.approx(load, rel=1e-9)
+    assert fields.pressure.sum() * scene.film.spacing**2 == approx(load, rel=1e-9)
     assert fields.converged
 
 
@@ -154,7 +155,7 @@ def test_a_load_that_flattens_the_whole_grid_is_met_within_the_hardness(load):
     scene = Scene.from_toml("azam_case_a", ROUGH)
     fields = solve(scene, OperatingPoint(load, 0.0, 0.0, 363.15), initial_state(scene))
     assert fields.pressure.max() <= scene.plasticity.hardness * (1.0 + 1e-12)
-    assert fields.pressure.sum() * scene.film.spacing**2 == pytest.approx(load, rel=1e-9)
+    assert fields.pressure.sum() * scene.film.spacing**2 == approx(load, rel=1e-9)
     assert np.isfinite(fields.gap).all()
 
 
@@ -202,12 +203,12 @@ def test_rough_contacts_are_those_of_polonsky_and_keer(ny, nx):
     found = dry_contact(heights, spacing, RADIUS, LOAD, MODULUS)
     expected = polonsky_keer(radius_2 / (2.0 * RADIUS) - heights, LOAD, spacing, MODULUS)
     assert found.converged
-    assert found.pressure_max == pytest.approx(expected.max(), rel=1e-6)
+    assert found.pressure_max == approx(expected.max(), rel=1e-6)
     assert ((found.pressure > 0.0) != (expected > 0.0)).sum() <= 1
     assert np.abs(found.pressure - expected).sum() < 2e-8 * expected.sum()
     settled = deformation(found.pressure, spacing, MODULUS)
     h = radius_2 / (2.0 * RADIUS) - heights + settled - found.approach
-    assert h == pytest.approx(found.gap, abs=1e-6 * heights.std())
+    assert h == approx(found.gap, abs=1e-6 * heights.std())
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6, 1e-8, 1e-11])
@@ -233,9 +234,9 @@ def test_the_call_meets_hertz_closer_on_every_finer_grid():
         errors.append(np.abs(found.pressure - exact).sum() / exact.sum())
     coarse, middle, fine, finest = errors
     assert finest < 0.6 * fine < 0.36 * middle < 0.22 * coarse
-    assert found.pressure_max == pytest.approx(BALL.pressure_max, rel=1e-4)
-    assert found.approach == pytest.approx(BALL.approach, rel=1e-4)
-    assert found.contact_area_ratio == pytest.approx(1.0, abs=0.01)
+    assert found.pressure_max == approx(BALL.pressure_max, rel=1e-4)
+    assert found.approach == approx(BALL.approach, rel=1e-4)
+    assert found.contact_area_ratio == approx(1.0, abs=0.01)
 
 
 @pytest.mark.parametrize(("ny", "nx"), [(129, 129), (96, 130)])
@@ -250,11 +251,11 @@ def test_a_call_with_a_hardness_keeps_to_it_and_to_the_load(ny, nx, hardness):
     assert found.pressure.min() == 0.0
     assert found.pressure.max() <= hardness * (1.0 + 1e-12)
     assert yielding.sum() > 5
-    assert found.pressure.sum() * spacing**2 == pytest.approx(LOAD, rel=1e-12)
+    assert found.pressure.sum() * spacing**2 == approx(LOAD, rel=1e-12)
     assert np.abs(h[(found.pressure > 0.0) & ~yielding]).max(initial=0.0) < small
     assert h[yielding].max() < small
     assert h[found.pressure == 0.0].min() > -small
-    assert found.overlap == pytest.approx(np.where(yielding, np.maximum(-h, 0.0), 0.0), abs=small)
+    assert found.overlap == approx(np.where(yielding, np.maximum(-h, 0.0), 0.0), abs=small)
 
 
 def test_a_spot_far_from_the_contact_is_found():
@@ -311,7 +312,7 @@ def test_hard_contacts_are_solved_or_said_not_to_be():
         free = (p > 0.0) & (p < cap)
         assert (p >= 0.0).all(), seed
         assert (p <= cap).all(), seed
-        assert p.sum() == pytest.approx(load, rel=1e-11), seed
+        assert p.sum() == approx(load, rel=1e-11), seed
         lack = np.abs(h[free]).sum() + np.maximum(-h, 0.0)[(p == 0.0) & (cap > 0.0)].sum()
         lack += np.maximum(h, 0.0)[(p >= cap) & (cap > 0.0)].sum()
         solved = lack / half_space.near[0, 0] < 1e-7 * load + 1e-13 * np.abs(gap_0).max() * gap_0.size / scale
@@ -334,7 +335,7 @@ def test_tamaas_finds_the_same_contact(ny, nx):
     solver = tamaas.PolonskyKeerRey(model, heights - radius_2 / (2.0 * RADIUS), 1e-9)
     solver.setIntegralOperator("free")
     solver.solve(LOAD / (size[0] * size[1]))
-    assert found.pressure_max == pytest.approx(model.traction.max(), rel=1e-5)
+    assert found.pressure_max == approx(model.traction.max(), rel=1e-5)
     assert ((found.pressure > 0.0) != (model.traction > 0.0)).sum() <= 1
 
 
@@ -356,5 +357,5 @@ def test_contact_mechanics_finds_the_same_contact(ny, nx, hardness):
         external_force=LOAD, pentol=1e-13, thermotol=1e-9, maxiter=5000, **limit
     )
     pressure = np.asarray(expected.jac)[:ny, :nx] / spacing**2
-    assert found.pressure_max == pytest.approx(pressure.max(), rel=1e-5)
+    assert found.pressure_max == approx(pressure.max(), rel=1e-5)
     assert ((found.pressure > 0.0) != (pressure > 0.0)).sum() <= 1

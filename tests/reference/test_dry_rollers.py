@@ -3,7 +3,7 @@
 from itertools import pairwise
 
 import numpy as np
-import pytest
+from comparison import approx
 
 from contact_core import Logarithmic, Rounded, line_contact
 from contact_core.reference import hertz_line, lundberg_depth
@@ -32,7 +32,7 @@ def along(found):
 def test_lundbergs_profile_spreads_its_design_load_evenly_and_no_other():
     found = dry(LOAD, Logarithmic(DEPTH), 65)
     part = np.abs(found.y) < 0.45 * LENGTH
-    assert along(found)[part] == pytest.approx(1.0, abs=0.06)
+    assert along(found)[part] == approx(1.0, abs=0.06)
     assert np.ptp(along(found)[part]) < 0.05
     light, heavy = (along(dry(factor * LOAD, Logarithmic(DEPTH), 33)) for factor in (0.25, 4.0))
     assert light[light.size // 2] > 1.1  # the ends hang back
@@ -60,7 +60,7 @@ def test_the_middle_tends_to_hertzs_line_with_the_square_of_width_over_length():
     for length in (0.75e-3, 1.5e-3, 3e-3):
         profile = Logarithmic(lundberg_depth(LOAD * length, length, E))
         coarse, fine = (beyond_hertz(dry(LOAD, profile, nx, length), length)[0] for nx in (33, 65))
-        assert coarse == pytest.approx(fine, abs=1e-3)
+        assert coarse == approx(fine, abs=1e-3)
         off.append(fine)
     assert all(np.log2(shorter / longer) > 1.7 for shorter, longer in pairwise(off))
 

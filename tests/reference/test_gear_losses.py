@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.integrate import quad
 
 from contact_core import Scene
@@ -38,15 +39,15 @@ def evenly(pairs, there):
 
 
 def test_ohlendorfs_factor_of_type_c_is_the_integral_under_rigid_sharing():
-    assert ohlendorf(FZG_C) == pytest.approx(0.1948, rel=2e-3)
-    assert factor(FZG_C, Sharing()) == pytest.approx(ohlendorf(FZG_C), rel=1e-9)
-    assert counted(FZG_C, evenly) == pytest.approx(ohlendorf(FZG_C), rel=1e-3)
+    assert ohlendorf(FZG_C) == approx(0.1948, rel=2e-3)
+    assert factor(FZG_C, Sharing()) == approx(ohlendorf(FZG_C), rel=1e-9)
+    assert counted(FZG_C, evenly) == approx(ohlendorf(FZG_C), rel=1e-3)
 
 
 def test_ohlendorfs_factor_of_type_a_is_not_as_two_pairs_carry_at_its_pitch_point():
-    assert factor(FZG_A, Sharing()) == pytest.approx(0.3024, rel=1e-3)
-    assert counted(FZG_A, evenly) == pytest.approx(0.3024, rel=1e-3)
-    assert ohlendorf(FZG_A) == pytest.approx(0.3064, rel=1e-3)
+    assert factor(FZG_A, Sharing()) == approx(0.3024, rel=1e-3)
+    assert counted(FZG_A, evenly) == approx(0.3024, rel=1e-3)
+    assert ohlendorf(FZG_A) == approx(0.3064, rel=1e-3)
 
 
 @pytest.mark.parametrize("pair", [FZG_C, FZG_A])
@@ -57,7 +58,7 @@ def test_elastic_teeth_lose_less_as_the_ends_of_their_path_carry_less(pair):
         return stiffness / stiffness.sum(axis=1, keepdims=True)
 
     found = factor(pair, ELASTIC)
-    assert found == pytest.approx(counted(pair, by_stiffness), rel=1e-3)
+    assert found == approx(counted(pair, by_stiffness), rel=1e-3)
     assert 0.95 < found / factor(pair, Sharing()) < 1.0
 
 
@@ -71,14 +72,14 @@ def test_schlenks_friction_by_hand():
     """Load stage 7, 183.35 Nm at 2170 rpm, 14.2 mPa s, Ra 0.4 um: 387.1 N/mm over 6.349 m/s and 8.382 mm."""
     force = FZG_STAGES[0.5][6] / FZG_C.base_radius_1
     by_hand = 0.048 * (387.1 / (6.349 * 8.382)) ** 0.2 * 14.2**-0.05 * 0.4**0.25 * 0.846
-    assert schlenk(FZG_C, force, PINION, 14.2e-3, 0.4e-6, 0.846) == pytest.approx(by_hand, rel=1e-3)
+    assert schlenk(FZG_C, force, PINION, 14.2e-3, 0.4e-6, 0.846) == approx(by_hand, rel=1e-3)
     assert 0.02 < by_hand < 0.06
 
 
 def test_the_friction_of_iso_tr_14179_1_by_hand():
     """Load stage 7 at 8.317 m/s, 17 mm2/s: K = 183350 * 40 / (2 * 14 * 36.6^2 * 24) = 8.147 N/mm2."""
     by_hand = 17.0**-0.223 * 8.147**-0.40 / (3.239 * 8.317**0.70)
-    assert iso_14179_1(FZG_C, FZG_STAGES[0.5][6], PINION, 17e-6) == pytest.approx(by_hand, rel=1e-3)
+    assert iso_14179_1(FZG_C, FZG_STAGES[0.5][6], PINION, 17e-6) == approx(by_hand, rel=1e-3)
     assert 0.005 < by_hand < 0.1
 
 
@@ -101,7 +102,7 @@ def test_bloks_flash_is_that_of_a_fast_source_of_hertz_shape_shared_for_equal_he
     one, two = (hottest * math.sqrt(a / u) / effusivity for u in (u1, u2))  # per flux into the body
     together = mean_flux / (1.0 / one + 1.0 / two)
     blok = blok_line(force, FZG_C.face_width, 0.05, u1, u2, a, effusivity)
-    assert blok == pytest.approx(together, rel=3e-3)
+    assert blok == approx(together, rel=3e-3)
 
 
 def test_the_oils_of_the_contacts_give_the_viscosity_of_the_friction_formulas():
@@ -109,4 +110,4 @@ def test_the_oils_of_the_contacts_give_the_viscosity_of_the_friction_formulas():
     oil = Scene.from_toml("fzg_flank").lubricant
     kinematic = 10.0**10.0 ** (9.2384 - 3.5810 * math.log10(363.15)) - 0.7  # mm2/s
     density = 900.0 * (1.0 - 5.5e-4 * 75.0)
-    assert float(oil.viscosity(np.zeros(1), 363.15)[0]) == pytest.approx(1e-6 * kinematic * density, rel=2e-3)
+    assert float(oil.viscosity(np.zeros(1), 363.15)[0]) == approx(1e-6 * kinematic * density, rel=2e-3)

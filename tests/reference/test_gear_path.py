@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core.reference import hertz_line
 from system_models.gear.geometry import FZG_A, FZG_C, FZG_STAGES
@@ -15,14 +16,12 @@ PINION = 2170.0 * 2.0 * math.pi / 60.0  # rad/s: 8.3 m/s at the pitch circle
 
 
 def test_the_mesh_of_type_c():
-    assert math.degrees(FZG_C.working_pressure_angle) == pytest.approx(22.439, abs=5e-4)
+    assert math.degrees(FZG_C.working_pressure_angle) == approx(22.439, abs=5e-4)
     found = [FZG_C.base_radius_1, FZG_C.base_radius_2, FZG_C.line_length, FZG_C.base_pitch]
-    assert found == pytest.approx([33.829e-3, 50.743e-3, 34.925e-3, 13.2846e-3], rel=2e-5)
-    assert 0.5 * np.array([FZG_C.tip_diameter_1, FZG_C.tip_diameter_2]) == pytest.approx(
-        [41.225e-3, 59.175e-3], rel=2e-4
-    )
-    assert FZG_C.contact_ratio == pytest.approx(1.436, rel=2e-3)
-    assert PINION * FZG_C.pitch_radius_1 == pytest.approx(8.32, abs=5e-3)
+    assert found == approx([33.829e-3, 50.743e-3, 34.925e-3, 13.2846e-3], rel=2e-5)
+    assert 0.5 * np.array([FZG_C.tip_diameter_1, FZG_C.tip_diameter_2]) == approx([41.225e-3, 59.175e-3], rel=2e-4)
+    assert FZG_C.contact_ratio == approx(1.436, rel=2e-3)
+    assert PINION * FZG_C.pitch_radius_1 == approx(8.32, abs=5e-3)
 
 
 # position, radius [mm], slide-to-roll ratio, speeds [m/s]
@@ -47,9 +46,9 @@ TYPE_C = {
 )
 def test_the_path_of_type_c_to_half_a_percent(point, place):
     position, curved, sliding, *speeds = TYPE_C[point]
-    assert (1e3 * place, 1e3 * radius(FZG_C, place)) == pytest.approx((position, curved), rel=5e-3)
-    assert slide_to_roll(FZG_C, place) == pytest.approx(sliding, rel=5e-3, abs=1e-12)
-    assert surface_speeds(FZG_C, place, PINION, PINION / 1.5) == pytest.approx(speeds, rel=5e-3)
+    assert (1e3 * place, 1e3 * radius(FZG_C, place)) == approx((position, curved), rel=5e-3)
+    assert slide_to_roll(FZG_C, place) == approx(sliding, rel=5e-3, abs=1e-12)
+    assert surface_speeds(FZG_C, place, PINION, PINION / 1.5) == approx(speeds, rel=5e-3)
 
 
 STAGES_C = [173, 353, 566, 743, 924, 1108, 1290, 1474, 1656, 1839, 2021, 2202, 2385, 2546]  # MPa
@@ -63,17 +62,17 @@ def test_the_pressures_of_all_load_stages(place, pressures):
     for torque, pressure in zip(FZG_STAGES[0.5], pressures, strict=True):
         force = float(loads(FZG_C, Sharing(), torque / FZG_C.base_radius_1, np.array(place)))
         contact = hertz_line(force, radius(FZG_C, place), FZG_C.face_width, FZG_C.reduced_modulus)
-        assert 1e-6 * contact.pressure_max == pytest.approx(pressure, rel=5e-3)
+        assert 1e-6 * contact.pressure_max == approx(pressure, rel=5e-3)
 
 
 def test_the_pressure_of_type_a_at_load_stage_12():
     """ISO 14635-1 prints 1841 MPa for the whole load at C, where in fact two pairs carry."""
     force = FZG_STAGES[0.5][11] / FZG_A.base_radius_1
     at_c = hertz_line(force, radius(FZG_A, FZG_A.pitch_point), FZG_A.face_width, FZG_A.reduced_modulus)
-    assert 1e-6 * at_c.pressure_max == pytest.approx(1841.0, rel=2e-3)
+    assert 1e-6 * at_c.pressure_max == approx(1841.0, rel=2e-3)
     assert FZG_A.pitch_point < FZG_A.single_start
     halved = loads(FZG_A, Sharing(), force, np.array(FZG_A.pitch_point))
-    assert halved == pytest.approx(0.5 * force, rel=1e-12)
+    assert halved == approx(0.5 * force, rel=1e-12)
 
 
 @PAIRS
@@ -89,17 +88,17 @@ def test_speeds_are_those_of_turning_gears_across_the_common_tangent_of_both_bas
     axis_1, axis_2 = np.zeros(2), np.array([pair.centre_distance, 0.0])
     foot_1 = -pair.base_radius_1 * across
     foot_2 = axis_2 + pair.base_radius_2 * across
-    assert foot_2 - foot_1 == pytest.approx(pair.line_length * along, rel=1e-12)
+    assert foot_2 - foot_1 == approx(pair.line_length * along, rel=1e-12)
     pitch_point = np.array([pair.pitch_radius_1, 0.0])
-    assert (pitch_point - foot_1) @ along == pytest.approx(pair.pitch_point, rel=1e-12)
+    assert (pitch_point - foot_1) @ along == approx(pair.pitch_point, rel=1e-12)
     for place in np.linspace(pair.start, pair.end, 5):
         point = foot_1 + place * along
         arm_1, arm_2 = point - axis_1, point - axis_2
         velocity_1 = PINION * np.array([-arm_1[1], arm_1[0]])
         velocity_2 = PINION / pair.ratio * np.array([arm_2[1], -arm_2[0]])
-        assert velocity_1 @ along == pytest.approx(velocity_2 @ along, rel=1e-12)
+        assert velocity_1 @ along == approx(velocity_2 @ along, rel=1e-12)
         speeds = surface_speeds(pair, place, PINION, PINION / pair.ratio)
-        assert (velocity_1 @ across, velocity_2 @ across) == pytest.approx(speeds, rel=1e-12)
+        assert (velocity_1 @ across, velocity_2 @ across) == approx(speeds, rel=1e-12)
 
 
 @PAIRS
@@ -113,7 +112,7 @@ def test_the_radius_is_that_of_two_involutes_drawn_point_by_point(pair):
             y = base * (np.sin(wound) - wound * np.cos(wound))
             slope, bend = np.array([x[2] - x[0], y[2] - y[0]]) / 2.0, np.array([x, y]) @ [1.0, -2.0, 1.0]
             curvature += (slope[0] * bend[1] - slope[1] * bend[0]) / np.hypot(*slope) ** 3
-        assert 1.0 / curvature == pytest.approx(radius(pair, place), rel=1e-4)
+        assert 1.0 / curvature == approx(radius(pair, place), rel=1e-4)
 
 
 @PAIRS
@@ -121,8 +120,8 @@ def test_stations_stand_in_the_middles_of_pieces_that_end_at_a_b_c_d_and_e(pair)
     found = stations_of(pair, 21)
     assert len(found.position) == 21
     ends = np.concatenate([[pair.start], pair.start + np.cumsum(found.stretch)])
-    assert ends[-1] == pytest.approx(pair.end, rel=1e-12)
-    assert found.position == pytest.approx(0.5 * (ends[1:] + ends[:-1]), rel=1e-12)
+    assert ends[-1] == approx(pair.end, rel=1e-12)
+    assert found.position == approx(0.5 * (ends[1:] + ends[:-1]), rel=1e-12)
     for point in (pair.single_start, pair.pitch_point, pair.single_end):
         assert np.abs(ends - point).min() < 1e-12
         assert np.abs(steps(pair) - point).min() < 1e-12
@@ -131,8 +130,8 @@ def test_stations_stand_in_the_middles_of_pieces_that_end_at_a_b_c_d_and_e(pair)
 
 def test_the_stiffness_of_iso_6336():
     """By hand for type C: q' = 0.06339 mm um/N, C_B = 0.975, so c' = 0.8 * 0.975 / q'."""
-    assert 1e-9 * single_stiffness(FZG_C) == pytest.approx(12.305, rel=1e-3)
-    assert mean_stiffness(FZG_C) / single_stiffness(FZG_C) == pytest.approx(0.75 * 1.4375 + 0.25, rel=1e-4)
+    assert 1e-9 * single_stiffness(FZG_C) == approx(12.305, rel=1e-3)
+    assert mean_stiffness(FZG_C) / single_stiffness(FZG_C) == approx(0.75 * 1.4375 + 0.25, rel=1e-4)
     amid = 0.5 * (FZG_C.start + FZG_C.end)
     shape = [pair_stiffness(FZG_C, place) / single_stiffness(FZG_C) for place in (FZG_C.start, amid, FZG_C.end)]
-    assert shape == pytest.approx([0.55, 1.0, 0.55])
+    assert shape == approx([0.55, 1.0, 0.55])

@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
@@ -26,11 +27,11 @@ def settlement(hertz: Hertz, x: float, y: float) -> float:
 def test_the_pressure_flattens_the_bodies_onto_each_other(ratio):
     radius_x, radius_y = 10e-3, 10e-3 * ratio
     hertz = hertz_point(50.0, radius_x, radius_y, E)
-    assert 2.0 / 3.0 * hertz.area * hertz.pressure_max == pytest.approx(50.0, rel=1e-12)
+    assert 2.0 / 3.0 * hertz.area * hertz.pressure_max == approx(50.0, rel=1e-12)
     for x, y in [(0.0, 0.0), (0.5, 0.0), (0.0, 0.7), (0.6, 0.6), (-0.3, 0.9)]:
         x, y = x * hertz.a, y * hertz.b
         gap = settlement(hertz, x, y) + x * x / (2.0 * radius_x) + y * y / (2.0 * radius_y)
-        assert gap == pytest.approx(hertz.approach, rel=1e-9, abs=0.0)
+        assert gap == approx(hertz.approach, rel=1e-9, abs=0.0)
 
 
 @pytest.mark.parametrize(
@@ -47,8 +48,8 @@ def test_tabulated_ellipses_of_ball_bearings(difference, long, short, approach):
     curvatures = 1.0 + difference, 1.0 - difference  # sum 2
     hertz = hertz_point(1.0, 1.0 / curvatures[0], 1.0 / curvatures[1], 1.0)
     size = (3.0 / 2.0) ** (1.0 / 3.0)
-    assert (hertz.b / size, hertz.a / size) == pytest.approx((long, short), abs=6e-5)
-    assert hertz.approach / size**2 == pytest.approx(approach, abs=6e-5)
+    assert (hertz.b / size, hertz.a / size) == approx((long, short), abs=6e-5)
+    assert hertz.approach / size**2 == approx(approach, abs=6e-5)
 
 
 def test_the_circle_is_the_limit_of_the_ellipse_to_the_last_digits():
@@ -56,8 +57,8 @@ def test_the_circle_is_the_limit_of_the_ellipse_to_the_last_digits():
     for excess in (1e-14, 1e-10, 1e-6, 1e-3):
         ellipse = hertz_point(50.0, 10e-3, 10e-3 * (1.0 + excess), E)
         # first order of a slightly longer radius_y, from the elliptic integrals' series
-        assert ellipse.a / circle.a - 1.0 == pytest.approx(-excess / 6.0, abs=excess**2 + 1e-14)
-        assert ellipse.b / circle.b - 1.0 == pytest.approx(excess / 2.0, abs=excess**2 + 1e-14)
+        assert ellipse.a / circle.a - 1.0 == approx(-excess / 6.0, abs=excess**2 + 1e-14)
+        assert ellipse.b / circle.b - 1.0 == approx(excess / 2.0, abs=excess**2 + 1e-14)
 
 
 def test_the_long_axis_lies_along_the_larger_radius():
@@ -70,9 +71,9 @@ def test_the_long_axis_lies_along_the_larger_radius():
 @pytest.mark.parametrize("radius_y", [10e-3, 25e-3])
 def test_pressure_grows_with_the_cube_root_of_load(radius_y):
     one, eight = hertz_point(10.0, 10e-3, radius_y, E), hertz_point(80.0, 10e-3, radius_y, E)
-    assert eight.pressure_max / one.pressure_max == pytest.approx(2.0, rel=1e-12)
-    assert eight.a / one.a == pytest.approx(2.0, rel=1e-12)
-    assert eight.approach / one.approach == pytest.approx(4.0, rel=1e-12)
+    assert eight.pressure_max / one.pressure_max == approx(2.0, rel=1e-12)
+    assert eight.a / one.a == approx(2.0, rel=1e-12)
+    assert eight.approach / one.approach == approx(4.0, rel=1e-12)
 
 
 def bearing_ellipse(load: float, radius_x: float, radius_y: float) -> tuple[float, float, float, float]:
@@ -107,11 +108,11 @@ def bearing_ellipse(load: float, radius_x: float, radius_y: float) -> tuple[floa
 def test_ellipses_are_those_of_the_elliptic_integrals_to_a_millionth(ratio):
     hertz = hertz_point(70.0, 8e-3, 8e-3 * ratio, E)
     long, short, pressure, approach = bearing_ellipse(70.0, 8e-3, 8e-3 * ratio)
-    assert sorted((hertz.a, hertz.b)) == pytest.approx([short, long], rel=1e-6, abs=0.0)
+    assert sorted((hertz.a, hertz.b)) == approx([short, long], rel=1e-6, abs=0.0)
     assert (hertz.a < hertz.b) == (ratio > 1.0)
-    assert hertz.pressure_max == pytest.approx(pressure, rel=1e-6)
-    assert hertz.approach == pytest.approx(approach, rel=1e-6)
-    assert hertz.pressure_mean * hertz.area == pytest.approx(70.0, rel=1e-12)
+    assert hertz.pressure_max == approx(pressure, rel=1e-6)
+    assert hertz.approach == approx(approach, rel=1e-6)
+    assert hertz.pressure_mean * hertz.area == approx(70.0, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -126,12 +127,12 @@ def test_the_most_loaded_ball_of_a_209_bearing(sign, total, difference, stiffnes
     ball, shrink = 12.7e-3, 12.7 / 65.0
     along = 2.0 / ball * (1.0 + sign * shrink / (1.0 - sign * shrink))
     across = (2.0 - 1.0 / 0.52) / ball
-    assert (along + across) * 1e-3 == pytest.approx(total, rel=5e-5)
-    assert (along - across) / (along + across) == pytest.approx(difference, rel=1e-5)
+    assert (along + across) * 1e-3 == approx(total, rel=5e-5)
+    assert (along - across) / (along + across) == approx(difference, rel=1e-5)
     hertz = hertz_point(4526.6, 1.0 / along, 1.0 / across, 206.84e9 / (1.0 - 0.3**2))
-    assert 4526.6 / (hertz.approach * 1e3) ** 1.5 == pytest.approx(stiffness, rel=1e-4)
-    assert (hertz.b * 1e3, hertz.a * 1e3) == pytest.approx((long, short), rel=2e-4)
-    assert hertz.pressure_max * 1e-6 == pytest.approx(pressure, rel=2e-4)
+    assert 4526.6 / (hertz.approach * 1e3) ** 1.5 == approx(stiffness, rel=1e-4)
+    assert (hertz.b * 1e3, hertz.a * 1e3) == approx((long, short), rel=2e-4)
+    assert hertz.pressure_max * 1e-6 == approx(pressure, rel=2e-4)
 
 
 def test_a_218_bearing_under_thrust():
@@ -141,9 +142,9 @@ def test_a_218_bearing_under_thrust():
     for sign, pressure in ((1.0, 1525.0), (-1.0, 1348.0)):
         along = 2.0 / ball * (1.0 + sign * shrink / (1.0 - sign * shrink))
         hertz = hertz_point(1679.0, 1.0 / along, 1.0 / across, modulus)
-        assert hertz.pressure_max * 1e-6 == pytest.approx(pressure, rel=2e-3)
+        assert hertz.pressure_max * 1e-6 == approx(pressure, rel=2e-3)
         softness += hertz.approach * 1e3 / 1679.0 ** (2 / 3)
-    assert softness**-1.5 == pytest.approx(4.659e5, rel=3e-4)
+    assert softness**-1.5 == approx(4.659e5, rel=3e-4)
 
 
 def test_brewe_and_hamrock_are_as_near_as_said():
@@ -151,13 +152,11 @@ def test_brewe_and_hamrock_are_as_near_as_said():
         for swapped in (False, True):
             radii = (8e-3 * ratio, 8e-3) if swapped else (8e-3, 8e-3 * ratio)
             exact, near = hertz_point(70.0, *radii, E), brewe_hamrock(70.0, *radii, E)
-            assert (near.a, near.b) == pytest.approx((exact.a, exact.b), rel=0.045)
-            assert near.pressure_max == pytest.approx(exact.pressure_max, rel=0.025)
-            assert near.approach == pytest.approx(exact.approach, rel=0.055)
+            assert (near.a, near.b) == approx((exact.a, exact.b), rel=0.045)
+            assert near.pressure_max == approx(exact.pressure_max, rel=0.025)
+            assert near.approach == approx(exact.approach, rel=0.055)
             if 1.3 < ratio < 50.0:
-                assert (near.a, near.b, near.pressure_max) == pytest.approx(
-                    (exact.a, exact.b, exact.pressure_max), rel=0.02
-                )
+                assert (near.a, near.b, near.pressure_max) == approx((exact.a, exact.b, exact.pressure_max), rel=0.02)
 
 
 def strip_settlement(pressure: float, a: float, length: float, x: float, y: float) -> float:
@@ -175,14 +174,14 @@ def strip_settlement(pressure: float, a: float, length: float, x: float, y: floa
 def test_a_strip_of_pressure_flattens_cylinders_onto_each_other():
     radius, length = 10e-3, 12e-3
     hertz = hertz_line(3000.0, radius, length, E)
-    assert hertz.a == pytest.approx(np.sqrt(8.0 * 3000.0 * radius / (length * np.pi * E)), rel=1e-14)
+    assert hertz.a == approx(np.sqrt(8.0 * 3000.0 * radius / (length * np.pi * E)), rel=1e-14)
     assert hertz.b == 0.5 * length
-    assert hertz.pressure_mean * hertz.area == pytest.approx(3000.0, rel=1e-12)
-    assert hertz.pressure_mean == pytest.approx(np.pi / 4.0 * hertz.pressure_max)
+    assert hertz.pressure_mean * hertz.area == approx(3000.0, rel=1e-12)
+    assert hertz.pressure_mean == approx(np.pi / 4.0 * hertz.pressure_max)
     for x in (0.0, 0.3, 0.8, -1.0):
         x *= hertz.a
         gap = strip_settlement(hertz.pressure_max, hertz.a, length, x, 0.0) + x * x / (2.0 * radius)
-        assert gap == pytest.approx(hertz.approach, rel=2.0 * (hertz.a / length) ** 2, abs=0.0)
+        assert gap == approx(hertz.approach, rel=2.0 * (hertz.a / length) ** 2, abs=0.0)
 
 
 def test_a_line_is_the_limit_of_a_long_ellipse():
@@ -190,7 +189,7 @@ def test_a_line_is_the_limit_of_a_long_ellipse():
     ellipse = hertz_point(100.0, 5e-3, 5e3, E)
     per_length = 1.5 * 100.0 / (2.0 * ellipse.b)
     line = hertz_line(per_length, 5e-3, 1.0, E)
-    assert (line.a, line.pressure_max) == pytest.approx((ellipse.a, ellipse.pressure_max), rel=1e-4)
+    assert (line.a, line.pressure_max) == approx((ellipse.a, ellipse.pressure_max), rel=1e-4)
 
 
 @pytest.mark.parametrize("line", [False, True])
@@ -200,13 +199,13 @@ def test_a_contact_under_another_load_is_known_from_one(line):
 
     one, more = of_load(10.0), of_load(230.0)
     root, wide = one.growth(23.0)
-    assert (more.a, more.pressure_max) == pytest.approx((root * one.a, root * one.pressure_max), rel=1e-12)
-    assert (more.b, more.area) == pytest.approx((wide * one.b, root * wide * one.area), rel=1e-12)
-    assert more.approach == pytest.approx(one.approach_at(23.0), rel=1e-12)
+    assert (more.a, more.pressure_max) == approx((root * one.a, root * one.pressure_max), rel=1e-12)
+    assert (more.b, more.area) == approx((wide * one.b, root * wide * one.area), rel=1e-12)
+    assert more.approach == approx(one.approach_at(23.0), rel=1e-12)
     assert one.approach_at(0.0) == 0.0
     rows = (np.arange(20_000) + 0.5) / 20_000 * one.b
-    assert one.chords(rows).mean() == pytest.approx(one.chord_share, rel=1e-5)
-    assert 4.0 * one.a * one.b * one.chord_share == pytest.approx(one.area, rel=1e-12)
+    assert one.chords(rows).mean() == approx(one.chord_share, rel=1e-5)
+    assert 4.0 * one.a * one.b * one.chord_share == approx(one.area, rel=1e-12)
 
 
 @pytest.mark.parametrize("radius_y", [10e-3, 40e-3, 2e-3])
@@ -215,19 +214,19 @@ def test_the_lever_of_friction_is_the_mean_distance_under_the_pressure(radius_y)
     angle, part = np.meshgrid((np.arange(400) + 0.5) * np.pi / 800, (np.arange(4000) + 0.5) / 4000)
     weight = part * np.sqrt(1.0 - part**2)
     away = part * np.hypot(hertz.a * np.cos(angle), hertz.b * np.sin(angle))
-    assert hertz.lever_share * hertz.b == pytest.approx((weight * away).sum() / weight.sum(), rel=1e-5)
+    assert hertz.lever_share * hertz.b == approx((weight * away).sum() / weight.sum(), rel=1e-5)
     strip = hertz_line(50.0, 1e-3, 8e-3, E)
     x, y = np.meshgrid((np.arange(200) + 0.5) / 200 * strip.a, (np.arange(200) + 0.5) / 200 * strip.b)
     weight = np.sqrt(1.0 - (x / strip.a) ** 2)
-    assert strip.lever_share * strip.b == pytest.approx((weight * np.hypot(x, y)).sum() / weight.sum(), rel=1e-3)
+    assert strip.lever_share * strip.b == approx((weight * np.hypot(x, y)).sum() / weight.sum(), rel=1e-3)
 
 
 def test_palmgrens_rollers_approach_as_half_spaces_do_to_15_percent():
     """Measured on crowned rollers: the two are alike, not the same."""
     for load in (1000.0, 5000.0, 20000.0):
         measured = palmgren_approach(load, 12e-3, E)
-        assert measured == pytest.approx(3.84e-5 * load**0.9 / 12.0**0.8 * 1e-3, rel=0.02)  # as printed, N and mm
-        assert measured == pytest.approx(hertz_line(load, 5e-3, 12e-3, E).approach, rel=0.15)
+        assert measured == approx(3.84e-5 * load**0.9 / 12.0**0.8 * 1e-3, rel=0.02)  # as printed, N and mm
+        assert measured == approx(hertz_line(load, 5e-3, 12e-3, E).approach, rel=0.15)
 
 
 @pytest.mark.parametrize("ratio", [0.3, 1.0, 4.0, 30.0])
@@ -241,4 +240,4 @@ def test_slow_sliding_of_a_spinning_contact_is_a_matter_of_its_middle(ratio):
     slow = 1e-3 * min(hertz.a, hertz.b)  # sliding speed over spin
     along = (slow - y) / np.hypot(slow - y, x)
     found = float((part * along).sum() / (part * np.ones_like(along)).sum())
-    assert found == pytest.approx(slow / (hertz.turn_share * hertz.b), rel=0.02)
+    assert found == approx(slow / (hertz.turn_share * hertz.b), rel=0.02)

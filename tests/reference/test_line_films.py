@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
@@ -43,7 +44,7 @@ def test_thin_oil_under_light_load_reaches_the_rigid_isoviscous_roller():
     film, load, _ = rigid_roller()
     constant = film * 12.0 * load  # (h / R) U^-1/2 times M
     print(f"h M = {constant:.4f}")
-    assert moes_line_film(1e-2, 1e-3) * 1e-2 == pytest.approx(constant, rel=1e-3)
+    assert moes_line_film(1e-2, 1e-3) * 1e-2 == approx(constant, rel=1e-3)
 
 
 def test_thick_oil_under_light_load_reaches_the_rigid_piezoviscous_roller():
@@ -51,11 +52,11 @@ def test_thick_oil_under_light_load_reaches_the_rigid_piezoviscous_roller():
     # Barus' oil does not flow where the isoviscous pressure is 1 / alpha: 6 U 2^0.5 (h0 / R)^-1.5 p' = 1 / (alpha E')
     constant = film * (6.0 * np.sqrt(2.0) * largest) ** (2.0 / 3.0)  # (h / R) U^-1/2 L^(-2/3)
     print(f"h L^(-2/3) = {constant:.4f}")
-    assert moes_line_film(0.1, 1e8) / 1e8 ** (2.0 / 3.0) == pytest.approx(constant, rel=2e-3)
+    assert moes_line_film(0.1, 1e8) / 1e8 ** (2.0 / 3.0) == approx(constant, rel=2e-3)
 
 
 def test_thin_oil_under_heavy_load_reaches_the_elastic_isoviscous_limit():
-    assert moes_line_film(1e6, 1e-6) == pytest.approx(2.621 * 1e6**-0.2, rel=1e-3)
+    assert moes_line_film(1e6, 1e-6) == approx(2.621 * 1e6**-0.2, rel=1e-3)
 
 
 def of_moes(load: float, lubricant: float, speed: float = 1e-11) -> SmoothLine:
@@ -70,10 +71,10 @@ def of_moes(load: float, lubricant: float, speed: float = 1e-11) -> SmoothLine:
 @pytest.mark.parametrize(("load", "lubricant"), [(20.0, 5.0), (50.0, 10.0), (100.0, 10.0), (200.0, 15.0)])
 def test_two_formulas_of_line_contacts_agree_to_two_percent_where_bodies_deform_and_oil_stiffens(load, lubricant):
     contact = of_moes(load, lubricant)
-    assert contact.moes_parameters == pytest.approx((load, lubricant), rel=1e-12)
+    assert contact.moes_parameters == approx((load, lubricant), rel=1e-12)
     central, minimum = dowson_line(contact)
-    assert moes_line(contact) == pytest.approx(central, rel=0.02)
-    assert moes_line(contact) / contact.radius / np.sqrt(1e-11) == pytest.approx(moes_line_film(load, lubricant))
+    assert moes_line(contact) == approx(central, rel=0.02)
+    assert moes_line(contact) / contact.radius / np.sqrt(1e-11) == approx(moes_line_film(load, lubricant))
     assert 0.65 < minimum / central < 0.8
 
 
@@ -88,9 +89,9 @@ def test_the_formula_is_that_of_incompressible_oils_and_compressed_ones_are_thin
     dense = line_contact(**case, density_law="dowson_higginson").h_central
     density = float(DowsonHigginson()(hertz_line(load, 0.01, 1.0, 230e9).pressure_max))
     print(f"M, L = {contact.moes_parameters}: solved / formula {full / moes_line(contact):.3f}")
-    assert full == pytest.approx(moes_line(contact), rel=0.03)
-    assert full == pytest.approx(dowson_line(contact)[0], rel=0.03)
-    assert dense * density == pytest.approx(full, rel=0.04)
+    assert full == approx(moes_line(contact), rel=0.03)
+    assert full == approx(dowson_line(contact)[0], rel=0.03)
+    assert dense * density == approx(full, rel=0.04)
 
 
 @pytest.mark.parametrize(("load", "lubricant"), [(20.0, 5.0), (100.0, 10.0)])
@@ -103,23 +104,23 @@ def test_a_line_contact_has_the_film_of_a_very_wide_ellipse_under_the_same_press
         return hertz_point(np.exp(log_load), line.radius, wide, line.reduced_modulus).pressure_max - pressure
 
     point_load = np.exp(brentq(excess, 0.0, 20.0)) / (line.reduced_modulus * line.radius**2) * 1e-11**-0.75
-    assert moes_line_film(load, lubricant) == pytest.approx(moes_film(point_load, lubricant, 1e-5), rel=0.05)
+    assert moes_line_film(load, lubricant) == approx(moes_film(point_load, lubricant, 1e-5), rel=0.05)
 
 
 def test_inlet_heat_thins_the_film_of_a_fast_contact():
     # Q = 0.05 * 0.03 * 100 / 0.14 = 1.0714
     heat = 0.05 * 0.03 * 10.0**2 / 0.14
     rolling = (1.0 - 13.2 * 1.0e9 / 230e9 * heat**0.42) / (1.0 + 0.213 * heat**0.64)
-    assert inlet_shear_factor(0.05, 0.03, 10.0, 0.0, 0.14, 1.0e9, 230e9) == pytest.approx(rolling, rel=1e-14)
-    assert rolling == pytest.approx(0.769, abs=1e-3)
+    assert inlet_shear_factor(0.05, 0.03, 10.0, 0.0, 0.14, 1.0e9, 230e9) == approx(rolling, rel=1e-14)
+    assert rolling == approx(0.769, abs=1e-3)
     sliding = rolling * (1.0 + 0.213 * heat**0.64) / (1.0 + 0.213 * 3.23 * heat**0.64)
     for ratio in (-1.0, 1.0):
-        assert inlet_shear_factor(0.05, 0.03, 10.0, ratio, 0.14, 1.0e9, 230e9) == pytest.approx(sliding, rel=1e-14)
+        assert inlet_shear_factor(0.05, 0.03, 10.0, ratio, 0.14, 1.0e9, 230e9) == approx(sliding, rel=1e-14)
 
 
 def test_inlet_heat_leaves_a_slow_film_as_it_is_and_no_film_negative():
     assert inlet_shear_factor(0.05, 0.03, 0.0, 0.5, 0.14, 1.0e9, 230e9) == 1.0
-    assert inlet_shear_factor(0.004, 0.03, 0.25, 0.02, 0.14, 1.26e9, 230e9) == pytest.approx(1.0, abs=0.01)
+    assert inlet_shear_factor(0.004, 0.03, 0.25, 0.02, 0.14, 1.26e9, 230e9) == approx(1.0, abs=0.01)
     speeds = np.logspace(-6, 6, 40)
     factors = np.array([inlet_shear_factor(0.05, 0.03, u, 0.5, 0.14, 3.0e9, 230e9) for u in (*speeds, *-speeds)])
     assert np.all(np.diff(factors[:40]) <= 0.0)
@@ -158,19 +159,19 @@ def inlet_film(oil: Carreau) -> float:
 
 def test_bairs_factor_follows_the_inlet_of_a_rolling_carreau_film_to_ten_percent():
     newtonian = inlet_film(Carreau(1e12, 1.0))
-    assert newtonian == pytest.approx(moes_line(ROLLER), rel=0.1)
+    assert newtonian == approx(moes_line(ROLLER), rel=0.1)
     for exponent in (0.4, 0.6, 0.8):
         for critical in (3e5, 1e5):
             thin = inlet_film(Carreau(critical, exponent)) / newtonian
             factor = bair_thinning_factor(newtonian, ROLLER.entrainment_speed, ROLLER.viscosity, critical, exponent)
             print(f"n = {exponent}, G = {critical:g} Pa: inlet {thin:.3f}, Bair {factor:.3f}")
-            assert factor == pytest.approx(thin, rel=0.1)
+            assert factor == approx(thin, rel=0.1)
             assert thin < 0.95
 
 
 def test_bairs_factor_is_one_for_newtonian_oils_and_falls_with_sliding():
     assert bair_thinning_factor(1e-7, 1.0, 0.05, 1e5, 1.0) == 1.0
-    assert bair_thinning_factor(1e-7, 1.0, 0.05, 1e12, 0.5) == pytest.approx(1.0, abs=1e-5)
+    assert bair_thinning_factor(1e-7, 1.0, 0.05, 1e12, 0.5) == approx(1.0, abs=1e-5)
     slip = [bair_thinning_factor(3e-7, 1.0, 0.05, 1e5, 0.5, ratio) for ratio in (0.0, 0.1, 0.5, 1.0)]
     assert np.all(np.diff(slip) < 0.0)
     assert bair_thinning_factor(3e-7, -1.0, 0.05, 1e5, 0.5, -0.5) == slip[2]

@@ -6,6 +6,7 @@ from importlib.resources import files
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core import Scene, SceneError
 from contact_core.laws.rheology import Carreau
@@ -87,28 +88,28 @@ def test_fitted_constants_are_as_far_from_the_data_sheet_as_their_source_says(na
     expected = np.array([nu_40, nu_100]) * 1e-6 * density * (1.0 - 7e-4 * (temperature - 15.6 - CELSIUS))
     found = 100.0 * (lubricant(name).viscosity(np.zeros(2), temperature) / expected - 1.0)
     print(f"{name}: {found[0]:+.1f} % at 40 degC, {found[1]:+.1f} % at 100 degC")
-    assert found == pytest.approx([cold, hot], abs=0.5)
+    assert found == approx([cold, hot], abs=0.5)
     said = tomllib.loads(TEXT)[name]["source"]
     for percent in (cold, hot):
         assert f"{abs(percent)} % {'above' if percent > 0 else 'below'}" in said
 
 
 def test_modulus_oils_have_the_viscosities_computed_from_the_printed_constants():
-    assert lubricant("m100").viscosity(np.zeros(2), WARM[[0, 2]]) == pytest.approx([76.9e-3, 9.14e-3], rel=1e-3)
-    assert lubricant("pao100").viscosity(np.zeros(1), WARM[:1]) == pytest.approx([83.5e-3], rel=1e-3)
-    assert lubricant("n100").viscosity(np.zeros(1), WARM[:1]) == pytest.approx([69.7e-3], rel=1e-3)
+    assert lubricant("m100").viscosity(np.zeros(2), WARM[[0, 2]]) == approx([76.9e-3, 9.14e-3], rel=1e-3)
+    assert lubricant("pao100").viscosity(np.zeros(1), WARM[:1]) == approx([83.5e-3], rel=1e-3)
+    assert lubricant("n100").viscosity(np.zeros(1), WARM[:1]) == approx([69.7e-3], rel=1e-3)
 
 
 @pytest.mark.parametrize("name", CONSTANTS)
 def test_oils_of_a_chart_have_its_kinematic_viscosities_and_the_coefficient_of_their_family(name):
     oil = lubricant(name).viscosity
     found = np.array([oil.viscosity_40, oil.viscosity_100]) * 1e6
-    assert found == pytest.approx(kinematic(name, WARM[[0, 2]]), rel=5e-5)
+    assert found == approx(kinematic(name, WARM[[0, 2]]), rel=5e-5)
     between = oil(np.zeros(1), WARM[1:2]) / (oil.density * (1.0 - oil.expansion * 65.0)) * 1e6
-    assert between == pytest.approx(kinematic(name, WARM[1:2]), rel=2e-4)
+    assert between == approx(kinematic(name, WARM[1:2]), rel=2e-4)
     *_, s, t = CONSTANTS[name]
     assert oil.reference_temperature == WARM[0]
-    assert oil.pressure_coefficient * 1e8 == pytest.approx(s * kinematic(name, WARM[0]) ** t, rel=1e-3)
+    assert oil.pressure_coefficient * 1e8 == approx(s * kinematic(name, WARM[0]) ** t, rel=1e-3)
 
 
 @pytest.mark.parametrize("name", CONSTANTS)
@@ -118,7 +119,7 @@ def test_a_constant_roelands_exponent_follows_the_familys_coefficient_to_seven_p
     print(
         name, "".join(f"{100.0 * d:+.1f} % at {w - CELSIUS:.0f} degC  " for d, w in zip(deviation, WARM, strict=True))
     )
-    assert deviation == pytest.approx(np.zeros(3), abs=0.07)
+    assert deviation == approx(np.zeros(3), abs=0.07)
 
 
 @pytest.mark.parametrize("name", LIMITS)
@@ -127,7 +128,7 @@ def test_pressure_coefficients_and_shear_stresses_are_those_of_oils(name):
     assert np.all((coefficient > 9e-9) & (coefficient < 28e-9))  # polyglycols lowest, naphthenic oils highest
     rheology = lubricant(name).rheology
     assert rheology.limiting_coefficient == LIMITS[name]
-    assert rheology.eyring_stress == pytest.approx(2.0 * LIMITS[name] / coefficient[1], rel=0.015)
+    assert rheology.eyring_stress == approx(2.0 * LIMITS[name] / coefficient[1], rel=0.015)
 
 
 def example() -> dict:
@@ -141,8 +142,8 @@ def test_the_example_of_an_oil_of_ones_own_is_one_table_that_a_scene_takes():
     table = read_table("azam_case_a") | {"lubricant": example()}
     scene = Scene.from_dict(table)
     oil = scene.lubricant.viscosity
-    assert (oil.viscosity_40, oil.viscosity_100) == pytest.approx((46e-6, 6.8e-6), rel=1e-12)
-    assert oil(np.zeros(1), 313.15)[0] == pytest.approx(46e-6 * 870.0 * (1.0 - 7e-4 * 25.0), rel=1e-9)
+    assert (oil.viscosity_40, oil.viscosity_100) == approx((46e-6, 6.8e-6), rel=1e-12)
+    assert oil(np.zeros(1), 313.15)[0] == approx(46e-6 * 870.0 * (1.0 - 7e-4 * 25.0), rel=1e-9)
     assert Scene.from_dict(scene.to_dict()) == scene
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.integrate import dblquad, quad
 from scipy.special import k0
 
@@ -46,7 +47,7 @@ def test_coefficients_are_integrals_of_jaegers_source_over_cells(peclet):
     n = 41
     found = moving_influence(n, n, peclet)
     largest = found[0, n - 1]
-    assert largest == pytest.approx(own_cell(peclet), rel=1e-11)
+    assert largest == approx(own_cell(peclet), rel=1e-11)
     errors = [
         abs(found[j, n - 1 + i] - cell(j, i, peclet)) / largest
         for j, i in ((0, 1), (0, -1), (1, 0), (1, 1), (2, -2), (0, 5), (1, 40), (40, 3), (0, -40))
@@ -60,7 +61,7 @@ def test_a_source_at_rest_has_loves_coefficients():
     found = moving_influence(7, 9, 0.0)
     assert np.array_equal(found[:, 8:], half)
     assert np.array_equal(found[:, 8::-1], half)
-    assert moving_influence(7, 9, 1e-12) == pytest.approx(found, rel=1e-9)
+    assert moving_influence(7, 9, 1e-12) == approx(found, rel=1e-9)
 
 
 @pytest.mark.parametrize("peclet", PECLETS)
@@ -83,7 +84,7 @@ def test_a_rise_is_the_sum_over_all_cells(speed):
                 expected[j, i] += table[abs(j - m), nx - 1 + i : i - 1 if i else None : -1] @ flux[m]
     expected *= spacing / (2.0 * np.pi * CONDUCTIVITY)
     found = MovingSurface((ny, nx), spacing, CONDUCTIVITY, DIFFUSIVITY, speed).rise(flux)
-    assert found == pytest.approx(expected, rel=1e-12)
+    assert found == approx(expected, rel=1e-12)
 
 
 def circle(cells: int) -> np.ndarray:
@@ -105,21 +106,21 @@ def resolved(peclet: float, cells: int) -> tuple[float, float]:
 
 
 def test_jaegers_circle_at_rest_has_its_closed_form():
-    assert jaeger_circle(0.0) == pytest.approx((1.0, 8.0 / (3.0 * np.pi)), rel=1e-8)
+    assert jaeger_circle(0.0) == approx((1.0, 8.0 / (3.0 * np.pi)), rel=1e-8)
 
 
 def test_jaegers_circle_at_high_speed_is_conduction_straight_into_the_body():
     """2 q sqrt(k t / (pi K^2)) of the time under the source: largest at the end of the longest chord."""
     largest, mean = jaeger_circle(1e6)
-    assert largest == pytest.approx(2.0 / np.sqrt(np.pi * 1e6), rel=1e-3)
-    assert mean == pytest.approx(1.2204 / np.sqrt(np.pi * 1e6), rel=1e-4)
+    assert largest == approx(2.0 / np.sqrt(np.pi * 1e6), rel=1e-3)
+    assert mean == approx(1.2204 / np.sqrt(np.pi * 1e6), rel=1e-4)
 
 
 def test_a_static_circle_reaches_both_limits():
     largest, mean = resolved(0.0, 40)
     print(f"static circle, 40 cells: largest {largest:.5f} q r/K (1), mean {mean:.5f} q r/K (0.84883)")
-    assert largest == pytest.approx(1.0, rel=1e-3)
-    assert mean == pytest.approx(8.0 / (3.0 * np.pi), rel=1e-3)
+    assert largest == approx(1.0, rel=1e-3)
+    assert mean == approx(8.0 / (3.0 * np.pi), rel=1e-3)
 
 
 @pytest.mark.parametrize("peclet", [0.1, 1.0, 10.0, 100.0])
@@ -131,9 +132,9 @@ def test_a_moving_circle_follows_jaegers_integral(peclet):
             f"off Jaeger's integral {100 * (one / right - 1):+.3f} %; "
             f"Tian and Kennedy's formula {100 * (other / right - 1):+.2f} %"
         )
-    assert found == pytest.approx(exact, rel=3e-3)
+    assert found == approx(exact, rel=3e-3)
     # the formulas themselves are up to 2.2 % (largest) and 3.7 % (mean) off between their two exact limits
-    assert found == pytest.approx(formula, rel=0.01 if peclet >= 10.0 else 0.045)
+    assert found == approx(formula, rel=0.01 if peclet >= 10.0 else 0.045)
 
 
 def test_a_long_strip_across_the_motion_is_jaegers_band():
@@ -155,15 +156,15 @@ def test_jaegers_band_is_the_integral_of_its_line_source():
         ends = peclet * (x - 1.0), peclet * (x + 1.0)
         middle = [0.0] if ends[0] < 0.0 < ends[1] else None
         exact = quad(line, *ends, points=middle, limit=200)[0] / (np.pi * peclet)
-        assert jaeger_band(x, peclet) == pytest.approx(exact, rel=1e-8)
+        assert jaeger_band(x, peclet) == approx(exact, rel=1e-8)
 
 
 def test_heat_at_rest_spreads_alike_in_all_directions():
     source = np.zeros((9, 9))
     source[4, 4] = 1e9
     rise = MovingSurface((9, 9), 1e-6, CONDUCTIVITY, DIFFUSIVITY, 0.0).rise(source)
-    assert rise == pytest.approx(rise.T, rel=1e-12)
-    assert rise == pytest.approx(rise[::-1, ::-1], rel=1e-12)
+    assert rise == approx(rise.T, rel=1e-12)
+    assert rise == approx(rise[::-1, ::-1], rel=1e-12)
 
 
 def strip_rise(a: float, b: float, speed: float) -> float:
@@ -178,14 +179,14 @@ def test_a_long_strip_at_rest_is_as_warm_in_the_mean_as_its_point_sources_make_i
         return 2.0 * (np.arcsinh(2.0 * ratio / distance) - (np.hypot(2.0 * ratio, distance) - distance) / 2.0 / ratio)
 
     mean = quad(lambda distance: (2.0 - distance) * column(distance), 0.0, 2.0)[0] / (2.0 * np.pi)
-    assert strip_rise(1e-4, 1e-4 * ratio, 0.0) == pytest.approx(mean * 1e-4 / CONDUCTIVITY, rel=0.02)
+    assert strip_rise(1e-4, 1e-4 * ratio, 0.0) == approx(mean * 1e-4 / CONDUCTIVITY, rel=0.02)
 
 
 @pytest.mark.parametrize("peclet", [30.0, 300.0])
 def test_a_fast_strip_is_as_warm_in_the_mean_as_jaegers_band(peclet):
     mean = quad(lambda x: jaeger_band(x, peclet), -1.0, 1.0, limit=400)[0] / 2.0
     speed = 2.0 * peclet * DIFFUSIVITY / 1e-4
-    assert strip_rise(1e-4, 5e-3, speed) == pytest.approx(mean * 1e-4 / CONDUCTIVITY, rel=0.01)
+    assert strip_rise(1e-4, 5e-3, speed) == approx(mean * 1e-4 / CONDUCTIVITY, rel=0.01)
 
 
 @pytest.mark.parametrize("peclet", [0.01, 0.1, 0.5, 1.0, 3.0, 10.0])
@@ -196,7 +197,7 @@ def test_between_rest_and_speed_the_mean_of_a_strip_is_met_to_a_ninth(peclet):
     pairs = along[None, :] * (np.where(np.arange(ny) == 0, 1, 2) * across)[:, None]
     mean = (cells * pairs).sum() / (nx * ny) * (2.0 / nx) / (2.0 * np.pi)
     found = strip_rise(1e-4, 1e-3, 2.0 * peclet * DIFFUSIVITY / 1e-4) * CONDUCTIVITY / 1e-4
-    assert found == pytest.approx(mean, rel=0.11)
+    assert found == approx(mean, rel=0.11)
     assert found < mean
 
 
@@ -209,7 +210,7 @@ def test_a_repeated_cell_is_the_sum_of_its_images(peclet):
     alone = moving_influence(images * ny, nx, peclet)
     expected = sum(alone[np.abs(np.arange(ny) + k * ny)] for k in range(1 - images, images - 1))
     found = periodic_moving_influence(ny, nx, peclet, 1e9)
-    assert found == pytest.approx(expected, rel=1e-9, abs=1e-12)
+    assert found == approx(expected, rel=1e-9, abs=1e-12)
 
 
 def test_a_face_with_ends_cools_the_middle_as_the_missing_images_would():
@@ -217,7 +218,7 @@ def test_a_face_with_ends_cools_the_middle_as_the_missing_images_would():
     alone = moving_influence((images + 1) * ny, nx, 0.0)
     expected = sum(alone[np.abs(np.arange(ny) + k * ny)] for k in range(-images, images + 1)).mean(axis=0)
     found = periodic_moving_influence(ny, nx, 0.0, (2 * images + 1) * ny).mean(axis=0)
-    assert found == pytest.approx(expected, rel=1e-4)
+    assert found == approx(expected, rel=1e-4)
 
 
 @pytest.mark.parametrize("peclet", [0.3, 5.0, -5.0, 100.0])
@@ -229,7 +230,7 @@ def test_one_row_under_even_flux_is_jaegers_band(peclet):
     found = surface.rise(np.full((1, n), flux))[0] * CONDUCTIVITY / (flux * half)
     x = (np.arange(n) - 0.5 * (n - 1)) * spacing / half
     expected = np.array([jaeger_band(float(np.sign(peclet) * xi), abs(peclet)) for xi in x])
-    assert found == pytest.approx(expected, rel=1e-6)
+    assert found == approx(expected, rel=1e-6)
 
 
 def test_one_row_at_rest_is_as_warm_as_the_middle_of_a_long_strip():
@@ -237,7 +238,7 @@ def test_one_row_at_rest_is_as_warm_as_the_middle_of_a_long_strip():
     n, half, face = 201, 0.1e-3, 20e-3
     surface = MovingSurface((1, n), 2.0 * half / n, CONDUCTIVITY, DIFFUSIVITY, 0.0, face)
     expected = 2.0 * half / (np.pi * CONDUCTIVITY) * (np.log(0.5 * face / half) + 1.5)
-    assert surface.rise(np.ones((1, n))).mean() == pytest.approx(expected, rel=1e-4)
+    assert surface.rise(np.ones((1, n))).mean() == approx(expected, rel=1e-4)
 
 
 @pytest.mark.parametrize("speed", [0.0, 2.0])
@@ -246,5 +247,5 @@ def test_rows_that_repeat_may_be_counted_from_any_and_twice(speed):
     one = MovingSurface((6, 9), 3e-6, CONDUCTIVITY, DIFFUSIVITY, speed, 1e-3)
     twice = MovingSurface((12, 9), 3e-6, CONDUCTIVITY, DIFFUSIVITY, speed, 1e-3)
     rise = one.rise(flux)
-    assert one.rise(np.roll(flux, 2, axis=0)) == pytest.approx(np.roll(rise, 2, axis=0), rel=1e-12)
-    assert twice.rise(np.tile(flux, (2, 1))) == pytest.approx(np.tile(rise, (2, 1)), rel=1e-9)
+    assert one.rise(np.roll(flux, 2, axis=0)) == approx(np.roll(rise, 2, axis=0), rel=1e-12)
+    assert twice.rise(np.tile(flux, (2, 1))) == approx(np.tile(rise, (2, 1)), rel=1e-9)

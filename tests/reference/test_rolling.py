@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.optimize import brentq
 
 from contact_core import Scene, advance, initial_state, line_contact, point_contact
@@ -37,8 +38,8 @@ def exact_rigid_line(load: float, speed: float, viscosity: float) -> float:
 
 def test_rigid_lines_roll_as_reynolds_equation_says():
     exact, found = exact_rigid_line(3.0, 5.0, 0.1), rolling_line(3.0, 5.0, 0.1, RADIUS, 1e13)
-    assert exact == pytest.approx(2.079 * math.sqrt(0.1 * 5.0 * 3.0), rel=1e-3)
-    assert found == pytest.approx(exact, rel=0.04)
+    assert exact == approx(2.079 * math.sqrt(0.1 * 5.0 * 3.0), rel=1e-3)
+    assert found == approx(exact, rel=0.04)
 
 
 @pytest.mark.parametrize("load, speed, viscosity", [(3e4, 1.0, 0.03), (3e5, 1.0, 0.03), (3e5, 0.5, 0.01)])
@@ -50,7 +51,7 @@ def test_solved_lines_roll_as_hard_with_what_their_inlet_lacks(load, speed, visc
     )  # fmt: skip
     beyond = 12.0 * viscosity * speed * RADIUS / -contact.x[0]
     found = rolling(contact, contact.y.size) + beyond
-    assert rolling_line(load, speed, viscosity, RADIUS, MODULUS) == pytest.approx(found, rel=0.12)
+    assert rolling_line(load, speed, viscosity, RADIUS, MODULUS) == approx(found, rel=0.12)
 
 
 @pytest.mark.parametrize("times_wider", [1, 10])
@@ -83,7 +84,7 @@ def test_the_fast_level_rolls_smooth_bodies_by_the_formula_of_their_shape(name):
     else:
         formula = rolling_point(op.load, 2.0, oil, shape.radius_x, shape.radius_y, modulus)
     found = advance(scene, op, initial_state(scene), 0.0)[1]
-    assert found.rolling_resistance == pytest.approx(formula, rel=1e-6)
+    assert found.rolling_resistance == approx(formula, rel=1e-6)
     back = advance(scene, replace(op, speed_1=-2.0, speed_2=-2.0), initial_state(scene), 0.0)[1]
     assert back.rolling_resistance == -found.rolling_resistance
 
@@ -103,7 +104,7 @@ def test_nothing_rolls_at_rest_without_load_or_on_solids_and_less_with_a_warm_or
         op.load, op.entrainment_speed, float(scene.lubricant.viscosity(0.0, op.temperature)),
         scene.geometry.radius_x, scene.geometry.radius_y, scene.solids.reduced_modulus,
     )  # fmt: skip
-    assert found.rolling_resistance == pytest.approx((1.0 - found.contact_load_ratio) * formula, rel=1e-6)
+    assert found.rolling_resistance == approx((1.0 - found.contact_load_ratio) * formula, rel=1e-6)
     assert 0.0 < force({"heat.inlet_shear": "gupta"}, speed_1=3.0, speed_2=3.0) < 0.99 * fast
     starved = {"lubricant.supply.model": "film", "lubricant.supply.thickness": "50 nm"}
     starved["lubricant.cavitation"] = "mass_conserving"

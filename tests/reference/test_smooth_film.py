@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from comparison import approx
 from independent import judge
 
 from contact_core import OperatingPoint, Scene, Transient, initial_state, solve
@@ -53,14 +54,14 @@ def test_the_film_converges_to_second_order_on_that_of_the_formula(load, speed):
     order = np.log2((films[1] - films[0]) / (films[2] - films[1]))
     assert 1.6 < order < 2.4
     limit = films[2] + (films[2] - films[1]) / 3.0
-    assert limit == pytest.approx(nijenbanning_venner_moes(contact), rel=0.03)
+    assert limit == approx(nijenbanning_venner_moes(contact), rel=0.03)
 
 
 def test_a_film_satisfies_the_equations_written_independently():
     scene, op, fields = smooth(65, 20.0, 0.5, 0.04)
     found = judge(scene, op, fields)
     assert fields.converged
-    assert found.load == pytest.approx(0.0, abs=1e-6)
+    assert found.load == approx(0.0, abs=1e-6)
     assert found.gap < 1e-6
     assert found.bounds <= 0.0
     assert found.film < 0.02
@@ -83,7 +84,7 @@ def test_pressure_spike_and_constriction_lie_at_the_exit():
 
 def test_a_smooth_film_is_symmetric_across_the_entrainment():
     _, _, fields = smooth(65, 20.0, 0.5, 0.04)
-    assert fields.gap == pytest.approx(fields.gap[::-1], rel=5e-3)
+    assert fields.gap == approx(fields.gap[::-1], rel=5e-3)
 
 
 def test_case_a_has_eight_nanometres_on_its_grid_and_more_on_a_finer_one():
@@ -95,7 +96,7 @@ def test_case_a_has_eight_nanometres_on_its_grid_and_more_on_a_finer_one():
         fields = solve(scene, scene.operation.point, initial_state(scene))
         films.append(central(fields))
         assert fields.inlet_nodes < 3.0
-    assert films[0] == pytest.approx(8.0e-9, abs=0.8e-9)
+    assert films[0] == approx(8.0e-9, abs=0.8e-9)
     assert films[0] < films[1] < 14.4e-9
 
 
@@ -111,7 +112,7 @@ def test_instants_without_motion_of_smooth_bodies_tend_to_the_steady_film():
         state = replace(state, film=fields.film)
         films.append(central(fields))
     assert films[1] > 1.5 * central(steady)  # the thick film has to leave first
-    assert films[-1] == pytest.approx(central(steady), rel=0.01)
+    assert films[-1] == approx(central(steady), rel=0.01)
     assert np.abs(fields.pressure - steady.pressure).sum() < 0.01 * steady.pressure.sum()
 
 
@@ -124,9 +125,9 @@ def test_a_doubled_load_first_squeezes_on_the_film_there_is():
     steady = solve(scene, double, state, Transient(1e9, 0, 600))
     for fields in (at_once, steady):
         assert fields.route == "mixed"
-        assert fields.pressure.sum() * scene.film.spacing**2 == pytest.approx(40.0, rel=1e-3)
+        assert fields.pressure.sum() * scene.film.spacing**2 == approx(40.0, rel=1e-3)
     assert steady.gap.min() < 0.9 * light.gap.min()
-    assert central(at_once) == pytest.approx(central(light), rel=0.15)
+    assert central(at_once) == approx(central(light), rel=0.15)
 
 
 @pytest.mark.parametrize("tolerance", ["3e-3", "1e-3"])
@@ -134,4 +135,4 @@ def test_a_film_that_says_it_converged_is_within_five_percent_of_the_solution(to
     _, _, exact = smooth(65, 60.0, 1.0, 0.04)
     _, _, found = smooth(65, 60.0, 1.0, 0.04, **{"film.tolerance": tolerance})
     assert found.converged
-    assert central(found) == pytest.approx(central(exact), rel=0.05)
+    assert central(found) == approx(central(exact), rel=0.05)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.integrate import quad, solve_ivp
 
 from contact_core.reference import squeeze_line, squeeze_point, squeezed_line, squeezed_point
@@ -24,14 +25,14 @@ def test_a_ball_is_opposed_by_the_pressure_of_reynolds_equation():
     """What a ring lets out, 2 pi r times the flow, is what is displaced inside, pi r^2 V."""
     radius, speed = 0.01, 1e-5
     force = force_of(0.5 * speed, radius, lambda u, scale: 2.0 * np.pi * scale**2 * u)
-    assert squeeze_point(speed, GAP, radius, radius, ETA) == pytest.approx(force, rel=1e-6)
-    assert squeeze_point(speed, GAP, radius, radius, ETA) == pytest.approx(6.0 * np.pi * ETA * speed * radius**2 / GAP)
+    assert squeeze_point(speed, GAP, radius, radius, ETA) == approx(force, rel=1e-6)
+    assert squeeze_point(speed, GAP, radius, radius, ETA) == approx(6.0 * np.pi * ETA * speed * radius**2 / GAP)
 
 
 def test_a_cylinder_is_opposed_by_the_pressure_of_reynolds_equation():
     radius, speed = 0.01, 1e-5
     force = force_of(speed, radius, lambda u, scale: 2.0 * scale)
-    assert squeeze_line(speed, GAP, radius, ETA) == pytest.approx(force, rel=1e-6)
+    assert squeeze_line(speed, GAP, radius, ETA) == approx(force, rel=1e-6)
 
 
 @pytest.mark.parametrize("radius_y", [0.003, 0.05])
@@ -53,9 +54,9 @@ def test_an_ellipsoid_meets_reynolds_equation_in_two_dimensions(radius_y):
         between = between[:-1] if axis == 0 else between[:, :-1]
         flow = -(between**3) / (12.0 * ETA) * np.diff(p, axis=axis) / step
         outflow = outflow + np.diff(flow, axis=axis)[(slice(None), slice(1, -1)) if axis == 0 else slice(1, -1)] / step
-    assert outflow == pytest.approx(speed, rel=1e-3)
+    assert outflow == approx(speed, rel=1e-3)
     total = p[:, 100] @ np.full(x.shape[0], step)  # along x at y = 0, the tails being thin
-    assert total == pytest.approx(strength * np.pi / 2.0 * np.sqrt(2.0 * radius_x * GAP) / GAP**2, rel=1e-2)
+    assert total == approx(strength * np.pi / 2.0 * np.sqrt(2.0 * radius_x * GAP) / GAP**2, rel=1e-2)
 
 
 def test_under_a_constant_load_the_gap_falls_as_integrated():
@@ -65,13 +66,13 @@ def test_under_a_constant_load_the_gap_falls_as_integrated():
         return [-load / squeeze_point(1.0, gap[0], radius, 2.0 * radius, ETA)]
 
     end = solve_ivp(approach, (0.0, 3e-2), [1e-6], rtol=1e-10, atol=0.0).y[0, -1]
-    assert squeezed_point(3e-2, 1e-6, load, radius, 2.0 * radius, ETA) == pytest.approx(end, rel=1e-7)
+    assert squeezed_point(3e-2, 1e-6, load, radius, 2.0 * radius, ETA) == approx(end, rel=1e-7)
     ball = 6.0 * np.pi * ETA * radius**2
-    assert squeezed_point(3e-2, 1e-6, load, radius, radius, ETA) == pytest.approx(1e-6 * np.exp(-load * 3e-2 / ball))
+    assert squeezed_point(3e-2, 1e-6, load, radius, radius, ETA) == approx(1e-6 * np.exp(-load * 3e-2 / ball))
 
     def fall(_, gap):
         return [-100.0 / squeeze_line(1.0, gap[0], radius, ETA)]
 
     end = solve_ivp(fall, (0.0, 2e-3), [1e-6], rtol=1e-10, atol=0.0).y[0, -1]
-    assert squeezed_line(2e-3, 1e-6, 100.0, radius, ETA) == pytest.approx(end, rel=1e-7)
+    assert squeezed_line(2e-3, 1e-6, 100.0, radius, ETA) == approx(end, rel=1e-7)
     assert end < 0.9e-6

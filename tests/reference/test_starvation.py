@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core import point_contact
 from contact_core.film.fitted import fitted_grid
@@ -51,7 +52,7 @@ def test_a_supply_film_starves_the_contact_as_chevalier_and_others_found(load, m
     for r in (0.25, 0.5, 1.0, 2.0, 5.0):
         supply = r * density * flooded
         starved, _ = centre(replace(now, supply=supply), grid)
-        assert starved == pytest.approx(supplied_film(flooded, supply, density), rel=0.05)
+        assert starved == approx(supplied_film(flooded, supply, density), rel=0.05)
 
 
 @pytest.mark.parametrize(("load", "material"), [(100.0, 10.0), (1000.0, 10.0), (400.0, 5.0)])
@@ -64,7 +65,7 @@ def test_a_meniscus_starves_the_contact_as_hamrock_and_dowson_found(load, materi
         expected = film_behind_meniscus(flooded, at, a, RADIUS)
         for conserving in (False, True):
             starved, found = centre(replace(now, meniscus=at, conserving=conserving), grid)
-            assert starved == pytest.approx(expected, rel=0.06)
+            assert starved == approx(expected, rel=0.06)
             assert not found.state.pressure[:, grid.x <= -at].any()
 
 
@@ -73,8 +74,8 @@ def test_more_oil_than_the_contact_takes_floods_it():
     plain, flooded, plenty = (
         centre(now, grid)[0] for now in (replace(now, conserving=False), now, replace(now, supply=1e4 * film))
     )
-    assert flooded == pytest.approx(plain, rel=2e-3)
-    assert plenty == pytest.approx(flooded, rel=2e-3)
+    assert flooded == approx(plain, rel=2e-3)
+    assert plenty == approx(flooded, rel=2e-3)
 
 
 @pytest.mark.parametrize("share", [0.3, 1.0])
@@ -88,7 +89,7 @@ def test_all_of_the_oil_that_enters_leaves(share):
     assert not found.iterate.pressure[[1, -2]].any()  # nothing leaves sideways
     assert not found.iterate.pressure[:, -3:].any()
     supply = now.supply / scaled.h_unit
-    assert found.mass[1:-1, -2].sum() == pytest.approx(supply * (grid.y.size - 2), rel=1e-10)
+    assert found.mass[1:-1, -2].sum() == approx(supply * (grid.y.size - 2), rel=1e-10)
     assert np.ptp(found.mass[1:-1, -2]) > 0.1 * supply  # it has gone round the contact
 
 
@@ -125,18 +126,18 @@ def test_content_changes_by_what_flows_in_and_out(change):
         state = found.state
         courant = step * abs(now.entrainment_speed) / grid.spacing
         net = courant * (now.supply * (grid.y.size - 2) - state.mass[1:-1, left].sum())
-        assert content == pytest.approx(net, abs=1e-10 * now.supply * grid.y.size)
+        assert content == approx(net, abs=1e-10 * now.supply * grid.y.size)
         changed.append(found.gap)
     assert np.abs(changed[-1] - changed[0]).max() > 1e-3 * film
 
 
 def test_closed_forms_meet_their_limits():
-    assert supplied_film(1e-7, 1e-3) == pytest.approx(1e-7, rel=1e-6)
-    assert supplied_film(1e-7, 1e-10) == pytest.approx(1e-10, rel=1e-6)
-    assert supplied_film(1e-7, 1.25e-7, density=1.25) == pytest.approx(1e-7 * 2.0 ** (-1.0 / 3.0))
+    assert supplied_film(1e-7, 1e-3) == approx(1e-7, rel=1e-6)
+    assert supplied_film(1e-7, 1e-10) == approx(1e-10, rel=1e-6)
+    assert supplied_film(1e-7, 1.25e-7, density=1.25) == approx(1e-7 * 2.0 ** (-1.0 / 3.0))
     assert film_behind_meniscus(1e-7, 1.0, 1e-4, 0.01) == 1e-7
     # m* = 1 + 3.06 (1e-9 / 1e-8)^0.58 = 1.8049; halfway 0.5^0.29
-    assert film_behind_meniscus(1e-7, 1.40245e-4, 1e-4, 0.01) == pytest.approx(1e-7 * 0.5**0.29, rel=1e-3)
+    assert film_behind_meniscus(1e-7, 1.40245e-4, 1e-4, 0.01) == approx(1e-7 * 0.5**0.29, rel=1e-3)
     assert 0.0 < film_behind_meniscus(1e-7, 1e-5, 1e-4, 0.01) < 1e-9
 
 
@@ -154,5 +155,5 @@ def test_ellipses_starve_less_the_wider_they_are(ratio, near):
         starved = point_contact(**given, cavitation="mass_conserving", supply=share * enough)
         assert starved.converged
         formula = supplied_film(1.0, share, resistance=shape.side_resistance)
-        assert starved.h_central / flooded.h_central == pytest.approx(formula, rel=near)
-    assert supplied_film(1.0, 1.0, resistance=shape.side_resistance) != pytest.approx(supplied_film(1.0, 1.0), rel=near)
+        assert starved.h_central / flooded.h_central == approx(formula, rel=near)
+    assert supplied_film(1.0, 1.0, resistance=shape.side_resistance) != approx(supplied_film(1.0, 1.0), rel=near)

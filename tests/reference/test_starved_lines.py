@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core import line_contact
 from contact_core.kernels.half_space import PeriodicHalfSpace
@@ -66,12 +67,12 @@ def test_gap_pressure_and_oil_of_a_rigid_roller_converge_to_the_closed_solution(
         assert found.converged, found.shortfall
         p, pressure, oil = found.iterate.pressure[1], exact.pressure(x), found.mass[1]
         errors.append((np.abs(p - pressure).mean() / pressure.max(), abs(found.iterate.rigid / GAP - 1.0)))
-        assert oil[-3] == pytest.approx(exact.film, rel=1e-10 if part else 0.01)
+        assert oil[-3] == approx(exact.film, rel=1e-10 if part else 0.01)
         if part is not None:
             full = x[p > 0.0]
             assert abs(full[0] - exact.inlet) < 0.03
             assert abs(full[-1] - exact.outlet) < 0.05
-            assert oil[3] == pytest.approx(exact.film, rel=1e-10)
+            assert oil[3] == approx(exact.film, rel=1e-10)
     coarse, fine = np.array(errors[0]), np.array(errors[-1])
     assert (np.log(coarse / fine) / np.log((GRIDS[-1] - 1) / (GRIDS[0] - 1))).min() > 1.8
     assert fine.max() < 2e-4
@@ -80,8 +81,8 @@ def test_gap_pressure_and_oil_of_a_rigid_roller_converge_to_the_closed_solution(
 def test_the_film_does_not_depend_on_the_start():
     exact = slider(1.1)
     one, two = (rigid(exact, 257, 1.1 * GAP, shift)[1] for shift in (0.0, 0.1))
-    assert one.iterate.pressure == pytest.approx(two.iterate.pressure, abs=1e-7 * one.iterate.pressure.max())
-    assert one.mass == pytest.approx(two.mass, rel=1e-7)
+    assert one.iterate.pressure == approx(two.iterate.pressure, abs=1e-7 * one.iterate.pressure.max())
+    assert one.mass == approx(two.mass, rel=1e-7)
 
 
 @pytest.fixture(scope="module")
@@ -96,9 +97,9 @@ def test_what_comes_in_goes_through_up_to_the_flooded_film(flooded, part):
     density = float(flooded.oil[0, middle] / flooded.film[0, middle])
     found = line_contact(**LINE, cavitation="mass_conserving", supply=supply)
     assert found.converged, found.shortfall
-    assert found.h_central == pytest.approx(min(supply / density, flooded.h_central), rel=3e-3)
+    assert found.h_central == approx(min(supply / density, flooded.h_central), rel=3e-3)
     through = min(supply, density * flooded.h_central)
-    assert found.oil[0, -5:-1] == pytest.approx(through, rel=1e-3 if through == supply else 3e-3)
+    assert found.oil[0, -5:-1] == approx(through, rel=1e-3 if through == supply else 3e-3)
 
 
 def test_a_near_meniscus_starves_a_line_and_a_far_one_does_not(flooded):
@@ -108,4 +109,4 @@ def test_a_near_meniscus_starves_a_line_and_a_far_one_does_not(flooded):
     central = [found.h_central / flooded.h_central for found in films]
     assert (np.diff(central) > 0.0)[:-1].all()
     assert central[0] < 0.5
-    assert central[-1] == pytest.approx(1.0, abs=2e-3)
+    assert central[-1] == approx(1.0, abs=2e-3)

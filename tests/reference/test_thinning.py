@@ -5,6 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.integrate import quad, solve_ivp
 from scipy.ndimage import gaussian_filter
 from scipy.optimize import brentq
@@ -77,7 +78,7 @@ def test_a_sheared_and_pressed_film_flows_as_quadrature_across_it_says(rheology,
     flowing = 12.0 * flow / (gap**3 * slope)
     for wrong in (1.0, 30.0):  # it is the flow that counts, not the gradient at hand
         thinned = one_node(rheology, eta, sliding, gap, wrong * slope, flowing / wrong)
-        assert thinned + 1.0 / eta == pytest.approx(flowing, rel=2e-3)
+        assert thinned + 1.0 / eta == approx(flowing, rel=2e-3)
     assert flowing > 1.0 / eta
 
 
@@ -86,7 +87,7 @@ def test_a_hardly_pressed_eyring_film_yields_by_the_tangent_of_its_flow_curve():
     for sliding in (1e-4, 1e-2, 1.0):
         shear = eta * sliding / gap / oil.eyring_stress
         expected = (np.hypot(1.0, shear) - 1.0) / eta
-        assert one_node(oil, eta, sliding, gap, 1.0, 1.0 / eta) == pytest.approx(expected, rel=1e-6, abs=1e-9 / eta)
+        assert one_node(oil, eta, sliding, gap, 1.0, 1.0 / eta) == approx(expected, rel=1e-6, abs=1e-9 / eta)
 
 
 def test_the_flow_is_finite_where_the_oil_is_stiff_and_pressures_jump():
@@ -139,7 +140,7 @@ def test_a_warmer_film_is_that_of_a_thinner_oil():
     thinner = replace(now.viscosity, viscosity=VISCOSITY / 1.5)
     expected = solve_film(replace(now, viscosity=thinner), grid, settings)
     assert found.converged
-    assert found.gap == pytest.approx(expected.gap, rel=1e-6)
+    assert found.gap == approx(expected.gap, rel=1e-6)
 
 
 def bair(slide_to_roll, film, stress, power):
@@ -153,7 +154,7 @@ def bair(slide_to_roll, film, stress, power):
 )
 def test_films_of_carreau_oils_are_those_of_bairs_formula_within_a_tenth(stress, power, slide_to_roll):
     heights, _ = films(Carreau(stress, power), slide_to_roll)
-    assert heights[0] / heights[-1] == pytest.approx(bair(slide_to_roll, heights[0], stress, power), rel=0.1)
+    assert heights[0] / heights[-1] == approx(bair(slide_to_roll, heights[0], stress, power), rel=0.1)
     assert heights[0] / heights[-1] > 1.3
 
 
@@ -198,7 +199,7 @@ def test_films_of_an_eyring_oil_thin_about_as_the_inlet_on_the_middle_row_does(s
     heights, _ = films(Eyring(STRESS), slide_to_roll)
     expected = inlet_film(1e12, 0.0) / inlet_film(STRESS, slide_to_roll)
     print(f"slide-to-roll {slide_to_roll}: thinner by {heights[0] / heights[-1]:.3f}, the inlet says {expected:.3f}")
-    assert heights[0] / heights[-1] == pytest.approx(expected, rel=0.15)
+    assert heights[0] / heights[-1] == approx(expected, rel=0.15)
     assert expected > 1.1
 
 
@@ -207,7 +208,7 @@ def test_steady_films_stand_still_after_a_few_solutions():
         heights, found = films(oil, sliding)
         print(f"{oil} at slide-to-roll {sliding}: {len(heights)} solutions")
         assert len(heights) <= most
-        assert heights[-1] == pytest.approx(heights[-2], rel=5.0 * TOLERANCE)
+        assert heights[-1] == approx(heights[-2], rel=5.0 * TOLERANCE)
         assert found.state.thinned.shape == found.gap.shape
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.integrate import quad
 
 from contact_core.laws.rheology import Carreau, Eyring, Newtonian
@@ -54,7 +55,7 @@ def test_small_slip_finds_the_newtonian_slope(rheology, viscosity):
     slope = over_contact(lambda p: at(viscosity, p)) * SPEED / FILM
     found = traction(rheology, viscosity, ratio) / ratio
     print(f"{viscosity.name}, {rheology}: slope {found:.5g}, closed form {slope:.5g}")
-    assert found == pytest.approx(slope, rel=0.01)
+    assert found == approx(slope, rel=0.01)
     assert traction(rheology, viscosity, -ratio) == -traction(rheology, viscosity, ratio)
 
 
@@ -63,9 +64,9 @@ def test_the_newtonian_slope_of_barus_oil_is_that_of_the_integral_by_hand():
     # integral of exp(z q) 2 q dq from 0 to 1
     mean = 2.0 * ((z - 1.0) * np.exp(z) + 1.0) / z**2
     slope = 1.5 / PEAK * 0.01 * mean * SPEED / FILM
-    assert over_contact(lambda p: at(oil, p)) * SPEED / FILM == pytest.approx(slope, rel=1e-8)
+    assert over_contact(lambda p: at(oil, p)) * SPEED / FILM == approx(slope, rel=1e-8)
     ratio = gentle(oil)
-    assert traction(RHEOLOGIES[1], oil, ratio) / ratio == pytest.approx(slope, rel=0.01)
+    assert traction(RHEOLOGIES[1], oil, ratio) / ratio == approx(slope, rel=0.01)
 
 
 @by_rheology
@@ -73,7 +74,7 @@ def test_the_newtonian_slope_of_barus_oil_is_that_of_the_integral_by_hand():
 def test_large_slip_finds_the_limiting_coefficient(rheology, viscosity):
     found = traction(rheology, viscosity, 1e9)
     print(f"{viscosity.name}, {rheology.name}: {found:.5f}")
-    assert found == pytest.approx(LIMIT, rel=0.01)  # Lambda times the mean pressure / the mean pressure
+    assert found == approx(LIMIT, rel=0.01)  # Lambda times the mean pressure / the mean pressure
     assert found <= LIMIT * (1.0 + 1e-12)
 
 
@@ -94,7 +95,7 @@ def test_between_them_a_traction_curve_is_the_integral_of_its_law(rheology, visc
             lambda p, ratio=ratio: min(curve(rheology, at(viscosity, p) * ratio * SPEED / FILM), LIMIT * p)
         )
         found.append(traction(rheology, viscosity, ratio))
-        assert found[-1] == pytest.approx(expected, rel=0.01)
+        assert found[-1] == approx(expected, rel=0.01)
     assert np.all(np.diff(found) > 0.0)
     assert found[-1] < LIMIT
 

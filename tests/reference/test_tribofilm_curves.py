@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.integrate import solve_ivp
 
 import contact_core
@@ -43,12 +44,12 @@ def stepped(name: str, steps: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("name", CURVES)
 def test_the_closed_form_has_the_printed_values(name):
-    assert closed_form(name, 60.0 * MINUTES) * 1e9 == pytest.approx(CURVES[name], abs=0.06)
+    assert closed_form(name, 60.0 * MINUTES) * 1e9 == approx(CURVES[name], abs=0.06)
 
 
 @pytest.mark.parametrize("name", CURVES)
 def test_the_law_in_steps_has_the_printed_values(name):
-    assert stepped(name, np.diff(60.0 * MINUTES, prepend=0.0)) * 1e9 == pytest.approx(CURVES[name], abs=0.06)
+    assert stepped(name, np.diff(60.0 * MINUTES, prepend=0.0)) * 1e9 == approx(CURVES[name], abs=0.06)
 
 
 @pytest.mark.parametrize(
@@ -57,24 +58,24 @@ def test_the_law_in_steps_has_the_printed_values(name):
 )
 def test_the_film_overshoots_and_settles_where_growth_less_removal_leaves_it(name, seconds, peak, end):
     film = stepped(name, np.ones(7200))
-    assert 1 + np.argmax(film) == pytest.approx(seconds, abs=2)
-    assert film.max() == pytest.approx(peak, abs=0.05e-9)
+    assert 1 + np.argmax(film) == approx(seconds, abs=2)
+    assert film.max() == approx(peak, abs=0.05e-9)
     law = Scene.from_toml(name).tribofilm
     settled = stepped(name, np.array([1e6]))[0]
-    assert settled == pytest.approx(law.full_thickness - law.removal_thickness, rel=1e-12, abs=0.0)
-    assert settled == pytest.approx(end, abs=0.05e-9)
+    assert settled == approx(law.full_thickness - law.removal_thickness, rel=1e-12, abs=0.0)
+    assert settled == approx(end, abs=0.05e-9)
 
 
 @pytest.mark.parametrize(("name", "rate"), [("azam_case_a", 3.125e-3), ("mtm_zddp", 1.2215e-3)])
 def test_growth_rates_of_the_shipped_cases(name, rate):
     scene = Scene.from_toml(name)
-    assert scene.tribofilm.rate(scene.operation.temperature) == pytest.approx(rate, rel=1e-4)
+    assert scene.tribofilm.rate(scene.operation.temperature) == approx(rate, rel=1e-4)
 
 
 def test_temperature_enters_the_growth_rate_in_proportion():
     law = Scene.from_toml("mtm_zddp").tribofilm
     rates = np.array([law.rate(t) / law.rate_factor for t in (333.15, 353.15, 363.15, 373.15)])
-    assert rates == pytest.approx([6.942e12, 7.358e12, 7.567e12, 7.775e12], rel=1e-4)
+    assert rates == approx([6.942e12, 7.358e12, 7.567e12, 7.775e12], rel=1e-4)
 
 
 BY_ENERGY = {"tribofilm.set": "andersson_90c"}
@@ -99,7 +100,7 @@ def test_growth_by_energy_is_that_of_the_differential_equation():
     energy = sum(exposed(t) for t in middle[:1000]) * (end / 200_000) * 200  # of one swing, 200 times
     growth, removal = law.evolve(np.array([20e-9]), np.zeros(1), np.array([energy]), np.zeros(1), 363.15)
     assert 80e-9 < found < 175e-9
-    assert growth[0] == pytest.approx(found, rel=1e-5, abs=0.0)
+    assert growth[0] == approx(found, rel=1e-5, abs=0.0)
     assert not removal.any()
 
 
@@ -115,7 +116,7 @@ def case_a_by_energy(seconds: np.ndarray) -> np.ndarray:
 
 def test_the_assumed_constants_by_energy_start_as_fast_as_the_published_ones():
     published = stepped("azam_case_a", np.array([0.1]))
-    assert case_a_by_energy(np.array([0.1])) == pytest.approx(published, rel=3e-3, abs=0.0)
+    assert case_a_by_energy(np.array([0.1])) == approx(published, rel=3e-3, abs=0.0)
 
 
 def test_constants_that_nobody_published_are_marked_as_assumed():
@@ -133,7 +134,7 @@ def test_growth_by_energy_shows_no_overshoot():
     film = case_a_by_energy(60.0 * MINUTES)
     assert np.all(np.diff(film) > 0.0)
     assert np.all(np.diff(closed_form("azam_case_a", 60.0 * MINUTES))[5:] < 0.0)
-    assert film[-1] == pytest.approx(176e-9, rel=1e-3, abs=0.0)
+    assert film[-1] == approx(176e-9, rel=1e-3, abs=0.0)
 
 
 ACTIVATED = (
@@ -161,17 +162,17 @@ def test_the_assumed_constants_of_activated_growth_start_and_settle_like_the_pub
     scene = Scene.from_toml("mtm_zddp", {"tribofilm.set": name})
     growing, taking = rates_of_case_b(scene)
     full = scene.tribofilm.full_thickness
-    assert full * growing == pytest.approx(0.2225e-9, rel=1e-3, abs=0.0)
+    assert full * growing == approx(0.2225e-9, rel=1e-3, abs=0.0)
     start = published.evolve(np.zeros(1), np.zeros(1), np.array([0.1]), np.zeros(1), 353.15)
-    assert full * growing * 0.1 == pytest.approx(thickness(*start)[0], rel=1e-3, abs=0.0)
+    assert full * growing * 0.1 == approx(thickness(*start)[0], rel=1e-3, abs=0.0)
     settled = published.full_thickness - published.removal_thickness
-    assert full * growing / (growing + taking) == pytest.approx(settled, rel=1e-3, abs=0.0)
+    assert full * growing / (growing + taking) == approx(settled, rel=1e-3, abs=0.0)
 
 
 def test_the_combined_constants_are_half_of_both():
     half = rates_of_case_b(Scene.from_toml("mtm_zddp", {"tribofilm.set": "combined_80c"}))
     sheared = rates_of_case_b(Scene.from_toml("mtm_zddp", {"tribofilm.set": "zhang_spikes_80c_ethylhexyl"}))
-    assert half[0] == pytest.approx(0.5 * (sheared[0] + 1.2215e-3), rel=1e-3, abs=0.0)
+    assert half[0] == approx(0.5 * (sheared[0] + 1.2215e-3), rel=1e-3, abs=0.0)
     assert half[1] == sheared[1]
 
 
@@ -193,5 +194,5 @@ def test_growth_with_removal_is_that_of_the_differential_equation():
     abraded = law.abrasion(np.array([pressure]), speed, None) * end
     growth, removal = law.evolve(np.array([20e-9]), np.zeros(1), exposed, abraded, 353.15)
     assert abs(found - 20e-9) > 5e-9
-    assert growth[0] == pytest.approx(found, rel=1e-8, abs=0.0)
+    assert growth[0] == approx(found, rel=1e-8, abs=0.0)
     assert not removal.any()

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from comparison import approx
 from matplotlib.image import imread
 
 from contact_core.reference import nijenbanning_venner_moes
@@ -57,15 +58,15 @@ def test_a_cold_start_ends_where_heat_in_is_heat_out(warm: Result) -> None:
     last = dataset.isel(time=-1)
     loss, left = float(last["bearing.power_loss"]), float(last["housing.heat_to_ambient"])
     assert loss > 10.0
-    assert left == pytest.approx(loss, rel=1e-3)
+    assert left == approx(loss, rel=1e-3)
     by_ring = 0.25 * (last["housing.temperature_inner"] - 293.15) + 0.75 * (last["housing.temperature_outer"] - 293.15)
-    assert float(by_ring) == pytest.approx(loss, rel=1e-3)
+    assert float(by_ring) == approx(loss, rel=1e-3)
 
 
 def test_the_motor_gives_what_the_bearing_loses(warm: Result) -> None:
     last = warm[1].isel(time=-1)
     slip = float(last["shaft.torque_coupling"]) * float(last["drive.speed"] - last["shaft.speed"])
-    assert float(last["drive.power"]) == pytest.approx(float(last["bearing.power_loss"]) + slip, rel=1e-3)
+    assert float(last["drive.power"]) == approx(float(last["bearing.power_loss"]) + slip, rel=1e-3)
 
 
 def test_warm_oil_makes_the_torque_less(warm: Result) -> None:
@@ -77,7 +78,7 @@ def test_warm_oil_makes_the_torque_less(warm: Result) -> None:
 def test_energy_is_conserved_but_for_the_steps(warm: Result) -> None:
     run = BearingRun(*warm)
     kept = run.heat_stored + float(run.of("housing.energy_to_ambient")[-1])
-    assert kept == pytest.approx(run.heat_in, rel=2e-2)
+    assert kept == approx(run.heat_in, rel=2e-2)
 
 
 def test_all_rows_are_valid_and_all_steps_made(warm: Result) -> None:
@@ -89,7 +90,7 @@ def test_all_rows_are_valid_and_all_steps_made(warm: Result) -> None:
 def test_the_causes_of_the_torque_are_all_of_it(warm: Result) -> None:
     run = BearingRun(*warm)
     total = sum(part[run.last] for part in run.torque.values())
-    assert total == pytest.approx(run.of("bearing.friction_torque")[run.last], rel=1e-3)
+    assert total == approx(run.of("bearing.friction_torque")[run.last], rel=1e-3)
 
 
 def test_the_torque_is_of_the_size_that_skf_and_palmgren_have(warm: Result) -> None:
@@ -102,7 +103,7 @@ def test_the_torque_is_of_the_size_that_skf_and_palmgren_have(warm: Result) -> N
 def test_balls_of_the_load_zone_carry_the_load(warm: Result) -> None:
     run = BearingRun(*warm)
     azimuth, load = run.balls("inner", run.last)
-    assert load @ np.cos(azimuth) == pytest.approx(2000.0, rel=1e-6)
+    assert load @ np.cos(azimuth) == approx(2000.0, rel=1e-6)
     assert (np.diff(azimuth) > 0.0).all()
 
 
@@ -111,7 +112,7 @@ def test_a_balls_way_around_passes_the_balls(warm: Result) -> None:
     way = run.passage("outer", run.last)
     azimuth, load = run.balls("outer", run.last)
     there = np.interp(azimuth, way.azimuth, way.load)
-    assert there == pytest.approx(load, abs=1e-3 * load.max())
+    assert there == approx(load, abs=1e-3 * load.max())
 
 
 @pytest.mark.parametrize("race", ["inner", "outer"])
@@ -131,11 +132,11 @@ def test_the_film_at_a_balls_load_grows_as_the_formula_says_and_not_toward_that_
         return nijenbanning_venner_moes(contact) / float(scene.lubricant.density(scene.hertz(load).pressure_mean))
 
     found = run.at_load(race, "h_c", run.last, loads) / film
-    assert found == pytest.approx([smooth(load) / smooth(most) for load in loads], rel=0.05)
-    assert found[0] == pytest.approx(1.0, rel=1e-6)
+    assert found == approx([smooth(load) / smooth(most) for load in loads], rel=0.05)
+    assert found[0] == approx(1.0, rel=1e-6)
     assert (np.diff(found) > 0.02).all()
     ratio = run.at_load(race, "lambda_ratio", run.last, loads) / float(run.told(heaviest, "lambda_ratio")[run.last])
-    assert ratio == pytest.approx(found, rel=0.1)
+    assert ratio == approx(found, rel=0.1)
 
 
 def test_balls_without_load_and_at_rest_have_no_film_to_show(warm: Result, starts: BearingRun) -> None:
@@ -164,10 +165,10 @@ def test_peaks_of_starts_are_sizes_while_the_shaft_turns(starts: BearingRun) -> 
     names = ("shaft.speed", "bearing.friction_torque")
     backward = BearingRun(starts.assembly, starts.dataset.assign({name: -starts.dataset[name] for name in names}))
     assert (starts.start_peaks > 0.0).all()
-    assert backward.start_peaks == pytest.approx(starts.start_peaks)
+    assert backward.start_peaks == approx(starts.start_peaks)
     torque = starts.dataset["bearing.friction_torque"]
     stuck = starts.dataset.assign({torque.name: torque.where(starts.runs, 1e3)})
-    assert BearingRun(starts.assembly, stuck).start_peaks == pytest.approx(starts.start_peaks)
+    assert BearingRun(starts.assembly, stuck).start_peaks == approx(starts.start_peaks)
 
 
 def test_the_report_compares_starts_from_the_second_on(starts: BearingRun) -> None:
@@ -234,6 +235,6 @@ def test_the_report_says_that_the_heat_is_closed(warm: Result) -> None:
 def test_what_a_catalogue_would_have_is_near_it(geometry: Any, known: Any) -> None:
     found = catalogue_of(geometry)
     assert found.series == known.series
-    assert found.bore == pytest.approx(known.bore, rel=5e-3)
-    assert found.outside == pytest.approx(known.outside, rel=5e-3)
-    assert found.static_rating == pytest.approx(known.static_rating, rel=0.2)
+    assert found.bore == approx(known.bore, rel=5e-3)
+    assert found.outside == approx(known.outside, rel=5e-3)
+    assert found.static_rating == approx(known.static_rating, rel=0.2)

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from comparison import approx
 from models import build
 from test_resume import KILLED, bits
 
@@ -163,7 +164,7 @@ def test_events_and_the_end_by_an_fmu_are_told(
     out = capsys.readouterr().out
     assert "Events: " in out
     assert "The FMU 'end' ended the simulation." in out
-    assert result("results/gear")["time"].values[-1] == pytest.approx(0.5, abs=0.03)
+    assert result("results/gear")["time"].values[-1] == approx(0.5, abs=0.03)
 
 
 def test_the_picture_has_a_panel_for_each_output_and_for_a_changing_step(fmus: dict[str, Path]) -> None:

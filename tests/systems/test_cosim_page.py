@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from comparison import approx
 
 from system_models import cosim_report
 from system_models.cli import main
@@ -55,17 +56,17 @@ def test_the_example_runs_as_it_is_shown(
         if cells and cells[0].startswith(("block.x", "contact.")):
             (found,) = [row.split() for row in printed if row.startswith(cells[0])]
             assert found[:2] == cells[:2]
-            assert list(map(number, found[2:])) == pytest.approx(list(map(number, cells[2:])), rel=1e-2)
+            assert list(map(number, found[2:])) == approx(list(map(number, cells[2:])), rel=1e-2)
     assert "Steps: 2000 to 1 s" in "".join(printed)
     with xr.open_dataset("results/rig/result.nc", engine="h5netcdf") as dataset:
         friction = dataset["contact.friction_force"].values
         assert dataset["contact.valid"].values.all()
-        assert friction[-1] == pytest.approx(0.6 * friction[999], rel=0.05)  # the load falls from 50 N to 30 N
-        assert dataset["block.x"].values[-1] == pytest.approx(friction[-1] / 20e3, rel=1e-3)  # at rest again
+        assert friction[-1] == approx(0.6 * friction[999], rel=0.05)  # the load falls from 50 N to 30 N
+        assert dataset["block.x"].values[-1] == approx(friction[-1] / 20e3, rel=1e-3)  # at rest again
         assert np.abs(dataset["bond.contact.friction_force*block.v"]).max() < 0.1
     names: dict[str, Any] = {}
     exec(Path("rig.py").read_text(), names)
-    assert names["dataset"]["block.x"].values[-1] == pytest.approx(friction[-1] / 20e3, rel=1e-3)
+    assert names["dataset"]["block.x"].values[-1] == approx(friction[-1] / 20e3, rel=1e-3)
 
 
 def number(cell: str) -> float:

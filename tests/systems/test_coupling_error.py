@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from comparison import approx
 
 from system_models.machine.coupling_error import ATTRIBUTE, coarser, differences, relative, settled, stated
 
@@ -51,8 +52,8 @@ def test_the_error_stated_is_that_against_the_exact_solution(result: xr.Dataset,
     found = stated(result, doubled, SCHEDULE)
     true = np.abs(result["a.x"].values - exact(result["time"].values)).max()
     assert true > 0.02
-    assert found["a.x"].attrs[ATTRIBUTE] == pytest.approx(1.5 * true, rel=0.1)
-    assert found["a.T"].attrs[ATTRIBUTE] == pytest.approx(found["a.x"].attrs[ATTRIBUTE], rel=1e-9)
+    assert found["a.x"].attrs[ATTRIBUTE] == approx(1.5 * true, rel=0.1)
+    assert found["a.T"].attrs[ATTRIBUTE] == approx(found["a.x"].attrs[ATTRIBUTE], rel=1e-9)
     assert ATTRIBUTE not in result["a.x"].attrs
 
 
@@ -61,8 +62,8 @@ def test_errors_are_told_relative_to_the_largest_value_in_degrees_celsius(
 ) -> None:
     found = relative(stated(result, doubled, SCHEDULE), {"a.x": 1e4})
     error, largest = stated(result, doubled, SCHEDULE)["a.x"].attrs[ATTRIBUTE], float(result["a.x"].max())
-    assert found["a.T"] == pytest.approx(error / (100.0 + largest), rel=1e-9)
-    assert found["a.x"] == pytest.approx(error / 100.0, rel=1e-9)  # a hundredth of its nominal is more
+    assert found["a.T"] == approx(error / (100.0 + largest), rel=1e-9)
+    assert found["a.x"] == approx(error / 100.0, rel=1e-9)  # a hundredth of its nominal is more
 
 
 def test_a_jump_is_no_error_and_truths_and_stated_errors_have_none(result: xr.Dataset, doubled: xr.Dataset) -> None:

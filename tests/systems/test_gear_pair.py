@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from comparison import approx
 from numpy.typing import NDArray
 
 from system_models.gear.mesh import GearMesh
@@ -52,13 +53,13 @@ def test_the_mean_friction_is_the_power_that_the_contacts_rub_away(record: Recor
     sliding = record.along("speed_1")[-1] - record.along("speed_2")[-1]
     rubbed = (record.weights * np.abs(record.along("friction_force")[-1] * sliding)).sum()
     power = record.of("shafts.mesh_torque")[-1] * record.of("shafts.speed_1")[-1]
-    assert record.friction[-1] == pytest.approx(rubbed / power / ohlendorf(record.pair), rel=1e-4)
+    assert record.friction[-1] == approx(rubbed / power / ohlendorf(record.pair), rel=1e-4)
 
 
 def test_the_loads_of_the_stations_carry_the_force_between_the_gears(record: Record) -> None:
     carried = (record.weights * record.along("load")[-1]).sum()
     force = record.of("shafts.mesh_torque")[-1] / record.pair.base_radius_1
-    assert carried == pytest.approx(force, rel=5e-3)  # the midpoint rule of six stations
+    assert carried == approx(force, rel=5e-3)  # the midpoint rule of six stations
 
 
 def test_all_lost_power_heats_the_gears_and_the_oil(record: Record) -> None:
@@ -74,7 +75,7 @@ def test_the_energy_that_is_lost_is_in_the_gearbox_or_gone(record: Record) -> No
         node.heat_capacity * (record.of(f"gearbox.temperature_{node.name}")[-1] - node.temperature) for node in nodes
     )
     found = stored + record.of("gearbox.energy_to_ambient")[-1]
-    assert found == pytest.approx(np.trapezoid(record.of("mesh.power_loss"), record.time), rel=0.02)
+    assert found == approx(np.trapezoid(record.of("mesh.power_loss"), record.time), rel=0.02)
 
 
 @pytest.mark.parametrize("body", [1, 2])
@@ -98,15 +99,15 @@ def test_each_place_of_the_flanks_has_its_own_film_and_tribofilm(record: Record)
 
 def test_stages_are_the_stretches_of_the_duty(record: Record) -> None:
     assert [(stage.start, stage.end) for stage in record.stages] == [(0.0, 120.0), (120.0, 240.0)]
-    assert [stage.torque for stage in record.stages] == pytest.approx([135.3, 239.25])
+    assert [stage.torque for stage in record.stages] == approx([135.3, 239.25])
     reached = [record.of("shafts.mesh_torque")[stage.last] for stage in record.stages]
-    assert reached == pytest.approx([135.3, 239.25], rel=0.01)
+    assert reached == approx([135.3, 239.25], rel=0.01)
 
 
 def test_pressures_at_the_pitch_point_are_those_of_the_load_stages(record: Record) -> None:
     """As tabulated for type C: 1108 MPa at 135.3 N m, 1474 MPa at 239.25 N m."""
     found = [1e-6 * record.pressure_at_pitch_point(torque) for torque in (135.3, 239.25)]
-    assert found == pytest.approx([1108.0, 1474.0], rel=1e-3)
+    assert found == approx([1108.0, 1474.0], rel=1e-3)
 
 
 def test_the_report_has_a_row_for_each_stage_and_three_pictures(record: Record, tmp_path: Path) -> None:
@@ -126,7 +127,7 @@ def test_starts_and_stops_wear_the_flanks_anew_each_time(tmp_path: Path) -> None
     depths = [record.along("wear_depth_1")[stage.last].max() for stage in record.stages]
     assert 0.0 < depths[0] < depths[1]
     assert np.isnan(record.friction[-1])  # standing still
-    assert record.of("mesh.power_loss")[-1] == pytest.approx(0.0, abs=1.0)
+    assert record.of("mesh.power_loss")[-1] == approx(0.0, abs=1.0)
     assert len(gear_pair_report.lines(record.assembly, record.dataset)) > 5
     assert len(gear_pair_pictures.time(record).axes) == 8
 
@@ -141,7 +142,7 @@ def test_a_duty_from_a_table_is_followed(tmp_path: Path) -> None:
         (30.0 / np.pi * record.of("shafts.speed_1")[s.last], record.of("shafts.mesh_torque")[s.last])
         for s in record.stages
     ]
-    assert reached == [pytest.approx((1000.0, 50.0), rel=0.02), pytest.approx((2000.0, 100.0), rel=0.02)]
+    assert reached == [approx((1000.0, 50.0), rel=0.02), approx((2000.0, 100.0), rel=0.02)]
 
 
 def test_a_duty_without_load_is_told_so(tmp_path: Path) -> None:
@@ -158,5 +159,5 @@ def test_shipped_gears_run_the_load_stages_of_their_tests(name: str, count: int,
     assert isinstance(mesh, GearMesh)
     torques = [torque / mesh.pair.ratio for _, torque in assembly.schedule["brake.torque_setpoint"] if torque]
     assert len(torques) == count
-    assert torques[-1] == pytest.approx(last)
+    assert torques[-1] == approx(last)
     assert len(assembly.contacts) == 21

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import pytest
 import xarray as xr
+from comparison import approx
 from fmpy.ssp.ssd import get_connections, read_ssd
 from test_cosim_command import result
 from test_resume import KILLED, bits
@@ -66,7 +67,7 @@ def test_a_machine_runs_from_one_command(rig: list[str], capsys: pytest.CaptureF
     assert code == int((judged & ~covered).any())
     assert 0.0 < dataset["contact.friction_force"].attrs["error_coupling"] < 0.1
     assert "Error of the coupling, from steps of double size" in out
-    assert dataset["ball.surface_speed"].values[-1] == pytest.approx(0.1025, rel=1e-3)
+    assert dataset["ball.surface_speed"].values[-1] == approx(0.1025, rel=1e-3)
     assert dataset["contact.tribofilm_1"].values[-1] > 0.0
     assert "Friction in the sweeps" in out
     assert "0.03 m/s" in out
@@ -207,7 +208,7 @@ def test_importers_say_what_the_master_says(importer: str, compared: Compared, m
     monkeypatch.setenv("TRIBOFMU_PYTHON", sys.executable)
     rows = imported(importer, compared.file, [*compared.values], 0.125, 64)
     theirs = dict(zip(compared.values, rows[-1].tolist(), strict=True))
-    assert theirs == pytest.approx(compared.values, rel=0.01)
+    assert theirs == approx(compared.values, rel=0.01)
 
 
 @pytest.mark.parametrize(

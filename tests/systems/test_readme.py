@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from comparison import approx
 
 from contact_core import Scene, advance, initial_state
 from contact_core.reading import read_table
@@ -62,7 +63,7 @@ def test_the_example_of_friction_and_heat_runs() -> None:
     scene = Scene.from_dict(table | {"film": table["film"] | {"points": 65}})
     assert (scene.lubricant.flow, scene.heat.name, scene.heat.bulk.name) == ("local", "field", "lumped")
     state, outputs = advance(scene, scene.operation.point, initial_state(scene), 0.02)
-    assert outputs.heat_flow_1 + outputs.heat_flow_2 == pytest.approx(outputs.power_loss, rel=1e-12)
+    assert outputs.heat_flow_1 + outputs.heat_flow_2 == approx(outputs.power_loss, rel=1e-12)
     assert state.temperatures is not None and state.temperatures[0] > scene.operation.temperature
 
 

@@ -3,6 +3,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from comparison import approx
 
 from contact_core import RangeFlag
 from contact_core.quantities import TABLE
@@ -105,7 +106,7 @@ def test_invalid_steps_are_shaded(long_run: xr.Dataset) -> None:
     for axis in report.overview(long_run).axes:
         (shade,) = axis.patches
         extent = shade.get_extents().transformed(axis.transData.inverted())
-        assert extent.intervalx == pytest.approx([6.0, 7.0])
+        assert extent.intervalx == approx([6.0, 7.0])
 
 
 def test_the_overview_is_a_png(long_run: xr.Dataset, tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 import fmpy.ssp
 import numpy as np
 import pytest
+from comparison import approx
 from fmpy.ssp.ssd import get_connections, read_ssd
 from lxml import etree
 from models import build
@@ -76,7 +77,7 @@ def imported(importer: str, file: Path, names: list[str], step: float = STEP, co
 def own(system: System, names: list[str]) -> np.ndarray:
     """Values from the start on, a row for each communication point."""
     dataset = simulate(system, COUNT * STEP, STEP, "jacobi", 0, outputs=names)
-    assert dataset["time"].values == pytest.approx(STEP * np.arange(COUNT + 1))
+    assert dataset["time"].values == approx(STEP * np.arange(COUNT + 1))
     return np.column_stack([dataset[name].values for name in names])
 
 
@@ -145,7 +146,7 @@ def test_importers_simulate_what_we_do(importer: str, lag: int, instrumented: Sy
     assert np.ptp(ours[:, 0]) > 0.1
     np.testing.assert_allclose(theirs[:, :4], ours[1:, :4], rtol=1e-9, atol=1e-12)
     np.testing.assert_allclose(theirs[:, 4], ours[1 - lag : COUNT + 1 - lag, 4], rtol=1e-9)
-    assert np.ptp(ours[:, 4]) == pytest.approx(0.5 * 2000.0 * np.ptp(ours[:, 2]), rel=1e-9)
+    assert np.ptp(ours[:, 4]) == approx(0.5 * 2000.0 * np.ptp(ours[:, 2]), rel=1e-9)
 
 
 @pytest.mark.parametrize("importer", ["libcosimpy", "ecospy"])

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from comparison import approx
 
 from contact_core import ContactState, ConvergenceError, OperatingPoint, Outputs, RangeFlag, Scene, advance
 from contact_core.errors import ContactError
@@ -55,7 +56,7 @@ def refusing(monkeypatch: pytest.MonkeyPatch, error: BaseException, after: int) 
 def test_the_transition_of_a_straight_line_in_log_speed_is_exact(level: float) -> None:
     speeds = np.geomspace(0.01, 10.0, 7)
     shares = 0.4 - 0.25 * np.log10(speeds)
-    assert transition_speed(speeds, shares, level) == pytest.approx(10.0 ** ((0.4 - level) / 0.25), rel=1e-12)
+    assert transition_speed(speeds, shares, level) == approx(10.0 ** ((0.4 - level) / 0.25), rel=1e-12)
 
 
 def test_the_transition_does_not_depend_on_the_order_of_the_speeds() -> None:
@@ -65,7 +66,7 @@ def test_the_transition_does_not_depend_on_the_order_of_the_speeds() -> None:
 
 
 def test_a_speed_right_at_the_level_is_the_transition() -> None:
-    assert transition_speed([0.1, 1.0, 10.0], [0.9, 0.5, 0.1]) == pytest.approx(1.0, rel=1e-12)
+    assert transition_speed([0.1, 1.0, 10.0], [0.9, 0.5, 0.1]) == approx(1.0, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -76,7 +77,7 @@ def test_a_level_that_is_not_bracketed_has_no_transition(shares: list[float]) ->
 
 
 def test_points_without_a_solution_are_passed_over() -> None:
-    assert transition_speed([0.1, 1.0, 10.0], [0.75, math.nan, 0.25]) == pytest.approx(1.0, rel=1e-12)
+    assert transition_speed([0.1, 1.0, 10.0], [0.75, math.nan, 0.25]) == approx(1.0, rel=1e-12)
 
 
 def test_of_several_crossings_the_fastest_is_the_transition() -> None:
@@ -85,13 +86,13 @@ def test_of_several_crossings_the_fastest_is_the_transition() -> None:
 
 def test_speeds_are_evenly_spaced_in_their_logarithm_and_fall(duty: Duty) -> None:
     plan = Plan.of(duty, [60.0, 0.0, 60.0], 10.0, 0.01, 4)
-    assert plan.speeds == pytest.approx((10.0, 1.0, 0.1, 0.01), rel=1e-12)
+    assert plan.speeds == approx((10.0, 1.0, 0.1, 0.01), rel=1e-12)
     assert plan.times == (0.0, 60.0)
 
 
 def test_the_slide_to_roll_ratio_is_the_dutys_unless_given(duty: Duty, scene: Scene) -> None:
     own = Plan.of(duty, [0.0], 10.0, 0.01, 4).point(2.0)
-    assert (own.speed_1, own.speed_2) == pytest.approx((2.05, 1.95), rel=1e-12)
+    assert (own.speed_1, own.speed_2) == approx((2.05, 1.95), rel=1e-12)
     given = Plan.of(duty, [0.0], 10.0, 0.01, 4, srr=-0.5).point(2.0)
     assert (given.speed_1, given.speed_2) == (1.5, 2.5)
     assert replace(given, speed_1=own.speed_1, speed_2=own.speed_2) == own
@@ -101,7 +102,7 @@ def test_the_slide_to_roll_ratio_is_the_dutys_unless_given(duty: Duty, scene: Sc
 def test_a_contact_entrained_the_other_way_is_swept_the_other_way(scene: Scene) -> None:
     point = replace(scene.operation.point, speed_1=-0.3, speed_2=-0.1)
     swept = Plan.of(Duty.from_steps(point), [0.0], 10.0, 0.01, 4).point(2.0)
-    assert (swept.speed_1, swept.speed_2) == pytest.approx((-3.0, -1.0), rel=1e-12)
+    assert (swept.speed_1, swept.speed_2) == approx((-3.0, -1.0), rel=1e-12)
 
 
 def test_a_duty_without_entrainment_needs_a_slide_to_roll_ratio(scene: Scene) -> None:
@@ -171,7 +172,7 @@ def test_rubbing_is_that_of_a_run_bit_for_bit(scene: Scene, duty: Duty, dataset:
 
 
 def test_rubbing_stops_between_the_steps_of_a_run(scene: Scene, duty: Duty) -> None:
-    assert [state.time for state, _ in rubbing(scene, duty, (10.0, 35.0))] == pytest.approx([10.0, 35.0], rel=1e-12)
+    assert [state.time for state, _ in rubbing(scene, duty, (10.0, 35.0))] == approx([10.0, 35.0], rel=1e-12)
 
 
 def test_a_rougher_disc_needs_more_speed() -> None:
@@ -201,7 +202,7 @@ def test_composite_roughness_is_that_of_both_surfaces(swept: xr.Dataset) -> None
 def test_the_transitions_are_those_of_the_curves(swept: xr.Dataset) -> None:
     level = swept.attrs["friction_midway"]
     friction = swept["friction_coefficient"]
-    assert level == pytest.approx(0.5 * float(friction.min() + friction.max()), rel=1e-12)
+    assert level == approx(0.5 * float(friction.min() + friction.max()), rel=1e-12)
     for i in (0, 1):
         speeds = swept["entrainment_speed"]
         assert float(swept["transition_speed"][i]) == transition_speed(speeds, swept["contact_load_ratio"][i])
@@ -228,7 +229,7 @@ def test_the_table_has_a_row_for_each_speed_and_a_column_for_each_time(swept: xr
     head, units, *rows = (line.split() for line in stribeck_report.table(swept).splitlines())
     assert head == ["speed", "friction", "friction"]
     assert units == ["m/s", "0", "min", "1.2", "min"]
-    assert [float(row[0]) for row in rows] == pytest.approx([8.0, 0.253, 0.008])
+    assert [float(row[0]) for row in rows] == approx([8.0, 0.253, 0.008])
     printed = np.array([[float(cell) for cell in row[1:]] for row in rows])
     np.testing.assert_allclose(printed, swept["friction_coefficient"].values.T, atol=5.1e-5)
 
@@ -293,7 +294,7 @@ def test_the_command_prints_a_table_and_writes_three_files(
     assert all(str(Path("results/mtm_zddp") / path.name) in out for path in folder.iterdir())
     with xr.open_dataset(folder / "stribeck.nc", engine="h5netcdf") as dataset:
         assert dataset["rubbing_time"].values.tolist() == [0.0, 30.0, 60.0]
-        assert dataset["entrainment_speed"].values.tolist() == pytest.approx([2.0, 0.005])
+        assert dataset["entrainment_speed"].values.tolist() == approx([2.0, 0.005])
         assert float(dataset["slide_roll_ratio"]) == 0.5
         assert dataset.attrs["scene"] == "mtm_zddp"
         expected = dataset["friction_coefficient"].values.ravel().tolist()

@@ -6,6 +6,7 @@ from dataclasses import asdict, fields, is_dataclass, replace
 import numpy as np
 import pytest
 from cheap_scene import CHEAP, cheap
+from comparison import approx
 
 from contact_core import (
     ContactState,
@@ -107,12 +108,12 @@ def test_small_steps_and_one_large_step_end_alike():
     scene, fresh, op = cheap()
     few, a = run(scene, op, fresh, [300.0])
     many, b = run(scene, op, fresh, [5.0] * 60)
-    assert many.time == pytest.approx(few.time, rel=1e-12)
+    assert many.time == approx(few.time, rel=1e-12)
     last, same = b[-1], a[-1]
     for name in ("tribofilm_1", "tribofilm_2", "wear_volume_1", "wear_volume_2"):
-        assert getattr(last, name) == pytest.approx(getattr(same, name), rel=0.02, abs=0.0), name
+        assert getattr(last, name) == approx(getattr(same, name), rel=0.02, abs=0.0), name
     for name in ("load_cycles_1", "load_cycles_2"):
-        assert getattr(last, name) == pytest.approx(getattr(same, name), rel=1e-12), name
+        assert getattr(last, name) == approx(getattr(same, name), rel=1e-12), name
 
 
 def test_a_split_within_a_block_changes_nothing_but_round_off():
@@ -120,9 +121,9 @@ def test_a_split_within_a_block_changes_nothing_but_round_off():
     whole, _ = advance(scene, op, fresh, 1.0)
     split, _ = run(scene, op, fresh, [0.25] * 4)
     for one, other in zip(whole.bodies, split.bodies, strict=True):
-        assert other.growth == pytest.approx(one.growth, rel=1e-12, abs=0.0)
-        assert other.removal == pytest.approx(one.removal, rel=1e-12, abs=0.0)
-        assert other.wear == pytest.approx(one.wear, rel=1e-3, abs=0.0)
+        assert other.growth == approx(one.growth, rel=1e-12, abs=0.0)
+        assert other.removal == approx(one.removal, rel=1e-12, abs=0.0)
+        assert other.wear == approx(one.wear, rel=1e-3, abs=0.0)
     assert split.outputs.blocks_mixed == whole.outputs.blocks_mixed == 1.0
 
 
@@ -132,7 +133,7 @@ def test_wear_volume_is_the_integral_of_the_wear_rate():
     state, found = run(scene, op, state, steps)
     for name in ("1", "2"):
         total = sum(getattr(outputs, f"wear_rate_{name}") * dt for outputs, dt in zip(found, steps, strict=True))
-        assert getattr(found[-1], f"wear_volume_{name}") == pytest.approx(total, rel=1e-12, abs=0.0)
+        assert getattr(found[-1], f"wear_volume_{name}") == approx(total, rel=1e-12, abs=0.0)
 
 
 @pytest.mark.parametrize(("speed_1", "speed_2"), [(0.2475, 0.2525), (0.2, 0.3), (-0.3, -0.2)])
@@ -142,8 +143,8 @@ def test_archards_volume_is_met_by_both_moving_bodies(speed_1, speed_2):
     _, outputs = advance(scene, replace(op, speed_1=speed_1, speed_2=speed_2), state, 0.0)
     law, solids = scene.wear, outputs.contact_load_ratio * op.load
     expected = law.bare * solids * abs(speed_1 - speed_2) / scene.plasticity.hardness
-    assert outputs.wear_rate_1 == pytest.approx(expected, rel=1e-9, abs=0.0)
-    assert outputs.wear_rate_2 == pytest.approx(expected, rel=1e-9, abs=0.0)
+    assert outputs.wear_rate_1 == approx(expected, rel=1e-9, abs=0.0)
+    assert outputs.wear_rate_2 == approx(expected, rel=1e-9, abs=0.0)
 
 
 @pytest.mark.parametrize(("speed_1", "speed_2"), [(0.0, 0.05), (0.05, 0.0), (0.0, -0.05)])
@@ -152,8 +153,8 @@ def test_archards_volume_is_met_by_a_resting_body_too(speed_1, speed_2):
     state, _ = advance(scene, replace(op, speed_1=speed_1, speed_2=speed_2), state, 0.0)
     state, outputs = advance(scene, replace(op, speed_1=speed_1, speed_2=speed_2), state, 1e-3)
     expected = scene.wear.bare * outputs.contact_load_ratio * op.load * 0.05 / scene.plasticity.hardness
-    assert outputs.wear_rate_1 == pytest.approx(expected, rel=1e-3, abs=0.0)
-    assert outputs.wear_rate_2 == pytest.approx(expected, rel=1e-3, abs=0.0)
+    assert outputs.wear_rate_1 == approx(expected, rel=1e-3, abs=0.0)
+    assert outputs.wear_rate_2 == approx(expected, rel=1e-3, abs=0.0)
     resting = 0 if speed_1 == 0.0 else 1
     assert state.bodies[resting].cycles == 0.0
     assert state.bodies[resting].wear.max() > 10.0 * state.bodies[1 - resting].wear.max()  # always under load
@@ -165,8 +166,8 @@ def test_wear_depths_stand_as_the_load_cycles():
     _, outputs = advance(scene, op, state, 300.0)
     passes = outputs.load_cycles_1 / outputs.load_cycles_2
     per_pass = op.speed_2 / op.speed_1  # pressure times sliding distance of a pass: p |u_s| (length / u)
-    assert outputs.wear_depth_1 / outputs.wear_depth_2 == pytest.approx(passes * per_pass, rel=0.02)
-    assert passes == pytest.approx(28361.0 / 7419.0, rel=1e-3)
+    assert outputs.wear_depth_1 / outputs.wear_depth_2 == approx(passes * per_pass, rel=0.02)
+    assert passes == approx(28361.0 / 7419.0, rel=1e-3)
 
 
 def test_two_hours_of_case_a_are_28361_and_7419_load_cycles():
@@ -174,7 +175,7 @@ def test_two_hours_of_case_a_are_28361_and_7419_load_cycles():
     state, outputs = advance(scene, op, state, 7200.0)
     assert round(outputs.load_cycles_1) == 28361
     assert round(outputs.load_cycles_2) == 7419
-    assert state.time == pytest.approx(7200.0, rel=1e-12)
+    assert state.time == approx(7200.0, rel=1e-12)
     assert finite(outputs)
     assert 20e-9 < outputs.tribofilm_1 < 120e-9
     assert outputs.coverage_1 > 0.8
@@ -186,10 +187,10 @@ def test_friction_opposes_sliding_and_is_odd():
     ahead = advance(scene, replace(op, speed_1=0.26, speed_2=0.24), state, 0.0)[1]
     back = advance(scene, replace(op, speed_1=0.24, speed_2=0.26), state, 0.0)[1]
     assert ahead.friction_force < 0.0 < back.friction_force
-    assert back.friction_force == pytest.approx(-ahead.friction_force, rel=0.05)  # the surfaces meet differently
+    assert back.friction_force == approx(-ahead.friction_force, rel=0.05)  # the surfaces meet differently
     for outputs, slide in ((ahead, 0.02), (back, -0.02)):
-        assert outputs.power_loss == pytest.approx(-outputs.friction_force * slide, rel=1e-12)
-        assert outputs.friction_coefficient == pytest.approx(abs(outputs.friction_force) / op.load, rel=1e-12)
+        assert outputs.power_loss == approx(-outputs.friction_force * slide, rel=1e-12)
+        assert outputs.friction_coefficient == approx(abs(outputs.friction_force) / op.load, rel=1e-12)
         assert outputs.power_loss > 0.0
         assert 0.01 < outputs.friction_coefficient < 0.13
 
@@ -258,7 +259,7 @@ def test_bodies_at_rest_neither_wear_nor_grow_a_film():
     scene, state, op = cheap()
     state, outputs = advance(scene, replace(op, speed_1=0.0, speed_2=0.0), state, 1000.0)
     assert finite(outputs)
-    assert outputs.contact_load_ratio == pytest.approx(1.0, rel=1e-9)
+    assert outputs.contact_load_ratio == approx(1.0, rel=1e-9)
     assert outputs.friction_force == outputs.power_loss == outputs.flash_temperature_rise == 0.0
     for body in state.bodies:
         assert not body.wear.any()
@@ -304,7 +305,7 @@ def test_an_input_that_cannot_be_used_is_refused_by_name_and_the_state_goes_on(n
     with pytest.raises(OperatingPointError, match=rf"^{name} = "):
         advance(scene, replace(op, **{name: value}), state, 5.0)
     assert state.to_bytes() == before
-    assert advance(scene, op, state, 5.0)[0].time == pytest.approx(10.0)
+    assert advance(scene, op, state, 5.0)[0].time == approx(10.0)
 
 
 @pytest.mark.parametrize("dt", [-1.0, np.nan, np.inf])
@@ -367,7 +368,7 @@ def test_friction_falls_with_entrainment_from_boundary_to_full_film():
     assert shares[2] < 0.05
     assert shares[0] > shares[1] > shares[2]
     law = scene.boundary_friction
-    assert frictions[0] == pytest.approx(law.bare * np.tanh(2e-6 / law.slip_speed), rel=0.05)
+    assert frictions[0] == approx(law.bare * np.tanh(2e-6 / law.slip_speed), rel=0.05)
     assert frictions[0] > frictions[1] > frictions[2]
 
 
@@ -444,4 +445,4 @@ def test_dry_pressures_are_weighted_by_the_share_of_the_solids():
         slide = abs(op.speed_1 - op.speed_2)
         assert 0.05 < outputs.contact_load_ratio < 0.95
         expected = law.bare * solids * slide / scene.plasticity.hardness
-        assert outputs.wear_rate_1 == pytest.approx(expected, rel=1e-9, abs=0.0)
+        assert outputs.wear_rate_1 == approx(expected, rel=1e-9, abs=0.0)

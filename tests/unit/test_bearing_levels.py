@@ -2,6 +2,7 @@ import math
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from system_models.bearing.equilibrium import RingLoads, solve
 from system_models.bearing.geometry import BEARING_209, BEARING_218
@@ -24,7 +25,7 @@ def test_sums_of_powers_of_the_load_are_those_of_the_balls(levels):
     load, count, _ = gathered(LOADS, levels)
     for third in range(1, 2 * levels + 1):
         exact = (LOADS ** (third / 3.0)).sum()
-        assert count @ load ** (third / 3.0) == pytest.approx(exact, rel=1e-8 * third**2)
+        assert count @ load ** (third / 3.0) == approx(exact, rel=1e-8 * third**2)
     assert np.all(count >= 0.0)
     assert np.all(load > 0.0)
     assert load.max() <= 1.001 * LOADS.max()
@@ -34,17 +35,17 @@ def test_sums_of_powers_of_the_load_are_those_of_the_balls(levels):
 @pytest.mark.parametrize("levels", LEVELS)
 def test_means_over_a_class_are_exact_for_what_goes_with_the_ellipse(levels):
     load, _, weights = gathered(LOADS, levels)
-    assert weights.sum(axis=1) == pytest.approx(1.0)
+    assert weights.sum(axis=1) == approx(1.0)
     assert np.all(weights >= 0.0)
     assert np.all(weights[:, LOADS == 0.0] == 0.0)
     size = 3.0 + 0.5 * np.cbrt(LOADS)
-    assert weights @ size == pytest.approx(3.0 + 0.5 * np.cbrt(load), rel=1e-3 if levels > 6 else 1e-7)
+    assert weights @ size == approx(3.0 + 0.5 * np.cbrt(load), rel=1e-3 if levels > 6 else 1e-7)
 
 
 def test_as_many_classes_as_different_loads_are_these_loads():
     load, count, _ = gathered(np.array([4526.6, 2840.6, 2840.6, 61.4, 61.4, 0.0, 0.0, 0.0, 0.0]), 3)
-    assert load == pytest.approx([61.4, 2840.6, 4526.6], rel=1e-3)
-    assert count == pytest.approx([2.0, 2.0, 1.0], rel=1e-3)
+    assert load == approx([61.4, 2840.6, 4526.6], rel=1e-3)
+    assert count == approx([2.0, 2.0, 1.0], rel=1e-3)
 
 
 def test_more_levels_make_other_sums_better():
@@ -61,27 +62,27 @@ def test_more_levels_make_other_sums_better():
 @pytest.mark.parametrize("touching", [1, 2, 16])
 def test_equal_balls_make_equal_classes(touching, levels):
     load, count, weights = gathered(np.array([250.0] * touching + [0.0] * (16 - touching)), levels)
-    assert load == pytest.approx(250.0, rel=1e-3)
-    assert count.sum() == pytest.approx(touching, rel=1e-3)
-    assert weights[:, :touching] == pytest.approx(1.0 / touching)
+    assert load == approx(250.0, rel=1e-3)
+    assert count.sum() == approx(touching, rel=1e-3)
+    assert weights[:, :touching] == approx(1.0 / touching)
 
 
 def test_without_load_there_are_no_balls_in_any_class():
     load, count, weights = gathered(np.zeros(5), 3)
     assert np.all(load == 0.0)
     assert np.all(count == 0.0)
-    assert weights == pytest.approx(0.2)
+    assert weights == approx(0.2)
 
 
 def test_classes_of_an_angular_contact_bearing_move_as_its_balls():
     found, carried, moving = classes(BEARING_218, RingLoads(x=17800.0), 500.0, "inner", 3)
-    assert found.load == pytest.approx(carried[0], rel=1e-3)
-    assert found.count.sum() == pytest.approx(16.0, rel=1e-6)
-    assert found.spin == pytest.approx(abs(moving.spin[0]), rel=1e-9)
-    assert found.entrainment == pytest.approx(moving.entrainment[0], rel=1e-9)
+    assert found.load == approx(carried[0], rel=1e-3)
+    assert found.count.sum() == approx(16.0, rel=1e-6)
+    assert found.spin == approx(abs(moving.spin[0]), rel=1e-9)
+    assert found.entrainment == approx(moving.entrainment[0], rel=1e-9)
     b = BEARING_218.inner.ellipse(carried[0]).b
-    assert found.sliding == pytest.approx(0.16114 * moving.bend[0] * b**2, rel=1e-3)
-    assert found.ring - found.ball == pytest.approx(found.sliding)
+    assert found.sliding == approx(0.16114 * moving.bend[0] * b**2, rel=1e-3)
+    assert found.ring - found.ball == approx(found.sliding)
 
 
 @pytest.mark.parametrize("race", ["inner", "outer"])
@@ -105,25 +106,25 @@ def test_all_passes_of_the_inner_ring_are_in_some_class():
     ways = track_lengths(BEARING_209, BEARING_209.inner, sorted_in.count, moving)
     ring = sum(speed / way for speed, (_, way) in zip(sorted_in.ring, ways, strict=True))
     met = BEARING_209.balls * (1.0 - found.cage) / (2.0 * math.pi)  # per angular speed
-    assert ring == pytest.approx(met, rel=0.02)  # gross slip is none, differential sliding little
+    assert ring == approx(met, rel=0.02)  # gross slip is none, differential sliding little
     ball = sum(speed / way for speed, (way, _) in zip(sorted_in.ball, ways, strict=True))
-    assert ball == pytest.approx(found.rolling[:, 1].mean() / (2.0 * math.pi), rel=0.02)
+    assert ball == approx(found.rolling[:, 1].mean() / (2.0 * math.pi), rel=0.02)
 
 
 def test_a_place_of_the_outer_ring_meets_every_ball():
     found = solve(BEARING_209, RingLoads(y=8900.0), 300.0)
     moving = motion(BEARING_209, found, "outer")
     ways = track_lengths(BEARING_209, BEARING_209.outer, np.array([2.0, 1.0, 0.0]), moving)
-    assert [way for _, way in ways] == pytest.approx([math.pi * (65e-3 + 12.7e-3) / 9.0] * 3, rel=1e-12)
+    assert [way for _, way in ways] == approx([math.pi * (65e-3 + 12.7e-3) / 9.0] * 3, rel=1e-12)
     # a ball meets the class once in 9 / count turns, at least in 900
-    assert [way for way, _ in ways] == pytest.approx([math.pi * 12.7e-3 * n for n in (4.5, 9.0, 900.0)], rel=1e-4)
+    assert [way for way, _ in ways] == approx([math.pi * 12.7e-3 * n for n in (4.5, 9.0, 900.0)], rel=1e-4)
 
 
 def test_classes_of_the_outer_race_stay_as_the_shaft_stops():
     """Balls without load press on it by their centrifugal force only."""
     turning, *_ = classes(BEARING_209, RingLoads(y=4000.0), 1e-3, "outer", 3)
     still, *_ = classes(BEARING_209, RingLoads(y=4000.0), 0.0, "outer", 3)
-    assert still.count == pytest.approx(turning.count, rel=1e-3)
-    assert still.count.sum() == pytest.approx(9.0, abs=0.1)
-    assert still.load == pytest.approx(turning.load, rel=1e-3)
+    assert still.count == approx(turning.count, rel=1e-3)
+    assert still.count.sum() == approx(9.0, abs=0.1)
+    assert still.load == approx(turning.load, rel=1e-3)
     assert still.load[0] < 1e-5 * still.load[-1]

@@ -3,6 +3,7 @@ import math
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core import units
 from contact_core.errors import ContactError, SceneError
@@ -81,27 +82,27 @@ def test_torque_times_speed_is_the_power_of_all_contacts():
             )
             power += count * (-force * (u1 - u2) - torque * spin + rolling * (u1 + u2))
     assert power > 1.0
-    assert told["power_loss"] == pytest.approx(power, rel=1e-12)
-    assert told["friction_torque"] * 300.0 == pytest.approx(power, rel=1e-12)
+    assert told["power_loss"] == approx(power, rel=1e-12)
+    assert told["friction_torque"] * 300.0 == approx(power, rel=1e-12)
     heat = [told[f"heat_flow_{body}"] for body in ("balls", "inner", "outer", "oil")]
-    assert sum(heat) == pytest.approx(power, rel=1e-12)
+    assert sum(heat) == approx(power, rel=1e-12)
     assert min(heat) > 0.0
-    assert heat[0] / (heat[1] + heat[2]) == pytest.approx(0.4 / 0.6, rel=1e-9)
+    assert heat[0] / (heat[1] + heat[2]) == approx(0.4 / 0.6, rel=1e-9)
 
 
 def test_the_torque_resists_either_way_and_does_not_jump_where_the_shaft_turns():
     ahead, back = (told_by(PART, rubbing(PART, **LOADED | {"speed": speed})) for speed in (300.0, -300.0))
-    assert back["friction_torque"] == pytest.approx(-ahead["friction_torque"], rel=1e-9)
-    assert back["power_loss"] == pytest.approx(ahead["power_loss"], rel=1e-9)
-    assert back["cage_speed"] == pytest.approx(-ahead["cage_speed"], rel=1e-12)
+    assert back["friction_torque"] == approx(-ahead["friction_torque"], rel=1e-9)
+    assert back["power_loss"] == approx(ahead["power_loss"], rel=1e-9)
+    assert back["cage_speed"] == approx(-ahead["cage_speed"], rel=1e-12)
     torques = []
     for speed in np.geomspace(1e-6, 10.0, 40):
         inputs = rubbing(PART, friction=0.1, rolling=0.0, **LOADED | {"speed": float(speed)})
         torques.append(told_by(PART, inputs)["friction_torque"])
     # contacts with the friction that the bearing has at rest: one torque at all slow speeds
-    assert torques == pytest.approx([torques[0]] * 40, rel=1e-4)
+    assert torques == approx([torques[0]] * 40, rel=1e-4)
     at_rest = told_by(PART, inputs_of(PART, **LOADED | {"speed": 0.0}))
-    assert at_rest["friction_torque"] == pytest.approx(torques[0], rel=1e-6)
+    assert at_rest["friction_torque"] == approx(torques[0], rel=1e-6)
     assert at_rest["power_loss"] == 0.0
 
 
@@ -122,7 +123,7 @@ def test_advance_and_outputs_do_not_depend_on_the_state_but_for_rounding():
         one, other = PART.outputs(after, inputs), PART.outputs(near, inputs)
         for q in PART.responses:
             if q.name != "residual":
-                assert one[q.name] == pytest.approx(other[q.name], rel=1e-8, abs=1e-9 * q.nominal)
+                assert one[q.name] == approx(other[q.name], rel=1e-8, abs=1e-9 * q.nominal)
 
 
 def test_an_unloaded_bearing_gives_contacts_that_can_be_solved():
@@ -141,10 +142,10 @@ def test_loads_of_balls_and_the_largest_pressure_are_those_of_the_equilibrium():
         solve(BEARING_209, RingLoads(400.0, 5000.0, -900.0, 3.0, 2.0), 300.0),
     )
     for race, loads in (("inner", found.load_inner), ("outer", found.load_outer)):
-        assert [told[indexed(f"load_ball_{race}", j)] for j in range(1, 10)] == pytest.approx(loads, abs=1e-8)
-    assert told["load_max"] == pytest.approx(max(found.load_outer))
-    assert told["pressure_max"] == pytest.approx(BEARING_209.inner.ellipse(found.load_inner.max()).pressure_max)
-    assert told["contact_angle_inner"] == pytest.approx(np.abs(found.angle_inner[found.load_inner > 0.0]).max())
+        assert [told[indexed(f"load_ball_{race}", j)] for j in range(1, 10)] == approx(loads, abs=1e-8)
+    assert told["load_max"] == approx(max(found.load_outer))
+    assert told["pressure_max"] == approx(BEARING_209.inner.ellipse(found.load_inner.max()).pressure_max)
+    assert told["contact_angle_inner"] == approx(np.abs(found.angle_inner[found.load_inner > 0.0]).max())
 
 
 def test_contacts_are_designed_with_what_they_will_be_given():
@@ -153,8 +154,8 @@ def test_contacts_are_designed_with_what_they_will_be_given():
     assert [(d.race, d.level) for d in designs] == [(race, k) for race in RACES for k in (1, 2, 3)]
     for d in designs:
         for name in ("load", "speed_1", "speed_2", "radius_x"):
-            assert getattr(d, name) == pytest.approx(told[indexed(f"{name}_{d.race}", d.level)], rel=1e-9)
-        assert d.balls == pytest.approx(told[indexed(f"count_{d.race}", d.level)])
+            assert getattr(d, name) == approx(told[indexed(f"{name}_{d.race}", d.level)], rel=1e-9)
+        assert d.balls == approx(told[indexed(f"count_{d.race}", d.level)])
         assert d.radius_y == BEARING_209.race(d.race).radius_y
         assert 0.0 < d.track_length_1 < 1e3
         assert 0.0 < d.track_length_2 < 1e3

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from cheap_scene import CHEAP, cheap
+from comparison import approx
 
 from contact_core import ContactState, RangeFlag, advance, solve
 from contact_core.block import sweep_dry, sweep_mixed
@@ -54,8 +55,8 @@ def test_solids_of_a_dry_contact_under_oil_carry_their_share(share):
     scene, state, op = cheap()
     fields = solve(scene, op, state, dry=True, solid_share=share)
     cell = scene.film.spacing**2
-    assert fields.solid_pressure.sum() * cell == pytest.approx(share * op.load, rel=1e-9)
-    assert fields.pressure.sum() * cell == pytest.approx(op.load, rel=1e-9)
+    assert fields.solid_pressure.sum() * cell == approx(share * op.load, rel=1e-9)
+    assert fields.pressure.sum() * cell == approx(op.load, rel=1e-9)
     assert fields.gap.min() >= scene.film.floor * (1.0 - 1e-9)
     assert fields.converged
 
@@ -73,7 +74,7 @@ def test_dry_contact_under_oil_touches_and_rubs_like_the_mixed_one_and_not_like_
     sweep_dry(scene, slow, replace(state, share=means["contact_load_ratio"]), oiled)
     for name in ("contact_area_ratio", "friction_force"):
         assert abs(oiled.means()[name] - means[name]) < 0.4 * abs(dry.means()[name] - means[name]), name
-    assert oiled.means()["h_c"] == pytest.approx(means["h_c"], rel=0.2)
+    assert oiled.means()["h_c"] == approx(means["h_c"], rel=0.2)
 
 
 def test_the_patches_grow_when_the_scar_reaches_their_edge():
@@ -88,7 +89,7 @@ def test_the_patches_grow_when_the_scar_reaches_their_edge():
     assert state.bodies[0].wear[[0, -1]].max() == 0.0  # the new rows are fresh
     assert np.array_equal(state.bodies[0].wear.shape, state.bodies[1].since.shape)
     assert not RangeFlag(outputs.range_flags) & RangeFlag.DOMAIN_EDGE
-    assert outputs.wear_volume_1 == pytest.approx(volume, rel=1e-12)
+    assert outputs.wear_volume_1 == approx(volume, rel=1e-12)
     restored = ContactState.from_bytes(state.to_bytes(), scene)
     assert advance(scene, op, restored, 30.0)[0].to_bytes() == advance(scene, op, state, 30.0)[0].to_bytes()
 
@@ -102,8 +103,8 @@ def test_own_surface_speed_wears_by_the_cycle_and_not_by_sliding():
             point = replace(op, speed_1=0.25 * (1 + srr / 2), speed_2=0.25 * (1 - srr / 2))
             outputs = advance(scene, point, state, 30.0)[1]
             depths[sliding, srr] = outputs.wear_depth_1 / outputs.load_cycles_1
-    assert depths["surface_speed", 0.08] == pytest.approx(depths["surface_speed", 0.02], rel=0.02)
-    assert depths["difference", 0.08] == pytest.approx(4.0 * depths["difference", 0.02], rel=0.04)
+    assert depths["surface_speed", 0.08] == approx(depths["surface_speed", 0.02], rel=0.02)
+    assert depths["difference", 0.08] == approx(4.0 * depths["difference", 0.02], rel=0.04)
 
 
 def test_blocks_are_shorter_than_the_stable_time_of_wear():
@@ -129,4 +130,4 @@ def test_a_march_is_settled_before_it_is_sampled_however_far_the_faster_body_run
     steady = solve(scene, op, state)
     _, outputs = advance(scene, op, state, 0.0)
     assert outputs.contact_load_ratio == 0.0
-    assert outputs.h_min == pytest.approx(float(steady.gap.min()), rel=0.02)
+    assert outputs.h_min == approx(float(steady.gap.min()), rel=0.02)

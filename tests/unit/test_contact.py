@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from comparison import approx
 from independent import judge
 
 from contact_core import OperatingPoint, OperatingPointError, Scene, Transient, initial_state, solve
@@ -66,7 +67,7 @@ def test_fluid_and_solids_satisfy_the_equations_written_independently(speed):
     found = judge(scene, op, fields)
     assert fields.route == "mixed"
     assert 0.01 < solid_share(fields) < 0.6
-    assert found.load == pytest.approx(0.0, abs=1e-4)
+    assert found.load == approx(0.0, abs=1e-4)
     assert found.film < 0.03
     assert found.cavity < 5e-3
     assert found.beneath < 5e-3
@@ -81,7 +82,7 @@ def test_bounds_and_gap_hold_whether_it_converged_or_not(iterations):
     fields = solve(scene, op, state)
     found = judge(scene, op, fields)
     assert not fields.converged
-    assert found.load == pytest.approx(0.0, abs=1e-3)
+    assert found.load == approx(0.0, abs=1e-3)
     assert found.bounds <= 1e-12
     assert found.gap < 1e-6
     assert fields.solid_pressure.min() >= 0.0
@@ -118,10 +119,10 @@ def test_a_thick_film_settles_to_the_answer_that_a_dry_start_finds(speed):
     scene, state = rough()
     op = at(scene, speed)
     steady, late = solve(scene, op, state), marched(scene, state, op)
-    assert mean_gap(scene, late) == pytest.approx(mean_gap(scene, steady), rel=0.025)
+    assert mean_gap(scene, late) == approx(mean_gap(scene, steady), rel=0.025)
     assert distance(late, steady) < 0.01
     assert judge(scene, op, late).penetration < 0.5  # no asperity is left stuck in the other body
-    assert solid_share(late) == pytest.approx(solid_share(steady), abs=0.03)
+    assert solid_share(late) == approx(solid_share(steady), abs=0.03)
 
 
 def test_ten_times_the_speed_lowers_the_solids_load_and_raises_the_film():
@@ -147,7 +148,7 @@ def test_the_film_of_rough_bodies_far_apart_is_that_of_smooth_ones():
     scene, state = rough()
     smooth, bare = rough(surface_1__rq="0 nm", surface_2__rq="0 nm")
     thick, reference = solve(scene, at(scene, 40.0), state), solve(smooth, at(smooth, 40.0), bare)
-    assert mean_gap(scene, thick) == pytest.approx(mean_gap(smooth, reference), rel=0.1)
+    assert mean_gap(scene, thick) == approx(mean_gap(smooth, reference), rel=0.1)
 
 
 def mirrored(state):
@@ -216,11 +217,9 @@ def test_bodies_may_swap_their_roles():
     swapped = replace(state, bodies=state.bodies[::-1])
     one = solve(scene, op, state)
     other = solve(scene, replace(op, speed_1=op.speed_2, speed_2=op.speed_1), swapped)
-    assert other.pressure == pytest.approx(one.pressure, rel=1e-6, abs=1.0)
-    assert other.gap == pytest.approx(one.gap, rel=1e-6)
-    assert other.fluid_shear + other.solid_shear == pytest.approx(
-        -(one.fluid_shear + one.solid_shear), rel=1e-6, abs=1.0
-    )
+    assert other.pressure == approx(one.pressure, rel=1e-6, abs=1.0)
+    assert other.gap == approx(one.gap, rel=1e-6)
+    assert other.fluid_shear + other.solid_shear == approx(-(one.fluid_shear + one.solid_shear), rel=1e-6, abs=1.0)
     assert (other.cover_1 == one.cover_2).all()
 
 
@@ -231,7 +230,7 @@ def test_sliding_without_entrainment_is_dry_and_rubs():
     assert fields.route == "dry"
     assert not fields.fluid_pressure.any()
     friction = fields.solid_shear.sum() * scene.film.spacing**2
-    assert friction == pytest.approx(scene.boundary_friction.bare * 77.85, rel=1e-6)
+    assert friction == approx(scene.boundary_friction.bare * 77.85, rel=1e-6)
     assert fields.temperatures.flash_rise > 0.0
 
 
@@ -260,7 +259,7 @@ def test_without_load_the_bodies_just_touch_and_nothing_presses():
     assert fields.converged
     for name in ("pressure", "fluid_pressure", "solid_pressure", "fluid_shear", "solid_shear", "overlap"):
         assert not getattr(fields, name).any(), name
-    assert fields.gap.min() == pytest.approx(scene.film.floor, rel=1e-6)
+    assert fields.gap.min() == approx(scene.film.floor, rel=1e-6)
     assert fields.temperatures.flash_rise == 0.0
 
 
@@ -271,10 +270,10 @@ def test_pressures_stay_below_the_hardness_of_film_and_solid():
     limit = scene.plasticity.limit(fields.cover_1, fields.cover_2, 0.0, 1.0)
     assert limit.min() < 0.99 * scene.plasticity.hardness
     used = fields.pressure / limit
-    assert used.max() == pytest.approx(1.0, abs=1e-12)
+    assert used.max() == approx(1.0, abs=1e-12)
     assert fields.overlap.max() > 0.0
     assert not fields.overlap[used < 1.0 - 1e-12].any()
-    assert fields.pressure.sum() * scene.film.spacing**2 == pytest.approx(op.load, rel=1e-3)
+    assert fields.pressure.sum() * scene.film.spacing**2 == approx(op.load, rel=1e-3)
 
 
 @pytest.mark.parametrize("load", [7.785, 38.0, 155.7])
@@ -283,7 +282,7 @@ def test_a_warm_start_bears_any_change_of_load(load):
     state = replace(state, film=solve(scene, at(scene, 1.0), state).film)
     for dt in (3e-5, AGES):
         fields = solve(scene, at(scene, 1.0, load=load), state, Transient(dt, 1, 60))
-        assert fields.pressure.sum() * scene.film.spacing**2 == pytest.approx(load, rel=1e-3)
+        assert fields.pressure.sum() * scene.film.spacing**2 == approx(load, rel=1e-3)
         assert np.isfinite(fields.gap).all()
 
 
@@ -300,7 +299,7 @@ def test_solving_leaves_the_state_alone_and_repeats_to_the_last_bit():
 def test_both_transform_libraries_give_the_same_film():
     found = [rough(COARSE, film__fft=library) for library in ("pyfftw", "scipy")]
     one, other = (solve(scene, at(scene, 4.0), state) for scene, state in found)
-    assert other.pressure == pytest.approx(one.pressure, rel=1e-5, abs=1e3)
+    assert other.pressure == approx(one.pressure, rel=1e-5, abs=1e3)
 
 
 @pytest.mark.parametrize(

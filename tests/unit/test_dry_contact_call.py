@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core.dry_contact import dry_contact
 from contact_core.errors import OperatingPointError
@@ -63,17 +64,17 @@ def test_the_same_input_gives_the_same_bits_and_is_left_alone():
 
 def test_both_transform_libraries_find_the_same_contact():
     fftw, scipy = (dry_contact(**(CALL | {"heights": bumpy(40, 71)}), fft=name) for name in ("pyfftw", "scipy"))
-    assert fftw.pressure == pytest.approx(scipy.pressure, abs=1e-7 * scipy.pressure_max)
+    assert fftw.pressure == approx(scipy.pressure, abs=1e-7 * scipy.pressure_max)
 
 
 def test_units_cancel():
     """The same contact a thousand times larger: pressures stay, lengths grow."""
     small = dry_contact(**(CALL | {"heights": bumpy(33, 40)}))
     large = dry_contact(**(CALL | {"heights": 1e3 * bumpy(33, 40), "spacing": 1e-2, "radius": 10.0, "load": 20.0e6}))
-    assert large.pressure == pytest.approx(small.pressure, rel=1e-6, abs=1e-7 * small.pressure_max)
-    assert large.gap == pytest.approx(1e3 * small.gap, rel=1e-6, abs=1e-12)
-    assert large.approach == pytest.approx(1e3 * small.approach, rel=1e-7)
-    assert large.contact_area == pytest.approx(1e6 * small.contact_area, rel=1e-12)
+    assert large.pressure == approx(small.pressure, rel=1e-6, abs=1e-7 * small.pressure_max)
+    assert large.gap == approx(1e3 * small.gap, rel=1e-6, abs=1e-12)
+    assert large.approach == approx(1e3 * small.approach, rel=1e-7)
+    assert large.contact_area == approx(1e6 * small.contact_area, rel=1e-12)
 
 
 def test_results_agree_with_each_other():
@@ -81,9 +82,9 @@ def test_results_agree_with_each_other():
     touch, area = found.pressure > 0.0, hertz_point(20.0, 10e-3, 10e-3, 230e9).area
     assert found.converged
     assert found.pressure_max == found.pressure.max()
-    assert found.contact_area == pytest.approx(touch.sum() * 1e-10, rel=1e-12)
-    assert found.contact_area_ratio == pytest.approx(found.contact_area / area, rel=1e-12)
-    assert found.load_error == pytest.approx(found.pressure.sum() * 1e-10 / 20.0 - 1.0, abs=1e-14)
+    assert found.contact_area == approx(touch.sum() * 1e-10, rel=1e-12)
+    assert found.contact_area_ratio == approx(found.contact_area / area, rel=1e-12)
+    assert found.load_error == approx(found.pressure.sum() * 1e-10 / 20.0 - 1.0, abs=1e-14)
     assert abs(found.load_error) < 1e-12
     assert not found.gap[touch].any()
     assert found.gap[~touch].min() >= 0.0
@@ -100,17 +101,17 @@ def test_flat_bodies_end_with_the_array():
     assert found.reaches_edge
     assert found.contact_area_ratio == 1.0
     assert found.pressure[0, 0] > found.pressure[0, 20] > found.pressure[20, 20]
-    assert found.pressure.sum() * 1e-10 == pytest.approx(20.0, rel=1e-12)
+    assert found.pressure.sum() * 1e-10 == approx(20.0, rel=1e-12)
     # rigid square punch of side s: load = 1.152 E' / 2 s approach (Sneddon's circle of equal area: 1.128); cells of
     # constant pressure are softer
-    assert found.approach == pytest.approx(20.0 / (0.5 * 1.152 * 230e9 * 40e-5), rel=0.02)
+    assert found.approach == approx(20.0 / (0.5 * 1.152 * 230e9 * 40e-5), rel=0.02)
 
 
 @pytest.mark.parametrize("shape", [(2, 2), (2, 9), (3, 200)])
 def test_tiny_and_narrow_arrays_work(shape):
     found = dry_contact(**(CALL | {"heights": bumpy(*shape), "load": 1e-3}))
     assert found.converged
-    assert found.pressure.sum() * 1e-10 == pytest.approx(1e-3, rel=1e-12)
+    assert found.pressure.sum() * 1e-10 == approx(1e-3, rel=1e-12)
 
 
 def test_a_contact_of_one_node_carries_the_load():
@@ -119,7 +120,7 @@ def test_a_contact_of_one_node_carries_the_load():
     found = dry_contact(**(CALL | {"heights": heights, "load": 1e-4}))
     assert found.converged
     assert (found.pressure > 0.0).sum() == 1
-    assert found.pressure[20, 30] == pytest.approx(1e-4 / 1e-10, rel=1e-12)
+    assert found.pressure[20, 30] == approx(1e-4 / 1e-10, rel=1e-12)
 
 
 @pytest.mark.parametrize("pressure", [5e6, 0.1e9, 1e9, 4e9])

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core import OperatingPointError, point_contact
 from contact_core.film.fitted import Extent, fitted_grid
@@ -42,11 +43,11 @@ def test_grids_of_ellipses_hold_the_film_and_halve_for_multigrid(ratio, film):
         assert halvings >= 2
         assert min(ny, nx) >> halvings <= 14
         grid = fitted_grid(shape, 20.0, 230e9, film, ny, nx)
-        assert np.ptp(grid.y) == pytest.approx((ny - 1) * grid.spacing)
+        assert np.ptp(grid.y) == approx((ny - 1) * grid.spacing)
         assert np.ptp(grid.x) >= (1.0 - 1e-9) * (extent.left + extent.right)
         assert np.ptp(grid.y) >= (1.0 - 1e-9) * 2.0 * extent.side
         assert np.abs(grid.x).min() < 1e-12 < np.abs(grid.x).max()
-        assert grid.y.sum() == pytest.approx(0.0, abs=1e-12)
+        assert grid.y.sum() == approx(0.0, abs=1e-12)
     assert min(extent.shape()) == 129
     assert extent.shape(129)[1] == 129
 
@@ -57,9 +58,9 @@ def test_one_number_is_the_nodes_along_x(ratio):
     ny, nx = found.film.shape
     assert nx == 65
     assert (ny > 100) == (ratio > 1.0)
-    assert np.diff(found.x) == pytest.approx(np.full(nx - 1, found.y[1] - found.y[0]))
+    assert np.diff(found.x) == approx(np.full(nx - 1, found.y[1] - found.y[0]))
     assert found.converged
-    assert found.film == pytest.approx(found.film[::-1], rel=0.02)
+    assert found.film == approx(found.film[::-1], rel=0.02)
 
 
 def test_one_number_and_a_domain_give_square_cells():

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.integrate import dblquad
 
 from contact_core.kernels.far_field import far_field
@@ -28,7 +29,7 @@ def test_pressure_like_one_over_the_gap_squared_balances_wedge_and_squeeze(curva
     x, y, h = -0.7, 0.4, 1e-3
     net = flow(x + h, y, 1, 0) - flow(x - h, y, 1, 0) + flow(x, y + h, 0, 1) - flow(x, y - h, 0, 1)
     asked = (3.0 + 2.0 * curvature) * wedge * x - (2.0 + 2.0 * curvature) * closing
-    assert net / (2.0 * h) == pytest.approx(asked, rel=1e-4)
+    assert net / (2.0 * h) == approx(asked, rel=1e-4)
 
 
 @pytest.mark.parametrize("curvature", [0.1, 1.0, 10.0])
@@ -38,8 +39,8 @@ def test_weights_hold_the_load_beyond_the_grid(curvature, wedge, closing):
     x, y = np.linspace(-3.0, 2.0, 201), np.linspace(-2.5, 2.5, 201)
     ratio, weight = far_field(x, y, FILM, curvature, wedge, closing)
     p = np.array([[pressure(a, b, curvature, wedge, closing) for a in x] for b in y])
-    assert ratio[100, 0] == pytest.approx(p[100, 0] / p[100, 1], rel=1e-12)
-    assert ratio[0, 60] == pytest.approx(p[0, 60] / p[1, 60], rel=1e-12)
+    assert ratio[100, 0] == approx(p[100, 0] / p[100, 1], rel=1e-12)
+    assert ratio[0, 60] == approx(p[0, 60] / p[1, 60], rel=1e-12)
     found = float((weight * p).sum()) * (x[1] - x[0]) ** 2
     # in polar coordinates, r = t / (1 - t)
     exact = dblquad(
@@ -55,4 +56,4 @@ def test_weights_hold_the_load_beyond_the_grid(curvature, wedge, closing):
     )[0]
     beyond = float(((weight - 1.0) * p).sum()) * (x[1] - x[0]) ** 2
     assert beyond > 0.05 * exact
-    assert found == pytest.approx(exact, rel=5e-3)
+    assert found == approx(exact, rel=5e-3)

@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from cheap_scene import cheap
+from comparison import approx
 
 from contact_core import Scene, advance, solve
 from contact_core.film.instant import Grid
@@ -37,7 +38,7 @@ def force(op, film):
 
 def test_solids_alone_rub_with_the_coefficient_of_the_boundary_law():
     found = friction(shear(SCENE, at(speed_1=0.2, speed_2=0.1), dry()), GRID)
-    assert found.force_solid == pytest.approx(-SCENE.boundary_friction.bare * LOAD, rel=1e-12)
+    assert found.force_solid == approx(-SCENE.boundary_friction.bare * LOAD, rel=1e-12)
     assert found.force_fluid == found.spin_torque == 0.0
 
 
@@ -49,10 +50,8 @@ def test_friction_is_odd_in_sliding_and_zero_without():
 
 def test_a_ball_that_only_spins_feels_the_torque_of_hertzs_pressure():
     found = friction(shear(SCENE, at(speed_1=0.1, speed_2=0.1, spin=200.0), dry()), GRID)
-    assert found.spin_torque == pytest.approx(
-        -3.0 * np.pi / 16.0 * SCENE.boundary_friction.bare * LOAD * RADIUS, rel=2e-3
-    )
-    assert found.force_solid == pytest.approx(0.0, abs=1e-12 * LOAD)
+    assert found.spin_torque == approx(-3.0 * np.pi / 16.0 * SCENE.boundary_friction.bare * LOAD * RADIUS, rel=2e-3)
+    assert found.force_solid == approx(0.0, abs=1e-12 * LOAD)
 
 
 @pytest.mark.parametrize("spin", [0.0, 300.0, -5e3])
@@ -60,7 +59,7 @@ def test_the_power_is_what_force_and_torque_take_from_the_motion(spin):
     op = at(speed_1=0.26, speed_2=0.24, spin=spin)
     found = friction(shear(SCENE, op, wet()), GRID)
     lost = -(found.force_solid + found.force_fluid) * op.sliding_speed - found.spin_torque * spin
-    assert found.power == pytest.approx(lost, rel=1e-12)
+    assert found.power == approx(lost, rel=1e-12)
     assert found.power > 0.0
 
 
@@ -72,12 +71,12 @@ def test_much_spin_turns_friction_away_from_the_sliding():
 
 def test_spin_has_no_direction_of_its_own():
     left, right = (friction(shear(SCENE, at(spin=spin), wet()), GRID) for spin in (500.0, -500.0))
-    assert left.power == pytest.approx(right.power, rel=1e-12)
-    assert left.spin_torque == pytest.approx(-right.spin_torque, rel=1e-12)
+    assert left.power == approx(right.power, rel=1e-12)
+    assert left.spin_torque == approx(-right.spin_torque, rel=1e-12)
     speed, along_x, along_y = sliding(at(speed_1=0.1, speed_2=0.1, spin=100.0), GRID)
     assert speed[80, 80] == 0.0
     assert (along_x[80, 80], along_y[80, 80]) == (1.0, 0.0)
-    assert speed[80, 160] == pytest.approx(100.0 * GRID.x[160], rel=1e-14)
+    assert speed[80, 160] == approx(100.0 * GRID.x[160], rel=1e-14)
     assert along_y[80, 160] == 1.0  # where x > 0 a body that turns from x to y moves along +y
 
 
@@ -101,7 +100,7 @@ def test_derivatives_are_those_of_a_held_film(name, spin, speed_1, speed_2):
 
     step = {"load": 1e-4 * LOAD, "temperature": 0.01}.get(name, 1e-9 if spin == 0.0 else 1e-7)
     expected = (moved(step) - moved(-step)) / (2.0 * step)
-    assert derivatives(SCENE, op, film)[f"dfriction_d{name}"] == pytest.approx(expected, rel=1e-3)
+    assert derivatives(SCENE, op, film)[f"dfriction_d{name}"] == approx(expected, rel=1e-3)
     assert abs(expected) > 0.0
 
 
@@ -111,7 +110,7 @@ def test_solids_and_oil_share_the_friction():
     cover = 0.4 * INSIDE
     law = SCENE.boundary_friction
     solid = float(((law.bare + (law.film - law.bare) * cover) * 0.3 * HERTZ).sum()) * GRID.spacing**2
-    assert both.force_solid == pytest.approx(-solid, rel=1e-12)
+    assert both.force_solid == approx(-solid, rel=1e-12)
     assert both.force_fluid < 0.0
 
 
@@ -123,7 +122,7 @@ def test_at_rest_and_just_beside_it_the_contact_rubs_by_the_boundary_law(entrain
     assert fields.converged, fields.shortfall
     assert fields.route == ("dry" if entrainment == 0.0 else "mixed")
     found = abs(fields.friction.force_solid + fields.friction.force_fluid) / op.load
-    assert found == pytest.approx(scene.boundary_friction.bare, rel=1e-3)
+    assert found == approx(scene.boundary_friction.bare, rel=1e-3)
 
 
 def test_the_boundary_limit_lies_where_additives_are_measured():
@@ -141,7 +140,7 @@ def test_the_slope_of_friction_through_zero_sliding_is_bounded_by_the_slip_speed
     law, oil = scene.boundary_friction, scene.lubricant.rheology
     steepest = max(law.bare, oil.limiting_coefficient) * op.load / law.slip_speed
     assert -1.01 * steepest < outputs.dfriction_dspeed_1 < -0.1 * steepest
-    assert outputs.dfriction_dspeed_2 == pytest.approx(-outputs.dfriction_dspeed_1, rel=1e-3)
+    assert outputs.dfriction_dspeed_2 == approx(-outputs.dfriction_dspeed_1, rel=1e-3)
 
 
 def test_oil_at_its_limit_grips_as_solids_do():
@@ -150,4 +149,4 @@ def test_oil_at_its_limit_grips_as_solids_do():
     full, part = (
         friction(shear(scene, at(speed_1=0.1 + speed, speed_2=0.1), stiff), GRID).force_fluid for speed in (0.1, 1e-7)
     )
-    assert part == pytest.approx(scene.boundary_friction.grip(1e-7) * full, rel=1e-6)
+    assert part == approx(scene.boundary_friction.grip(1e-7) * full, rel=1e-6)

@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.integrate import quad
 
 from contact_core.errors import SceneError
@@ -61,10 +62,10 @@ def test_a_constant_coefficient_of_friction_loses_power_times_loss_factor_exactl
     mesh = GearMesh(pair=pair, stations=count)
     found, power = rubbed(mesh), TORQUE * PINION
     factor = loss_factor(pair, Sharing())
-    assert found["power_loss"] == pytest.approx(power * factor * MU, rel=1e-9)
-    assert found["loss_factor"] == pytest.approx(factor, rel=1e-9)
-    assert found["friction_coefficient_mean"] == pytest.approx(MU, rel=1e-12)
-    assert found["friction_coefficient"] == pytest.approx(MU * factor / ohlendorf(pair), rel=1e-9)
+    assert found["power_loss"] == approx(power * factor * MU, rel=1e-9)
+    assert found["loss_factor"] == approx(factor, rel=1e-9)
+    assert found["friction_coefficient_mean"] == approx(MU, rel=1e-12)
+    assert found["friction_coefficient"] == approx(MU * factor / ohlendorf(pair), rel=1e-9)
 
 
 def test_under_elastic_sharing_the_loss_converges_with_the_square_of_the_stretches():
@@ -91,7 +92,7 @@ def test_the_loss_is_the_mean_of_what_turning_gears_lose_at_every_moment():
         place = FZG_C.start + turned + behind * FZG_C.base_pitch
         momentary += np.where(place < FZG_C.end, power(place), 0.0)
     found = answered(mesh, power_loss=power(stations_of(FZG_C, 200).position))
-    assert found["power_loss"] == pytest.approx(momentary.mean(), rel=1e-3)
+    assert found["power_loss"] == approx(momentary.mean(), rel=1e-3)
 
 
 def test_what_friction_and_rolling_take_from_both_shafts_is_the_loss():
@@ -102,8 +103,8 @@ def test_what_friction_and_rolling_take_from_both_shafts_is_the_loss():
     given = {"friction_force": friction, "rolling_resistance": rolling, "power_loss": -friction * (u1 - u2)}
     found = answered(mesh, **given)
     taken = -found["friction_torque_1"] * PINION - found["friction_torque_2"] * PINION / mesh.pair.ratio
-    assert found["power_loss"] == pytest.approx(taken, rel=1e-12)
-    assert found["power_rolling"] == pytest.approx(
+    assert found["power_loss"] == approx(taken, rel=1e-12)
+    assert found["power_rolling"] == approx(
         found["power_loss"] - answered(mesh, power_loss=given["power_loss"])["power_loss"]
     )
     assert found["power_rolling"] > 0.0
@@ -122,10 +123,10 @@ def test_friction_brakes_the_wheel_before_the_pitch_point_and_the_pinion_after_i
 
 def test_the_weights_are_the_pairs_in_contact_and_heat_is_weighted_alike():
     mesh = GearMesh(pair=FZG_C)
-    assert sum(station.weight for station in mesh.contacts) == pytest.approx(FZG_C.contact_ratio, rel=1e-12)
+    assert sum(station.weight for station in mesh.contacts) == approx(FZG_C.contact_ratio, rel=1e-12)
     found = answered(mesh, heat_flow_1=np.full(21, 30.0), heat_flow_2=np.full(21, 20.0))
-    assert found["heat_flow_1"] == pytest.approx(30.0 * FZG_C.contact_ratio)
-    assert found["heat_flow_2"] == pytest.approx(20.0 * FZG_C.contact_ratio)
+    assert found["heat_flow_1"] == approx(30.0 * FZG_C.contact_ratio)
+    assert found["heat_flow_2"] == approx(20.0 * FZG_C.contact_ratio)
 
 
 def test_a_flank_point_passes_its_station_once_a_turn():
@@ -136,7 +137,7 @@ def test_a_flank_point_passes_its_station_once_a_turn():
             found[indexed("speed_1", k)] / station.track_length_1,
             found[indexed("speed_2", k)] / station.track_length_2,
         )
-        assert turns == pytest.approx((PINION / (2.0 * math.pi), PINION / (3.0 * math.pi)), rel=1e-12)
+        assert turns == approx((PINION / (2.0 * math.pi), PINION / (3.0 * math.pi)), rel=1e-12)
 
 
 def test_stations_are_as_warm_as_both_gears_and_the_flash():
@@ -144,8 +145,8 @@ def test_stations_are_as_warm_as_both_gears_and_the_flash():
     flash[6] = 40.0
     found = answered(mesh, flash_temperature_rise=flash)
     assert found["flash_temperature_rise"] == 40.0
-    assert found["contact_temperature[7]"] == pytest.approx(403.15)
-    assert found["contact_temperature[8]"] == pytest.approx(363.15)
+    assert found["contact_temperature[7]"] == approx(403.15)
+    assert found["contact_temperature[8]"] == approx(363.15)
 
 
 @pytest.mark.parametrize("sharing", [Sharing(), ELASTIC, Sharing("elastic", 20e-6, 10e-6, 3e-3, 2e-3)])

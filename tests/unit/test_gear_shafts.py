@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.integrate import solve_ivp
 
 from contact_core.errors import SceneError
@@ -67,8 +68,8 @@ def test_a_step_is_that_of_the_equations_of_motion(damping, drags):
     step = 3e-3
     exact = solve_ivp(motion, (0.0, step), begin, method="DOP853", rtol=1e-11, atol=1e-13).y[:, -1]
     found = shafts.advance(start, inputs, step)
-    assert found[:2] == pytest.approx(exact[2:], rel=1e-9)
-    assert found[2] == pytest.approx(R1 * exact[0] - R2 * exact[1], rel=1e-6)
+    assert found[:2] == approx(exact[2:], rel=1e-9)
+    assert found[2] == approx(R1 * exact[0] - R2 * exact[1], rel=1e-6)
 
 
 def test_steps_follow_one_another_without_error():
@@ -77,7 +78,7 @@ def test_steps_follow_one_another_without_error():
     halves = SHAFTS.initial(EVEN)
     for _ in range(20):
         halves = SHAFTS.advance(halves, inputs, 1e-4)
-    assert halves == pytest.approx(whole, rel=1e-9)
+    assert halves == approx(whole, rel=1e-9)
 
 
 @pytest.mark.parametrize("drags", [(0.0, 0.0), (0.5, 2.0)])
@@ -98,17 +99,17 @@ def test_long_steps_end_at_the_quasi_static_torque_without_a_trace_of_ringing(st
     for driven in (180.0, 20.0, 100.0, 300.0):
         inputs = EVEN | {"drive_torque": driven}
         state = SHAFTS.advance(state, inputs, step)
-        assert torque(SHAFTS, state) == pytest.approx(quasi_static(SHAFTS, inputs), rel=1e-5)
+        assert torque(SHAFTS, state) == approx(quasi_static(SHAFTS, inputs), rel=1e-5)
 
 
 def test_the_start_is_without_ringing():
     shafts = replace(SHAFTS, coupling=0.1, drag=0.2)
     inputs = EVEN | {"drive_torque": 180.0}
     state = shafts.initial(inputs)
-    assert torque(shafts, state) == pytest.approx(quasi_static(shafts, inputs, 200.0), rel=1e-12)
+    assert torque(shafts, state) == approx(quasi_static(shafts, inputs, 200.0), rel=1e-12)
     after = shafts.advance(state, inputs, 1e-4)
-    assert torque(shafts, after) == pytest.approx(torque(shafts, state), rel=1e-4)
-    assert state[0] == pytest.approx(1.5 * state[1], rel=1e-15)
+    assert torque(shafts, after) == approx(torque(shafts, state), rel=1e-4)
+    assert state[0] == approx(1.5 * state[1], rel=1e-15)
 
 
 def test_teeth_ring_at_their_frequency():
@@ -121,7 +122,7 @@ def test_teeth_ring_at_their_frequency():
     spectrum = np.abs(np.fft.rfft(np.array(trace) - np.mean(trace)))
     found = np.fft.rfftfreq(4096, 1e-5)[spectrum.argmax()]
     exact = math.sqrt(STIFFNESS * (R1 * R1 / 0.01 + R2 * R2 / 0.03)) / (2.0 * math.pi)
-    assert found == pytest.approx(exact, abs=1.0 / (4096 * 1e-5))
+    assert found == approx(exact, abs=1.0 / (4096 * 1e-5))
 
 
 def test_without_drag_the_torques_change_the_angular_momentum_and_nothing_else():
@@ -130,7 +131,7 @@ def test_without_drag_the_torques_change_the_angular_momentum_and_nothing_else()
     for step in (1e-4, 1.0, 600.0):
         after = SHAFTS.advance(state, inputs, step)
         gained = 0.01 * (after[0] - state[0]) / R1 + 0.03 * (after[1] - state[1]) / R2
-        assert gained == pytest.approx(step * (130.0 / R1 - 155.0 / R2), rel=1e-8)
+        assert gained == approx(step * (130.0 / R1 - 155.0 / R2), rel=1e-8)
         state = after
 
 
@@ -138,8 +139,8 @@ def test_a_drive_whose_torque_falls_with_speed_settles_in_one_long_step():
     shafts = replace(SHAFTS, coupling=2.0)
     inputs = EVEN | {"drive_torque": 2.0 * 250.0 + 100.0}
     state = shafts.advance(shafts.initial(EVEN), inputs, 600.0)
-    assert state[:2] == pytest.approx((250.0, 250.0 / 1.5), rel=1e-9)
-    assert torque(shafts, state) == pytest.approx(100.0, rel=1e-9)
+    assert state[:2] == approx((250.0, 250.0 / 1.5), rel=1e-9)
+    assert torque(shafts, state) == approx(100.0, rel=1e-9)
 
 
 def test_power_in_is_power_out_and_what_friction_takes():
@@ -151,10 +152,10 @@ def test_power_in_is_power_out_and_what_friction_takes():
     }
     state = SHAFTS.advance(SHAFTS.initial(inputs), inputs, 100.0)
     found = SHAFTS.outputs(state, inputs)
-    assert found["mesh_torque"] == pytest.approx(99.0, rel=1e-9)  # 99 * 1.5 = 144 + 4.5: steady
-    assert found["transmission_error"] == pytest.approx(99.0 / R1 / STIFFNESS, rel=1e-9)
+    assert found["mesh_torque"] == approx(99.0, rel=1e-9)  # 99 * 1.5 = 144 + 4.5: steady
+    assert found["transmission_error"] == approx(99.0 / R1 / STIFFNESS, rel=1e-9)
     after = SHAFTS.advance(state, inputs, 100.0)
-    assert after == pytest.approx(state, rel=1e-9)
+    assert after == approx(state, rel=1e-9)
 
 
 def test_shafts_survive_their_own_table_and_refuse_gears_that_cannot_mesh():

@@ -4,6 +4,7 @@ from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core import ContactState, OperatingPointError, Scene, SceneError, advance, initial_state, solve
 from contact_core.geometry import LineGeometry, PointGeometry, RollerGeometry
@@ -135,7 +136,7 @@ def test_a_face_width_is_a_number_to_change_unless_it_decides_the_grid():
     assert "geometry.face_width" in tunables(line)
     assert "geometry.face_width" not in tunables(roller)
     assert "geometry.profile.depth" in tunables(roller)
-    assert with_values(line, {"geometry.face_width": 0.02}).repeats == pytest.approx(line.repeats * 20.0 / 14.0)
+    assert with_values(line, {"geometry.face_width": 0.02}).repeats == approx(line.repeats * 20.0 / 14.0)
 
 
 # the grid
@@ -146,8 +147,8 @@ def test_the_rows_of_a_line_are_even_and_make_up_its_face(width):
     scene = Scene.from_toml("fzg_flank", {"film.width": width})
     period = scene.rows * scene.film.spacing
     assert scene.rows % 2 == 0
-    assert period == pytest.approx(float(width.split()[0]) * 1e-3, rel=0.05)
-    assert scene.repeats * period == pytest.approx(14e-3, rel=1e-12)
+    assert period == approx(float(width.split()[0]) * 1e-3, rel=0.05)
+    assert scene.repeats * period == approx(14e-3, rel=1e-12)
 
 
 def test_a_smooth_line_is_one_row():
@@ -199,9 +200,9 @@ def doubled(scene: Scene) -> Scene:
 def test_a_face_twice_as_wide_under_twice_the_load_is_two_of_them(line):
     found, double = rubbed(line)[1], rubbed(doubled(line))[1]
     for name in IN_NEWTONS:
-        assert double[name] == pytest.approx(2.0 * found[name], rel=1e-8), name
+        assert double[name] == approx(2.0 * found[name], rel=1e-8), name
     for name in THE_SAME:
-        assert double[name] == pytest.approx(found[name], rel=1e-9), name
+        assert double[name] == approx(found[name], rel=1e-9), name
     assert found["friction_force"] != 0.0
     assert found["wear_volume_1"] > 0.0
 
@@ -212,12 +213,12 @@ def test_the_fields_of_a_line_do_not_know_how_long_its_face_is(heat):
     line = Scene.from_toml("fzg_flank", LINE | film)
     found, double = (solve(scene, scene.operation.point, initial_state(scene)) for scene in (line, doubled(line)))
     assert found.converged
-    assert double.pressure == pytest.approx(found.pressure, rel=1e-9, abs=1e-9 * found.pressure.max())
-    assert double.gap == pytest.approx(found.gap, rel=1e-9)
-    assert double.friction.power == pytest.approx(2.0 * found.friction.power, rel=1e-9)
-    assert double.friction.force_fluid == pytest.approx(2.0 * found.friction.force_fluid, rel=1e-9)
+    assert double.pressure == approx(found.pressure, rel=1e-9, abs=1e-9 * found.pressure.max())
+    assert double.gap == approx(found.gap, rel=1e-9)
+    assert double.friction.power == approx(2.0 * found.friction.power, rel=1e-9)
+    assert double.friction.force_fluid == approx(2.0 * found.friction.force_fluid, rel=1e-9)
     warm = [part.temperatures.into_1 * repeats for part, repeats in ((found, line.repeats), (double, 2 * line.repeats))]
-    assert warm[1] == pytest.approx(2.0 * warm[0], rel=1e-3)
+    assert warm[1] == approx(2.0 * warm[0], rel=1e-3)
 
 
 def test_a_state_of_a_line_goes_on_bit_for_bit(line):
@@ -236,6 +237,6 @@ def test_a_line_of_one_row_is_solved_with_a_field_of_temperature():
     warm = Scene.from_toml("fzg_flank", smooth | {"film.points": "129", "heat.model": "field"})
     hot, still = rubbed(warm, ())[1], rubbed(cold, ())[1]
     assert 0.3 * still["friction_coefficient"] < hot["friction_coefficient"] < 0.98 * still["friction_coefficient"]
-    assert hot["heat_flow_1"] + hot["heat_flow_2"] == pytest.approx(hot["power_loss"], rel=1e-9)
+    assert hot["heat_flow_1"] + hot["heat_flow_2"] == approx(hot["power_loss"], rel=1e-9)
     assert hot["heat_flow_1"] > hot["heat_flow_2"] > 0.0  # the faster body takes up more
     assert np.isfinite(list(map(float, hot.values()))).all()

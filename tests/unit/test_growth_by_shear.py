@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from cheap_scene import CHEAP, cheap
+from comparison import approx
 from scipy.constants import Boltzmann
 
 from contact_core import ContactState, Scene, advance, initial_state, solve
@@ -26,20 +27,20 @@ def rate(law, pressure, shear, temperature=WARM):
 
 def test_doubled_shear_stress_speeds_growth_up_by_the_work_on_the_activation_volume():
     once, twice = rate(BELL, [0.0], [0.1e9]), rate(BELL, [0.0], [0.2e9])
-    assert twice / once == pytest.approx(np.exp(0.1e9 * 0.13e-27 / (Boltzmann * WARM)), rel=1e-12)
+    assert twice / once == approx(np.exp(0.1e9 * 0.13e-27 / (Boltzmann * WARM)), rel=1e-12)
     assert twice > 10.0 * once
 
 
 def test_doubled_normal_stress_speeds_growth_up_by_the_work_on_its_own_volume():
     once, twice = rate(PRESSED, [2e9], [0.0]), rate(PRESSED, [4e9], [0.0])
-    assert twice / once == pytest.approx(np.exp(2e9 * 3.8e-30 / (Boltzmann * WARM)), rel=1e-12)
+    assert twice / once == approx(np.exp(2e9 * 3.8e-30 / (Boltzmann * WARM)), rel=1e-12)
 
 
 @pytest.mark.parametrize(("law", "stress"), [(BELL, 0.1e9), (PRESSED, 2e9)])
 def test_heat_speeds_growth_up_by_the_barrier_that_the_stress_leaves(law, stress):
     cold, hot = (rate(law, [stress], [stress], t) for t in (333.15, 393.15))
     left = law.activation_energy - stress * law.activation_volume
-    assert hot / cold == pytest.approx(np.exp(left / Boltzmann * (1 / 333.15 - 1 / 393.15)), rel=1e-12)
+    assert hot / cold == approx(np.exp(left / Boltzmann * (1 / 333.15 - 1 / 393.15)), rel=1e-12)
     assert hot > 5.0 * cold
 
 
@@ -63,30 +64,30 @@ def test_growth_stops_where_removal_keeps_up_with_it():
     growing, taking = 3e-3, 1e-3
     film = np.array([0.0, 100e-9, 200e-9]), NONE
     settled, removal = BELL.evolve(*film, np.full(3, growing * 1e5), np.full(3, taking * 1e5), WARM)
-    assert settled == pytest.approx(200e-9 * growing / (growing + taking), rel=1e-12, abs=0.0)
+    assert settled == approx(200e-9 * growing / (growing + taking), rel=1e-12, abs=0.0)
     assert not removal.any()
 
 
 def test_a_film_that_another_law_left_goes_on_from_its_thickness():
     growth, removal = BELL.evolve(np.array([90e-9, 20e-9]), np.array([30e-9, 40e-9]), np.zeros(2), np.zeros(2), WARM)
-    assert growth == pytest.approx([60e-9, 0.0], rel=1e-15, abs=0.0)
+    assert growth == approx([60e-9, 0.0], rel=1e-15, abs=0.0)
     assert not removal.any()
 
 
 def test_removal_is_in_proportion_to_thickness_pressure_and_sliding():
-    assert BELL.abrasion(np.array([1e9]), -0.01, None)[0] == pytest.approx(2e-8 * 1e9 * 0.01, rel=1e-14)
+    assert BELL.abrasion(np.array([1e9]), -0.01, None)[0] == approx(2e-8 * 1e9 * 0.01, rel=1e-14)
     taken = BELL.evolve(np.array([50e-9, 100e-9]), np.zeros(2), np.zeros(2), np.full(2, 1e-6), WARM)[0]
-    assert np.array([50e-9, 100e-9]) - taken == pytest.approx([50e-15, 100e-15], rel=1e-5, abs=0.0)
+    assert np.array([50e-9, 100e-9]) - taken == approx([50e-15, 100e-15], rel=1e-5, abs=0.0)
 
 
 def test_the_tension_across_a_track_rises_from_its_middle_to_its_edge():
     tension = edge_tension(np.linspace(0.0, 1.0, 1001))
-    assert tension[0] == pytest.approx(0.0, abs=1e-12)
-    assert tension[-1] == pytest.approx(1.0, rel=1e-12)
+    assert tension[0] == approx(0.0, abs=1e-12)
+    assert tension[-1] == approx(1.0, rel=1e-12)
     assert np.all(np.diff(tension) > 0.0)
     assert np.array_equal(edge_tension(np.array([1.0, 1.5, 9.0])), np.ones(3))
     in_between = 0.4 / 3.0 * (1.0 - 0.75**1.5) / 0.25 - 0.75**0.5  # of p0, half way out
-    assert edge_tension(np.array([0.5]))[0] == pytest.approx((in_between + 0.8) / (0.4 / 3.0 + 0.8), rel=1e-12)
+    assert edge_tension(np.array([0.5]))[0] == approx((in_between + 0.8) / (0.4 / 3.0 + 0.8), rel=1e-12)
 
 
 def test_removal_prefers_the_edges_by_its_weight_and_needs_no_position_without():
@@ -94,7 +95,7 @@ def test_removal_prefers_the_edges_by_its_weight_and_needs_no_position_without()
     even = BELL.abrasion(pressure, 0.01, position)
     assert np.array_equal(even, BELL.abrasion(pressure, 0.01, None))
     edgy = replace(BELL, edge_weight=3.0).abrasion(pressure, 0.01, position)
-    assert edgy / even == pytest.approx(np.array([[4.0], [1.0], [4.0]]) * np.ones((1, 4)), rel=1e-12)
+    assert edgy / even == approx(np.array([[4.0], [1.0], [4.0]]) * np.ones((1, 4)), rel=1e-12)
 
 
 CONTACTS = Ghanbarzadeh(200e-9, 1.66e-16, 0.0, 0.0, WARM, dose="contact_length")
@@ -116,7 +117,7 @@ def test_a_combined_law_of_one_weight_is_the_single_law(seconds):
     assert by_shear.dose == SHEARED.dose == CONTACTS.dose
     assert np.array_equal(grown(by_shear, seconds), grown(SHEARED, seconds))
     in_contacts = replace(BOTH, stress_weight=0.0, removal_coefficient=0.0)
-    assert grown(in_contacts, seconds) == pytest.approx(grown(CONTACTS, seconds), rel=1e-13, abs=0.0)
+    assert grown(in_contacts, seconds) == approx(grown(CONTACTS, seconds), rel=1e-13, abs=0.0)
     assert grown(in_contacts, seconds)[0] == 0.0 < grown(by_shear, seconds)[0]
 
 
@@ -124,7 +125,7 @@ def test_a_combined_law_adds_the_rates_of_both():
     pressure = np.array([0.0, 1e9, 2e9])
     both = replace(BOTH, contact_weight=0.3, stress_weight=0.7).exposure(pressure, SHEAR, 0.01, WARM)
     alone = CONTACTS.rate(WARM) * CONTACTS.exposure(pressure, SHEAR, 0.01, WARM)
-    assert both == pytest.approx(0.3 * alone + 0.7 * rate(BELL, pressure, SHEAR), rel=1e-14, abs=0.0)
+    assert both == approx(0.3 * alone + 0.7 * rate(BELL, pressure, SHEAR), rel=1e-14, abs=0.0)
 
 
 def test_activated_laws_go_to_any_temperature_and_say_where_they_hold():
@@ -164,7 +165,7 @@ def test_a_full_film_grows_a_tribofilm_by_shear_and_none_by_contact():
 
 def test_on_a_full_film_both_bodies_grow_in_proportion_to_their_share_of_time_under_stress():
     found = on_full_film("zhang_spikes_80c_octyl")
-    assert found.tribofilm_1 / found.tribofilm_2 == pytest.approx(144.51 / 59.847, rel=0.05)  # of track lengths
+    assert found.tribofilm_1 / found.tribofilm_2 == approx(144.51 / 59.847, rel=0.05)  # of track lengths
 
 
 def test_each_body_is_exposed_at_the_temperature_of_its_own_surface():
@@ -212,9 +213,9 @@ def test_a_body_is_abraded_by_the_mean_of_its_instants():
     reach = scene.film.domain / scene.geometry.track_length_1
     across = across_track(scene, state.rows)
     assert across.shape == (33, 1) and across.min() == 0.0
-    assert across.max() == pytest.approx(0.5 * scene.film.domain / scene.hertz(op.load).b, rel=1e-12)
+    assert across.max() == approx(0.5 * scene.film.domain / scene.hertz(op.load).b, rel=1e-12)
     now = scene.tribofilm.abrasion(on_patch(fields.solid_pressure, patch_nodes(scene, state.bodies[0])), 0.005, across)
-    assert scene.tribofilm.abrasion(mean * reach, 0.005, across) == pytest.approx(now * reach, rel=1e-12, abs=0.0)
+    assert scene.tribofilm.abrasion(mean * reach, 0.005, across) == approx(now * reach, rel=1e-12, abs=0.0)
     after, _ = advance(scene, op, state, 0.0)
     for body in after.bodies:
         expected = scene.tribofilm.abrasion(body.pressure, op.sliding_speed, across)
@@ -230,7 +231,7 @@ def test_removal_at_the_edges_leaves_the_middle_of_the_track_as_thick():
         films[weight] = state.bodies[0].growth.mean(axis=1)
     share = films["5"] / np.maximum(films["0"], 1e-12)
     across = across_track(scene, state.rows)[:, 0]
-    assert share[across < 0.1] == pytest.approx(1.0, abs=0.03)
+    assert share[across < 0.1] == approx(1.0, abs=0.03)
     edge = (across > 0.7) & (across < 0.9)
     assert np.all(share[edge] < 0.85)
 

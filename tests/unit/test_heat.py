@@ -2,6 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.integrate import solve_ivp
 
 import contact_core.laws.heat
@@ -51,8 +52,8 @@ def test_the_heat_through_the_film_is_what_its_two_temperatures_drive(speeds, tw
     assert np.abs(through * GAP / OIL - drop)[INSIDE].max() < 1e-5 * largest
     assert not through[~INSIDE].any()
     assert np.abs(through[INSIDE]).max() > 1e4  # not trivial
-    assert found.into_1 + found.into_2 == pytest.approx(HEAT, rel=1e-14)
-    assert found.rise_2 == pytest.approx(MovingSurface((N, N), SPACING, *two, speeds[1]).rise(found.into_2), rel=1e-13)
+    assert found.into_1 + found.into_2 == approx(HEAT, rel=1e-14)
+    assert found.rise_2 == approx(MovingSurface((N, N), SPACING, *two, speeds[1]).rise(found.into_2), rel=1e-13)
     print(f"{two}, {speeds} m/s: {found.convolutions} convolutions, mismatch {found.mismatch:.1e}")
 
 
@@ -66,13 +67,13 @@ def test_where_solids_touch_both_surfaces_are_nearly_as_warm_though_the_bodies_a
 def test_a_heated_film_is_warmer_inside_than_its_surfaces():
     found = field()
     mean = 0.5 * (np.asarray(found.surface_1) + found.surface_2)
-    assert found.film == pytest.approx(mean + HEAT * GAP / (12.0 * OIL), rel=1e-14)
+    assert found.film == approx(mean + HEAT * GAP / (12.0 * OIL), rel=1e-14)
 
 
 def test_a_partition_that_does_not_converge_says_so(monkeypatch):
     few = partition(HEAT, GAP / OIL, INSIDE, 30.0, surfaces((*STEEL, 5.0), (1.1, 6e-7, 0.1)), iterations=2)
     assert few.mismatch > 1e-4
-    assert few.into_1 + few.into_2 == pytest.approx(HEAT, rel=1e-14)
+    assert few.into_1 + few.into_2 == approx(HEAT, rel=1e-14)
     monkeypatch.setattr(contact_core.laws.heat, "partition", lambda *_: few)
     assert not field().solved
 
@@ -87,28 +88,28 @@ def test_the_heat_into_the_bodies_is_the_friction_power_to_round_off(law, speeds
         "field": TemperatureField(one[0], two[0], one[1], two[1]),
     }[law]
     found = chosen.temperatures(Rubbing(HEAT, GAP, SOLID, INSIDE, SPACING, speeds, (350.0, 360.0), OIL))
-    assert found.into_1 + found.into_2 == pytest.approx(TOTAL, rel=1e-13)
+    assert found.into_1 + found.into_2 == approx(TOTAL, rel=1e-13)
 
 
 def test_the_faster_of_two_equal_bodies_takes_up_more_heat():
     found = field(speeds=(5.0, 0.1))
     assert found.into_1 > 1.05 * found.into_2
     swapped = field(speeds=(0.1, 5.0))
-    assert (swapped.into_1, swapped.into_2) == pytest.approx((found.into_2, found.into_1), rel=1e-7)
+    assert (swapped.into_1, swapped.into_2) == approx((found.into_2, found.into_1), rel=1e-7)
 
 
 def test_an_insulator_leaves_all_heat_to_the_other_body():
     everywhere = np.ones((N, N), np.bool_)
     found = field(inside=everywhere, two=(46e-7, 1.25e-5))
-    assert found.into_1 == pytest.approx(TOTAL, rel=1e-5)
+    assert found.into_1 == approx(TOTAL, rel=1e-5)
     one = MovingSurface((N, N), SPACING, *STEEL, 1.0).rise(HEAT)
-    assert np.asarray(found.surface_1) - 350.0 == pytest.approx(one, rel=1e-4)
+    assert np.asarray(found.surface_1) - 350.0 == approx(one, rel=1e-4)
 
 
 def test_bodies_of_different_temperature_exchange_heat_without_friction():
     found = field(bodies=(350.0, 380.0), heat=np.zeros((N, N)))
     assert found.into_1 > 0.0
-    assert found.into_1 + found.into_2 == pytest.approx(0.0, abs=1e-12 * found.into_1)
+    assert found.into_1 + found.into_2 == approx(0.0, abs=1e-12 * found.into_1)
     assert np.all((np.asarray(found.film) > 350.0) & (np.asarray(found.film) < 380.0))
     turned = field(bodies=(380.0, 350.0), heat=np.zeros((N, N)))
     assert turned.into_1 < 0.0
@@ -116,7 +117,7 @@ def test_bodies_of_different_temperature_exchange_heat_without_friction():
 
 def test_outside_the_pressure_the_heat_is_split_in_halves_whatever_the_bodies():
     found = field(bodies=(350.0, 380.0), inside=np.zeros((N, N), np.bool_), two=(1.1, 6e-7))
-    assert found.into_1 == pytest.approx(found.into_2, rel=1e-14)
+    assert found.into_1 == approx(found.into_2, rel=1e-14)
 
 
 def test_a_reversed_contact_has_the_mirrored_temperatures():
@@ -128,13 +129,13 @@ def test_a_reversed_contact_has_the_mirrored_temperatures():
         found = law.temperatures(Rubbing(*arrays, SPACING, (3.0 * sign, 1.0 * sign), (350.0, 360.0), OIL))
         ways.append([np.asarray(found.surface_1)[cut], np.asarray(found.surface_2)[cut], found.into_1])
     for one, other in zip(*ways, strict=True):
-        assert one == pytest.approx(other, rel=1e-6)
+        assert one == approx(other, rel=1e-6)
 
 
 def test_the_flash_rise_is_the_mean_of_both_surfaces_over_the_real_contact():
     found = field()
     rise = 0.5 * (np.asarray(found.surface_1) + found.surface_2) - 350.0
-    assert found.flash_rise == pytest.approx(rise[SOLID].mean(), rel=1e-9)
+    assert found.flash_rise == approx(rise[SOLID].mean(), rel=1e-9)
     assert found.flash_rise > 1.0
 
 
@@ -145,8 +146,8 @@ def test_the_cheap_law_and_the_field_agree_on_one_slow_spot():
     args = (heat, gap, spot, spot, SPACING, (1e-6, -1e-6), (350.0, 350.0), OIL)
     flash = FlashTemperature(46.0, 46.0, 1.25e-5, 1.25e-5).temperatures(Rubbing(*args))
     found = TemperatureField(46.0, 46.0, 1.25e-5, 1.25e-5).temperatures(Rubbing(*args))
-    assert found.flash_rise == pytest.approx(flash.flash_rise, rel=0.02)
-    assert found.into_1 == pytest.approx(flash.into_1, rel=1e-6)
+    assert found.flash_rise == approx(flash.flash_rise, rel=0.02)
+    assert found.into_1 == approx(flash.into_1, rel=1e-6)
 
 
 def one_spot(law: FlashTemperature, radius: float, heat: float, speed: float) -> Temperatures:
@@ -163,19 +164,19 @@ FLASH = FlashTemperature(46.0, 46.0, 1.25e-5, 1.25e-5)
 def test_a_slow_spot_of_two_equal_bodies_sends_half_its_heat_into_each():
     found = one_spot(FLASH, 10e-6, 1e9, 1e-9)
     average = 8.0 / (3.0 * np.pi) * 0.5 * 1e9 * 10e-6 / 46.0  # of a uniform, static circular source
-    assert found.flash_rise == pytest.approx(average, rel=1e-4)
+    assert found.flash_rise == approx(average, rel=1e-4)
     assert found.into_1 == found.into_2
 
 
 def test_a_slow_spot_against_an_insulator_sends_all_its_heat_into_the_conductor():
     found = one_spot(replace(FLASH, conductivity_2=46e-12), 10e-6, 1e9, 1e-9)
-    assert found.flash_rise == pytest.approx(8.0 / (3.0 * np.pi) * 1e9 * 10e-6 / 46.0, rel=1e-4)
-    assert found.into_1 == pytest.approx(1e9 * np.pi * 10e-6**2, rel=1e-9, abs=0.0)
+    assert found.flash_rise == approx(8.0 / (3.0 * np.pi) * 1e9 * 10e-6 / 46.0, rel=1e-4)
+    assert found.into_1 == approx(1e9 * np.pi * 10e-6**2, rel=1e-9, abs=0.0)
 
 
 def test_a_fast_spot_warms_with_the_inverse_root_of_its_speed():
     slow, fast = one_spot(FLASH, 10e-6, 1e9, 1e6), one_spot(FLASH, 10e-6, 1e9, 4e6)
-    assert fast.flash_rise / slow.flash_rise == pytest.approx(0.5, rel=1e-5)
+    assert fast.flash_rise / slow.flash_rise == approx(0.5, rel=1e-5)
 
 
 def test_the_flash_temperature_is_blind_to_the_direction_of_sliding():
@@ -198,10 +199,10 @@ def test_each_spot_has_a_rise_of_its_own_size_and_heat_and_the_rest_stays_as_war
     args = (np.full((6, 9), FLOOR), solid, solid, SPACING, (0.3, 0.0), (350.0, 360.0), OIL)
     found = FLASH.temperatures(Rubbing(heat, *args))
     alone = [one_spot(FLASH, np.sqrt(n / np.pi) * SPACING, q, 0.3).flash_rise for n, q in ((4, 1e9), (1, 3e9))]
-    assert found.surface_1[1:3, 1:3] == pytest.approx(350.0 + alone[0], rel=1e-12)
-    assert found.surface_2[4, 6] == pytest.approx(360.0 + alone[1], rel=1e-12)
+    assert found.surface_1[1:3, 1:3] == approx(350.0 + alone[0], rel=1e-12)
+    assert found.surface_2[4, 6] == approx(360.0 + alone[1], rel=1e-12)
     assert np.all(found.surface_1[~solid] == 350.0)
-    assert found.flash_rise == pytest.approx((4.0 * alone[0] + alone[1]) / 5.0, rel=1e-12)
+    assert found.flash_rise == approx((4.0 * alone[0] + alone[1]) / 5.0, rel=1e-12)
     assert found.film == 355.0
 
 
@@ -212,7 +213,7 @@ def test_heat_without_a_law_makes_no_array_and_asks_no_kernel(monkeypatch):
     found = NoHeat().temperatures(Rubbing(HEAT, GAP, SOLID, INSIDE, SPACING, (1.0, 0.8), (350.0, 360.0), OIL))
     assert not calls
     assert (found.surface_1, found.surface_2, found.film, found.flash_rise) == (350.0, 360.0, 355.0, 0.0)
-    assert found.into_1 == found.into_2 == pytest.approx(0.5 * TOTAL, rel=1e-13)
+    assert found.into_1 == found.into_2 == approx(0.5 * TOTAL, rel=1e-13)
     with pytest.raises(AttributeError):  # the counter counts: the field does ask
         field()
     assert calls
@@ -226,16 +227,16 @@ def test_a_lumped_body_follows_its_differential_equation():
         return np.array([(3.0 - 0.2 * (t[0] - 350.0)) / 5.0, 7.0 / 80.0])
 
     exact = solve_ivp(slopes, (0.0, 40.0), [370.0, 340.0], rtol=1e-11, atol=1e-11).y[:, -1]
-    assert LUMPED.after((370.0, 340.0), (3.0, 7.0), 350.0, 40.0) == pytest.approx(exact, rel=1e-9)
+    assert LUMPED.after((370.0, 340.0), (3.0, 7.0), 350.0, 40.0) == approx(exact, rel=1e-9)
 
 
 def test_a_lumped_body_that_loses_no_heat_keeps_all_of_it():
     first, second = replace(LUMPED, conductance_1=1e-300).after((350.0, 350.0), (5.0, -8.0), 300.0, 10.0)
-    assert (first, second) == pytest.approx((360.0, 349.0), rel=1e-14)
+    assert (first, second) == approx((360.0, 349.0), rel=1e-14)
 
 
 def test_a_lumped_body_ends_where_its_heat_leaves_it():
-    assert LUMPED.after((300.0, 300.0), (4.0, 0.0), 350.0, 1e9)[0] == pytest.approx(370.0, rel=1e-14)
+    assert LUMPED.after((300.0, 300.0), (4.0, 0.0), 350.0, 1e9)[0] == approx(370.0, rel=1e-14)
 
 
 def test_bodies_take_their_temperature_from_the_oil_the_inputs_or_the_state():
@@ -317,4 +318,4 @@ def test_a_spot_across_the_seam_of_a_line_that_repeats_itself_is_one(turn):
     whole = rises(solid, heat, 1e-3)
     assert np.array_equal(whole, rises(solid, heat, None))
     turned = rises(np.roll(solid, turn, axis=0), np.roll(heat, turn, axis=0), 1e-3)
-    assert turned == pytest.approx(np.roll(whole, turn, axis=0), rel=1e-12)
+    assert turned == approx(np.roll(whole, turn, axis=0), rel=1e-12)

@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from comparison import approx
 from independent import love, love_matrix
 
 from contact_core.kernels.half_space import HalfSpace, influence
@@ -31,14 +32,14 @@ def test_both_libraries_agree_to_round_off(ny, nx):
 
 
 def test_the_coefficient_of_a_cell_on_itself_is_the_closed_form():
-    assert influence(3, 3)[0, 0] == pytest.approx(4.0 * np.log(1.0 + np.sqrt(2.0)), rel=1e-14)
+    assert influence(3, 3)[0, 0] == approx(4.0 * np.log(1.0 + np.sqrt(2.0)), rel=1e-14)
 
 
 def test_far_cells_act_like_point_forces():
     """1/r, and the next term of the expansion of a square's potential, 1/(24 r^3)."""
     far = influence(200, 200)[120, 160]
-    assert far == pytest.approx(1.0 / 200.0 + 1.0 / (24.0 * 200.0**3), rel=1e-10)
-    assert far == pytest.approx(love(160, 120), rel=1e-9)
+    assert far == approx(1.0 / 200.0 + 1.0 / (24.0 * 200.0**3), rel=1e-10)
+    assert far == approx(love(160, 120), rel=1e-9)
 
 
 @pytest.mark.parametrize("library", LIBRARIES)
@@ -56,7 +57,7 @@ def test_deformation_is_symmetric():
     """Maxwell and Betti: the work of one pressure on the other's deformation is the same both ways."""
     half_space = HalfSpace(15, 18, 1.0, "scipy")
     one, other = pressure(15, 18), pressure(18, 15).T
-    assert (one * half_space.deform(other)).sum() == pytest.approx((other * half_space.deform(one)).sum(), rel=1e-13)
+    assert (one * half_space.deform(other)).sum() == approx((other * half_space.deform(one)).sum(), rel=1e-13)
 
 
 def test_press_undoes_the_deformation_of_a_ripple_in_the_middle():

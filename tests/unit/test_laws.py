@@ -2,6 +2,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core.laws.boundary_friction import FilmBlend
 from contact_core.laws.density import DowsonHigginson, Incompressible
@@ -18,16 +19,16 @@ PRESSURE = np.linspace(0.0, 6e9, 40).reshape(5, 8)
 def test_a_viscosity_has_the_value_and_the_slopes_it_is_given(law):
     oil = law(0.004, 363.15, 14.94e-9, 0.03)
     zero, dp, dt = np.zeros(1), 1e5, 1e-2
-    assert oil(zero, 363.15)[0] == pytest.approx(0.004, rel=1e-14, abs=0.0)
+    assert oil(zero, 363.15)[0] == approx(0.004, rel=1e-14, abs=0.0)
     in_pressure = np.log(oil(zero + dp, 363.15) / oil(zero - dp, 363.15))[0] / (2.0 * dp)
-    assert in_pressure == pytest.approx(14.94e-9, rel=1e-6, abs=0.0)
+    assert in_pressure == approx(14.94e-9, rel=1e-6, abs=0.0)
     in_temperature = np.log(oil(zero, 363.15 + dt) / oil(zero, 363.15 - dt))[0] / (2.0 * dt)
-    assert in_temperature == pytest.approx(-0.03, rel=1e-6)
+    assert in_temperature == approx(-0.03, rel=1e-6)
 
 
 def test_barus_is_an_exponential_that_does_not_overflow():
     oil = Barus(0.004, 363.15, 20e-9, 0.03)
-    assert oil(np.array([0.5e9]), 353.15)[0] == pytest.approx(0.004 * np.exp(10.0 + 0.3), rel=1e-14)
+    assert oil(np.array([0.5e9]), 353.15)[0] == approx(0.004 * np.exp(10.0 + 0.3), rel=1e-14)
     assert np.all(np.isfinite(oil(np.array([1e11, 1e12]), 230.0)))
 
 
@@ -38,7 +39,7 @@ def test_the_modulus_equation_is_vogels_law_times_an_exponential_of_pressure():
     temperature, pressure = 350.0, np.array([0.0, 0.1e9, 1e9])
     vogel = 86.86e-6 * np.exp(890.0 / 168.0)
     modulus = -2.28e7 + 2.26e5 * 350.0 + (-68.2e-3 + 27.68e-5 * 350.0) * pressure
-    assert CURVED(pressure, temperature) == pytest.approx(vogel * np.exp(pressure / modulus), rel=1e-7)
+    assert CURVED(pressure, temperature) == approx(vogel * np.exp(pressure / modulus), rel=1e-7)
 
 
 @pytest.mark.parametrize("bend", [-0.3, -0.0682, 0.0, 0.1])
@@ -51,7 +52,7 @@ def test_beyond_its_pole_the_modulus_equation_is_stiff_and_never_turns_back(bend
     assert np.all(np.isfinite(found))
     assert np.all(np.diff(found, axis=0) >= 0.0)
     assert np.all(np.diff(found, axis=1) <= 0.0)
-    assert found[0] == pytest.approx(oil(np.zeros(1), np.linspace(230.0, 900.0, 68)), rel=1e-14)
+    assert found[0] == approx(oil(np.zeros(1), np.linspace(230.0, 900.0, 68)), rel=1e-14)
     if bend < 0.0:
         assert found[-1, 0] == 86.86e-6 * np.exp(500.0)
 
@@ -63,7 +64,7 @@ def test_an_oil_has_the_kinematic_viscosities_and_the_density_of_its_data_sheet(
     temperature = np.array([313.15, 373.15])
     density = 900.0 * (1.0 - 6e-4 * np.array([25.0, 85.0]))
     found = SHEET(np.zeros(2), temperature)
-    assert found == pytest.approx(density * np.array([99.4e-6, 10.99e-6]), rel=1e-12)
+    assert found == approx(density * np.array([99.4e-6, 10.99e-6]), rel=1e-12)
 
 
 def test_between_the_two_viscosities_the_double_logarithm_is_straight_in_the_logarithm_of_temperature():
@@ -71,23 +72,23 @@ def test_between_the_two_viscosities_the_double_logarithm_is_straight_in_the_log
     kinematic = SHEET(np.zeros(5), temperature) / (900.0 * (1.0 - 6e-4 * (temperature - 288.15)))
     double_log = np.log10(np.log10(1e6 * kinematic + 0.7))
     slope = np.diff(double_log) / np.diff(np.log10(temperature))
-    assert slope == pytest.approx(np.full(4, slope[0]), rel=1e-9)
+    assert slope == approx(np.full(4, slope[0]), rel=1e-9)
 
 
 def test_an_oil_has_its_pressure_coefficient_where_it_was_measured_and_one_roelands_exponent_everywhere():
     temperature, step = np.array([313.15, 333.15, 373.15]), 1e5
     low, high = SHEET(np.array([[0.0], [step]]), temperature)
     coefficient = np.log(high / low) / step
-    assert coefficient[1] == pytest.approx(18.8e-9, rel=1e-3)
+    assert coefficient[1] == approx(18.8e-9, rel=1e-3)
     exponent = coefficient / (5.1e-9 * (np.log(low) + 9.67))
-    assert exponent == pytest.approx(np.full(3, exponent[0]), rel=1e-12)
+    assert exponent == approx(np.full(3, exponent[0]), rel=1e-12)
 
 
 def test_at_one_temperature_an_oil_of_a_data_sheet_is_roelands_oil():
     pressure = np.linspace(0.0, 2e9, 9)
     viscosity = SHEET(np.zeros(1), 333.15)[0]
     expected = Roelands(viscosity, 333.15, 18.8e-9, 0.03)(pressure, 333.15)
-    assert SHEET(pressure, 333.15) == pytest.approx(expected, rel=1e-9)
+    assert SHEET(pressure, 333.15) == approx(expected, rel=1e-9)
 
 
 @pytest.mark.parametrize("oil", [SHEET, AstmD341(0.1, 1e-6, 2500.0, 1e-7, 500.0, 1e-3)], ids=["usual", "extreme"])
@@ -101,8 +102,8 @@ def test_an_oil_of_a_data_sheet_does_not_overflow(oil):
 
 def test_density_rises_from_one_to_no_more_than_a_third_above():
     law = DowsonHigginson()
-    assert law(np.array([0.0, 5.9e8, 1e15])) == pytest.approx([1.0, 1.17, 1.34], rel=1e-6)
-    assert law(np.array([1e3]))[0] - 1.0 == pytest.approx(0.34 * 1e3 / 5.9e8, rel=1e-4, abs=0.0)
+    assert law(np.array([0.0, 5.9e8, 1e15])) == approx([1.0, 1.17, 1.34], rel=1e-6)
+    assert law(np.array([1e3]))[0] - 1.0 == approx(0.34 * 1e3 / 5.9e8, rel=1e-4, abs=0.0)
 
 
 def test_an_incompressible_lubricant_keeps_its_density():
@@ -117,15 +118,15 @@ def stress(viscosity: float, rate: float, pressure: float) -> float:
 
 
 def test_a_slow_film_is_newtonian():
-    assert stress(0.1, 1e3, 1e9) == pytest.approx(100.0, rel=1e-9)
+    assert stress(0.1, 1e3, 1e9) == approx(100.0, rel=1e-9)
 
 
 def test_a_fast_film_thins_by_eyring():
-    assert stress(10.0, 1e7, 1e9) == pytest.approx(5e6 * np.arcsinh(20.0), rel=1e-14)
+    assert stress(10.0, 1e7, 1e9) == approx(5e6 * np.arcsinh(20.0), rel=1e-14)
 
 
 def test_no_film_carries_more_than_the_limiting_shear_stress():
-    assert stress(1e6, 1e9, 0.2e9) == pytest.approx(0.047 * 0.2e9, rel=1e-14)
+    assert stress(1e6, 1e9, 0.2e9) == approx(0.047 * 0.2e9, rel=1e-14)
     assert stress(1e6, 1e9, 0.0) == 0.0
 
 
@@ -148,8 +149,8 @@ def limit(film_1: float, film_2: float, depth: float) -> float:
 def test_without_depth_the_hardness_falls_from_the_solids_to_the_full_films_with_the_thicker_film():
     thicker, none = np.array([0.0, 25e-9, 100e-9]), np.zeros(3)
     for thinner in (none, thicker):
-        assert LAYERED.limit(thicker, thinner, none, FULL) == pytest.approx([6e9, 5e9, 2e9], rel=1e-15)
-        assert LAYERED.limit(thinner, thicker, none, FULL) == pytest.approx([6e9, 5e9, 2e9], rel=1e-15)
+        assert LAYERED.limit(thicker, thinner, none, FULL) == approx([6e9, 5e9, 2e9], rel=1e-15)
+        assert LAYERED.limit(thinner, thicker, none, FULL) == approx([6e9, 5e9, 2e9], rel=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -163,8 +164,8 @@ def test_without_depth_the_hardness_falls_from_the_solids_to_the_full_films_with
     ],
 )
 def test_a_hardness_is_that_of_the_layer_that_the_plastic_depth_has_reached(depth, expected):
-    assert limit(80e-9, 30e-9, depth) == pytest.approx(expected, rel=1e-14)
-    assert limit(30e-9, 80e-9, depth) == pytest.approx(expected, rel=1e-14)
+    assert limit(80e-9, 30e-9, depth) == approx(expected, rel=1e-14)
+    assert limit(30e-9, 80e-9, depth) == approx(expected, rel=1e-14)
 
 
 def test_no_film_is_softer_than_a_full_one():
@@ -181,14 +182,14 @@ BLEND = FilmBlend(bare=0.13, film=0.115, slip_speed=1e-4)
 def test_boundary_friction_lies_between_bare_and_full_film():
     pressure = np.full(3, 1e9)
     found = BLEND(pressure, np.array([0.0, 0.5, 1.0]), 0.02)
-    assert found == pytest.approx([0.13e9, 0.1225e9, 0.115e9], rel=1e-12)
+    assert found == approx([0.13e9, 0.1225e9, 0.115e9], rel=1e-12)
 
 
 def test_boundary_friction_is_odd_in_sliding_and_fades_over_the_slip_speed():
     pressure, cover = np.array([1e9]), np.array([0.3])
     assert BLEND(pressure, cover, -3e-5)[0] == -BLEND(pressure, cover, 3e-5)[0]
     assert BLEND(pressure, cover, 0.0)[0] == 0.0
-    assert BLEND(pressure, cover, 1e-4)[0] / BLEND(pressure, cover, 1.0)[0] == pytest.approx(np.tanh(1.0), rel=1e-14)
+    assert BLEND(pressure, cover, 1e-4)[0] / BLEND(pressure, cover, 1.0)[0] == approx(np.tanh(1.0), rel=1e-14)
 
 
 WEAR = Archard(bare=1e-5, film=1e-6)
@@ -197,14 +198,14 @@ WEAR = Archard(bare=1e-5, film=1e-6)
 def test_wear_is_linear_in_pressure_and_sliding_and_blind_to_direction():
     pressure, bare = np.array([[1e9, 2e9]]), np.zeros((1, 2))
     rate = WEAR.rate(pressure, bare, (0.255, 0.25), 0, 6e9)
-    assert rate == pytest.approx(np.array([[1e-5 / 6.0 * 0.005, 1e-5 / 3.0 * 0.005]]), rel=1e-12, abs=0.0)
+    assert rate == approx(np.array([[1e-5 / 6.0 * 0.005, 1e-5 / 3.0 * 0.005]]), rel=1e-12, abs=0.0)
     assert np.array_equal(WEAR.rate(pressure, bare, (0.25, 0.255), 0, 6e9), rate)
-    assert WEAR.rate(pressure, bare, (0.26, 0.25), 0, 6e9) == pytest.approx(2.0 * rate, rel=1e-12, abs=0.0)
+    assert WEAR.rate(pressure, bare, (0.26, 0.25), 0, 6e9) == approx(2.0 * rate, rel=1e-12, abs=0.0)
 
 
 def test_both_bodies_slide_at_the_difference_of_their_speeds():
     for speeds, slide in (((0.3, 0.1), 0.2), ((0.1, 0.3), 0.2), ((-0.1, 0.3), 0.4), ((0.2, 0.2), 0.0)):
-        assert WEAR.slide(speeds, 0) == WEAR.slide(speeds, 1) == pytest.approx(slide, rel=1e-14)
+        assert WEAR.slide(speeds, 0) == WEAR.slide(speeds, 1) == approx(slide, rel=1e-14)
 
 
 def test_by_surface_speed_a_body_slides_the_contact_length_in_each_pass_whatever_the_slide_to_roll_ratio():
@@ -212,7 +213,7 @@ def test_by_surface_speed_a_body_slides_the_contact_length_in_each_pass_whatever
     for ratio in (-0.1, 0.0, 0.1):
         speeds = 0.25 * (1.0 + ratio / 2.0), -0.25 * (1.0 - ratio / 2.0)
         for body in (0, 1):
-            assert law.slide(speeds, body) * (1e-4 / abs(speeds[body])) == pytest.approx(1e-4, rel=1e-14, abs=0.0)
+            assert law.slide(speeds, body) * (1e-4 / abs(speeds[body])) == approx(1e-4, rel=1e-14, abs=0.0)
 
 
 def test_by_surface_speed_the_faster_ball_wears_more_at_any_sign_of_sliding():
@@ -223,20 +224,20 @@ def test_by_surface_speed_the_faster_ball_wears_more_at_any_sign_of_sliding():
     disc = [law.rate(np.array([1e9]), np.zeros(1), pair, 1, 6e9)[0] for pair in speeds]
     assert np.all(np.diff(ball) > 0.0)
     assert np.all(np.diff(disc) < 0.0)
-    assert ball[-1] / ball[0] == pytest.approx(0.2625 / 0.2375, rel=1e-12)
+    assert ball[-1] / ball[0] == approx(0.2625 / 0.2375, rel=1e-12)
 
 
 def test_a_full_tribofilm_wears_with_its_own_coefficient():
     cover = np.array([0.0, 0.5, 1.0])
-    assert WEAR.coefficient(cover) == pytest.approx([1e-5, 5.5e-6, 1e-6], rel=1e-14, abs=0.0)
+    assert WEAR.coefficient(cover) == approx([1e-5, 5.5e-6, 1e-6], rel=1e-14, abs=0.0)
     rate = WEAR.rate(np.full(3, 1e9), cover, (1.0, 0.0), 1, 6e9)
-    assert rate / rate[0] == pytest.approx([1.0, 0.55, 0.1], rel=1e-14)
+    assert rate / rate[0] == approx([1.0, 0.55, 0.1], rel=1e-14)
 
 
 def test_wear_coefficients_are_those_of_the_source_in_cubic_millimetres_per_newton_metre():
     # m of depth per Pa and m of sliding = m2/N
     per_pascal = WEAR.rate(np.ones(2), np.array([0.0, 1.0]), (1.0, 0.0), 0, 6e9)
-    assert per_pascal * 1e9 == pytest.approx([1.7e-6, 1.7e-7], abs=0.05e-6)
+    assert per_pascal * 1e9 == approx([1.7e-6, 1.7e-7], abs=0.05e-6)
 
 
 def test_what_is_switched_off_gives_zeros():
@@ -285,7 +286,7 @@ ENERGY = Andersson(176e-9, 2e-13, 1e5, 363.15)
 
 def test_frictional_power_above_the_threshold_exposes_nodes_in_contact():
     assert ENERGY.dose == "residence"
-    assert ENERGY.exposure(SOLID, SHEAR, 0.005, 363.15) == pytest.approx([0.0, 0.0, 1.5e5, 11.5e5], rel=1e-12, abs=0.0)
+    assert ENERGY.exposure(SOLID, SHEAR, 0.005, 363.15) == approx([0.0, 0.0, 1.5e5, 11.5e5], rel=1e-12, abs=0.0)
     assert np.array_equal(ENERGY.exposure(SOLID, SHEAR, -0.005, 363.15), ENERGY.exposure(SOLID, SHEAR, 0.005, 363.15))
     assert not ENERGY.exposure(SOLID, SHEAR, 0.0001, 363.15).any()
 
@@ -294,7 +295,7 @@ def test_friction_forms_a_volume_in_proportion_to_its_energy_until_the_film_is_f
     zero = np.zeros(3)
     energy = np.array([1.0, 1e3, 1e9])  # J/m2
     growth, removal = ENERGY.evolve(zero, zero, energy, zero, 363.15)
-    assert growth[:2] == pytest.approx(2e-13 * energy[:2], rel=1e-3, abs=0.0)
+    assert growth[:2] == approx(2e-13 * energy[:2], rel=1e-3, abs=0.0)
     assert growth[2] == 176e-9
     assert not removal.any()
 
@@ -334,4 +335,4 @@ def test_a_border_of_five_kelvin_survives_rounding(degrees):
 
 def test_extrapolation_changes_the_rate_by_six_percent_between_sixty_and_a_hundred_degrees():
     rates = np.array([FILM.rate(t) for t in (333.15, 373.15)]) / FILM.rate(353.15)
-    assert rates == pytest.approx([0.943, 1.057], abs=1e-3)
+    assert rates == approx([0.943, 1.057], abs=1e-3)

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core.laws.load_sharing import FittedSharing, LineSharing, flattening_of, rms_slope
 
@@ -37,9 +38,9 @@ def test_the_flatter_roughness_is_pressed_the_less_the_film_of_lines_decides():
         return np.log(many / few) / np.log(2.0)
 
     points, lines = FittedSharing(), LineSharing()
-    assert [power(points, s) for s in (0.05, 0.2, 0.6)] == pytest.approx(3 * [points.load_exponent])
-    assert power(lines, 0.2) == pytest.approx(lines.load_exponent)
-    assert power(lines, 0.1) == pytest.approx(lines.load_exponent * 2.0**lines.load_bending)
+    assert [power(points, s) for s in (0.05, 0.2, 0.6)] == approx(3 * [points.load_exponent])
+    assert power(lines, 0.2) == approx(lines.load_exponent)
+    assert power(lines, 0.1) == approx(lines.load_exponent * 2.0**lines.load_bending)
     assert power(lines, 0.05) > power(lines, 0.6) > 0.0
 
 
@@ -48,7 +49,7 @@ def test_films_as_thin_as_the_floor_leave_load_to_the_solids_however_flat_they_a
         shares = law.load_ratio(10.0, 5.0, 4.0, np.array([0.0, 0.1, 1.0, 10.0, 100.0]))
         assert shares[0] == 1.0
         assert (np.diff(shares) < 0.0).all()
-        assert shares[2] == pytest.approx(0.45, abs=0.1)
+        assert shares[2] == approx(0.45, abs=0.1)
         assert shares[4] < 1e-12
 
 
@@ -80,29 +81,29 @@ def test_dry_contact_has_its_area_and_gap_whatever_the_speed():
 def test_oil_carries_at_the_pressure_of_hertz_under_thick_films_and_flat_roughness_and_above_it_elsewhere():
     for law in LAWS:
         pressure = law.oil_pressure(RATIOS, 0.2, 0.0, 0.0)
-        assert pressure[0] == pytest.approx(1.0 + law.oil_pressure_excess, rel=1e-3)
+        assert pressure[0] == approx(1.0 + law.oil_pressure_excess, rel=1e-3)
         assert (np.diff(pressure[RATIOS < 10.0]) < 0.0).all()
-        assert law.oil_pressure(80.0, 0.2, 0.0, 0.0) == pytest.approx(1.0, abs=1e-9)
-        assert law.oil_pressure(0.0, 1e9, 0.0, 0.0) == pytest.approx(1.0, abs=1e-5)
+        assert law.oil_pressure(80.0, 0.2, 0.0, 0.0) == approx(1.0, abs=1e-9)
+        assert law.oil_pressure(0.0, 1e9, 0.0, 0.0) == approx(1.0, abs=1e-5)
 
 
 def test_films_thick_beside_hertzs_contact_spread_the_load_along_both_axes():
     """Far beyond, the pressure falls with the film as the area grows that it opens: sqrt(R h) along each axis."""
     found = [LAW.oil_pressure(1e4, 5.0, x, y) for x, y in ((0.0, 0.0), (1e6, 0.0), (1e8, 0.0), (1e6, 1e6), (1e8, 1e8))]
-    assert found[0] == pytest.approx(1.0, abs=1e-9)
-    assert found[1] / found[2] == pytest.approx(10.0, rel=1e-3)
-    assert found[3] / found[4] == pytest.approx(100.0, rel=1e-3)
+    assert found[0] == approx(1.0, abs=1e-9)
+    assert found[1] / found[2] == approx(10.0, rel=1e-3)
+    assert found[3] / found[4] == approx(100.0, rel=1e-3)
 
 
 def test_a_thick_film_is_in_proportion_to_that_of_smooth_bodies():
-    assert LAW.film_ratio(1e3, 0.0, 0.2, 2.0) == pytest.approx(LAW.film_factor * 1e3, rel=1e-5)
+    assert LAW.film_ratio(1e3, 0.0, 0.2, 2.0) == approx(LAW.film_factor * 1e3, rel=1e-5)
 
 
 def test_the_largest_films_and_exponents_do_not_overflow():
     steep = FittedSharing(film_exponent=20.0, load_exponent=10.0)
     assert steep.load_ratio(1e60, 0.2, 2.0, 1e60) == 0.0
-    assert steep.film_ratio(1e30, 0.0, 0.2, 2.0) == pytest.approx(steep.film_factor * 1e30)
-    assert steep.film_ratio(0.0, 0.0, 0.2, 2.0) == pytest.approx(steep.film_mixed)
+    assert steep.film_ratio(1e30, 0.0, 0.2, 2.0) == approx(steep.film_factor * 1e30)
+    assert steep.film_ratio(0.0, 0.0, 0.2, 2.0) == approx(steep.film_mixed)
 
 
 def test_the_fit_covers_its_own_points_and_nothing_beyond_its_edges(golden):
@@ -144,11 +145,11 @@ def test_arrays_give_what_their_numbers_give():
     area, film = LAW.area_ratio(share, flattening), LAW.film_ratio(clearance, share, flattening, resolution)
     exposed = LAW.exposed(area, rougher=True)
     for i in np.ndindex(share.shape):
-        assert share[i] == pytest.approx(LAW.load_ratio(clearance[i], flattening[i], resolution[i], 50.0), rel=1e-13)
-        assert area[i] == pytest.approx(LAW.area_ratio(share[i], flattening[i]), rel=1e-13)
+        assert share[i] == approx(LAW.load_ratio(clearance[i], flattening[i], resolution[i], 50.0), rel=1e-13)
+        assert area[i] == approx(LAW.area_ratio(share[i], flattening[i]), rel=1e-13)
         one = LAW.film_ratio(clearance[i], share[i], flattening[i], resolution[i])
-        assert film[i] == pytest.approx(one, rel=1e-13)
-        assert exposed[i] == pytest.approx(LAW.exposed(area[i], rougher=True), rel=1e-13)
+        assert film[i] == approx(one, rel=1e-13)
+        assert exposed[i] == approx(LAW.exposed(area[i], rougher=True), rel=1e-13)
 
 
 def test_the_slope_is_that_of_a_surface_with_the_given_spectrum():
@@ -160,12 +161,12 @@ def test_the_slope_is_that_of_a_surface_with_the_given_spectrum():
     noise[0, 0] = 0.0
     z = np.fft.ifft2(noise).real
     found = np.sqrt(np.mean(np.abs(np.fft.ifft2(1j * q[None, :] * noise)) ** 2) * 2.0) / z.std()
-    assert rms_slope(1.0, length, 0.0, 1.0) == pytest.approx(found, rel=0.05)
-    assert rms_slope(3.0, 2.0, 4.0, 2.0) == pytest.approx(5.0)
+    assert rms_slope(1.0, length, 0.0, 1.0) == approx(found, rel=0.05)
+    assert rms_slope(3.0, 2.0, 4.0, 2.0) == approx(5.0)
 
 
 def test_flattening_is_pressure_over_modulus_and_slope():
-    assert flattening_of(1e9, 2e11, 0.05) == pytest.approx(0.2)
+    assert flattening_of(1e9, 2e11, 0.05) == approx(0.2)
 
 
 def test_shipped_constants_give_the_sweep_back_within_their_half_widths(golden):

@@ -6,6 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from cheap_scene import CHEAP, cheap
+from comparison import approx
 
 from contact_core import OperatingPointError, Scene, advance, initial_state, march, parted, run_cycle
 from contact_core.patches import patch_nodes
@@ -23,8 +24,8 @@ def test_rough_bodies_move_by_at_most_a_node_and_by_their_speeds():
     for i, speed in enumerate((op.speed_1, op.speed_2)):
         nodes = [patch_nodes(scene, moment.state.bodies[i]) for moment in moments]
         assert set(np.diff(nodes)) <= {0, 1}
-        assert moments[-1].state.bodies[i].offset == pytest.approx(speed * time, rel=1e-12)
-    assert [moment.time for moment in moments] == pytest.approx(np.linspace(0.0, time, 8).tolist())
+        assert moments[-1].state.bodies[i].offset == approx(speed * time, rel=1e-12)
+    assert [moment.time for moment in moments] == approx(np.linspace(0.0, time, 8).tolist())
 
 
 def test_smooth_bodies_go_by_the_times_asked_for_and_ramped_speeds_by_their_mean():
@@ -32,7 +33,7 @@ def test_smooth_bodies_go_by_the_times_asked_for_and_ramped_speeds_by_their_mean
     time = 20.0 * scene.film.spacing / op.speed_1
     moments = list(march(scene, state, lambda t: replace(op, speed_1=op.speed_1 * (1.0 + t / time)), [0.0, time]))
     assert len(moments) == 2
-    assert moments[1].state.bodies[0].offset == pytest.approx((1.5 * op.speed_1 * time) % scene.film.domain)
+    assert moments[1].state.bodies[0].offset == approx((1.5 * op.speed_1 * time) % scene.film.domain)
 
 
 def test_a_march_begins_with_the_film_of_the_state():
@@ -41,7 +42,7 @@ def test_a_march_begins_with_the_film_of_the_state():
     assert first.fields.route == "mixed"
     again = list(march(scene, first.state, lambda time: op, [0.0, 1e-5]))
     assert len(again) == 1
-    assert again[0].outputs["h_c"] == pytest.approx(first.outputs["h_c"], rel=0.05)
+    assert again[0].outputs["h_c"] == approx(first.outputs["h_c"], rel=0.05)
 
 
 def test_a_film_holds_bodies_that_come_to_rest_apart_for_a_while():
@@ -100,7 +101,7 @@ def test_a_jump_of_the_load_by_ten_is_followed(factor):
     duty = {0: op, 1: replace(op, load=factor * op.load)}
     first, second = march(scene, state, lambda time: duty[round(time / 2e-5)], [0.0, 2e-5])
     assert second.fields.converged, second.fields.shortfall
-    assert second.fields.pressure.sum() * scene.film.spacing**2 == pytest.approx(factor * op.load, rel=2e-3)
+    assert second.fields.pressure.sum() * scene.film.spacing**2 == approx(factor * op.load, rel=2e-3)
     assert 0.3 * first.outputs["h_c"] < second.outputs["h_c"] < 1e-6  # oil of the wider gap is trapped
 
 
@@ -121,13 +122,13 @@ def cycled(repeats):
 
 def test_wear_time_and_passes_of_a_cycle_are_in_proportion_to_its_repeats():
     (_, once, moments), (_, often, _) = cycled(1.0), cycled(1e4)
-    assert once.time == pytest.approx(3e-4)
-    assert often.time == pytest.approx(3.0)
+    assert once.time == approx(3e-4)
+    assert often.time == approx(3.0)
     for one, many in zip(once.bodies, often.bodies, strict=True):
         assert one.wear.max() > 0.0
-        assert many.wear == pytest.approx(1e4 * one.wear, rel=1e-12)
-        assert many.worn == pytest.approx(1e4 * one.worn, rel=1e-12)
-        assert many.cycles == pytest.approx(1e4 * one.cycles, rel=1e-12)
+        assert many.wear == approx(1e4 * one.wear, rel=1e-12)
+        assert many.worn == approx(1e4 * one.worn, rel=1e-12)
+        assert many.cycles == approx(1e4 * one.cycles, rel=1e-12)
         assert many.growth.max() > 100.0 * one.growth.max() > 0.0
         assert many.offset == moments[-1].state.bodies[0].offset or many.offset == moments[-1].state.bodies[1].offset
 
@@ -141,7 +142,7 @@ def test_a_cycle_wears_off_what_its_solid_pressures_press():
         for i in (0, 1):
             speed = law.slide((late.op.speed_1, late.op.speed_2), i)
             expected[i] += float(law.coefficient(np.zeros(1))[0]) * speed * solid / hardness * (late.time - early.time)
-    assert [body.worn for body in after.bodies] == pytest.approx(expected.tolist(), rel=1e-9)
+    assert [body.worn for body in after.bodies] == approx(expected.tolist(), rel=1e-9)
 
 
 def transient():
@@ -164,8 +165,8 @@ def test_advance_follows_its_inputs_in_time_where_the_scene_asks_for_it():
     quasi = replace(scene, control=replace(scene.control, inputs="quasi_steady"))
     steady = advance(quasi, slower, state, 2e-6)[1]
     assert soon.h_c > 1.5 * steady.h_c
-    assert soon.h_c == pytest.approx(state.outputs.h_c, rel=0.1)
-    assert settled.h_c == pytest.approx(steady.h_c, rel=0.05)
+    assert soon.h_c == approx(state.outputs.h_c, rel=0.1)
+    assert settled.h_c == approx(steady.h_c, rel=0.05)
 
 
 def test_its_steps_compose_and_go_back_bit_for_bit():
@@ -213,7 +214,7 @@ def test_a_jump_of_the_radius_is_followed(factor):
     duty = {0: op, 1: replace(op, radius_x=radius, radius_y=radius)}
     _, second = march(scene, state, lambda time: duty[round(time / 2e-5)], [0.0, 2e-5])
     assert second.fields.converged, second.fields.shortfall
-    assert second.outputs["pressure_max"] == pytest.approx(scene.hertz_at(duty[1]).pressure_max, rel=0.15)
+    assert second.outputs["pressure_max"] == approx(scene.hertz_at(duty[1]).pressure_max, rel=0.15)
 
 
 def test_a_film_that_clears_smooth_bodies_does_not_break_down_when_the_load_comes_back():
@@ -224,4 +225,4 @@ def test_a_film_that_clears_smooth_bodies_does_not_break_down_when_the_load_come
     _, outputs = advance(scene, op, state, 3e-5)
     _, steady = advance(scene, op, initial_state(scene), 0.0)
     assert outputs.contact_load_ratio == 0.0
-    assert outputs.h_min == pytest.approx(steady.h_min, rel=0.1)
+    assert outputs.h_min == approx(steady.h_min, rel=0.1)

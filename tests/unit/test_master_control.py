@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from system_models.master.control import StepControl, scale, wrms
 
@@ -30,9 +31,9 @@ def run(order, size, until, step=1e-3):
 def test_wrms_is_one_where_every_error_is_as_allowed():
     nominal, values = np.array([1.0, 1e-6, 0.0]), np.array([-3.0, 1e-6, 5.0])
     allowed = scale(1e-3, nominal, values)
-    assert allowed == pytest.approx([4e-3, 2e-9, 5e-3])
-    assert wrms(-allowed, allowed) == pytest.approx(1.0)
-    assert wrms(np.array([3.0, 4.0]), np.ones(2)) == pytest.approx(math.sqrt(12.5))
+    assert allowed == approx([4e-3, 2e-9, 5e-3])
+    assert wrms(-allowed, allowed) == approx(1.0)
+    assert wrms(np.array([3.0, 4.0]), np.ones(2)) == approx(math.sqrt(12.5))
     assert wrms(np.empty(0), np.empty(0)) == 0.0
     assert math.isnan(wrms(np.array([np.nan, 1.0]), np.ones(2)))
 
@@ -66,7 +67,7 @@ def test_rough_errors_are_rejected_seldom():
 
 def test_after_a_reject_the_next_step_does_not_grow():
     control = StepControl(2)
-    assert control.reject(4.0) == pytest.approx(math.sqrt(0.7 / 4.0))
+    assert control.reject(4.0) == approx(math.sqrt(0.7 / 4.0))
     assert control.accept(0.01) == 1.0
     assert control.accept(0.01) > 1.0
 
@@ -74,7 +75,7 @@ def test_after_a_reject_the_next_step_does_not_grow():
 def test_rejects_in_a_row_shrink_harder():
     control = StepControl(3)
     factors = [control.reject(1.5) for _ in range(4)]
-    assert factors == pytest.approx([(0.7 / 1.5) ** (k / 3.0) for k in (1, 2, 3, 4)])
+    assert factors == approx([(0.7 / 1.5) ** (k / 3.0) for k in (1, 2, 3, 4)])
 
 
 @pytest.mark.parametrize("ratio", [math.nan, math.inf, 1e300])
@@ -86,7 +87,7 @@ def test_errors_without_measure_shrink_the_step_most(ratio):
 def test_without_error_the_step_grows_most_and_nothing_winds_up():
     control = StepControl(2)
     assert [control.accept(ratio) for ratio in (0.0, 5e-324, 0.0)] == [2.0, 2.0, 2.0]
-    assert control.accept(0.7) == pytest.approx(1.0)
+    assert control.accept(0.7) == approx(1.0)
 
 
 def test_an_event_makes_the_controller_forget():

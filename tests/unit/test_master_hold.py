@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from comparison import approx
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -40,8 +41,8 @@ def test_polynomials_up_to_the_order_are_reproduced(case):
     for held in (history.extrapolate(), history.interpolate(step, u(now + step))):
         assert held.shape == (order + 1, 2)
         for s in (0.0, 0.3 * step, step):
-            assert value(held, s) == pytest.approx(u(now + s), rel=1e-9, abs=1e-7)
-        assert mean(held, step) == pytest.approx(integral(now, now + step) / step, rel=1e-9, abs=1e-7)
+            assert value(held, s) == approx(u(now + s), rel=1e-9, abs=1e-7)
+        assert mean(held, step) == approx(integral(now, now + step) / step, rel=1e-9, abs=1e-7)
 
 
 @pytest.mark.parametrize("order", ORDERS)
@@ -52,7 +53,7 @@ def test_extrapolation_is_of_one_order_more_than_its_degree(order):
             history.push(1.0 + k * step, np.array([np.exp(1.0 + k * step)]))
         return abs(value(history.extrapolate(), step)[0] - np.exp(1.0 + step))
 
-    assert np.log2(error(0.02) / error(0.01)) == pytest.approx(order + 1, abs=0.1)
+    assert np.log2(error(0.02) / error(0.01)) == approx(order + 1, abs=0.1)
 
 
 @pytest.mark.parametrize("order", ORDERS)
@@ -64,7 +65,7 @@ def test_interpolation_is_of_one_order_more_than_its_degree(order):
         held = history.interpolate(step, np.array([np.exp(1.0 + step)]))
         return abs(value(held, 0.5 * step)[0] - np.exp(1.0 + 0.5 * step))
 
-    assert np.log2(error(0.02) / error(0.01)) == pytest.approx(order + 1, abs=0.1)
+    assert np.log2(error(0.02) / error(0.01)) == approx(order + 1, abs=0.1)
 
 
 def test_interpolation_passes_the_newest_point_and_the_end():
@@ -72,9 +73,9 @@ def test_interpolation_passes_the_newest_point_and_the_end():
     for time, at in ((0.0, 3.0), (0.4, -1.0), (1.0, 2.0)):
         history.push(time, np.array([at]))
     held = history.interpolate(0.25, np.array([7.0]))
-    assert value(held, -0.6)[0] == pytest.approx(-1.0)
+    assert value(held, -0.6)[0] == approx(-1.0)
     assert value(held, 0.0)[0] == 2.0
-    assert value(held, 0.25)[0] == pytest.approx(7.0)
+    assert value(held, 0.25)[0] == approx(7.0)
     assert History(0).interpolate(0.25, np.array([7.0])).tolist() == [[7.0]]
 
 
@@ -89,7 +90,7 @@ def test_after_an_event_the_order_grows_again():
         held = history.extrapolate()
         degrees.append((len(held) - 1, len(history.interpolate(1.0, np.array([time + 1.0]))) - 1))
         assert held[0] == time  # nothing of the cubes
-        assert held[1:2] == pytest.approx(1.0)
+        assert held[1:2] == approx(1.0)
     assert degrees == [(0, 1), (1, 2), (2, 2), (2, 2)]
 
 

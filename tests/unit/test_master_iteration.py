@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from comparison import approx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -57,21 +58,21 @@ def linear(size, radius, rng):
 
 def test_fixed_point_gains_the_slope_per_evaluation():
     v, count = solve(FixedPoint(), lambda v: 0.1 * v + 0.9, [0.0], tolerance=1e-9)
-    assert v == pytest.approx([1.0], abs=1e-8)
-    assert count == pytest.approx(1 + math.log(0.9 / 2e-9) / math.log(10.0), abs=1.0)
+    assert v == approx([1.0], abs=1e-8)
+    assert count == approx(1 + math.log(0.9 / 2e-9) / math.log(10.0), abs=1.0)
 
 
 @pytest.mark.parametrize("slope", [0.5, -3.0, -1e3])
 def test_aitken_is_exact_after_two_residuals_of_a_line(slope):
     v, count = solve(Aitken(), lambda v: slope * v + 1.0, [4.0])
-    assert v == pytest.approx([1.0 / (1.0 - slope)])
+    assert v == approx([1.0 / (1.0 - slope)])
     assert count == 3
 
 
 def test_aitken_solves_equal_slopes_in_all_entries_at_once_and_keeps_its_factor():
     aitken, shift = Aitken(), np.arange(5.0)
     v, count = solve(aitken, lambda v: shift - 4.0 * v, np.zeros(5))
-    assert (v, count) == (pytest.approx(shift / 5.0), 3)
+    assert (v, count) == (approx(shift / 5.0), 3)
     assert solve(aitken, lambda v: 2.0 * shift - 4.0 * v, np.zeros(5))[1] == 2
     aitken.clear()
     assert solve(aitken, lambda v: shift - 4.0 * v, np.zeros(5))[1] == 3
@@ -80,7 +81,7 @@ def test_aitken_solves_equal_slopes_in_all_entries_at_once_and_keeps_its_factor(
 @pytest.mark.parametrize("slope", [0.99, 0.5, -0.5, 3.0, -3.0, 1e4, -1e4, -1e5])
 def test_a_line_needs_a_probe_and_a_secant(slope):
     v, count = solve(QuasiNewton(), lambda v: slope * v + 3.0, [1.0])
-    assert v == pytest.approx([3.0 / (1.0 - slope)], rel=1e-6)
+    assert v == approx([3.0 / (1.0 - slope)], rel=1e-6)
     assert count <= 4
 
 
@@ -126,7 +127,7 @@ def test_linear_systems_take_one_evaluation_per_unknown_a_probe_and_two(size, ra
     for _ in range(20):
         image, exact = linear(size, radius, rng)
         v, count = solve(QuasiNewton(), image, np.zeros(size), tolerance=1e-6)
-        assert v == pytest.approx(exact, rel=1e-3, abs=1e-3)
+        assert v == approx(exact, rel=1e-3, abs=1e-3)
         assert count <= size + 3
 
 
@@ -136,7 +137,7 @@ def test_linear_systems_take_one_evaluation_per_unknown_a_probe_and_two(size, ra
 def test_a_contact_of_force_and_approach_is_solved(steepest, start, nominal):
     force, _ = solve(QuasiNewton(), contact(steepest), [0.0])
     v, count = solve(QuasiNewton(), coupled_contact(steepest), start, 1e-12 if nominal[1] == 1.0 else 1e-9, nominal)
-    assert v[0] == pytest.approx(force[0], rel=1e-6)
+    assert v[0] == approx(force[0], rel=1e-6)
     assert count < 50
 
 
@@ -147,8 +148,8 @@ def test_a_system_with_two_roots_ends_at_one_of_them():
     root = math.sqrt(0.07)
     for start in ((1.0, -1.0, 1.1), (0.0, 0.0, 1.0), (-1.0, -2.0, 3.0)):
         v, count = solve(QuasiNewton(), image, start)
-        assert v[1] == pytest.approx(-1.8)
-        assert sorted(v[[0, 2]]) == pytest.approx([0.9 - root, 0.9 + root])
+        assert v[1] == approx(-1.8)
+        assert sorted(v[[0, 2]]) == approx([0.9 - root, 0.9 + root])
         assert count < 30
         assert np.array_equal(v, solve(QuasiNewton(), image, start)[0])
 
@@ -178,7 +179,7 @@ def resting_mass(step, steps, pair):
 @pytest.mark.parametrize("step", [1e-4, 1e-5])
 def test_a_mass_comes_to_rest_on_a_stiff_contact(step, pair):
     x, counts = resting_mass(step, round(2e-3 / step), pair)
-    assert x == pytest.approx(1e-6, rel=1e-3)
+    assert x == approx(1e-6, rel=1e-3)
     assert max(counts) < 50
     assert np.mean(counts) < 5.5
     assert counts[-1] <= 2
@@ -217,7 +218,7 @@ def test_noise_below_the_allowed_errors_does_no_harm(size):
     rng = np.random.Generator(np.random.Philox(4))
     image, exact = linear(size, 20.0, rng)
     v, count = solve(QuasiNewton(), lambda v: image(v) + 1e-7 * rng.uniform(-1.0, 1.0, size), np.zeros(size), 1e-6)
-    assert v == pytest.approx(exact, abs=1e-3)
+    assert v == approx(exact, abs=1e-3)
     assert count <= size + 8
 
 
@@ -227,8 +228,8 @@ def test_units_do_not_matter_to_the_quasi_newton_step():
     units = 10.0 ** np.array([6.0, -6.0, 0.0, 3.0])
     step, rest = multi_secant(runs, rises, left)
     scaled_step, scaled_rest = multi_secant(runs * units, rises * units, left * units)
-    assert scaled_step == pytest.approx(step * units)
-    assert scaled_rest == pytest.approx(rest * units)
+    assert scaled_step == approx(step * units)
+    assert scaled_rest == approx(rest * units)
 
 
 def test_as_many_differences_as_unknowns_make_newtons_step():
@@ -236,8 +237,8 @@ def test_as_many_differences_as_unknowns_make_newtons_step():
     jacobian, runs, left = rng.standard_normal((5, 5)), rng.standard_normal((5, 5)), rng.standard_normal(5)
     repeated = np.vstack((runs[:2], runs[:1] + runs[1:2], runs[2:]))
     step, rest = multi_secant(repeated, repeated @ jacobian.T, left)
-    assert step == pytest.approx(-np.linalg.solve(jacobian, left))
-    assert rest == pytest.approx(np.zeros(5), abs=1e-12)
+    assert step == approx(-np.linalg.solve(jacobian, left))
+    assert rest == approx(np.zeros(5), abs=1e-12)
 
 
 @given(
@@ -264,5 +265,5 @@ def test_quasi_newton_turns_back_from_images_that_are_not_finite(size, wrong):
         return np.where(np.abs(v).max() > 2.0, wrong, 1.0 + 4.0 * (v - 0.9))
 
     v, count = solve(QuasiNewton(), image, np.full(size, 1.9))
-    assert v == pytest.approx(np.full(size, 2.6 / 3.0))
+    assert v == approx(np.full(size, 2.6 / 3.0))
     assert count < 20

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from cheap_scene import cheap
+from comparison import approx
 
 from contact_core import OperatingPointError, RangeFlag, Scene, advance, initial_state
 from contact_core.evolution import across_track
@@ -55,9 +56,9 @@ def test_smooth_bodies_have_the_film_of_lines_and_the_oils_friction_under_hertzs
     shear = spread * scene.lubricant.viscosity(pressure, op.temperature) * 1e-9 / film
     assert spread > 1.1
     assert found.contact_load_ratio < 1e-9
-    assert found.h_c == pytest.approx(film, rel=1e-4)
-    assert found.friction_force == pytest.approx(-4.0 * hertz.a * hertz.b * float(shear.mean()), rel=1e-4)
-    assert found.approach == pytest.approx(hertz.approach - found.h_c, rel=1e-12)
+    assert found.h_c == approx(film, rel=1e-4)
+    assert found.friction_force == approx(-4.0 * hertz.a * hertz.b * float(shear.mean()), rel=1e-4)
+    assert found.approach == approx(hertz.approach - found.h_c, rel=1e-12)
 
 
 def test_the_mean_over_a_strip_is_that_of_many_nodes():
@@ -69,7 +70,7 @@ def test_the_mean_over_a_strip_is_that_of_many_nodes():
     for hertz, weight in ((strip, np.ones_like(part)), (ellipse, 2.0 * part)):
         local = np.sqrt(1.0 - part[:, None] ** 2) * pressures
         shear = scene.lubricant.rheology(scene.lubricant.viscosity(local, warm) * rates, local * grips)
-        assert oil_shear(scene, hertz, pressures, rates, grips, warm) == pytest.approx(
+        assert oil_shear(scene, hertz, pressures, rates, grips, warm) == approx(
             (weight[:, None] * shear).mean(axis=0), rel=1e-2
         )
 
@@ -85,9 +86,9 @@ def test_a_face_twice_as_long_under_twice_the_load_has_the_same_contact(heat):
     _, second = advance(two, two.operation.point, initial_state(two), 600.0)
     for name in ("friction_coefficient", "h_c", "contact_load_ratio", "contact_area_ratio", "wear_depth_1",
                  "tribofilm_1", "coverage_2", "lambda_ratio", "error_friction"):  # fmt: skip
-        assert getattr(second, name) == pytest.approx(getattr(first, name), rel=near, abs=0.0), name
+        assert getattr(second, name) == approx(getattr(first, name), rel=near, abs=0.0), name
     for name in ("friction_force", "wear_volume_1", "wear_volume_2", "dfriction_dspeed_1", "power_loss"):
-        assert getattr(second, name) == pytest.approx(2.0 * getattr(first, name), rel=near, abs=0.0), name
+        assert getattr(second, name) == approx(2.0 * getattr(first, name), rel=near, abs=0.0), name
 
 
 @pytest.mark.parametrize("model", SHAPES)
@@ -103,7 +104,7 @@ def test_derivatives_are_total(model, changes):
                 now(scene, replace(at, **{name: getattr(at, name) + s * step}), state).friction_force for s in (1, -1)
             )
             size = max(abs(up - down) / (2.0 * step), 1e-3 * abs(found.friction_force) / getattr(at, name))
-            assert getattr(found, f"dfriction_d{name}") == pytest.approx((up - down) / (2.0 * step), abs=2e-3 * size)
+            assert getattr(found, f"dfriction_d{name}") == approx((up - down) / (2.0 * step), abs=2e-3 * size)
 
 
 def test_wear_is_archards_on_the_whole_face():
@@ -111,18 +112,18 @@ def test_wear_is_archards_on_the_whole_face():
         scene, state, op = cheap(changes | {"tribofilm.model": "none"})
         state, found = advance(scene, op, state, 1e-3)
         volume = scene.wear.bare * found.contact_load_ratio * LOAD * abs(op.sliding_speed) / scene.plasticity.hardness
-        assert found.wear_rate_1 == pytest.approx(volume, rel=1e-9)
+        assert found.wear_rate_1 == approx(volume, rel=1e-9)
         track = FACE * scene.geometry.track_length_1
         near = 1e-9 if changes is LINE else scene.film.spacing / FACE  # whole rows
-        assert found.wear_depth_1 == pytest.approx(found.wear_volume_1 / track, rel=near)
+        assert found.wear_depth_1 == approx(found.wear_volume_1 / track, rel=near)
 
 
 def test_a_spinning_roller_rubs_over_half_its_half_length():
     scene, state, op = cheap(ROLLER | {"tribofilm.model": "none"})
     found = now(scene, point(op, 0.0, 0.0, spin=10.0), state)
-    assert found.contact_load_ratio == pytest.approx(1.0, abs=1e-9)
-    assert found.spin_torque == pytest.approx(-scene.boundary_friction.bare * LOAD * 0.25 * FACE, rel=1e-2)
-    assert found.power_loss == pytest.approx(-10.0 * found.spin_torque, rel=1e-9)
+    assert found.contact_load_ratio == approx(1.0, abs=1e-9)
+    assert found.spin_torque == approx(-scene.boundary_friction.bare * LOAD * 0.25 * FACE, rel=1e-2)
+    assert found.power_loss == approx(-10.0 * found.spin_torque, rel=1e-9)
 
 
 def test_lines_and_rollers_have_curves_of_their_own_unless_a_scene_asks_for_others():
@@ -190,11 +191,11 @@ def test_a_line_short_of_oil_has_the_film_that_comes_in(share):
         short, _, _ = cheap(changes | SMOOTH | oil | {"lubricant.cavitation": "mass_conserving"})
         kept.append(now(short, op, state).h_c / film)
     assert kept[0] > kept[1]
-    assert kept[0] == pytest.approx(share, rel=0.04)  # the less of it, the more do adsorbed layers carry
+    assert kept[0] == approx(share, rel=0.04)  # the less of it, the more do adsorbed layers carry
 
 
 def test_bodies_as_rough_as_each_other_get_films_as_thick():
     scene = Scene.from_toml("fzg_flank").at_level("regression")
     _, found = advance(scene, scene.operation.point, initial_state(scene), 300.0)
-    assert found.tribofilm_1 == pytest.approx(found.tribofilm_2, rel=0.1)
+    assert found.tribofilm_1 == approx(found.tribofilm_2, rel=0.1)
     assert found.tribofilm_1 > 1e-9

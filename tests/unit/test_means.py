@@ -6,6 +6,7 @@ from dataclasses import asdict, fields, replace
 import numpy as np
 import pytest
 from cheap_scene import cheap
+from comparison import approx
 
 from contact_core import (
     ContactState,
@@ -61,7 +62,7 @@ def assert_total(scene, state, op):
         size = max(
             abs(expected), 1e-3 * abs(found.friction_force) / getattr(op, name) if name == "temperature" else 0.0
         )
-        assert getattr(found, f"dfriction_d{name}") == pytest.approx(expected, abs=1e-3 * size), name
+        assert getattr(found, f"dfriction_d{name}") == approx(expected, abs=1e-3 * size), name
 
 
 @pytest.mark.parametrize("radii", [(5e-3, 5e-3), (8e-3, 20e-3)])
@@ -96,7 +97,7 @@ def test_friction_goes_through_zero_sliding_without_a_jump_and_is_odd(grown, ent
     slides = np.linspace(-3e-6, 3e-6, 601)
     force = np.array([now(scene, point(op, entrainment, u), state).friction_force for u in slides])
     assert force[300] == 0.0
-    assert force == pytest.approx(-force[::-1], rel=1e-12)
+    assert force == approx(-force[::-1], rel=1e-12)
     assert np.all(np.diff(force) < 0.0)
     assert np.abs(np.diff(force)).max() < 0.02 * force[0]
 
@@ -106,7 +107,7 @@ def test_friction_goes_through_reversed_entrainment_without_a_jump_and_is_even(g
     scene, state, op = grown
     speeds = np.concatenate([-np.geomspace(1e-2, 1e-12, 800), [0.0], np.geomspace(1e-12, 1e-2, 800)])
     force = np.array([now(scene, point(op, u, sliding), state).friction_force for u in speeds])
-    assert force == pytest.approx(force[::-1], rel=1e-12)
+    assert force == approx(force[::-1], rel=1e-12)
     assert np.abs(np.diff(force)).max() < 2e-3 * abs(force[800])
     assert abs(force[0]) < 0.99 * abs(force[800])
 
@@ -142,8 +143,8 @@ def test_derivatives_are_total_where_the_oil_warms_itself(grown, entrainment):
 def test_at_rest_the_solids_carry_all_and_friction_is_the_boundary_laws():
     scene, state, op = fast()
     found = now(scene, point(op, 0.0, 0.01), state)
-    assert found.contact_load_ratio == pytest.approx(1.0, abs=1e-9)
-    assert found.friction_coefficient == pytest.approx(scene.boundary_friction.bare, rel=1e-3)
+    assert found.contact_load_ratio == approx(1.0, abs=1e-9)
+    assert found.friction_coefficient == approx(scene.boundary_friction.bare, rel=1e-3)
     assert found.friction_force < 0.0  # body 1 is the faster one
 
 
@@ -162,15 +163,15 @@ def test_a_thick_film_carries_all_and_its_friction_is_the_oils():
     shear = oil.viscosity(hertz.pressure_max / spread * np.sqrt(1.0 - r**2), op.temperature) * 1e-9 / film
     assert spread > 1.01
     assert found.contact_load_ratio < 1e-12
-    assert found.h_c == pytest.approx(film, rel=1e-4)
-    assert found.friction_force == pytest.approx(-hertz.area * spread * float((2.0 * r * shear).mean()), rel=1e-4)
+    assert found.h_c == approx(film, rel=1e-4)
+    assert found.friction_force == approx(-hertz.area * spread * float((2.0 * r * shear).mean()), rel=1e-4)
 
 
 def test_limited_oil_carries_its_coefficient_times_the_load_it_bears():
     scene, state, op = fast(SMOOTH)
     found = now(scene, point(op, 0.5, 5.0), state)
     limit = scene.lubricant.rheology.limiting_coefficient
-    assert found.friction_coefficient == pytest.approx(limit, rel=1e-2)
+    assert found.friction_coefficient == approx(limit, rel=1e-2)
     assert found.friction_coefficient <= limit * (1.0 + 1e-3)
 
 
@@ -186,7 +187,7 @@ def test_friction_lies_between_the_solids_and_the_solids_with_oil_at_its_limit(g
         oil = (1.0 - found.contact_load_ratio) * at.load * limit
         assert 0.0 < -found.friction_fluid <= oil * (1.0 + 1e-2)
         assert found.friction_force == found.friction_solid + found.friction_fluid
-        assert found.power_loss == pytest.approx(-found.friction_force * at.sliding_speed)
+        assert found.power_loss == approx(-found.friction_force * at.sliding_speed)
         assert found.heat_flow_1 + found.heat_flow_2 == found.power_loss
         shares.append(found.contact_load_ratio)
     assert min(shares) < 0.1
@@ -196,10 +197,10 @@ def test_friction_lies_between_the_solids_and_the_solids_with_oil_at_its_limit(g
 def test_a_body_at_rest_wears_the_same_volume_on_a_short_track():
     scene, state, op = fast(tribofilm__model="none")
     state, found = advance(scene, replace(op, speed_1=0.2, speed_2=0.0), state, 1.0)
-    assert found.wear_volume_1 == pytest.approx(found.wear_volume_2, rel=1e-12)
+    assert found.wear_volume_1 == approx(found.wear_volume_2, rel=1e-12)
     assert found.load_cycles_2 == 0.0
     longer = scene.geometry.track_length_1 / scene.film.domain
-    assert found.wear_depth_2 == pytest.approx(longer * found.wear_depth_1, rel=1e-12)
+    assert found.wear_depth_2 == approx(longer * found.wear_depth_1, rel=1e-12)
 
 
 def test_wear_is_archards_for_the_load_on_the_solids():
@@ -208,8 +209,8 @@ def test_wear_is_archards_for_the_load_on_the_solids():
     force = found.contact_load_ratio * op.load
     expected = scene.wear.bare * force * abs(op.sliding_speed) / scene.plasticity.hardness
     assert 0.0 < found.contact_load_ratio < 1.0
-    assert found.wear_rate_1 == pytest.approx(expected, rel=1e-9)
-    assert found.wear_volume_2 == pytest.approx(1e-3 * expected, rel=1e-9)
+    assert found.wear_rate_1 == approx(expected, rel=1e-9)
+    assert found.wear_volume_2 == approx(1e-3 * expected, rel=1e-9)
 
 
 def test_the_exposed_ball_grows_the_laws_film(grown):
@@ -218,9 +219,9 @@ def test_the_exposed_ball_grows_the_laws_film(grown):
     seconds = np.array([state.time])
     hot = op.temperature + state.outputs.flash_temperature_rise
     growth, removal = law.evolve(np.zeros(1), np.zeros(1), seconds, np.zeros(1), hot)
-    assert ball.coverage == pytest.approx(1.0, abs=1e-3)
-    assert ball.growth == pytest.approx(growth[0], rel=1e-3)
-    assert ball.removal == pytest.approx(removal[0], rel=1e-3)
+    assert ball.coverage == approx(1.0, abs=1e-3)
+    assert ball.growth == approx(growth[0], rel=1e-3)
+    assert ball.removal == approx(removal[0], rel=1e-3)
     assert 0.1 < disc.coverage < 0.6
 
 
@@ -230,7 +231,7 @@ def test_time_may_be_cut_anywhere():
     for _ in range(360):
         state, _ = advance(scene, op, state, 10.0)
     for once, often in zip(whole.means, state.means, strict=True):
-        assert asdict(often) == pytest.approx(asdict(once), rel=0.02)
+        assert asdict(often) == approx(asdict(once), rel=0.02)
 
 
 def test_without_load_nothing_rubs_and_nothing_is_infinite(grown):
@@ -259,7 +260,7 @@ def test_the_film_has_no_seam_between_rough_bodies_and_smooth_ones():
     for rq in ("0 nm", "1e-6 nm", "0.9 nm"):
         scene, state, op = fast(SMOOTH | {"surface_1.rq": rq, "surface_2.rq": rq})
         films.append(now(scene, point(op, 6.0, 0.3), state).h_c)
-    assert films == pytest.approx([films[0]] * 3, rel=1e-4)
+    assert films == approx([films[0]] * 3, rel=1e-4)
 
 
 def test_no_film_is_thicker_than_a_hundredth_of_the_radius(grown):
@@ -322,9 +323,9 @@ def test_warm_bodies_do_not_care_how_the_time_is_cut():
     once, found = advance(scene, at, once, 600.0)
     for _ in range(60):
         often, last = advance(scene, at, often, 10.0)
-    assert found.temperature_2 == pytest.approx(last.temperature_2, abs=0.2)
+    assert found.temperature_2 == approx(last.temperature_2, abs=0.2)
     assert found.temperature_2 > op.temperature + 1.0
-    assert found.wear_depth_2 == pytest.approx(last.wear_depth_2, rel=0.02)
+    assert found.wear_depth_2 == approx(last.wear_depth_2, rel=0.02)
 
 
 @pytest.mark.parametrize("load", [1e-12, 1e-3, 1e3])
@@ -428,13 +429,13 @@ def test_patches_get_what_means_have_gained(deterministic):
         assert np.all(now_.wear >= then.wear)
         gained = float((now_.wear - then.wear).sum()) * scene.film.spacing**2
         length = scene.geometry.track_length_1 if now_ is back.bodies[0] else scene.geometry.track_length_2
-        assert gained * length / scene.film.domain == pytest.approx(mean.worn - then.worn, rel=1e-12)
+        assert gained * length / scene.film.domain == approx(mean.worn - then.worn, rel=1e-12)
         assert 0.0 <= now_.growth.min() <= now_.growth.max() <= scene.tribofilm.full_thickness
     found = means_of(scene, back)
     for mean, again in zip(quick.means, found, strict=True):
         for name in ("growth", "removal", "wear", "worn", "cycles"):
-            assert getattr(again, name) == pytest.approx(getattr(mean, name), rel=1e-12), name
-        assert again.coverage == pytest.approx(mean.coverage, abs=1e-3)
+            assert getattr(again, name) == approx(getattr(mean, name), rel=1e-12), name
+        assert again.coverage == approx(mean.coverage, abs=1e-3)
 
 
 def test_fresh_patches_get_their_film_on_the_highest_points():
@@ -452,7 +453,7 @@ def test_a_run_goes_on_at_the_deterministic_level(deterministic):
     quick, _ = advance(scene.at_level("regression"), op, state, 600.0)
     onward, found = advance(scene, op, quick, 10.0)
     assert onward.means is None
-    assert onward.time == pytest.approx(670.0)
+    assert onward.time == approx(670.0)
     assert found.wear_volume_1 > quick.outputs.wear_volume_1
     assert found.blocks_dry + found.blocks_mixed > state.outputs.blocks_dry + state.outputs.blocks_mixed
 
@@ -476,10 +477,8 @@ def test_elliptical_contacts_have_the_formulas_film():
         op.load, op.entrainment_speed, oil.viscosity, op.temperature, 0.01, shape.radius_y, scene.solids.reduced_modulus
     )
     factor = scene.film.sharing.film_factor / oil.density(scene.hertz(op.load).pressure_mean)
-    assert now(scene, op, initial_state(scene)).h_c == pytest.approx(
-        factor * nijenbanning_venner_moes(smooth), rel=5e-3
-    )
-    assert now(scene, op, state).h_c != pytest.approx(
+    assert now(scene, op, initial_state(scene)).h_c == approx(factor * nijenbanning_venner_moes(smooth), rel=5e-3)
+    assert now(scene, op, state).h_c != approx(
         factor * nijenbanning_venner_moes(replace(smooth, radius_y=0.01)), rel=0.01
     )
 
@@ -496,7 +495,7 @@ def test_derivatives_are_total_where_the_oil_warms_itself_whoever_is_at_rest(one
 
     speed, step = getattr(op, name), 1e-5
     expected = (force(speed + step) - force(speed - step)) / (2.0 * step)
-    assert getattr(now(scene, op, state), f"dfriction_d{name}") == pytest.approx(expected, rel=1e-3)
+    assert getattr(now(scene, op, state), f"dfriction_d{name}") == approx(expected, rel=1e-3)
 
 
 def test_whole_numbers_are_numbers():
@@ -535,7 +534,7 @@ def test_long_steps_keep_a_tribofilm_at_its_balance_where_more_of_it_grows_less(
     settled = films[300.0][30:]
     assert settled.mean() > 100e-9
     assert (np.diff(settled) < 0.0).all()  # as wear goes on
-    assert settled == pytest.approx(films[20.0][464::15][: len(settled)], rel=3e-3)
+    assert settled == approx(films[20.0][464::15][: len(settled)], rel=3e-3)
 
 
 @pytest.mark.parametrize("name", ["mtm_zddp", "fzg_flank", "ball_209_inner"])

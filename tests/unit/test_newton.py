@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
+from comparison import approx
 from independent import deformation
 from scipy.ndimage import gaussian_filter
 
@@ -95,7 +96,7 @@ def check(problem, found):
     assert found.converged
     assert found.shortfall == ""
     assert np.abs(gap - found.gap).max() < 1e-9
-    assert (problem.weight * p).sum() == pytest.approx(problem.load, rel=1e-4)
+    assert (problem.weight * p).sum() == approx(problem.load, rel=1e-4)
     assert p.min() >= 0.0
     assert (p - problem.cap).max() <= 0.0
     assert (p - f).min() >= 0.0
@@ -123,7 +124,7 @@ def test_the_film_of_the_rigid_isoviscous_ball_is_kapitzas(load):
     found = case.solve(density=incompressible)
     check(replace(case.problem, density=incompressible), found)
     central = found.gap[64, int(np.argmin(np.abs(np.linspace(-4.5, 2.5, 129))))] * case.moes
-    assert central * load**2 == pytest.approx(KAPITZA, rel=0.01)
+    assert central * load**2 == approx(KAPITZA, rel=0.01)
 
 
 @pytest.mark.parametrize(
@@ -138,7 +139,7 @@ def test_films_satisfy_the_equations(load, oil, rough):
     if rough == 0.0:
         central = found.gap[32, int(np.argmin(np.abs(np.linspace(-4.5, 2.5, 65))))]
         assert 0.5 < central / case.film < 1.2
-        assert found.gap == pytest.approx(found.gap[::-1], rel=1e-6)
+        assert found.gap == approx(found.gap[::-1], rel=1e-6)
 
 
 @pytest.mark.parametrize(("load", "oil", "rough"), [(2.0, 4.0, 1.5), (8.0, 2.0, 4.0), (17.0, 3.0, 20.0)])

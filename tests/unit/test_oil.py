@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from cheap_scene import CHEAP, cheap
+from comparison import approx
 
 from contact_core import OperatingPointError, Scene, Transient, advance, initial_state, solve
 from contact_core import oil as oil_module
@@ -82,10 +83,10 @@ def test_all_power_leaves_as_heat_through_the_bodies(heat):
     op = sliding(scene, 0.5, 0.8)
     fields = solve(scene, op, state)
     warm = fields.temperatures
-    assert warm.into_1 + warm.into_2 == pytest.approx(fields.friction.power, rel=1e-12)
+    assert warm.into_1 + warm.into_2 == approx(fields.friction.power, rel=1e-12)
     _, outputs = advance(scene, op, state, 1.0)
-    assert outputs.heat_flow_1 + outputs.heat_flow_2 == pytest.approx(outputs.power_loss, rel=1e-14)
-    assert outputs.power_loss == pytest.approx(-outputs.friction_force * op.sliding_speed, rel=1e-12)
+    assert outputs.heat_flow_1 + outputs.heat_flow_2 == approx(outputs.power_loss, rel=1e-14)
+    assert outputs.power_loss == approx(-outputs.friction_force * op.sliding_speed, rel=1e-12)
     assert outputs.heat_flow_1 > 0.0 and outputs.heat_flow_2 > 0.0
 
 
@@ -108,7 +109,7 @@ def test_warm_oil_rubs_less_and_a_march_finds_the_temperature_of_the_steady_film
     for _ in range(14):
         fields = solve(hot, op, marched, Transient(1e-6, 0, 40))
         marched = replace(marched, film=fields.film)
-    assert fields.film.warmth == pytest.approx(rise, abs=0.01 * rise.max())
+    assert fields.film.warmth == approx(rise, abs=0.01 * rise.max())
 
 
 def test_local_flow_thins_the_film_and_a_march_finds_the_steady_one():
@@ -122,7 +123,7 @@ def test_local_flow_thins_the_film_and_a_march_finds_the_steady_one():
         fields = solve(local, op, marched, Transient(1e-4, 0, 40))
         marched = replace(marched, film=fields.film)
     middle = fields.y.size // 2
-    assert fields.gap[middle, middle] == pytest.approx(thinned, rel=5e-3)
+    assert fields.gap[middle, middle] == approx(thinned, rel=5e-3)
 
 
 def test_local_flow_of_a_newtonian_isothermal_oil_is_the_flow_of_the_viscosity():
@@ -130,7 +131,7 @@ def test_local_flow_of_a_newtonian_isothermal_oil_is_the_flow_of_the_viscosity()
     one, state = smooth(newtonian)
     other, _ = smooth(newtonian, LOCAL)
     op = sliding(one, 4.0, 0.2)
-    assert central(other, state, op) == pytest.approx(central(one, state, op), rel=1e-4)
+    assert central(other, state, op) == approx(central(one, state, op), rel=1e-4)
 
 
 @pytest.mark.parametrize("flow", [{}, LOCAL])
@@ -141,7 +142,7 @@ def test_shear_heat_in_the_inlet_thins_the_film_by_its_factor(flow):
     op = sliding(cold, 6.0, 1.0)
     factor = inlet_factor(hot, op)
     assert 0.3 < factor < 0.95
-    assert central(hot, state, op) / central(cold, state, op) == pytest.approx(factor, rel=0.02)
+    assert central(hot, state, op) / central(cold, state, op) == approx(factor, rel=0.02)
 
 
 def test_bodies_as_inputs_warm_the_oil_that_they_draw_in():
@@ -150,7 +151,7 @@ def test_bodies_as_inputs_warm_the_oil_that_they_draw_in():
     _, outputs = advance(scene, warm, state, 0.0)
     _, same = advance(scene, replace(point, temperature=point.temperature + 20.0), state, 0.0)
     assert (outputs.temperature_1, outputs.temperature_2) == (point.temperature + 30.0, point.temperature + 10.0)
-    assert outputs.h_c == pytest.approx(same.h_c, rel=1e-12)
+    assert outputs.h_c == approx(same.h_c, rel=1e-12)
     _, unsaid = advance(scene, point, state, 0.0)
     assert unsaid.temperature_1 == unsaid.temperature_2 == point.temperature
 
@@ -172,8 +173,8 @@ def test_lumped_bodies_warm_up_to_where_they_pass_their_heat_on(level):
         state, outputs = advance(scene, op, state, 10.0)
     state, outputs = advance(scene, op, state, 0.0)
     law = scene.heat.bulk
-    assert outputs.temperature_1 - op.temperature == pytest.approx(outputs.heat_flow_1 / law.conductance_1, rel=0.03)
-    assert outputs.temperature_2 - op.temperature == pytest.approx(outputs.heat_flow_2 / law.conductance_2, rel=0.03)
+    assert outputs.temperature_1 - op.temperature == approx(outputs.heat_flow_1 / law.conductance_1, rel=0.03)
+    assert outputs.temperature_2 - op.temperature == approx(outputs.heat_flow_2 / law.conductance_2, rel=0.03)
     assert outputs.temperature_1 > op.temperature + 0.1
     assert (outputs.temperature_1, outputs.temperature_2) == state.temperatures
 
@@ -187,7 +188,7 @@ def test_spin_wears_and_grows_film_without_sliding(level):
     _, spun = advance(scene, replace(rolling, spin=500.0), state, 30.0)
     assert still.wear_volume_1 == still.tribofilm_1 == still.power_loss == 0.0
     assert spun.wear_volume_1 > 0.0 and spun.wear_volume_2 > 0.0 and spun.tribofilm_1 > 0.0
-    assert spun.power_loss == pytest.approx(-spun.spin_torque * 500.0, rel=1e-9)
+    assert spun.power_loss == approx(-spun.spin_torque * 500.0, rel=1e-9)
     assert abs(spun.friction_force) < 0.02 * spun.friction_coefficient * point.load + 1e-3 * point.load
 
 
@@ -250,4 +251,4 @@ def test_the_formula_film_of_warm_bodies_is_that_of_the_oil_they_draw_in():
     warm = replace(point, body_temperature_1=point.temperature + 40.0, body_temperature_2=point.temperature + 40.0)
     _, told = advance(scene, warm, state, 0.0)
     _, same = advance(scene, replace(point, temperature=point.temperature + 40.0), state, 0.0)
-    assert told.lambda_conventional == pytest.approx(same.lambda_conventional, rel=1e-12)
+    assert told.lambda_conventional == approx(same.lambda_conventional, rel=1e-12)

@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from comparison import approx
 from component_examples import EXAMPLES, marched
 
 from contact_core import units
@@ -18,7 +19,7 @@ def test_seven_steps_under_held_inputs_are_one(name, step):
     start = part.initial({variable.name: variable.start for variable in part.inputs})
     once = part.advance(start, inputs, step)
     assert once != start
-    assert marched(part, start, inputs, step / 7, 7) == pytest.approx(once, rel=1e-11, abs=1e-11)
+    assert marched(part, start, inputs, step / 7, 7) == approx(once, rel=1e-11, abs=1e-11)
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -61,4 +62,4 @@ def test_a_derivative_is_that_of_its_output(name):
         if not (variable.name.startswith("d") and by):
             continue
         low, high = (part.outputs(state, inputs | {by: inputs[by] + change})[of] for change in (-1e-5, 1e-5))
-        assert part.outputs(state, inputs)[variable.name] == pytest.approx((high - low) / 2e-5, rel=1e-5)
+        assert part.outputs(state, inputs)[variable.name] == approx((high - low) / 2e-5, rel=1e-5)

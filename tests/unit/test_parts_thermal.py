@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from comparison import approx
 from component_examples import BATH, EXAMPLES, NETWORK, marched
 from scipy.integrate import solve_ivp
 
@@ -17,27 +18,27 @@ def test_one_node_warms_up_exponentially():
     inputs = {"heat_oil": 80.0, "temperature_ambient": 300.0}
     state = ONE.advance(ONE.initial(inputs), inputs, 200.0)
     outputs = ONE.outputs(state, inputs)
-    assert outputs["temperature_oil"] == pytest.approx(320.0 - 30.0 * np.exp(-200.0 * 4.0 / 500.0), rel=1e-14)
-    assert outputs["heat_to_ambient"] == pytest.approx(4.0 * (outputs["temperature_oil"] - 300.0), rel=1e-12)
+    assert outputs["temperature_oil"] == approx(320.0 - 30.0 * np.exp(-200.0 * 4.0 / 500.0), rel=1e-14)
+    assert outputs["heat_to_ambient"] == approx(4.0 * (outputs["temperature_oil"] - 300.0), rel=1e-12)
 
 
 def test_a_node_without_links_takes_up_all_heat():
     alone = ThermalNetwork((Node("oil", 500.0, 290.0),), ())
     inputs = {"heat_oil": 80.0, "temperature_ambient": 300.0}
     state = alone.advance(alone.initial(inputs), inputs, 600.0)
-    assert state == pytest.approx((290.0 + 80.0 * 600.0 / 500.0, 0.0), rel=1e-14)
+    assert state == approx((290.0 + 80.0 * 600.0 / 500.0, 0.0), rel=1e-14)
     assert alone.outputs(state, inputs)["heat_to_ambient"] == 0.0
 
 
 def test_in_the_end_heat_leaves_through_conductances_in_series():
     inputs = EXAMPLES["network"][1]
     outputs = NETWORK.outputs(marched(NETWORK, NETWORK.initial(inputs), inputs, 600.0, 200), inputs)
-    assert outputs["heat_to_ambient"] == pytest.approx(270.0, rel=1e-12)
+    assert outputs["heat_to_ambient"] == approx(270.0, rel=1e-12)
     housing = 288.0 + 270.0 / 6.0
     oil = housing + 300.0 / 50.0
-    assert outputs["temperature_housing"] == pytest.approx(housing, rel=1e-13)
-    assert outputs["temperature_oil"] == pytest.approx(oil, rel=1e-13)
-    assert outputs["temperature_ring"] == pytest.approx(oil + 100.0 / 20.0, rel=1e-13)
+    assert outputs["temperature_housing"] == approx(housing, rel=1e-13)
+    assert outputs["temperature_oil"] == approx(oil, rel=1e-13)
+    assert outputs["temperature_ring"] == approx(oil + 100.0 / 20.0, rel=1e-13)
 
 
 @pytest.mark.parametrize("step", [1e-4, 0.5, 600.0])
@@ -58,7 +59,7 @@ def test_stored_energy_and_heat_out_are_heat_in(name, step):
     )
     given = sum(outputs[f"heater_energy_{held.node}"] for held in network.thermostats)
     content = sum(node.heat_capacity * node.temperature for node in network.nodes)
-    assert stored + outputs["energy_to_ambient"] == pytest.approx(
+    assert stored + outputs["energy_to_ambient"] == approx(
         came + given, abs=1e-14 * (moved + abs(given)) + 4e-14 * content
     )
     assert abs(outputs["energy_to_ambient"]) > 1e-9 * moved
@@ -71,9 +72,9 @@ def test_a_stiff_network_keeps_its_digits():
     inputs = {"heat_film": 5.0, "heat_oil": 0.0, "temperature_ambient": 300.0}
     film, oil, lost = stiff.advance(stiff.initial(inputs), inputs, 600.0)
     share = 600.0 * 1e-2 / 1e4
-    assert oil == pytest.approx(300.0 + 500.0 * -np.expm1(-share), rel=1e-12)
-    assert film == pytest.approx(oil + 5.0 / 1e3, rel=1e-13)
-    assert lost == pytest.approx(5.0 * (600.0 + 1e4 / 1e-2 * np.expm1(-share)), rel=1e-9)
+    assert oil == approx(300.0 + 500.0 * -np.expm1(-share), rel=1e-12)
+    assert film == approx(oil + 5.0 / 1e3, rel=1e-13)
+    assert lost == approx(5.0 * (600.0 + 1e4 / 1e-2 * np.expm1(-share)), rel=1e-9)
 
 
 def _bath(**inputs: float) -> dict[str, float]:
@@ -89,10 +90,10 @@ def test_a_thermostat_heats_at_its_limit_and_then_in_proportion():
     inputs = _bath()
     solution = solve_ivp(course, (0.0, 900.0), [298.0, 298.0, 0.0], rtol=1e-11, atol=1e-9, max_step=2.0)
     outputs = BATH.outputs(BATH.advance(BATH.initial(inputs), inputs, 900.0), inputs)
-    assert outputs["temperature_oil"] == pytest.approx(solution.y[0, -1], rel=1e-8)
-    assert outputs["temperature_bath"] == pytest.approx(solution.y[1, -1], rel=1e-8)
-    assert outputs["heater_energy_bath"] == pytest.approx(solution.y[2, -1], rel=1e-6)
-    assert outputs["heater_power_bath"] == pytest.approx(40.0 * (353.15 - outputs["temperature_bath"]), rel=1e-12)
+    assert outputs["temperature_oil"] == approx(solution.y[0, -1], rel=1e-8)
+    assert outputs["temperature_bath"] == approx(solution.y[1, -1], rel=1e-8)
+    assert outputs["heater_energy_bath"] == approx(solution.y[2, -1], rel=1e-6)
+    assert outputs["heater_power_bath"] == approx(40.0 * (353.15 - outputs["temperature_bath"]), rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -106,17 +107,17 @@ def test_a_thermostat_heats_at_its_limit_and_then_in_proportion():
 def test_one_step_finds_all_changes_of_a_thermostat(bath, heat, first, last):
     state = (bath, bath, 0.0, 0.0)
     inputs = _bath(setpoint_bath=350.0, temperature_ambient=280.0, heat_bath=heat, heat_oil=2.0 * max(heat, 0.0))
-    assert BATH.outputs(state, inputs)["heater_power_bath"] == pytest.approx(first)
+    assert BATH.outputs(state, inputs)["heater_power_bath"] == approx(first)
     once = BATH.advance(state, inputs, 600.0)
-    assert BATH.outputs(once, inputs)["heater_power_bath"] == pytest.approx(last, abs=0.1)
-    assert once == pytest.approx(marched(BATH, state, inputs, 0.5, 1200), rel=1e-11)
+    assert BATH.outputs(once, inputs)["heater_power_bath"] == approx(last, abs=0.1)
+    assert once == approx(marched(BATH, state, inputs, 0.5, 1200), rel=1e-11)
 
 
 def test_a_setpoint_is_met_to_the_power_over_the_gain():
     inputs = _bath()
     outputs = BATH.outputs(marched(BATH, BATH.initial(inputs), inputs, 600.0, 30), inputs)
-    assert outputs["heater_power_bath"] == pytest.approx(outputs["heat_to_ambient"], rel=1e-10)
-    assert outputs["temperature_bath"] == pytest.approx(353.15 - outputs["heater_power_bath"] / 40.0, rel=1e-13)
+    assert outputs["heater_power_bath"] == approx(outputs["heat_to_ambient"], rel=1e-10)
+    assert outputs["temperature_bath"] == approx(353.15 - outputs["heater_power_bath"] / 40.0, rel=1e-13)
 
 
 @pytest.mark.parametrize(

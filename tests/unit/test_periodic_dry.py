@@ -5,6 +5,7 @@ In units of the half width of Hertz's line contact, its largest pressure and the
 
 import numpy as np
 import pytest
+from comparison import approx
 from images import image_matrix
 from scipy.ndimage import gaussian_filter
 
@@ -66,7 +67,7 @@ def test_pressures_are_those_of_an_active_set_on_the_dense_matrix_of_all_images(
     assert np.abs(found.pressure.ravel() - expected).sum() < 1e-6 * load
     assert ((found.pressure.ravel() > 0.0) == touching).all()
     assert (found.pressure.ravel() >= cap).any() == np.isfinite(cap)
-    assert -found.rigid == pytest.approx(approach, abs=1e-7)
+    assert -found.rigid == approx(approach, abs=1e-7)
 
 
 @pytest.mark.parametrize(("rows", "nx"), [(16, 129), (15, 120), (1, 400), (40, 90)])
@@ -78,11 +79,11 @@ def test_the_rules_of_contact_hold_on_grids_with_windows_and_coarse_grids(rows, 
     assert found.converged
     assert found.iterations < 60
     assert p.min() == 0.0
-    assert p.sum() == pytest.approx(load, rel=1e-10)
+    assert p.sum() == approx(load, rel=1e-10)
     assert np.abs(above[p > 0.0]).max() < 1e-7
     assert above[p <= 0.0].min() > -1e-9
     settled = PeriodicHalfSpace(*gap.shape, scale, "scipy", REFERENCE / dx).deform(p)
-    assert gap + settled + found.rigid == pytest.approx(above, abs=1e-12)
+    assert gap + settled + found.rigid == approx(above, abs=1e-12)
 
 
 def test_smooth_cylinders_have_the_pressure_of_hertz_on_any_number_of_rows():
@@ -91,10 +92,10 @@ def test_smooth_cylinders_have_the_pressure_of_hertz_on_any_number_of_rows():
         gap, dx, scale, load = cylinder(rows, 521, rms=0.0)
         p = solve(gap, dx, scale, load).pressure
         x = (np.arange(521) - 260) * dx
-        assert p == pytest.approx(np.broadcast_to(p[:1], p.shape), abs=1e-7)
+        assert p == approx(np.broadcast_to(p[:1], p.shape), abs=1e-7)
         assert np.abs(p[0] - np.sqrt(np.maximum(1.0 - x**2, 0.0))).sum() * dx < 1e-3
         peaks.append(p.max())
-    assert peaks == pytest.approx([1.0] * 3, rel=1e-3)
+    assert peaks == approx([1.0] * 3, rel=1e-3)
 
 
 def test_a_shifted_roughness_shifts_the_contact_and_two_periods_are_as_good_as_one():
@@ -104,7 +105,7 @@ def test_a_shifted_roughness_shifts_the_contact_and_two_periods_are_as_good_as_o
     tiled = solve(np.tile(gap, (2, 1)), dx, scale, 2.0 * load)
     assert np.abs(np.roll(one.pressure, 4, axis=0) - shifted.pressure).sum() < 1e-8 * load
     assert np.abs(np.tile(one.pressure, (2, 1)) - tiled.pressure).sum() < 1e-8 * load
-    assert tiled.rigid == pytest.approx(one.rigid, abs=1e-8)
+    assert tiled.rigid == approx(one.rigid, abs=1e-8)
 
 
 def test_contact_mechanics_finds_the_same_contact():

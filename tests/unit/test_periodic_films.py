@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from comparison import approx
 from line_contact import line, roughness, with_images
 
 from contact_core.kernels.direct import solve_direct
@@ -84,7 +85,7 @@ def test_equal_rows_are_as_good_as_one_row(method, load):
     p = inner(found[0])
     for more in found[1:]:
         assert apart(np.broadcast_to(p, inner(more).shape), inner(more)) < 1e-5
-        assert more.iterate.rigid == pytest.approx(found[0].iterate.rigid, abs=1e-5)
+        assert more.iterate.rigid == approx(found[0].iterate.rigid, abs=1e-5)
 
 
 @pytest.mark.parametrize(("method", "load", "oil", "rms"), CASES)
@@ -95,12 +96,12 @@ def test_films_satisfy_the_equations(method, load, oil, rms, rows):
     q, p = case.problem, inner(found)
     net, mass = net_inflow(q, found)
     solid, f = found.iterate.solid[1:-1], found.iterate.fluid[1:-1]
-    assert p.sum() == pytest.approx(q.load, rel=1e-4)
+    assert p.sum() == approx(q.load, rel=1e-4)
     assert p.min() >= 0.0
     assert (p - f).min() >= 0.0
     assert (p == f)[~solid].all()
     settled = case.half_space.deform(p)
-    assert found.iterate.rigid + q.undeformed[1:-1] + settled == pytest.approx(found.gap[1:-1], abs=1e-9)
+    assert found.iterate.rigid + q.undeformed[1:-1] + settled == approx(found.gap[1:-1], abs=1e-9)
     wet = ((p > 0.0) & ~solid & (found.gap[1:-1] > 1.2 * q.floor))[:, 1:-1]  # at the floor, solids may hold a node
     weight = p[:, 1:-1][wet]
     assert (weight * np.abs(net[wet])).sum() < 5e-3 * (weight * mass[:, 1:-1][wet]).sum()
@@ -133,7 +134,7 @@ def test_a_dry_start_touches_where_the_dry_contact_does():
     start = case.dry_start()
     found = solve("hybrid", case, start, tolerance=1e-3)
     share = (found.iterate.pressure - found.iterate.fluid)[1:-1].sum() / case.problem.load
-    assert inner(found).sum() == pytest.approx(case.problem.load, rel=1e-4)
+    assert inner(found).sum() == approx(case.problem.load, rel=1e-4)
     assert 0.3 < share < 1.0
     touching = found.iterate.solid[1:-1] & (inner(found) > 0.0)
     assert (touching & start.solid[1:-1]).sum() > 0.8 * touching.sum()

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from comparison import approx
 from images import image_matrix
 from independent import love
 
@@ -45,8 +46,8 @@ def test_a_cosine_across_a_wide_strip_settles_by_4_over_e_q(waves):
     settled = PeriodicHalfSpace(rows, nx, 1.0, "scipy").deform(np.repeat(wave[:, None], nx, axis=1))[:, nx // 2]
     aliases = np.abs(q + 2.0 * np.pi * np.arange(-2000, 2001))
     expected = (2.0 * np.pi / aliases * np.sinc((q + 2.0 * np.pi * np.arange(-2000, 2001)) / (2.0 * np.pi))).sum()
-    assert expected == pytest.approx(2.0 * np.pi / q, rel=0.01)
-    assert settled == pytest.approx(expected * wave, abs=1e-6 * expected)
+    assert expected == approx(2.0 * np.pi / q, rel=0.01)
+    assert settled == approx(expected * wave, abs=1e-6 * expected)
 
 
 @pytest.mark.parametrize(("rows", "nx"), [(1, 40), (6, 33), (33, 20)])
@@ -72,21 +73,21 @@ def test_shifts_along_y_shift_the_deformation_and_equal_periods_are_one():
     one = PeriodicHalfSpace(6, 15, 1.0, "scipy", REFERENCE)
     three = PeriodicHalfSpace(18, 15, 1.0, "scipy", REFERENCE)
     settled = one.deform(p)
-    assert one.deform(np.roll(p, 2, axis=0)) == pytest.approx(np.roll(settled, 2, axis=0), rel=1e-13)
-    assert three.deform(np.tile(p, (3, 1))) == pytest.approx(np.tile(settled, (3, 1)), rel=1e-8)
+    assert one.deform(np.roll(p, 2, axis=0)) == approx(np.roll(settled, 2, axis=0), rel=1e-13)
+    assert three.deform(np.tile(p, (3, 1))) == approx(np.tile(settled, (3, 1)), rel=1e-8)
 
 
 def test_a_window_keeps_the_datum_and_coarse_cells_act_like_the_nodes_in_them():
     p = np.zeros((8, 64))
     p[:, 30:42] = pressure(8, 12)
     whole = PeriodicHalfSpace(8, 64, 0.3, "scipy", REFERENCE)
-    assert whole.window(8, 20, 1).deform(p[:, 26:46]) == pytest.approx(whole.deform(p)[:, 26:46], rel=1e-12)
+    assert whole.window(8, 20, 1).deform(p[:, 26:46]) == approx(whole.deform(p)[:, 26:46], rel=1e-12)
     flat = np.zeros((8, 64))
     flat[:, 24:36] = np.repeat(np.repeat(pressure(4, 6), 2, axis=0), 2, axis=1)
     fine = whole.deform(flat).reshape(4, 2, 32, 2).mean(axis=(1, 3))
     coarse = whole.window(4, 32, 2).deform(flat[::2, ::2])
     apart = np.r_[0:9, 21:32]
-    assert coarse[:, apart] == pytest.approx(fine[:, apart], abs=1e-3 * fine.max())
+    assert coarse[:, apart] == approx(fine[:, apart], abs=1e-3 * fine.max())
 
 
 def test_a_wide_period_is_the_half_space_of_one_contact_beside_a_constant():
@@ -105,7 +106,7 @@ def test_a_patch_counts_no_node_twice(rows):
     settled = PeriodicHalfSpace(rows, 12, 1.0, "scipy").deform(np.eye(1, 12).repeat(rows, axis=0))[0]
     patch = 2.0 * near.sum(axis=0) - near[0]
     # up to the datum, all rows of a column are in it
-    assert patch - patch[0] == pytest.approx(settled[:9] - settled[0], abs=1e-9)
+    assert patch - patch[0] == approx(settled[:9] - settled[0], abs=1e-9)
 
 
 @pytest.mark.parametrize("rows", [1, 4, 31])

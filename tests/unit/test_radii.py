@@ -7,6 +7,7 @@ from dataclasses import asdict, replace
 import numpy as np
 import pytest
 from cheap_scene import CHEAP, cheap
+from comparison import approx
 
 from contact_core import ContactState, OperatingPointError, RangeFlag, Scene, advance, initial_state, solve
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
@@ -63,8 +64,8 @@ def test_pressure_approach_and_film_of_smooth_bodies_go_with_the_radii_as_the_fo
     scene, fresh, op = cheap(SMOOTH | {"film.points": "129", "film.domain": "0.6 mm"})
     op = replace(op, speed_1=20.0, speed_2=20.0)
     dry, hertz = solve(scene, at(op, *radii), fresh, dry=True), scene.hertz_at(at(op, *radii))
-    assert dry.pressure.max() == pytest.approx(hertz.pressure_max, rel=0.01)
-    assert -dry.film.rigid_gap == pytest.approx(hertz.approach, rel=0.01)
+    assert dry.pressure.max() == approx(hertz.pressure_max, rel=0.01)
+    assert -dry.film.rigid_gap == approx(hertz.approach, rel=0.01)
 
     def film_over_formulas(radius_x, radius_y):
         oil = scene.lubricant.viscosity, op.temperature, radius_x, radius_y, scene.solids.reduced_modulus
@@ -74,7 +75,7 @@ def test_pressure_approach_and_film_of_smooth_bodies_go_with_the_radii_as_the_fo
         return found.gap[64, 64] / formula
 
     own = scene.radii(scene.operation.point)
-    assert film_over_formulas(*radii) == pytest.approx(film_over_formulas(*own), rel=0.06)
+    assert film_over_formulas(*radii) == approx(film_over_formulas(*own), rel=0.06)
 
 
 @pytest.mark.parametrize("level", LEVELS)
@@ -123,14 +124,14 @@ def test_the_march_goes_on_through_a_jump_of_the_radii(factor):
     state, jumped = advance(scene, at(op, *radii), state, 20.0)
     back = advance(scene, op, state, 20.0)[1]
     assert jumped.unconverged == jumped.blocks_fallback == back.unconverged == back.blocks_fallback == 0.0
-    assert jumped.approach == pytest.approx(scene.hertz_at(at(op, factor * 0.01)).approach, rel=0.1)
+    assert jumped.approach == approx(scene.hertz_at(at(op, factor * 0.01)).approach, rel=0.1)
 
 
 @pytest.mark.parametrize("radii", RADII)
 def test_areas_are_shares_of_the_hertz_area_of_the_radii_given(radii):
     scene, fresh, op = cheap(SMOOTH | {"film.points": "65"})
     _, outputs = advance(scene, at(op, *radii, speed_1=0.0, speed_2=0.0), fresh, 0.0)
-    assert outputs.contact_area_ratio == pytest.approx(1.0, abs=0.08)
+    assert outputs.contact_area_ratio == approx(1.0, abs=0.08)
 
 
 def test_a_contact_that_small_radii_make_too_small_for_the_grid_is_flagged():
@@ -162,7 +163,7 @@ def test_radii_whose_contact_the_grid_cannot_hold_are_refused_with_the_nearest_t
         with pytest.raises(OperatingPointError, match=said) as error:
             call(wrong)
     allowed = [float(number) for number in re.findall(r"(?:most|least) (\S+) m and (\S+) m", str(error.value))[0]]
-    assert allowed[0] / allowed[1] == pytest.approx(radii[0] / radii[1], rel=0.01)
+    assert allowed[0] / allowed[1] == approx(radii[0] / radii[1], rel=0.01)
     inside, outside = ([factor * radius for radius in allowed] for factor in _either_side(radii, allowed))
     assert scene.refusal(at(op, *inside)) == ""
     assert scene.refusal(at(op, *outside)) != ""
@@ -194,12 +195,12 @@ def test_the_fast_level_goes_on_from_patches_and_back_under_other_radii():
     state, before = advance(scene, op, fresh, 60.0)
     quick = scene.at_level("regression")
     quickly, told = advance(quick, at(op, 7e-3), state, 0.0)
-    assert told.tribofilm_2 == pytest.approx(before.tribofilm_2, rel=1e-12)
+    assert told.tribofilm_2 == approx(before.tribofilm_2, rel=1e-12)
     slowly, after = advance(scene, at(op, 7e-3), quickly, 0.0)
     for body, same in zip(state.bodies, slowly.bodies, strict=True):
         np.testing.assert_array_equal(body.growth, same.growth)
         np.testing.assert_array_equal(body.wear, same.wear)
-    assert after.approach == pytest.approx(scene.hertz_at(at(op, 7e-3)).approach, rel=0.1)
+    assert after.approach == approx(scene.hertz_at(at(op, 7e-3)).approach, rel=0.1)
 
 
 def test_a_scenes_state_is_its_own_whatever_the_radii_were():

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from cheap_scene import cheap
+from comparison import approx
 
 from contact_core import advance, solve
 from contact_core.block import solve_block
@@ -35,7 +36,7 @@ def test_an_instant_is_solved_and_presses_between_the_ends_alone():
     outside = beyond(scene, scene.rows)
     assert outside.sum() >= 4
     assert found.film.pressure[outside].max() < 1.0
-    assert found.film.pressure.sum() * scene.film.spacing**2 == pytest.approx(op.load, rel=2e-3)
+    assert found.film.pressure.sum() * scene.film.spacing**2 == approx(op.load, rel=2e-3)
 
 
 def test_a_minute_of_film_and_wear_stays_between_the_ends(run):
@@ -43,7 +44,7 @@ def test_a_minute_of_film_and_wear_stays_between_the_ends(run):
     outside = beyond(scene, state.rows)
     for i, body in enumerate(state.bodies):
         volume = float(body.wear.sum()) * area_of_node(scene, op, i)
-        assert volume == pytest.approx((outputs.wear_volume_1, outputs.wear_volume_2)[i], rel=1e-9)
+        assert volume == approx((outputs.wear_volume_1, outputs.wear_volume_2)[i], rel=1e-9)
         assert body.wear[outside].max() == body.growth[outside].max() == 0.0
     assert outputs.tribofilm_1 > 1e-9
     assert outputs.unconverged == 0.0
@@ -54,16 +55,16 @@ def test_a_dry_roller_wears_what_archard_says_of_its_load():
     scene = replace(scene, wear=replace(scene.wear, film=scene.wear.bare))
     outputs = advance(scene, op, state, 60.0)[1]
     volume = scene.wear.bare * op.load * abs(op.sliding_speed) * 60.0 / scene.plasticity.hardness
-    assert outputs.wear_volume_1 == pytest.approx(volume, rel=1e-3)
-    assert outputs.wear_volume_2 == pytest.approx(volume, rel=1e-3)
+    assert outputs.wear_volume_1 == approx(volume, rel=1e-3)
+    assert outputs.wear_volume_2 == approx(volume, rel=1e-3)
 
 
 def test_tracks_end_with_the_roller(run):
     scene, _, state, outputs = run
     inside = track_rows(scene, state.rows)
     assert not (inside & beyond(scene, state.rows)).any()
-    assert inside.sum() * scene.film.spacing == pytest.approx(FACE, abs=1.01 * scene.film.spacing)
-    assert outputs.wear_depth_1 == pytest.approx(float(state.bodies[0].wear[inside].mean()), rel=1e-9)
+    assert inside.sum() * scene.film.spacing == approx(FACE, abs=1.01 * scene.film.spacing)
+    assert outputs.wear_depth_1 == approx(float(state.bodies[0].wear[inside].mean()), rel=1e-9)
 
 
 def test_wear_at_the_ends_does_not_widen_the_patches():

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core import Logarithmic, Rounded, line_contact
 
@@ -40,8 +41,8 @@ def test_the_middle_of_a_roller_is_an_endless_line_under_the_load_of_its_middle(
         load=found.pressure[row].sum() * dx, radius=RADIUS, reduced_modulus=E, speed_1=5.0, speed_2=5.0, grid=65,
         domain=(found.x[0], found.x[-1]), **OIL,
     )  # fmt: skip
-    assert line.h_central == pytest.approx(float(np.interp(0.0, found.x, found.film[row])), rel=0.02)
-    assert line.film.min() == pytest.approx(found.film[row].min(), rel=0.02)
+    assert line.h_central == approx(float(np.interp(0.0, found.x, found.film[row])), rel=0.02)
+    assert line.film.min() == approx(found.film[row].min(), rel=0.02)
 
 
 def test_a_sharp_end_touches_and_a_generous_one_does_not():
@@ -51,7 +52,7 @@ def test_a_sharp_end_touches_and_a_generous_one_does_not():
 
 def test_a_roller_rolls_either_way():
     ahead, back = roller(Logarithmic(3e-6)), roller(Logarithmic(3e-6), speed=-5.0)
-    assert back.film[:, ::-1] == pytest.approx(ahead.film, rel=1e-9)
+    assert back.film[:, ::-1] == approx(ahead.film, rel=1e-9)
 
 
 def test_the_end_film_falls_more_steeply_with_load_than_that_of_the_middle_and_lies_where_the_end_is_rounded():

@@ -2,6 +2,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from comparison import approx
 
 import contact_core
 from contact_core import Scene, shipped_scenes
@@ -48,9 +49,9 @@ def test_a_scene_file_and_the_shipped_name_give_the_same_scene(tmp_path: Path):
 def test_a_shipped_contact_has_the_pressure_and_size_of_its_source(name, pressure, half_width, tracks):
     scene = Scene.from_toml(name)
     hertz = scene.hertz(scene.operation.load)
-    assert hertz.pressure_max == pytest.approx(pressure, rel=1e-4)
-    assert hertz.a == hertz.b == pytest.approx(half_width, rel=2e-4, abs=0.0)
-    assert (scene.geometry.track_length_1, scene.geometry.track_length_2) == pytest.approx(tracks, rel=1e-12, abs=0.0)
+    assert hertz.pressure_max == approx(pressure, rel=1e-4)
+    assert hertz.a == hertz.b == approx(half_width, rel=2e-4, abs=0.0)
+    assert (scene.geometry.track_length_1, scene.geometry.track_length_2) == approx(tracks, rel=1e-12, abs=0.0)
 
 
 @pytest.mark.parametrize(
@@ -58,8 +59,8 @@ def test_a_shipped_contact_has_the_pressure_and_size_of_its_source(name, pressur
 )
 def test_a_shipped_duty_has_the_speeds_of_its_source(name, entrainment, slide_to_roll):
     point = Scene.from_toml(name).operation.point
-    assert point.entrainment_speed == pytest.approx(entrainment, rel=1e-12)
-    assert point.sliding_speed / point.entrainment_speed == pytest.approx(slide_to_roll, rel=1e-12)
+    assert point.entrainment_speed == approx(entrainment, rel=1e-12)
+    assert point.sliding_speed / point.entrainment_speed == approx(slide_to_roll, rel=1e-12)
 
 
 def test_the_gear_flank_is_point_d_of_its_gear():
@@ -68,23 +69,23 @@ def test_the_gear_flank_is_point_d_of_its_gear():
     spin_1 = 2170.0 * 2.0 * np.pi / 60.0
     spin_2 = spin_1 * 16.0 / 24.0
     point, geometry = scene.operation.point, scene.geometry
-    assert geometry.radius_x == pytest.approx(s * (length - s) / length, rel=1e-3)
-    assert (point.speed_1, point.speed_2) == pytest.approx((spin_1 * s, spin_2 * (length - s)), rel=1e-3)
-    assert point.load == pytest.approx(135.3 / 33.829e-3, rel=1e-3)
+    assert geometry.radius_x == approx(s * (length - s) / length, rel=1e-3)
+    assert (point.speed_1, point.speed_2) == approx((spin_1 * s, spin_2 * (length - s)), rel=1e-3)
+    assert point.load == approx(135.3 / 33.829e-3, rel=1e-3)
     ways = (point.speed_1 * 2.0 * np.pi / spin_1, point.speed_2 * 2.0 * np.pi / spin_2)
-    assert (geometry.track_length_1, geometry.track_length_2) == pytest.approx(ways, rel=1e-3)
-    assert scene.hertz(point.load).pressure_max == pytest.approx(1.1e9, rel=0.01)
+    assert (geometry.track_length_1, geometry.track_length_2) == approx(ways, rel=1e-3)
+    assert scene.hertz(point.load).pressure_max == approx(1.1e9, rel=0.01)
 
 
 def test_the_bearing_ball_is_that_of_its_bearing():
     """209: ball 12.7 mm, pitch circle 65 mm, conformity 0.52, 9 balls; pure rolling but for the slip, 3000 rpm."""
     scene, ball, pitch, speed = Scene.from_toml("ball_209_inner"), 12.7e-3, 65e-3, 3000.0 * 2.0 * np.pi / 60.0
     point, geometry, ratio = scene.operation.point, scene.geometry, ball / pitch
-    assert geometry.radius_x == pytest.approx(0.5 * ball * (1.0 - ratio), rel=1e-3)
-    assert geometry.radius_y == pytest.approx(1.0 / (2.0 / ball - 1.0 / (0.52 * ball)), rel=1e-3)
-    assert point.entrainment_speed == pytest.approx(0.25 * pitch * (1.0 - ratio**2) * speed, rel=1e-3)
-    assert point.sliding_speed / point.entrainment_speed == pytest.approx(0.01, rel=0.03)
-    assert geometry.track_length_1 == pytest.approx(np.pi * ball, rel=1e-3)
-    assert geometry.track_length_2 == pytest.approx(np.pi * (pitch - ball) / 9.0, rel=1e-3)
+    assert geometry.radius_x == approx(0.5 * ball * (1.0 - ratio), rel=1e-3)
+    assert geometry.radius_y == approx(1.0 / (2.0 / ball - 1.0 / (0.52 * ball)), rel=1e-3)
+    assert point.entrainment_speed == approx(0.25 * pitch * (1.0 - ratio**2) * speed, rel=1e-3)
+    assert point.sliding_speed / point.entrainment_speed == approx(0.01, rel=0.03)
+    assert geometry.track_length_1 == approx(np.pi * ball, rel=1e-3)
+    assert geometry.track_length_2 == approx(np.pi * (pitch - ball) / 9.0, rel=1e-3)
     hertz = scene.hertz(4526.6)  # the most loaded ball under 8.9 kN
-    assert (hertz.b, hertz.a, hertz.pressure_max) == pytest.approx((2.548e-3, 0.2744e-3, 3.091e9), rel=0.01)
+    assert (hertz.b, hertz.a, hertz.pressure_max) == approx((2.548e-3, 0.2744e-3, 3.091e9), rel=0.01)

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from comparison import approx
 from wavy_contact import problem
 
 from contact_core import OperatingPointError, Scene, SceneError, advance, initial_state, point_contact
@@ -45,10 +46,10 @@ def test_a_scene_is_flooded_and_its_cavities_are_full_unless_it_says_otherwise()
 def test_supply_and_cavitation_of_a_scene_reach_the_kernels():
     film, inlet = scaled_of(CONSERVING | FILM), scaled_of(INLET)
     assert film.problem().conserving
-    assert film.problem().supply * film.h_unit == pytest.approx(50e-9)
+    assert film.problem().supply * film.h_unit == approx(50e-9)
     assert film.smooth_film < scaled_of({}).smooth_film
     assert not inlet.problem().conserving
-    assert inlet.grid.x[inlet.problem().first - 1] == pytest.approx(-160e-6, abs=0.51 * inlet.grid.spacing)
+    assert inlet.grid.x[inlet.problem().first - 1] == approx(-160e-6, abs=0.51 * inlet.grid.spacing)
     assert inlet.smooth_film < scaled_of({}).smooth_film
     assert Scene.from_toml("mtm_zddp", INLET).lubricant.supply == Meniscus(160e-6)
     assert Scene.from_toml("mtm_zddp", CONSERVING | FILM).lubricant.supply == SupplyFilm(50e-9)
@@ -74,7 +75,7 @@ def test_a_call_takes_supply_and_meniscus_on_the_side_where_oil_comes_in(speed):
     flooded = point_contact(**call)
     starved = point_contact(**call, cavitation="mass_conserving", supply=0.3 * flooded.h_central)
     inlet = point_contact(**call, meniscus=2.2e-4)
-    assert starved.h_central == pytest.approx(0.3 * flooded.h_central, rel=0.3)
+    assert starved.h_central == approx(0.3 * flooded.h_central, rel=0.3)
     assert starved.h_central < inlet.h_central < flooded.h_central
     before = np.sign(speed) * inlet.x < -2.3e-4
     assert before.any()
@@ -102,7 +103,7 @@ def test_a_flooded_film_without_reformation_is_the_same_with_and_without_conserv
     kept = solve_direct(half_space, replace(case, conserving=True), start(case, smooth), 1e-8, 200)
     assert plain.converged
     assert kept.converged
-    assert kept.iterate.pressure == pytest.approx(plain.iterate.pressure, abs=1e-5)
+    assert kept.iterate.pressure == approx(plain.iterate.pressure, abs=1e-5)
     cavity = (kept.iterate.pressure <= 0.0) & (np.arange(33) > 20)
     assert (kept.mass[cavity] < plain.mass[cavity]).mean() > 0.9
 
@@ -116,8 +117,8 @@ def test_hybrid_direct_and_newton_find_the_same_starved_film(changes):
     for solver in (solve_direct, solve_newton):
         other = solver(half_space, case, start(case, smooth), 1e-7, 300)
         assert other.converged
-        assert one.iterate.pressure == pytest.approx(other.iterate.pressure, abs=1e-4)
-        assert one.iterate.rigid == pytest.approx(other.iterate.rigid, abs=1e-4)
+        assert one.iterate.pressure == approx(other.iterate.pressure, abs=1e-4)
+        assert one.iterate.rigid == approx(other.iterate.rigid, abs=1e-4)
 
 
 def test_multigrid_knows_neither_cavities_nor_a_meniscus():
@@ -132,7 +133,7 @@ def test_no_oil_presses_before_the_meniscus_but_solids_may_touch_there():
     for conserving in (False, True):
         changed = replace(case, first=20, conserving=conserving)
         found = solve_mixed(half_space, changed, start(case, smooth), 1e-2, 300)
-        assert found.load_error == pytest.approx(0.0, abs=1e-4)
+        assert found.load_error == approx(0.0, abs=1e-4)
         before = found.iterate.fluid[:, :20]
         assert not before.any()
         assert found.iterate.pressure[:, :20].any()

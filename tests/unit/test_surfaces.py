@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from comparison import approx
 from scipy.special import erf
 from scipy.stats import kurtosis, skew
 
@@ -28,7 +29,7 @@ def test_a_patch_repeats_along_both_axes_and_has_one_row_more_than_columns(point
 @pytest.mark.parametrize(("rq", "length", "points"), [(127e-9, 40e-6, 65), (12e-9, 8e-6, 257), (1e-6, 60e-6, 130)])
 def test_a_resolved_surface_has_exactly_its_rms_roughness_and_no_mean(rq, length, points):
     heights = patch(points, length, rq=rq)
-    assert rms_roughness(heights, ALL) == pytest.approx(rq, rel=1e-12, abs=0.0)
+    assert rms_roughness(heights, ALL) == approx(rq, rel=1e-12, abs=0.0)
     assert abs(heights.mean()) < 1e-12 * rq
 
 
@@ -39,9 +40,9 @@ def test_the_autocorrelation_is_gaussian_with_the_correlation_length_in_every_di
     correlation /= correlation[0, 0]
     for nodes in (1, 2, 4, 6, 8):
         expected = np.exp(-((nodes / 4.0) ** 2))
-        assert correlation[0, nodes] == pytest.approx(expected, abs=0.02)
-        assert correlation[nodes, 0] == pytest.approx(expected, abs=0.02)
-        assert correlation[nodes, nodes] == pytest.approx(expected**2, abs=0.02)
+        assert correlation[0, nodes] == approx(expected, abs=0.02)
+        assert correlation[nodes, 0] == approx(expected, abs=0.02)
+        assert correlation[nodes, nodes] == approx(expected**2, abs=0.02)
 
 
 def test_heights_are_gaussian():
@@ -76,7 +77,7 @@ def test_waves_beyond_the_grid_are_left_out_and_not_folded_back():
         atol=1e-10 * np.abs(fine).max(),
     )
     assert np.abs(coarse[32]).max() < 1e-12 * np.abs(coarse).max()
-    assert rms_roughness(patch(65, length), ALL) / 127e-9 == pytest.approx(erf(np.pi / 2.0), abs=0.01)
+    assert rms_roughness(patch(65, length), ALL) / 127e-9 == approx(erf(np.pi / 2.0), abs=0.01)
 
 
 def test_a_surface_depends_on_nothing_but_its_numbers():
@@ -103,7 +104,7 @@ def test_another_seed_or_body_has_an_independent_surface(other):
 def test_the_surface_of_a_seed_stays_what_it_was():
     heights = patch(65)
     found = [heights[0, 0], heights[10, 20], heights[40, 63]]
-    assert found == pytest.approx([3.413327291914e-08, 1.694963207489e-07, 3.408913102427e-08], rel=1e-9, abs=0.0)
+    assert found == approx([3.413327291914e-08, 1.694963207489e-07, 3.408913102427e-08], rel=1e-9, abs=0.0)
 
 
 def test_no_roughness_gives_zeros():
@@ -127,4 +128,4 @@ def test_a_groove_leaves_the_roughness_free_of_it():
 def test_roughness_is_taken_over_the_rows_asked_for():
     heights = np.array([[1.0, 3.0], [10.0, 10.0], [5.0, 7.0]])
     assert rms_roughness(heights, slice(0, 1)) == 1.0
-    assert rms_roughness(heights, np.array([True, False, True])) == pytest.approx(np.sqrt(5.0), rel=1e-15)
+    assert rms_roughness(heights, np.array([True, False, True])) == approx(np.sqrt(5.0), rel=1e-15)

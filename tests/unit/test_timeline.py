@@ -5,6 +5,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from comparison import approx
 
 import system_models.machine
 from contact_core import SceneError
@@ -27,7 +28,7 @@ def test_a_constant_duty_is_one_value_until_the_end() -> None:
     duty = read('[duty]\nduration = "2 h"\nspeed = "1500 rpm"\nload = "2 kN"')
     assert duty.end == 7200.0
     assert duty.schedule({"speed": "drive.speed_setpoint"}) == {
-        "drive.speed_setpoint": [(0.0, pytest.approx(1500.0 * RPM, rel=1e-15))],
+        "drive.speed_setpoint": [(0.0, approx(1500.0 * RPM, rel=1e-15))],
         "load": [(0.0, 2000.0)],
     }
 
@@ -91,7 +92,7 @@ TABLE = "time [min],speed [rpm]\n0,60\n1,120\n2,0\n"
 def test_a_table_ends_at_its_last_row_and_leaves_other_signals_as_they_are(tmp_path: Path) -> None:
     duty = read('[duty]\nfile = "cycle.csv"\nload = "5 N"\nspeed = "1 rad/s"', write(tmp_path, TABLE))
     assert duty.end == 120.0
-    speeds = [(0.0, pytest.approx(2.0 * math.pi)), (60.0, pytest.approx(4.0 * math.pi))]
+    speeds = [(0.0, approx(2.0 * math.pi)), (60.0, approx(4.0 * math.pi))]
     assert duty.schedule() == {"load": [(0.0, 5.0)], "speed": speeds}
 
 
@@ -112,7 +113,7 @@ def test_the_shipped_cycle_runs_ten_minutes_with_standstills() -> None:
     assert duty.end == 600.0
     speeds = duty.course("speed")
     assert sum(speed == 0.0 for _, speed in speeds) >= 4
-    assert max(speed for _, speed in speeds) == pytest.approx(3200.0 * RPM)
+    assert max(speed for _, speed in speeds) == approx(3200.0 * RPM)
     assert {time % 5.0 for time, _ in speeds} == {0.0}
 
 

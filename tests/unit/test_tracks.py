@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core import Scene, StateError, advance, initial_state, track_of
 
@@ -25,9 +26,9 @@ def test_a_track_is_what_the_state_holds(worn):
     assert track.wear.shape == (33, 32) == track.tribofilm.shape
     assert np.array_equal(track.wear, body.wear)
     assert track.wear.max() > 0.0 and track.tribofilm.max() > 0.0
-    assert track.heights == pytest.approx(track.new - track.wear - track.plastic + track.tribofilm, abs=1e-18)
+    assert track.heights == approx(track.new - track.wear - track.plastic + track.tribofilm, abs=1e-18)
     assert track.y[16] == 0.0
-    assert track.x[1] == pytest.approx(scene.film.spacing)
+    assert track.x[1] == approx(scene.film.spacing)
 
 
 def test_the_patch_repeats_along_the_track(worn):

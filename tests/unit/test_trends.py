@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core.trends import NAMES, Trends
 
@@ -21,21 +22,21 @@ def test_what_does_not_change_is_kept_to_the_last_bit():
 
 def test_before_a_drift_can_be_known_an_error_is_reported_all_the_same():
     trends = follow([2.0])
-    assert trends.half_widths()["h_c"][0] == pytest.approx(0.1)
-    assert trends.over(10.0, 0.0).time_error == pytest.approx([1.0, 1.0])
+    assert trends.half_widths()["h_c"][0] == approx(0.1)
+    assert trends.over(10.0, 0.0).time_error == approx([1.0, 1.0])
 
 
 def test_scatter_known_from_another_operating_point_is_kept_in_proportion():
     trends = follow(10.0 + np.random.Generator(np.random.Philox(7)).normal(size=60)).restarted()
     again = follow([1000.0], trends=trends)
-    assert again.half_widths()["h_c"][1] == pytest.approx(200.0, rel=0.5)
+    assert again.half_widths()["h_c"][1] == approx(200.0, rel=0.5)
 
 
 @pytest.mark.parametrize("memory", [0.5, 0.75])
 def test_a_straight_line_is_followed_without_lag(memory):
     trends = follow([1.0 + 0.25 * k for k in range(40)], memory)
-    assert trends.level == pytest.approx(np.full(len(NAMES), 1.0 + 0.25 * 39), rel=1e-12)
-    assert trends.slope == pytest.approx(np.full(len(NAMES), 0.25), rel=1e-9)
+    assert trends.level == approx(np.full(len(NAMES), 1.0 + 0.25 * 39), rel=1e-12)
+    assert trends.slope == approx(np.full(len(NAMES), 0.25), rel=1e-9)
 
 
 def test_noise_is_smoothed_and_lies_within_the_reported_half_width():
@@ -61,7 +62,7 @@ def test_a_restart_forgets_levels_and_keeps_errors_made():
     trends = follow([1.0, 2.0, 3.0, 4.0]).over(10.0, 0.0)
     again = trends.restarted()
     assert again.blocks == 0
-    assert again.time_error == pytest.approx(np.full(2, 0.5 * 1.0 * 10.0))
+    assert again.time_error == approx(np.full(2, 0.5 * 1.0 * 10.0))
     assert np.array_equal(again.time_error, trends.time_error)
 
 
@@ -69,6 +70,6 @@ def test_errors_of_a_block_do_not_depend_on_how_its_time_is_cut():
     trends = follow(np.random.Generator(np.random.Philox(6)).normal(size=12))
     whole = trends.over(8.0, 0.0)
     cut = trends.over(3.0, 0.0).over(4.0, 3.0).over(1.0, 7.0)
-    assert cut.time_error == pytest.approx(whole.time_error, rel=1e-12)
-    assert cut.sampling == pytest.approx(whole.sampling, rel=1e-12)
+    assert cut.time_error == approx(whole.time_error, rel=1e-12)
+    assert cut.sampling == approx(whole.sampling, rel=1e-12)
     assert (whole.sampling > 0.0).all()

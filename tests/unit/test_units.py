@@ -1,4 +1,5 @@
 import pytest
+from comparison import approx
 
 from contact_core import units
 from contact_core.errors import SceneError
@@ -41,7 +42,7 @@ from contact_core.errors import SceneError
     ],
 )
 def test_text_with_a_unit_becomes_si(text, si_unit, value):
-    assert units.parse(text, si_unit, "field") == pytest.approx(value, rel=1e-15, abs=0.0)
+    assert units.parse(text, si_unit, "field") == approx(value, rel=1e-15, abs=0.0)
 
 
 @pytest.mark.parametrize(("text", "value"), [("8 um", 8e-6), ("127 nm", 127e-9), ("0.5 mm", 0.5e-3)])
