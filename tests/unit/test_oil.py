@@ -205,9 +205,9 @@ def test_a_solution_knows_the_temperatures_that_the_scene_gives_its_bodies():
 def test_bodies_that_would_melt_are_refused_by_name(level):
     changes = {name: "0 W/K" if "conductance" in name else "1e-3 J/K" for name in LUMPED if name[-1].isdigit()}
     scene, state, _ = cheap(CHEAP | LUMPED | changes | {"tribofilm.model": "none", "wear.model": "none"})
-    op = sliding(scene, 0.25, 0.5)
+    op, hot = sliding(scene, 0.25, 0.5), replace(state, temperatures=(890.0, 890.0))
     with pytest.raises(OperatingPointError, match=r"bodies have warmed to .* above 900 K.*heat\.bulk\.conductance_1"):
-        advance(scene.at_level(level), op, state, 600.0)
+        advance(scene.at_level(level), op, hot, 600.0)
 
 
 def test_body_temperatures_that_nobody_uses_are_told():
