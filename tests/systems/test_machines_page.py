@@ -43,5 +43,5 @@ def test_the_lines_of_python_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (code,) = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
     names = {}
-    exec(code.replace("10 min", "20 s"), names)
+    exec(code.replace('"10 min"', '"5 s", "bearing.levels": "1"'), names)
     assert names["dataset"]["bearing.friction_torque"].values[-1] > 0.0

@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from functools import cache
 
 import pytest
 
@@ -38,7 +39,8 @@ print(json.dumps([before, kernels(), sorted(set(sys.modules) - modules)]))
 """
 
 
-def _run(name: str, changes: dict[str, str]) -> tuple[list[int], list[str], list[str], list[str]]:
+@cache
+def _run(name: str, **changes: str) -> tuple[list[int], list[str], list[str], list[str]]:
     """Numbers of threads before and after, kernels after `warm_up` and after a step, modules that the step loaded."""
     run = subprocess.run(
         [sys.executable, "-c", _PROCESS, name, json.dumps(changes)],
@@ -61,21 +63,21 @@ def _run(name: str, changes: dict[str, str]) -> tuple[list[int], list[str], list
     ],
 )
 def test_the_first_steps_find_every_kernel_and_module_loaded(name, changes):
-    _, before, after, modules = _run(name, SMALL | changes)
+    _, before, after, modules = _run(name, **SMALL | changes)
     assert len(before) > 15
     assert after == before
     assert not modules
 
 
 def test_the_fast_level_is_warm_without_a_kernel():
-    _, before, after, modules = _run("mtm_zddp", {"film.model": "regression"})
+    _, before, after, modules = _run("mtm_zddp", **{"film.model": "regression"})
     assert before == after == []
     assert not modules
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="threads are counted in /proc")
 def test_no_thread_is_started():
-    (before, after), *_ = _run("mtm_zddp", SMALL)
+    (before, after), *_ = _run("mtm_zddp", **SMALL)
     assert before == after
 
 
