@@ -100,7 +100,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar="S",
         type=float,
         default=120.0,
-        help="with --deep: seconds after which a call of the FMU counts as hung (default: %(default)g)",
+        help="with --deep: seconds after which a call of the FMU is not waited for any more (default: %(default)g)",
     )
     check.add_argument(
         "--budget",
@@ -109,6 +109,10 @@ def _parser() -> argparse.ArgumentParser:
         default=20.0,
         help="with --deep: seconds after which a rule is left with a note on what it has found (default: %(default)g); "
         "the first run may take as long as it needs",
+    )
+    add_settings(
+        check,
+        "with --deep: start values of the run, e.g. fidelity=2; without, an FMU of several levels runs at its cheapest",
     )
     cosim = commands.add_parser("cosim", help="simulate a system of FMUs, anybody's")
     cosim_command.add_arguments(cosim)
@@ -370,15 +374,14 @@ def _report_curves(scene: Scene, duty: "Duty", curves: "Curves", folder: Path) -
 def _check(arguments: argparse.Namespace) -> int:
     from .check import report
     from .check.package import opened
-    from .check.verdict import Verdict
 
     found = []
     with opened(arguments.fmu) as package:
-        for finding in report.findings(package, arguments.deep, arguments.limit, arguments.budget):
+        for finding in report.findings(package, arguments.deep, arguments.limit, arguments.budget, arguments.settings):
             print(report.line(finding), flush=True)
             found.append(finding)
     print(f"{arguments.fmu}: {report.summary(found)}.")
-    return 1 if any(finding.verdict is Verdict.FAIL for finding in found) else 0
+    return report.exit_code(found)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@
     calls      rules on calls that a host should not make
     hosts      rules on what the FMU does to its host; confine: where it may write
     instance   one instance of the FMU, its calls written down; rows: outputs of runs, side by side
+    start      the start values of a run, where they are not the FMU's own
     report     the printed table
 
 What can be run is FMI 2.0 co-simulation. Of other FMUs the static rules that fit are answered.

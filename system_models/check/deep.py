@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from enum import Enum, auto
 from pathlib import Path
 from time import monotonic
@@ -15,6 +15,7 @@ from time import monotonic
 from . import static
 from .instance import call_in, progress_in
 from .package import Package
+from .start import Start, asked, cheapest, sentence
 from .verdict import Answer, Finding, Verdict, failed, not_applicable, noted
 
 # stages of a rule, each in a new process (check.stages)
@@ -47,18 +48,27 @@ RULES: dict[str, tuple[str, ...]] = {
 # FMI does not ask for it: whatever goes wrong there is worth a note
 _NOT_ASKED = {"resources", "communication_point", "order", "foreign_text", "reloading", "home", "children", "fork"}
 
-UNFINISHED = "Not finished"  # begins the evidence of a rule whose budget was used up
+UNFINISHED = "Not finished"  # begins the evidence of a rule whose time was used up
 _START = 60.0  # s until the first call at most
 _POLL = 0.1  # s between two looks at a process
 _LONGEST = 300  # characters of what a process has printed
 
 
-def findings(package: Package, limit: float, budget: float) -> Iterator[Finding]:
-    """Run every rule; a call of the FMU that takes longer than `limit` [s] has hung.
+def findings(
+    package: Package, limit: float, budget: float, settings: Iterable[tuple[str, str]] = ()
+) -> Iterator[Finding]:
+    """Run every rule, at the FMU's lowest level where `settings` of start values do not say otherwise.
 
-    A rule that takes longer than `budget` [s] is left with a note; but `run` may take as long as its calls.
+    A rule of which a call takes longer than `limit` [s], or which takes longer than `budget` [s], is left with a note:
+    no clock tells a call that hangs from one on a busy machine. But `run` may take as long as its calls.
     """
     reason = _reason_not_to_run(package)
+    start: Start = {}
+    if package.description is not None and not reason:
+        wanted = asked(package.description, settings)
+        start = {**cheapest(package.description), **wanted}
+        if said := sentence(package.description, start, wanted):
+            yield Finding("start values", *noted(said))
     with tempfile.TemporaryDirectory(prefix="tribofmu-check-", ignore_cleanup_errors=True) as folder:
         unpacked, notebook = Path(folder) / "fmu", Path(folder) / "notebook"
         notebook.mkdir()
@@ -69,10 +79,12 @@ def findings(package: Package, limit: float, budget: float) -> Iterator[Finding]
                 yield Finding(rule, *not_applicable(reason))
                 continue
             watch = _Watch(limit, math.inf if rule == "run" else budget)
-            answer = _answer(unpacked, stages, notebook, watch)
+            answer = _answer(unpacked, stages, notebook, start, watch)
             yield Finding(rule, *answer)
             if rule == "run" and answer.verdict is Verdict.FAIL:
                 reason = "The FMU does not run."
+            elif rule == "run" and answer.evidence.startswith(UNFINISHED):
+                reason = "The FMU has not been seen to run."
 
 
 def _reason_not_to_run(package: Package) -> str:
@@ -85,18 +97,18 @@ def _reason_not_to_run(package: Package) -> str:
     return ""
 
 
-def _answer(folder: Path, stages: tuple[str, ...], notebook: Path, watch: "_Watch") -> Answer:
+def _answer(folder: Path, stages: tuple[str, ...], notebook: Path, start: Start, watch: "_Watch") -> Answer:
     for stage in stages:
-        answer = _stage(folder, stage, notebook, watch)
+        answer = _stage(folder, stage, notebook, start, watch)
         if answer is not None:
             beyond = answer.verdict is Verdict.FAIL and stage in _NOT_ASKED
             return noted(answer.evidence) if beyond else answer
     raise AssertionError(f"the last stage of {stages} gives no answer")
 
 
-def _stage(folder: Path, stage: str, notebook: Path, watch: "_Watch") -> Answer | None:
+def _stage(folder: Path, stage: str, notebook: Path, start: Start, watch: "_Watch") -> Answer | None:
     """The answer of a stage; None if the next one gives it."""
-    command = [sys.executable, "-m", f"{__package__}.stages", str(folder), stage, str(notebook)]
+    command = [sys.executable, "-m", f"{__package__}.stages", str(folder), stage, str(notebook), json.dumps(start)]
     trace, words = notebook / "call", notebook / "printed.txt"
     trace.unlink(missing_ok=True)
     with words.open("wb") as printed:
@@ -114,8 +126,8 @@ def _stage(folder: Path, stage: str, notebook: Path, watch: "_Watch") -> Answer 
             _kill(process)
     said = trace.read_bytes() if trace.exists() else b""
     call = call_in(said) or "the start of the process"
-    if end is _End.HUNG:
-        return failed(f"Hung in {call}: it had not returned after {watch.limit:g} s.")
+    if end is _End.LATE:
+        return noted(f"{UNFINISHED}: {call} had not returned after {watch.limit:g} s (--limit).")
     if end is _End.OVER:
         known = progress_in(said)
         return noted(f"{UNFINISHED} in {watch.budget:g} s (--budget): {f'{known}; ' if known else ''}it was in {call}.")
@@ -138,7 +150,7 @@ class _End(Enum):
     """How the time of a process ends."""
 
     BY_ITSELF = auto()
-    HUNG = auto()
+    LATE = auto()
     OVER = auto()
 
 
@@ -161,8 +173,8 @@ class _Watch:
             now = monotonic()
             if call != last:
                 last, since = call, now
-            elif now - since > (self.limit if call else _START):
-                return _End.HUNG
+            elif now - since > (self.limit if call else max(self.limit, _START)):
+                return _End.LATE
             if now - self._begun > self.budget:
                 return _End.OVER
 

@@ -24,7 +24,6 @@ from .verdict import Answer, not_applicable, noted, passed
 _SETTLED, _CYCLES = 5, 20  # instances: until caches are full, and then
 _LEAK = 10.0  # kB per instance that are worth a note
 _FORKS = 200
-_PATIENCE = 10.0  # s for two calls in a forked child
 _NOWHERE = "/dev/null/home"  # a home folder that cannot be made
 
 
@@ -113,6 +112,7 @@ def fork(fmu: Fmu, notebook: Path) -> Answer:
             thread.start()
         try:
             for number in range(_FORKS):
+                fmu.progress = f"{number} of {_FORKS} children forked while other threads worked with it have gone on"
                 time.sleep(1e-3 * (number % 3))  # here and there in the life of the other instance
                 if ending := _ending_of_child(fmu, instance):
                     return noted(f"A child forked while other threads made, freed and called instances {ending}.")
@@ -133,13 +133,7 @@ def _ending_of_child(fmu: Fmu, instance: Instance) -> str:
             instance.free()
         finally:
             os._exit(0)
-    last = time.monotonic() + _PATIENCE
-    while not (ended := os.waitpid(child, os.WNOHANG))[0]:
-        if time.monotonic() > last:
-            os.kill(child, signal.SIGKILL)
-            os.waitpid(child, 0)
-            return f"hangs in {fmu.last_call()}: it had not returned after {_PATIENCE:g} s"
-        time.sleep(1e-3)
-    if os.WIFSIGNALED(ended[1]):
-        return f"ends with {signal.Signals(os.WTERMSIG(ended[1])).name} in {fmu.last_call()}"
+    _, status = os.waitpid(child, 0)  # one that hangs is left to the rule's budget
+    if os.WIFSIGNALED(status):
+        return f"ends with {signal.Signals(os.WTERMSIG(status)).name} in {fmu.last_call()}"
     return ""

@@ -23,6 +23,7 @@ from fmpy.fmi2 import (
 )
 from fmpy.logging import addLoggerProxy
 
+from .start import Start
 from .variables import base_type, clipped, magnitude
 
 Value = float | int | bytes
@@ -76,14 +77,20 @@ class Objection(NamedTuple):
 
 
 class Fmu:
-    """An FMU unpacked in `folder`; its last call stands in the file `trace`, and how far its rule has come."""
+    """An FMU unpacked in `folder`; its last call stands in the file `trace`, and how far its rule has come.
 
-    def __init__(self, folder: Path, trace: FileIO):
+    Instances start with the values in `start` in place of the FMU's own.
+    """
+
+    def __init__(self, folder: Path, trace: FileIO, start: Start):
         self.folder = folder
+        self.start = start
         self.description = fmpy.read_model_description(str(folder), validate=False)
         self.capabilities = self.description.coSimulation
         variables = self.description.modelVariables
         self.variables = {v.name: v for v in variables}
+        for name, value in start.items():
+            self.variables[name].start = str(value)
         self.outputs = [v for v in variables if v.causality == "output"]
         self.inputs = [v for v in variables if v.causality == "input" and v.type == "Real"]
         self.start_time, self.step = _experiment(self.description.defaultExperiment)
@@ -239,15 +246,19 @@ class Instance:
     def initialise(self, values: dict[str, float] | None = None, stop: float | None = None) -> None:
         """Set up and initialise with the start values and `values`."""
         self.set_up(stop)
+        self.put(self._owner.start)
         self.enter()
         self.put(values or {})
         self.leave()
 
-    def put(self, values: dict[str, float]) -> None:
+    def put(self, values: Start) -> None:
         """Set variables by name."""
         for name, value in values.items():
             variable = self._owner.variables[name]
             kind = base_type(variable)
+            if isinstance(value, str):
+                self.put_text(name, value.encode())
+                continue
             typed = value if kind == "Real" else int(value)
             self._call(f"set{kind}", [variable.valueReference], [typed], about=f" of {name} = {value:g}")
 

@@ -10,8 +10,13 @@ from .verdict import Finding, Verdict, failed
 _WIDTH = max(map(len, [*static.RULES, *deep.RULES]))
 
 
-def findings(package: Package, thorough: bool, limit: float, budget: float) -> Iterator[Finding]:
-    """The static rules, and where `thorough` those that run the FMU: `limit` [s] is a call's, `budget` [s] a rule's."""
+def findings(
+    package: Package, thorough: bool, limit: float, budget: float, settings: Iterable[tuple[str, str]] = ()
+) -> Iterator[Finding]:
+    """The static rules, and where `thorough` those that run the FMU: `limit` [s] is a call's, `budget` [s] a rule's.
+
+    `settings` are start values of the run.
+    """
     for name, rule in static.RULES.items():
         try:
             answer = rule(package)
@@ -19,7 +24,7 @@ def findings(package: Package, thorough: bool, limit: float, budget: float) -> I
             answer = failed(f"A value cannot be read: {error}.")
         yield Finding(name, *answer)
     if thorough:
-        yield from deep.findings(package, limit, budget)
+        yield from deep.findings(package, limit, budget, settings)
 
 
 def line(finding: Finding) -> str:
@@ -33,4 +38,12 @@ def summary(found: Iterable[Finding]) -> str:
     count = Counter(finding.verdict for finding in listed)
     text = ", ".join(f"{count[verdict]} {verdict}" for verdict in Verdict)
     unfinished = sum(finding.evidence.startswith(deep.UNFINISHED) for finding in listed)
-    return f"{text}; {unfinished} not finished within the budget" if unfinished else text
+    return f"{text}; {unfinished} not finished in time" if unfinished else text
+
+
+def exit_code(found: Iterable[Finding]) -> int:
+    """0: no rule failed; 1: some did; 3: none did, but it has not been seen to run."""
+    listed = list(found)
+    if any(finding.verdict is Verdict.FAIL for finding in listed):
+        return 1
+    return 3 if any(f.rule == "run" and f.evidence.startswith(deep.UNFINISHED) for f in listed) else 0

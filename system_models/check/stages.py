@@ -1,4 +1,4 @@
-"""A process in which an FMU is run: python -m system_models.check.stages FOLDER STAGE NOTEBOOK.
+"""A process in which an FMU is run: python -m system_models.check.stages FOLDER STAGE NOTEBOOK START.
 
 A stage writes its answer to NOTEBOOK/STAGE.json; one without an answer has left files there for the next, which runs in
 a new process.
@@ -16,6 +16,7 @@ from fmpy.fmi1 import FMICallException
 
 from . import answers, calls, hosts, reference
 from .instance import Fmu
+from .start import Start
 from .verdict import Answer, failed
 
 Stage = Callable[[Fmu, Path], Answer | None]
@@ -33,10 +34,10 @@ STAGES: dict[str, Stage] = {
 }  # fmt: skip
 
 
-def answer(folder: Path, stage: str, notebook: Path) -> Answer | None:
-    """Answer one stage; what it raises is an answer, too."""
+def answer(folder: Path, stage: str, notebook: Path, start: Start) -> Answer | None:
+    """Answer one stage, of an FMU that starts with these values; what it raises is an answer, too."""
     with (notebook / "call").open("wb", buffering=0) as trace:
-        fmu = Fmu(folder, trace)
+        fmu = Fmu(folder, trace, start)
         try:
             return STAGES[stage](fmu, notebook)
         except FMICallException:
@@ -49,11 +50,11 @@ def answer(folder: Path, stage: str, notebook: Path) -> Answer | None:
 _PR_SET_PDEATHSIG = 1
 
 
-def main(folder: str, stage: str, notebook: str) -> None:
+def main(folder: str, stage: str, notebook: str, start: str) -> None:
     """Write the answer of one stage, if it gives one. It ends with the checker, also when that is killed."""
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-    found = answer(Path(folder), stage, Path(notebook))
+    found = answer(Path(folder), stage, Path(notebook), json.loads(start))
     if found is not None:
         (Path(notebook) / f"{stage}.json").write_text(json.dumps(found))
     sys.stdout.flush()

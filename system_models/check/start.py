@@ -1,0 +1,58 @@
+"""Start values with which the rules run an FMU, where they are not its own."""
+
+from collections.abc import Iterable, Mapping
+
+from fmpy.model_description import ModelDescription, ModelVariable
+
+from .package import FmuError
+from .variables import attribute, base_type
+
+Start = Mapping[str, float | int | str]
+
+_LEVEL = "fidelity"  # an Integer parameter: the lowest is the cheapest
+_TRUTH = {"true": 1, "1": 1, "false": 0, "0": 0}
+
+
+def asked(description: ModelDescription, settings: Iterable[tuple[str, str]]) -> Start:
+    """What a user has asked for, as values. Raises FmuError for what cannot be set."""
+    variables = {v.name: v for v in description.modelVariables}
+    found = {}
+    for name, text in settings:
+        variable = variables.get(name)
+        if variable is None or variable.causality not in ("input", "parameter"):
+            raise FmuError(f"'{name}' is no input or parameter of the FMU. Name one of them in --set.")
+        try:
+            found[name] = _value(variable, text)
+        except (KeyError, ValueError):
+            raise FmuError(f"{name} = '{text}' is no {variable.type}. Correct it in --set.") from None
+    return found
+
+
+def _value(variable: ModelVariable, text: str) -> float | int | str:
+    kind = base_type(variable)
+    if kind == "Boolean":
+        return _TRUTH[text.lower()]
+    return text if kind == "String" else int(text) if kind == "Integer" else float(text)
+
+
+def cheapest(description: ModelDescription) -> Start:
+    """The lowest level of an FMU that has several and starts at a higher one."""
+    for variable in description.modelVariables:
+        if variable.name == _LEVEL and variable.causality == "parameter" and base_type(variable) == "Integer":
+            lowest = attribute(variable, "min")
+            return {_LEVEL: int(lowest)} if lowest is not None and int(lowest) < int(variable.start) else {}
+    return {}
+
+
+def sentence(description: ModelDescription, start: Start, wanted: Start) -> str:
+    """What is run by the user's wish, and by the check's own choice; nothing if the FMU starts so."""
+    own = {v.name: v.start for v in description.modelVariables}
+    said = [
+        f"{name} = {value} (--set)"
+        if name in wanted
+        else f"{name} = {value}, the cheapest, where it starts with {own[name]} (--set {name}={own[name]} runs it so)"
+        for name, value in start.items()
+    ]
+    if not said:
+        return ""
+    return f"The rules below run it with {', '.join(said)}; reference results are replayed with its own."
