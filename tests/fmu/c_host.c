@@ -21,10 +21,11 @@
  *                                 each has ended
  *     fork                        a child that only waits; its process id
  *     forks K N F                 N times: a child that frees instance K and ends, while one thread instantiates and
- *                                 frees F and another makes calls; the number of children that did not end within 5 s
+ *                                 frees F and another makes calls; the number of children that did not end in a minute
  *     offspring K F N             N children that only wait, forked while a thread instantiates K; their process ids
  *     wait                        for all children, as a careless host does
  *     alarms MICROSECONDS         SIGALRM so often from now on; 0: no more
+ *     environment NAME VALUE      a variable of its environment from now on
  */
 #include "c_host.h"
 
@@ -363,7 +364,7 @@ static int forks(char **field, int count)
             host->fmu->FreeInstance(host->component);
             _exit(0);
         }
-        hung += !ended_within(child, 5);
+        hung += !ended_within(child, 60);
     }
     forking = 0;
     pthread_join(threads[0], NULL);
@@ -384,6 +385,8 @@ static int wait_for_all(char **field, int count)
 
 #ifdef _WIN32
 static int alarms(char **field, int count) { return NONE; }
+
+static int environment(char **field, int count) { return NONE; }
 #else
 static void nothing(int number) {}
 
@@ -393,6 +396,8 @@ static int alarms(char **field, int count)
     struct itimerval interval = {{0, atol(field[1])}, {0, atol(field[1])}};
     return sigaction(SIGALRM, &action, NULL) || setitimer(ITIMER_REAL, &interval, NULL) ? fmi2Error : fmi2OK;
 }
+
+static int environment(char **field, int count) { return setenv(field[1], field[2], 1) ? fmi2Error : fmi2OK; }
 #endif
 
 /* commands */
@@ -421,6 +426,7 @@ static const struct {
     {"serialize", serialize, 4}, {"deserialize", deserialize, 4}, {"derivative", derivative, 4},
     {"bench", bench, 8}, {"retry", retry, 8}, {"cycles", cycles, 3}, {"together", together, 2}, {"fork", fork_child, 1},
     {"forks", forks, 4}, {"offspring", offspring, 4}, {"wait", wait_for_all, 1}, {"alarms", alarms, 2},
+    {"environment", environment, 3},
 };
 
 static void *obey(void *argument)

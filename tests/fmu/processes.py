@@ -1,9 +1,12 @@
 """Processes as Linux's /proc knows them."""
 
 import contextlib
+import ctypes
 import time
 from collections.abc import Callable
 from pathlib import Path
+
+import pytest
 
 
 def children(pid: int) -> list[int]:
@@ -40,18 +43,34 @@ def alive(pid: int) -> bool:
         return False
 
 
-def soon(condition: Callable[[], bool], seconds: float = 20.0) -> bool:
-    """Whether `condition` comes true."""
+def soon(condition: Callable[[], bool], seconds: float = 120.0) -> bool:
+    """Whether `condition` comes true; the limit is for what never does, on a machine that is busy."""
     end = time.monotonic() + seconds
     while not condition() and time.monotonic() < end:
         time.sleep(0.01)
     return condition()
 
 
-def resident(pid: int) -> int:
-    """Memory [kB] in use by `pid` now."""
+def mapped(pid: int) -> int:
+    """Address space [kB] of `pid`: what of it is in memory is the system's affair."""
     lines = Path(f"/proc/{pid}/status").read_text().splitlines()
-    return next(int(line.split()[1]) for line in lines if line.startswith("VmRSS"))
+    return next(int(line.split()[1]) for line in lines if line.startswith("VmSize"))
+
+
+class _Mallinfo(ctypes.Structure):
+    _fields_ = [(f"before_{k}", ctypes.c_size_t) for k in range(4)]
+    _fields_ += [("in_maps", ctypes.c_size_t), ("unused_1", ctypes.c_size_t), ("unused_2", ctypes.c_size_t)]
+    _fields_ += [("in_heap", ctypes.c_size_t), ("free", ctypes.c_size_t), ("at_top", ctypes.c_size_t)]
+
+
+def allocated() -> int:
+    """Bytes that this process has got from malloc and not given back: a count, whatever of it is in memory."""
+    mallinfo = getattr(ctypes.CDLL(None), "mallinfo2", None)
+    if mallinfo is None:
+        pytest.skip("this C library does not count what it has given")
+    mallinfo.restype = _Mallinfo
+    found = mallinfo()
+    return found.in_heap + found.in_maps
 
 
 def descriptors(pid: int) -> int:

@@ -119,14 +119,13 @@ def stop(supervisor: int) -> list[int]:
 
 
 def test_a_supervisor_that_does_not_answer_is_replaced(native_program: Path, isolated_folder: Path) -> None:
-    limits = {"TRIBOFMU_TIMEOUT": "1", "TRIBOFMU_START_TIMEOUT": "5"}
-    with NativeHost(native_program, plain_environment() | limits) as host:
+    with NativeHost(native_program, plain_environment() | {"TRIBOFMU_TIMEOUT": "3"}) as host:
         instance = started(host.load(isolated_folder))
         instance.ask("save", 0)
         (expected,) = rows(instance)
         halted = stop(*host.supervisors())
         assert instance.step(1.0) == ERROR
-        assert "no answer within 1 s" in instance.log[-1][3]
+        assert "no answer within 3 s" in instance.log[-1][3]
         assert instance.ask("restore", 0).status == OK
         assert rows(instance) == [expected]
         assert soon(lambda: not any(map(alive, halted)))
@@ -140,10 +139,10 @@ def test_a_start_that_hangs_ends_at_its_limit_and_holds_up_nobody_else(
     python = tmp_path / "python3"
     python.write_text(f'#!/bin/sh\n[ -e {tmp_path}/hang ] && exec sleep 600\nexec {sys.executable} "$@"\n')
     python.chmod(0o755)
-    limits = {"TRIBOFMU_PYTHON": str(python), "TRIBOFMU_TIMEOUT": "0.5", "TRIBOFMU_START_TIMEOUT": "6"}
-    with NativeHost(native_program, plain_environment() | limits) as host:
+    with NativeHost(native_program, plain_environment() | {"TRIBOFMU_PYTHON": str(python)}) as host:
         fmu = host.load(isolated_folder)
         first, second = started(fmu), started(fmu, 1)
+        host.ask("environment", "TRIBOFMU_START_TIMEOUT", "6")  # of the next instance alone
         (tmp_path / "hang").touch()
         stop(*host.supervisors())
         answer = host.together([("instantiate", 2, fmu.number, 1), ("later", 8000, "free", first.number)])

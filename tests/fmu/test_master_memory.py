@@ -1,17 +1,19 @@
 """A long simulation needs memory for its rows, and for nothing else."""
 
-import resource
+import gc
+import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
 from models import systems
+from processes import allocated
 
 from system_models.master import simulate
 
-PAGE = resource.getpagesize()
 ROW = 8 * (1 + 1 + 4)  # bytes: time, one output, how the step went
-SLACK = 400_000  # bytes: what the allocator holds back; one saved state a step would be more
+SLACK = 50_000  # bytes; one saved state a step would be more
+BLOCKS = 500  # small objects of Python
 
 
 @pytest.mark.parametrize(
@@ -25,13 +27,16 @@ SLACK = 400_000  # bytes: what the allocator holds back; one saved state a step 
 )
 def test_memory_stays_flat(tmp_path: Path, steps: int, fmi: int, options: dict[str, Any]) -> None:
     seen: list[int] = []
+    blocks: list[int] = []
     calls = 0
 
     def watch(time: float) -> None:
         nonlocal calls
         calls += 1
         if calls % (steps // 20) == 0:
-            seen.append(int(Path("/proc/self/statm").read_text().split()[1]) * PAGE)
+            gc.collect()
+            seen.append(allocated())
+            blocks.append(sys.getallocatedblocks())
 
     end = 4.0 if "tolerance" in options else steps * 1e-3
     case = systems.two_mass_force(tmp_path, fmi=fmi)
@@ -40,3 +45,4 @@ def test_memory_stays_flat(tmp_path: Path, steps: int, fmi: int, options: dict[s
     assert len(seen) >= 10
     # Rows are kept in arrays that grow by an eighth, and are copied then.
     assert seen[-1] - seen[len(seen) // 5] <= 2 * ROW * len(result.time) + SLACK
+    assert blocks[-1] - blocks[len(blocks) // 5] < BLOCKS

@@ -62,7 +62,7 @@ class PipeHost:
         """Exit code and stderr, once the pipe to the worker is closed."""
         self.process.stdin.close()
         self.process.stdin = None
-        _, errors = self.process.communicate(timeout=20)
+        _, errors = self.process.communicate(timeout=120)
         return self.process.returncode, errors.decode()
 
 

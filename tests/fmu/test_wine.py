@@ -13,6 +13,7 @@ import pytest
 import wine_host
 from fmu_host import unpacked
 from native_host import ERROR, NONE, OK, Instance, NativeHost, plain_environment
+from processes import soon
 from wine_host import Relay, WineHost, windows_path
 
 from contact_core import Scene
@@ -95,10 +96,7 @@ def continued(instance: Instance) -> list[object]:
 
 
 def gone(worker) -> bool:
-    end = time.monotonic() + 10.0
-    while worker.poll() is None and time.monotonic() < end:
-        time.sleep(0.01)
-    return worker.poll() is not None
+    return soon(lambda: worker.poll() is not None)
 
 
 def test_windows_gives_the_bits_of_linux(hosts: Hosts, isolated: Path, tmp_path: Path) -> None:
