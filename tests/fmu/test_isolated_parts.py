@@ -183,6 +183,6 @@ def test_a_component_that_was_changed_after_building_is_refused(host: NativeHost
 def test_the_check_finds_no_fault(file: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture) -> None:
     rules = ("run", "feedthrough", "reset")
     monkeypatch.setattr(deep, "RULES", {rule: deep.RULES[rule] for rule in rules})
-    assert main(["check", str(file), "--deep"]) == 0
+    assert main(["check", str(file), "--deep", "--limit", "inf", "--budget", "inf"]) == 0
     verdicts = {line.split()[0]: line.split()[1] for line in capsys.readouterr().out.splitlines() if line.split()}
     assert {verdicts[rule] for rule in rules} == {"pass"}
