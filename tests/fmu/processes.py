@@ -30,9 +30,9 @@ def marked(environment: bytes, command: bytes) -> list[int]:
 
 
 def without_children(pids: list[int]) -> list[int]:
-    """Those that are no children of others among them."""
+    """Those that are no children of others among them, and have not ended since."""
     below = {child for pid in pids for child in children(pid)}
-    return [pid for pid in pids if pid not in below]
+    return [pid for pid in pids if pid not in below and alive(pid)]
 
 
 def alive(pid: int) -> bool:

@@ -176,6 +176,14 @@ def test_what_a_host_rounds_is_no_gap_in_time(stepped, time):
     assert stepped.get("valid")
 
 
+@pytest.mark.parametrize("gap", [5e-7, -5e-7])
+def test_a_gap_is_judged_by_the_step_that_follows(stepped, gap):
+    stepped.fmu.doStep(60.0 + gap, 1e-3)
+    assert "must be 60.0 s" in stepped.log[0][1]
+    stepped.fmu.doStep(60.0 + gap, 10.0)
+    assert stepped.get("valid")
+
+
 def started_until(host, stop):
     host.fmu.setupExperiment(startTime=10.0, stopTime=stop)
     host.fmu.enterInitializationMode()
@@ -195,6 +203,14 @@ def test_a_step_beyond_the_stop_time_is_refused_and_one_that_ends_there_is_not(h
     assert host.get("time") == approx(11.0, rel=1e-6)
 
 
+def test_what_is_rounding_grows_with_the_stop_time(host):
+    host.fmu.setupExperiment(startTime=0.0, stopTime=1000.0)
+    host.fmu.enterInitializationMode()
+    host.fmu.exitInitializationMode()
+    assert host.step(1000.0 * (1.0 + 9e-6))["valid"]
+    assert not host.step(1000.0 * 3e-6)["valid"]
+
+
 def test_a_step_as_small_as_rounding_is_one_step(host):
     host.fmu.setupExperiment(startTime=0.0, stopTime=1e-6)
     host.fmu.enterInitializationMode()
@@ -210,15 +226,20 @@ def test_the_first_step_begins_at_the_start_time(host):
     assert host.step(1.0)["valid"]
 
 
-def test_no_nan_leaves(stepped, monkeypatch):
-    before = stepped.outputs()
+def test_no_nan_leaves_and_the_state_that_came_with_it_is_dropped(stepped, monkeypatch):
+    before, state, sound = stepped.outputs(), stepped.state(), slave.advance
+    expected = stepped.step(60.0)
+    stepped.restore(state)
 
     def broken(scene, point, state, dt):
-        return state, replace(Outputs(), h_c=math.nan)
+        moved, outputs = sound(scene, point, state, dt)
+        return moved, replace(outputs, h_c=math.nan)
 
-    monkeypatch.setattr(slave, "advance", broken)
-    assert stepped.step(60.0) == before | {"valid": False}
+    with monkeypatch.context() as patch:
+        patch.setattr(slave, "advance", broken)
+        assert stepped.step(60.0) == before | {"valid": False}
     assert "No finite h_c" in stepped.log[0][1]
+    assert stepped.step(60.0) == expected
 
 
 def test_an_unexpected_error_is_logged_with_its_traceback_and_the_state_stands(stepped, monkeypatch):
@@ -311,11 +332,20 @@ def test_an_answer_that_cannot_be_told_in_part_is_not_told_at_all(stepped, monke
     assert [status for status, _ in stepped.log] == [fmi2Error]
 
 
-def test_the_users_interrupt_ends_the_simulation(stepped, monkeypatch):
+def test_the_users_interrupt_ends_the_simulation_until_a_state_is_restored(stepped, monkeypatch):
+    state = stepped.state()
+    expected = stepped.step(60.0)
+    stepped.restore(state)
+
     def interrupted(scene, point, state, dt):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(slave, "advance", interrupted)
+    with monkeypatch.context() as patch:
+        patch.setattr(slave, "advance", interrupted)
+        with pytest.raises(FMICallException, match="discard"):
+            stepped.step(60.0)
+    assert stepped.fmu.getBooleanStatus(fmi2Terminated)
     with pytest.raises(FMICallException, match="discard"):
         stepped.step(60.0)
-    assert stepped.fmu.getBooleanStatus(fmi2Terminated)
+    stepped.restore(state)
+    assert stepped.step(60.0) == expected

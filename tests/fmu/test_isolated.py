@@ -1,5 +1,6 @@
 """The isolated flavour in a host that knows nothing of Python: whatever the model does, the host lives and goes on."""
 
+import ctypes
 import itertools
 import math
 import os
@@ -14,7 +15,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from fmu_host import unpacked
+from fmpy.fmi1 import FMICallException
+from fmu_host import hosted, unpacked
 from native_host import ERROR, NONE, OK, WARNING, Fmu, Instance, NativeHost, plain_environment
 from processes import alive, children, descriptors, mapped, soon
 
@@ -33,8 +35,8 @@ FAULTS = {
     1005.0: ("ctypes.string_at(0)", "killed by signal 11 (Segmentation fault).\nFatal Python error"),
     1006.0: ("os._exit(7)", "ended with exit status 7"),
     1007.0: ("os.kill(os.getpid(), 9)", "killed by signal 9"),
-    1008.0: ("while True: pass", "no answer within 3 s"),
-    1009.0: ("sum(range(10**12))", "no answer within 3 s"),  # does not let go of the interpreter
+    1008.0: ("while True: pass", "no answer within 2.75 s"),
+    1009.0: ("sum(range(10**12))", "no answer within 2.75 s"),  # does not let go of the interpreter
     1010.0: ("slave.advance = None", "TypeError: 'NoneType' object is not callable"),  # within the slave's own guard
     1011.0: ("slave.advance = interrupted", "The step was interrupted"),
 }
@@ -117,7 +119,7 @@ def test_the_c_host_and_the_core_agree_bit_for_bit(host, quick, isolated_folder)
 def test_a_fault_of_the_model_is_an_error_and_the_saved_state_goes_on_bit_for_bit(host, faulty_folder, load):
     other = started(host, faulty_folder, 1)
     if load in ENDLESS:
-        host.ask("environment", "TRIBOFMU_TIMEOUT", "3")
+        host.ask("environment", "TRIBOFMU_TIMEOUT", "2.75")
     instance = started(host, faulty_folder)
     assert instance.ask("save", 0).status == OK
     expected = rows(instance)
@@ -380,6 +382,15 @@ def test_an_instance_for_which_there_is_no_descriptor_is_refused_alone(host, iso
     assert fmu.instance(len(instances)).created.status == OK
 
 
+def test_the_models_processes_take_the_descriptors_that_they_may_and_need(host, isolated_folder):
+    resource.prlimit(host.process.pid, resource.RLIMIT_NOFILE, (40, 4096))
+    fmu = host.load(isolated_folder)
+    for number in range(25):
+        assert fmu.instance(number).created.status == OK
+    (supervisor,) = host.supervisors()
+    assert len({descriptors(worker) for worker in children(supervisor)}) == 1  # none holds its siblings' files
+
+
 @pytest.mark.parametrize("load", [None, 1008.0, 1009.0])
 def test_the_models_processes_end_with_a_host_that_is_killed(native_program, faulty_folder, load):
     host = NativeHost(native_program, plain_environment())
@@ -436,6 +447,7 @@ def test_the_resources_are_found_by_their_uri_where_the_library_lies_elsewhere(h
     [
         ("/nowhere/python3", "TRIBOFMU_PYTHON names the Python '/nowhere/python3', which cannot be run (No such file"),
         ("no-such-python", "TRIBOFMU_PYTHON names the Python 'no-such-python', which cannot be run (No such file"),
+        ("/50%s/python3", "TRIBOFMU_PYTHON names the Python '/50%s/python3', which cannot be run (No such file"),
         (__file__, "which cannot be run (Permission denied)"),
         ("/bin/true", "'/bin/true' ended before it was ready"),
     ],
@@ -609,6 +621,31 @@ def test_instances_that_come_and_go_leave_nothing_behind(host, isolated_folder):
     assert soon(lambda: children(supervisor) == [])
     assert descriptors(host.process.pid) < 10
     assert descriptors(supervisor) < 12
+
+
+def test_states_that_come_and_go_leave_nothing_behind(host, isolated_folder):
+    """Each is saved, left by a step, restored and freed; it has some kB on either side."""
+    instance = started(host, isolated_folder)
+    load, h_c = (instance.fmu.variables[name].valueReference for name in ("load", "h_c"))
+    (supervisor,) = host.supervisors()
+    processes = [host.process.pid, *children(supervisor)]
+    retry = ("retry", 2000, 1.0, 1e-3, load, 50.0, 40.0, h_c)
+    assert instance.ask(*retry).status == OK
+    sizes = [mapped(pid) for pid in processes]
+    assert instance.ask(*retry).status == OK
+    assert [mapped(pid) - size < 1000 for pid, size in zip(processes, sizes, strict=True)] == [True, True]  # kB
+
+
+def test_a_state_is_not_written_beyond_the_room_that_there_is(isolated_folder):
+    with hosted(isolated_folder) as host:
+        host.initialise()
+        state, size = host.fmu.getFMUstate(), ctypes.c_size_t()
+        host.fmu.fmi2SerializedFMUstateSize(host.fmu.component, state, ctypes.byref(size))
+        room = (ctypes.c_char * size.value)(*b"." * size.value)
+        with pytest.raises(FMICallException):
+            host.fmu.fmi2SerializeFMUstate(host.fmu.component, state, room, size.value - 1)
+        assert room.raw == b"." * size.value
+        assert f"The FMU state has {size.value} bytes; there is room for {size.value - 1} only." in host.log[-1][1]
 
 
 def test_the_fmu_needs_no_python_of_its_host(isolated_folder, tmp_path):
