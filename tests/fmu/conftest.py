@@ -7,11 +7,13 @@ from pathlib import Path
 
 import pytest
 from fmu_host import LINE, SMALL, Host, hosted, unpacked
+from isolated import FAULTS, SCRIPT, UNSAVED
 from native_host import compiled, embedding_environment, plain_environment
 
 from contact_core import Scene
 from fmu_src.build import build
 from fmu_src.flavours import FLAVOURS, Flavour
+from fmu_src.resources import module_name
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -87,6 +89,15 @@ def quick() -> Scene:
 def isolated_folder(quick: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("isolated")
     return unpacked(build(quick, folder / "quick.fmu"), folder / "quick")
+
+
+@pytest.fixture(scope="session")
+def faulty_folder(quick: Scene, isolated_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("faulty") / "fmu"
+    shutil.copytree(isolated_folder, folder)
+    faults = "".join(f"\n        if load == {load}:\n            {what}" for load, (what, _) in FAULTS.items())
+    (folder / "resources" / f"{module_name(quick)}.py").write_text(SCRIPT.format(faults=faults, unsaved=UNSAVED))
+    return folder
 
 
 @pytest.fixture(scope="session", params=FLAVOURS)

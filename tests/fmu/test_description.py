@@ -16,6 +16,7 @@ from contact_core.quantities import INPUTS, OF_CALLER, OUTPUTS
 from contact_core.scene import tunables
 from contact_core.state import Outputs
 from fmu_src.build import build
+from fmu_src.resources import VERSIONS, guid, module_name
 from fmu_src.variables import variables
 
 
@@ -236,6 +237,15 @@ def test_another_scene_has_another_guid_and_script(fmu_file, other_scene, tmp_pa
             return root.get("guid"), archive.read("resources/slavemodule.txt")
 
     mine, other = identity(fmu_file), identity(build(other_scene, tmp_path / "other.fmu", "embedded"))
+    assert mine[0] != other[0]
+    assert mine[1] != other[1]
+
+
+@pytest.mark.parametrize("package", VERSIONS)
+def test_the_same_scene_of_other_versions_has_another_guid_and_script(scene, monkeypatch, package):
+    mine = guid(scene, "isolated"), module_name(scene)
+    monkeypatch.setitem(VERSIONS, package, "99.0")
+    other = guid(scene, "isolated"), module_name(scene)
     assert mine[0] != other[0]
     assert mine[1] != other[1]
 

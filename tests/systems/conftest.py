@@ -1,9 +1,13 @@
-"""A contact on a coarse grid, its FMU, and a short run of it through a duty with steps."""
+"""A contact on a coarse grid, its FMU, and a short run of it through a duty with steps; small FMUs with a defect."""
 
+import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 import xarray as xr
+from checking import SLAVE, edited, replaced
+from pythonfmu.builder import FmuBuilder
 
 from contact_core import Scene
 from fmu_src.build import build
@@ -46,3 +50,20 @@ def dataset(fmu: Path, scene: Scene, duty: Duty) -> xr.Dataset:
 def coarse() -> list[str]:
     """The same contact on the command line."""
     return [part for key, value in COARSE.items() for part in ("--set", f"{key}={value}")]
+
+
+@pytest.fixture
+def slave(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Path]:
+    """A small FMU, an integrator of its input u from -2 to 10, with a defect."""
+    monkeypatch.setattr(sys, "path", [*sys.path])
+
+    def make(name: str, step: str = "pass", start: str = "pass", body: str = "pass") -> Path:
+        script = tmp_path / f"{name}.py"
+        script.write_text(SLAVE.format(name=name, step=step, start=start, body=body))
+        states = {"canGetAndSetFMUstate": True, "canSerializeFMUstate": True}
+        fmu = FmuBuilder.build_FMU(script, tmp_path / f"{name}_plain.fmu", **states)
+        ranged = replaced('<Real start="1.5"', '<Real start="1.5" min="-2" max="10"')
+        independent = replaced('(<Outputs>\\s*<Unknown index="3")', r'\1 dependencies=""')
+        return edited(fmu, tmp_path / f"{name}.fmu", lambda text: independent(ranged(text)))
+
+    return make
