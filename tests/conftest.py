@@ -3,9 +3,12 @@
 from pathlib import Path
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
-settings.register_profile("repeatable", derandomize=True, deadline=None, database=None, max_examples=60)
+UNTIMED = [HealthCheck.too_slow]  # which a busy machine fails
+settings.register_profile(
+    "repeatable", derandomize=True, deadline=None, database=None, max_examples=60, suppress_health_check=UNTIMED
+)
 settings.load_profile("repeatable")
 
 

@@ -50,6 +50,7 @@ _NOT_ASKED = {"resources", "communication_point", "order", "foreign_text", "relo
 
 UNFINISHED = "Not finished"  # begins the evidence of a rule whose time was used up
 _START = 60.0  # s until the first call at most
+_PATIENT = {"TRIBOFMU_START_TIMEOUT": "1000000"}  # our own FMUs leave it to the watch here when a start takes too long
 _POLL = 0.1  # s between two looks at a process
 _LONGEST = 300  # characters of what a process has printed
 
@@ -143,7 +144,8 @@ def _stage(folder: Path, stage: str, notebook: Path, start: Start, watch: "_Watc
 def _environment() -> dict[str, str]:
     """The new process finds the packages where this one found them."""
     root = str(Path(__file__).parents[2])
-    return os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, [root, os.environ.get("PYTHONPATH", "")]))}
+    paths = os.pathsep.join(filter(None, [root, os.environ.get("PYTHONPATH", "")]))
+    return _PATIENT | os.environ | {"PYTHONPATH": paths}
 
 
 class _End(Enum):

@@ -67,6 +67,11 @@ def test_an_fmu_of_several_levels_runs_at_its_cheapest_unless_asked(levelled: Pa
     assert "with fidelity = 2 (--set)" in found["start values"].evidence
 
 
+def test_no_limit_of_an_isolated_fmus_start_fails_a_rule(slave: Callable[..., Path]) -> None:
+    asks = "'pytest' in sys.modules or float(os.environ['TRIBOFMU_START_TIMEOUT'])"  # it runs while it is built, too
+    assert deep_findings(slave("asks", start=asks), "finite")["run"].verdict == Verdict.PASS
+
+
 def test_reference_results_are_those_of_the_fmus_own_start_values(levelled: Path) -> None:
     assert deep_findings(levelled, "reference results")["reference results"].verdict == Verdict.PASS
 
