@@ -13,14 +13,14 @@ from models.systems import Case
 
 from system_models.master import System, simulate
 
-WHEEL_DECAYS = 0.1  # [s]: the faster of the quarter car's two modes falls to 1/e in 0.079 s
+WHEEL_DECAYS = 1 / 12.7  # [s]: the faster of the quarter car's two modes falls to 1/e
 LOOSE, TIGHT = (1e-2, 1e-3, 1e-4), (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 SCHEMES = {
     "order 1": (LOOSE, {"order": 1}),
     "order 2": (TIGHT, {"order": 2}),
     "order 1, Gauss-Seidel": (LOOSE, {"order": 1, "algorithm": "gauss_seidel"}),
     "order 1, iterated": (LOOSE, {"order": 1, "iterate": "quasi_newton"}),
-    "order 2, iterated": (TIGHT[::2], {"order": 2, "iterate": "quasi_newton"}),
+    "order 2, iterated": (TIGHT, {"order": 2, "iterate": "quasi_newton"}),
 }
 SYSTEMS = {
     "two masses by force": (systems.two_mass_force, 2.0, None),
@@ -60,13 +60,18 @@ def test_the_error_is_what_the_tolerance_allows_and_the_work_grows_as_the_order_
     build_case, end, horizon = SYSTEMS[system]
     tolerances, options = SCHEMES[scheme]
     runs = [run(build_case(folder), end, tolerance, horizon=horizon, **options) for tolerance in tolerances]
-    assert all(0.1 <= one.ratio <= 3.0 for one in runs), runs
+    assert all(one.ratio <= 2.5 for one in runs), runs
+    # the rest of the horizon is not used up; least of all where the block stops within one of few long steps
+    few = system == "stick-slip" and scheme == "order 2, iterated"
+    assert all(
+        one.ratio >= (0.1 if few and tolerance > 1e-4 else 0.2) for one, tolerance in zip(runs, tolerances, strict=True)
+    ), runs
     growth = math.log(runs[-1].work / runs[-2].work) / math.log(tolerances[-2] / tolerances[-1])
     # Iterations get fewer as the step gets shorter, and the first steps cost the same at any tolerance: less than 1.
     assert 0.75 <= growth * (options["order"] + 1) <= 1.05
 
 
-@pytest.mark.parametrize("scheme", ["order 1", "order 2, iterated"])
+@pytest.mark.parametrize("scheme", SCHEMES)
 @pytest.mark.parametrize("system", ["quarter car by force", "quarter car by displacement"])
 def test_errors_that_die_out_are_smaller_than_asked_for_unless_the_horizon_says_so(folder, system, scheme):
     build_case, end, _ = SYSTEMS[system]

@@ -48,9 +48,11 @@ def test_classes_are_contacts_that_can_be_solved_and_carry_what_the_balls_carry(
     found = solve(bearing, loads, speed)
     for race, carried in (("inner", found.load_inner), ("outer", found.load_outer)):
         c = classify(bearing, bearing.race(race), carried, motion(bearing, found, race), levels)
+        # each ball is a cloud of half width 1e-4, and counts on the outer race as if it carried a billionth of the
+        # largest load: parts of some 1e-8; a single class has two of the three sums that loads would ask for
         if levels > 1:
-            assert math.isclose(c.count @ c.load, carried.sum(), rel_tol=1e-7, abs_tol=1e-15)
-        assert c.count.sum() <= bearing.balls * (1.0 + 1e-6)
+            assert math.isclose(c.count @ c.load, carried.sum(), rel_tol=3e-8, abs_tol=0.0)
+        assert c.count.sum() <= bearing.balls * (1.0 + 1e-8)
         for values in (c.entrainment, c.sliding, c.spin, c.radius_x):
             assert np.all(np.isfinite(values))
         assert np.all(c.radius_x > 0.2 * bearing.ball_diameter)

@@ -92,5 +92,7 @@ def test_a_jump_that_lies_in_another_step_is_left_out(result: xr.Dataset) -> Non
     def jumping(row: int) -> xr.Dataset:
         return result.assign({"a.y": ("time", np.where(np.arange(len(times)) > row, 1.0, 0.01 * times))})
 
-    assert differences(jumping(60), jumping(61), times)["a.y"] == 0.0
-    assert differences(jumping(60), jumping(68), times)["a.y"] > 0.9
+    # three steps later is the last that is taken for the same jump
+    assert [differences(jumping(60), jumping(row), times)["a.y"] > 0.9 for row in (61, 63, 64)] == [False, False, True]
+    assert differences(jumping(60), jumping(63), times)["a.y"] == 0.0
+    assert [differences(jumping(60), jumping(row), times)["a.y"] > 0.9 for row in (57, 56)] == [False, True]

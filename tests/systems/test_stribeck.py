@@ -177,7 +177,7 @@ def test_rubbing_stops_between_the_steps_of_a_run(scene: Scene, duty: Duty) -> N
 
 def test_a_rougher_disc_needs_more_speed() -> None:
     found = []
-    for rq in ("80 nm", "120 nm"):
+    for rq in ("60 nm", "120 nm"):
         scene = Scene.from_toml(
             "mtm_zddp",
             {
@@ -188,7 +188,7 @@ def test_a_rougher_disc_needs_more_speed() -> None:
             },
         )
         duty = Duty.of_scene(scene)
-        curves = curves_of(scene, duty, Plan.of(duty, [0.0], 5.0, 0.005, 4)).dataset(scene, duty)
+        curves = curves_of(scene, duty, Plan.of(duty, [0.0], 5.0, 0.001, 4)).dataset(scene, duty)
         found.append(float(curves["transition_speed"][0]))
     assert found[1] > 1.5 * found[0] > 0.0
 

@@ -11,6 +11,7 @@ from system_models.bearing.levels import classify, gathered, track_lengths
 
 LOADS = np.array([4526.6, 2840.6, 2840.6, 61.4, 61.4, 0.0, 0.0, 900.0, 1508.9])
 LEVELS = (1, 2, 3, 5, 9)
+CLOUD = 3.1e-4  # three times the half width of a ball's cloud, which is that of its load
 
 
 def classes(bearing, loads, speed, race, levels):
@@ -25,10 +26,10 @@ def test_sums_of_powers_of_the_load_are_those_of_the_balls(levels):
     load, count, _ = gathered(LOADS, levels)
     for third in range(1, 2 * levels + 1):
         exact = (LOADS ** (third / 3.0)).sum()
-        assert count @ load ** (third / 3.0) == approx(exact, rel=1e-8 * third**2)
+        assert count @ load ** (third / 3.0) == approx(exact, rel=2e-9 * third**2)
     assert np.all(count >= 0.0)
     assert np.all(load > 0.0)
-    assert load.max() <= 1.001 * LOADS.max()
+    assert load.max() <= (1.0 + CLOUD) * LOADS.max()
     assert list(load) == sorted(load)
 
 
@@ -39,13 +40,15 @@ def test_means_over_a_class_are_exact_for_what_goes_with_the_ellipse(levels):
     assert np.all(weights >= 0.0)
     assert np.all(weights[:, LOADS == 0.0] == 0.0)
     size = 3.0 + 0.5 * np.cbrt(LOADS)
-    assert weights @ size == approx(3.0 + 0.5 * np.cbrt(load), rel=1e-3 if levels > 6 else 1e-7)
+    assert weights @ size == approx(
+        3.0 + 0.5 * np.cbrt(load), rel=1e-4 if levels > 6 else 1e-7
+    )  # more classes than loads lie within clouds
 
 
 def test_as_many_classes_as_different_loads_are_these_loads():
     load, count, _ = gathered(np.array([4526.6, 2840.6, 2840.6, 61.4, 61.4, 0.0, 0.0, 0.0, 0.0]), 3)
-    assert load == approx([61.4, 2840.6, 4526.6], rel=1e-3)
-    assert count == approx([2.0, 2.0, 1.0], rel=1e-3)
+    assert load == approx([61.4, 2840.6, 4526.6], rel=1e-6)
+    assert count == approx([2.0, 2.0, 1.0], rel=1e-6)
 
 
 def test_more_levels_make_other_sums_better():
@@ -62,8 +65,8 @@ def test_more_levels_make_other_sums_better():
 @pytest.mark.parametrize("touching", [1, 2, 16])
 def test_equal_balls_make_equal_classes(touching, levels):
     load, count, weights = gathered(np.array([250.0] * touching + [0.0] * (16 - touching)), levels)
-    assert load == approx(250.0, rel=1e-3)
-    assert count.sum() == approx(touching, rel=1e-3)
+    assert load == approx(250.0, rel=CLOUD)
+    assert count.sum() == approx(touching, rel=1e-8)
     assert weights[:, :touching] == approx(1.0 / touching)
 
 
@@ -76,13 +79,34 @@ def test_without_load_there_are_no_balls_in_any_class():
 
 def test_classes_of_an_angular_contact_bearing_move_as_its_balls():
     found, carried, moving = classes(BEARING_218, RingLoads(x=17800.0), 500.0, "inner", 3)
-    assert found.load == approx(carried[0], rel=1e-3)
-    assert found.count.sum() == approx(16.0, rel=1e-6)
+    assert found.load == approx(carried[0], rel=CLOUD)
+    assert found.count.sum() == approx(16.0, rel=1e-8)
     assert found.spin == approx(abs(moving.spin[0]), rel=1e-9)
     assert found.entrainment == approx(moving.entrainment[0], rel=1e-9)
     b = BEARING_218.inner.ellipse(carried[0]).b
-    assert found.sliding == approx(0.16114 * moving.bend[0] * b**2, rel=1e-3)
+    assert found.sliding == approx(0.16114 * moving.bend[0] * b**2, rel=CLOUD)
     assert found.ring - found.ball == approx(found.sliding)
+
+
+@pytest.mark.parametrize("race", ["inner", "outer"])
+@pytest.mark.parametrize(
+    ("bearing", "loads", "speed"),
+    [
+        (BEARING_209, RingLoads(y=8900.0), 0.0),
+        (BEARING_218, RingLoads(x=17800.0), 0.0),
+        (BEARING_218, RingLoads(x=17800.0), 1500.0),
+    ],
+)
+def test_a_ball_rolls_in_the_outer_ring_and_on_the_inner_one(bearing, loads, speed, race):
+    """Curvatures across the axis of the contact: a ball's, and that of a cone about the bearing's axis, which is hollow
+    on the outer race; at the angles to which a fast shaft drives the two contacts apart."""
+    found, carried, moving = classes(bearing, loads, speed, race, 2)
+    ball, angle = 0.5 * bearing.ball_diameter, moving.angle[carried > 0.0].mean()
+    pitch = 0.5 * bearing.pitch_diameter / math.cos(angle)  # from the ball's centre along the normal to the axis
+    ring = 1.0 / (pitch - ball) if race == "inner" else -1.0 / (pitch + ball)
+    assert found.radius_x == approx(1.0 / (1.0 / ball + ring), rel=1e-3)
+    if speed == 0.0:
+        assert found.radius_x == approx(bearing.race(race).radius_x, rel=2e-2)
 
 
 @pytest.mark.parametrize("race", ["inner", "outer"])
