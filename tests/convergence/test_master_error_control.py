@@ -13,7 +13,9 @@ from models.systems import Case
 
 from system_models.master import System, simulate
 
-WHEEL_DECAYS = 1 / 12.7  # [s]: the faster of the quarter car's two modes falls to 1/e
+# [s]: the faster of the quarter car's two modes falls to 1/e in 0.079 s, and errors are not dead then: with that for
+# the horizon, the iterated second order misses the tolerance 1e-2, at which steps are as long, four times
+WHEEL_DECAYS = 0.1
 LOOSE, TIGHT = (1e-2, 1e-3, 1e-4), (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 SCHEMES = {
     "order 1": (LOOSE, {"order": 1}),
@@ -60,7 +62,7 @@ def test_the_error_is_what_the_tolerance_allows_and_the_work_grows_as_the_order_
     build_case, end, horizon = SYSTEMS[system]
     tolerances, options = SCHEMES[scheme]
     runs = [run(build_case(folder), end, tolerance, horizon=horizon, **options) for tolerance in tolerances]
-    assert all(one.ratio <= 2.5 for one in runs), runs
+    assert all(one.ratio <= 2.0 for one in runs), runs
     # the rest of the horizon is not used up; least of all where the block stops within one of few long steps
     few = system == "stick-slip" and scheme == "order 2, iterated"
     assert all(

@@ -111,6 +111,18 @@ def test_fmi_3_asks_for_what_fmi_2_is_given(folder, order, iterate):
     assert three == approx(two, rel=1e-9 if iterate else 1e-12)
 
 
+@pytest.mark.parametrize("iterate", [None, "quasi_newton"])
+def test_fmi_3_asks_for_what_fmi_2_is_given_also_after_a_change_of_the_schedule(folder, iterate):
+    """Derivatives that FMI 2 was told before it would stay where no others of that order are told."""
+    found = []
+    for variant in ({}, {"fmi": 3, "intermediate": True}):
+        system, states, _ = systems.quarter_car_force(folder, **variant)
+        system.schedule = {"wheel.road": [(0.0, 0.1), (0.3, 0.2), (0.31, -0.1)]}
+        end = simulate(system, 0.4, 0.01, order=2, iterate=iterate, iteration_tolerance=1e-11, outputs=states)
+        found.append([float(end[name].values[-1]) for name in states])
+    assert found[1] == approx(found[0], rel=1e-9 if iterate else 1e-12)
+
+
 def test_fmi_3_without_intermediate_inputs_holds_the_mean(folder):
     two = run(systems.two_mass_force(folder, interpolates=False), 0.02, "jacobi", 2)
     three = run(systems.two_mass_force(folder, fmi=3), 0.02, "jacobi", 2)

@@ -196,6 +196,14 @@ def test_an_fmu_that_announces_its_events_is_met_there(folder):
     assert result.attrs["events"] == 3
 
 
+def test_an_announced_event_is_met_where_a_step_cannot_end_early(folder):
+    """An FMU that cannot go back is not allowed to: the master has to end its step there."""
+    fmus = {"early": build("early", folder, fmi=3, rollback=False, start={"period": 0.26})}
+    result = simulate(System(fmus, parameters={"early.u": 1.0}), 1.0, 0.1, outputs=["early.y", "early.events"])
+    assert event_times(result, "early.events") == approx(0.26 * np.arange(1, 4), abs=1e-12)
+    assert result.attrs["events"] == 3
+
+
 def test_a_scheduled_value_is_met_exactly(folder):
     schedule = {"a.u": [(0.0, 1.0), (0.123, -2.0), (0.7, 0.0)]}
     system = System({"a": build("discard", folder, start={"h_max": 1.0})}, schedule=schedule)

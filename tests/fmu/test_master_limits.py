@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from comparison import approx
-from models.systems import two_mass_force
+from models.systems import quarter_car_force, two_mass_force
 
 from system_models.master import CouplingError, simulate
 
@@ -26,6 +26,17 @@ def test_no_step_is_longer_than_the_longest(case):
     assert longest > 8e-3
     assert bounded["master.step_size"].values.max() == approx(2e-3)  # the halves of steps stand
     assert bounded.attrs["steps"] > free.attrs["steps"]
+
+
+def test_after_a_change_of_the_schedule_steps_are_short_again(case, tmp_path):
+    """Steps that have grown know nothing of what follows."""
+    system = quarter_car_force(tmp_path).system
+    system.schedule = {"wheel.road": [(0.0, 0.0), (1.0, 0.1)]}
+    found = simulate(system, 1.5, 1e-4, order=2, tolerance=1e-2, outputs=["wheel.x"])
+    sizes, times = found["master.step_size"].values, found["time"].values
+    changed = int(np.flatnonzero(times == 1.0)[0])
+    assert sizes[changed] > 1e-3
+    assert sizes[changed + 1 : changed + 3].sum() <= 1e-4 * (1.0 + 1e-9)
 
 
 def test_only_the_outputs_that_are_named_are_to_meet_the_tolerance(case):

@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 from system_models.gear.geometry import SpurGearPair
 from system_models.gear.mesh import GearMesh
 from system_models.gear.path import stations_of
-from system_models.gear.sharing import Sharing, loads
+from system_models.gear.sharing import Sharing, loads, pair_stiffness
 
 
 def involute(angle):
@@ -88,3 +88,26 @@ def test_a_deeper_relief_never_loads_the_tip_more(pair, force):
         float(loads(pair, Sharing("elastic", depth, 0.0, length, 0.0), force, tip)[0]) for depth in (1e-6, 5e-6, 50e-6)
     ]
     assert found == sorted(found, reverse=True)
+
+
+@given(pairs(), st.floats(10.0, 1e5))
+def test_relief_of_each_tip_works_from_its_own_end_of_the_path_over_its_own_length(pair, force):
+    """Beside the deflection at which springs behind gaps carry the force, found by bisection."""
+    path = pair.end - pair.start
+    sharing = Sharing("elastic", 30e-6, 10e-6, 0.25 * path, 0.15 * path)
+    for place in pair.start + path * np.linspace(0.02, 0.98, 25):
+        there = place + pair.base_pitch * np.arange(-3, 4)
+        there = there[(there >= pair.start) & (there < pair.end)]
+        springs = pair.face_width * pair_stiffness(pair, there)
+        at_pinion_tip = 30e-6 * np.clip(1.0 - (pair.end - there) / (0.25 * path), 0.0, None)
+        at_wheel_tip = 10e-6 * np.clip(1.0 - (there - pair.start) / (0.15 * path), 0.0, None)
+        carried = [
+            lambda deflection, k=k, gap=gap: k * max(deflection - gap, 0.0)
+            for k, gap in zip(springs, at_pinion_tip + at_wheel_tip, strict=True)
+        ]
+        most = force / springs.min() + 40e-6
+        common = brentq(lambda deflection: sum(each(deflection) for each in carried) - force, 0.0, most, xtol=1e-18)  # noqa: B023
+        own = int(np.abs(there - place).argmin())
+        assert math.isclose(
+            loads(pair, sharing, force, np.array([place]))[0], carried[own](common), rel_tol=1e-6, abs_tol=1e-6 * force
+        )

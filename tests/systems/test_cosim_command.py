@@ -19,7 +19,7 @@ from contact_core import StateError
 from system_models import cosim_report
 from system_models.checkpoint import Checkpoint
 from system_models.cli import main
-from system_models.master import CouplingError, System, simulate
+from system_models.master import CouplingError, System, saving, simulate
 from system_models.master.stepping import Stepper
 
 CAR = """
@@ -225,6 +225,32 @@ def test_a_simulation_goes_on_from_every_point_bit_for_bit(
         assert bits(again) == bits(whole)
         assert {name: value for name, value in again.attrs.items() if name != "cost"} == statistics
     assert told == [], "of a finished simulation nothing is computed again"
+
+
+def test_any_other_system_is_another_simulation_to_a_checkpoint(fmus: dict[str, Path]) -> None:
+    wires: list[tuple[Any, ...]] = [
+        ("wheel.x", "chassis.x_wheel"),
+        ("wheel.v", "chassis.v_wheel"),
+        ("chassis.F", "wheel.F"),
+    ]
+    whole: dict[str, Any] = {
+        "connections": wires,
+        "parameters": {"wheel.m": 40.0},
+        "schedule": {"wheel.road": [(0.0, 0.1), (1.0, 0.2)]},
+    }
+    others = [
+        {"connections": wires[:2]},
+        {"connections": [*wires[:2], ("chassis.F", "wheel.F", -1.0)]},
+        {"parameters": {"wheel.m": 41.0}},
+        {"schedule": {"wheel.road": [(0.0, 0.1), (1.0, 0.3)]}},
+        {"schedule": {"wheel.road": [(0.0, 0.1), (1.1, 0.2)]}},
+        {"events": ["wheel.x"]},
+        {"bonds": [("chassis.F", "wheel.v")]},
+    ]
+    same, *found = (saving.identity(System(fmus, **(whole | other)), {"step_size": 0.1}) for other in ({}, *others))
+    assert same == saving.identity(System(fmus, **whole), {"step_size": 0.1})
+    assert all(other != same for other in found)
+    assert saving.identity(System(fmus, **whole), {"step_size": 0.2}) != same
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
