@@ -1,0 +1,138 @@
+"""Wear volumes are conserved: a body loses the depth over its track, the sum of its rates, and what Archard says."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from cheap_scene import CHEAP, cheap
+from comparison import approx
+
+from contact_core import advance, initial_state, run_cycle, track_of
+from contact_core.block import solve_block
+from contact_core.evolution import evolved
+from contact_core.geometry import LineGeometry
+
+FACE = 0.8e-3
+BARE = {"tribofilm.model": "none"}
+UNEQUAL = {"wear.sliding": "surface_speed", "wear.bare": "1e-7"}  # each body wears by its own speed
+DRY = CHEAP | {"control.driver": "dry", "control.dry_instants": "2"}
+LINE = DRY | {
+    "geometry.model": "line",
+    "geometry.face_width": "0.8 mm",
+    "operation.load": "100 N",
+    "film.width": "0.25 mm",  # the face is 3.2 times as long
+}
+ROLLER = LINE | {
+    "geometry.model": "roller",
+    "geometry.profile.model": "logarithmic",
+    "geometry.profile.depth": "0.5 um",
+    "film.width": "0 m",
+}
+SHAPES = {"point": DRY, "line": LINE, "roller": ROLLER}
+LEVELS = ("deterministic", "regression")
+STEPS = (0.5, 4.0, 20.0)
+
+
+def contact(shape, level, **more):
+    scene, _, op = cheap(SHAPES[shape] | UNEQUAL, **more)
+    scene = scene.at_level(level)
+    return scene, initial_state(scene), replace(op, speed_1=0.3, speed_2=0.1)
+
+
+def ran(scene, state, op, steps=STEPS):
+    found = []
+    for dt in steps:
+        state, outputs = advance(scene, op, state, dt)
+        found.append(outputs)
+    return state, found
+
+
+def of(outputs, name):
+    return np.array([getattr(outputs, f"{name}_1"), getattr(outputs, f"{name}_2")])
+
+
+def depth_times_area(scene, state):
+    """Volumes [m3] of the depths on the patches, laid along the tracks and, of a line, along its face."""
+    found = []
+    for body, length in enumerate((scene.geometry.track_length_1, scene.geometry.track_length_2), 1):
+        track = track_of(scene, state, body)
+        rows = track.y.size * scene.film.spacing
+        across = scene.geometry.face_width if isinstance(scene.geometry, LineGeometry) else rows
+        found.append(float(track.wear.mean()) * across * length)
+    return np.array(found)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize("shape", SHAPES)
+def test_volumes_are_the_sum_of_the_rates_and_the_depth_over_the_track_of_each_body(shape, level):
+    scene, state, op = contact(shape, level)
+    state, found = ran(scene, state, op)
+    volumes = of(found[-1], "wear_volume")
+    assert volumes == approx(sum(of(out, "wear_rate") * dt for out, dt in zip(found, STEPS, strict=True)), rel=1e-9)
+    assert volumes[0] > 1.5 * volumes[1] > 0.0
+    # the fast level gives the patches of a point and a roller what its means have on whole rows
+    near = 1e-9 if level == "deterministic" or shape == "line" else 1e-6
+    assert depth_times_area(scene, state) == approx(volumes, rel=near)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize("speeds", [(0.3, 0.1), (0.3, -0.1), (0.0, 0.2), (0.2, 0.0)])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_bare_bodies_lose_what_archard_says_of_the_load_on_their_solids(shape, speeds, level):
+    """K W_c W u / H: each body by its own speed here, whatever the shape, the track, and who is at rest."""
+    scene, state, op = contact(shape, level, tribofilm__model="none")
+    op = replace(op, speed_1=speeds[0], speed_2=speeds[1])
+    state, _ = advance(scene, op, state, 0.0)
+    _, (found,) = ran(scene, state, op, [1e-3])
+    solids = found.contact_load_ratio * op.load
+    expected = scene.wear.bare * solids * np.abs(speeds) / scene.plasticity.hardness
+    assert of(found, "wear_rate") == approx(expected, rel=1e-6)
+    assert of(found, "wear_volume") == approx(1e-3 * expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_cycle_takes_the_volume_that_its_depths_have(shape):
+    scene, state, op = contact(shape, "deterministic", film__tolerance="1e-2")
+    times = np.linspace(0.0, 6e-5, 3)
+    duty = lambda time: replace(op, load=op.load * (1.0 + 2e3 * time))  # noqa: E731
+    state, moments = run_cycle(scene, state, duty, times, 1e3)
+    worn = np.array([body.worn for body in state.bodies])
+    assert depth_times_area(scene, state) == approx(worn, rel=1e-9)
+    solids = [moment.outputs["contact_load_ratio"] * moment.op.load for moment in moments]
+    slid = 1e3 * np.diff([moment.time for moment in moments]) @ solids[1:]
+    expected = scene.wear.bare * slid * np.array([op.speed_1, op.speed_2]) / scene.plasticity.hardness
+    assert worn == approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("i", [0, 1])
+def test_wear_under_a_film_that_grows_within_a_block_is_of_second_order_in_the_steps(i):
+    """The integral of K(film) p v / H, the film by its closed form, with the solution of one block held."""
+    scene, state, op = contact("point", "deterministic")
+    body, law, wear, flash = solve_block(scene, op, state).bodies[i], scene.tribofilm, scene.wear, 0.0
+    span = 0.1 / law.rate(op.temperature)
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    exact = np.zeros_like(body.wear)
+    for time, weight in zip(0.5 * span * (1.0 + nodes), 0.5 * span * weights, strict=True):
+        growth, removal = law.evolve(body.growth, body.removal, body.exposure * time, 0.0, op.bodies[i] + flash)
+        cover = (growth - removal) / law.full_thickness
+        exact += weight * wear.coefficient(cover) * body.pressure
+    exact *= abs((op.speed_1, op.speed_2)[i]) / scene.plasticity.hardness
+    off = []
+    for count in (1, 2, 4):
+        after = body
+        for _ in range(count):
+            after = evolved(scene, op, after, i, span / count, flash)
+        off.append(abs(after.wear.sum() / exact.sum() - 1.0))
+    assert off[0] < 0.02
+    assert np.log2(np.divide(off[:-1], off[1:])) == approx([2.0, 2.0], abs=0.15)
+
+
+def test_wear_under_a_growing_film_does_not_wait_for_fine_steps_at_the_fast_level():
+    """Between bodies that roll against each other nothing but the film changes: solids carry all of the load."""
+    volumes = []
+    for change in ("10 nm", "0.3 nm"):
+        scene, state, op = contact("point", "regression", control__change=change)
+        _, (found,) = ran(scene, state, replace(op, speed_1=0.2, speed_2=-0.2), [300.0])
+        assert found.tribofilm_1 > 50e-9
+        volumes.append(of(found, "wear_volume"))
+    assert volumes[0] == approx(volumes[1], rel=3e-3)
