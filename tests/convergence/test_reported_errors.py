@@ -1,6 +1,8 @@
 """What a run says about its own errors, against a run with ten times finer blocks."""
 
+import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core import Scene, advance, initial_state, uncertainty
 
@@ -17,6 +19,12 @@ NAMES = (
 )  # fmt: skip
 # few asperities carry the gap of so coarse a grid, and the ball's roughness is sampling noise: the half widths say so
 NOISY = ("h_c", "lambda_ratio", "roughness_1")
+OUTPUTS = {
+    "error_friction": ("friction_coefficient",),
+    "error_film": ("h_c",),
+    "error_tribofilm": ("tribofilm_1", "tribofilm_2"),
+    "error_wear": ("wear_depth_1", "wear_depth_2"),
+}
 MINUTES = (5, 10, 20, 30, 45, 60)
 
 
@@ -64,3 +72,22 @@ def test_half_widths_are_not_so_wide_that_they_say_nothing(runs):
             continue
         out, width = mine[-1]
         assert sum(width[name]) < 0.1 * abs(getattr(out, name)), name
+
+
+@pytest.mark.parametrize("error", OUTPUTS)
+def test_an_error_output_is_that_of_the_body_of_which_less_is_sure(runs, error):
+    for out, width in runs[0]:
+        relative = [float(np.hypot(*width[name])) / abs(getattr(out, name)) for name in OUTPUTS[error]]
+        assert getattr(out, error) == approx(max(relative), rel=1e-12)
+
+
+@pytest.mark.parametrize("error", OUTPUTS)
+def test_error_outputs_cover_the_differences_to_the_finer_run_and_a_tenth_of_them_would_not(runs, error):
+    off = [
+        max(abs(getattr(b, name) / getattr(a, name) - 1.0) for name in OUTPUTS[error])
+        for (a, _), (b, _) in zip(*runs, strict=True)
+    ]
+    stated = np.array([getattr(out, error) for out, _ in runs[0]])
+    assert (off <= stated).sum() >= len(MINUTES) - 1
+    assert (off <= 0.1 * stated).sum() < (off <= stated).sum()
+    assert stated.max() < 0.15
