@@ -16,6 +16,8 @@ RATIOS = np.geomspace(1e-4, 1e2, 200)
 # a few points of the sweep: `python benchmarks/regression.py fit` writes it
 GOLDEN = Path(__file__).parent.parent / "golden" / "load_sharing.csv"
 
+DOCS = Path(__file__).parents[2] / "docs"
+
 
 @pytest.fixture(scope="module")
 def golden():
@@ -181,6 +183,20 @@ def test_shipped_constants_give_the_sweep_back_within_their_half_widths(golden):
     assert off.max() < 0.6
     area = LAW.area_ratio(golden["load_ratio"], golden["flattening"])
     np.testing.assert_allclose(area, golden["area_ratio"], atol=0.03)
+
+
+@pytest.mark.parametrize(("law", "page"), [(FittedSharing, "regression.md"), (LineSharing, "regression_shapes.md")])
+def test_shipped_constants_are_those_of_the_fit_on_the_page(law, page):
+    """Rounded to two or three digits."""
+    rows = [line.strip("| ").split(" | ") for line in (DOCS / page).read_text(encoding="utf-8").splitlines()]
+    fitted = {
+        name: (float(found), float(width)) for name, found, width, _ in (r for r in rows if r[0] in law.HALF_WIDTHS)
+    }
+    borrowed = {name for name in law.HALF_WIDTHS if name.startswith("exposure_")} if law is LineSharing else set()
+    assert set(fitted) == set(law.HALF_WIDTHS) - borrowed
+    for name, (found, width) in fitted.items():
+        assert getattr(law(), name) == approx(found, rel=1e-2), name
+        assert law.HALF_WIDTHS[name] == approx(width, rel=0.05), name
 
 
 @pytest.mark.parametrize("law", LAWS)
