@@ -57,8 +57,8 @@ def sliding_on_track(scene: Scene, op: OperatingPoint, rows: int) -> float | Arr
     if op.spin == 0.0 or op.load == 0.0:
         return op.sliding_speed
     hertz, y = scene.hertz_at(op), contact_grid(scene, rows).y[:, None]
-    # mean |x| over a row under Hertz's pressure is 3/8 of its length on either side
-    along = 0.375 * hertz.a * hertz.chords(y)
+    # mean |x| over a row under Hertz's pressure is 4 / (3 pi) of its length on either side
+    along = 4.0 / (3.0 * math.pi) * hertz.a * hertz.chords(y)
     return np.hypot(op.sliding_speed - op.spin * y, op.spin * along)
 
 
