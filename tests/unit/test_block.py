@@ -8,6 +8,7 @@ from cheap_scene import CHEAP, cheap
 from comparison import approx
 
 from contact_core import ContactState, RangeFlag, advance, solve
+from contact_core.advance import _distance as geometry_change
 from contact_core.block import sweep_dry, sweep_mixed
 from contact_core.patches import patch_nodes
 from contact_core.sweep import Sweep
@@ -131,3 +132,33 @@ def test_a_march_is_settled_before_it_is_sampled_however_far_the_faster_body_run
     _, outputs = advance(scene, op, state, 0.0)
     assert outputs.contact_load_ratio == 0.0
     assert outputs.h_min == approx(float(steady.gap.min()), rel=0.02)
+
+
+def test_another_tribofilm_law_asks_for_a_new_solution():
+    """What the last one has stored as exposure means something else to it."""
+    scene, state, op = cheap(DRY, control__change="1 um")
+    state, first = advance(scene, op, state, 1.0)
+    assert advance(scene, op, state, 1e-3)[1].blocks_dry == first.blocks_dry
+    other = cheap(DRY, control__change="1 um", tribofilm__dose="contact_length")[0]
+    assert advance(other, op, state, 1e-3)[1].blocks_dry == first.blocks_dry + 1.0
+
+
+def test_a_dose_of_the_contact_length_is_the_clock_of_a_point_on_the_middle_of_a_smooth_track():
+    """It counts for as long as the point is between Hertz's ends, and no longer for a wider grid."""
+    smooth = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.dose": "contact_length"}
+    for domain in ("0.5 mm", "0.7 mm"):
+        scene, state, op = cheap(DRY | smooth, film__points=65, film__domain=domain, control__dry_instants=64)
+        state, _ = advance(scene, op, state, 0.0)
+        for body in state.bodies:
+            assert body.exposure[32].mean() == approx(
+                1.0, abs=2.0 * scene.film.spacing / (2.0 * scene.hertz(op.load).a)
+            )
+
+
+def test_a_groove_counts_for_a_fifth_of_what_happens_to_asperities():
+    _, state, _ = cheap()
+    body, ones = state.bodies[0], np.ones_like(state.bodies[0].wear)
+    wavy = ones * np.sin(np.arange(ones.shape[1]) * (2.0 * np.pi / ones.shape[1]))
+    assert geometry_change(body, replace(body, wear=1e-9 * ones)) == approx(0.2e-9)
+    assert geometry_change(body, replace(body, growth=1e-9 * ones)) == approx(1e-9)
+    assert geometry_change(body, replace(body, wear=2e-9 * wavy)) == approx(2e-9 / np.sqrt(2.0))

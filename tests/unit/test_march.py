@@ -226,3 +226,23 @@ def test_a_film_that_clears_smooth_bodies_does_not_break_down_when_the_load_come
     _, steady = advance(scene, op, initial_state(scene), 0.0)
     assert outputs.contact_load_ratio == 0.0
     assert outputs.h_min == approx(steady.h_min, rel=0.1)
+
+
+def test_a_cycle_counts_passes_and_warms_films_by_its_flash_and_its_outputs_are_means_over_time():
+    """A load that rises in instants of unequal length."""
+    scene, state, op = cheap({**CHEAP, "tribofilm.beyond_fit": "extrapolate"})
+    op = replace(op, speed_1=2.0, speed_2=0.5)
+    times = [0.0, 1e-6, 2e-6, 1e-5]
+    after, moments = run_cycle(scene, state, lambda time: replace(op, load=op.load * (0.5 + 5e4 * time)), times, 1e7)
+    period, law, body = times[-1], scene.tribofilm, after.bodies[0]
+    lengths = scene.geometry.track_length_1, scene.geometry.track_length_2
+    expected = [1e7 * period * speed / length for speed, length in zip((2.0, 0.5), lengths, strict=True)]
+    assert [body.cycles for body in after.bodies] == approx(expected, rel=1e-9)
+    parts = np.diff([moment.time for moment in moments]) / period
+    for name in ("friction_force", "contact_load_ratio", "flash_temperature_rise"):
+        mean = parts @ [moment.outputs[name] for moment in moments[1:]]
+        assert getattr(after.outputs, name) == approx(mean, rel=1e-9), name
+    assert after.outputs.flash_temperature_rise > 1.0
+    rate = law.rate(op.temperature + after.outputs.flash_temperature_rise)
+    grown = law.full_thickness * -np.expm1(-rate * 1e7 * period)  # of a point that is exposed all the time
+    assert body.growth.max() == approx(grown, rel=1e-9)

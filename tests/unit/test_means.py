@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from cheap_scene import cheap
 from comparison import approx
+from scipy.stats import norm
 
 from contact_core import (
     ContactState,
@@ -23,8 +24,10 @@ from contact_core import (
 from contact_core.folding import folded, means_of
 from contact_core.laws.heat import TemperatureField
 from contact_core.laws.rheology import Eyring, Newtonian
+from contact_core.mean_surfaces import films_of
 from contact_core.quantities import OF_CALLER, OUTPUTS
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
+from contact_core.state import Mean
 
 FAST = {"film.model": "regression"}
 SMOOTH = FAST | {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm"}
@@ -409,6 +412,26 @@ def test_a_change_of_level_and_back_changes_nothing(deterministic):
     assert back.means is None
     assert back.bodies == state.bodies  # the very same
     assert back == replace(state, solved_for=None, outputs=back.outputs)
+
+
+def test_both_levels_see_the_same_roughness_of_the_same_worn_and_pressed_surfaces():
+    scene, state, op = cheap(control__driver="dry", tribofilm__model="none", plasticity__hardness="3 GPa")
+    state, found = advance(scene, op, state, 60.0)
+    assert min(body.plastic.max() for body in state.bodies) > 1e-9
+    quick = now(scene.at_level("regression"), op, state)
+    for name in ("roughness_1", "roughness_2", "wear_depth_1", "wear_volume_2", "load_cycles_1", "load_cycles_2"):
+        assert getattr(quick, name) == approx(getattr(found, name), rel=1e-9), name
+
+
+@pytest.mark.parametrize("share", [0.05, 0.3, 0.7])
+def test_a_film_on_the_highest_points_makes_a_gaussian_surface_as_rough_as_the_level_says(share):
+    heights = norm.ppf((np.arange(100_000) + 0.5) / 100_000)
+    film = 0.3 * (heights > norm.ppf(1.0 - share))
+    mean = Mean(0.3 * share, 0.0, share, 0.0, 1.0, 0.0, 0.0)
+    found = films_of((mean, mean))[1]
+    assert found.thickness == approx(0.3)
+    assert found.roughness == approx(film.std(), rel=1e-3)
+    assert found.both == approx((heights + film).std(), rel=0.01)
 
 
 def test_patches_wait_while_means_run(deterministic):

@@ -73,3 +73,16 @@ def test_errors_of_a_block_do_not_depend_on_how_its_time_is_cut():
     assert cut.time_error == approx(whole.time_error, rel=1e-12)
     assert cut.sampling == approx(whole.sampling, rel=1e-12)
     assert (whole.sampling > 0.0).all()
+
+
+def test_the_scatter_of_rates_adds_up_to_an_error_of_the_depth_that_is_reported_and_no_wider():
+    random = np.random.Generator(np.random.Philox(8))
+    ratios = []
+    for _ in range(60):
+        trends, depth = Trends.fresh(), 0.0
+        for rate in 10.0 + random.normal(size=60):
+            trends = trends.followed(dict.fromkeys(NAMES, rate), {}, 0.75, 0.5).over(3.0, 0.0)
+            depth += 3.0 * rate
+        ratios.append(abs(depth - 3.0 * 10.0 * 60) / trends.half_widths()["wear_depth_1"][1])
+    assert np.mean(np.less(ratios, 1.0)) >= 0.9
+    assert np.mean(np.less(ratios, 0.5)) < 0.85

@@ -1,13 +1,13 @@
 """Wear volumes are conserved: a body loses the depth over its track, the sum of its rates, and what Archard says."""
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
 from cheap_scene import CHEAP, cheap
 from comparison import approx
 
-from contact_core import advance, initial_state, run_cycle, track_of
+from contact_core import advance, initial_state, run_cycle, track_of, uncertainty
 from contact_core.block import solve_block
 from contact_core.evolution import evolved
 from contact_core.geometry import LineGeometry
@@ -136,3 +136,57 @@ def test_wear_under_a_growing_film_does_not_wait_for_fine_steps_at_the_fast_leve
         assert found.tribofilm_1 > 50e-9
         volumes.append(of(found, "wear_volume"))
     assert volumes[0] == approx(volumes[1], rel=3e-3)
+
+
+def test_rates_of_bodies_that_warm_up_are_those_of_the_whole_step():
+    bulk = {
+        f"heat.bulk.{name}_{i}": value
+        for i in "12"
+        for name, value in (("heat_capacity", "1 J/K"), ("conductance", "0.2 W/K"))
+    }
+    changes = DRY | UNEQUAL | bulk | {"heat.bulk.model": "lumped", "tribofilm.beyond_fit": "extrapolate"}
+    for level in LEVELS:
+        scene, state, op = cheap(changes)
+        scene = scene.at_level(level)
+        state, found = ran(scene, state, replace(op, speed_1=1.0, speed_2=0.4))
+        assert found[-1].temperature_1 > op.temperature + 1.0
+        for dt, then, now in zip(STEPS[1:], found[:-1], found[1:], strict=True):
+            assert of(now, "wear_rate") * dt == approx(of(now, "wear_volume") - of(then, "wear_volume"), rel=1e-9)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_a_body_that_only_spins_wears_by_the_way_its_points_slide_under_hertzs_pressure(level):
+    """The mean of r under that of a circle is 3 pi a / 16; a level that knows rows takes the mean of |x| on each."""
+    smooth = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm"}
+    scene, state, op = cheap(DRY | BARE | smooth, film__points=65)
+    scene, op = scene.at_level(level), replace(op, speed_1=1e-6, speed_2=1e-6, spin=200.0)
+    _, (found,) = ran(scene, state, op, [1e-3])
+    assert found.contact_load_ratio > 0.98
+    slide = 200.0 * 3.0 * np.pi / 16.0 * scene.hertz_at(op).a
+    expected = scene.wear.bare * found.contact_load_ratio * op.load * slide / scene.plasticity.hardness
+    assert of(found, "wear_rate") == approx([expected, expected], rel=0.04)
+
+
+def test_ten_times_the_wear_in_a_tenth_of_the_time_is_the_same_run():
+    """Without a tribofilm nothing else has a time: depths, volumes, roughness and what is said of their errors."""
+    found = []
+    for faster in (1.0, 10.0):
+        scene, state, op = cheap(DRY | BARE, wear__bare=1e-5 * faster, control__longest=f"{60.0 / faster} s")
+        state, outputs = ran(scene, state, op, [90.0 / faster, 90.0 / faster])
+        found.append((asdict(outputs[-1]), uncertainty(state), [body.noise for body in state.bodies]))
+    (one, widths, noise), (other, others, quick) = found
+    for name in (
+        "wear_volume_1",
+        "wear_depth_2",
+        "roughness_1",
+        "roughness_2",
+        "friction_force",
+        "error_wear",
+        "blocks_dry",
+    ):
+        assert other[name] == approx(one[name], rel=1e-6), name
+    assert 10.0 * one["wear_rate_1"] == approx(other["wear_rate_1"], rel=1e-6)
+    for name in ("wear_depth_1", "wear_depth_2", "roughness_1", "roughness_2"):
+        assert others[name] == approx(widths[name], rel=1e-6), name
+    assert quick == approx(noise, rel=1e-6)
+    assert min(noise) > 0.0
