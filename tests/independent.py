@@ -55,6 +55,26 @@ def volume_flow(scene, op, fluid, film):
     return brought, carried
 
 
+def force_beyond(x, y, pressure, gap, radius_x, radius_y):
+    """Force [N] beyond the inlet edges of a grid, entrained along +x: along each ray from the contact the pressure goes
+    on like distance / gap^2, the gap that of smooth, rigid parabolas from that of the edge node on.
+    """
+    dx, total = x[1] - x[0], 0.0
+    xx, yy = np.meshgrid(x, y)
+    nodes, weights = np.polynomial.legendre.leggauss(60)
+    t = 0.5 * (nodes + 1.0)
+    for edge, normal in ((np.s_[1:-1, 0], xx), (np.s_[0, :], yy), (np.s_[-1, :], yy)):
+        out, p, h = (field[edge][xx[edge] < 0.0] for field in (np.hypot(xx, yy), pressure, gap))
+        away = np.abs(normal[edge])[xx[edge] < 0.0]
+        begin = out * (1.0 + 0.5 * dx / away)  # a cell reaches half a spacing beyond its node
+        r = begin[:, None] / t
+        bend = ((xx[edge] / radius_x**0.5) ** 2 + (yy[edge] / radius_y**0.5) ** 2)[xx[edge] < 0.0] / out**2
+        rigid = h[:, None] + 0.5 * bend[:, None] * (r**2 - out[:, None] ** 2)
+        along = (r / out[:, None] * (h[:, None] / rigid) ** 2 * r * begin[:, None] / t**2) @ (0.5 * weights)
+        total += float((p * along * dx * away / out**2).sum())
+    return total
+
+
 @dataclass(frozen=True)
 class Judgement:
     """How far steady fields are from solving the equations; each number is relative and 0 for the exact answer."""

@@ -19,7 +19,7 @@ from ..kernels.multigrid import is_applicable, solve_smooth
 from ..kernels.newton import solve_newton
 from ..shapes import Roller
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
-from .scaled import Scaled, inlet_length
+from .scaled import LOAD_ACCEPTED, Scaled, inlet_length
 
 _ALL = (0.0, math.inf)
 _SEVERAL = (2, math.inf)
@@ -35,9 +35,8 @@ _DAMPED = ((0.5, 15), (0.25, 40))  # multigrid's next tries, and cycles: nearly 
 _CLEAR_LINE = 1.5
 _RESOLVED_INLET = 2.0  # nodes: an inlet that the grid does not see makes that method slow, and no film
 _OWED = 10.0  # times the stopping rule's limits, by which a thorough step over roughness may miss them
-_CLOSINGS = 4  # solutions of a light film, at most, until what lies beyond the grid knows how fast the bodies close
+_CLOSINGS = 4  # solutions of a light film, at most, until what lies beyond the grid goes with how the bodies lie
 # a film short of its tolerance is still better than the dry contact within these
-_LOAD_ACCEPTED = 1e-3
 _CHANGE_ACCEPTED = 0.1
 _INTRUSION_ACCEPTED = 20.0
 
@@ -184,25 +183,33 @@ def solve_film(
 
     start: a solution nearby, or None. step: how the instant follows from it in time, or None for a steady film.
     Entrainment along -x is solved in the mirror; without any, only a film that was there before can be one, squeezed
-    out. A film that cannot be had is replaced by the dry contact, which says so (`route`); raises ConvergenceError if
-    that has no solution, or no meaning because the film clears the roughness.
+    out. What is called converged carries the load. A film that cannot be had is replaced by the dry contact, which says
+    so (`route`); raises ConvergenceError if that has no solution, or no meaning because the film clears the roughness.
     """
     if now.entrainment_speed < 0.0:
         back = start and start.mirrored(), step and step.mirrored()
         return solve_film(now.mirrored(), grid.mirrored(), settings, *back).mirrored()
     if now.dry or (now.entrainment_speed == 0.0 and not (start and step)):
         return Scaled(now, grid, settings).dry("dry", now.solid_share)
-    if start is None or step is None:
-        return _film(Scaled(now, grid, settings), start, None)
+    step = step if start else None
     at_rest = now.entrainment_speed == 0.0
     closing, pull = float(at_rest), now.entrainment_speed * grid.spacing  # at rest its amount does not matter
+    apart: float | None = None
     for _ in range(_CLOSINGS):
-        scaled = Scaled(now, grid, settings, start, step, closing)
-        found = _film(scaled, start, step)
-        last, closing = closing, (start.rigid_gap - found.state.rigid_gap) / step.dt
-        if at_rest or not step.thorough or not scaled.is_light or abs(closing - last) * now.shape.radius_x < 0.1 * pull:
+        scaled = Scaled(now, grid, settings, start, step, closing, apart)
+        found, last, settled = _film(scaled, start, step), closing, True
+        if start and step and step.thorough and scaled.is_light and not at_rest:
+            closing = (start.rigid_gap - found.state.rigid_gap) / step.dt
+            settled = abs(closing - last) * now.shape.radius_x < 0.1 * pull
+        balance = scaled.balance(found)
+        if not balance.holds and balance.apart is not None and found.route == "mixed":
+            apart, settled = balance.apart, False  # roughness holds the bodies apart, or they are flattened
+        if settled:
             break
-    return found
+    if balance.holds or not found.converged:
+        return found
+    why = f"load error {balance.error:.2g}, with what lies beyond the grid"
+    return replace(found, converged=False, shortfall=why, load_error=balance.error)
 
 
 def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSolution:
@@ -366,4 +373,4 @@ def _usable(solution: Solution) -> bool:
     """Whether a film short of its tolerance is still better than the dry contact."""
     finite = np.isfinite(solution.change) and np.isfinite(solution.iterate.rigid)
     settled = solution.change < _CHANGE_ACCEPTED and solution.intrusion < _INTRUSION_ACCEPTED
-    return bool(finite and settled and abs(solution.load_error) < _LOAD_ACCEPTED)
+    return bool(finite and settled and abs(solution.load_error) < LOAD_ACCEPTED)

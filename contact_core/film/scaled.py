@@ -3,7 +3,7 @@
 import math
 import threading
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, partial
 from typing import Any
 
@@ -32,7 +32,23 @@ _SOLID_SHARE = 0.85  # of the load in `shared_start`: the best of 0.03 to 0.95 f
 _LEAST_EASE = 1e-6  # what flows less does not flow
 _FAR_FIELD_BELOW = 30.0  # Moes' M: above, what lies beyond a film-sized grid changes the film by less than 1 %
 _SLOWEST = 0.25  # unit of speeds, in nodes per time step: entrained more slowly, a film is a matter of squeezing
+LOAD_ACCEPTED = 1e-3  # relative error of the load, above which a film is none
+_BEYOND_KNOWN = 0.05  # relative error of the formula for what lies beyond the grid
 _FASTEST_CHANGE = 2.0  # of a film in a step, up to which it is of second order
+
+
+@dataclass(frozen=True)
+class LoadBalance:
+    """What a solution carries against the load that was asked of it."""
+
+    error: float  # relative
+    beyond: float  # share of the load beyond the grid
+    apart: float | None  # film [m] of rigid bodies whose gap opens as beyond the grid's edge, None: nothing lies there
+
+    @property
+    def holds(self) -> bool:
+        """Whether the solution carries its load, as well as it can be known."""
+        return abs(self.error) <= LOAD_ACCEPTED + _BEYOND_KNOWN * abs(self.beyond)
 
 
 class Scaled:
@@ -42,8 +58,8 @@ class Scaled:
     film of smooth bodies h that is thicker than that contact is deep. Both keep the solution of order one. What the
     kernels get of a periodic grid has an image of its last row before the first, and of its first after the last.
     The unit of speeds is that of entrainment; in a time `step` from a film `start` it is at least a quarter of a node
-    per step, so that the film of slow bodies and of bodies at rest is of order one, too. `closing`: speed [m/s] at
-    which the bodies come closer, for what lies beyond the grid.
+    per step, so that the film of slow bodies and of bodies at rest is of order one, too. For what lies beyond the grid:
+    `closing`, the speed [m/s] at which the bodies come closer, and `apart`, their film [m]; None: that of smooth ones.
     """
 
     def __init__(
@@ -54,9 +70,10 @@ class Scaled:
         start: FilmState | None = None,
         step: Step | None = None,
         closing: float = 0.0,
+        apart: float | None = None,
     ) -> None:
         self.now, self.grid, self.settings = now, grid, settings
-        self.closing = closing
+        self.closing, self.apart = closing, apart
         self.step = step if start else None
         self.start = start if step else None
         shape = now.shape
@@ -236,13 +253,34 @@ class Scaled:
 
     @cached_property
     def _beyond(self) -> tuple[Array, Array]:
+        return self._far_field(self.film if self.apart is None else self.apart)
+
+    def _far_field(self, film: float) -> tuple[Array, Array]:
+        """What lies beyond the grid of bodies that far apart [m], as `far_field`; nothing if that does not matter."""
         starved = self._first > 0 or self.now.supply is not None
         if self.is_light and isinstance(self.now.shape, Point) and not starved:
             by_wedge = (3.0 + 2.0 * self.curvature) / (2.0 + 2.0 * self.curvature)  # see `far_field`
             closing = by_wedge * self.closing * self.now.shape.radius_x / (self.speed * self.size)
             wedge = self.now.entrainment_speed / self.speed
-            return far_field(self.x, self.y, self.film / self.h_unit, self.curvature, wedge, closing)
+            return far_field(self.x, self.y, film / self.h_unit, self.curvature, wedge, closing)
         return np.zeros_like(self.cap), np.ones_like(self.cap)
+
+    def balance(self, found: FilmSolution) -> LoadBalance:
+        """The load of a solution, summed anew: its pressure on the grid, and what goes on beyond from its own gap."""
+        pressure, per_load = found.state.pressure, self.grid.cell / self.now.load
+        beyond = (self._beyond[1] - 1.0) * pressure
+        if not beyond.any():
+            return LoadBalance(float(pressure.sum()) * per_load - 1.0, 0.0, None)
+        shape = self.now.shape.gap(self.x, self.y, self.size) * self.h_unit
+        least = min(float(shape[[0, -1]].min()), float(shape[:, [0, -1]].min()))
+        opened = float((beyond * (found.gap + self.now.heights - shape)).sum() / beyond.sum())
+        apart = max(opened, -0.5 * least)
+        both = self._far_field(apart)[1] * pressure
+        return LoadBalance(
+            error=float(both.sum()) * per_load - 1.0,
+            beyond=float((both - pressure).sum()) * per_load,
+            apart=apart,
+        )
 
     def iterate(self, state: FilmState) -> Iterate:
         """A film state in these units, scaled to carry the load. Bodies that have carried none are taken to begin as

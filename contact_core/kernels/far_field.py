@@ -13,23 +13,27 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+_THINNEST = 1e-9  # film beside which that at the edge is infinite
+
 
 def far_field(
     x: Array, y: Array, film: float, curvature: float = 1.0, wedge: float = 1.0, closing: float = 0.0
 ) -> tuple[Array, Array]:
     """Ratio of the pressure of an edge node to that of its inner neighbour, and the weight of each node in the load.
 
-    x [nx], y [ny] equally spaced; film: central film of smooth bodies; curvature: k, that along y over that along x;
-    wedge, closing: u and c V R in the same unit.
+    x [nx], y [ny] equally spaced; film: h0, central film of smooth bodies, below zero where their shapes overlap (but
+    not at the edge); curvature: k, that along y over that along x; wedge, closing: u and c V R in the same unit.
 
     Both results are [ny, nx]; the ratio is zero off the edge and where the flow leaves, the weight is 1 off the edge
     and there holds what lies beyond.
     """
     spacing = x[1] - x[0]
+    film = film if abs(film) > _THINNEST else _THINNEST
     xx, yy = np.meshgrid(x, y)
     r2 = xx**2 + yy**2
     rise = xx**2 + curvature * yy**2  # of the gap, twice
-    decay = np.maximum(closing - wedge * xx, 0.0) / (film + 0.5 * rise) ** 2
+    gap = np.maximum(film + 0.5 * rise, _THINNEST * _THINNEST)  # inside, where shapes overlap, it is not asked for
+    decay = np.maximum(closing - wedge * xx, 0.0) / gap**2
     ratio, weight = np.zeros_like(decay), np.ones_like(decay)
     inner = (
         (np.s_[:, 0], np.s_[:, 1]),
@@ -45,9 +49,11 @@ def far_field(
     for edge, distance in ((np.s_[:, 0], along), (np.s_[:, -1], along), (np.s_[0, :], across), (np.s_[-1, :], across)):
         d, r = distance[edge], np.sqrt(r2[edge])
         bent = rise[edge] / r2[edge]  # curvature of the gap along the ray
-        s = np.sqrt(bent) * r * (1.0 + 0.5 * spacing / d) / np.sqrt(2.0 * film)
-        radial = np.sqrt(2.0 / film) * (0.5 * np.pi - np.arctan(s) + s / (1.0 + s * s)) / bent**1.5
+        s = np.sqrt(bent) * r * (1.0 + 0.5 * spacing / d) / np.sqrt(2.0 * abs(film))
+        fall = s * s + np.sign(film)
+        tail = 0.5 * np.pi - np.arctan(s) if film > 0.0 else np.arctanh(1.0 / s)
+        radial = np.sqrt(2.0 / abs(film)) * (tail + s / fall) / bent**1.5
         beyond = spacing * d / r**2 * cosine[edge] * radial / spacing**2  # over the angle of the cell
-        beyond += spacing * d / r**2 * closing / (film * (1.0 + s * s)) / bent / spacing**2
+        beyond += spacing * d / r**2 * closing / (abs(film) * fall) / bent / spacing**2
         weight[edge] += np.where(ratio[edge] > 0.0, np.maximum(beyond, 0.0) / np.maximum(decay[edge], 1e-300), 0.0)
     return ratio, weight

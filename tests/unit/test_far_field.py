@@ -57,3 +57,26 @@ def test_weights_hold_the_load_beyond_the_grid(curvature, wedge, closing):
     beyond = float(((weight - 1.0) * p).sum()) * (x[1] - x[0]) ** 2
     assert beyond > 0.05 * exact
     assert found == approx(exact, rel=5e-3)
+
+
+@pytest.mark.parametrize("film", [-0.5, -1e-3, 0.0, 1e-3])
+@pytest.mark.parametrize(("wedge", "closing"), [(1.0, 0.0), (0.0, 1.0)])
+def test_bodies_flattened_or_lifted_carry_beyond_the_grid_what_their_own_gap_says(film, wedge, closing):
+    x = np.linspace(-3.0, 3.0, 121)
+    ratio, weight = far_field(x, x, film, 1.0, wedge, closing)
+    xx, yy = np.meshgrid(x, x)
+    radius_2, spacing = xx**2 + yy**2, x[1] - x[0]
+    gap = np.where(ratio > 0.0, film + 0.5 * radius_2, np.inf)
+    p = np.maximum(closing - wedge * xx, 0.0) / gap**2
+    found = float(((weight - 1.0) * p).sum()) * spacing**2
+    side = 3.0 + 0.5 * spacing  # the cells reach there; outside the square, in the sector of one side and then of all
+    turn = (lambda angle: np.cos(angle)) if wedge else (lambda angle: 1.0)
+
+    def beyond(t, angle):
+        begin = side / max(abs(np.cos(angle)), abs(np.sin(angle)))
+        r = begin / t
+        return abs(turn(angle)) * r ** (1.0 + wedge) / (film + 0.5 * r * r) ** 2 * begin / t**2
+
+    whole = 1.5 if wedge else 2.0
+    exact = dblquad(beyond, (0.5 if wedge else 0.0) * np.pi, whole * np.pi, 1e-9, 1.0)[0]
+    assert found == approx(exact, rel=5e-3)
