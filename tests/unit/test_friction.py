@@ -104,6 +104,32 @@ def test_derivatives_are_those_of_a_held_film(name, spin, speed_1, speed_2):
     assert abs(expected) > 0.0
 
 
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(
+    ("thinner", "slide", "least", "most"), [(1.0, 0.1, 0.0, 0.0), (100.0, 0.1, 0.6, 0.95), (1e6, 5e-7, 0.3, 0.6)]
+)
+def test_derivatives_know_where_the_oil_is_at_its_limiting_stress(name, thinner, slide, least, most):
+    """Nowhere, in most of the contact, and where the law of boundary friction lowers the limit."""
+    film, op = replace(wet(), gap=wet().gap / thinner), at(speed_1=0.2 + slide, speed_2=0.2)
+    limit = SCENE.lubricant.rheology.limiting_coefficient * film.fluid * SCENE.boundary_friction.grip(slide)
+    limited = shear(SCENE, op, film).fluid >= 0.999 * limit
+    assert least <= limited[HERTZ > 0.0].mean() <= most
+
+    def moved(by):
+        new, load = replace(op, **{name: getattr(op, name) + by}), 1.0 + by / LOAD * (name == "load")
+        return force(new, replace(film, fluid=load * film.fluid, solid=load * film.solid, temperature=new.temperature))
+
+    step = {"load": 1e-4 * LOAD, "temperature": 0.01}.get(name, 1e-5 * slide)
+    expected = (moved(step) - moved(-step)) / (2.0 * step)
+    assert derivatives(SCENE, op, film)[f"dfriction_d{name}"] == approx(expected, rel=5e-3)
+    assert abs(expected) > 0.0
+
+
+def test_solids_and_oil_at_its_limit_rub_in_proportion_to_the_load():
+    film, op = replace(wet(), gap=np.full_like(HERTZ, 1e-14)), at(speed_1=0.3, speed_2=0.2)
+    assert derivatives(SCENE, op, film)["dfriction_dload"] == approx(force(op, film) / LOAD, rel=1e-9)
+
+
 def test_solids_and_oil_share_the_friction():
     op = at(speed_1=0.2, speed_2=0.1)
     both = friction(shear(SCENE, op, wet(0.3)), GRID)

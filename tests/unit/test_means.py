@@ -272,6 +272,23 @@ def test_no_film_is_thicker_than_a_hundredth_of_the_radius(grown):
     assert found.h_c <= 0.011 * scene.geometry.radius_x
 
 
+@pytest.mark.parametrize("model", ["point", "line"])
+def test_the_solids_carry_no_more_than_their_hardness_on_the_real_contact(model):
+    geometry = {"geometry.model": "line", "geometry.face_width": "1 mm"} if model == "line" else {}
+    hardness = {"plasticity.hardness": "1.4 GPa", "plasticity.film_hardness": "1.4 GPa"}
+    pressures = []
+    for rq in ("5 nm", "50 nm", "600 nm"):
+        scene, state, op = fast(FAST | hardness | geometry | {"surface_2.rq": rq})
+        for share in (1e-3, 0.1, 0.9):
+            load = share * (1.4e9 / scene.unit_hertz_at(op).pressure_max) ** (2.0 if model == "line" else 3.0)
+            at = replace(op, load=load, speed_1=1e-3, speed_2=0.0)
+            found = now(scene, at, state)
+            solids = found.contact_load_ratio * load
+            pressures.append(solids / (found.contact_area_ratio * scene.hertz_at(at).area) / 1.4e9)
+    assert max(pressures) == approx(1.0, rel=1e-9)  # reached, and by none exceeded
+    assert min(pressures) < 0.5
+
+
 def test_a_load_above_the_hardness_is_refused(grown):
     scene, state, op = grown
     with pytest.raises(OperatingPointError, match=r"load = .* N presses smooth bodies .* above plasticity\.hardness"):
