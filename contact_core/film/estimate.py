@@ -10,6 +10,7 @@ from .scaled import Scaled
 _FACTORS = {"contact_load_ratio": 2.0, "pressure_max": 2.5}
 _FACTOR = 1.5  # of the others
 _RESOLVED = 3.0  # nodes across the inlet, from which on a grid knows the film
+_PARTING = 0.3  # film of smooth bodies over rms roughness, from which on the solids may carry next to nothing
 
 
 def solve_with_estimate(
@@ -31,7 +32,10 @@ def solve_with_estimate(
         for name, value in values.items()
     }
     if found.route == "mixed" and found.inlet_nodes < _RESOLVED:  # both grids may agree on a film that is none
-        film = Scaled(now, grid, settings).smooth_film
-        for name in ("h_central", "h_c", "h_min"):
-            errors[name] = max(errors[name], film)
+        scaled = Scaled(now, grid, settings)
+        for name in ("h_central", "h_c", "h_min", "approach"):  # bodies are as much closer as their film is too thin
+            errors[name] = max(errors[name], scaled.smooth_film)
+        if scaled.smooth_film > _PARTING * scaled.roughness:
+            for name in ("contact_area_ratio", "contact_load_ratio"):
+                errors[name] = max(errors[name], values[name])
     return found, values, errors
