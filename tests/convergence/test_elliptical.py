@@ -37,16 +37,17 @@ def formula(given):
     return nijenbanning_venner_moes(SmoothContact(*(given[name] for name in names)))
 
 
-def films(given, grids):
-    """Central films on one domain, `grids` nodes along its shorter side."""
+def films(given, grids, tolerance=1e-4, by="smooth: multigrid"):
+    """Central films on one domain, `grids` nodes along its shorter side, solved `by` that wherever 65 see the inlet."""
     bodies = Point(given["radius_x"], given["radius_y"])
     ny, nx = Extent.of(bodies, given["load"], MODULUS, formula(given)).shape(shorter=grids[0])
     found = []
     for nodes in grids:
         factor = (nodes - 1) // (grids[0] - 1)
         shape = (ny - 1) * factor + 1, (nx - 1) * factor + 1
-        answer = point_contact(**given, grid=shape, tolerance=1e-3, floor=1e-10)
+        answer = point_contact(**given, grid=shape, tolerance=tolerance)
         assert answer.converged
+        assert answer.algorithm.startswith(by) or nodes < 65
         found.append(answer.h_central)
     return np.array(found)
 
@@ -112,7 +113,10 @@ def test_slim_contacts_tend_to_a_film_without_leakage_round_the_tip():
     slim, circle = (hertz_point(LOAD, RADIUS, k * RADIUS, MODULUS) for k in (ratio, 1.0))
     limit = (slim.pressure_max / circle.pressure_max) ** -0.5 * (slim.a / circle.a) ** 0.25
     loads = (20.0, 100.0, 200.0)
-    shares = [films(of_moes(m, 10.0, ratio), (65,))[0] / films(of_moes(m, 10.0, 1.0), (65,))[0] for m in loads]
+    shares = []
+    for load in loads:  # the slim inlets are too short for 65 nodes: the hybrid takes over
+        one, other = (films(of_moes(load, 6.0, k), (65,), 1e-3, "smooth")[0] for k in (ratio, 1.0))
+        shares.append(one / other)
     assert 0.35 < shares[0] < shares[1] < shares[2] < limit
     assert limit == approx(0.67, abs=0.01)
 

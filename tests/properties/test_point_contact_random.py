@@ -31,7 +31,7 @@ def test_the_points_cover_light_and_heavy_smooth_and_rough_both_directions_and_s
 def test_a_random_contact_meets_the_stopping_rule_and_an_independent_check(point, nodes):
     given = point.arguments(nodes)
     found = point_contact(**given, tolerance=TOLERANCE)
-    assert found.converged or "share of the solids" in found.shortfall, found.shortfall  # it may flicker
+    assert found.converged, found.shortfall
     judgement = judge(answer(given, found))
     assert not judgement.failures, judgement
 

@@ -54,13 +54,17 @@ def test_grids_of_ellipses_hold_the_film_and_halve_for_multigrid(ratio, film):
 
 @pytest.mark.parametrize("ratio", [0.25, 4.0])
 def test_one_number_is_the_nodes_along_x(ratio):
-    found = point_contact(**CALL, radius_y=ratio * 10e-3, grid=65)
+    found = point_contact(**CALL, radius_y=ratio * 10e-3, grid=65, tolerance=1e-5)
     ny, nx = found.film.shape
     assert nx == 65
     assert (ny > 100) == (ratio > 1.0)
     assert np.diff(found.x) == approx(np.full(nx - 1, found.y[1] - found.y[0]))
     assert found.converged
-    assert found.film == approx(found.film[::-1], rel=0.02)
+    # multigrid is symmetric to the bit, the rows of the hybrid are as far as they are solved: L1 1e-6, points 3e-5
+    exact = found.algorithm.startswith("smooth: multigrid")
+    assert exact == (ratio > 1.0)
+    assert found.film == approx(found.film[::-1], rel=0.0 if exact else 1e-4)
+    assert np.abs(found.pressure - found.pressure[::-1]).sum() <= (0.0 if exact else 1e-5) * found.pressure.sum()
 
 
 def test_one_number_and_a_domain_give_square_cells():

@@ -165,9 +165,9 @@ def test_a_thick_film_carries_all_and_its_friction_is_the_oils():
     r = (np.arange(20_000) + 0.5) / 20_000
     shear = oil.viscosity(hertz.pressure_max / spread * np.sqrt(1.0 - r**2), op.temperature) * 1e-9 / film
     assert spread > 1.01
-    assert found.contact_load_ratio < 1e-12
-    assert found.h_c == approx(film, rel=1e-4)
-    assert found.friction_force == approx(-hertz.area * spread * float((2.0 * r * shear).mean()), rel=1e-4)
+    assert found.contact_load_ratio < 1e-18  # an exponential, never quite zero
+    assert found.h_c == approx(film, rel=1e-9)
+    assert found.friction_force == approx(-hertz.area * spread * float((2.0 * r * shear).mean()), rel=1e-6)
 
 
 def test_limited_oil_carries_its_coefficient_times_the_load_it_bears():
@@ -222,9 +222,9 @@ def test_the_exposed_ball_grows_the_laws_film(grown):
     seconds = np.array([state.time])
     hot = op.temperature + state.outputs.flash_temperature_rise
     growth, removal = law.evolve(np.zeros(1), np.zeros(1), seconds, np.zeros(1), hot)
-    assert ball.coverage == approx(1.0, abs=1e-3)
-    assert ball.growth == approx(growth[0], rel=1e-3)
-    assert ball.removal == approx(removal[0], rel=1e-3)
+    assert 0.999999 < ball.coverage < 1.0  # an exponential of the solids' share: the rest is bare, and without film
+    assert ball.growth == approx(ball.coverage * growth[0], rel=1e-6)
+    assert ball.removal == approx(ball.coverage * removal[0], rel=1e-6)
     assert 0.1 < disc.coverage < 0.6
 
 
@@ -512,12 +512,13 @@ def test_a_saved_state_of_means_goes_on_bit_for_bit(grown):
 
 def test_elliptical_contacts_have_the_formulas_film():
     scene, state, op = fast(SMOOTH, geometry__radius_y="30 mm", film__domain="1 mm")
+    op = point(op, 5.0, 0.1)  # a film beside which the least roughness is nothing
     oil, shape = scene.lubricant, scene.geometry
     smooth = SmoothContact.of(
         op.load, op.entrainment_speed, oil.viscosity, op.temperature, 0.01, shape.radius_y, scene.solids.reduced_modulus
     )
     factor = scene.film.sharing.film_factor / oil.density(scene.hertz(op.load).pressure_mean)
-    assert now(scene, op, initial_state(scene)).h_c == approx(factor * nijenbanning_venner_moes(smooth), rel=5e-3)
+    assert now(scene, op, initial_state(scene)).h_c == approx(factor * nijenbanning_venner_moes(smooth), rel=1e-9)
     assert now(scene, op, state).h_c != approx(
         factor * nijenbanning_venner_moes(replace(smooth, radius_y=0.01)), rel=0.01
     )

@@ -61,6 +61,10 @@ CASES = [  # method, load, oil, rms roughness over the film of the formula
     ("hybrid", 200.0, 10.0, 4.0),
     ("direct", 200.0, 10.0, 0.3),
 ]
+DEEPER = [  # solids at the floor's edge: a node more or less in eight rows, and the direct method misses its tolerance
+    ("hybrid", 200.0, 10.0, 2.0),
+    ("direct", 200.0, 10.0, 2.0),
+]
 
 
 @pytest.mark.parametrize(("method", "load", "oil", "rms"), CASES)
@@ -88,7 +92,7 @@ def test_equal_rows_are_as_good_as_one_row(method, load):
         assert more.iterate.rigid == approx(found[0].iterate.rigid, abs=1e-5)
 
 
-@pytest.mark.parametrize(("method", "load", "oil", "rms"), CASES)
+@pytest.mark.parametrize(("method", "load", "oil", "rms"), [*CASES, *DEEPER])
 @pytest.mark.parametrize("rows", [2, 5])
 def test_films_satisfy_the_equations(method, load, oil, rms, rows):
     case = line(load, oil, NX, rms * roughness(rows, NX), floor=0.05)
@@ -104,9 +108,9 @@ def test_films_satisfy_the_equations(method, load, oil, rms, rows):
     assert found.iterate.rigid + q.undeformed[1:-1] + settled == approx(found.gap[1:-1], abs=1e-9)
     wet = ((p > 0.0) & ~solid & (found.gap[1:-1] > 1.2 * q.floor))[:, 1:-1]  # at the floor, solids may hold a node
     weight = p[:, 1:-1][wet]
-    assert (weight * np.abs(net[wet])).sum() < 5e-3 * (weight * mass[:, 1:-1][wet]).sum()
+    assert (weight * np.abs(net[wet])).sum() < 2e-4 * (weight * mass[:, 1:-1][wet]).sum()
     assert net[((p <= 0.0) & ~solid)[:, 1:-1]].max() < 1e-3 * mass.max()
-    assert (p * np.abs(found.gap[1:-1] - q.floor))[solid].sum() < 0.2 * q.floor * p.sum()
+    assert (p * np.abs(found.gap[1:-1] - q.floor))[solid].sum() < 1e-3 * q.floor * p.sum()
 
 
 @pytest.mark.parametrize("method", ["hybrid", "direct"])
@@ -121,12 +125,16 @@ def test_cavities_that_hold_their_oil_move_with_the_roughness(method):
     assert apart(np.tile(mass, (2, 1)), twice.mass[1:-1]) < 3e-5
 
 
-def test_three_methods_agree_on_a_rough_film():
-    case = line(20.0, 5.0, NX, 0.3 * roughness(4, NX))
-    found = [solve(method, case) for method in ("newton", "hybrid", "direct")]
+@pytest.mark.parametrize(
+    ("load", "methods"),  # from a Hertz-like film Newton's method goes astray under more load than this
+    [(20.0, ("newton", "hybrid", "direct")), (40.0, ("hybrid", "direct"))],
+)
+def test_all_methods_agree_on_a_rough_film(load, methods):
+    case = line(load, 5.0, NX, 0.3 * roughness(4, NX))
+    found = [solve(method, case) for method in methods]
     for one in found:
         assert one.converged
-        assert apart(inner(found[0]), inner(one)) < 1e-4
+        assert apart(inner(found[0]), inner(one)) < 1e-5
 
 
 def test_a_dry_start_touches_where_the_dry_contact_does():
