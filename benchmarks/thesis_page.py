@@ -77,7 +77,32 @@ def _summary(judged: Sequence[tuple[str, Sequence[str], Found]]) -> Lines:
         lines.append(cells((NAMES[kind], *(count[verdict] for verdict in VERDICTS))))
     run = [verdicts for verdicts in everything if all(entry.verdict != "not run" for entry in verdicts.values())]
     differ = sum(len({entry.verdict for entry in verdicts.values()}) > 1 for verdicts in run)
-    return [*lines, "", f"Of {len(run)} claims that both have been asked, they come to different verdicts in {differ}."]
+    lines += ["", f"Of {len(run)} claims that both have been asked, they come to different verdicts in {differ}."]
+    for kind in KINDS:
+        named = {
+            f"{chapter}.{k}": verdicts[kind]
+            for chapter, (_, _, found) in enumerate(judged, 5)
+            for k, (_, verdicts) in enumerate(found, 1)
+        }
+        lines.append(explained(NAMES[kind], named))
+    return lines
+
+
+def explained(kind: str, judged: dict[str, Judged]) -> str:
+    """Return how many of the claims that do not come out, by their numbers, experiments explain."""
+    wrong = {name: entry.causes for name, entry in judged.items() if entry.verdict == "disagree"}
+    mended = [name for name, causes in wrong.items() if any(cause.startswith("agrees with") for cause in causes)]
+    none = [name for name, causes in wrong.items() if not any(cause.startswith(("agrees", "not by")) for cause in causes)]
+    short = [name for name, causes in wrong.items() if any("not run yet" in cause for cause in causes)]
+    return (
+        f"Of the {len(wrong)} that disagree in {kind}, an experiment makes {len(mended)} agree and none of those tried "
+        f"{len(wrong) - len(mended) - len(none)}; {len(none)} have no experiment that was run"
+        f"{_listed(none)}, {len(short)} lack some of theirs{_listed(short)}."
+    )
+
+
+def _listed(names: Sequence[str]) -> str:
+    return f" ({', '.join(names)})" if names else ""
 
 
 def _together(verdicts: dict[str, Judged]) -> str:
