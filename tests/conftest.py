@@ -1,6 +1,10 @@
 """What all tests share: a test's marker is the folder it lies in, and random inputs repeat in every run."""
 
+import os
 from pathlib import Path
+
+# before numpy is loaded: threads that wait for each other on matrices of six rows take half of the time of some files
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
 from hypothesis import HealthCheck, settings

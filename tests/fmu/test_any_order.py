@@ -223,4 +223,4 @@ def test_any_sequence_of_calls(flavour, native_program, native_environment, quic
         )
         machine.runTest()
     assert host.code == 0 or Calls.embedded  # a limit of pythonfmu's binary: see test_limits_of_pythonfmu.py
-    assert min(Calls.steps) > 20
+    assert min(Calls.steps) > 5

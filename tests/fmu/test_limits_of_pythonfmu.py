@@ -70,7 +70,7 @@ def test_errors_and_rollback_in_turn_leave_the_run_as_it_was(quick_folder, monke
         host.initialise()
         handle = host.fmu.getFMUstate()
         expected = host.step(60.0)
-        for _ in range(20):
+        for _ in range(8):
             with monkeypatch.context() as patch:
                 patch.setattr(slave, "advance", broken)
                 assert not host.step(60.0)["valid"]

@@ -192,7 +192,10 @@ COMPARED = {
 }
 
 
-FEWER: dict[str, dict[str, str]] = {"bearing_209": {"bearing.levels": "1"}, "mtm_rig": {}}  # contacts; each is a process
+FEWER: dict[str, dict[str, str]] = {
+    "bearing_209": {"bearing.levels": "1"},
+    "mtm_rig": {},
+}  # contacts; each is a process
 
 
 @pytest.fixture(scope="module", params=COMPARED)
