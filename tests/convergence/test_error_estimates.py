@@ -82,6 +82,14 @@ def test_true_errors_lie_within_the_stated_half_widths(case):
         assert covered([pairs]) >= 0.75, name
 
 
+def test_where_no_grid_sees_the_inlet_the_film_may_part_the_bodies_and_the_half_widths_say_so():
+    one, true = line(1, 65), line(1, 513)
+    assert one.contact_load_ratio > 0.9  # the grid finds next to no film, as does that of half its nodes
+    assert true.contact_load_ratio < 0.1
+    for name, stated in one.error_estimate.items():
+        assert stated >= abs(getattr(one, name) - getattr(true, name)), name
+
+
 @pytest.mark.parametrize("part", [1.0 / 3.0, 0.1])
 @pytest.mark.parametrize("case", CALLS, ids=["point", "line"])
 def test_a_part_of_the_stated_half_widths_would_not_do(case, part):

@@ -129,3 +129,19 @@ def test_oil_that_presses_the_solids_in_settles_as_by_newtons_method(wave, cap, 
         assert not now.iterate.solid.any()
         assert capped.sum() > 30
         assert (capped ^ others).sum() < 0.1 * capped.sum()
+
+
+@pytest.mark.parametrize("solve", [solve_mixed, solve_direct])
+@pytest.mark.parametrize("cap", [1.02, 1.2])
+def test_what_is_called_converged_carries_the_load_however_coarse_the_tolerance(solve, cap):
+    """Of bodies that yield: a step that is cut at the hardness lacks what it cuts."""
+    converged = 0
+    for wave, nodes in ((0.01, 33), (0.02, 25), (0.02, 33), (0.04, 33)):
+        case, smooth, half_space = problem(nodes, nodes, wave, cap=np.full((nodes, nodes), cap))
+        for start in (film_start(case, smooth), film_start(case, smooth, 0.05), dry_start(case, smooth, half_space)):
+            found = solve(half_space, case, start, 0.1, 120)
+            off = found.iterate.pressure.sum() / case.load - 1.0
+            assert found.load_error == approx(off, abs=1e-12)
+            assert abs(off) < 1e-4 or not found.converged
+            converged += found.converged
+    assert converged > 5
