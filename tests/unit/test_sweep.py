@@ -4,12 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from cheap_scene import cheap
+from cheap_scene import CHEAP, cheap
 from comparison import approx
 
-from contact_core import solve
+from contact_core import oil, solve
+from contact_core.laws.heat import Rubbing
 from contact_core.patches import bare_heights, heights_of, on_grid, patch_nodes, rolled, yielded
 from contact_core.reference import hamrock_dowson
+from contact_core.shapes import Point
 from contact_core.sweep import observed
 
 
@@ -69,3 +71,41 @@ def test_the_bodies_give_way_by_the_overlap_and_by_nothing_else(steps):
     assert first == approx(second, rel=1e-12)  # half each
     again = yielded(scene, after, overlap)
     assert together(state) - together(again) == approx(2.0 * overlap, rel=1e-9, abs=1e-20)
+
+
+def test_rolling_resistance_is_the_oils_pressure_slope_along_x_over_half_the_gap(instant):
+    scene, op, fields = instant
+    x, y = np.meshgrid(fields.x, fields.y)
+    even = replace(fields, gap=np.full_like(fields.gap, 2e-7), fluid_pressure=1e12 * x + 3e12 * y)
+    expected = 0.5 * 2e-7 * 1e12 * x.size * scene.film.spacing**2
+    assert observed(scene, op, even)["rolling_resistance"] == approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("i", [0, 1])
+def test_wear_of_either_body_takes_its_waves_out_of_the_roughness(i):
+    scene, state, op = cheap()
+    body = state.bodies[i]
+    wave = (
+        1e-9 * np.cos(2.0 * np.pi * 3.0 * np.arange(body.wear.shape[1]) / body.wear.shape[1]) * np.ones_like(body.wear)
+    )
+    bodies = tuple(replace(each, wear=wave * (k == i)) for k, each in enumerate(state.bodies))
+    before, after = (solve(scene, op, at, dry=True) for at in (state, replace(state, bodies=bodies)))
+    lost = on_grid(wave, patch_nodes(scene, body))
+    assert before.roughness - after.roughness == approx(lost, rel=1e-6, abs=1e-18)
+    assert before.heights - after.heights == approx(lost, rel=1e-6, abs=1e-18)
+
+
+def test_an_ellipse_turned_by_a_quarter_is_as_deep_with_its_axes_swapped():
+    one, turned = Point(5e-3, 30e-3), Point(30e-3, 5e-3)
+    assert one.depths(1e-7, 2e-4, 6e-4) == approx(turned.depths(1e-7, 6e-4, 2e-4)[::-1], rel=1e-12)
+
+
+def test_the_heat_of_a_line_spreads_along_its_whole_face(monkeypatch):
+    seen = []
+    monkeypatch.setattr(oil, "Rubbing", lambda **given: seen.append(given["face"]) or Rubbing(**given))
+    scene, state, op = cheap(
+        CHEAP | {"geometry.model": "line", "geometry.face_width": "8 mm", "operation.load": "2 kN"}
+    )
+    solve(scene, op, state, dry=True)
+    assert seen
+    assert seen == approx([8e-3] * len(seen), rel=1e-9)
