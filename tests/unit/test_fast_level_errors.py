@@ -1,0 +1,94 @@
+"""Errors that the fast level states, against the deterministic level on contacts that no curve was fitted to."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from contact_core import OperatingPoint, RangeFlag, Scene, advance, initial_state
+from contact_core.state import Mean
+
+# random contacts within the fit, beyond it, and rubbed for ten minutes: `python benchmarks/regression_truths.py`
+GOLDEN = Path(__file__).parent.parent / "golden" / "fast_level.json"
+# wear is in proportion to the load on the solids
+ERRORS = {"friction_coefficient": "error_friction", "h_c": "error_film", "contact_load_ratio": "error_wear"}
+UNKNOWN = 1e3  # of wear: nobody knows
+
+
+@pytest.fixture(scope="module")
+def rows():
+    """The contacts by name."""
+    return json.loads(GOLDEN.read_text(encoding="utf-8"))
+
+
+def fast(row):
+    """The scene at the fast level, and its outputs."""
+    scene = Scene.from_toml(row["scene"], {key: str(value) for key, value in row["changes"].items()})
+    scene = scene.at_level("regression")
+    state = initial_state(scene)
+    if row["means"]:
+        state = replace(state, means=tuple(Mean(**mean) for mean in row["means"]))
+    return scene, advance(scene, OperatingPoint(**row["point"]), state, 0.0)[1]
+
+
+@pytest.fixture(scope="module")
+def compared(rows):
+    """Of each group and output: deviations of the deterministic level over the stated errors."""
+    found = {}
+    for name, row in rows.items():
+        (_, outputs), group = fast(row), name.partition(" ")[0]
+        assert bool(outputs.range_flags & RangeFlag.OUTSIDE_FIT) is (group == "beyond"), name
+        for output, error in ERRORS.items():
+            stated, mine = getattr(outputs, error), getattr(outputs, output)
+            if stated < UNKNOWN:
+                ratio = abs(row["truth"][output] / mine - 1.0) / stated
+                found.setdefault((group, output), []).append(ratio)
+    return found
+
+
+def of_group(compared, group):
+    return np.concatenate([ratios for (name, _), ratios in compared.items() if name == group])
+
+
+def of_output(compared, output):
+    return np.concatenate([ratios for (_, name), ratios in compared.items() if name == output])
+
+
+@pytest.mark.parametrize("output", ERRORS)
+def test_stated_errors_cover_nine_in_ten_and_neither_half_nor_a_tenth_of_them_would(compared, output):
+    ratios = of_output(compared, output)
+    assert ratios.size > 50
+    assert (ratios <= 1.0).mean() >= 0.9
+    assert (ratios <= 0.5).mean() < 0.85
+    assert (ratios <= 0.1).mean() < 0.4
+
+
+def test_beyond_the_fit_errors_are_as_wide_as_they_have_to_be(compared):
+    ratios = of_group(compared, "beyond")
+    assert (ratios <= 1.0).mean() >= 0.9
+    assert (ratios <= 0.5).mean() < 0.75  # of errors that are no wider than within the fit
+
+
+def test_surfaces_that_have_rubbed_are_covered_and_errors_of_fresh_ones_would_not_do(compared):
+    ratios = of_group(compared, "rubbed")
+    assert (ratios <= 1.0).mean() >= 0.9
+    assert (ratios <= 1.0 / 1.6).mean() < 0.85
+
+
+@pytest.mark.parametrize("shape", ["line", "circle"])
+def test_the_oil_of_contacts_within_the_fit_rubs_as_much_as_it_should_on_average(rows, shape):
+    """Friction over the load that the oil carries. Of lines it hangs on how far above Hertz's pressure the oil does."""
+    off = []
+    for name, row in rows.items():
+        share, load = row["truth"]["contact_load_ratio"], row["point"]["load"]
+        if not name.startswith(f"fresh {shape}") or share > 0.6:
+            continue
+        scene, outputs = fast(row)
+        oil = row["truth"]["friction_coefficient"] - scene.boundary_friction.bare * share
+        mine = abs(outputs.friction_fluid) / (1.0 - outputs.contact_load_ratio) / load
+        off.append(np.log(mine / (oil / (1.0 - share))))
+    assert len(off) > 6
+    assert abs(np.mean(off)) < 0.15
+    assert np.abs(off).max() < np.log(2.0)
