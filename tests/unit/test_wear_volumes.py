@@ -190,3 +190,14 @@ def test_ten_times_the_wear_in_a_tenth_of_the_time_is_the_same_run():
         assert others[name] == approx(widths[name], rel=1e-6), name
     assert quick == approx(noise, rel=1e-6)
     assert min(noise) > 0.0
+
+
+@pytest.mark.parametrize("speed", [0.05, 0.25])
+def test_volumes_of_both_levels_differ_by_no_more_than_the_fast_one_says_and_by_more_than_a_tenth_of_it(speed):
+    """Two minutes on a grid beyond the fit."""
+    scene, state, op = cheap(control__mixed_instants="4")
+    op = replace(op, speed_1=0.99 * speed, speed_2=1.01 * speed)
+    solved, quick = (advance(scene.at_level(level), op, state, 120.0)[1] for level in LEVELS)
+    off = np.abs(of(solved, "wear_volume") / of(quick, "wear_volume") - 1.0)
+    assert (0.1 * quick.error_wear < off).all()
+    assert (off <= quick.error_wear).all()
