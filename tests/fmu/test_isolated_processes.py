@@ -67,6 +67,36 @@ def test_a_stop_time_stands_after_the_worker_was_lost(host, isolated_folder):
     assert instance.step(9.0) == OK
 
 
+def test_a_reset_forgets_the_stop_time_for_a_new_worker_too(host, isolated_folder):
+    instance = host.load(isolated_folder).instance()
+    calls = (("setup", 2.0, 5.0), ("enter",), ("exit",), ("save", 0), ("reset",))
+    assert [instance.ask(*call).status for call in calls] == [OK] * 5
+    (supervisor,) = host.supervisors()
+    for worker in children(supervisor):
+        os.kill(worker, signal.SIGKILL)
+    assert soon(lambda: children(supervisor) == [])
+    assert instance.ask("restore", 0).status == OK
+    assert instance.step(9.0) == OK
+
+
+def test_signals_that_a_host_blocks_or_ignores_still_reach_the_model(native_program, isolated_folder):
+    def blocked_and_ignored() -> list[str]:
+        with NativeHost(native_program, plain_environment()) as host:
+            started(host, isolated_folder)
+            (supervisor,) = host.supervisors()
+            listed = [Path(f"/proc/{pid}/status").read_text() for pid in (supervisor, *children(supervisor))]
+        return [line for text in listed for line in text.splitlines() if line.startswith(("SigBlk", "SigIgn"))]
+
+    usual = blocked_and_ignored()
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGUSR1])
+    handler = signal.signal(signal.SIGUSR2, signal.SIG_IGN)
+    try:
+        assert blocked_and_ignored() == usual
+    finally:
+        signal.signal(signal.SIGUSR2, handler)
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+
+
 def test_that_a_worker_has_ended_shows_before_its_supervisor_says_so(host, isolated_folder):
     instance = started(host, isolated_folder)
     instance.ask("save", 0)
