@@ -110,3 +110,7 @@ def test_palmgren_torque_has_both_of_its_branches():
     factor, exponent = ANGULAR_CONTACT.f_1
     felt = 0.9 * 17800.0 / math.tan(math.radians(40.0))
     assert thrust == approx(factor * (0.26 * 17.8 / 104.0) ** exponent * felt * 0.125, rel=1e-12)
+    # a radial load beside it takes a tenth of itself off what is felt
+    both = palmgren_torque(CATALOGUE_218, 5000.0, 17800.0, 1.0, 20e-6).load_dependent
+    share = (CATALOGUE_218.static_load(5000.0, 17800.0) / 104e3) ** exponent
+    assert both == approx(factor * share * (felt - 500.0) * 0.125, rel=1e-12)

@@ -1,4 +1,4 @@
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 import pytest
@@ -82,6 +82,15 @@ def test_a_file_that_is_no_text_is_refused(tmp_path: Path) -> None:
 def test_times_that_make_no_duty_are_refused(times: tuple[float, ...], points: int) -> None:
     with pytest.raises(SceneError, match="must start at 0, increase, and be as many as its points"):
         Duty(times, (REFERENCE,) * points)
+
+
+def test_a_fingerprint_changes_with_everything_that_a_duty_sets() -> None:
+    def of(time: float, **changes: float) -> str:
+        return Duty((0.0, time), (REFERENCE, replace(REFERENCE, **changes))).fingerprint()
+
+    changed = {of(1.0, **{f.name: 1.5}) for f in fields(OperatingPoint)} | {of(1.0), of(1.0 + 1e-15)}
+    assert len(changed) == len(fields(OperatingPoint)) + 2
+    assert of(1.0) == of(1.0)
 
 
 def test_a_scene_without_a_file_has_a_constant_duty(scene: Scene) -> None:

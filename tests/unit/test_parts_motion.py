@@ -90,6 +90,17 @@ def test_a_coupling_brings_the_shaft_to_the_drives_speed_less_the_slip(step):
     assert shaft.outputs((speed, angle), inputs)["torque_coupling"] == approx(40.0 * (100.0 - speed), rel=1e-13)
 
 
+def test_a_shaft_that_its_coupling_brakes_turns_on_as_far_as_many_short_steps_say():
+    """A drive at rest and a torque that holds: it comes to standstill within the step, and stays."""
+    shaft, inputs = Shaft(0.5, damping=0.3, coupling=4.0), _torques(0.0, 6.0, 0.0)
+    state = (30.0, 0.0)
+    for _ in range(4000):
+        state = shaft.advance(state, inputs, 1e-4)
+    speed, angle = shaft.advance((30.0, 0.0), inputs, 0.4)
+    assert speed == state[0] == 0.0
+    assert angle == approx(state[1], rel=1e-9)
+
+
 def test_a_coupling_slips_on_a_shaft_that_is_held():
     assert Shaft(0.5, coupling=4.0).advance((3.0, 0.0), _torques(0.0, 6.0, 1.4), 600.0)[0] == 0.0
     assert Shaft(0.5, coupling=4.0).advance((0.0, 0.0), _torques(0.0, 6.0, 1.6), 600.0)[0] == approx(0.1)
