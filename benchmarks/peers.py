@@ -325,10 +325,10 @@ With a hardness of {hardness:g} GPa (tamaas bounds pressures in periodic contact
 
 SLIPPY = """
 slippy 0.5.2 asks for NumPy below 1.21, which Python 3.11 does not have: only its `slippy.core` is run here, installed by
-`pip install --no-deps slippy tinydb`. Most of a first call is its influence matrix, which it leaves to its caller to keep.
-In an earlier comparison, on another surface of the same Rq and with the matrix at hand, it was the fastest peer: 0.87, 0.42
-and 0.48 times the time of a plain Polonsky-Keer solver on 128, 256 and 512 nodes a side, 3.1, 1.55 and 0.84 times on 129,
-257 and 513.
+`pip install --no-deps slippy tinydb`. Its influence matrix it leaves to its caller to keep; "again" has it at hand. By an
+earlier comparison, on another surface of the same Rq, it took 0.87, 0.42 and 0.48 times the time of a plain Polonsky-Keer
+solver on 128, 256 and 512 nodes a side, and 3.1, 1.55 and 0.84 times on 129, 257 and 513: the fastest peer where the number
+of nodes suits its transforms.
 """
 
 

@@ -133,7 +133,7 @@ def random_points(pages: Pages) -> list[tuple[str, ...]]:
             found.append(range_of((row[f"{column}, {kind}"] for row in rows), per_cent))
         ends = (f"{half}; {most}" for half, most in zip(*found, strict=True))
         lines.append(
-            (f"{name} on random points, by film: half of them; nine of ten within", *ends, link("regression.md"))
+            (f"{name} on random points of the shipped circles, half; nine of ten within", *ends, link("regression.md"))
         )
     return lines
 
@@ -150,7 +150,7 @@ def two_hours(pages: Pages) -> list[tuple[str, ...]]:
                     found.append((abs(fast / slow - 1.0), f"{100.0 * (fast / slow - 1.0):+.2g} %", row))
         (_, best, _), (_, worst, at) = min(found, key=lambda one: one[0]), max(found, key=lambda one: one[0])
         when = f"{worst} ({at['scene']}, {at['min']} min)"
-        lines.append((f"{name} in two hours of rubbing", best, when, link("regression.md")))
+        lines.append((f"{name} at 0, 20, 60 and 120 min of rubbing", best, when, link("regression.md")))
     times = [slow / fast for slow, fast in (pair(row["CPU s"]) for row in rows if row["min"] == "120")]
     lines.append(
         ("their CPU time, times less", f"{max(times):.0f}", f"{min(times):.0f}", link("regression.md"))
@@ -179,7 +179,7 @@ def error_outputs(pages: Pages) -> list[tuple[str, ...]]:
             which = "points solved well" if sure else "points, solved well or not,"
             lines.append(
                 (
-                    f"`error_{name}` covers {hit} of {count} {which} that nothing was fitted to",
+                    f"`error_{name}` covers {hit} of {count} {which} of gears, bearings and an MTM that nothing was fitted to",
                     *("{1} of {2} ({0}s)".format(shape, *by_shape[shape]) for shape in (best, worst)),
                     link(page),
                 )
