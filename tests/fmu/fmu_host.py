@@ -6,11 +6,12 @@ import contextlib
 import os
 import zipfile
 from collections.abc import Callable, Iterator
+from ctypes import byref
 from pathlib import Path
 
 import fmpy
-from fmpy.fmi2 import fmi2OK
-from fmpy.simulation import instantiate_fmu
+from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE, fmi2OK
+from fmpy.logging import addLoggerProxy
 
 import contact_core
 
@@ -51,6 +52,19 @@ def environment() -> dict[str, str]:
     return os.environ | {"PYTHONPATH": os.pathsep.join([root, os.environ.get("PYTHONPATH", "")])}
 
 
+_KEPT = []  # fmpy hands the messages of all FMUs to the logger that was added last: none of them may go
+
+
+def _callbacks(logger: Callable[..., None]) -> fmi2CallbackFunctions:
+    functions = fmi2CallbackFunctions()
+    functions.logger = fmi2CallbackLoggerTYPE(logger)
+    functions.allocateMemory = defaultCallbacks.allocateMemory
+    functions.freeMemory = defaultCallbacks.freeMemory
+    _KEPT.append(functions)
+    addLoggerProxy(byref(functions))
+    return functions
+
+
 class Host:
     """An instance of the FMU that lies unpacked in `folder`."""
 
@@ -59,7 +73,12 @@ class Host:
         self.log: list[tuple[int, str]] = []  # status and text of what went wrong
         self.entries: list[tuple[int, str, str]] = []  # status, category and text of everything
         self.variables = {v.name: v for v in description.modelVariables}
-        self.fmu = instantiate_fmu(str(folder), description, debug_logging=logging, logger=self._logged)
+        self.fmu = FMU2Slave(
+            guid=description.guid,
+            unzipDirectory=str(folder),
+            modelIdentifier=description.coSimulation.modelIdentifier,
+        )
+        self.fmu.instantiate(callbacks=_callbacks(self._logged), loggingOn=logging)
         self.time = 0.0
         for call in ("setFMUstate", "reset"):  # time goes with states, as in every host
             setattr(self.fmu, call, self._with_time(getattr(self.fmu, call)))
