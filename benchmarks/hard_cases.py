@@ -13,6 +13,7 @@ three grids. `report` writes docs/hard_cases.md and docs/hard_cases.png from tho
 
 import argparse
 import csv
+import sys
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -604,6 +605,8 @@ def report() -> None:
     if listed:
         text += ["## Rows", ROWS_NOTE, "", *_row_table(listed), ""]
     (DOCS / "hard_cases.md").write_text("\n".join(text))
+    wrong = sum("0 of them fail" not in line for line in text if "of them fail" in line)
+    sys.exit(f"{wrong} groups of points have answers that are called converged and fail the check" if wrong else 0)
 
 
 RANDOM_NOTE = f"""

@@ -375,6 +375,8 @@ def _check(arguments: argparse.Namespace) -> int:
     from .check import report
     from .check.package import opened
 
+    if arguments.settings and not arguments.deep:
+        raise ContactError("--set gives start values of a run of the FMU: add --deep.")
     found = []
     with opened(arguments.fmu) as package:
         for finding in report.findings(package, arguments.deep, arguments.limit, arguments.budget, arguments.settings):

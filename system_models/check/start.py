@@ -39,8 +39,11 @@ def cheapest(description: ModelDescription) -> Start:
     """The lowest level of an FMU that has several and starts at a higher one."""
     for variable in description.modelVariables:
         if variable.name == _LEVEL and variable.causality == "parameter" and base_type(variable) == "Integer":
-            lowest = attribute(variable, "min")
-            return {_LEVEL: int(lowest)} if lowest is not None and int(lowest) < int(variable.start) else {}
+            try:
+                lowest, own = int(attribute(variable, "min") or ""), int(variable.start)
+            except (TypeError, ValueError):  # the static rules say so
+                return {}
+            return {_LEVEL: lowest} if lowest < own else {}
     return {}
 
 

@@ -119,7 +119,7 @@ def stop(supervisor: int) -> list[int]:
 
 
 def test_a_supervisor_that_does_not_answer_is_replaced(native_program: Path, isolated_folder: Path) -> None:
-    with NativeHost(native_program, plain_environment() | {"TRIBOFMU_TIMEOUT": "3"}) as host:
+    with NativeHost(native_program, plain_environment() | {"TRIBOFMU_TIMEOUT": "8"}) as host:
         instance = started(host.load(isolated_folder))
         instance.ask("save", 0)
         (expected,) = rows(instance)
