@@ -10,7 +10,9 @@ from comparison import approx
 from contact_core import advance, initial_state, run_cycle, track_of, uncertainty
 from contact_core.block import solve_block
 from contact_core.evolution import evolved
+from contact_core.friction import sliding
 from contact_core.geometry import LineGeometry
+from contact_core.patches import contact_grid
 
 FACE = 0.8e-3
 BARE = {"tribofilm.model": "none"}
@@ -165,6 +167,27 @@ def test_a_body_that_only_spins_wears_by_the_way_its_points_slide_under_hertzs_p
     slide = 200.0 * 3.0 * np.pi / 16.0 * scene.hertz_at(op).a
     expected = scene.wear.bare * found.contact_load_ratio * op.load * slide / scene.plasticity.hardness
     assert of(found, "wear_rate") == approx([expected, expected], rel=0.04)
+
+
+@pytest.mark.parametrize("spin", [100.0, -100.0])
+@pytest.mark.parametrize("turned", [1.0, -1.0])
+def test_each_side_of_a_spinning_track_wears_as_fast_as_friction_says_that_it_slides(spin, turned):
+    smooth = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm"}
+    scene, state, op = cheap(DRY | BARE | smooth, film__points=65)
+    op = replace(op, speed_1=0.3 + turned * 0.006, speed_2=0.3, spin=spin)
+    state, _ = advance(scene, op, state, 1e-3)
+    grid = contact_grid(scene, scene.rows)
+    x, y = grid.x[None, :-1], grid.y[:, None]
+    hertz = scene.hertz_at(op)
+    pressure = np.sqrt(np.maximum(1.0 - (x / hertz.a) ** 2 - (y / hertz.b) ** 2, 0.0))
+    expected = (pressure * sliding(op, grid)[0][:, :-1]).sum(axis=1)
+    upper, lower = grid.y > 0.0, grid.y < 0.0
+    share = expected[upper].sum() / expected[lower].sum()
+    assert abs(np.log(share)) > 0.5  # one side slides much faster
+    for body in state.bodies:
+        worn = body.wear.mean(axis=1)
+        assert worn[upper].sum() / worn[lower].sum() == approx(share, rel=0.05)
+        assert worn / worn.sum() == approx(expected / expected.sum(), rel=0.1, abs=0.002)
 
 
 def test_ten_times_the_wear_in_a_tenth_of_the_time_is_the_same_run():
