@@ -187,7 +187,7 @@ def test_signals_to_the_host_neither_disturb_nor_delay(native_program, faulty_fo
             os.kill(supervisor, signal.SIGKILL)
         answer = host.answer()
         assert answer.status == ERROR
-        assert ("no answer within 3 s" if victim == "nobody" else "supervisor ended") in answer.log[0][3]
+        assert ("no answer within 8 s" if victim == "nobody" else "supervisor ended") in answer.log[0][3]
         assert host.ask("alarms", 0).status == OK
 
 

@@ -13,6 +13,8 @@ from contact_core.state import Mean
 
 # random contacts within the fit, beyond it, and rubbed for ten minutes: `python benchmarks/regression_truths.py`
 GOLDEN = Path(__file__).parent.parent / "golden" / "fast_level.json"
+# tribofilms of circles within the fit, after the seconds said with it, from new surfaces: each as `advance` has it
+TRIBOFILMS = GOLDEN.with_name("fast_level_tribofilms.json")
 # wear is in proportion to the load on the solids
 ERRORS = {"friction_coefficient": "error_friction", "h_c": "error_film", "contact_load_ratio": "error_wear"}
 UNKNOWN = 1e3  # of wear: nobody knows
@@ -83,10 +85,31 @@ def test_beyond_the_fit_errors_are_as_wide_as_they_have_to_be(compared):
     assert (ratios <= 0.5).mean() < 0.75  # of errors that are no wider than within the fit
 
 
-def test_surfaces_that_have_rubbed_are_covered_and_errors_of_fresh_ones_would_not_do(compared):
+def test_lines_that_have_rubbed_are_covered_and_errors_of_fresh_ones_would_not_do(compared):
+    """Of circles that have rubbed only half are: docs/regression_shapes.md."""
     ratios = of_group(compared, "rubbed")
     assert (ratios <= 1.0).mean() >= 0.9
     assert (ratios <= 1.0 / 1.6).mean() < 0.85
+
+
+def test_tribofilms_of_circles_are_covered_and_a_tenth_of_the_error_would_cover_none():
+    """A tenth by the rougher body: the other one's film grows all over its track, and both levels say the same.
+
+    Lines have the exposures of circles and are not covered: films of those that have rubbed are off by 0.2 and more.
+    """
+    ratios = {}
+    for name, row in json.loads(TRIBOFILMS.read_text(encoding="utf-8")).items():
+        scene = scene_of(row).at_level("regression")
+        assert not scene.tribofilm.abrades
+        _, found = advance(scene, OperatingPoint(**row["point"]), initial_state(scene), row["seconds"])
+        assert found.range_flags == 0
+        for body in ("tribofilm_1", "tribofilm_2"):
+            off = abs(row["truth"][body] / getattr(found, body) - 1.0)
+            ratios.setdefault(body, {})[name] = off / found.error_tribofilm
+    rougher = np.array(list(ratios["tribofilm_2"].values()))
+    assert max(ratios["tribofilm_1"].values()) <= 1.0
+    assert rougher.max() <= 1.0
+    assert rougher.min() > 0.1
 
 
 @pytest.mark.parametrize("shape", ["line", "circle"])
