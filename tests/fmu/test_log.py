@@ -1,6 +1,7 @@
 """Every message has a listed category; flags are told once, and are no failure."""
 
 import math
+from dataclasses import replace
 
 import fmpy
 import pytest
@@ -59,6 +60,24 @@ def test_solutions_that_missed_their_tolerance_are_told_by_the_solver(host):
     host.step(60.0)
     assert RangeFlag.NOT_CONVERGED in RangeFlag(host.get("range_flags"))
     assert (fmi2OK, "logSolver", f"range_flags: {RangeFlag.NOT_CONVERGED.text}.") in host.entries
+
+
+@pytest.mark.parametrize("flag", [flag for flag in RangeFlag if flag != RangeFlag.OTHER_LEVEL], ids=lambda f: f.name)
+def test_what_the_solver_failed_to_do_is_told_apart_from_what_is_outside_its_range(stepped, monkeypatch, flag):
+    whole = slave.advance
+
+    def raising(raised):
+        def advance(*given):
+            state, outputs = whole(*given)
+            return state, replace(outputs, range_flags=int(raised))
+
+        monkeypatch.setattr(slave, "advance", advance)
+
+    raising(RangeFlag(0))
+    stepped.step(10.0)
+    raising(flag)
+    of_solver = flag in (RangeFlag.NOT_CONVERGED, RangeFlag.FALLBACK)
+    assert entries(stepped, lambda host: host.step(10.0)) == [(fmi2OK, "logSolver" if of_solver else "logValidity")]
 
 
 def test_the_description_lists_exactly_these_categories(folder):

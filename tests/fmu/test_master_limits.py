@@ -8,6 +8,7 @@ from comparison import approx
 from models.systems import quarter_car_force, two_mass_force
 
 from system_models.master import CouplingError, simulate
+from system_models.master.coupled import Coupled
 
 
 @pytest.fixture(scope="module")
@@ -46,6 +47,25 @@ def test_only_the_outputs_that_are_named_are_to_meet_the_tolerance(case):
     exact = case.solution(named["time"].values)
     position = np.abs(named["one.x"].values - exact[:, case.states.index("one.x")])
     assert position.max() < 3e-3 * np.abs(exact).max()
+
+
+@pytest.mark.parametrize("part", [0, 1, 2], ids=["whole step", "first half", "second half"])
+def test_a_step_is_repeated_if_the_iteration_has_failed_in_any_part_of_it(case, monkeypatch, part):
+    def rejected():
+        calls.clear()
+        found = simulate(case.system, 1e-2, 1e-3, tolerance=0.1, iterate="quasi_newton", outputs=case.states)
+        return found.attrs["rejected"]
+
+    calls, whole = [], Coupled.advance
+
+    def failing(coupled, end, start):
+        outcome = whole(coupled, end, start)
+        calls.append(end)
+        return outcome._replace(residual=1.5) if len(calls) == 1 + part else outcome
+
+    assert rejected() == 0
+    monkeypatch.setattr(Coupled, "advance", failing)
+    assert rejected() == 1
 
 
 def test_all_coupled_outputs_named_are_as_none_named(case):

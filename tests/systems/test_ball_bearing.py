@@ -238,3 +238,20 @@ def test_what_a_catalogue_would_have_is_near_it(geometry: Any, known: Any) -> No
     assert found.bore == approx(known.bore, rel=5e-3)
     assert found.outside == approx(known.outside, rel=5e-3)
     assert found.static_rating == approx(known.static_rating, rel=0.2)
+
+
+def test_the_tracks_are_those_at_the_row_of_the_duty_with_the_largest_force_and_at_its_moment() -> None:
+    """That row is mostly axial: its radial load is less than that of the others."""
+    heaviest = {"load": "0.5 kN", "axial_load": "3 kN", "moment": "20 N m"}
+    lighter_row = {"load": "2 kN", "axial_load": "0.1 kN", "moment": "0 N m"}
+
+    def contacts(*rows: dict[str, str]) -> list[tuple[str, dict[str, Any]]]:
+        machine = reading.read("bearing_209", {"bearing.levels": "2"})
+        steps = [{"time": f"{k} min"} | row for k, row in enumerate(rows[1:], 1)]
+        machine.table["duty"] = {"duration": "9 min", "speed": "1500 rpm", "steps": steps} | rows[0]
+        return [(name, dict(contact.parameters)) for name, contact in reading.assemble(machine).contacts.items()]
+
+    alone = contacts(heaviest)
+    assert contacts(lighter_row, heaviest, lighter_row) == contacts(heaviest, lighter_row) == alone
+    for other in (lighter_row, heaviest | {"moment": "0 N m"}, heaviest | {"axial_load": "0 kN"}):
+        assert contacts(other) != alone

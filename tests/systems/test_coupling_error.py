@@ -1,5 +1,7 @@
 """The error that steps of double size tell is the error there is; jumps of the duty are none."""
 
+from collections.abc import Mapping
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -118,3 +120,38 @@ def test_a_small_jump_is_an_error_of_its_own_size_even_where_both_results_have_i
         assert found["a.y"].attrs[ATTRIBUTE] == approx(said, rel=0.01)
     smooth = stated(falling(result, 0.0), falling(doubled, 0.0), SCHEDULE)
     assert smooth["a.y"].attrs[ATTRIBUTE] < 1e-9
+
+
+def with_changes(dataset: xr.Dataset, changes: Mapping[int, float]) -> xr.Dataset:
+    """The result with a.y, which begins at 1 and changes by 1e-3 in every step, or by so many times that from a row."""
+    each = np.full(len(dataset["time"]) - 1, 1e-3)
+    for row, factor in changes.items():
+        each[row] *= factor
+    return dataset.assign({"a.y": ("time", 1.0 + np.append(0.0, np.cumsum(each)), {"units": "m"})})
+
+
+@pytest.mark.parametrize(
+    ("changes", "jump"),
+    [({60: 2.0}, 0.0), ({60: 5.0}, 5e-3), ({60: -5.0}, 5e-3), ({60: 5.0, 61: 5.0}, 0.0), ({60: 50.0, 64: 5.0}, 0.05)],
+)
+def test_a_change_is_a_jump_where_it_is_far_larger_than_those_on_both_sides(
+    changes: dict[int, float], jump: float, result: xr.Dataset, doubled: xr.Dataset
+) -> None:
+    """What both results have alike at their common times differs nowhere, so only a jump is stated."""
+    whole = with_changes(result, changes)
+    found = stated(whole, whole.sel(time=doubled["time"]), SCHEDULE)
+    assert found["a.y"].attrs[ATTRIBUTE] == (approx(jump, rel=1e-6) if jump else 0.0)
+
+
+def test_a_small_jump_in_the_first_steps_after_the_start_or_a_change_of_the_duty_is_none(
+    result: xr.Dataset, doubled: xr.Dataset
+) -> None:
+    changed = int(np.flatnonzero(result["time"].values == 2.0)[0])
+    for begin in (0, changed):
+        errors = []
+        for row in range(begin, begin + 8):
+            whole = with_changes(result, {row: 50.0})
+            found = stated(whole, whole.sel(time=doubled["time"]), SCHEDULE)
+            errors.append(found["a.y"].attrs[ATTRIBUTE])
+        assert errors[:6] == [0.0] * 6
+        assert errors[6:] == approx([0.05, 0.05], rel=1e-6)

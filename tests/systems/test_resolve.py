@@ -170,3 +170,33 @@ def test_a_run_whose_stated_errors_are_a_tenth_is_found_not_to_be_covered(
     assert run.dataset["contact.valid"].values.all()
     told = resolve.to_dataset(states)
     assert told["resolved.valid"].values.tolist() == [part == 1.0] * len(states)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"load": 2.0},
+        {"speed_1": -0.02, "speed_2": -0.02},
+        {"speed_1": -1.0, "speed_2": 1.0},
+        {"valid": 0.0},
+        {"count": 0.0},
+    ],
+    ids=["works", "idle load", "idle speed", "pure sliding", "invalid", "stands for nothing"],
+)
+def test_a_row_at_which_a_contact_does_not_work_is_not_chosen_nor_the_one_after_it(
+    changes: dict[str, float], assembly: Assembly, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The loads and speeds of the idle row are not zero, but a twentieth of the mean at most."""
+    rows, idle = 20, 7
+    start = {"load": 50.0, "speed_1": -1.0, "speed_2": -0.5, "valid": 1.0, "count": 3.0, "fidelity_used": 1.0}
+    columns = {key: np.full(rows, value) for key, value in start.items()}
+    for key, value in changes.items():
+        columns[key][idle] = value
+    named = {f"contact.{key}": ("time", values) for key, values in columns.items()}
+    dataset = xr.Dataset(named, {"time": np.arange(float(rows))})
+    contact = replace(assembly.contacts["contact"], count="contact.count")
+    monkeypatch.setattr(resolve, "solved_again", lambda *given: replace(judged(), row=given[-1]))
+    of_many = replace(assembly, contacts={"contact": contact})
+    chosen = {state.row for state in resolve.resolve(of_many, dataset, lambda done: None, count=rows)}
+    assert chosen == {*range(1, rows)} - ({idle, idle + 1} if changes else set())

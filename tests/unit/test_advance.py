@@ -17,6 +17,7 @@ from contact_core import (
     advance,
     solve,
 )
+from contact_core.quantities import LEVELS, TABLE, value_out_of_range
 
 BARE = CHEAP | {"tribofilm.model": "none"}
 
@@ -446,3 +447,17 @@ def test_dry_pressures_are_weighted_by_the_share_of_the_solids():
         assert 0.05 < outputs.contact_load_ratio < 0.95
         expected = law.bare * solids * slide / scene.plasticity.hardness
         assert outputs.wear_rate_1 == approx(expected, rel=1e-9, abs=0.0)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_every_output_stays_within_its_declared_range_whichever_way_the_bodies_move(level):
+    scene, fresh, op = cheap()
+    scene, signs = scene.at_level(level), {}
+    for one, two, spin in ((0.2, 0.1, 0.0), (-0.2, -0.1, 0.0), (0.1, 0.2, 50.0), (-0.1, -0.2, -50.0)):
+        _, outputs = advance(scene, replace(op, speed_1=one, speed_2=two, spin=spin), fresh, 30.0)
+        for name, value in asdict(outputs).items():
+            assert list(value_out_of_range(TABLE[name], value)) == []
+            signs.setdefault(name, set()).add(math.copysign(1.0, value) if value else 0.0)
+    # the motions do reach both signs of what has two
+    for name in ("friction_force", "rolling_resistance", "friction_solid", "friction_fluid", "dfriction_dload"):
+        assert {-1.0, 1.0} <= signs[name]

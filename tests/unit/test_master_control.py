@@ -72,6 +72,13 @@ def test_after_a_reject_the_next_step_does_not_grow():
     assert control.accept(0.01) > 1.0
 
 
+def test_the_step_after_a_reject_says_nothing_about_those_that_follow():
+    used, new = StepControl(2), StepControl(2)
+    used.reject(1.5)
+    used.accept(0.5)
+    assert [used.accept(ratio) for ratio in (0.9, 0.4)] == [new.accept(ratio) for ratio in (0.9, 0.4)]
+
+
 def test_rejects_in_a_row_shrink_harder():
     control = StepControl(3)
     factors = [control.reject(1.5) for _ in range(4)]
