@@ -8,7 +8,7 @@ Faults are data: benchmarks/faults/*.toml. Each names a file, the text `old` tha
 `changes`), and the `tests` of which every one must fail with it and pass without; or says in `harmless` why none can.
 The copy lies in a temporary folder with a virtual environment of its own, so that every process started by a test, an
 FMU's worker too, imports the copy. What was found is kept in results/faults.json until the fault, its file or one of its
-tests changes, so a run can be stopped and taken up again. Once all are known docs/faults.md is written.
+tests changes, so a run can be stopped and taken up again. docs/faults.md says what is known.
 The exit code is 1 if a fault was not noticed, 2 if the list does not fit the code or a test fails without a fault.
 """
 
@@ -34,7 +34,7 @@ FOUND = ROOT / "results" / "faults.json"
 PAGE = ROOT / "docs" / "faults.md"
 LONGEST = 1800.0  # s for the tests of one fault, each more than enough
 NATIVE = Path("fmu_src", "native")
-CLEAN = "without faults"
+NOTICED, SURVIVES, UNKNOWN = "noticed", "survives", "not tried"
 
 
 @dataclass(frozen=True)
@@ -222,15 +222,25 @@ def at_once(faults: list[Fault]) -> int:
     return int(code != 1)
 
 
+def state_of(fault: Fault, known: dict[str, dict]) -> str:
+    """Return whether the tests have noticed a fault as it stands now."""
+    found = known.get(fault.name, {})
+    if found.get("key") != fault.key:
+        return UNKNOWN
+    return SURVIVES if found["silent"] else NOTICED
+
+
 def page(faults: list[Fault], known: dict[str, dict]) -> str:
     """Return the page: each fault with the tests that notice it, or why none can."""
-    noticed = sum(not fault.harmless and not known[fault.name]["silent"] for fault in faults)
+    state = {fault.name: fault.harmless or state_of(fault, known) for fault in faults}
+    noticed, survive = (list(state.values()).count(one) for one in (NOTICED, SURVIVES))
     harmless = sum(bool(fault.harmless) for fault in faults)
     lines = [
         "# Faults that the tests notice",
         "",
         f"{len(faults)} faults, put into a copy of the code one at a time: {noticed} make every test named here fail, "
-        f"{harmless} cannot matter, {len(faults) - noticed - harmless} survive. `python benchmarks/faults.py` writes this "
+        f"{harmless} cannot matter, {survive} survive, and {len(faults) - noticed - harmless - survive} were not tried "
+        "since they or their tests have changed (in brackets). `python benchmarks/faults.py` writes this "
         "page; the faults are data in benchmarks/faults. A star marks those that a review put in when no test noticed them.",
     ]
     for group in sorted({fault.group for fault in faults}):
@@ -238,8 +248,10 @@ def page(faults: list[Fault], known: dict[str, dict]) -> str:
         for fault in faults:
             if fault.group == group:
                 by = fault.harmless or "<br>".join(test.removeprefix("tests/") for test in fault.tests)
-                if not fault.harmless and known[fault.name]["silent"]:
+                if state[fault.name] == SURVIVES:
                     by = f"**survives** {by}"
+                elif state[fault.name] == UNKNOWN:
+                    by = f"({by})"
                 lines.append(f"| {fault.name}{' *' if fault.unnoticed else ''} | {', '.join(fault.files)} | {by} |")
     return "\n".join(lines) + "\n"
 
@@ -263,10 +275,9 @@ def main() -> int:
         return at_once(faults)
     known = json.loads(FOUND.read_text()) if FOUND.exists() else {}
     each(faults, known, given.jobs)
-    if all(fault.harmless or known.get(fault.name, {}).get("key") == fault.key for fault in every):
-        PAGE.write_text(page(every, known), encoding="utf-8")
-        print(f"wrote {PAGE.relative_to(ROOT)}")
-    return int(any(not fault.harmless and known[fault.name]["silent"] for fault in faults))
+    PAGE.write_text(page(every, known), encoding="utf-8")
+    print(f"wrote {PAGE.relative_to(ROOT)}")
+    return int(any(not fault.harmless and state_of(fault, known) != NOTICED for fault in faults))
 
 
 if __name__ == "__main__":
