@@ -9,10 +9,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter
 
+from contact_core.calls.point_contact import point_contact
 from contact_core.film.instant import Grid, Settings
 from contact_core.film.outputs import disc
 from contact_core.laws.viscosity import Roelands
-from contact_core.point_contact import point_contact
 
 BASE = {"radius": 10e-3, "viscosity": 0.04, "alpha": 15e-9, "rq": 100e-9, "correlation": 20e-6}
 TIGHT, LOOSE = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6), (1e-2, 3e-3, 1e-3)

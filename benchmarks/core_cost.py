@@ -9,20 +9,20 @@ from core_common import MoesCase, Report, domain_of, scaled_of, timed, unit_of, 
 from matplotlib.figure import Figure
 
 from contact_core import Scene
-from contact_core.contact import instant_of
+from contact_core.calls.point_contact import point_contact
+from contact_core.deterministic.instant import instant_of
 from contact_core.film.fitted import Extent, fitted_grid, line_extent
 from contact_core.film.instant import FilmState, Grid, Instant, Settings, Step
 from contact_core.film.outputs import at_centre
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
-from contact_core.kernels.direct import solve_direct
-from contact_core.kernels.mixed import Iterate, Problem, Solution, advected, solve_mixed
-from contact_core.kernels.multigrid import extrapolated, solve_smooth
+from contact_core.kernels.mixed.direct import solve_direct
+from contact_core.kernels.mixed.fixed_point import Iterate, Problem, Solution, advected, solve_mixed
+from contact_core.kernels.multigrid.cycle import extrapolated, solve_smooth
 from contact_core.laws.profile import Logarithmic, Rounded
-from contact_core.patches import bare_heights, contact_grid
-from contact_core.point_contact import point_contact
 from contact_core.reference import SmoothContact, hertz_point, nijenbanning_venner_moes
 from contact_core.shapes import Line, Point, Roller
+from contact_core.surfaces.patches import bare_heights, contact_grid
 
 DOMAIN = (-4.5, 1.5, -3.0, 3.0)
 CASE = MoesCase(200, 10.0, "roelands", "dowson_higginson")

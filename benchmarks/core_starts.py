@@ -6,15 +6,15 @@ import numpy as np
 from core_common import Report, timed
 
 from contact_core import Scene
-from contact_core.contact import instant_of
+from contact_core.deterministic.instant import instant_of
 from contact_core.film.instant import FilmSolution, Instant, Settings
 from contact_core.film.outputs import film_outputs
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
-from contact_core.kernels.direct import solve_direct
 from contact_core.kernels.half_space import HalfSpace
-from contact_core.kernels.mixed import Iterate, Problem, Solution, solve_mixed
-from contact_core.patches import bare_heights, contact_grid
+from contact_core.kernels.mixed.direct import solve_direct
+from contact_core.kernels.mixed.fixed_point import Iterate, Problem, Solution, solve_mixed
+from contact_core.surfaces.patches import bare_heights, contact_grid
 
 SPEEDS = (0.005, 0.05, 0.1, 0.25, 1.0, 4.0)
 ASKED_FROM = 0.05

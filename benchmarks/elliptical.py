@@ -13,8 +13,8 @@ from core_common import MoesCase, cells, timed
 from matplotlib.figure import Figure
 from scipy.special import elliprd
 
+from contact_core.calls.point_contact import point_contact
 from contact_core.film.fitted import Extent
-from contact_core.point_contact import point_contact
 from contact_core.reference import chittenden, hamrock_dowson, nijenbanning_venner_moes
 from contact_core.shapes import Point
 

@@ -21,9 +21,9 @@ from matplotlib.figure import Figure
 from work_unit import work_unit
 
 from contact_core import OperatingPoint, Scene, advance, initial_state, solve, uncertainty
-from contact_core.block import sweep_dry, sweep_mixed
-from contact_core.evolution import track_rows
-from contact_core.sweep import Sweep
+from contact_core.deterministic.accumulator import Sweep
+from contact_core.deterministic.block import sweep_dry, sweep_mixed
+from contact_core.deterministic.growth_and_wear import track_rows
 
 HERE = Path(__file__).parent.parent
 DOCS, RESULTS = HERE / "docs", HERE / "results" / "evolution"

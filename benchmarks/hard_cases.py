@@ -29,9 +29,9 @@ from random_points import CORRELATION, MODULUS, ROWS, Point, draw
 from scipy.signal import fftconvolve
 
 from contact_core import ContactError, ContactFields, OperatingPoint, Scene, Transient, initial_state, solve
+from contact_core.calls.line_contact import line_contact
+from contact_core.calls.point_contact import PointContact, point_contact
 from contact_core.film.instant import Grid
-from contact_core.line_contact import line_contact
-from contact_core.point_contact import PointContact, point_contact
 from contact_core.reference import SmoothContact, hertz_point, nijenbanning_venner_moes
 
 ROOT = Path(__file__).parent.parent

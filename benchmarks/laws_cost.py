@@ -14,7 +14,7 @@ import numpy as np
 from core_common import DOCS, cells, timed, unit_of
 
 from contact_core import ContactFields, Scene, Transient, initial_state, solve
-from contact_core.friction import derivatives, shear
+from contact_core.deterministic.friction import derivatives, shear
 from contact_core.kernels.moving_source import MovingSurface, partition
 from contact_core.laws.heat import LAWS, Rubbing
 from contact_core.laws.rheology import Carreau, Eyring, Newtonian

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 from scipy.stats import qmc
 
 from contact_core import ContactError, OperatingPoint, Scene, advance, initial_state, solve
-from contact_core.evolution import track_rows
+from contact_core.deterministic.growth_and_wear import track_rows
 from contact_core.film.instant import Grid
 from contact_core.film.outputs import film_outputs
 from contact_core.laws.load_sharing import rms_slope

@@ -12,7 +12,7 @@ import numpy as np
 
 from contact_core import ContactError, ContactState, Scene, advance, initial_state, uncertainty
 from contact_core.laws.tribofilm import thickness
-from contact_core.patches import bare_heights, heights_of
+from contact_core.surfaces.patches import bare_heights, heights_of
 
 RESULTS = Path(__file__).parent.parent / "results" / "thesis"
 INTERVAL = 60.0  # s between two rows

@@ -15,7 +15,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from contact_core import ContactState, Moment, OperatingPoint, Scene, advance, initial_state, march, parted
+from contact_core import ContactState, Moment, OperatingPoint, Scene, advance, initial_state, parted
+from contact_core.deterministic import march
 from contact_core.film.instant import FilmState, Grid, Instant, Settings, Step
 from contact_core.film.routes import solve_film
 from contact_core.laws.density import Incompressible
@@ -348,7 +349,7 @@ def main() -> None:
     lines = [
         "# Films that follow load, speeds and radii in time",
         "",
-        f"Written by `python benchmarks/transient.py{' --rough' if args.rough else ''}`. `contact_core.march` yields the "
+        f"Written by `python benchmarks/transient.py{' --rough' if args.rough else ''}`. `contact_core.deterministic.march` yields the "
         "instants, `contact_core.run_cycle` takes a sampled cycle for many; `advance` follows its inputs in time where "
         '`control.inputs = "transient"`.',
         "",

@@ -47,19 +47,19 @@ Everything inside is SI; heights are metres above a body's mean plane, positive 
 """
 
 from .advance import advance, uncertainty
-from .contact import ContactFields, Transient, solve
-from .dry_contact import DryContact, dry_contact
+from .calls.dry_contact import DryContact, dry_contact
+from .calls.line_contact import LineContact, line_contact
+from .calls.point_contact import PointContact, point_contact
+from .calls.warm_up import warm_up
+from .deterministic.instant import ContactFields, Transient, solve
+from .deterministic.march import Moment, march, run_cycle
+from .deterministic.transient import parted
 from .errors import ContactError, ConvergenceError, FilmTooWideError, OperatingPointError, SceneError, StateError
-from .following import parted
 from .laws.profile import Logarithmic, Rounded
-from .line_contact import LineContact, line_contact
-from .march import Moment, march, run_cycle
-from .point_contact import PointContact, point_contact
-from .reading import shipped_scenes
 from .scene import OperatingPoint, Scene
+from .scene.toml import shipped_scenes
 from .state import ContactState, Outputs, RangeFlag, initial_state
-from .tracks import Track, track_of
-from .warming import warm_up
+from .surfaces.profiles import Track, track_of
 
 __version__ = "0.1.0"
 

@@ -10,17 +10,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .block import has_moved, instant_time, is_due, is_marching, solve_block, solve_instant
+from .deterministic.block import has_moved, instant_time, is_due, is_marching, solve_block, solve_instant
+from .deterministic.growth_and_wear import area_of_node, evolved, track_rows, wear_speed
 from .errors import OperatingPointError
-from .evolution import area_of_node, evolved, track_rows, wear_speed
-from .folding import folded
 from .laws.tribofilm import thickness
-from .means import advance_means
-from .patches import bare_heights, heights_of, roughness_of
 from .quantities import TABLE
+from .regression.evolution import advance_means
 from .scene import OperatingPoint, Scene, with_bodies
 from .state import Body, ContactState, Outputs, RangeFlag
-from .surfaces import mean_roughness, rms_roughness
+from .surfaces.patches import bare_heights, heights_of, roughness_of
+from .surfaces.roughness import mean_roughness, rms_roughness
+from .surfaces.track_means import folded
 
 Array = NDArray[np.float64]
 

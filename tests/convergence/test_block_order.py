@@ -4,8 +4,8 @@ import numpy as np
 from comparison import approx
 
 from contact_core import Scene, advance, initial_state
-from contact_core.block import sweep_dry
-from contact_core.sweep import Sweep
+from contact_core.deterministic.accumulator import Sweep
+from contact_core.deterministic.block import sweep_dry
 
 CHEAP = {
     "film.points": "33",

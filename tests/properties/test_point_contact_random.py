@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 from hard_cases import TOLERANCE, answer, judge
 from random_points import draw
 
-from contact_core.point_contact import point_contact
+from contact_core.calls.point_contact import point_contact
 
 POINTS = list(islice((point for point in draw(2) if point is not None), 14))
 GRIDS = (33, 49, 65)

@@ -9,9 +9,9 @@ from comparison import approx
 
 from contact_core import ContactState, RangeFlag, advance, solve
 from contact_core.advance import _distance as geometry_change
-from contact_core.block import sweep_dry, sweep_mixed
-from contact_core.patches import patch_nodes
-from contact_core.sweep import Sweep
+from contact_core.deterministic.accumulator import Sweep
+from contact_core.deterministic.block import sweep_dry, sweep_mixed
+from contact_core.surfaces.patches import patch_nodes
 
 DRY = CHEAP | {"control.driver": "dry"}
 

@@ -6,8 +6,8 @@ from cheap_scene import cheap
 from comparison import approx
 
 from contact_core import Scene, advance, solve
+from contact_core.deterministic.friction import Film, derivatives, friction, shear, sliding
 from contact_core.film.instant import Grid
-from contact_core.friction import Film, derivatives, friction, shear, sliding
 
 SCENE, _, POINT = cheap()
 GRID = Grid.centred(161, 161, 2e-6)

@@ -9,11 +9,11 @@ from comparison import approx
 from scipy.constants import Boltzmann
 
 from contact_core import ContactState, Scene, advance, initial_state, solve
-from contact_core.evolution import across_track
+from contact_core.deterministic.accumulator import Sweep
+from contact_core.deterministic.growth_and_wear import across_track
 from contact_core.laws.tribofilm import Andersson, Combined, Ghanbarzadeh, Gosvami, NoTribofilm, ZhangSpikes
 from contact_core.laws.tribofilm.activated import edge_tension
-from contact_core.patches import on_patch, patch_nodes
-from contact_core.sweep import Sweep
+from contact_core.surfaces.patches import on_patch, patch_nodes
 
 WARM = 353.15
 BELL = ZhangSpikes(200e-9, 20.0, 1.08e-19, 0.13e-27, 2e-8)

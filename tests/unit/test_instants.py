@@ -8,12 +8,12 @@ from cheap_scene import CHEAP, cheap
 from comparison import approx
 
 from contact_core import advance, solve
-from contact_core.contact import instant_of
+from contact_core.deterministic.instant import instant_of
 from contact_core.film.instant import FilmState, Grid, Settings, Step
 from contact_core.film.outputs import at_centre
 from contact_core.film.scaled import Scaled
-from contact_core.patches import contact_grid
 from contact_core.reference import hertz_point
+from contact_core.surfaces.patches import contact_grid
 
 RANDOM = np.random.Generator(np.random.Philox(1))
 

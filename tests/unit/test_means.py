@@ -21,13 +21,13 @@ from contact_core import (
     solve,
     track_of,
 )
-from contact_core.folding import folded, means_of
 from contact_core.laws.heat import TemperatureField
 from contact_core.laws.rheology import Eyring, Newtonian
-from contact_core.mean_surfaces import films_of
 from contact_core.quantities import OF_CALLER, OUTPUTS
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
+from contact_core.regression.surfaces import films_of
 from contact_core.state import Mean
+from contact_core.surfaces.track_means import folded, means_of
 
 FAST = {"film.model": "regression"}
 SMOOTH = FAST | {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm"}

@@ -8,9 +8,9 @@ from cheap_scene import CHEAP, cheap
 from comparison import approx
 
 from contact_core import OperatingPointError, Scene, Transient, advance, initial_state, solve
-from contact_core import oil as oil_module
+from contact_core.deterministic import oil_temperature as oil_module
+from contact_core.deterministic.oil_temperature import inlet_factor
 from contact_core.kernels import moving_source, thinning
-from contact_core.oil import inlet_factor
 
 SMOOTH = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.model": "none", "film.tolerance": "1e-4"}
 FIELD = {"heat.model": "field"}

@@ -8,8 +8,8 @@ from cheap_scene import cheap
 from comparison import approx
 
 from contact_core import advance, solve
-from contact_core.block import solve_block
-from contact_core.evolution import area_of_node, track_rows
+from contact_core.deterministic.block import solve_block
+from contact_core.deterministic.growth_and_wear import area_of_node, track_rows
 
 FACE = 0.8e-3
 SHORT = {

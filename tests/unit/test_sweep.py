@@ -7,12 +7,13 @@ import pytest
 from cheap_scene import CHEAP, cheap
 from comparison import approx
 
-from contact_core import oil, solve
+from contact_core import solve
+from contact_core.deterministic import oil_temperature as oil
+from contact_core.deterministic.accumulator import observed
 from contact_core.laws.heat import Rubbing
-from contact_core.patches import bare_heights, heights_of, on_grid, patch_nodes, rolled, yielded
 from contact_core.reference import hamrock_dowson
 from contact_core.shapes import Point
-from contact_core.sweep import observed
+from contact_core.surfaces.patches import bare_heights, heights_of, on_grid, patch_nodes, rolled, yielded
 
 
 @pytest.fixture(scope="module")

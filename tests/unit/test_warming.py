@@ -8,7 +8,8 @@ from functools import cache
 
 import pytest
 
-from contact_core import ConvergenceError, Scene, advance, initial_state, warm_up, warming
+from contact_core import ConvergenceError, Scene, advance, initial_state, warm_up
+from contact_core.calls import warm_up as warming
 
 SMALL = {"film.points": "33", "surface_1.correlation_length": "16 um", "surface_2.correlation_length": "16 um"}
 AT_REST = {"operation.speed_1": "0 m/s", "operation.speed_2": "0 m/s"}

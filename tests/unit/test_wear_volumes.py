@@ -8,11 +8,11 @@ from cheap_scene import CHEAP, cheap
 from comparison import approx
 
 from contact_core import advance, initial_state, run_cycle, track_of, uncertainty
-from contact_core.block import solve_block
-from contact_core.evolution import evolved
-from contact_core.friction import sliding
-from contact_core.geometry import LineGeometry
-from contact_core.patches import contact_grid
+from contact_core.deterministic.block import solve_block
+from contact_core.deterministic.friction import sliding
+from contact_core.deterministic.growth_and_wear import evolved
+from contact_core.shapes import LineGeometry
+from contact_core.surfaces.patches import contact_grid
 
 FACE = 0.8e-3
 BARE = {"tribofilm.model": "none"}

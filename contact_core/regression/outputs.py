@@ -1,0 +1,140 @@
+"""What the fast level can tell of a contact."""
+
+import math
+from typing import Any
+
+from ..laws.load_sharing import FittedSharing
+from ..scene import OperatingPoint, Scene
+from ..state import Outputs, RangeFlag, changed
+from .contact import MeanContact
+from .surfaces import Films, Means, scene_film
+
+_LAMBDA_CAP = 1e3
+_LONGEST = 10.0  # times the duty: no step need be shorter than that
+_LAMBDA_CAPPED, _OUTSIDE_FIT = int(RangeFlag.LAMBDA_CAPPED), int(RangeFlag.OUTSIDE_FIT)
+_TRIBOFILM_TEMPERATURE = int(RangeFlag.TRIBOFILM_TEMPERATURE)  # numbers are faster to add up
+_BLANK = Outputs()
+# half widths of errors grow: twice beyond the fit, and by so much where a film or wear has changed the heights by this
+# share of the roughness or more, for curves of fresh surfaces
+_BEYOND, _RUN_IN, _CHANGED = 2.0, 1.6, 0.1
+_UNKNOWN = 1e3  # relative, of wear where next to no solids touch: nobody knows
+_LOCAL = 1.0  # error of films that feel local stresses, of which this level knows the mean
+
+
+def outputs_of(
+    scene: Scene,
+    op: OperatingPoint,
+    before: Outputs,
+    contact: MeanContact,
+    means: Means,
+    films: Films,
+    rates: list[float],
+    speed: float,
+) -> Outputs:
+    """What this level can tell; the rest stays zero. Counters of solved blocks go on."""
+    force = contact.solid + contact.fluid
+    hot_1, hot_2 = op.bodies
+    first, second = means
+    longest = _LONGEST * scene.operation.duration
+    return changed(
+        _BLANK,
+        friction_force=force,
+        friction_coefficient=abs(force) / op.load if op.load > 0.0 else 0.0,
+        friction_solid=contact.solid,
+        friction_fluid=contact.fluid,
+        dfriction_dspeed_1=contact.derivatives[0],
+        dfriction_dspeed_2=contact.derivatives[1],
+        dfriction_dload=contact.derivatives[2],
+        dfriction_dtemperature=contact.derivatives[3],
+        power_loss=contact.power,
+        rolling_resistance=contact.rolling,
+        wear_rate_1=rates[0],
+        wear_rate_2=rates[1],
+        wear_volume_1=first.worn,
+        wear_volume_2=second.worn,
+        wear_depth_1=first.wear,
+        wear_depth_2=second.wear,
+        h_c=contact.gap,
+        h_central=contact.gap,
+        lambda_ratio=_lambda_ratio(op, contact),
+        tribofilm_1=max(first.growth - first.removal, 0.0),
+        tribofilm_2=max(second.growth - second.removal, 0.0),
+        tribofilm_roughness_1=films[0].roughness,
+        tribofilm_roughness_2=films[1].roughness,
+        roughness_1=films[0].both,
+        roughness_2=films[1].both,
+        contact_area_ratio=contact.area_ratio,
+        contact_load_ratio=contact.load_ratio,
+        flash_temperature_rise=contact.rise,
+        temperature_1=hot_1,
+        temperature_2=hot_2,
+        heat_flow_1=contact.into_1,
+        heat_flow_2=contact.power - contact.into_1,
+        spin_torque=contact.spin_torque,
+        approach=scene.unit_hertz_at(op).approach_at(op.load) - contact.gap,
+        range_flags=_flags(scene, op, contact),
+        suggested_step=min(scene.control.change / speed, longest) if speed > 0.0 else longest,
+        load_cycles_1=first.cycles,
+        load_cycles_2=second.cycles,
+        coverage_1=first.coverage,
+        coverage_2=second.coverage,
+        blocks_dry=before.blocks_dry,
+        blocks_mixed=before.blocks_mixed,
+        blocks_fallback=before.blocks_fallback,
+        **_errors(scene, op, contact),
+    )
+
+
+def _exposure_error(sharing: FittedSharing) -> float:
+    """Relative half width of the share of the rougher body that is exposed: no film is less sure."""
+    return sharing.HALF_WIDTHS["exposure_rougher"] / sharing.exposure_rougher
+
+
+def _lambda_ratio(op: OperatingPoint, contact: MeanContact) -> float:
+    if contact.sigma == 0.0 or op.load == 0.0:
+        return _LAMBDA_CAP
+    return min(contact.gap / contact.sigma, _LAMBDA_CAP)
+
+
+def _flags(scene: Scene, op: OperatingPoint, contact: MeanContact) -> int:
+    flags = 0
+    if contact.sigma == 0.0 or op.load == 0.0:
+        flags |= _LAMBDA_CAPPED
+    elif not scene_film(scene).sharing.covers(*contact.fit):
+        flags |= _OUTSIDE_FIT
+    one, two = op.bodies
+    if not (scene.tribofilm.covers(one) and scene.tribofilm.covers(two)):
+        flags |= _TRIBOFILM_TEMPERATURE
+    return flags
+
+
+def _errors(scene: Scene, op: OperatingPoint, contact: MeanContact) -> dict[str, Any]:
+    """Half widths (95 %) of the errors by the fit, relative. Friction is wrong where load counts for solids and is
+    oil's, and by the oil's own, but never by more than if solids carried all.
+    """
+    force, share = abs(contact.solid + contact.fluid), contact.load_ratio
+    if force == 0.0:
+        return {}
+    sharing = scene_film(scene).sharing
+    widths, clearance = sharing.WIDTHS, contact.fit.clearance
+    wider = _run_in(scene, contact) * (1.0 if sharing.covers(*contact.fit) else _BEYOND)
+    load = wider * widths.of_load(share)
+    oil = wider * widths.of_oil(clearance, contact.oil_slope)
+    solid = abs(contact.solid) / share if share > 0.0 else scene.boundary_friction.bare * op.load
+    fluid = abs(contact.fluid) / (1.0 - share) if share < 1.0 else 0.0
+    friction = math.hypot(abs(solid - fluid) * load, abs(contact.fluid) * oil) / force
+    return {
+        "error_friction": min(friction, max(solid / force, 1.0)),
+        "error_film": min(wider * widths.of_film(clearance), 1.0),
+        "error_tribofilm": _LOCAL if scene.tribofilm.abrades else _exposure_error(sharing),
+        "error_wear": min(load / share, _UNKNOWN) if share > 0.0 else 0.0,
+    }
+
+
+def _run_in(scene: Scene, contact: MeanContact) -> float:
+    """How many times wider errors are of surfaces that rubbing has changed."""
+    if contact.sigma == 0.0:
+        return 1.0
+    pairs = zip((scene.surface_1, scene.surface_2), contact.films, strict=True)
+    changed = sum(film.thickness + abs(film.both - surface.rq) for surface, film in pairs)
+    return 1.0 + (_RUN_IN - 1.0) * min(changed / (_CHANGED * contact.sigma), 1.0)

@@ -1,0 +1,1 @@
+"""Rough surfaces of both bodies: generation, patches, track means, profiles."""
