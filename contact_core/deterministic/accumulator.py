@@ -54,46 +54,44 @@ class Sweep:
 
     def add(
         self,
-        scene: Scene,
-        op: OperatingPoint,
+        case: Case,
         state: ContactState,
         fields: ContactFields,
         passes: tuple[float, float] = (0.0, 0.0),
     ) -> None:
         """Count one instant in. `passes`: the part of a pass through the contact each body makes until the next."""
-        exposures = self.touch(scene, op, state, fields, passes)
+        exposures = self.touch(case, state, fields, passes)
         for i, body in enumerate(state.bodies):
-            self.pressures[i][:] += on_patch(fields.solid_pressure, patch_nodes(scene, body))
+            self.pressures[i][:] += on_patch(fields.solid_pressure, patch_nodes(case.scene, body))
             self.exposures[i][:] += exposures[i]
-        self.outputs.append(observed(scene, op, fields))
+        self.outputs.append(observed(case, fields))
         self.sheared = fields.sheared
         self.iterations += fields.iterations
         self.mixed += fields.route == "mixed"
         self.missed += not fields.converged
         self.fallbacks += fields.route == "fallback"
-        self.flags |= _flags(scene, op, fields)
+        self.flags |= _flags(case, fields)
 
     def touch(
         self,
-        scene: Scene,
-        op: OperatingPoint,
+        case: Case,
         state: ContactState,
         fields: ContactFields,
         passes: tuple[float, float],
     ) -> list[Array]:
         """Note which points are exposed in an instant; return the exposure on both patches."""
         found = [
-            on_patch(exposure, patch_nodes(scene, body))
-            for exposure, body in zip(_exposures(scene, op, fields), state.bodies, strict=True)
+            on_patch(exposure, patch_nodes(case.scene, body))
+            for exposure, body in zip(_exposures(case, fields), state.bodies, strict=True)
         ]
         for since, exposed, part in zip(self.since, found, passes, strict=True):
             since += part
             since[exposed > 0.0] = 0.0
         return found
 
-    def slopes(self, scene: Scene, op: OperatingPoint) -> dict[str, float]:
+    def slopes(self, case: Case) -> dict[str, float]:
         """Derivatives of the friction in the last instant."""
-        return derivatives(scene, op, self.sheared) if self.sheared else {}
+        return derivatives(case, self.sheared) if self.sheared else {}
 
     def means(self) -> dict[str, float]:
         """Mean outputs of the instants."""
@@ -105,18 +103,18 @@ class Sweep:
         return {name: float(np.std([seen[name] for seen in self.outputs])) / effective**0.5 for name in self.outputs[0]}
 
 
-def _exposures(scene: Scene, op: OperatingPoint, fields: ContactFields) -> tuple[Array, Array]:
+def _exposures(case: Case, fields: ContactFields) -> tuple[Array, Array]:
     """Exposure of both bodies on the grid, each at the temperature of its surface."""
-    stresses = (fields.solid_pressure, fields.shear, fields.friction.slide if op.spin else op.sliding_speed)
+    stresses = (fields.solid_pressure, fields.shear, fields.friction.slide if case.op.spin else case.op.sliding_speed)
     warm_1, warm_2 = fields.temperatures.surface_1, fields.temperatures.surface_2
-    first = scene.tribofilm.exposure(*stresses, warm_1)
+    first = case.scene.tribofilm.exposure(*stresses, warm_1)
     alike = warm_1 is warm_2 or (isinstance(warm_1, float) and isinstance(warm_2, float) and warm_1 == warm_2)
-    return first, first if alike else scene.tribofilm.exposure(*stresses, warm_2)
+    return first, first if alike else case.scene.tribofilm.exposure(*stresses, warm_2)
 
 
-def observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[str, float]:
+def observed(case: Case, fields: ContactFields) -> dict[str, float]:
     """What one instant gives to the outputs."""
-    grid = contact_grid(scene, fields.y.size)
+    grid = contact_grid(case.scene, fields.y.size)
     found, warm = fields.friction, fields.temperatures
     seen = {
         "friction_force": found.force_solid + found.force_fluid,
@@ -126,19 +124,19 @@ def observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[st
         "heat_flow_1": warm.into_1 * grid.repeats,
     }
     formula, sigma = 0.0, 0.0
-    if op.load > 0.0:
-        hertz = scene.hertz_at(op)
+    if case.loaded:
+        hertz = case.hertz
         inside = disc(grid, hertz)
         carried = fields.pressure[inside].sum()
-        slope = np.gradient(fields.fluid_pressure, scene.film.spacing, axis=1)
-        seen |= film_outputs(grid, fields.film, fields.gap, op.load, hertz)
+        slope = np.gradient(fields.fluid_pressure, case.scene.film.spacing, axis=1)
+        seen |= film_outputs(grid, fields.film, fields.gap, case.op.load, hertz)
         seen |= {
             "rolling_resistance": float((0.5 * fields.gap * slope).sum()) * grid.cell,
             "contact_area_ratio_disc": float((fields.solid_pressure[inside] > 0.0).mean()),
             "contact_load_ratio_disc": float(fields.solid_pressure[inside].sum() / carried) if carried > 0.0 else 0.0,
         }
         sigma = float(fields.roughness[inside].std())
-        formula = _formula_film(scene, op)
+        formula = _formula_film(case)
     else:
         seen |= open_outputs(grid, fields.film, fields.gap)
         none = ("rolling_resistance", "contact_area_ratio_disc", "contact_load_ratio_disc")
@@ -148,33 +146,33 @@ def observed(scene: Scene, op: OperatingPoint, fields: ContactFields) -> dict[st
     return seen
 
 
-def _formula_film(scene: Scene, op: OperatingPoint) -> float:
+def _formula_film(case: Case) -> float:
     """Conventional central film [m] of the smooth bodies: Hamrock & Dowson's, for lines Dowson & Toyoda's; zero without
     entrainment.
     """
-    if op.entrainment_speed == 0.0:
+    if not case.entrained:
         return 0.0
-    oil = scene.lubricant.viscosity, op.inlet_temperature
-    contact = scene.shape(op).smooth(op.load, op.entrainment_speed, *oil, scene.solids.reduced_modulus)
+    oil = case.scene.lubricant.viscosity, case.op.inlet_temperature
+    contact = case.shape.smooth(case.op.load, case.op.entrainment_speed, *oil, case.scene.solids.reduced_modulus)
     formula = hamrock_dowson(contact) if isinstance(contact, SmoothContact) else dowson_line(contact)
     return formula[0]
 
 
-def _flags(scene: Scene, op: OperatingPoint, fields: ContactFields) -> RangeFlag:
+def _flags(case: Case, fields: ContactFields) -> RangeFlag:
     """What makes one instant less sure."""
     flags = RangeFlag(0)
-    if op.load == 0.0:
+    if not case.loaded:
         return RangeFlag.LAMBDA_CAPPED
     if fields.route == "fallback":
         flags |= RangeFlag.FALLBACK
     if fields.route == "mixed" and fields.inlet_nodes < 3.0:
         flags |= RangeFlag.INLET_UNRESOLVED
     edges = [fields.solid_pressure[:, [1, -2]]]
-    if not scene.shape().periodic:
+    if not case.scene.shape().periodic:
         edges.append(fields.solid_pressure[[1, -2], :])
     if max(edge.max() for edge in edges) > 0.01 * fields.pressure.max():
         flags |= RangeFlag.DOMAIN_EDGE
-    if 2.0 * scene.hertz_at(op).a < 8.0 * scene.film.spacing:
+    if 2.0 * case.hertz.a < 8.0 * case.scene.film.spacing:
         flags |= RangeFlag.FEW_NODES
     if not fields.roughness.any():
         flags |= RangeFlag.LAMBDA_CAPPED

@@ -72,44 +72,44 @@ _EDGE = 3  # rows at the edge into which the scar may not come
 _WIDEST = 4  # times the scene's rows
 
 
-def is_due(scene: Scene, op: OperatingPoint, state: ContactState) -> bool:
+def is_due(case: Case, state: ContactState) -> bool:
     """Whether geometry or inputs have moved so far that the contact has to be solved again."""
-    used_up = state.change >= 0.999 * scene.control.change or state.held >= state.hold
-    other_law = state.law != _law(scene)
-    return state.solved_for is None or used_up or other_law or has_moved(scene, op, state.solved_for)
+    used_up = state.change >= 0.999 * case.scene.control.change or state.held >= state.hold
+    other_law = state.law != _law(case.scene)
+    return state.solved_for is None or used_up or other_law or has_moved(case, state.solved_for)
 
 
-def is_marching(scene: Scene, op: OperatingPoint, state: ContactState) -> bool:
+def is_marching(case: Case, state: ContactState) -> bool:
     """Whether the film follows inputs that change, instant by instant, instead of blocks."""
-    asked = scene.control.inputs == "transient" and scene.control.driver != "dry" and op.load > 0.0
+    asked = case.scene.control.inputs == "transient" and case.scene.control.driver != "dry" and case.loaded
     if not asked or state.solved_for is None:
         return False
-    return state.settling > 0.0 or has_moved(scene, op, state.solved_for)
+    return state.settling > 0.0 or has_moved(case, state.solved_for)
 
 
-def instant_time(scene: Scene, op: OperatingPoint) -> float:
+def instant_time(case: Case) -> float:
     """Longest time [s] of an instant of such a march, infinite at rest."""
-    fastest = max(rough_speed(scene, op), max(abs(speed) for speed in speeds_of(op)) / _SMOOTH_STEP)
-    return scene.film.spacing / fastest if fastest > 0.0 else math.inf
+    fastest = max(rough_speed(case), max(abs(speed) for speed in case.speeds) / _SMOOTH_STEP)
+    return case.scene.film.spacing / fastest if fastest > 0.0 else math.inf
 
 
-def solve_instant(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> ContactState:
+def solve_instant(case: Case, state: ContactState, dt: float) -> ContactState:
     """Solve the contact `dt` [s] later, the bodies moved on; store what the surfaces feel there and what it gives."""
     since = state.solved_for
-    if since is None or has_moved(scene, op, since):
-        fastest = max(abs(speed) for speed in speeds_of(op))
-        passage = _settling_instants(scene, op) * scene.film.spacing / fastest if fastest > 0.0 else math.inf
-        state, since = replace(state, settling=passage, share=1.0, dry_blocks_left=0), op
-    steps = [speed * dt for speed in speeds_of(op)]
-    passes = (abs(steps[0]) / scene.film.domain, abs(steps[1]) / scene.film.domain)
-    state, fields = follow(scene, op, state, dt, steps)
+    if since is None or has_moved(case, since):
+        fastest = max(abs(speed) for speed in case.speeds)
+        passage = _settling_instants(case) * case.scene.film.spacing / fastest if fastest > 0.0 else math.inf
+        state, since = replace(state, settling=passage, share=1.0, dry_blocks_left=0), case.op
+    steps = [speed * dt for speed in case.speeds]
+    passes = (abs(steps[0]) / case.scene.film.domain, abs(steps[1]) / case.scene.film.domain)
+    state, fields = follow(case, state, dt, steps)
     sweep = Sweep.before(state)
-    sweep.add(scene, op, state, fields, passes)
+    sweep.add(case, state, fields, passes)
     before = state.outputs.unconverged
-    state = _stored(scene, op, replace(state, trends=state.trends.restarted()), sweep, blocks=0)
+    state = _stored(case, replace(state, trends=state.trends.restarted()), sweep, blocks=0)
     state = replace(state, outputs=_remembering(state.outputs, before))
     left = max(state.settling - dt, 0.0)
-    hold = dt + min(instant_time(scene, op), left)
+    hold = dt + min(instant_time(case), left)
     return replace(state, solved_for=since, settling=left, hold=hold)
 
 
@@ -120,32 +120,32 @@ def _remembering(outputs: Outputs, before: float) -> Outputs:
     return replace(outputs, unconverged=missed, range_flags=outputs.range_flags | flag)
 
 
-def solve_block(scene: Scene, op: OperatingPoint, state: ContactState) -> ContactState:
+def solve_block(case: Case, state: ContactState) -> ContactState:
     """Solve the contact for one block; time stands still. Store what the surfaces feel and what the contact gives."""
-    same = state.solved_for is not None and not has_moved(scene, op, state.solved_for)
+    same = state.solved_for is not None and not has_moved(case, state.solved_for)
     state = replace(state, settling=0.0)
     if not same:
         state = replace(state, dry_blocks_left=0, share=1.0, trends=state.trends.restarted(), held=0.0)
-    state = _wide_enough(scene, state)
+    state = _wide_enough(case.scene, state)
     sweep = Sweep.before(state)
-    if op.load == 0.0:
-        sweep.add(scene, op, state, solve(scene, op, state))
-        return _stored(scene, op, replace(state, film=None, share=1.0), sweep)
-    driver = scene.control.driver
-    if op.entrainment_speed == 0.0 or driver == "dry":
+    if not case.loaded:
+        sweep.add(case, state, solve(case, state))
+        return _stored(case, replace(state, film=None, share=1.0), sweep)
+    driver = case.scene.control.driver
+    if not case.entrained or driver == "dry":
         state = replace(state, share=1.0)
     elif driver == "mixed" or state.dry_blocks_left == 0:
-        state = sweep_mixed(scene, op, state, sweep, same)
+        state = sweep_mixed(case, state, sweep, same)
         found = sweep.means()["contact_load_ratio"]
-        if driver == "mixed" or found <= scene.control.dry_above or sweep.fallbacks:
-            return _stored(scene, op, replace(state, share=1.0), sweep)
+        if driver == "mixed" or found <= case.scene.control.dry_above or sweep.fallbacks:
+            return _stored(case, replace(state, share=1.0), sweep)
         share = found if state.share == 1.0 else 0.5 * (found + state.share)  # one measurement scatters
         state = replace(state, share=share, dry_blocks_left=_DRY_BLOCKS, film=None)
         sweep, measured = Sweep.before(state), sweep
         sweep.flags, sweep.iterations = measured.all_flags & _OF_FILM, measured.iterations
     else:  # what made the share less sure still does
         sweep.flags = RangeFlag(state.outputs.range_flags) & _OF_FILM
-    return _stored(scene, op, sweep_dry(scene, op, state, sweep), sweep)
+    return _stored(case, sweep_dry(case, state, sweep), sweep)
 
 
 def _law(scene: Scene) -> str:
@@ -153,25 +153,25 @@ def _law(scene: Scene) -> str:
     return f"{scene.tribofilm.name}, {scene.tribofilm.dose}"
 
 
-def has_moved(scene: Scene, op: OperatingPoint, old: OperatingPoint) -> bool:
+def has_moved(case: Case, old: OperatingPoint) -> bool:
     """Whether an input is further from the solved one than the scene tolerates; temperature counts by its viscosity."""
-    if op == old:
+    if case.op == old:
         return False
-    viscosity = scene.lubricant.viscosity
-    eta, eta_old = (float(viscosity(np.zeros(1), t)[0]) for t in (op.inlet_temperature, old.inlet_temperature))
-    fastest = max(abs(op.speed_1), abs(op.speed_2), abs(old.speed_1), abs(old.speed_2))
+    viscosity = case.scene.lubricant.viscosity
+    eta, eta_old = (float(viscosity(np.zeros(1), t)[0]) for t in (case.op.inlet_temperature, old.inlet_temperature))
+    fastest = max(abs(case.op.speed_1), abs(case.op.speed_2), abs(old.speed_1), abs(old.speed_2))
     now_then_scale = (
-        (op.load, old.load, max(op.load, old.load)),
-        (op.entrainment_speed, old.entrainment_speed, fastest),
-        (op.sliding_speed, old.sliding_speed, max(abs(op.sliding_speed), abs(old.sliding_speed))),
-        (op.spin, old.spin, max(abs(op.spin), abs(old.spin))),
+        (case.op.load, old.load, max(case.op.load, old.load)),
+        (case.op.entrainment_speed, old.entrainment_speed, fastest),
+        (case.op.sliding_speed, old.sliding_speed, max(abs(case.op.sliding_speed), abs(old.sliding_speed))),
+        (case.op.spin, old.spin, max(abs(case.op.spin), abs(old.spin))),
         (eta, eta_old, max(eta, eta_old)),
-        *((now, then, max(now, then)) for now, then in zip(scene.radii(op), scene.radii(old), strict=True)),
+        *((now, then, max(now, then)) for now, then in zip(case.scene.radii(case.op), case.scene.radii(old), strict=True)),
     )
     for name in ("load", "speed_1", "speed_2", "entrainment_speed", "sliding_speed", "spin"):
-        if (getattr(op, name) == 0.0) != (getattr(old, name) == 0.0):
+        if (getattr(case.op, name) == 0.0) != (getattr(old, name) == 0.0):
             return True
-    return any(abs(now - then) > scene.control.input_change * scale for now, then, scale in now_then_scale)
+    return any(abs(now - then) > case.scene.control.input_change * scale for now, then, scale in now_then_scale)
 
 
 def _wide_enough(scene: Scene, state: ContactState) -> ContactState:
@@ -191,83 +191,83 @@ def _worn_at_the_edge(scene: Scene, state: ContactState) -> bool:
     return any(body.wear[rows].max() > 1e-3 * body.wear.max() for body in state.bodies)
 
 
-def sweep_dry(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep) -> ContactState:
+def sweep_dry(case: Case, state: ContactState, sweep: Sweep) -> ContactState:
     """Add the instants of a dry block to `sweep`; return the state after them."""
-    jumps = _dry_jumps(scene, op)
-    for _ in range(scene.control.dry_instants):
-        state = rolled(scene, state, jumps)
-        fields = solve(scene, op, state, dry=True, solid_share=state.share)
-        sweep.add(scene, op, state, fields, (1.0 / _DRY_PASS, 1.0 / _DRY_PASS))
-        state = yielded(scene, replace(state, film=None), fields.overlap)
+    jumps = _dry_jumps(case)
+    for _ in range(case.scene.control.dry_instants):
+        state = rolled(case.scene, state, jumps)
+        fields = solve(case, state, dry=True, solid_share=state.share)
+        sweep.add(case, state, fields, (1.0 / _DRY_PASS, 1.0 / _DRY_PASS))
+        state = yielded(case.scene, replace(state, film=None), fields.overlap)
     return state
 
 
-def _dry_jumps(scene: Scene, op: OperatingPoint) -> list[float]:
+def _dry_jumps(case: Case) -> list[float]:
     """How far [m] the moving bodies jump from instant to instant.
 
     The first one by a golden ratio of the patch. What the other one is behind, in whole nodes, shares no factor with
     the patch's: after as many instants as the patch has nodes, each point has met every other once.
     """
-    columns = scene.film.points - 1
+    columns = case.scene.film.points - 1
     behind = next(k for k in range(round(0.382 * columns), columns + 1) if math.gcd(k, columns) == 1)
-    first = _GOLDEN * scene.film.domain
-    second = first - behind * scene.film.spacing
-    return [jump * (speed != 0.0) for jump, speed in zip((first, second), speeds_of(op), strict=True)]
+    first = _GOLDEN * case.scene.film.domain
+    second = first - behind * case.scene.film.spacing
+    return [jump * (speed != 0.0) for jump, speed in zip((first, second), case.speeds, strict=True)]
 
 
 def sweep_mixed(
-    scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, same: bool, *, jumping: bool = True
+    case: Case, state: ContactState, sweep: Sweep, same: bool, *, jumping: bool = True
 ) -> ContactState:
     """Add the instants of a mixed block to `sweep`; return the state after them.
 
     `same`: the march goes on, at the same operating point. `jumping` False: all bodies roll on as they are.
     """
-    dt = scene.film.spacing / max(abs(speed) for speed in speeds_of(op))
-    steps = [speed * dt for speed in speeds_of(op)]
-    passes = (abs(steps[0]) / scene.film.domain, abs(steps[1]) / scene.film.domain)
-    rougher = 0 if scene.surface_1.rq > scene.surface_2.rq else 1
-    jumps = _jumps(scene, op, 1 - rougher, _SMOOTHER if jumping else -1.0)
-    passage = unsampled = _settling_instants(scene, op)
+    dt = case.scene.film.spacing / max(abs(speed) for speed in case.speeds)
+    steps = [speed * dt for speed in case.speeds]
+    passes = (abs(steps[0]) / case.scene.film.domain, abs(steps[1]) / case.scene.film.domain)
+    rougher = 0 if case.scene.surface_1.rq > case.scene.surface_2.rq else 1
+    jumps = _jumps(case, 1 - rougher, _SMOOTHER if jumping else -1.0)
+    passage = unsampled = _settling_instants(case)
     if state.film is None:
-        state = replace(state, film=_first_film(scene, op, state))
+        state = replace(state, film=_first_film(case, state))
         unsampled = passage if state.share == 1.0 else _CALMING
     elif same and (any(jumps) or not jumping):
         unsampled = 0
     elif same:
-        state, unsampled = rolled(scene, state, _jumps(scene, op, 1 - rougher, 1.0)), _CALMING
-    length = (scene.surface_1, scene.surface_2)[rougher].correlation_length / scene.film.spacing
+        state, unsampled = rolled(case.scene, state, _jumps(case, 1 - rougher, 1.0)), _CALMING
+    length = (case.scene.surface_1, case.scene.surface_2)[rougher].correlation_length / case.scene.film.spacing
     stride = max(1, round((0.5 * length) ** 2))  # instants in which oil between asperities gets used to a jump
-    for k in range(-unsampled, _mixed_instants(scene)):
+    for k in range(-unsampled, _mixed_instants(case.scene)):
         before = state
         jump_now = k % stride == 0
-        state = rolled(scene, state, [step + jump * jump_now for step, jump in zip(steps, jumps, strict=True)])
-        moved = moved_nodes(scene, before, state)
+        state = rolled(case.scene, state, [step + jump * jump_now for step, jump in zip(steps, jumps, strict=True)])
+        moved = moved_nodes(case.scene, before, state)
         settled = 2 * k >= -unsampled  # enough to tell which points are touched, and how warm they are
-        fields = solve(scene, op, state, Transient(dt, moved, _ITERATIONS, heated=settled))
+        fields = solve(case, state, Transient(dt, moved, _ITERATIONS, heated=settled))
         if k >= 0:
-            sweep.add(scene, op, state, fields, passes)
+            sweep.add(case, state, fields, passes)
         elif settled:
-            sweep.touch(scene, op, state, fields, passes)
-        state = yielded(scene, replace(state, film=fields.film), fields.overlap)
+            sweep.touch(case, state, fields, passes)
+        state = yielded(case.scene, replace(state, film=fields.film), fields.overlap)
     return state
 
 
-def _first_film(scene: Scene, op: OperatingPoint, state: ContactState) -> FilmState:
+def _first_film(case: Case, state: ContactState) -> FilmState:
     """The film that a march begins with: the steady one where smooth bodies' film clears the roughness by far, else
     that of a dry contact, whose solids carry the share that was measured.
     """
-    oil = scene.lubricant.viscosity, op.inlet_temperature
-    film = scene.shape(op).smooth(op.load, op.entrainment_speed, *oil, scene.solids.reduced_modulus).film
-    if film > _CLEAR * math.hypot(scene.surface_1.rq, scene.surface_2.rq) and state.share == 1.0:
+    oil = case.scene.lubricant.viscosity, case.op.inlet_temperature
+    film = case.shape.smooth(case.op.load, case.op.entrainment_speed, *oil, case.scene.solids.reduced_modulus).film
+    if film > _CLEAR * math.hypot(case.scene.surface_1.rq, case.scene.surface_2.rq) and state.share == 1.0:
         with suppress(ConvergenceError):
-            return solve(scene, op, state).film
-    return solve(scene, op, state, dry=True, solid_share=state.share).film
+            return solve(case, state).film
+    return solve(case, state, dry=True, solid_share=state.share).film
 
 
-def _settling_instants(scene: Scene, op: OperatingPoint) -> int:
+def _settling_instants(case: Case) -> int:
     """Instants, a node of the faster body apart, until the film has settled."""
-    fastest, entrained = max(abs(speed) for speed in speeds_of(op)), abs(op.entrainment_speed)
-    across = max(_SETTLING, math.ceil(_PASSAGE * scene.hertz_at(op).a / scene.film.spacing))
+    fastest, entrained = max(abs(speed) for speed in case.speeds), abs(case.op.entrainment_speed)
+    across = max(_SETTLING, math.ceil(_PASSAGE * case.hertz.a / case.scene.film.spacing))
     if fastest <= _AHEAD * entrained:
         return across
     return min(math.ceil(across * fastest / entrained), _MOST_SETTLING) if entrained > 0.0 else _MOST_SETTLING
@@ -278,36 +278,36 @@ def _mixed_instants(scene: Scene) -> int:
     return scene.control.mixed_instants or math.ceil((scene.film.points - 1) / 8)
 
 
-def _jumps(scene: Scene, op: OperatingPoint, i: int, most: float) -> list[float]:
+def _jumps(case: Case, i: int, most: float) -> list[float]:
     """How far [m] the bodies jump: body `i`, if it moves and its roughness is at most `most` times the other's."""
-    rq = (scene.surface_1.rq, scene.surface_2.rq)
-    jumping = speeds_of(op)[i] != 0.0 and rq[i] <= most * rq[1 - i]
-    return [scene.film.domain * _GOLDEN * (jumping and k == i) for k in (0, 1)]
+    rq = (case.scene.surface_1.rq, case.scene.surface_2.rq)
+    jumping = case.speeds[i] != 0.0 and rq[i] <= most * rq[1 - i]
+    return [case.scene.film.domain * _GOLDEN * (jumping and k == i) for k in (0, 1)]
 
 
-def feeling(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, i: int, alike: float) -> Body:
+def feeling(case: Case, state: ContactState, sweep: Sweep, i: int, alike: float) -> Body:
     """A body with what the block makes it feel: mean pressure over its track, abrasion by that, and exposure per test
     time by the dose that the constants of the tribofilm law were fitted with.
     """
-    body, law = state.bodies[i], scene.tribofilm
+    body, law = state.bodies[i], case.scene.tribofilm
     # a moving point spends patch / track of its time in reach of the contact, a resting one all of it
-    reach = scene.film.domain / track_length(scene, i) if speeds_of(op)[i] != 0.0 else 1.0
+    reach = case.scene.film.domain / track_length(case.scene, i) if case.speeds[i] != 0.0 else 1.0
     exposure = sweep.exposures[i] / sweep.count
-    if law.dose == "clock" and speeds_of(op)[i] != 0.0:
+    if law.dose == "clock" and case.speeds[i] != 0.0:
         exposure = (sweep.since[i] < 1.0).astype(np.float64)
-    elif law.dose == "contact_length" and op.load > 0.0:
-        exposure = exposure * scene.film.domain / (2.0 * scene.hertz_at(op).a)
+    elif law.dose == "contact_length" and case.loaded:
+        exposure = exposure * case.scene.film.domain / (2.0 * case.hertz.a)
     elif law.dose == "residence":
         exposure = exposure * reach
-    if not op.slides or op.load == 0.0:  # nothing rubs in pure rolling, at rest or apart
+    if not case.op.slides or not case.loaded:  # nothing rubs in pure rolling, at rest or apart
         exposure = np.zeros_like(exposure)
     pressure = sweep.pressures[i] / sweep.count * reach
-    abrasion = law.abrasion(pressure, sliding_on_track(scene, op, state.rows), across_track(scene, state.rows))
+    abrasion = law.abrasion(pressure, sliding_on_track(case, state.rows), across_track(case.scene, state.rows))
     after = replace(body, pressure=pressure, exposure=exposure, abrasion=abrasion, since=sweep.since[i])
     # two blocks that sample the same wear differ by their noise
-    track = track_rows(scene, state.rows, 2.0 / 3.0)
+    track = track_rows(case.scene, state.rows, 2.0 / 3.0)
     films = thickness(body.growth, body.removal)
-    change = wear_speed(scene, op, after, i, films)[track] - wear_speed(scene, op, body, i, films)[track]
+    change = wear_speed(case, after, i, films)[track] - wear_speed(case, body, i, films)[track]
     noise = alike * 0.5 * float(np.var(groove_free(change))) * state.held**2
     return replace(after, noise=body.noise + noise)
 
@@ -323,68 +323,68 @@ def _lag(scene: Scene, driver: str) -> float:
     return 0.5 + 0.5 * (scene.film.points - 1) / _mixed_instants(scene)
 
 
-def _stable_time(scene: Scene, op: OperatingPoint, state: ContactState) -> float:
-    return min(stable_time(scene, op, body, i) for i, body in enumerate(state.bodies))
+def _stable_time(case: Case, state: ContactState) -> float:
+    return min(stable_time(case, body, i) for i, body in enumerate(state.bodies))
 
 
-def _longest(scene: Scene, op: OperatingPoint, state: ContactState, before: float) -> float:
+def _longest(case: Case, state: ContactState, before: float) -> float:
     """Longest time [s] until the next block, whatever its change: wear stays stable, the regime and the block's length
     (`before`: of the last one [s]) change little by little.
     """
-    limits = [scene.control.longest]
-    if op.load > 0.0:
-        limits += [max(_stable_time(scene, op, state), _SHORTEST * scene.control.longest)]
+    limits = [case.scene.control.longest]
+    if case.loaded:
+        limits += [max(_stable_time(case, state), _SHORTEST * case.scene.control.longest)]
         if before > 0.0:
             step = abs(state.trends.slope_of("contact_load_ratio"))
             limits += [before * min(_LONGER, _SHARE_STEP / max(step, 1e-6))]
     return min(limits)
 
 
-def _flags_of_motion(scene: Scene, op: OperatingPoint, state: ContactState, driver: str) -> RangeFlag:
+def _flags_of_motion(case: Case, state: ContactState, driver: str) -> RangeFlag:
     """What the speeds and the scar make less sure."""
     flags = RangeFlag(0)
-    slow, fast = sorted(abs(speed) for speed in speeds_of(op))
+    slow, fast = sorted(abs(speed) for speed in case.speeds)
     jumping = driver == "dry" or any(
-        any(_jumps(scene, op, k, _SMOOTHER)) and abs(speeds_of(op)[k]) == slow for k in (0, 1)
+        any(_jumps(case, k, _SMOOTHER)) and abs(case.speeds[k]) == slow for k in (0, 1)
     )
-    if op.load > 0.0 and 0.0 < slow < (_CREEP if jumping else 0.9) * fast:
+    if case.loaded and 0.0 < slow < (_CREEP if jumping else 0.9) * fast:
         flags |= RangeFlag.SLOW_BODY
-    if op.load > 0.0 and _stable_time(scene, op, state) < _SHORTEST * scene.control.longest:
+    if case.loaded and _stable_time(case, state) < _SHORTEST * case.scene.control.longest:
         flags |= RangeFlag.STIFF_WEAR
-    if _worn_at_the_edge(scene, state):
+    if _worn_at_the_edge(case.scene, state):
         flags |= RangeFlag.DOMAIN_EDGE
     return flags
 
 
-def _stored(scene: Scene, op: OperatingPoint, state: ContactState, sweep: Sweep, blocks: int = 1) -> ContactState:
+def _stored(case: Case, state: ContactState, sweep: Sweep, blocks: int = 1) -> ContactState:
     """The state with a block's results: exposure of the surfaces, outputs, and what decides about the next block."""
     driver = "fallback" if 2 * sweep.fallbacks > sweep.count else "mixed" if sweep.mixed else "dry"
-    sweep.flags = sweep.all_flags | _flags_of_motion(scene, op, state, driver)
+    sweep.flags = sweep.all_flags | _flags_of_motion(case, state, driver)
     alike = _ALIKE["dry" if driver == "dry" else "mixed"]
-    bodies = (feeling(scene, op, state, sweep, 0, alike), feeling(scene, op, state, sweep, 1, alike))
+    bodies = (feeling(case, state, sweep, 0, alike), feeling(case, state, sweep, 1, alike))
     seen, spread = sweep.means(), sweep.spread(apart=driver == "dry")
     state = replace(state, bodies=bodies)
     share = seen["contact_load_ratio"]
     scatter = spread["contact_load_ratio"] / share if share > 0.0 else 0.0  # wear is in proportion to it
     for i, body in enumerate(bodies):
-        seen[f"wear_depth_{i + 1}_rate"] = wear_rate(scene, op, body, i)
+        seen[f"wear_depth_{i + 1}_rate"] = wear_rate(case, body, i)
         spread[f"wear_depth_{i + 1}_rate"] = seen[f"wear_depth_{i + 1}_rate"] * scatter
-        film = thickness(body.growth, body.removal)[track_rows(scene, state.rows)]
-        seen |= {f"roughness_{i + 1}": roughness_now(scene, body, i), f"tribofilm_{i + 1}": float(film.mean())}
-    trends = state.trends.followed(seen, spread, _MEMORY["dry" if driver == "dry" else "mixed"], _lag(scene, driver))
+        film = thickness(body.growth, body.removal)[track_rows(case.scene, state.rows)]
+        seen |= {f"roughness_{i + 1}": roughness_now(case.scene, body, i), f"tribofilm_{i + 1}": float(film.mean())}
+    trends = state.trends.followed(seen, spread, _MEMORY["dry" if driver == "dry" else "mixed"], _lag(case.scene, driver))
     smooth, count = trends.values(), f"blocks_{driver}"
     outputs = replace(
         state.outputs,
         **smooth,
         **{count: getattr(state.outputs, count) + blocks},
-        **sweep.slopes(scene, op),
-        friction_coefficient=abs(smooth["friction_force"]) / op.load if op.load > 0.0 else 0.0,
+        **sweep.slopes(case),
+        friction_coefficient=abs(smooth["friction_force"]) / case.op.load if case.loaded else 0.0,
         range_flags=int(sweep.flags),
         iterations=sweep.iterations,
         unconverged=sweep.missed / sweep.count,
     )
     left = max(state.dry_blocks_left - 1, 0) if driver == "dry" else 0
     state = replace(
-        state, law=_law(scene), solved_for=op, change=0.0, dry_blocks_left=left, outputs=outputs, trends=trends
+        state, law=_law(case.scene), solved_for=case.op, change=0.0, dry_blocks_left=left, outputs=outputs, trends=trends
     )
-    return replace(state, hold=_longest(scene, op, state, state.held), held=0.0)
+    return replace(state, hold=_longest(case, state, state.held), held=0.0)

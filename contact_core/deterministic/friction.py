@@ -72,12 +72,12 @@ def sliding(op: OperatingPoint, grid: Grid) -> tuple[Array | float, Array | floa
     return speed, np.where(speed > 0.0, x / moving, 1.0), y / moving
 
 
-def shear(scene: Scene, op: OperatingPoint, film: Film) -> Shear:
+def shear(case: Case, film: Film) -> Shear:
     """Local shear stresses: the oil's by its rheology, the solids' by the law of boundary friction."""
-    speed, along_x, along_y = sliding(op, film.grid)
-    newtonian = scene.lubricant.viscosity(film.fluid, film.temperature) * speed / film.gap
-    fluid = scene.lubricant.rheology(newtonian, film.fluid * scene.boundary_friction.grip(speed))
-    return Shear(fluid, scene.boundary_friction(film.solid, film.cover, speed), speed, along_x, along_y)
+    speed, along_x, along_y = sliding(case.op, film.grid)
+    newtonian = case.scene.lubricant.viscosity(film.fluid, film.temperature) * speed / film.gap
+    fluid = case.scene.lubricant.rheology(newtonian, film.fluid * case.scene.boundary_friction.grip(speed))
+    return Shear(fluid, case.scene.boundary_friction(film.solid, film.cover, speed), speed, along_x, along_y)
 
 
 def friction(stress: Shear, grid: Grid) -> Friction:
@@ -94,25 +94,25 @@ def friction(stress: Shear, grid: Grid) -> Friction:
     )
 
 
-def derivatives(scene: Scene, op: OperatingPoint, film: Film) -> dict[str, float]:
+def derivatives(case: Case, film: Film) -> dict[str, float]:
     """Derivatives of the friction force on body 1 by the operating point, at a held film: gap, shares of solids and
     oil and the field of temperature stand still, all pressures are in proportion to the load, and the oil is as much
     warmer as the input.
     """
-    oil, grid = scene.lubricant, film.grid
-    speed, along_x, along_y = sliding(op, grid)
-    speed = np.maximum(speed, _STEP * scene.boundary_friction.slip_speed)  # at rest, too, the limit tells the slope
+    oil, grid = case.scene.lubricant, film.grid
+    speed, along_x, along_y = sliding(case.op, grid)
+    speed = np.maximum(speed, _STEP * case.scene.boundary_friction.slip_speed)  # at rest, too, the limit tells the slope
     viscosity = oil.viscosity(film.fluid, film.temperature)
     newtonian = viscosity * speed / film.gap
-    grip, grip_slope = scene.boundary_friction.grip(speed), scene.boundary_friction.grip_slope(speed)
+    grip, grip_slope = case.scene.boundary_friction.grip(speed), case.scene.boundary_friction.grip_slope(speed)
     by_newtonian, by_pressure = oil.rheology.slopes(newtonian, film.fluid * grip)
     more, less = (oil.viscosity(film.fluid * (1.0 + sign * _STEP), film.temperature) for sign in (1.0, -1.0))
     stiffening = (more - less) / (2.0 * _STEP)  # d viscosity / d ln p
     step = _STEP * float(np.mean(film.temperature))
     warmer, colder = (oil.viscosity(film.fluid, film.temperature + sign * step) for sign in (1.0, -1.0))
     solid, solid_by_speed = (
-        scene.boundary_friction(film.solid, film.cover, speed),
-        scene.boundary_friction.slope(film.solid, film.cover, speed),
+        case.scene.boundary_friction(film.solid, film.cover, speed),
+        case.scene.boundary_friction.slope(film.solid, film.cover, speed),
     )
     cell = grid.cell
 

@@ -68,8 +68,7 @@ class ContactFields:
 
 
 def solve(
-    scene: Scene,
-    op: OperatingPoint,
+    case: Case,
     state: ContactState,
     transient: Transient | None = None,
     *,
@@ -84,22 +83,22 @@ def solve(
     cannot be used, the dry one stands in (`route`). A scene of another level than the deterministic one is refused
     with SceneError.
     """
-    level = scene.film
+    level = case.scene.film
     if not isinstance(level, Deterministic):
         raise SceneError(
-            f"film.model = '{scene.film.name}' knows means only, no fields. Solve scene.at_level('deterministic')."
+            f"film.model = '{case.scene.film.name}' knows means only, no fields. Solve case.scene.at_level('deterministic')."
         )
-    op.check()
-    refusal = scene.refusal(op)
+    case.op.check()
+    refusal = case.scene.refusal(case.op)
     if refusal:
         raise OperatingPointError(refusal)
-    op = with_bodies(scene, op, state.temperatures)
-    bare, law = bare_heights(scene, state.rows), scene.plasticity
-    nodes = [patch_nodes(scene, body) for body in state.bodies]
+    op = with_bodies(case, state.temperatures)
+    bare, law = bare_heights(case.scene, state.rows), case.scene.plasticity
+    nodes = [patch_nodes(case.scene, body) for body in state.bodies]
     patches = [heights_of(z, body) for z, body in zip(bare, state.bodies, strict=True)]
     heights = on_grid(patches[0], nodes[0]) + on_grid(patches[1], nodes[1])
     rough = on_grid(roughness_of(bare[0], patches[0]), nodes[0]) + on_grid(roughness_of(bare[1], patches[1]), nodes[1])
-    full = scene.tribofilm.full_thickness
+    full = case.scene.tribofilm.full_thickness
     film_1, film_2 = (
         on_grid(thickness(body.growth, body.removal), n) for body, n in zip(state.bodies, nodes, strict=True)
     )
@@ -108,20 +107,20 @@ def solve(
         pressed += sum(on_grid(body.plastic, n) for body, n in zip(state.bodies, nodes, strict=True))
     limit = law.limit(film_1, film_2, pressed, full)
     covers = film_1 / full, film_2 / full
-    grid = contact_grid(scene, state.rows)
+    grid = contact_grid(case.scene, state.rows)
     cover = 0.5 * (covers[0] + covers[1])
-    now = replace(instant_of(scene, op, heights, limit), dry=dry, solid_share=solid_share)
+    now = replace(instant_of(case, heights, limit), dry=dry, solid_share=solid_share)
     before = state.film if transient else None
-    if op.load == 0.0:
-        film = _open(scene, op, grid, heights)
+    if not case.loaded:
+        film = _open(case, grid, heights)
     else:
         step = None
         if transient and before:
             step = Step(transient.dt, transient.moved, transient.order, transient.thorough)
         most = transient.iterations if transient else None
         film = solve_flow(
-            scene,
-            op,
+            case.scene,
+            case.op,
             grid,
             cover,
             now,
@@ -130,7 +129,7 @@ def solve(
             level.tolerance,
         )
     found, stress, warm, shortfall = warmed(
-        scene, op, sheared(grid, film, cover, op.inlet_temperature), before, heated=not transient or transient.heated
+        case, sheared(grid, film, cover, case.op.inlet_temperature), before, heated=not transient or transient.heated
     )
     return ContactFields(
         x=grid.x,
@@ -150,7 +149,7 @@ def solve(
         friction=friction(stress, grid),
         sheared=found,
         temperatures=warm,
-        film=left_behind(scene, op, now, film, found),
+        film=left_behind(case, now, film, found),
         converged=film.converged and not shortfall,
         shortfall="; ".join(said for said in (film.shortfall, shortfall) if said),
         route=film.route,
@@ -165,30 +164,30 @@ def solve(
     )
 
 
-def instant_of(scene: Scene, op: OperatingPoint, heights: Array, limit: Array) -> Instant:
+def instant_of(case: Case, heights: Array, limit: Array) -> Instant:
     """An instant of a scene with heights and largest pressures as given, [ny, nx]."""
     return Instant(
-        load=op.load,
-        entrainment_speed=op.entrainment_speed,
-        temperature=op.inlet_temperature,
-        shape=scene.shape(op),
-        reduced_modulus=scene.solids.reduced_modulus,
-        viscosity=scene.lubricant.viscosity,
-        density=scene.lubricant.density,
+        load=case.op.load,
+        entrainment_speed=case.op.entrainment_speed,
+        temperature=case.op.inlet_temperature,
+        shape=case.shape,
+        reduced_modulus=case.scene.solids.reduced_modulus,
+        viscosity=case.scene.lubricant.viscosity,
+        density=case.scene.lubricant.density,
         heights=heights,
         limit=limit,
-        hardness=scene.plasticity.hardness,
-        conserving=scene.lubricant.cavitation == "mass_conserving",
-        supply=scene.lubricant.supply.layer,
-        meniscus=scene.lubricant.supply.inlet,
+        hardness=case.scene.plasticity.hardness,
+        conserving=case.scene.lubricant.cavitation == "mass_conserving",
+        supply=case.scene.lubricant.supply.layer,
+        meniscus=case.scene.lubricant.supply.inlet,
     )
 
 
-def _open(scene: Scene, op: OperatingPoint, grid: Grid, heights: Array) -> FilmSolution:
+def _open(case: Case, grid: Grid, heights: Array) -> FilmSolution:
     """No load: the bodies just touch and nothing presses."""
-    bodies = scene.shape(op)
+    bodies = case.shape
     shape = bodies.gap(grid.x, grid.y, 1.0) / bodies.radius_x - heights
-    rigid = scene.film.floor - float(shape.min())
+    rigid = case.scene.film.floor - float(shape.min())
     zeros, nothing = np.zeros_like(shape), np.zeros(shape.shape, np.bool_)
     return FilmSolution(
         state=FilmState(zeros, zeros, nothing, shape + rigid, rigid),

@@ -156,16 +156,16 @@ def _placed(bodies: Sequence[Body], state: ContactState) -> tuple[Body, Body]:
 
 
 def _feel(
-    scene: Scene, op: OperatingPoint, body: Body, i: int, film: Array, moment: Moment, dt: float, felt: _Felt
+    case: Case, body: Body, i: int, film: Array, moment: Moment, dt: float, felt: _Felt
 ) -> None:
     """Add what a body feels in one instant."""
-    worn = dt * wear_speed(scene, op, body, i, film)
+    worn = dt * wear_speed(case, body, i, film)
     felt.exposure += body.exposure * dt
     felt.abrasion += body.abrasion * dt
     felt.wear += worn
-    felt.worn += float(worn.sum()) * area_of_node(scene, op, i)
-    felt.cycles += abs(speeds_of(op)[i]) * dt / track_length(scene, i)
-    felt.warmth += (op.bodies[i] + moment.outputs["flash_temperature_rise"]) * dt
+    felt.worn += float(worn.sum()) * area_of_node(case, i)
+    felt.cycles += abs(case.speeds[i]) * dt / track_length(case.scene, i)
+    felt.warmth += (case.op.bodies[i] + moment.outputs["flash_temperature_rise"]) * dt
 
 
 def _evolved(scene: Scene, body: Body, felt: _Felt, repeats: float, period: float) -> Body:

@@ -34,29 +34,29 @@ def sheared(grid: Grid, found: FilmSolution, cover: Array, temperature: float) -
 
 
 def warmed(
-    scene: Scene, op: OperatingPoint, film: Film, before: FilmState | None, *, heated: bool = True
+    case: Case, film: Film, before: FilmState | None, *, heated: bool = True
 ) -> tuple[Film, Shear, Temperatures, str]:
     """A film at its temperature, its shear, the temperatures, and why they do not belong together if so.
 
     A march goes on from the warmth of the instant before; a steady film (`before` None) repeats until its temperature
     stands still. Not `heated`, it stays at that warmth.
     """
-    inlet = op.inlet_temperature
-    law = scene.heat if heated else NoHeat()
-    if scene.heat.warms_film and before is not None:
+    inlet = case.op.inlet_temperature
+    law = case.scene.heat if heated else NoHeat()
+    if case.scene.heat.warms_film and before is not None:
         film = replace(film, temperature=inlet + before.warmth)
     change = 0.0
     for _ in range(_ROUNDS):
-        stress = shear(scene, op, film)
+        stress = shear(case, film)
         rubbing = Rubbing(
             dissipation=stress.dissipation,
             gap=film.gap,
             solid=film.solid > 0.0,
             inside=film.fluid + film.solid > 0.0,
             spacing=film.grid.spacing,
-            speeds=(op.speed_1, op.speed_2),
-            bodies=op.bodies,
-            oil_conductivity=scene.lubricant.conductivity,
+            speeds=(case.op.speed_1, case.op.speed_2),
+            bodies=case.op.bodies,
+            oil_conductivity=case.scene.lubricant.conductivity,
             face=film.grid.repeats * film.grid.shape[0] * film.grid.spacing if film.grid.periodic else None,
         )
         warm = law.temperatures(rubbing)
@@ -69,32 +69,31 @@ def warmed(
     return film, stress, warm, f"the film's temperature still changes by {change:.2g} K"
 
 
-def inlet_ease(scene: Scene, op: OperatingPoint) -> float:
+def inlet_ease(case: Case) -> float:
     """How many times more easily the oil flows for the heat of shear in the inlet (`heat.inlet_shear`)."""
-    if scene.heat.inlet_shear == "none" or op.load == 0.0 or op.entrainment_speed == 0.0:
+    if case.scene.heat.inlet_shear == "none" or not case.loaded or not case.entrained:
         return 1.0
-    return inlet_factor(scene, op) ** (-1.0 / _FILM_OF_VISCOSITY)
+    return inlet_factor(case) ** (-1.0 / _FILM_OF_VISCOSITY)
 
 
-def inlet_factor(scene: Scene, op: OperatingPoint) -> float:
+def inlet_factor(case: Case) -> float:
     """Film with the heat of shear in the inlet over that without."""
-    oil, inlet = scene.lubricant, op.inlet_temperature
+    oil, inlet = case.scene.lubricant, case.op.inlet_temperature
     viscosity, warmer, colder = (float(oil.viscosity(np.zeros(1), inlet + step)[0]) for step in (0.0, 0.5, -0.5))
-    speed, pressure = abs(op.entrainment_speed), scene.hertz_at(op).pressure_max
+    speed, pressure = abs(case.op.entrainment_speed), case.hertz.pressure_max
     return inlet_shear_factor(
         viscosity,
         float(np.log(colder / warmer)),
         speed,
-        op.sliding_speed / speed,
+        case.op.sliding_speed / speed,
         oil.conductivity,
         pressure,
-        scene.solids.reduced_modulus,
+        case.scene.solids.reduced_modulus,
     )
 
 
 def solve_flow(
-    scene: Scene,
-    op: OperatingPoint,
+    case: Case,
     grid: Grid,
     cover: Array,
     now: Instant,
@@ -106,10 +105,10 @@ def solve_flow(
 
     A march takes the oil as the instant before has left it, a steady film (`before` None) repeats until both fit.
     """
-    inlet = inlet_ease(scene, op)
+    inlet = inlet_ease(case)
     if inlet != 1.0:
         now = replace(now, ease=np.full(grid.shape, inlet))
-    if scene.lubricant.flow == "newtonian" or now.dry or (op.entrainment_speed == 0.0 and before is None):
+    if case.scene.lubricant.flow == "newtonian" or now.dry or (not case.entrained and before is None):
         return solve(now, before)
     if before is not None:
         return solve(recalled(now, before), before)
@@ -121,17 +120,17 @@ def solve_flow(
     return solve_thinning(now, solve, ease, tolerance)
 
 
-def _worked(scene: Scene, op: OperatingPoint, now: Instant, found: FilmSolution, film: Film) -> Instant:
+def _worked(case: Case, now: Instant, found: FilmSolution, film: Film) -> Instant:
     """An instant with the oil as a film `found` has left it."""
-    inlet, viscosity = inlet_ease(scene, op), None
-    if inlet != 1.0 or scene.heat.warms_film:
-        viscosity = scene.lubricant.viscosity(film.fluid, film.temperature) / inlet
-    speed = sliding(op, film.grid)[0]
-    return eased(now, found, scene.lubricant.rheology, speed, film.grid.spacing, viscosity)
+    inlet, viscosity = inlet_ease(case), None
+    if inlet != 1.0 or case.scene.heat.warms_film:
+        viscosity = case.scene.lubricant.viscosity(film.fluid, film.temperature) / inlet
+    speed = sliding(case.op, film.grid)[0]
+    return eased(now, found, case.scene.lubricant.rheology, speed, film.grid.spacing, viscosity)
 
 
-def left_behind(scene: Scene, op: OperatingPoint, now: Instant, found: FilmSolution, film: Film) -> FilmState:
+def left_behind(case: Case, now: Instant, found: FilmSolution, film: Film) -> FilmState:
     """The state of a film with its oil as the next instant of a march takes it over."""
-    if scene.lubricant.flow == "local" and found.route == "mixed":
-        found = remembering(found, _worked(scene, op, now, found, film))
-    return replace(found.state, warmth=np.atleast_2d(film.temperature - op.inlet_temperature))
+    if case.scene.lubricant.flow == "local" and found.route == "mixed":
+        found = remembering(found, _worked(case, now, found, film))
+    return replace(found.state, warmth=np.atleast_2d(film.temperature - case.op.inlet_temperature))

@@ -116,28 +116,28 @@ class _Point(NamedTuple):
     grip: float  # share of the limiting stress
 
 
-def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
+def evaluate(case: Case, films: Films) -> MeanContact:
     """The contact of an operating point and its derivatives; without load the bodies just touch."""
-    sigma, cover = composite_roughness(films), mean_cover(scene, films)
-    if op.load < _LIGHTEST:
-        gap = max(sigma, scene.film.floor)
+    sigma, cover = composite_roughness(films), mean_cover(case.scene, films)
+    if case.op.load < _LIGHTEST:
+        gap = max(sigma, case.scene.film.floor)
         return MeanContact(films, sigma, cover, _UNFITTED, gap, *(0.0,) * 4, (0.0,) * 4, *(0.0,) * 10)
-    sliding = op.sliding_speed
-    further = _D * math.copysign(max(abs(sliding), scene.boundary_friction.slip_speed), sliding)
-    hertz = scene.unit_hertz_at(op)
-    smooth = _smooth(scene, op, hertz, further)
-    points = _points(scene, op, hertz, _surfaces(scene, hertz, films, sigma, cover), smooth.film, further)
-    fluid, heat = _oil_friction(scene, op, hertz, points, further)
+    sliding = case.op.sliding_speed
+    further = _D * math.copysign(max(abs(sliding), case.scene.boundary_friction.slip_speed), sliding)
+    hertz = case.unit_hertz
+    smooth = _smooth(case, hertz, further)
+    points = _points(case, hertz, _surfaces(case.scene, hertz, films, sigma, cover), smooth.film, further)
+    fluid, heat = _oil_friction(case, hertz, points, further)
     now, slide, pull = points[0], abs(points[0].rubbing), abs(points[0].solid + fluid[0])
     if heat is None:
-        rise, into_1 = _flash_rise(scene, abs(now.shear), slide), 0.5 * pull * slide
+        rise, into_1 = _flash_rise(case.scene, abs(now.shear), slide), 0.5 * pull * slide
     else:
         rise, into_1 = heat.surface(pull * slide)
     slope = _slope(points, fluid)
     solid = [point.solid * point.turned for point in points]
     oil = [force * _between(point, slope) for point, force in zip(points, fluid, strict=True)]
     forces = [one + other for one, other in zip(solid, oil, strict=True)]
-    turning = pull * slide - abs(forces[0] * op.sliding_speed)  # what power sliding leaves to spin
+    turning = pull * slide - abs(forces[0] * case.op.sliding_speed)  # what power sliding leaves to spin
     return MeanContact(
         films,
         sigma,
@@ -148,7 +148,7 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
         now.touching,
         -solid[0],
         -oil[0],
-        _derivatives(op, smooth, forces, further),
+        _derivatives(case.op, smooth, forces, further),
         now.pressure,
         abs(now.shear),
         abs(fluid[0]) / now.oily if now.oily > 0.0 else 0.0,
@@ -156,7 +156,7 @@ def evaluate(scene: Scene, op: OperatingPoint, films: Films) -> MeanContact:
         slide,
         pull * slide,
         into_1,
-        -turning / op.spin if op.spin != 0.0 else 0.0,
+        -turning / case.op.spin if case.op.spin != 0.0 else 0.0,
         smooth.rolling * (1.0 - now.shares.load),  # solids make no oil flow
         slope,
     )
@@ -177,25 +177,25 @@ def _between(point: _Point, slope: float) -> float:
 
 
 def _points(
-    scene: Scene, op: OperatingPoint, hertz: Hertz, surfaces: _Surfaces, film: float, further: float
+    case: Case, hertz: Hertz, surfaces: _Surfaces, film: float, further: float
 ) -> list[_Point]:
     """The operating point, and those with more sliding (by `further` [m/s]), film, load and temperature; `hertz` is the
     contact at 1 N.
     """
-    (root, wide), (longer, wider), slide = hertz.growth(op.load), hertz.growth(1.0 + _D), op.sliding_speed
+    (root, wide), (longer, wider), slide = hertz.growth(case.op.load), hertz.growth(1.0 + _D), case.op.sliding_speed
     grown, more = (root, wide), (root * longer, wide * wider)
-    shares = _shared(scene, op, hertz, surfaces, film, grown)
-    thicker = _shared(scene, op, hertz, surfaces, film * (1.0 + _D), grown)
-    heavier = _shared(scene, op, hertz, surfaces, film, more)
-    now = _point(scene, hertz, surfaces, shares, grown, slide, op.spin)
+    shares = _shared(case, hertz, surfaces, film, grown)
+    thicker = _shared(case, hertz, surfaces, film * (1.0 + _D), grown)
+    heavier = _shared(case, hertz, surfaces, film, more)
+    now = _point(case.scene, hertz, surfaces, shares, grown, slide, case.op.spin)
     points = [
         now,
-        _point(scene, hertz, surfaces, shares, grown, slide + further, op.spin),
-        _point(scene, hertz, surfaces, thicker, grown, slide, op.spin),
-        _point(scene, hertz, surfaces, heavier, more, slide, op.spin),
+        _point(case.scene, hertz, surfaces, shares, grown, slide + further, case.op.spin),
+        _point(case.scene, hertz, surfaces, thicker, grown, slide, case.op.spin),
+        _point(case.scene, hertz, surfaces, heavier, more, slide, case.op.spin),
         now,
     ]
-    return [*points, now] if isinstance(scene.heat, TemperatureField) else points
+    return [*points, now] if isinstance(case.scene.heat, TemperatureField) else points
 
 
 def _faster(op: OperatingPoint) -> float:
@@ -221,14 +221,14 @@ def _derivatives(
 # the film of smooth bodies
 
 
-def _smooth(scene: Scene, op: OperatingPoint, hertz: Hertz, further: float) -> _Smooth:
+def _smooth(case: Case, hertz: Hertz, further: float) -> _Smooth:
     """Central film of the smooth bodies by the formula of their shape, and what the inputs do to it."""
-    entrainment, load, slide, inlet = op.entrainment_speed, op.load, op.sliding_speed, op.inlet_temperature
+    entrainment, load, slide, inlet = case.op.entrainment_speed, case.op.load, case.op.sliding_speed, case.op.inlet_temperature
     speed = abs(entrainment)
-    oil, warm = _oil(scene.lubricant.viscosity, inlet)
-    shape, largest, modulus = scene.shape(op), hertz.pressure_max, scene.solids.reduced_modulus
-    supply = scene.lubricant.supply
-    thins = speed > 0.0 and (scene.heat.inlet_shear != "none" or scene.lubricant.flow == "local")
+    oil, warm = _oil(case.scene.lubricant.viscosity, inlet)
+    shape, largest, modulus = case.shape, hertz.pressure_max, case.scene.solids.reduced_modulus
+    supply = case.scene.lubricant.supply
+    thins = speed > 0.0 and (case.scene.heat.inlet_shear != "none" or case.scene.lubricant.flow == "local")
     starves = not isinstance(supply, Flooded)
 
     def film(speed: float, load: float, slide: float, oil: tuple[float, float], temperature: float) -> float:
@@ -255,14 +255,14 @@ def _smooth(scene: Scene, op: OperatingPoint, hertz: Hertz, further: float) -> _
     )
 
 
-def _rolling(scene: Scene, op: OperatingPoint, oil: tuple[float, float], film: float | None) -> float:
+def _rolling(case: Case, oil: tuple[float, float], film: float | None) -> float:
     """Rolling resistance [N] of the smooth bodies. What leaves less of the flooded film of cold oil, `film` [m], is
     taken to leave as little of the force.
     """
-    speed = op.entrainment_speed
+    speed = case.op.entrainment_speed
     if abs(speed) < _SLOWEST:
         return 0.0
-    shape, modulus, load = scene.shape(op), scene.solids.reduced_modulus, max(op.load, _LIGHTEST)
+    shape, modulus, load = case.shape, case.scene.solids.reduced_modulus, max(case.op.load, _LIGHTEST)
     left = 1.0 if film is None else film / shape.film(load, abs(speed), *oil, modulus)
     return math.copysign(left * shape.rolling(load, abs(speed), oil[0], modulus), speed)
 
@@ -313,26 +313,26 @@ def _surfaces(scene: Scene, hertz: Hertz, films: Films, sigma: float, cover: flo
 
 
 def _shared(
-    scene: Scene, op: OperatingPoint, hertz: Hertz, surfaces: _Surfaces, film: float, grown: tuple[float, float]
+    case: Case, hertz: Hertz, surfaces: _Surfaces, film: float, grown: tuple[float, float]
 ) -> _Shares:
     """Of rough bodies, for a film of smooth ones [m] and the load at which the contact at 1 N, `hertz`, has
     `grown` by so much along x and y.
     """
     root, wide = grown
-    floor, sharing, shape = scene.film.floor, scene_film(scene).sharing, scene.shape(op)
+    floor, sharing, shape = case.scene.film.floor, scene_film(case.scene).sharing, case.shape
     sigma = max(surfaces.sigma, floor)  # smooth bodies touch where their adsorbed layers do
     pressure, half = root * hertz.pressure_max, root * hertz.a
     clearance, flattening, resolution = fit = Fit(film / sigma, surfaces.flattening * pressure, surfaces.resolution)
     if not sharing.covers(*fit):  # powers of them mean nothing far from the fit
         flattening, resolution = sharing.nearest(flattening, resolution)
-    density: Law = scene.lubricant.density
+    density: Law = case.scene.lubricant.density
     share = sharing.load_ratio(clearance, flattening, resolution, film / floor)
     dense = clearance / float(density(hertz.mean_share * pressure))
     gap = max(sigma * sharing.film_ratio(dense, share, flattening, resolution), floor)
     raised = sharing.oil_pressure(clearance, flattening, *shape.depths(film, half, wide * hertz.b))
     # no pressure is above the hardness
     return _Shares(
-        fit, gap, share, sharing.area_ratio(share, flattening), min(raised, scene.plasticity.hardness / pressure)
+        fit, gap, share, sharing.area_ratio(share, flattening), min(raised, case.scene.plasticity.hardness / pressure)
     )
 
 
@@ -383,12 +383,12 @@ def _point(
 
 
 def _oil_friction(
-    scene: Scene, op: OperatingPoint, hertz: Hertz, points: list[_Point], further: float
+    case: Case, hertz: Hertz, points: list[_Point], further: float
 ) -> tuple[list[float], MeanHeat | None]:
     """Friction of the oil [N] at the points, and the heat where it warms the film."""
     oily, pressures, rates, grips = np.array([point[-4:] for point in points]).T
     warmer = _WARMER[: len(points)]
-    start = op.inlet_temperature + warmer
+    start = case.op.inlet_temperature + warmer
 
     def friction(warm: Array) -> Array:
         return oily * oil_shear(scene, hertz, pressures, rates, grips, warm)

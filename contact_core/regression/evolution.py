@@ -34,43 +34,43 @@ _OF_ROWS = 0.5 * np.polynomial.legendre.leggauss(6)[1]
 _ROWS_PRESSURE = 1.5 * (1.0 - _ROWS**2)
 
 
-def advance_means(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
+def advance_means(case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
     """`advance` at this level, for inputs that have been checked."""
-    before = state.means or means_of(scene, state)
+    before = state.means or means_of(case.scene, state)
     means, films, left = before, films_of(before), dt
-    contact = evaluate(scene, op, films)
+    contact = evaluate(case, films)
     speed = 0.0  # at which the surfaces change [m/s]
     while left > 0.0:
         start = means
-        step, means, films, speed = _stepped(scene, op, contact, start, left)
+        step, means, films, speed = _stepped(case, contact, start, left)
         left -= step
-        if _has_changed(scene, contact, films):
-            contact = evaluate(scene, op, films)
-            settled = _settled(scene, start, means, _evolved(scene, op, contact, start, step))
+        if _has_changed(case.scene, contact, films):
+            contact = evaluate(case, films)
+            settled = _settled(case.scene, start, means, _evolved(case, contact, start, step))
             if settled is not means:
                 means, films = settled, films_of(settled)
-                contact = evaluate(scene, op, films)
+                contact = evaluate(case, films)
     if dt > 0.0:
         rates = [(now.worn - then.worn) / dt for now, then in zip(means, before, strict=True)]
     else:
-        speed = _stepped(scene, op, contact, means, _TRIAL)[3]
-        rates = [_wear_rate(scene, op, contact, i, films[i].thickness) for i in (0, 1)]
+        speed = _stepped(case, contact, means, _TRIAL)[3]
+        rates = [_wear_rate(case, contact, i, films[i].thickness) for i in (0, 1)]
     if not math.isfinite(contact.solid + contact.fluid + contact.gap):
         raise ConvergenceError(
-            f"Friction or film at load = {op.load:g} N, speeds {op.speed_1:g} and {op.speed_2:g} m/s is not finite: "
+            f"Friction or film at load = {case.op.load:g} N, speeds {case.op.speed_1:g} and {case.op.speed_2:g} m/s is not finite: "
             "the laws of the oil do not reach that far. Lower load or sliding speed."
         )
-    outputs = outputs_of(scene, op, state.outputs, contact, means, films, rates, speed)
+    outputs = outputs_of(case, state.outputs, contact, means, films, rates, speed)
     return changed(state, time=state.time + dt, means=means, outputs=outputs, solved_for=None), outputs
 
 
 def _stepped(
-    scene: Scene, op: OperatingPoint, contact: MeanContact, means: Means, left: float
+    case: Case, contact: MeanContact, means: Means, left: float
 ) -> tuple[float, Means, Films, float]:
     """Time [s], at most `left`, in which the surfaces change by control.change; they after it; their speed [m/s]."""
-    step, budget = left, scene.control.change
+    step, budget = left, case.scene.control.change
     while True:
-        after = _evolved(scene, op, contact, means, step)
+        after = _evolved(case, contact, means, step)
         change = max(_distance(means[0], after[0]), _distance(means[1], after[1]))
         if change <= 1.01 * budget:
             return step, after, films_of(after), change / step
@@ -117,18 +117,17 @@ def _has_changed(scene: Scene, contact: MeanContact, films: Films) -> bool:
     )
 
 
-def _evolved(scene: Scene, op: OperatingPoint, contact: MeanContact, means: Means, step: float) -> Means:
+def _evolved(case: Case, contact: MeanContact, means: Means, step: float) -> Means:
     """Both bodies after `step` [s] of what the contact does to them."""
-    (first, second), doses = _doses(scene, op, contact, means)
+    (first, second), doses = _doses(case, contact, means)
     return (
-        _body_after(scene, op, contact, 0, means[0], step, first, doses[0] * step),
-        _body_after(scene, op, contact, 1, means[1], step, second, doses[1] * step),
+        _body_after(case, contact, 0, means[0], step, first, doses[0] * step),
+        _body_after(case, contact, 1, means[1], step, second, doses[1] * step),
     )
 
 
 def _body_after(
-    scene: Scene,
-    op: OperatingPoint,
+    case: Case,
     contact: MeanContact,
     i: int,
     mean: Mean,
@@ -143,15 +142,15 @@ def _body_after(
     """
     growth, removal, new = mean.growth, mean.removal, 0.0
     if coverage > 0.0:
-        evolve: Law = scene.tribofilm.evolve
-        abraded = _abrasion(scene, op, contact, i) * step / coverage
-        warm = op.bodies[i] + contact.rise
+        evolve: Law = case.scene.tribofilm.evolve
+        abraded = _abrasion(case, contact, i) * step / coverage
+        warm = case.op.bodies[i] + contact.rise
         grown, removed = evolve(growth / coverage, removal / coverage, exposed, abraded, warm)
         growth, removal, new = float(grown) * coverage, float(removed) * coverage, max(float(grown - removed), 0.0)
-    volume = step * _wear_rate(scene, op, contact, i, 0.5 * (contact.films[i].thickness + new))
-    speed = (op.speed_1, op.speed_2)[i]
-    depth = volume / _track_area(scene, i, speed != 0.0)
-    smoother = math.exp(-scene_film(scene).smoothing * depth / contact.sigma) if contact.sigma > 0.0 else 1.0
+    volume = step * _wear_rate(case, contact, i, 0.5 * (contact.films[i].thickness + new))
+    speed = (case.op.speed_1, case.op.speed_2)[i]
+    depth = volume / _track_area(case.scene, i, speed != 0.0)
+    smoother = math.exp(-scene_film(case.scene).smoothing * depth / contact.sigma) if contact.sigma > 0.0 else 1.0
     return changed(
         mean,
         growth=growth,
@@ -160,20 +159,20 @@ def _body_after(
         wear=mean.wear + depth,
         roughness=mean.roughness * smoother,
         worn=mean.worn + volume,
-        cycles=mean.cycles + abs(speed) * step / track_length(scene, i),
+        cycles=mean.cycles + abs(speed) * step / track_length(case.scene, i),
     )
 
 
-def _wear_rate(scene: Scene, op: OperatingPoint, contact: MeanContact, i: int, film: float) -> float:
+def _wear_rate(case: Case, contact: MeanContact, i: int, film: float) -> float:
     """Volume [m3/s] that a body loses under a tribofilm [m]: the law's depth rate, for force in place of pressure."""
-    force, cover = contact.load_ratio * op.load, min(film / scene.tribofilm.full_thickness, 1.0)
+    force, cover = contact.load_ratio * case.op.load, min(film / case.scene.tribofilm.full_thickness, 1.0)
     if force == 0.0:
         return 0.0
-    speeds = (op.speed_1, op.speed_2)
-    if op.spin and scene.wear.of_sliding:
+    speeds = (case.op.speed_1, case.op.speed_2)
+    if case.op.spin and case.scene.wear.of_sliding:
         speeds = contact.slide, 0.0
-    rate: Law = scene.wear.rate
-    return float(rate(force, cover, speeds, i, scene.plasticity.hardness))
+    rate: Law = case.scene.wear.rate
+    return float(rate(force, cover, speeds, i, case.scene.plasticity.hardness))
 
 
 def _track_area(scene: Scene, i: int, moving: bool) -> float:
@@ -193,18 +192,18 @@ def _track_width(rows: int, points: int, domain: float, b: float) -> float:
 
 
 def _doses(
-    scene: Scene, op: OperatingPoint, contact: MeanContact, means: Means
+    case: Case, contact: MeanContact, means: Means
 ) -> tuple[tuple[float, float], tuple[float, float]]:
     """Share of each track that has been rubbed, and exposure of that share per test time."""
-    law, old = scene.tribofilm, (means[0].coverage, means[1].coverage)
-    if not op.slides or op.load == 0.0:
+    law, old = case.scene.tribofilm, (means[0].coverage, means[1].coverage)
+    if not case.op.slides or not case.loaded:
         return old, (0.0, 0.0)
     exposure: Law = law.exposure
-    warm = op.inlet_temperature + contact.rise
-    touching = _touching(scene, contact, warm)
+    warm = case.op.inlet_temperature + contact.rise
+    touching = _touching(case.scene, contact, warm)
     oiled = float(exposure(0.0, contact.fluid_shear, contact.slide, warm))
-    first, dose_1 = _dose(scene, op, contact, 0, means[0].coverage, touching, oiled)
-    second, dose_2 = _dose(scene, op, contact, 1, means[1].coverage, touching, oiled)
+    first, dose_1 = _dose(case, contact, 0, means[0].coverage, touching, oiled)
+    second, dose_2 = _dose(case, contact, 1, means[1].coverage, touching, oiled)
     return (first, second), (dose_1, dose_2)
 
 
@@ -221,39 +220,39 @@ def _touching(scene: Scene, contact: MeanContact, warm: float) -> float:
 
 
 def _dose(
-    scene: Scene, op: OperatingPoint, contact: MeanContact, i: int, coverage: float, touching: float, oiled: float
+    case: Case, contact: MeanContact, i: int, coverage: float, touching: float, oiled: float
 ) -> tuple[float, float]:
     """`_doses` of one body, for the exposures of a point that touches and of one under oil."""
-    first, second = scene.surface_1.rq, scene.surface_2.rq
+    first, second = case.scene.surface_1.rq, case.scene.surface_2.rq
     as_rougher = (True, False) if first == second else ((first > second) == (i == 0),)  # alike: between both curves
-    area, dry = contact.area_ratio, contact.load_ratio > scene.control.dry_above
-    curves = [scene_film(scene).sharing.exposed(area, rougher=rougher, dry=dry) for rougher in as_rougher]
+    area, dry = contact.area_ratio, contact.load_ratio > case.scene.control.dry_above
+    curves = [scene_film(case.scene).sharing.exposed(area, rougher=rougher, dry=dry) for rougher in as_rougher]
     met = sum(curves) / len(curves)
     coverage = max(coverage, 1.0 if oiled > 0.0 else met if touching > 0.0 else 0.0)
     if coverage == 0.0:
         return 0.0, 0.0
-    moving = (op.speed_1, op.speed_2)[i] != 0.0
-    if scene.tribofilm.dose == "clock" and moving:
+    moving = (case.op.speed_1, case.op.speed_2)[i] != 0.0
+    if case.scene.tribofilm.dose == "clock" and moving:
         return coverage, (met * touching + (1.0 - met) * oiled) / coverage
     mean = contact.area_ratio * touching + (1.0 - contact.area_ratio) * oiled
-    chord = scene.tribofilm.dose == "contact_length"
-    stay = scene.unit_hertz_at(op).chord_share if chord else _residence(scene, op, i)
+    chord = case.scene.tribofilm.dose == "contact_length"
+    stay = case.unit_hertz.chord_share if chord else _residence(case, i)
     return coverage, mean * stay / coverage
 
 
-def _abrasion(scene: Scene, op: OperatingPoint, contact: MeanContact, i: int) -> float:
+def _abrasion(case: Case, contact: MeanContact, i: int) -> float:
     """Rate [1/s] at which rubbing takes tribofilm from a track, mean over it; none is taken where there is none."""
-    law: Any = scene.tribofilm
+    law: Any = case.scene.tribofilm
     if not law.abrades:
         return 0.0
-    felt = contact.solid_pressure * contact.area_ratio * _residence(scene, op, i)
-    if isinstance(scene.shape(), Line):  # even along the face
+    felt = contact.solid_pressure * contact.area_ratio * _residence(case, i)
+    if isinstance(case.scene.shape(), Line):  # even along the face
         return float(law.abrasion(np.array([felt]), contact.slide, None)[0])
     return float(_OF_ROWS @ law.abrasion(felt * _ROWS_PRESSURE, contact.slide, _ROWS))
 
 
-def _residence(scene: Scene, op: OperatingPoint, i: int) -> float:
+def _residence(case: Case, i: int) -> float:
     """Share of its time that a point of the track |y| < b is in Hertz's contact."""
-    way = track_length(scene, i) if (op.speed_1, op.speed_2)[i] != 0.0 else scene.film.domain
-    hertz = scene.unit_hertz_at(op)
-    return 2.0 * hertz.chord_share * hertz.a * hertz.growth(op.load)[0] / way
+    way = track_length(case.scene, i) if (case.op.speed_1, case.op.speed_2)[i] != 0.0 else case.scene.film.domain
+    hertz = case.unit_hertz
+    return 2.0 * hertz.chord_share * hertz.a * hertz.growth(case.op.load)[0] / way

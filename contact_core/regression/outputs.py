@@ -22,8 +22,7 @@ _LOCAL = 1.0  # error of films that feel local stresses, of which this level kno
 
 
 def outputs_of(
-    scene: Scene,
-    op: OperatingPoint,
+    case: Case,
     before: Outputs,
     contact: MeanContact,
     means: Means,
@@ -33,13 +32,13 @@ def outputs_of(
 ) -> Outputs:
     """What this level can tell; the rest stays zero. Counters of solved blocks go on."""
     force = contact.solid + contact.fluid
-    hot_1, hot_2 = op.bodies
+    hot_1, hot_2 = case.op.bodies
     first, second = means
-    longest = _LONGEST * scene.operation.duration
+    longest = _LONGEST * case.scene.operation.duration
     return changed(
         _BLANK,
         friction_force=force,
-        friction_coefficient=abs(force) / op.load if op.load > 0.0 else 0.0,
+        friction_coefficient=abs(force) / case.op.load if case.loaded else 0.0,
         friction_solid=contact.solid,
         friction_fluid=contact.fluid,
         dfriction_dspeed_1=contact.derivatives[0],
@@ -56,7 +55,7 @@ def outputs_of(
         wear_depth_2=second.wear,
         h_c=contact.gap,
         h_central=contact.gap,
-        lambda_ratio=_lambda_ratio(op, contact),
+        lambda_ratio=_lambda_ratio(case.op, contact),
         tribofilm_1=max(first.growth - first.removal, 0.0),
         tribofilm_2=max(second.growth - second.removal, 0.0),
         tribofilm_roughness_1=films[0].roughness,
@@ -71,9 +70,9 @@ def outputs_of(
         heat_flow_1=contact.into_1,
         heat_flow_2=contact.power - contact.into_1,
         spin_torque=contact.spin_torque,
-        approach=scene.unit_hertz_at(op).approach_at(op.load) - contact.gap,
-        range_flags=_flags(scene, op, contact),
-        suggested_step=min(scene.control.change / speed, longest) if speed > 0.0 else longest,
+        approach=case.unit_hertz.approach_at(case.op.load) - contact.gap,
+        range_flags=_flags(case, contact),
+        suggested_step=min(case.scene.control.change / speed, longest) if speed > 0.0 else longest,
         load_cycles_1=first.cycles,
         load_cycles_2=second.cycles,
         coverage_1=first.coverage,
@@ -81,7 +80,7 @@ def outputs_of(
         blocks_dry=before.blocks_dry,
         blocks_mixed=before.blocks_mixed,
         blocks_fallback=before.blocks_fallback,
-        **_errors(scene, op, contact),
+        **_errors(case, contact),
     )
 
 
@@ -96,37 +95,37 @@ def _lambda_ratio(op: OperatingPoint, contact: MeanContact) -> float:
     return min(contact.gap / contact.sigma, _LAMBDA_CAP)
 
 
-def _flags(scene: Scene, op: OperatingPoint, contact: MeanContact) -> int:
+def _flags(case: Case, contact: MeanContact) -> int:
     flags = 0
-    if contact.sigma == 0.0 or op.load == 0.0:
+    if contact.sigma == 0.0 or not case.loaded:
         flags |= _LAMBDA_CAPPED
-    elif not scene_film(scene).sharing.covers(*contact.fit):
+    elif not scene_film(case.scene).sharing.covers(*contact.fit):
         flags |= _OUTSIDE_FIT
-    one, two = op.bodies
-    if not (scene.tribofilm.covers(one) and scene.tribofilm.covers(two)):
+    one, two = case.op.bodies
+    if not (case.scene.tribofilm.covers(one) and case.scene.tribofilm.covers(two)):
         flags |= _TRIBOFILM_TEMPERATURE
     return flags
 
 
-def _errors(scene: Scene, op: OperatingPoint, contact: MeanContact) -> dict[str, Any]:
+def _errors(case: Case, contact: MeanContact) -> dict[str, Any]:
     """Half widths (95 %) of the errors by the fit, relative. Friction is wrong where load counts for solids and is
     oil's, and by the oil's own, but never by more than if solids carried all.
     """
     force, share = abs(contact.solid + contact.fluid), contact.load_ratio
     if force == 0.0:
         return {}
-    sharing = scene_film(scene).sharing
+    sharing = scene_film(case.scene).sharing
     widths, clearance = sharing.WIDTHS, contact.fit.clearance
-    wider = _run_in(scene, contact) * (1.0 if sharing.covers(*contact.fit) else _BEYOND)
+    wider = _run_in(case.scene, contact) * (1.0 if sharing.covers(*contact.fit) else _BEYOND)
     load = wider * widths.of_load(share)
     oil = wider * widths.of_oil(clearance, contact.oil_slope)
-    solid = abs(contact.solid) / share if share > 0.0 else scene.boundary_friction.bare * op.load
+    solid = abs(contact.solid) / share if share > 0.0 else case.scene.boundary_friction.bare * case.op.load
     fluid = abs(contact.fluid) / (1.0 - share) if share < 1.0 else 0.0
     friction = math.hypot(abs(solid - fluid) * load, abs(contact.fluid) * oil) / force
     return {
         "error_friction": min(friction, max(solid / force, 1.0)),
         "error_film": min(wider * widths.of_film(clearance), 1.0),
-        "error_tribofilm": _LOCAL if scene.tribofilm.abrades else _exposure_error(sharing),
+        "error_tribofilm": _LOCAL if case.scene.tribofilm.abrades else _exposure_error(sharing),
         "error_wear": min(load / share, _UNKNOWN) if share > 0.0 else 0.0,
     }
 

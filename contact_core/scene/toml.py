@@ -14,17 +14,19 @@ from ..laws import SLOTS
 from ..shapes import GEOMETRIES
 from . import units
 
+_SHARING = {film.name for film in FILMS if "sharing" in {f.name for f in fields(film)}}
+
 
 def shipped_scenes() -> dict[str, str]:
     """Names and descriptions of the scenes that come with the package."""
-    folder = files(__package__) / "data" / "scenes"
+    folder = files("contact_core") / "data" / "scenes"
     tables = {p.name.removesuffix(".toml"): p for p in folder.iterdir() if p.name.endswith(".toml")}
     return {name: str(tomllib.loads(tables[name].read_text("utf-8"))["description"]) for name in sorted(tables)}
 
 
 def read_table(source: str | Path) -> dict[str, Any]:
     """Read a scene's TOML by name or path, as nested tables."""
-    shipped = files(__package__) / "data" / "scenes" / f"{source}.toml"
+    shipped = files("contact_core") / "data" / "scenes" / f"{source}.toml"
     path = Path(source)
     try:
         if path.suffix == ".toml":
@@ -166,7 +168,7 @@ def _with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
     name = str(table.pop("set")).lower()
     if path not in _SET_FILES:
         raise SceneError(f"[{path}] has no named sets. Known are sets for {', '.join(_SET_FILES)}.")
-    data = tomllib.loads((files(__package__) / "data" / f"{_SET_FILES[path]}.toml").read_text("utf-8"))
+    data = tomllib.loads((files("contact_core") / "data" / f"{_SET_FILES[path]}.toml").read_text("utf-8"))
     sets = {key: value[path] for key, value in data.items() if isinstance(value.get(path), dict)}
     if name not in sets:
         raise SceneError(f"[{path}] has no set '{name}'.{did_you_mean(name, list(sets))} Known are {', '.join(sets)}.")
@@ -216,3 +218,26 @@ def unbuild(record: Any) -> dict[str, Any]:
 
 def _all_models() -> set[type]:
     return {model for models in (*SLOTS.values(), FILMS, GEOMETRIES) for model in models}
+
+
+def full_key(key: str, value: str) -> str:
+    """Return the key that an override means: `heat.bulk=oil` is short for `heat.bulk.model=oil`."""
+    return f"{key}.model" if value in {law.name for law in models_of(key)} else key  # type: ignore[attr-defined]
+
+
+def override_order(item: tuple[str, str]) -> int:
+    """Return the rank in which an override is applied: sets and models first, which decide what other keys there are."""
+    return {"set": 0, "model": 1}.get(item[0].rpartition(".")[2], 2)
+
+
+def completed(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a scene's table with the curves of load sharing that fit its geometry, if it names none and needs some."""
+    film, geometry = table.get("film"), table.get("geometry")
+    if not isinstance(film, Mapping) or not isinstance(geometry, Mapping):
+        return dict(table)
+    sharing = film.get("sharing", {})
+    if film.get("model") not in _SHARING or not isinstance(sharing, Mapping) or "model" in sharing:
+        return dict(table)
+    bodies = {law.name: law for law in GEOMETRIES}
+    usual = bodies.get(str(geometry.get("model")), GEOMETRIES[0]).sharing
+    return {**table, "film": {**film, "sharing": {"model": usual.name, **sharing}}}
