@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..film.instant import Grid
-from ..scene import OperatingPoint, Scene
+from ..scene import Case, OperatingPoint
 
 Array = NDArray[np.float64]
 
@@ -18,7 +18,7 @@ _STEP = 1e-5  # relative, of the differences that give a viscosity's slopes
 
 @dataclass(frozen=True)
 class Film:
-    """What friction needs to know of an instant's film. Arrays [ny, nx]."""
+    """The film of an instant as friction needs it. Arrays [ny, nx]."""
 
     grid: Grid
     fluid: Array  # pressure [Pa]
@@ -63,7 +63,7 @@ class Friction:
 
 
 def sliding(op: OperatingPoint, grid: Grid) -> tuple[Array | float, Array | float, Array | float]:
-    """Local speed [m/s] and direction at which body 1 slides over body 2; numbers if there is no spin."""
+    """Return the local speed [m/s] and direction at which body 1 slides over body 2; numbers if there is no spin."""
     if op.spin == 0.0:
         return abs(op.sliding_speed), float(np.sign(op.sliding_speed)), 0.0
     x, y = np.broadcast_arrays(op.sliding_speed - op.spin * grid.y[:, None], op.spin * grid.x[None, :])
@@ -73,15 +73,16 @@ def sliding(op: OperatingPoint, grid: Grid) -> tuple[Array | float, Array | floa
 
 
 def shear(case: Case, film: Film) -> Shear:
-    """Local shear stresses: the oil's by its rheology, the solids' by the law of boundary friction."""
+    """Return the local shear stresses: the oil's by its rheology, the solids' by the law of boundary friction."""
+    oil, boundary = case.scene.lubricant, case.scene.boundary_friction
     speed, along_x, along_y = sliding(case.op, film.grid)
-    newtonian = case.scene.lubricant.viscosity(film.fluid, film.temperature) * speed / film.gap
-    fluid = case.scene.lubricant.rheology(newtonian, film.fluid * case.scene.boundary_friction.grip(speed))
-    return Shear(fluid, case.scene.boundary_friction(film.solid, film.cover, speed), speed, along_x, along_y)
+    newtonian = oil.viscosity(film.fluid, film.temperature) * speed / film.gap
+    fluid = oil.rheology(newtonian, film.fluid * boundary.grip(speed))
+    return Shear(fluid, boundary(film.solid, film.cover, speed), speed, along_x, along_y)
 
 
 def friction(stress: Shear, grid: Grid) -> Friction:
-    """What the stresses add up to."""
+    """Return the integrals of the stresses over the contact."""
     cell, total = grid.cell, stress.total
     lever = grid.x[None, :] * stress.along_y - grid.y[:, None] * stress.along_x if np.ndim(stress.speed) else 0.0
     power, pull = float((total * stress.speed).sum()), float(total.sum())
@@ -95,24 +96,25 @@ def friction(stress: Shear, grid: Grid) -> Friction:
 
 
 def derivatives(case: Case, film: Film) -> dict[str, float]:
-    """Derivatives of the friction force on body 1 by the operating point, at a held film: gap, shares of solids and
-    oil and the field of temperature stand still, all pressures are in proportion to the load, and the oil is as much
-    warmer as the input.
+    """Return the derivatives of the friction force on body 1 by the operating point, at a held film.
+
+    Gap, shares of solids and oil and the field of temperature are held, all pressures are in proportion to the load,
+    and the oil is as much warmer as the input.
     """
-    oil, grid = case.scene.lubricant, film.grid
+    oil, boundary, grid = case.scene.lubricant, case.scene.boundary_friction, film.grid
     speed, along_x, along_y = sliding(case.op, grid)
-    speed = np.maximum(speed, _STEP * case.scene.boundary_friction.slip_speed)  # at rest, too, the limit tells the slope
+    speed = np.maximum(speed, _STEP * boundary.slip_speed)  # at rest, too, the limit tells the slope
     viscosity = oil.viscosity(film.fluid, film.temperature)
     newtonian = viscosity * speed / film.gap
-    grip, grip_slope = case.scene.boundary_friction.grip(speed), case.scene.boundary_friction.grip_slope(speed)
+    grip, grip_slope = boundary.grip(speed), boundary.grip_slope(speed)
     by_newtonian, by_pressure = oil.rheology.slopes(newtonian, film.fluid * grip)
     more, less = (oil.viscosity(film.fluid * (1.0 + sign * _STEP), film.temperature) for sign in (1.0, -1.0))
     stiffening = (more - less) / (2.0 * _STEP)  # d viscosity / d ln p
     step = _STEP * float(np.mean(film.temperature))
     warmer, colder = (oil.viscosity(film.fluid, film.temperature + sign * step) for sign in (1.0, -1.0))
     solid, solid_by_speed = (
-        case.scene.boundary_friction(film.solid, film.cover, speed),
-        case.scene.boundary_friction.slope(film.solid, film.cover, speed),
+        boundary(film.solid, film.cover, speed),
+        boundary.slope(film.solid, film.cover, speed),
     )
     cell = grid.cell
 
@@ -129,6 +131,6 @@ def derivatives(case: Case, film: Film) -> dict[str, float]:
     return {
         "dfriction_dspeed_1": sliding_slope,
         "dfriction_dspeed_2": -sliding_slope,
-        "dfriction_dload": force(by_load) / op.load if op.load > 0.0 else 0.0,
+        "dfriction_dload": force(by_load) / case.op.load if case.loaded else 0.0,
         "dfriction_dtemperature": force(by_temperature),
     }

@@ -5,14 +5,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import OperatingPointError, SceneError
+from ..errors import SceneError
 from ..film import Deterministic
 from ..film.instant import FilmSolution, FilmState, Grid, Instant, Step
 from ..laws.heat import Temperatures
-from ..laws.tribofilm import thickness
-from ..scene import OperatingPoint, Scene, with_bodies
+from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState
-from ..surfaces.patches import bare_heights, contact_grid, heights_of, on_grid, patch_nodes, roughness_of
+from ..surfaces.patches import facing_surfaces
 from .friction import Film, Friction, friction
 from .oil_temperature import left_behind, sheared, solve_flow, warmed
 
@@ -68,7 +67,8 @@ class ContactFields:
 
 
 def solve(
-    case: Case,
+    scene: Scene,
+    op: OperatingPoint,
     state: ContactState,
     transient: Transient | None = None,
     *,
@@ -77,50 +77,63 @@ def solve(
 ) -> ContactFields:
     """Solve the contact at one instant; time and state stand still.
 
-    Without `transient` the film is steady. `dry` leaves the film out: the solids carry
-    `solid_share` of the load, oil spread as in Hertz's contact the rest. Raises OperatingPointError for values that
-    cannot be used and ConvergenceError if no solution exists. A film solution that did not converge says so; if it
-    cannot be used, the dry one stands in (`route`). A scene of another level than the deterministic one is refused
-    with SceneError.
+    Parameters
+    ----------
+    transient : how the film follows from the state's last one; None: the film is steady.
+    dry : leave the film out.
+    solid_share : share of the load that the solids of a dry contact carry; oil spread as in Hertz's contact carries the
+        rest.
+
+    Returns
+    -------
+    ContactFields
+        A film solution that did not converge says so; if it cannot be used, the dry one replaces it (`route`).
+
+    Raises
+    ------
+    OperatingPointError
+        For values that cannot be used.
+    ConvergenceError
+        If no solution exists.
+    SceneError
+        For a scene of another level.
+
     """
-    level = case.scene.film
-    if not isinstance(level, Deterministic):
+    if not isinstance(scene.film, Deterministic):
         raise SceneError(
-            f"film.model = '{case.scene.film.name}' knows means only, no fields. Solve case.scene.at_level('deterministic')."
+            f"film.model = '{scene.film.name}' has no fields. Solve scene.at_level('deterministic')."
         )
-    case.op.check()
-    refusal = case.scene.refusal(case.op)
-    if refusal:
-        raise OperatingPointError(refusal)
-    op = with_bodies(case, state.temperatures)
-    bare, law = bare_heights(case.scene, state.rows), case.scene.plasticity
-    nodes = [patch_nodes(case.scene, body) for body in state.bodies]
-    patches = [heights_of(z, body) for z, body in zip(bare, state.bodies, strict=True)]
-    heights = on_grid(patches[0], nodes[0]) + on_grid(patches[1], nodes[1])
-    rough = on_grid(roughness_of(bare[0], patches[0]), nodes[0]) + on_grid(roughness_of(bare[1], patches[1]), nodes[1])
-    full = case.scene.tribofilm.full_thickness
-    film_1, film_2 = (
-        on_grid(thickness(body.growth, body.removal), n) for body, n in zip(state.bodies, nodes, strict=True)
-    )
-    pressed = np.zeros_like(heights)
-    if law.indentation == "total":
-        pressed += sum(on_grid(body.plastic, n) for body, n in zip(state.bodies, nodes, strict=True))
-    limit = law.limit(film_1, film_2, pressed, full)
+    return solve_instant(Case.bind(scene, op, state.temperatures), state, transient, dry=dry, solid_share=solid_share)
+
+
+def solve_instant(
+    case: Case,
+    state: ContactState,
+    transient: Transient | None = None,
+    *,
+    dry: bool = False,
+    solid_share: float = 1.0,
+) -> ContactFields:
+    """Solve a case at one instant; as `solve`, for an operating point that has been checked."""
+    scene = case.scene
+    level, full = scene.film, scene.tribofilm.full_thickness
+    assert isinstance(level, Deterministic)
+    faced, grid = facing_surfaces(scene, state), scene.grid(state.rows)
+    film_1, film_2 = faced.tribofilms
+    limit = scene.plasticity.limit(film_1, film_2, faced.plastic, full)
     covers = film_1 / full, film_2 / full
-    grid = contact_grid(case.scene, state.rows)
     cover = 0.5 * (covers[0] + covers[1])
-    now = replace(instant_of(case, heights, limit), dry=dry, solid_share=solid_share)
+    now = replace(instant_of(case, faced.heights, limit), dry=dry, solid_share=solid_share)
     before = state.film if transient else None
     if not case.loaded:
-        film = _open(case, grid, heights)
+        film = _open(case, grid, faced.heights)
     else:
         step = None
         if transient and before:
             step = Step(transient.dt, transient.moved, transient.order, transient.thorough)
         most = transient.iterations if transient else None
         film = solve_flow(
-            case.scene,
-            case.op,
+            case,
             grid,
             cover,
             now,
@@ -138,8 +151,8 @@ def solve(
         fluid_pressure=film.state.fluid,
         solid_pressure=found.solid,
         gap=film.gap,
-        heights=heights,
-        roughness=rough,
+        heights=faced.heights,
+        roughness=faced.roughness,
         cover_1=covers[0],
         cover_2=covers[1],
         overlap=film.overlap,
@@ -151,7 +164,7 @@ def solve(
         temperatures=warm,
         film=left_behind(case, now, film, found),
         converged=film.converged and not shortfall,
-        shortfall="; ".join(said for said in (film.shortfall, shortfall) if said),
+        shortfall="; ".join(text for text in (film.shortfall, shortfall) if text),
         route=film.route,
         algorithm=film.algorithm,
         iterations=film.iterations,

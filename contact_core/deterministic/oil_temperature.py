@@ -15,7 +15,7 @@ from ..film.instant import FilmSolution, FilmState, Grid, Instant
 from ..film.thinning import eased, recalled, remembering, solve_thinning
 from ..laws.heat import NoHeat, Rubbing, Temperatures
 from ..reference import inlet_shear_factor
-from ..scene import OperatingPoint, Scene
+from ..scene import Case
 from .friction import Film, Shear, shear, sliding
 
 Array = NDArray[np.float64]
@@ -54,7 +54,7 @@ def warmed(
             solid=film.solid > 0.0,
             inside=film.fluid + film.solid > 0.0,
             spacing=film.grid.spacing,
-            speeds=(case.op.speed_1, case.op.speed_2),
+            speeds=case.speeds,
             bodies=case.op.bodies,
             oil_conductivity=case.scene.lubricant.conductivity,
             face=film.grid.repeats * film.grid.shape[0] * film.grid.spacing if film.grid.periodic else None,
@@ -114,8 +114,8 @@ def solve_flow(
         return solve(recalled(now, before), before)
 
     def ease(now: Instant, found: FilmSolution) -> Instant:
-        film = warmed(scene, op, sheared(grid, found, cover, op.inlet_temperature), None)[0]
-        return _worked(scene, op, now, found, film)
+        film = warmed(case, sheared(grid, found, cover, case.op.inlet_temperature), None)[0]
+        return _worked(case, now, found, film)
 
     return solve_thinning(now, solve, ease, tolerance)
 

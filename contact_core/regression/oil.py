@@ -29,8 +29,9 @@ _SETTLED = 1e-8  # misfit that ends them, over the rise and 1 K
 
 
 def oil_shear(scene: Scene, hertz: Hertz, pressures: Array, rates: Array, grips: Array, temperatures: Array) -> Array:
-    """Mean shear stress [Pa] of oil under Hertz's pressure, of which `pressures` are the largest at each point; `grips`
-    are the shares of the limiting stress (`FilmBlend.grip`).
+    """Return the mean shear stress [Pa] of oil under Hertz's pressure.
+
+    `pressures` are the largest at each point, `grips` the shares of the limiting stress (`FilmBlend.grip`).
     """
     parts, weights = _ON_STRIP if isinstance(hertz, HertzLine) else _ON_ELLIPSE
     local = parts * pressures

@@ -1,13 +1,13 @@
-"""What the fast level can tell of a contact."""
+"""Outputs of the regression level."""
 
 import math
 from typing import Any
 
 from ..laws.load_sharing import FittedSharing
-from ..scene import OperatingPoint, Scene
+from ..scene import Case
 from ..state import Outputs, RangeFlag, changed
 from .contact import MeanContact
-from .surfaces import Films, Means, scene_film
+from .surfaces import Means, Tribofilms, regression_film
 
 _LAMBDA_CAP = 1e3
 _LONGEST = 10.0  # times the duty: no step need be shorter than that
@@ -18,7 +18,7 @@ _BLANK = Outputs()
 # share of the roughness or more, for curves of fresh surfaces
 _BEYOND, _RUN_IN, _CHANGED = 2.0, 1.6, 0.1
 _UNKNOWN = 1e3  # relative, of wear where next to no solids touch: nobody knows
-_LOCAL = 1.0  # error of films that feel local stresses, of which this level knows the mean
+_LOCAL = 1.0  # error of tribofilms that feel local stresses, of which this level knows the mean
 
 
 def outputs_of(
@@ -26,11 +26,11 @@ def outputs_of(
     before: Outputs,
     contact: MeanContact,
     means: Means,
-    films: Films,
+    tribofilms: Tribofilms,
     rates: list[float],
     speed: float,
 ) -> Outputs:
-    """What this level can tell; the rest stays zero. Counters of solved blocks go on."""
+    """Return the outputs of this level; the others stay zero. Counters of solved blocks continue."""
     force = contact.solid + contact.fluid
     hot_1, hot_2 = case.op.bodies
     first, second = means
@@ -55,13 +55,13 @@ def outputs_of(
         wear_depth_2=second.wear,
         h_c=contact.gap,
         h_central=contact.gap,
-        lambda_ratio=_lambda_ratio(case.op, contact),
+        lambda_ratio=_lambda_ratio(case, contact),
         tribofilm_1=max(first.growth - first.removal, 0.0),
         tribofilm_2=max(second.growth - second.removal, 0.0),
-        tribofilm_roughness_1=films[0].roughness,
-        tribofilm_roughness_2=films[1].roughness,
-        roughness_1=films[0].both,
-        roughness_2=films[1].both,
+        tribofilm_roughness_1=tribofilms[0].roughness,
+        tribofilm_roughness_2=tribofilms[1].roughness,
+        roughness_1=tribofilms[0].both,
+        roughness_2=tribofilms[1].both,
         contact_area_ratio=contact.area_ratio,
         contact_load_ratio=contact.load_ratio,
         flash_temperature_rise=contact.rise,
@@ -85,12 +85,12 @@ def outputs_of(
 
 
 def _exposure_error(sharing: FittedSharing) -> float:
-    """Relative half width of the share of the rougher body that is exposed: no film is less sure."""
+    """Return the relative half width of the exposed share of the rougher body: no tribofilm is less sure."""
     return sharing.HALF_WIDTHS["exposure_rougher"] / sharing.exposure_rougher
 
 
-def _lambda_ratio(op: OperatingPoint, contact: MeanContact) -> float:
-    if contact.sigma == 0.0 or op.load == 0.0:
+def _lambda_ratio(case: Case, contact: MeanContact) -> float:
+    if contact.sigma == 0.0 or not case.loaded:
         return _LAMBDA_CAP
     return min(contact.gap / contact.sigma, _LAMBDA_CAP)
 
@@ -99,7 +99,7 @@ def _flags(case: Case, contact: MeanContact) -> int:
     flags = 0
     if contact.sigma == 0.0 or not case.loaded:
         flags |= _LAMBDA_CAPPED
-    elif not scene_film(case.scene).sharing.covers(*contact.fit):
+    elif not regression_film(case.scene).sharing.covers(*contact.fit):
         flags |= _OUTSIDE_FIT
     one, two = case.op.bodies
     if not (case.scene.tribofilm.covers(one) and case.scene.tribofilm.covers(two)):
@@ -108,15 +108,17 @@ def _flags(case: Case, contact: MeanContact) -> int:
 
 
 def _errors(case: Case, contact: MeanContact) -> dict[str, Any]:
-    """Half widths (95 %) of the errors by the fit, relative. Friction is wrong where load counts for solids and is
-    oil's, and by the oil's own, but never by more than if solids carried all.
+    """Return the half widths (95 %) of the errors by the fit, relative.
+
+    Friction is wrong where load carried by oil is attributed to solids, and by the oil's own friction, but never by more
+    than if solids carried all.
     """
     force, share = abs(contact.solid + contact.fluid), contact.load_ratio
     if force == 0.0:
         return {}
-    sharing = scene_film(case.scene).sharing
+    sharing = regression_film(case.scene).sharing
     widths, clearance = sharing.WIDTHS, contact.fit.clearance
-    wider = _run_in(case.scene, contact) * (1.0 if sharing.covers(*contact.fit) else _BEYOND)
+    wider = _run_in(case, contact) * (1.0 if sharing.covers(*contact.fit) else _BEYOND)
     load = wider * widths.of_load(share)
     oil = wider * widths.of_oil(clearance, contact.oil_slope)
     solid = abs(contact.solid) / share if share > 0.0 else case.scene.boundary_friction.bare * case.op.load
@@ -130,10 +132,10 @@ def _errors(case: Case, contact: MeanContact) -> dict[str, Any]:
     }
 
 
-def _run_in(scene: Scene, contact: MeanContact) -> float:
-    """How many times wider errors are of surfaces that rubbing has changed."""
+def _run_in(case: Case, contact: MeanContact) -> float:
+    """Return the factor by which errors are wider for surfaces that rubbing has changed."""
     if contact.sigma == 0.0:
         return 1.0
-    pairs = zip((scene.surface_1, scene.surface_2), contact.films, strict=True)
-    changed = sum(film.thickness + abs(film.both - surface.rq) for surface, film in pairs)
+    pairs = zip(case.sides, contact.tribofilms, strict=True)
+    changed = sum(film.thickness + abs(film.both - side.surface.rq) for side, film in pairs)
     return 1.0 + (_RUN_IN - 1.0) * min(changed / (_CHANGED * contact.sigma), 1.0)

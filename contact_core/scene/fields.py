@@ -16,7 +16,7 @@ from ..laws.tribofilm import Andersson, Combined, Ghanbarzadeh, Gosvami, NoTribo
 from ..laws.wear import Archard, NoWear
 from ..reference import Hertz
 from ..shapes import LineGeometry, PointGeometry, RollerGeometry, Shape
-from .operation import Operation, OperatingPoint
+from .operation import OperatingPoint, Operation
 from .records import Control, Lubricant, Solids, Surface
 from .toml import unbuild
 
@@ -85,6 +85,11 @@ class SceneFields:
     def repeats(self) -> float:
         """Number of times the grid lies in the contact, side by side along y."""
         return self.geometry.repeats(self.rows * self.film.spacing)
+
+    @property
+    def rougher(self) -> int:
+        """Index of the rougher body: 0 of body 1, 1 of body 2; 1 if they are alike."""
+        return 0 if self.surface_1.rq > self.surface_2.rq else 1
 
     @property
     def track_lengths(self) -> tuple[float, float]:

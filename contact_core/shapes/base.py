@@ -58,6 +58,8 @@ class Shape(Protocol):
     def side_resistance(self) -> float:
         """Resistance of starved films to side flow, see `reference.supplied_film`."""
 
+    def __hash__(self) -> int: ...
+
     def gap(self, x: Array, y: Array, unit: float) -> Array:
         """Return the gap [ny, nx] of the touching bodies in unit^2 / radius_x at x [nx], y [ny] in `unit` [m]."""
 
@@ -95,9 +97,17 @@ class Shape(Protocol):
 class GridRecord(Protocol):
     """What a film record says of the grid."""
 
-    points: int  # nodes along x
-    domain: float  # length along x [m]
-    width: float  # length along y [m]; 0: chosen by the shape
+    @property
+    def points(self) -> int:
+        """Nodes along x."""
+
+    @property
+    def domain(self) -> float:
+        """Length along x [m]."""
+
+    @property
+    def width(self) -> float:
+        """Length along y [m]; 0: chosen by the shape."""
 
     @property
     def spacing(self) -> float:

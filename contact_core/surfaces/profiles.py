@@ -1,16 +1,14 @@
-"""The rubbed surfaces as they are, for profiles and pictures: a track is its patch, laid end to end."""
+"""The rubbed surfaces for profiles and pictures: a track is its patch, laid end to end."""
 
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..deterministic.growth_and_wear import track_length
 from ..errors import StateError
-from ..laws.tribofilm import thickness
 from ..scene import Scene
 from ..state import ContactState
-from .patches import bare_heights, contact_grid, heights_of
+from .patches import bare_heights, heights_of
 from .track_means import folded
 
 Array = NDArray[np.float64]
@@ -33,13 +31,13 @@ class Track:
 
 
 def track_of(scene: Scene, state: ContactState, body: int, length: float | None = None) -> Track:
-    """The track of body 1 or 2 in a state, `length` [m] of it: by default as long as the patch, at most all of it.
+    """Return `length` [m] of the track of body 1 or 2 in a state: by default one patch, at most all of it.
 
     Raises StateError if there is no such body or the length is not above zero and within the track.
     """
     if body not in (1, 2):
         raise StateError(f"body = {body!r} must be 1 or 2.")
-    whole, patch = track_length(scene, body - 1), scene.film.domain
+    whole, patch = scene.track_lengths[body - 1], scene.film.domain
     length = patch if length is None else length
     if not 0.0 < length <= max(whole, patch):
         raise StateError(f"length = {length!r} m must be above 0 and at most the track of body {body}, {whole:g} m.")
@@ -53,10 +51,10 @@ def track_of(scene: Scene, state: ContactState, body: int, length: float | None 
 
     return Track(
         x=np.arange(nodes, dtype=np.float64) * scene.film.spacing,
-        y=contact_grid(scene, state.rows).y,
+        y=scene.grid(state.rows).y,
         new=laid(bare),
         heights=laid(heights_of(bare, part)),
         wear=laid(part.wear),
         plastic=laid(part.plastic),
-        tribofilm=laid(thickness(part.growth, part.removal)),
+        tribofilm=laid(part.tribofilm),
     )

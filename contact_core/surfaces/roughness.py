@@ -13,7 +13,7 @@ _CUTOFF = 9.0
 
 
 def generate(surface: Surface, points: int, domain: float, body: int, period: int | None = None) -> Array:
-    """Gaussian heights [period + 1, points - 1], autocorrelation rq^2 exp(-(r/l)^2), periodic along both axes.
+    """Return Gaussian heights [period + 1, points - 1], autocorrelation rq^2 exp(-(r/l)^2), periodic along both axes.
 
     The idea of Hu & Tonder, 1992, doi:10.1016/0890-6955(92)90064-N (filter white noise with the square root
     of the autocorrelation's spectrum) in terms of modes: a mode (kx, ky) has a random coefficient of its own,
@@ -56,7 +56,7 @@ def generate(surface: Surface, points: int, domain: float, body: int, period: in
 def _modes(
     seed: int, body: int, kx: int, step: float, step_y: float
 ) -> tuple[NDArray[np.int64], NDArray[np.complex128]]:
-    """Mode numbers ky of one kx >= 0 within the cutoff, and their waves (up to one common factor).
+    """Return the mode numbers ky of one kx >= 0 within the cutoff, and their waves (up to one common factor).
 
     Each kx has a random stream of its own, read in the order ky = 0, 1, -1, 2, -2 ..., so that a wave depends
     on its mode alone. Raw bits and Box & Muller's transform: only numpy's bit streams stay the same for good.
@@ -73,16 +73,16 @@ def _modes(
 
 
 def groove_free(heights: Array) -> Array:
-    """Heights less each row's mean along x: what is the same all along x is the groove that a body wears."""
+    """Return heights less each row's mean along x: the groove that a body wears is the same all along x."""
     return heights - heights.mean(axis=1, keepdims=True)
 
 
 def rms_roughness(heights: Array, rows: NDArray[np.bool_] | slice) -> float:
-    """Rms deviation [m] of the chosen rows from their common mean."""
+    """Return the rms deviation [m] of the chosen rows from their common mean."""
     return float(np.std(heights[rows]))
 
 
 def mean_roughness(heights: Array, rows: NDArray[np.bool_] | slice) -> float:
-    """Arithmetic mean deviation Ra [m] of the chosen rows from their common mean."""
+    """Return the arithmetic mean deviation Ra [m] of the chosen rows from their common mean."""
     chosen = heights[rows]
     return float(np.abs(chosen - chosen.mean()).mean())

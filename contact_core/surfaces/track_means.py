@@ -1,4 +1,4 @@
-"""From patches to the means that the fast level knows of them, and back."""
+"""From patches to the track means of the regression level, and back."""
 
 from dataclasses import replace
 from typing import Any
@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..deterministic.growth_and_wear import track_rows
 from ..scene import Scene
 from ..state import Body, ContactState, Mean
 from .patches import bare_heights, roughness_of
 from .roughness import rms_roughness
+from .track import MIDDLE, track_rows
 
 Array = NDArray[np.float64]
 Means = tuple[Mean, Mean]
@@ -19,7 +19,7 @@ _HALVINGS = 40  # of an interval of heights
 
 
 def means_of(scene: Scene, state: ContactState) -> Means:
-    """Means of the patches over the track."""
+    """Return the means of the patches over the track."""
     first, second = (_mean_of(scene, state, i) for i in (0, 1))
     return first, second
 
@@ -34,18 +34,18 @@ def _mean_of(scene: Scene, state: ContactState, i: int) -> Mean:
         removal=float(body.removal[track].mean()),
         coverage=float((body.growth[track] > 0.0).mean()),
         wear=float(body.wear[track].mean()),
-        roughness=rms_roughness(solid, track_rows(scene, rows, 2.0 / 3.0)),
+        roughness=rms_roughness(solid, track_rows(scene, rows, MIDDLE)),
         worn=body.worn,
         cycles=body.cycles,
     )
 
 
 def folded(scene: Scene, state: ContactState) -> ContactState:
-    """The state with its patches brought up to date: the change of the means added to them.
+    """Return the state with its patches brought up to date: the change of the track means is added to them.
 
-    Tribofilm goes on where there is some and on the highest points that had none. Wear cuts off what is highest, as far
-    as the roughness has to fall, and takes the rest in proportion to the pressure that the points felt last. Means that
-    have not changed change nothing.
+    Tribofilm is added where there is some and on the highest points without any. Wear cuts off the highest points as
+    far as the roughness has to fall, and takes the rest in proportion to the last pressure on each point. Unchanged
+    means change nothing.
     """
     if state.means is None:
         return state
@@ -58,18 +58,18 @@ def folded(scene: Scene, state: ContactState) -> ContactState:
 
 
 def _folded(scene: Scene, rows: int, i: int, body: Body, then: Mean, now: Mean) -> Body:
-    """A body whose track has gone from one mean to another."""
+    """Return a body whose track has changed from one mean to another."""
     track = track_rows(scene, rows)
     bare = bare_heights(scene, rows)[i]
     heights = (bare - body.wear - body.plastic)[track]
-    felt = body.pressure[track]
-    felt = felt / felt.mean() if felt.any() else np.ones_like(felt)
+    pressure = body.pressure[track]
+    share = pressure / pressure.mean() if pressure.any() else np.ones_like(pressure)
     covered = _covered(heights, body.growth[track] > 0.0, now.coverage)
     full = scene.tribofilm.full_thickness
     changed: dict[str, Any] = {
         "growth": _raised(body.growth[track], covered, then.growth, now.growth, full),
         "removal": _raised(body.removal[track], covered, then.removal, now.removal, full),
-        "wear": body.wear[track] + _lost(scene, rows, bare, heights, felt, now.wear - then.wear, now.roughness),
+        "wear": body.wear[track] + _lost(scene, rows, bare, heights, share, now.wear - then.wear, now.roughness),
     }
     arrays = {name: getattr(body, name).copy() for name in changed}
     for name, array in arrays.items():
@@ -77,17 +77,19 @@ def _folded(scene: Scene, rows: int, i: int, body: Body, then: Mean, now: Mean) 
     return replace(body, **arrays, worn=now.worn, cycles=now.cycles)
 
 
-def _lost(scene: Scene, rows: int, bare: Array, heights: Array, felt: Array, wear: float, roughness: float) -> Array:
-    """Wear [m] of the track's heights of the solid, of a given mean, after which its roughness [m] is that or, if no
-    cut through the highest points takes away enough, as little as can be.
+def _lost(scene: Scene, rows: int, bare: Array, heights: Array, share: Array, wear: float, roughness: float) -> Array:
+    """Return the wear [m] of the track's solid heights, of a given mean, that leaves a given roughness [m].
+
+    If no cut through the highest points takes away enough, the roughness becomes as small as it can. `share` is the
+    pressure over its mean.
     """
-    track, middle = track_rows(scene, rows), track_rows(scene, rows, 2.0 / 3.0)
+    track, middle = track_rows(scene, rows), track_rows(scene, rows, MIDDLE)
     if wear <= 0.0:
-        return wear * felt
+        return wear * share
 
     def lost(cut: float) -> Array:
         peaks = np.maximum(heights - cut, 0.0)
-        return peaks + (wear - peaks.mean()) * felt
+        return peaks + (wear - peaks.mean()) * share
 
     def too_rough(cut: float) -> bool:
         solid = bare.copy()
@@ -105,7 +107,7 @@ def _lost(scene: Scene, rows: int, bare: Array, heights: Array, felt: Array, wea
 
 
 def _level(heights: Array, mean: float) -> float:
-    """The height [m] above which there is `mean` of the solid, averaged over all."""
+    """Return the height [m] above which there is `mean` [m] of the solid, averaged over all nodes."""
     high, low = float(heights.max()), float(heights.min()) - mean
     for _ in range(_HALVINGS):
         cut = 0.5 * (low + high)
@@ -114,7 +116,7 @@ def _level(heights: Array, mean: float) -> float:
 
 
 def _covered(heights: Array, before: NDArray[np.bool_], coverage: float) -> NDArray[np.bool_]:
-    """Nodes that are to carry a tribofilm: those that did, and as many of the highest as make up the coverage."""
+    """Return the nodes that carry a tribofilm: those that did, and as many of the highest as make up the coverage."""
     more = round(coverage * heights.size) - int(before.sum())
     if more <= 0:
         return before
@@ -125,8 +127,10 @@ def _covered(heights: Array, before: NDArray[np.bool_], coverage: float) -> NDAr
 
 
 def _raised(field: Array, covered: NDArray[np.bool_], then: float, now: float, most: float) -> Array:
-    """A field [m] whose mean goes from `then` to `now`: up, by the same part of what is missing to `most` everywhere
-    that is covered; down, by the same part of what is there.
+    """Return a field [m] whose mean changes from `then` to `now`.
+
+    An increase takes the same part of the room up to `most` on every covered node, a decrease the same part of the
+    field everywhere.
     """
     if now <= then or not covered.any():
         return field * (now / then) if then > 0.0 else field
