@@ -21,8 +21,9 @@ from contact_core.kernels.mixed.fixed_point import Iterate, Problem, Solution, a
 from contact_core.kernels.multigrid.cycle import extrapolated, solve_smooth
 from contact_core.laws.profile import Logarithmic, Rounded
 from contact_core.reference import SmoothContact, hertz_point, nijenbanning_venner_moes
+from contact_core.scene import Case
 from contact_core.shapes import Line, Point, Roller
-from contact_core.surfaces.patches import bare_heights, contact_grid
+from contact_core.surfaces.patches import bare_heights
 
 DOMAIN = (-4.5, 1.5, -3.0, 3.0)
 CASE = MoesCase(200, 10.0, "roelands", "dowson_higginson")
@@ -146,14 +147,14 @@ def march(scene: Scene) -> Iterator[tuple[Instant, float]]:
         rolled = sum(np.roll(z, shift, axis=1) for z, shift in zip((first, second), shifts, strict=True))
         heights = np.concatenate([rolled, rolled[:, :1]], axis=1)
         yield (
-            instant_of(scene, op, heights, np.full(heights.shape, scene.plasticity.hardness)),
+            instant_of(Case(scene, op), heights, np.full(heights.shape, scene.plasticity.hardness)),
             step,
         )
 
 
 def posed(scene: Scene, now: Instant, step: float, before: FilmState) -> tuple[Scaled, Problem]:
     """A step from the film before."""
-    scaled = Scaled(now, contact_grid(scene, scene.film.points), settings_of(scene, 0.0, 0), before, Step(step, 1))
+    scaled = Scaled(now, scene.grid(scene.film.points), settings_of(scene, 0.0, 0), before, Step(step, 1))
     return scaled, scaled.problem()
 
 
@@ -221,7 +222,7 @@ def steps(report: Report, scene: Scene, correlation: str, unit: float) -> dict[s
     state, shares, independent = None, [], 0.0
     for n, (now, step) in enumerate(march(scene)):
         if state is None:
-            state = solve_film(now, contact_grid(scene, scene.film.points), settings_of(scene, 3e-3, 200)).state
+            state = solve_film(now, scene.grid(scene.film.points), settings_of(scene, 3e-3, 200)).state
             continue
         scaled, reference = warm(scene, now, step, state, MANY if n > LEAD else 60)
         pressure = reference.iterate.pressure
@@ -254,7 +255,7 @@ def steps(report: Report, scene: Scene, correlation: str, unit: float) -> dict[s
 
 def cold_films(report: Report, scene: Scene, correlation: str, unit: float) -> tuple[list[float], list[float]]:
     now, _ = next(march(scene))
-    grid = contact_grid(scene, scene.film.points)
+    grid = scene.grid(scene.film.points)
     scaled = Scaled(now, grid, settings_of(scene, 1e-6, 1000))
     begin = scaled.iterate(solve_film(now, grid, settings_of(scene, 1e-3, 400)).state)
     reference = solve_mixed(scaled.half_space, scaled.problem(), begin, 1e-6, 1000)

@@ -18,6 +18,7 @@ from contact_core.deterministic.friction import derivatives, shear
 from contact_core.kernels.moving_source import MovingSurface, partition
 from contact_core.laws.heat import LAWS, Rubbing
 from contact_core.laws.rheology import Carreau, Eyring, Newtonian
+from contact_core.scene import Case
 
 CASE = {
     "operation.speed_1": "0.3125 m/s",
@@ -74,12 +75,12 @@ def friction(points: int) -> Iterator[Row]:
         newtonian = 1e6 * np.exp(1e-8 * found.fluid_pressure)
         _, seconds = timed(lambda: law(newtonian, found.fluid_pressure), 20)  # noqa: B023
         yield f"rheology: {law.name}", points, 1e3 * seconds, seconds / unit, 0, ""
-    _, seconds = timed(lambda: shear(scene, point, found.sheared), 20)
+    _, seconds = timed(lambda: shear(Case(scene, point), found.sheared), 20)
     yield "all shear of an instant", points, 1e3 * seconds, seconds / unit, 0, "as shipped"
     spun = replace(point, spin=100.0)
-    _, seconds = timed(lambda: shear(scene, spun, found.sheared), 20)
+    _, seconds = timed(lambda: shear(Case(scene, spun), found.sheared), 20)
     yield "all shear of an instant", points, 1e3 * seconds, seconds / unit, 0, "with spin"
-    _, seconds = timed(lambda: derivatives(scene, point, found.sheared), 20)
+    _, seconds = timed(lambda: derivatives(Case(scene, point), found.sheared), 20)
     yield "derivatives", points, 1e3 * seconds, seconds / unit, 0, "once a block"
 
 

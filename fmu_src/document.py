@@ -119,7 +119,7 @@ def _contact(scene: Scene) -> Iterator[str]:
     rows = [
         *(
             (f"radius of combined curvature along {axis}", _number(1e3 * radius, "mm"))
-            for axis, radius in zip("xy", [value for _, value in scene.shape(point).radii], strict=False)
+            for axis, radius in zip("xy", scene.radii(point), strict=False)
         ),
         *_face(scene),
         ("reduced modulus E′ = 2/[(1 − ν₁²)/E₁ + (1 − ν₂²)/E₂]", _number(1e-9 * scene.solids.reduced_modulus, "GPa")),

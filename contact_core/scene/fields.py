@@ -57,6 +57,10 @@ class SceneFields:
     def _own_shape(self) -> Shape:
         return self.geometry.shape()
 
+    def radii(self, op: OperatingPoint) -> tuple[float, ...]:
+        """Return the combined radii of curvature [m] along x and, for points, along y at an operating point."""
+        return tuple(value for _, value in self.shape(op).radii)
+
     def hertz(self, load: float) -> Hertz:
         """Return Hertz's contact of the smooth, dry bodies at a load [N] above zero."""
         return self.shape().hertz(load, self.solids.reduced_modulus)
