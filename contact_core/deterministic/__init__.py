@@ -14,12 +14,12 @@
     growth_and_wear    tribofilm and wear of one body between two solutions, in closed form
     outputs            outputs of a step, and how sure they are
     evolution          `advance`: blocks and what continues between them
-    warm_up            what a process loads before its first step
+    warming            what a process loads before its first step
 
 Imports run from the bottom of this list to its top.
 """
 
 from .evolution import advance
-from .warm_up import warm_up
+from .warming import warm_up
 
 __all__ = ["advance", "warm_up"]

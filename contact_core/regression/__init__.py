@@ -8,10 +8,10 @@
     exposure       exposure, abrasion and wear of a track
     outputs        outputs and their errors
     evolution      `advance`: the track means over time
-    warm_up        what a process loads before its first step
+    warming        what a process loads before its first step
 """
 
 from .evolution import advance
-from .warm_up import warm_up
+from .warming import warm_up
 
 __all__ = ["advance", "warm_up"]

@@ -110,8 +110,8 @@ def _flags(case: Case, contact: MeanContact) -> int:
 def _errors(case: Case, contact: MeanContact) -> dict[str, Any]:
     """Return the half widths (95 %) of the errors by the fit, relative.
 
-    Friction is wrong where load carried by oil is attributed to solids, and by the oil's own friction, but never by more
-    than if solids carried all.
+    Friction is wrong where load carried by oil is attributed to solids, and by the oil's own friction, but never by
+    more than if solids carried all.
     """
     force, share = abs(contact.solid + contact.fluid), contact.load_ratio
     if force == 0.0:

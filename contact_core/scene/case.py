@@ -147,7 +147,7 @@ class Case:
 
     @property
     def conventional_film(self) -> float:
-        """Central film thickness [m] of the smooth bodies by the shape's conventional formula; 0 without entrainment."""
+        """Central film thickness [m] of the smooth bodies by the shape's conventional formula; 0 at rest."""
         return self.shape.conventional_film(*self._film_inputs) if self.entrained else 0.0
 
     @property

@@ -226,7 +226,7 @@ def full_key(key: str, value: str) -> str:
 
 
 def override_order(item: tuple[str, str]) -> int:
-    """Return the rank in which an override is applied: sets and models first, which decide what other keys there are."""
+    """Return the rank in which an override is applied: sets and models first, for they decide what keys there are."""
     return {"set": 0, "model": 1}.get(item[0].rpartition(".")[2], 2)
 
 

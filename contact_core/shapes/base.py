@@ -1,8 +1,8 @@
 """The questions that every shape answers, and what the records of all shapes have in common.
 
 A `Geometry` is the record of a scene (radii, tracks, face width); its `shape` at an operating point is a `Shape`: the
-undeformed, smooth bodies as the film sees them. A new shape is one file with both classes and one entry in `GEOMETRIES`.
-Nothing outside this package asks which class a shape is.
+undeformed, smooth bodies as the film sees them. A new shape is one file with both classes and one entry in
+`GEOMETRIES`. Nothing outside this package asks which class a shape is.
 """
 
 from collections.abc import Callable

@@ -1,7 +1,7 @@
 """The rubbing track |y| < b: its rows, and means over it.
 
-b is Hertz's half width at the reference load and the scene's own radii, whatever load and radii are now: a mean over the
-track does not jump with them.
+b is Hertz's half width at the reference load and the scene's own radii, whatever load and radii are now: a mean over
+the track does not jump with them.
 """
 
 import numpy as np

@@ -96,6 +96,6 @@ def test_a_contact_that_cannot_be_solved_is_left_to_its_own_step(monkeypatch):
         raise ConvergenceError("no solution")
 
     calls = []
-    monkeypatch.setattr("contact_core.deterministic.warm_up.solve_instant", unsolvable)
+    monkeypatch.setattr("contact_core.deterministic.warming.solve_instant", unsolvable)
     warm_up(Scene.from_toml("mtm_zddp", SMALL))
     assert calls
