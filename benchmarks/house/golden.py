@@ -33,9 +33,9 @@ RECORDS = ROOT / "results" / "golden"
 PARTS = {  # and their scripts, besides those that all share
     "scenes": ["golden_scenes.py", "golden_laws.py", "golden_calls.py"],
     "machines": ["golden_machines.py", "golden_command.py"],
-    "fmu": ["golden_fmu.py", "golden_host.py", "golden_command.py"],
-    "cosim": ["golden_cosim.py", "golden_command.py"],
-    "states": ["golden_states.py", "golden_command.py"],
+    "fmu": ["golden_fmu.py", "golden_host.py", "golden_command.py", "golden_laws.py"],
+    "cosim": ["golden_cosim.py", "golden_command.py", "golden_laws.py"],
+    "states": ["golden_states.py", "golden_command.py", "golden_laws.py"],
 }
 SHARED = ["golden_runs.py", "golden_record.py"]
 PACKAGES = ("numpy", "scipy", "numba", "llvmlite", "pyfftw", "fmpy", "pythonfmu", "xarray")
