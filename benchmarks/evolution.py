@@ -24,7 +24,7 @@ from contact_core import OperatingPoint, Scene, advance, initial_state, solve, u
 from contact_core.deterministic.accumulator import Accumulator
 from contact_core.deterministic.sampling import sample_dry, sample_mixed
 from contact_core.scene import Case
-from contact_core.surfaces.track import track_rows
+from contact_core.surfaces.patches import track_rows
 
 HERE = Path(__file__).parent.parent
 DOCS, RESULTS = HERE / "docs", HERE / "results" / "evolution"

@@ -12,10 +12,8 @@ from ..laws.tribofilm import DOSES
 from ..scene import Case, Scene
 from ..state import Body, ContactState, RangeFlag
 from ..surfaces.patches import widened
-from ..surfaces.track import mean_tribofilm, roughness_now
 from .accumulator import Accumulator
-from .exposure import with_exposure
-from .growth_and_wear import stable_time, wear_rate
+from .growth_and_wear import followed, stable_time, with_exposure
 from .instant import solve_instant
 from .sampling import blocks_per_pass, jumps_of, sample_dry, sample_mixed
 
@@ -52,26 +50,28 @@ def solve_block(case: Case, state: ContactState) -> ContactState:
     state = replace(state, settling=0.0)
     if not same:
         state = replace(state, dry_blocks_left=0, share=1.0, trends=state.trends.restarted(), held=0.0)
-    state = _wide_enough(case, state)
-    sums = Accumulator.before(state)
+    return finished(case, *_sampled(case, _wide_enough(case, state), same))
+
+
+def _sampled(case: Case, state: ContactState, same: bool) -> tuple[ContactState, Accumulator]:
+    """Return the state after the instants of a block, and their sums; `same`: the operating point has not changed."""
+    driver, sums = case.scene.control.driver, Accumulator.before(state)
     if not case.loaded:
         sums.add(case, state, solve_instant(case, state))
-        return finished(case, replace(state, film=None, share=1.0), sums)
-    driver = case.scene.control.driver
+        return replace(state, film=None, share=1.0), sums
     if not case.entrained or driver == "dry":
         state = replace(state, share=1.0)
     elif driver == "mixed" or state.dry_blocks_left == 0:
         state = sample_mixed(case, state, sums, same)
         found = sums.means()["contact_load_ratio"]
         if driver == "mixed" or found <= case.scene.control.dry_above or sums.fallbacks:
-            return finished(case, replace(state, share=1.0), sums)
+            return replace(state, share=1.0), sums
         share = found if state.share == 1.0 else 0.5 * (found + state.share)  # one measurement scatters
         state = replace(state, share=share, dry_blocks_left=_DRY_BLOCKS, film=None)
-        sums, measured = Accumulator.before(state), sums
-        sums.flags, sums.iterations = measured.all_flags & _OF_FILM, measured.iterations
+        sums = sums.restarted(state, _OF_FILM)
     else:  # what made the share less sure still does
         sums.flags = RangeFlag(state.outputs.range_flags) & _OF_FILM
-    return finished(case, sample_dry(case, state, sums), sums)
+    return sample_dry(case, state, sums), sums
 
 
 def _wide_enough(case: Case, state: ContactState) -> ContactState:
@@ -132,14 +132,9 @@ def _observed(
     share = seen["contact_load_ratio"]
     scatter = spread["contact_load_ratio"] / share if share > 0.0 else 0.0  # wear is in proportion to it
     for side, body in zip(case.sides, state.bodies, strict=True):
-        k = side.index + 1
-        rate = wear_rate(case, side, body)
-        seen |= {
-            f"wear_depth_{k}_rate": rate,
-            f"roughness_{k}": roughness_now(case.scene, body, side.index),
-            f"tribofilm_{k}": mean_tribofilm(case.scene, body),
-        }
-        spread[f"wear_depth_{k}_rate"] = rate * scatter
+        rate = f"wear_depth_{side.index + 1}_rate"
+        seen |= followed(case, side, body)
+        spread[rate] = seen[rate] * scatter
     return seen, spread
 
 
