@@ -11,9 +11,10 @@ from dataclasses import replace
 from ..laws.tribofilm import DOSES
 from ..scene import Case, Scene
 from ..state import Body, ContactState, RangeFlag
+from ..state.trends import RATES_FOLLOWED
 from ..surfaces.patches import widened
 from .accumulator import Accumulator
-from .growth_and_wear import followed, stable_time, with_exposure
+from .growth_and_wear import after_block, stable_time
 from .instant import solve_instant
 from .sampling import blocks_per_pass, jumps_of, sample_dry, sample_mixed
 
@@ -96,9 +97,9 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
     driver = sums.driver
     kind = "dry" if driver == "dry" else "mixed"
     sums.flags = sums.all_flags | _flags_of_motion(case, state, driver)
-    first, second = (with_exposure(case, side, state, sums, _ALIKE[kind]) for side in case.sides)
-    state = replace(state, bodies=(first, second))
-    seen, spread = _observed(case, state, sums, apart=driver == "dry")
+    bodies, surfaces = after_block(case, state, sums, _ALIKE[kind])
+    state = replace(state, bodies=bodies)
+    seen, spread = _observed(sums, surfaces, apart=driver == "dry")
     trends = state.trends.followed(seen, spread, _MEMORY[kind], _lag(case.scene, driver))
     smooth, count = trends.values(), f"blocks_{driver}"
     outputs = replace(
@@ -125,17 +126,14 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
 
 
 def _observed(
-    case: Case, state: ContactState, sums: Accumulator, *, apart: bool
+    sums: Accumulator, surfaces: dict[str, float], *, apart: bool
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Return means and standard deviations of what the trends follow, by name."""
     seen, spread = sums.means(), sums.spread(apart=apart)
     share = seen["contact_load_ratio"]
     scatter = spread["contact_load_ratio"] / share if share > 0.0 else 0.0  # wear is in proportion to it
-    for side, body in zip(case.sides, state.bodies, strict=True):
-        rate = f"wear_depth_{side.index + 1}_rate"
-        seen |= followed(case, side, body)
-        spread[rate] = seen[rate] * scatter
-    return seen, spread
+    rates = {name: surfaces[name] * scatter for name in RATES_FOLLOWED}
+    return seen | surfaces, spread | rates
 
 
 def _lag(scene: Scene, driver: str) -> float:

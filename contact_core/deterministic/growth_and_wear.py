@@ -16,6 +16,14 @@ from .accumulator import Accumulator
 Array = NDArray[np.float64]
 
 
+def after_block(
+    case: Case, state: ContactState, sums: Accumulator, alike: float
+) -> tuple[tuple[Body, Body], dict[str, float]]:
+    """Return both bodies with the exposure of a block, and what the trends follow of them."""
+    first, second = (with_exposure(case, side, state, sums, alike) for side in case.sides)
+    return (first, second), _followed(case, case.sides[0], first) | _followed(case, case.sides[1], second)
+
+
 def with_exposure(case: Case, side: Side, state: ContactState, sums: Accumulator, alike: float) -> Body:
     """Return a body with the mean pressure over its track, the abrasion by it, and the exposure per test time.
 
@@ -97,7 +105,7 @@ def area_of_node(case: Case, side: Side) -> float:
     return film.spacing**2 * case.scene.repeats * (side.track_length / film.domain if side.moves else 1.0)
 
 
-def followed(case: Case, side: Side, body: Body) -> dict[str, float]:
+def _followed(case: Case, side: Side, body: Body) -> dict[str, float]:
     """Return what the trends follow of a body: roughness, mean tribofilm and the mean speed [m/s] of its wear."""
     now = surface_now(case.scene, body, side.index)
     k = side.index + 1
