@@ -21,7 +21,7 @@ class Profile(Protocol):
     """How the ends of a roller are taken back; a law of `laws.profile`."""
 
     def drop(self, y: Array, length: float) -> Array:
-        """Return the material taken away [m] at y [m] from the middle of a face of a length [m]; inf beyond the ends."""
+        """Return the material taken away [m] at y [m] from the middle of a face [m]; inf beyond the ends."""
 
 
 @dataclass(frozen=True)
