@@ -57,7 +57,7 @@ _CLEAR = 3.0  # formula film over rms roughness, from which on a dry contact is 
 _GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy in the plane
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
 # how far the noise of blocks cancels, against that of independent ones: fitted to the roughness of case A's ball, which
-# `benchmarks/evolution.py control` judges
+# `benchmarks/surfaces/evolution.py control` judges
 _ALIKE = {"dry": 0.1, "mixed": 0.5}
 _SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under the sampled film
 _CREEP = 0.01  # below this share of the other's speed a body does not show a block its track in any way
