@@ -6,7 +6,8 @@ from itertools import islice
 
 import pytest
 
-from benchmarks.film.hard_cases import TOLERANCE, answer, judge
+from benchmarks.film.hard_cases_kept import TOLERANCE
+from benchmarks.film.independent import answer, judge
 from benchmarks.film.random_points import draw
 from contact_core.point_contact import point_contact
 

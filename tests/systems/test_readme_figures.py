@@ -9,7 +9,8 @@ import pytest
 from comparison import approx
 
 from benchmarks.film import peers
-from benchmarks.house.readme_figures import Pages, number, section, section_of
+from benchmarks.house.readme_figures import section, section_of
+from benchmarks.house.tables import Pages, number
 from benchmarks.thesis.page import KINDS, NAMES, explained
 from benchmarks.thesis.rows import VERDICTS, Judged
 
@@ -18,7 +19,6 @@ DOCS = ROOT / "docs"
 MEASURED = DOCS / "measured"
 README = (ROOT / "README.md").read_text("utf-8")
 PAGES = Pages(MEASURED)
-FOLDERS = ("benchmarks", "contact_core", "docs", "fmu_src", "system_models", "tests")
 UNITS = r"(?:%|[mu]s\b|s\b|MB\b|kB\b|WU\b|times\b|work units|seconds|minutes)"
 CORE = tuple(f"film/core_{part}.md" for part in ("smooth", "cost", "accuracy", "lambda", "starts"))
 
@@ -61,31 +61,6 @@ def test_a_worse_figure_of_a_page_becomes_the_worst(name: str, old: str, new: st
     (tmp_path / "docs" / name).write_text(text.replace(old, new, 1), "utf-8")
     changed = set(section(Pages(tmp_path / "docs")).splitlines()) - set(section(PAGES).splitlines())
     assert any(said in line for line in changed), changed
-
-
-def test_pages_and_benchmarks_that_are_named_exist() -> None:
-    for path in (ROOT / "README.md", *DOCS.rglob("*.md")):
-        text = path.read_text("utf-8")
-        assert [target for target in re.findall(r"\]\(([^)]+)\)", text) if not resolves(path, target)] == [], path.name
-        modules = re.findall(r"python -m (benchmarks[\w.]+\w)", text)
-        files = [f"{name.replace('.', '/')}.py" for name in modules]
-        files += re.findall(rf"(?<![\w/.])((?:{'|'.join(FOLDERS)})/[\w/.-]*\w)", text)
-        assert [name for name in files if not (ROOT / name).exists()] == [], path.name
-
-
-def resolves(page: Path, target: str) -> bool:
-    """Return whether a link of a page leads to a file, and to a heading of it if it names one."""
-    if target.startswith("https://"):
-        return True
-    name, _, heading = target.partition("#")
-    file = page.parent / name if name else page
-    return file.exists() and (not heading or heading in headings(file.read_text("utf-8")))
-
-
-def headings(text: str) -> set[str]:
-    """Return the headings of a page as links name them."""
-    titles = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
-    return {re.sub(r"[^\w -]", "", title.lower()).strip().replace(" ", "-") for title in titles}
 
 
 # pages
