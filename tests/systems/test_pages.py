@@ -58,6 +58,25 @@ def test_the_index_lists_every_page_once() -> None:
     assert sorted(listed) == sorted(pages)
 
 
+def definitions(path: Path) -> set[str]:
+    """Return the classes and functions of a module, methods as Class.method."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.ClassDef):
+            found |= {f"{node.name}.{inner.name}" for inner in node.body if isinstance(inner, ast.FunctionDef)}
+        if isinstance(node, ast.ClassDef | ast.FunctionDef):
+            found.add(node.name)
+    return found
+
+
+def test_every_equation_is_where_the_page_of_physics_says() -> None:
+    text = (DOCS / "physics.md").read_text("utf-8").replace("\n  ", " ")
+    places = re.findall(r"`((?:contact_core|system_models)/[\w/]+\.py)`((?:, `[\w.]+`)*)", text)
+    assert len(places) > 80
+    for file, names in places:
+        assert set(re.findall(r"`([\w.]+)`", names)) <= definitions(ROOT / file), file
+
+
 @pytest.mark.parametrize("page", sorted((DOCS / "measured").rglob("*.md")), ids=lambda page: page.stem)
 def test_a_measured_page_lies_in_the_room_of_its_benchmark(page: Path) -> None:
     room = page.parent.name
