@@ -8,10 +8,9 @@ from xml.etree import ElementTree as ET
 import pythonfmu
 
 import contact_core
-from contact_core import units
 from contact_core.film import Deterministic
 from contact_core.quantities import measured
-from contact_core.scene import Scene
+from contact_core.scene import Scene, units
 
 from .flavours import Flavour
 from .guarded import LOG_CATEGORIES

@@ -10,9 +10,9 @@ import numpy as np
 
 import contact_core
 from contact_core.film import Deterministic, Regression
-from contact_core.geometry import LineGeometry, PointGeometry, RollerGeometry
 from contact_core.laws.load_sharing import flattening_of, rms_slope
 from contact_core.scene import Scene
+from contact_core.shapes import LineGeometry, PointGeometry, RollerGeometry
 from contact_core.state import RangeFlag
 
 from . import drawings, equations, evidence, markup, measured, packages

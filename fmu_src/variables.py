@@ -4,9 +4,8 @@ import math
 from dataclasses import Field, dataclass
 from typing import Any, Literal
 
-from contact_core import units
 from contact_core.quantities import DIFFERENCE, INPUTS, LEVELS, OUTPUTS, Quantity, measured
-from contact_core.scene import Scene, tunables
+from contact_core.scene import Scene, tunables, units
 
 Kind = Literal["Real", "Integer", "Boolean", "String"]
 Causality = Literal["input", "parameter", "output", "independent"]

@@ -14,10 +14,9 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from contact_core import units
 from contact_core.errors import ContactError, StateError
-from contact_core.reading import did_you_mean, shipped_scenes
-from contact_core.scene import Scene
+from contact_core.scene import Scene, units
+from contact_core.scene.toml import did_you_mean, shipped_scenes
 from fmu_src import command as fmu_command
 
 from . import cosim_command

@@ -13,10 +13,10 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
-from contact_core import units
 from contact_core.errors import SceneError
 from contact_core.quantities import Quantity, value_out_of_range
-from contact_core.reading import did_you_mean
+from contact_core.scene import units
+from contact_core.scene.toml import did_you_mean
 
 Row = tuple[float, dict[str, float]]  # time [s] and values by signal
 

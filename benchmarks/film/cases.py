@@ -13,8 +13,8 @@ from contact_core.film.instant import FilmSolution, Grid, Instant, Settings
 from contact_core.film.outputs import film_outputs
 from contact_core.film.routes import prolonged, solve_film
 from contact_core.film.scaled import Scaled
-from contact_core.kernels.mixed import solve_mixed
-from contact_core.kernels.newton import solve_newton
+from contact_core.kernels.mixed.fixed_point import solve_mixed
+from contact_core.kernels.mixed.newton import solve_newton
 from contact_core.laws.density import DowsonHigginson, Incompressible
 from contact_core.laws.viscosity import Barus, Roelands
 from contact_core.reference import Hertz, SmoothContact, hertz_point, nijenbanning_venner_moes

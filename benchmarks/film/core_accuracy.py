@@ -11,10 +11,10 @@ from matplotlib.ticker import FuncFormatter
 from benchmarks.film.cases import Level, RoughCase, cascade, grid_of
 from benchmarks.pages import Page
 from benchmarks.timing import timed, unit_of
+from contact_core.calls.point_contact import point_contact
 from contact_core.film.instant import Grid, Settings
 from contact_core.film.outputs import disc
 from contact_core.laws.viscosity import Roelands
-from contact_core.point_contact import point_contact
 
 BASE = {"radius": 10e-3, "viscosity": 0.04, "alpha": 15e-9, "rq": 100e-9, "correlation": 20e-6}
 TIGHT, LOOSE = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6), (1e-2, 3e-3, 1e-3)

@@ -10,20 +10,21 @@ from benchmarks.film.cases import MoesCase, domain_of, instant_of_call, scaled_o
 from benchmarks.pages import Page
 from benchmarks.timing import timed, unit_of
 from contact_core import Scene
-from contact_core.contact import instant_of
+from contact_core.calls.point_contact import point_contact
+from contact_core.deterministic.instant import instant_of
 from contact_core.film.fitted import Extent, fitted_grid, line_extent
 from contact_core.film.instant import FilmState, Grid, Instant, Settings, Step
 from contact_core.film.outputs import at_centre
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
-from contact_core.kernels.direct import solve_direct
-from contact_core.kernels.mixed import Iterate, Problem, Solution, advected, solve_mixed
-from contact_core.kernels.multigrid import extrapolated, solve_smooth
+from contact_core.kernels.mixed.direct import solve_direct
+from contact_core.kernels.mixed.fixed_point import Iterate, Problem, Solution, advected, solve_mixed
+from contact_core.kernels.multigrid.cycle import extrapolated, solve_smooth
 from contact_core.laws.profile import Logarithmic, Rounded
-from contact_core.patches import bare_heights, contact_grid
-from contact_core.point_contact import point_contact
 from contact_core.reference import SmoothContact, hertz_point, nijenbanning_venner_moes
+from contact_core.scene import Case
 from contact_core.shapes import Line, Point, Roller
+from contact_core.surfaces.patches import bare_heights
 
 DOMAIN = (-4.5, 1.5, -3.0, 3.0)
 CASE = MoesCase(200, 10.0, "roelands", "dowson_higginson")
@@ -147,14 +148,14 @@ def march(scene: Scene) -> Iterator[tuple[Instant, float]]:
         rolled = sum(np.roll(z, shift, axis=1) for z, shift in zip((first, second), shifts, strict=True))
         heights = np.concatenate([rolled, rolled[:, :1]], axis=1)
         yield (
-            instant_of(scene, op, heights, np.full(heights.shape, scene.plasticity.hardness)),
+            instant_of(Case(scene, op), heights, np.full(heights.shape, scene.plasticity.hardness)),
             step,
         )
 
 
 def posed(scene: Scene, now: Instant, step: float, before: FilmState) -> tuple[Scaled, Problem]:
     """A step from the film before."""
-    scaled = Scaled(now, contact_grid(scene, scene.film.points), settings_of(scene, 0.0, 0), before, Step(step, 1))
+    scaled = Scaled(now, scene.grid(scene.film.points), settings_of(scene, 0.0, 0), before, Step(step, 1))
     return scaled, scaled.problem()
 
 
@@ -222,7 +223,7 @@ def steps(report: Page, scene: Scene, correlation: str, unit: float) -> dict[str
     state, shares, independent = None, [], 0.0
     for n, (now, step) in enumerate(march(scene)):
         if state is None:
-            state = solve_film(now, contact_grid(scene, scene.film.points), settings_of(scene, 3e-3, 200)).state
+            state = solve_film(now, scene.grid(scene.film.points), settings_of(scene, 3e-3, 200)).state
             continue
         scaled, reference = warm(scene, now, step, state, MANY if n > LEAD else 60)
         pressure = reference.iterate.pressure
@@ -255,7 +256,7 @@ def steps(report: Page, scene: Scene, correlation: str, unit: float) -> dict[str
 
 def cold_films(report: Page, scene: Scene, correlation: str, unit: float) -> tuple[list[float], list[float]]:
     now, _ = next(march(scene))
-    grid = contact_grid(scene, scene.film.points)
+    grid = scene.grid(scene.film.points)
     scaled = Scaled(now, grid, settings_of(scene, 1e-6, 1000))
     begin = scaled.iterate(solve_film(now, grid, settings_of(scene, 1e-3, 400)).state)
     reference = solve_mixed(scaled.half_space, scaled.problem(), begin, 1e-6, 1000)

@@ -8,9 +8,9 @@ from matplotlib.figure import Figure
 from benchmarks.film.cases import MoesCase, domain_of, scaled_of
 from benchmarks.pages import Page
 from benchmarks.timing import timed
+from contact_core.calls.point_contact import point_contact
 from contact_core.film.outputs import at_centre
-from contact_core.kernels.multigrid import solve_smooth
-from contact_core.point_contact import point_contact
+from contact_core.kernels.multigrid.cycle import solve_smooth
 from contact_core.reference import moes_film
 
 WIDE, CLOSE = (-4.5, 1.5, -3.0, 3.0), (-2.5, 1.5, -2.0, 2.0)  # half widths

@@ -7,15 +7,16 @@ import numpy as np
 from benchmarks.pages import Page
 from benchmarks.timing import timed
 from contact_core import Scene
-from contact_core.contact import instant_of
+from contact_core.deterministic.instant import instant_of
 from contact_core.film.instant import FilmSolution, Instant, Settings
 from contact_core.film.outputs import film_outputs
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
-from contact_core.kernels.direct import solve_direct
 from contact_core.kernels.half_space import HalfSpace
-from contact_core.kernels.mixed import Iterate, Problem, Solution, solve_mixed
-from contact_core.patches import bare_heights, contact_grid
+from contact_core.kernels.mixed.direct import solve_direct
+from contact_core.kernels.mixed.fixed_point import Iterate, Problem, Solution, solve_mixed
+from contact_core.scene import Case
+from contact_core.surfaces.patches import bare_heights
 
 SPEEDS = (0.005, 0.05, 0.1, 0.25, 1.0, 4.0)
 ASKED_FROM = 0.05
@@ -30,7 +31,7 @@ def instant(scene: Scene, speed: float, rough: bool = True) -> Instant:
     if not rough:
         heights = np.zeros_like(heights)
     limit = np.full(heights.shape, scene.plasticity.hardness)
-    return replace(instant_of(scene, op, heights, limit), entrainment_speed=speed)
+    return replace(instant_of(Case(scene, op), heights, limit), entrainment_speed=speed)
 
 
 def marched(half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int) -> Solution:
@@ -60,7 +61,7 @@ def off(pressure: np.ndarray, reference: np.ndarray) -> float:
 def run() -> None:
     report = Page("film/core", "Starts and limits", "starts")
     scene = Scene.from_toml("mtm_zddp")
-    grid, settings = contact_grid(scene, scene.film.points), Settings(scene.film.floor, 1e-3, 400, "pyfftw")
+    grid, settings = scene.grid(scene.film.points), Settings(scene.film.floor, 1e-3, 400, "pyfftw")
     report.say(
         "Case B, its surfaces as new, 129 nodes, steady films to a pressure change of 1e-3, begun with the dry contact and with a "
         "Hertz-like pressure under a film that clears the asperities, by algorithms each on its own. (`point_contact` picks "
@@ -117,7 +118,7 @@ def run() -> None:
 def limits(report: Page, scene: Scene, settings: Settings) -> None:
     report.say("### Limits of speed\n\nThe same surfaces.")
     report.header("u [m/s]", "beside", "what", "found", "algorithm", "converged")
-    grid = contact_grid(scene, scene.film.points)
+    grid = scene.grid(scene.film.points)
     dry, slow = (solve_film(instant(scene, speed), grid, settings) for speed in (0.0, SLOW))
     error = off(slow.state.pressure, dry.state.pressure)
     report.row(SLOW, "dry contact", "L1 of the pressure", error, slow.algorithm, slow.converged)

@@ -15,8 +15,8 @@ from benchmarks.film.cases import MoesCase
 from benchmarks.folders import MEASURED
 from benchmarks.pages import cells
 from benchmarks.timing import timed
+from contact_core.calls.point_contact import point_contact
 from contact_core.film.fitted import Extent
-from contact_core.point_contact import point_contact
 from contact_core.reference import chittenden, hamrock_dowson, nijenbanning_venner_moes
 from contact_core.shapes import Point
 

@@ -26,8 +26,8 @@ from benchmarks.film.independent import FLOOR, answer, film_of, judge
 from benchmarks.film.listed_cases import MOVING, STEADY, marched
 from benchmarks.film.random_points import Point, draw
 from contact_core import ContactError
-from contact_core.line_contact import line_contact
-from contact_core.point_contact import point_contact
+from contact_core.calls.line_contact import line_contact
+from contact_core.calls.point_contact import point_contact
 
 SEED, POINTS = 1, 2000
 

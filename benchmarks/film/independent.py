@@ -9,7 +9,7 @@ import numpy as np
 from scipy.signal import fftconvolve
 
 from contact_core import ContactFields, OperatingPoint, Scene
-from contact_core.point_contact import PointContact
+from contact_core.calls.point_contact import PointContact
 from contact_core.reference import SmoothContact, hertz_point, nijenbanning_venner_moes
 
 FLOOR = 1e-9  # m

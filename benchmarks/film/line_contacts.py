@@ -13,7 +13,7 @@ from benchmarks.film.cases import waves
 from benchmarks.pages import Page
 from benchmarks.timing import timed, work_unit
 from contact_core import Logarithmic, Rounded
-from contact_core.line_contact import LineContact, line_contact
+from contact_core.calls.line_contact import LineContact, line_contact
 from contact_core.reference import SmoothLine, dowson_line, hertz_line, lundberg_depth, moes_line_film
 
 RADIUS, MODULUS, VISCOSITY, ALPHA = 10e-3, 2.3e11, 0.05, 2e-8

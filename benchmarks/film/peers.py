@@ -29,12 +29,12 @@ import scipy.fft
 from matplotlib.figure import Figure
 
 from benchmarks.folders import MEASURED
-from contact_core.dry_contact import dry_contact
+from contact_core.calls.dry_contact import dry_contact
 from contact_core.film import scaled
 from contact_core.kernels.half_space import influence
 from contact_core.reference import hertz_point
 from contact_core.scene import Surface
-from contact_core.surfaces import generate
+from contact_core.surfaces.roughness import generate
 
 DOCS = MEASURED / "film"
 RADIUS, MODULUS, LOAD, RQ, LENGTH = 10e-3, 115.235e9, 77.85, 0.1e-6, 20.1e-6  # MODULUS is E*, half of E'

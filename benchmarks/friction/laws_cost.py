@@ -16,10 +16,11 @@ from benchmarks.folders import MEASURED
 from benchmarks.pages import cells
 from benchmarks.timing import timed, unit_of
 from contact_core import ContactFields, Scene, Transient, initial_state, solve
-from contact_core.friction import derivatives, shear
+from contact_core.deterministic.friction import derivatives, shear
 from contact_core.kernels.moving_source import MovingSurface, partition
 from contact_core.laws.heat import LAWS, Rubbing
 from contact_core.laws.rheology import Carreau, Eyring, Newtonian
+from contact_core.scene import Case
 
 DOCS = MEASURED / "friction"
 CASE = {
@@ -77,12 +78,12 @@ def friction(points: int) -> Iterator[Row]:
         newtonian = 1e6 * np.exp(1e-8 * found.fluid_pressure)
         _, seconds = timed(lambda: law(newtonian, found.fluid_pressure), 20)  # noqa: B023
         yield f"rheology: {law.name}", points, 1e3 * seconds, seconds / unit, 0, ""
-    _, seconds = timed(lambda: shear(scene, point, found.sheared), 20)
+    _, seconds = timed(lambda: shear(Case(scene, point), found.sheared), 20)
     yield "all shear of an instant", points, 1e3 * seconds, seconds / unit, 0, "as shipped"
     spun = replace(point, spin=100.0)
-    _, seconds = timed(lambda: shear(scene, spun, found.sheared), 20)
+    _, seconds = timed(lambda: shear(Case(scene, spun), found.sheared), 20)
     yield "all shear of an instant", points, 1e3 * seconds, seconds / unit, 0, "with spin"
-    _, seconds = timed(lambda: derivatives(scene, point, found.sheared), 20)
+    _, seconds = timed(lambda: derivatives(Case(scene, point), found.sheared), 20)
     yield "derivatives", points, 1e3 * seconds, seconds / unit, 0, "once a block"
 
 

@@ -14,7 +14,7 @@ from typing import Any
 from benchmarks.folders import ROOT
 from benchmarks.regression.shapes_points import CHECK, MINUTES, RUBBED, RUNS, ShapePoint, points
 from contact_core import Scene, advance, initial_state
-from contact_core.folding import means_of
+from contact_core.surfaces.track_means import means_of
 
 GOLDEN = ROOT / "tests" / "golden" / "fast_level.json"
 COUNT = 16  # of each shape

@@ -22,9 +22,10 @@ from matplotlib.figure import Figure
 from benchmarks.folders import MEASURED, RESULTS
 from benchmarks.timing import work_unit
 from contact_core import OperatingPoint, Scene, advance, initial_state, solve, uncertainty
-from contact_core.block import sweep_dry, sweep_mixed
-from contact_core.evolution import track_rows
-from contact_core.sweep import Sweep
+from contact_core.deterministic.accumulator import Accumulator
+from contact_core.deterministic.sampling import sample_dry, sample_mixed
+from contact_core.scene import Case
+from contact_core.surfaces.track import track_rows
 
 DOCS, KEPT = MEASURED / "surfaces", RESULTS / "evolution"
 CASE, HOURS, INTERVAL = "azam_case_a", 2.0, 60.0
@@ -278,14 +279,14 @@ def driver() -> list[str]:
         state = initial_state(scene)
         for minutes in (1, 4, 5, 10, 20, 20):
             state, _ = advance(shipped, op, state, 60.0 * minutes)
-            mixed = Sweep.before(state)
-            sweep_mixed(scene, op, state, mixed, True)
+            mixed = Accumulator.before(state)
+            sample_mixed(Case(scene, op), state, mixed, True)
             share = mixed.means()["contact_load_ratio"]
             for name, part in (("mixed", None), ("dry", 1.0), ("dry under oil", share)):
                 sweep = mixed
                 if part is not None:
-                    sweep = Sweep.before(state)
-                    sweep_dry(scene, op, replace(state, share=part), sweep)
+                    sweep = Accumulator.before(state)
+                    sample_dry(Case(scene, op), replace(state, share=part), sweep)
                 m = sweep.means()
                 rows.append(
                     [case, f"{state.time / 60:.0f}", name, f"{m['contact_load_ratio']:.3f}", f"{m['contact_area_ratio']:.3f}",
@@ -321,15 +322,15 @@ def memory() -> list[str]:
             state, _ = advance(shipped, op, initial_state(scene), 0.0)
             for minutes in (0, 20):
                 state, _ = advance(shipped, op, state, 60.0 * minutes)
-                march, steady = Sweep.before(state), Sweep.before(state)
-                sweep_mixed(scene, op, state, march, True)
+                march, steady = Accumulator.before(state), Accumulator.before(state)
+                sample_mixed(Case(scene, op), state, march, True)
                 for k in range(8):
                     offsets = [(body.offset + (k + 1) * g * scene.film.domain) % scene.film.domain for body, g in zip(state.bodies, (0.7549, 0.5698), strict=True)]
                     first, second = (replace(body, offset=o) for body, o in zip(state.bodies, offsets, strict=True))
                     moved = replace(state, bodies=(first, second))
                     steady.add(scene, op, moved, solve(scene, op, moved))
-                still = Sweep.before(state)
-                sweep_mixed(scene, op, state, still, True, jumping=False)
+                still = Accumulator.before(state)
+                sample_mixed(Case(scene, op), state, still, True, jumping=False)
                 for name, sweep in (("march", march), ("march without jumps", still), ("steady", steady)):
                     m = sweep.means()
                     rows.append([case, f"{scene.surface_2.correlation_length * 1e6:.0f} um", f"{minutes}", name, f"{sweep.missed} of {sweep.count}",
@@ -344,7 +345,7 @@ def memory() -> list[str]:
     ]
 
 
-def touched(scene: Scene, sweep: Sweep, i: int) -> float:
+def touched(scene: Scene, sweep: Accumulator, i: int) -> float:
     rows = track_rows(scene, sweep.since[i].shape[0])
     return float((sweep.exposures[i][rows] > 0.0).mean())
 

@@ -13,7 +13,7 @@ import numpy as np
 from benchmarks.folders import RESULTS
 from contact_core import ContactError, ContactState, Scene, advance, initial_state, uncertainty
 from contact_core.laws.tribofilm import thickness
-from contact_core.patches import bare_heights, heights_of
+from contact_core.surfaces.patches import bare_heights, heights_of
 
 KEPT = RESULTS / "thesis"
 INTERVAL = 60.0  # s between two rows

@@ -3,6 +3,6 @@
 from .deterministic import Deterministic
 from .regression import Regression
 
-FILMS: tuple[type, ...] = (Deterministic, Regression)
+FILMS: tuple[type[Deterministic] | type[Regression], ...] = (Deterministic, Regression)
 
 __all__ = ["FILMS", "Deterministic", "Regression"]

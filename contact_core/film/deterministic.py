@@ -19,6 +19,8 @@ class Deterministic:
         "Azam et al. 2019, doi:10.1016/j.triboint.2018.11.011; the split of fluid and solid pressure is ours"
     )
 
+    on_grid: ClassVar[bool] = True  # the contact is solved on the nodes, which must hold it
+
     points: int = parameter("", "grid nodes along x and along y", least=17, most=4097, shapes_arrays=True)
     domain: float = parameter(
         "m", "side of the square grid, centred on the contact", above=0.0, most=1.0, shapes_arrays=True
@@ -56,6 +58,14 @@ class Deterministic:
     def spacing(self) -> float:
         """Distance between nodes [m]."""
         return self.domain / (self.points - 1)
+
+    def with_sharing(self, sharing: object) -> "Deterministic":
+        """Return itself: this level shares the load node by node."""
+        return self
+
+    def warnings(self, lubricant: object, tribofilm: object) -> list[str]:
+        """Return no sentence: this level resolves every law."""
+        return []
 
     def solve(
         self,

@@ -1,7 +1,7 @@
 """The fast level: film formulas and curves of load sharing for the means of rough surfaces."""
 
-from dataclasses import dataclass, field
-from typing import ClassVar
+from dataclasses import dataclass, field, replace
+from typing import Any, ClassVar
 
 from ..laws.load_sharing import FittedSharing, LineSharing
 from ..quantities import parameter
@@ -20,6 +20,8 @@ class Regression:
         "film: Nijenbanning, Venner & Moes 1994, doi:10.1016/0043-1648(94)90150-3; sharing: see its source; "
         "smoothing: assumed"
     )
+
+    on_grid: ClassVar[bool] = False
 
     points: int = parameter(
         "", "nodes of the state's patches along x and along y", least=17, most=4097, default=129, shapes_arrays=True
@@ -51,3 +53,19 @@ class Regression:
     def spacing(self) -> float:
         """Distance between nodes [m]."""
         return self.domain / (self.points - 1)
+
+    def with_sharing(self, sharing: FittedSharing | LineSharing) -> "Regression":
+        """Return the record with other curves of load sharing."""
+        return replace(self, sharing=sharing)
+
+    def warnings(self, lubricant: Any, tribofilm: Any) -> list[str]:
+        """Return sentences on laws of a scene that this level approximates."""
+        found = []
+        if lubricant.flow == "local" and lubricant.rheology.name == "eyring":
+            found.append("film.model = 'regression' thins films by shear for the rheology 'carreau' only.")
+        if tribofilm.abrades:
+            found.append(
+                f"tribofilm.model = '{tribofilm.name}' depends on local stresses; film.model = 'regression' knows "
+                "their mean and takes them as exponentially distributed: within a factor of two to four."
+            )
+        return found

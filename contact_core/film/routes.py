@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import ConvergenceError, FilmTooWideError
-from ..kernels.direct import solve_direct
 from ..kernels.grids import prolong, restrict
-from ..kernels.mixed import Iterate, Solution, advected, excess, solve_mixed
-from ..kernels.multigrid import is_applicable, solve_smooth
-from ..kernels.newton import solve_newton
+from ..kernels.mixed.direct import solve_direct
+from ..kernels.mixed.fixed_point import Iterate, Solution, advected, excess, solve_mixed
+from ..kernels.mixed.newton import solve_newton
+from ..kernels.multigrid.cycle import is_applicable, solve_smooth
 from ..shapes import Roller
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .scaled import LOAD_ACCEPTED, Scaled, inlet_length

@@ -16,6 +16,9 @@ class OilBulk:
 
     name: ClassVar[str] = "oil"
     source: ClassVar[str] = "assumed: bodies in thermal equilibrium with the oil"
+    follows_oil: ClassVar[bool] = True
+    from_inputs: ClassVar[bool] = False
+    stores_heat: ClassVar[bool] = False
 
     def bodies(self, oil: float, inputs: tuple[float | None, float | None], stored: Pair | None) -> Pair:
         """Bulk temperatures (T_1, T_2) [K] at an oil temperature [K]."""
@@ -32,6 +35,9 @@ class InputBulk:
 
     name: ClassVar[str] = "inputs"
     source: ClassVar[str] = "given by the inputs"
+    follows_oil: ClassVar[bool] = False
+    from_inputs: ClassVar[bool] = True
+    stores_heat: ClassVar[bool] = False
 
     def bodies(self, oil: float, inputs: tuple[float | None, float | None], stored: Pair | None) -> Pair:
         """Bulk temperatures (T_1, T_2) [K] at an oil temperature and inputs [K]."""
@@ -51,6 +57,9 @@ class LumpedBulk:
 
     name: ClassVar[str] = "lumped"
     source: ClassVar[str] = "Incropera & DeWitt, Fundamentals of Heat and Mass Transfer, ISBN 9780471457282, chapter 5"
+    follows_oil: ClassVar[bool] = False
+    from_inputs: ClassVar[bool] = False
+    stores_heat: ClassVar[bool] = True
 
     heat_capacity_1: float = parameter("J/K", "C, heat capacity of body 1", least=1e-9, most=1e9)
     heat_capacity_2: float = parameter("J/K", "C, heat capacity of body 2", least=1e-9, most=1e9)

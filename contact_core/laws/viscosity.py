@@ -31,6 +31,7 @@ class Roelands:
     """
 
     name: ClassVar[str] = "roelands"
+    error: ClassVar[str] = ""
     source: ClassVar[str] = (
         "Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of oils, TU Delft 1966"
     )
@@ -60,6 +61,7 @@ class Barus:
     """eta = eta0 exp(alpha p - beta (T - T0))."""
 
     name: ClassVar[str] = "barus"
+    error: ClassVar[str] = ""
     source: ClassVar[str] = "Barus, Am. J. Sci. 45 (1893) 87, doi:10.2475/ajs.s3-45.266.87"
 
     viscosity: float = parameter("Pa s", "viscosity at p = 0 and the reference temperature", above=0.0, most=1e3)
@@ -84,6 +86,7 @@ class Modulus:
     """
 
     name: ClassVar[str] = "modulus"
+    error: ClassVar[str] = ""
     source: ClassVar[str] = (
         "Gold et al., J. Synth. Lubr. 18 (2001) 51; as in Arana, Larranaga & Ulacia 2019, doi:10.1177/1350650118778655"
     )
@@ -140,6 +143,16 @@ class AstmD341:
         "K^-1", "thermal expansion, relative to the density at 15 degC; assumed 7e-4 if not given",
         least=0.0, most=1e-3, default=7e-4,
     )  # fmt: skip
+
+    @property
+    def error(self) -> str:
+        """Sentence on constants that contradict each other, or an empty text."""
+        if self.viscosity_100 < self.viscosity_40:
+            return ""
+        return (
+            f"lubricant.viscosity.viscosity_100 = {self.viscosity_100:g} m2/s must be below viscosity_40 = "
+            f"{self.viscosity_40:g} m2/s: oils thin when they warm. Exchange the two if they were mixed up."
+        )
 
     def _log_viscosity(self, temperature: Numbers) -> Numbers:
         """ln(viscosity / eta_inf) at p = 0."""

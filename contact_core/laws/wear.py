@@ -19,6 +19,7 @@ class NoWear:
     name: ClassVar[str] = "none"
     source: ClassVar[str] = ""
     of_sliding: ClassVar[bool] = True
+    wears: ClassVar[bool] = False
 
     def coefficient(self, cover: Array) -> Array:
         """Zeros in the shape of `cover`."""
@@ -45,6 +46,7 @@ class Archard:
 
     name: ClassVar[str] = "archard"
     source: ClassVar[str] = "Archard 1953, doi:10.1063/1.1721448"
+    wears: ClassVar[bool] = True
 
     bare: float = parameter("", "dimensionless wear coefficient of bare solids", least=0.0, most=1.0)
     film: float = parameter("", "dimensionless wear coefficient under a full tribofilm", least=0.0, most=1.0)

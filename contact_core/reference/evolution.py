@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ..constants import BOLTZMANN, PLANCK
+from ..laws.constants import BOLTZMANN, PLANCK
 
 
 def ghanbarzadeh_thickness(

@@ -14,8 +14,8 @@ from fmpy.model_description import BaseUnit, DisplayUnit, ModelDescription, Mode
 from fmpy.validation import validate_fmu
 from lxml import etree
 
-from contact_core import units
 from contact_core.errors import SceneError
+from contact_core.scene import units
 from fmu_src.native import image
 
 from .package import DESCRIPTION, Package

@@ -17,7 +17,7 @@ from typing import Any
 
 from contact_core.errors import SceneError
 from contact_core.quantities import TABLE, Quantity
-from contact_core.reading import did_you_mean, unbuild
+from contact_core.scene.toml import did_you_mean, unbuild
 
 from ..gear.geometry import FZG_A, FZG_C, SpurGearPair
 from ..gear.mesh import GearMesh, Station

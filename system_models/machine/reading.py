@@ -23,8 +23,8 @@ from typing import Any, NamedTuple
 
 from contact_core.errors import SceneError
 from contact_core.quantities import LEVELS, out_of_range
-from contact_core.reading import build, did_you_mean, flat
 from contact_core.scene import Scene
+from contact_core.scene.toml import build, did_you_mean, flat
 
 from ..master.reading import settings, value
 from .assembly import Assembly, Contact

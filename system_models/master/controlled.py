@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_core.reading import did_you_mean
+from contact_core.scene.toml import did_you_mean
 
 from .control import StepControl, wrms
 from .coupled import Coupled, Point

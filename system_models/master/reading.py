@@ -28,9 +28,9 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from contact_core import units
 from contact_core.errors import ContactError
-from contact_core.reading import did_you_mean
+from contact_core.scene import units
+from contact_core.scene.toml import did_you_mean
 
 from .errors import CouplingError
 from .iteration import METHODS

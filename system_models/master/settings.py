@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from numbers import Real
 
-from contact_core.reading import did_you_mean
+from contact_core.scene.toml import did_you_mean
 
 from .errors import CouplingError
 from .iteration import METHODS

@@ -9,7 +9,7 @@ from typing import Any
 
 from fmpy.model_description import ModelVariable
 
-from contact_core.reading import did_you_mean
+from contact_core.scene.toml import did_you_mean
 
 from . import unit_checks
 from .errors import CouplingError

@@ -3,7 +3,7 @@
 from fmpy.model_description import ModelDescription, ModelVariable
 
 from contact_core.errors import SceneError
-from contact_core.units import unit as known_unit
+from contact_core.scene.units import unit as known_unit
 
 from .errors import CouplingError
 

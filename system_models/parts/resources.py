@@ -10,7 +10,7 @@ from typing import Any
 import contact_core
 from contact_core.errors import SceneError
 from contact_core.quantities import out_of_range, value_out_of_range
-from contact_core.reading import build, did_you_mean, unbuild
+from contact_core.scene.toml import build, did_you_mean, unbuild
 from fmu_src.flavours import Flavour
 from fmu_src.resources import identity, script
 

@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 
 from contact_core.errors import SceneError
 from contact_core.quantities import parameter
-from contact_core.reading import did_you_mean
+from contact_core.scene.toml import did_you_mean
 
 from .conduction import Modes
 from .part import Input, Output, Part, State, Values, indexed

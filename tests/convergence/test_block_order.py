@@ -4,8 +4,9 @@ import numpy as np
 from comparison import approx
 
 from contact_core import Scene, advance, initial_state
-from contact_core.block import sweep_dry
-from contact_core.sweep import Sweep
+from contact_core.deterministic.accumulator import Accumulator
+from contact_core.deterministic.sampling import sample_dry
+from contact_core.scene import Case
 
 CHEAP = {
     "film.points": "33",
@@ -37,8 +38,8 @@ def test_the_dose_of_a_smooth_body_evens_out_with_the_instants():
     for instants in (16, 64, 256):
         scene = Scene.from_toml("azam_case_a", CHEAP | {"surface_1.rq": "0 nm", "control.dry_instants": str(instants)})
         state = initial_state(scene)
-        sweep = Sweep.before(state)
-        sweep_dry(scene, scene.operation.point, state, sweep)
+        sweep = Accumulator.before(state)
+        sample_dry(Case(scene, scene.operation.point), state, sweep)
         middle = sweep.pressures[0][14:19] / instants
         spread.append(float((middle.std(axis=1) / middle.mean(axis=1)).mean()))
     assert spread[0] / spread[2] > 2.0 * np.sqrt(16.0)

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from comparison import approx
 
-from contact_core.dry_contact import dry_contact
+from contact_core.calls.dry_contact import dry_contact
+from contact_core.calls.point_contact import point_contact
 from contact_core.film.fitted import Extent
-from contact_core.point_contact import point_contact
 from contact_core.reference import SmoothContact, hertz_point, nijenbanning_venner_moes
 from contact_core.shapes import Point
 

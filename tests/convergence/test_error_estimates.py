@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from comparison import approx
 
-from contact_core.dry_contact import dry_contact
-from contact_core.line_contact import line_contact
-from contact_core.point_contact import point_contact
+from contact_core.calls.dry_contact import dry_contact
+from contact_core.calls.line_contact import line_contact
+from contact_core.calls.point_contact import point_contact
 from contact_core.reference import hertz_point
 
 MODULUS, RADIUS = 230.47e9, 10e-3

@@ -11,7 +11,7 @@ from contact_core.film.fitted import fitted_grid
 from contact_core.film.instant import Instant, Settings, Step
 from contact_core.film.routes import _Solver, coarser, solve_film
 from contact_core.film.scaled import Scaled
-from contact_core.kernels.multigrid import is_applicable, is_symmetric
+from contact_core.kernels.multigrid.cycle import is_applicable, is_symmetric
 from contact_core.laws.density import DowsonHigginson
 from contact_core.laws.viscosity import Roelands
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes

@@ -8,12 +8,12 @@ from comparison import approx
 from independent import love
 from scipy.signal import fftconvolve
 
-from contact_core.kernels.coarsest import solve_dense
 from contact_core.kernels.far_field import far_field
 from contact_core.kernels.half_space import HalfSpace
-from contact_core.kernels.mirrored import MirroredHalfSpace
-from contact_core.kernels.mixed import Problem, solve_mixed
-from contact_core.kernels.multigrid import extrapolated, is_applicable, is_symmetric, solve_smooth
+from contact_core.kernels.mixed.fixed_point import Problem, solve_mixed
+from contact_core.kernels.multigrid.coarsest import solve_dense
+from contact_core.kernels.multigrid.cycle import extrapolated, is_applicable, is_symmetric, solve_smooth
+from contact_core.kernels.multigrid.mirrored import MirroredHalfSpace
 from contact_core.reference import moes_film
 
 P0 = 1.0 / 5.1e-9  # Pa, of Roelands' law

@@ -20,9 +20,9 @@ from fmu_host import SHAPES, SMALL, hosted, unpacked
 
 from contact_core import ConvergenceError, RangeFlag, Scene
 from contact_core.film import FILMS
-from contact_core.geometry import GEOMETRIES
 from contact_core.laws import SLOTS
 from contact_core.scene import Lubricant
+from contact_core.shapes import GEOMETRIES
 from fmu_src import evidence, icon, measured, packages
 from fmu_src.build import build
 from fmu_src.document import documentation

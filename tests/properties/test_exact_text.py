@@ -2,9 +2,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from contact_core import Scene, units
+from contact_core import Scene
 from contact_core.quantities import INPUTS, OUTPUTS
-from contact_core.scene import tunables, with_values
+from contact_core.scene import tunables, units, with_values
 
 SCENE = Scene.from_toml("mtm_zddp")
 SI_UNITS = sorted(

@@ -9,7 +9,7 @@ import pytest
 from benchmarks.film.hard_cases_kept import TOLERANCE
 from benchmarks.film.independent import answer, judge
 from benchmarks.film.random_points import draw
-from contact_core.point_contact import point_contact
+from contact_core.calls.point_contact import point_contact
 
 POINTS = list(islice((point for point in draw(2) if point is not None), 14))
 GRIDS = (33, 49, 65)

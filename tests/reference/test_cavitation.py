@@ -17,9 +17,9 @@ from comparison import approx
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from contact_core.kernels.direct import solve_direct
 from contact_core.kernels.half_space import HalfSpace
-from contact_core.kernels.mixed import Iterate, Problem
+from contact_core.kernels.mixed.direct import solve_direct
+from contact_core.kernels.mixed.fixed_point import Iterate, Problem
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from scipy.ndimage import gaussian_filter
 from scipy.optimize import brentq, lsq_linear
 
 from contact_core import ConvergenceError, OperatingPoint, Scene, initial_state, solve
-from contact_core.dry_contact import dry_contact
+from contact_core.calls.dry_contact import dry_contact
 from contact_core.kernels.dry import dry_solution, solve_dry
 from contact_core.kernels.half_space import HalfSpace
 from contact_core.reference import hertz_point

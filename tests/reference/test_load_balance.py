@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from independent import force_beyond
 
+from contact_core.calls.point_contact import point_contact
 from contact_core.film import routes, scaled
-from contact_core.point_contact import point_contact
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
 
 MODULUS, ALPHA, NODES = 230.47e9, 15e-9, 49

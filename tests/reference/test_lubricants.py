@@ -10,8 +10,8 @@ from comparison import approx
 
 from contact_core import Scene, SceneError
 from contact_core.laws.rheology import Carreau
-from contact_core.reading import build, read_table
 from contact_core.scene import Lubricant
+from contact_core.scene.toml import build, read_table
 
 TEXT = (files("contact_core") / "data" / "lubricants.toml").read_text("utf-8")
 NAMES = list(tomllib.loads(TEXT))

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from comparison import approx
 
-from contact_core import point_contact
+from contact_core.calls import point_contact
 from contact_core.film.fitted import fitted_grid
 from contact_core.film.instant import Instant, Settings, Step
 from contact_core.film.outputs import at_centre
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
-from contact_core.kernels.direct import solve_direct
+from contact_core.kernels.mixed.direct import solve_direct
 from contact_core.laws.density import DowsonHigginson
 from contact_core.laws.viscosity import Roelands
 from contact_core.reference import SmoothContact, hertz_point, nijenbanning_venner_moes

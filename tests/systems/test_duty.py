@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from contact_core import OperatingPoint, Scene, SceneError
-from contact_core.reading import read_table
+from contact_core.scene.toml import read_table
 from system_models.duty import Duty
 
 REFERENCE = OperatingPoint(load=50.0, speed_1=0.1, speed_2=0.2, temperature=350.0)

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from comparison import approx
 
-from contact_core import units
 from contact_core.errors import ContactError, SceneError
 from contact_core.quantities import out_of_range
+from contact_core.scene import units
 from system_models.bearing.equilibrium import RingLoads, solve
 from system_models.bearing.geometry import BEARING_209, BEARING_218, BallBearingGeometry
 from system_models.bearing.part import BallBearing

@@ -8,10 +8,11 @@ from cheap_scene import CHEAP, cheap
 from comparison import approx
 
 from contact_core import ContactState, RangeFlag, advance, solve
-from contact_core.advance import _distance as geometry_change
-from contact_core.block import sweep_dry, sweep_mixed
-from contact_core.patches import patch_nodes
-from contact_core.sweep import Sweep
+from contact_core.deterministic.accumulator import Accumulator
+from contact_core.deterministic.evolution import geometry_change
+from contact_core.deterministic.sampling import sample_dry, sample_mixed
+from contact_core.scene import Case
+from contact_core.surfaces.patches import patch_nodes
 
 DRY = CHEAP | {"control.driver": "dry"}
 
@@ -21,7 +22,7 @@ def test_dry_instants_let_every_two_points_meet_once_before_any_meet_again(point
     scene, state, op = cheap(film__points=points, surface_1__rq="0 nm", surface_2__rq="0 nm", control__dry_instants=1)
     met, first = [], []
     for _ in range(points - 1):
-        state = sweep_dry(scene, op, state, Sweep.before(state))
+        state = sample_dry(Case(scene, op), state, Accumulator.before(state))
         one, two = (patch_nodes(scene, body) for body in state.bodies)
         met.append((one - two) % (points - 1))
         first.append(one)
@@ -31,11 +32,11 @@ def test_dry_instants_let_every_two_points_meet_once_before_any_meet_again(point
 
 def test_the_march_moves_the_rougher_body_a_node_at_a_time_and_lets_the_other_jump():
     scene, state, op = cheap(control__mixed_instants=6)
-    state = sweep_mixed(scene, op, state, Sweep.before(state), False)
+    state = sample_mixed(Case(scene, op), state, Accumulator.before(state), False)
     places = []
     for _ in range(3):
         before = [patch_nodes(scene, body) for body in state.bodies]
-        state = sweep_mixed(scene, replace(op), state, Sweep.before(state), True)
+        state = sample_mixed(Case(scene, replace(op)), state, Accumulator.before(state), True)
         places.append([(patch_nodes(scene, b) - k) % 32 for b, k in zip(state.bodies, before, strict=True)])
     assert all(disc == 6 for _, disc in places)
     assert all(ball != 6 for ball, _ in places)
@@ -43,9 +44,9 @@ def test_the_march_moves_the_rougher_body_a_node_at_a_time_and_lets_the_other_ju
 
 def test_bodies_of_like_roughness_do_not_jump_while_the_film_is_sampled():
     scene, state, op = cheap(surface_1__rq="100 nm", control__mixed_instants=4)
-    state = sweep_mixed(scene, op, state, Sweep.before(state), False)
-    sweep = Sweep.before(state)
-    after = sweep_mixed(scene, op, state, sweep, True)
+    state = sample_mixed(Case(scene, op), state, Accumulator.before(state), False)
+    sweep = Accumulator.before(state)
+    after = sample_mixed(Case(scene, op), state, sweep, True)
     moved = (patch_nodes(scene, after.bodies[1]) - patch_nodes(scene, state.bodies[1])) % 32
     assert sweep.count == 4
     assert moved == (24 + 4) % 32  # it calmed down after one jump of the other before it was sampled
@@ -66,13 +67,13 @@ def test_dry_contact_under_oil_touches_and_rubs_like_the_mixed_one_and_not_like_
     """Blocks above control.dry_above rest on this claim; shipped scenes: docs/measured/surfaces/evolution.md."""
     scene, state, op = cheap(film__points=65, control__mixed_instants=64, control__dry_instants=16)
     slow = replace(op, speed_1=0.006 * op.speed_1, speed_2=0.006 * op.speed_2)
-    mixed = Sweep.before(state)
-    sweep_mixed(scene, slow, state, mixed, False)
+    mixed = Accumulator.before(state)
+    sample_mixed(Case(scene, slow), state, mixed, False)
     means = mixed.means()
     assert 0.8 < means["contact_load_ratio"] < 0.95
-    dry, oiled = Sweep.before(state), Sweep.before(state)
-    sweep_dry(scene, slow, replace(state, share=1.0), dry)
-    sweep_dry(scene, slow, replace(state, share=means["contact_load_ratio"]), oiled)
+    dry, oiled = Accumulator.before(state), Accumulator.before(state)
+    sample_dry(Case(scene, slow), replace(state, share=1.0), dry)
+    sample_dry(Case(scene, slow), replace(state, share=means["contact_load_ratio"]), oiled)
     for name in ("contact_area_ratio", "friction_force"):
         assert abs(oiled.means()[name] - means[name]) < 0.4 * abs(dry.means()[name] - means[name]), name
     assert oiled.means()["h_c"] == approx(means["h_c"], rel=0.2)

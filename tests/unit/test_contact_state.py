@@ -9,7 +9,7 @@ from cheap_scene import cheap
 from contact_core import ContactState, Outputs, RangeFlag, Scene, StateError, advance, initial_state
 from contact_core.film.instant import FilmState
 from contact_core.state import Body, Mean
-from contact_core.trends import NAMES, Trends
+from contact_core.state.trends import NAMES, Trends
 
 SMALL = {"film.points": "33", "surface_1.rq": "0 nm", "surface_2.correlation_length": "16 um"}
 AWKWARD = (-0.0, 5e-324, 1.0 / 3.0, -1.7976931348623157e308, 0.1 + 0.2)

@@ -1,4 +1,4 @@
-"""contact_core.dry_contact: input, units, results."""
+"""contact_core.calls.dry_contact: input, units, results."""
 
 import dataclasses
 import math
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from comparison import approx
 
-from contact_core.dry_contact import dry_contact
+from contact_core.calls.dry_contact import dry_contact
 from contact_core.errors import OperatingPointError
 from contact_core.reference import hertz_point
 

@@ -1,12 +1,13 @@
-"""contact_core.point_contact of unequal radii: limits, and grids."""
+"""contact_core.calls.point_contact of unequal radii: limits, and grids."""
 
 import numpy as np
 import pytest
 from comparison import approx
 
-from contact_core import OperatingPointError, point_contact
+from contact_core import OperatingPointError
+from contact_core.calls import point_contact
 from contact_core.film.fitted import Extent, fitted_grid
-from contact_core.kernels.multigrid import _level_count
+from contact_core.kernels.multigrid.cycle import _level_count
 from contact_core.shapes import Point
 
 CALL = {

@@ -6,8 +6,9 @@ from cheap_scene import cheap
 from comparison import approx
 
 from contact_core import Scene, advance, solve
+from contact_core.deterministic.friction import Film, derivatives, friction, shear, sliding
 from contact_core.film.instant import Grid
-from contact_core.friction import Film, derivatives, friction, shear, sliding
+from contact_core.scene import Case
 
 SCENE, _, POINT = cheap()
 GRID = Grid.centred(161, 161, 2e-6)
@@ -32,12 +33,12 @@ def at(**values):
 
 
 def force(op, film):
-    found = friction(shear(SCENE, op, film), film.grid)
+    found = friction(shear(Case(SCENE, op), film), film.grid)
     return found.force_solid + found.force_fluid
 
 
 def test_solids_alone_rub_with_the_coefficient_of_the_boundary_law():
-    found = friction(shear(SCENE, at(speed_1=0.2, speed_2=0.1), dry()), GRID)
+    found = friction(shear(Case(SCENE, at(speed_1=0.2, speed_2=0.1)), dry()), GRID)
     assert found.force_solid == approx(-SCENE.boundary_friction.bare * LOAD, rel=1e-12)
     assert found.force_fluid == found.spin_torque == 0.0
 
@@ -49,7 +50,7 @@ def test_friction_is_odd_in_sliding_and_zero_without():
 
 
 def test_a_ball_that_only_spins_feels_the_torque_of_hertzs_pressure():
-    found = friction(shear(SCENE, at(speed_1=0.1, speed_2=0.1, spin=200.0), dry()), GRID)
+    found = friction(shear(Case(SCENE, at(speed_1=0.1, speed_2=0.1, spin=200.0)), dry()), GRID)
     assert found.spin_torque == approx(-3.0 * np.pi / 16.0 * SCENE.boundary_friction.bare * LOAD * RADIUS, rel=2e-3)
     assert found.force_solid == approx(0.0, abs=1e-12 * LOAD)
 
@@ -57,7 +58,7 @@ def test_a_ball_that_only_spins_feels_the_torque_of_hertzs_pressure():
 @pytest.mark.parametrize("spin", [0.0, 300.0, -5e3])
 def test_the_power_is_what_force_and_torque_take_from_the_motion(spin):
     op = at(speed_1=0.26, speed_2=0.24, spin=spin)
-    found = friction(shear(SCENE, op, wet()), GRID)
+    found = friction(shear(Case(SCENE, op), wet()), GRID)
     lost = -(found.force_solid + found.force_fluid) * op.sliding_speed - found.spin_torque * spin
     assert found.power == approx(lost, rel=1e-12)
     assert found.power > 0.0
@@ -70,7 +71,7 @@ def test_much_spin_turns_friction_away_from_the_sliding():
 
 
 def test_spin_has_no_direction_of_its_own():
-    left, right = (friction(shear(SCENE, at(spin=spin), wet()), GRID) for spin in (500.0, -500.0))
+    left, right = (friction(shear(Case(SCENE, at(spin=spin)), wet()), GRID) for spin in (500.0, -500.0))
     assert left.power == approx(right.power, rel=1e-12)
     assert left.spin_torque == approx(-right.spin_torque, rel=1e-12)
     speed, along_x, along_y = sliding(at(speed_1=0.1, speed_2=0.1, spin=100.0), GRID)
@@ -100,7 +101,7 @@ def test_derivatives_are_those_of_a_held_film(name, spin, speed_1, speed_2):
 
     step = {"load": 1e-4 * LOAD, "temperature": 0.01}.get(name, 1e-9 if spin == 0.0 else 1e-7)
     expected = (moved(step) - moved(-step)) / (2.0 * step)
-    assert derivatives(SCENE, op, film)[f"dfriction_d{name}"] == approx(expected, rel=1e-3)
+    assert derivatives(Case(SCENE, op), film)[f"dfriction_d{name}"] == approx(expected, rel=1e-3)
     assert abs(expected) > 0.0
 
 
@@ -112,7 +113,7 @@ def test_derivatives_know_where_the_oil_is_at_its_limiting_stress(name, thinner,
     """Nowhere, in most of the contact, and where the law of boundary friction lowers the limit."""
     film, op = replace(wet(), gap=wet().gap / thinner), at(speed_1=0.2 + slide, speed_2=0.2)
     limit = SCENE.lubricant.rheology.limiting_coefficient * film.fluid * SCENE.boundary_friction.grip(slide)
-    limited = shear(SCENE, op, film).fluid >= 0.999 * limit
+    limited = shear(Case(SCENE, op), film).fluid >= 0.999 * limit
     assert least <= limited[HERTZ > 0.0].mean() <= most
 
     def moved(by):
@@ -121,18 +122,18 @@ def test_derivatives_know_where_the_oil_is_at_its_limiting_stress(name, thinner,
 
     step = {"load": 1e-4 * LOAD, "temperature": 0.01}.get(name, 1e-5 * slide)
     expected = (moved(step) - moved(-step)) / (2.0 * step)
-    assert derivatives(SCENE, op, film)[f"dfriction_d{name}"] == approx(expected, rel=5e-3)
+    assert derivatives(Case(SCENE, op), film)[f"dfriction_d{name}"] == approx(expected, rel=5e-3)
     assert abs(expected) > 0.0
 
 
 def test_solids_and_oil_at_its_limit_rub_in_proportion_to_the_load():
     film, op = replace(wet(), gap=np.full_like(HERTZ, 1e-14)), at(speed_1=0.3, speed_2=0.2)
-    assert derivatives(SCENE, op, film)["dfriction_dload"] == approx(force(op, film) / LOAD, rel=1e-9)
+    assert derivatives(Case(SCENE, op), film)["dfriction_dload"] == approx(force(op, film) / LOAD, rel=1e-9)
 
 
 def test_solids_and_oil_share_the_friction():
     op = at(speed_1=0.2, speed_2=0.1)
-    both = friction(shear(SCENE, op, wet(0.3)), GRID)
+    both = friction(shear(Case(SCENE, op), wet(0.3)), GRID)
     cover = 0.4 * INSIDE
     law = SCENE.boundary_friction
     solid = float(((law.bare + (law.film - law.bare) * cover) * 0.3 * HERTZ).sum()) * GRID.spacing**2
@@ -173,6 +174,6 @@ def test_oil_at_its_limit_grips_as_solids_do():
     scene, _, _ = cheap(lubricant__rheology__model="newtonian")
     stiff = replace(wet(0.0), fluid=np.full_like(HERTZ, 6e9))  # beyond its limit at any speed
     full, part = (
-        friction(shear(scene, at(speed_1=0.1 + speed, speed_2=0.1), stiff), GRID).force_fluid for speed in (0.1, 1e-7)
+        friction(shear(Case(scene, at(speed_1=0.1 + speed, speed_2=0.1)), stiff), GRID).force_fluid for speed in (0.1, 1e-7)
     )
     assert part == approx(scene.boundary_friction.grip(1e-7) * full, rel=1e-6)

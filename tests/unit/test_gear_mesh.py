@@ -10,7 +10,7 @@ from comparison import approx
 from scipy.integrate import quad
 
 from contact_core.errors import SceneError
-from contact_core.reading import build, unbuild
+from contact_core.scene.toml import build, unbuild
 from system_models.gear.geometry import FZG_A, FZG_C
 from system_models.gear.mesh import GearMesh
 from system_models.gear.path import stations_of, steps, surface_speeds

@@ -9,7 +9,7 @@ from comparison import approx
 from scipy.integrate import solve_ivp
 
 from contact_core.errors import SceneError
-from contact_core.reading import build, unbuild
+from contact_core.scene.toml import build, unbuild
 from system_models.gear.geometry import FZG_C
 from system_models.gear.shafts import GearShafts
 from system_models.gear.sharing import mean_stiffness

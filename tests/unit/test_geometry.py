@@ -7,8 +7,8 @@ import pytest
 from comparison import approx
 
 from contact_core import ContactState, OperatingPointError, Scene, SceneError, advance, initial_state, solve
-from contact_core.geometry import LineGeometry, PointGeometry, RollerGeometry
 from contact_core.scene import tunables, with_values
+from contact_core.shapes import LineGeometry, PointGeometry, RollerGeometry
 
 LINE = {
     "film.points": "33",

@@ -9,11 +9,12 @@ from comparison import approx
 from scipy.constants import Boltzmann
 
 from contact_core import ContactState, Scene, advance, initial_state, solve
-from contact_core.evolution import across_track
+from contact_core.deterministic.accumulator import Accumulator
 from contact_core.laws.tribofilm import Andersson, Combined, Ghanbarzadeh, Gosvami, NoTribofilm, ZhangSpikes
 from contact_core.laws.tribofilm.activated import edge_tension
-from contact_core.patches import on_patch, patch_nodes
-from contact_core.sweep import Sweep
+from contact_core.scene import Case
+from contact_core.surfaces.patches import on_patch, patch_nodes
+from contact_core.surfaces.track import across_track
 
 WARM = 353.15
 BELL = ZhangSpikes(200e-9, 20.0, 1.08e-19, 0.13e-27, 2e-8)
@@ -174,8 +175,8 @@ def test_each_body_is_exposed_at_the_temperature_of_its_own_surface():
     hot = np.full(fields.gap.shape, op.temperature + 40.0)
     cool = replace(fields.temperatures, surface_1=op.temperature, surface_2=op.temperature)
     warmed = replace(fields, temperatures=replace(cool, surface_2=hot))
-    first, second = Sweep.before(state).touch(scene, op, state, warmed, (0.0, 0.0))
-    alike = Sweep.before(state).touch(scene, op, state, replace(fields, temperatures=cool), (0.0, 0.0))
+    first, second = Accumulator.before(state).touch(Case(scene, op), state, warmed, (0.0, 0.0))
+    alike = Accumulator.before(state).touch(Case(scene, op), state, replace(fields, temperatures=cool), (0.0, 0.0))
     assert np.array_equal(first, alike[0])
     rubbed = alike[1] > 0.0
     assert rubbed.any() and np.all(second[rubbed] >= alike[1][rubbed]) and second.max() > alike[1].max()
@@ -190,12 +191,12 @@ def test_a_law_is_asked_once_for_two_bodies_of_one_temperature(monkeypatch):
         return np.zeros_like(node[0])
 
     monkeypatch.setattr(Ghanbarzadeh, "exposure", counted)
-    sweep = Sweep.before(state)
+    sums = Accumulator.before(state)
     fields = solve(scene, op, state)
-    sweep.add(scene, op, state, fields)
+    sums.add(Case(scene, op), state, fields)
     assert len(asked) == 1
     warmer = replace(fields.temperatures, surface_2=fields.temperatures.surface_1 + 1.0)
-    sweep.add(scene, op, state, replace(fields, temperatures=warmer))
+    sums.add(Case(scene, op), state, replace(fields, temperatures=warmer))
     assert len(asked) == 3
 
 
@@ -206,10 +207,10 @@ def test_a_body_is_abraded_by_the_mean_of_its_instants():
     edges = {"tribofilm.set": "gosvami", "tribofilm.edge_weight": "2"}
     scene, state, op = cheap(DRY | edges, film__points=33)
     fields = solve(scene, op, state, dry=True)
-    sweep = Sweep.before(state)
+    sums = Accumulator.before(state)
     for _ in range(2):
-        sweep.add(scene, op, state, fields)
-    mean = sweep.pressures[0] / sweep.count
+        sums.add(Case(scene, op), state, fields)
+    mean = sums.pressures[0] / sums.count
     reach = scene.film.domain / scene.geometry.track_length_1
     across = across_track(scene, state.rows)
     assert across.shape == (33, 1) and across.min() == 0.0

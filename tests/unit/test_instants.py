@@ -8,12 +8,12 @@ from cheap_scene import CHEAP, cheap
 from comparison import approx
 
 from contact_core import advance, solve
-from contact_core.contact import instant_of
+from contact_core.deterministic.instant import instant_of
 from contact_core.film.instant import FilmState, Grid, Settings, Step
 from contact_core.film.outputs import at_centre
 from contact_core.film.scaled import Scaled
-from contact_core.patches import contact_grid
 from contact_core.reference import hertz_point
+from contact_core.scene import Case
 
 RANDOM = np.random.Generator(np.random.Philox(1))
 
@@ -32,7 +32,7 @@ def test_a_mirrored_state_has_every_field_mirrored_and_comes_back():
 @pytest.mark.parametrize("ratio", [0.5, 1.0, 1.7])
 def test_a_step_of_second_order_knows_the_slope_of_a_parabola_however_uneven_the_steps(ratio):
     scene, state, op = cheap()
-    grid, dt = contact_grid(scene, state.rows), 1e-5
+    grid, dt = scene.grid(state.rows), 1e-5
     shape, level = grid.shape, 1e-7
 
     def mass(time):  # now at 0
@@ -41,7 +41,7 @@ def test_a_step_of_second_order_knows_the_slope_of_a_parabola_however_uneven_the
     zeros, touching = np.zeros(shape), np.zeros(shape, np.bool_)
     before = mass(-dt - dt / ratio)
     start = FilmState(zeros + 1e9, zeros + 1e9, touching, mass(-dt), 0.0, mass_before=before, dt=dt / ratio)
-    now = instant_of(scene, op, zeros, np.full(shape, scene.plasticity.hardness))
+    now = instant_of(Case(scene, op), zeros, np.full(shape, scene.plasticity.hardness))
     settings = Settings(1e-9, 1e-3, 100, "scipy")
     scaled = Scaled(now, grid, settings, start, Step(dt, order=2))
     problem = scaled.problem()

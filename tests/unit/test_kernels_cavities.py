@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from comparison import approx
 
-from contact_core.kernels import cavities
+from contact_core.kernels.mixed import cavities
 
 
 @pytest.mark.parametrize("held", [0.0, 0.3, 0.9])

@@ -5,10 +5,10 @@ import pytest
 from comparison import approx
 from wavy_contact import axis, problem
 
-from contact_core.kernels.direct import solve_direct
 from contact_core.kernels.dry import solve_dry
-from contact_core.kernels.mixed import Iterate, solve_mixed
-from contact_core.kernels.newton import solve_newton
+from contact_core.kernels.mixed.direct import solve_direct
+from contact_core.kernels.mixed.fixed_point import Iterate, solve_mixed
+from contact_core.kernels.mixed.newton import solve_newton
 
 N = 49
 WAVE = 0.04

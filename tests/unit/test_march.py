@@ -8,9 +8,10 @@ import pytest
 from cheap_scene import CHEAP, cheap
 from comparison import approx
 
-from contact_core import OperatingPointError, Scene, advance, initial_state, march, parted, run_cycle
-from contact_core.patches import patch_nodes
+from contact_core import OperatingPointError, Scene, advance, initial_state, parted, run_cycle
+from contact_core.deterministic import march
 from contact_core.state import ContactState
+from contact_core.surfaces.patches import patch_nodes
 
 SMOOTH = {"surface_1__rq": "0 m", "surface_2__rq": "0 m"}
 

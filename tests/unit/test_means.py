@@ -21,13 +21,13 @@ from contact_core import (
     solve,
     track_of,
 )
-from contact_core.folding import folded, means_of
 from contact_core.laws.heat import TemperatureField
 from contact_core.laws.rheology import Eyring, Newtonian
-from contact_core.mean_surfaces import films_of
 from contact_core.quantities import OF_CALLER, OUTPUTS
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
+from contact_core.regression.surfaces import tribofilms_of
 from contact_core.state import Mean
+from contact_core.surfaces.track_means import folded, means_of
 
 FAST = {"film.model": "regression"}
 SMOOTH = FAST | {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm"}
@@ -445,7 +445,7 @@ def test_a_film_on_the_highest_points_makes_a_gaussian_surface_as_rough_as_the_l
     heights = norm.ppf((np.arange(100_000) + 0.5) / 100_000)
     film = 0.3 * (heights > norm.ppf(1.0 - share))
     mean = Mean(0.3 * share, 0.0, share, 0.0, 1.0, 0.0, 0.0)
-    found = films_of((mean, mean))[1]
+    found = tribofilms_of((mean, mean))[1]
     assert found.thickness == approx(0.3)
     assert found.roughness == approx(film.std(), rel=1e-3)
     assert found.both == approx((heights + film).std(), rel=0.01)

@@ -8,9 +8,10 @@ from cheap_scene import CHEAP, cheap
 from comparison import approx
 
 from contact_core import OperatingPointError, Scene, Transient, advance, initial_state, solve
-from contact_core import oil as oil_module
+from contact_core.deterministic import oil_temperature as oil_module
+from contact_core.deterministic.oil_temperature import inlet_factor
 from contact_core.kernels import moving_source, thinning
-from contact_core.oil import inlet_factor
+from contact_core.scene import Case
 
 SMOOTH = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.model": "none", "film.tolerance": "1e-4"}
 FIELD = {"heat.model": "field"}
@@ -140,7 +141,7 @@ def test_shear_heat_in_the_inlet_thins_the_film_by_its_factor(flow):
     cold, state = smooth(oil, flow)
     hot, _ = smooth(oil, flow, {"heat.inlet_shear": "gupta"})
     op = sliding(cold, 6.0, 1.0)
-    factor = inlet_factor(hot, op)
+    factor = inlet_factor(Case(hot, op))
     assert 0.3 < factor < 0.95
     assert central(hot, state, op) / central(cold, state, op) == approx(factor, rel=0.02)
 

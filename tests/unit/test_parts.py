@@ -6,8 +6,8 @@ import pytest
 from comparison import approx
 from component_examples import EXAMPLES, marched
 
-from contact_core import units
 from contact_core.quantities import out_of_range
+from contact_core.scene import units
 
 STEPS = (1e-4, 0.03, 1.0, 47.0, 600.0)
 

@@ -3,10 +3,10 @@ from dataclasses import dataclass, fields
 
 import pytest
 
-from contact_core import OperatingPoint, Outputs, Scene, units
+from contact_core import OperatingPoint, Outputs, Scene
 from contact_core.film import FILMS
 from contact_core.quantities import INPUTS, LEVELS, OF_CALLER, OUTPUTS, TABLE, out_of_range, parameter
-from contact_core.scene import tunables
+from contact_core.scene import tunables, units
 
 QUANTITIES = (*INPUTS, *OUTPUTS)
 

@@ -8,8 +8,10 @@ from cheap_scene import cheap
 from comparison import approx
 
 from contact_core import advance, solve
-from contact_core.block import solve_block
-from contact_core.evolution import area_of_node, track_rows
+from contact_core.deterministic.block import solve_block
+from contact_core.deterministic.growth_and_wear import area_of_node
+from contact_core.scene import Case
+from contact_core.surfaces.track import track_rows
 
 FACE = 0.8e-3
 SHORT = {
@@ -43,7 +45,7 @@ def test_a_minute_of_film_and_wear_stays_between_the_ends(run):
     scene, op, state, outputs = run
     outside = beyond(scene, state.rows)
     for i, body in enumerate(state.bodies):
-        volume = float(body.wear.sum()) * area_of_node(scene, op, i)
+        volume = float(body.wear.sum()) * area_of_node(Case(scene, op), Case(scene, op).sides[i])
         assert volume == approx((outputs.wear_volume_1, outputs.wear_volume_2)[i], rel=1e-9)
         assert body.wear[outside].max() == body.growth[outside].max() == 0.0
     assert outputs.tribofilm_1 > 1e-9
@@ -71,4 +73,4 @@ def test_wear_at_the_ends_does_not_widen_the_patches():
     scene, state, op = cheap(SHORT | {"film.width": "0.84 mm"})
     assert not beyond(scene, state.rows)[2]
     worn = tuple(replace(body, wear=np.full_like(body.wear, 1e-9)) for body in state.bodies)
-    assert solve_block(scene, op, replace(state, bodies=worn)).rows == state.rows
+    assert solve_block(Case(scene, op), replace(state, bodies=worn)).rows == state.rows

@@ -4,7 +4,8 @@ from pathlib import Path
 import pytest
 
 from contact_core import OperatingPoint, OperatingPointError, Scene, SceneError
-from contact_core.scene import read_table, tunables, with_values
+from contact_core.scene import tunables, with_values
+from contact_core.scene.toml import read_table
 
 GRID = {"film.points": "129", "film.domain": "0.5 mm"}
 

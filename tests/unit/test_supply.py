@@ -7,15 +7,17 @@ import pytest
 from comparison import approx
 from wavy_contact import problem
 
-from contact_core import OperatingPointError, Scene, SceneError, advance, initial_state, point_contact
-from contact_core.contact import instant_of
+from contact_core import OperatingPointError, Scene, SceneError, advance, initial_state
+from contact_core.calls import point_contact
+from contact_core.deterministic.instant import instant_of
 from contact_core.film.instant import Grid, Settings
 from contact_core.film.scaled import Scaled
-from contact_core.kernels.direct import solve_direct
-from contact_core.kernels.mixed import Iterate, solve_mixed
-from contact_core.kernels.multigrid import is_applicable
-from contact_core.kernels.newton import solve_newton
+from contact_core.kernels.mixed.direct import solve_direct
+from contact_core.kernels.mixed.fixed_point import Iterate, solve_mixed
+from contact_core.kernels.mixed.newton import solve_newton
+from contact_core.kernels.multigrid.cycle import is_applicable
 from contact_core.laws.supply import Flooded, Meniscus, SupplyFilm
+from contact_core.scene import Case
 
 CONSERVING = {"lubricant.cavitation": "mass_conserving"}
 FILM = {"lubricant.supply": "film", "lubricant.supply.thickness": "50 nm"}
@@ -29,7 +31,7 @@ CALL = {
 def scaled_of(changes):
     scene = Scene.from_toml("mtm_zddp", changes)
     grid = Grid.centred(65, 65, 8e-6)
-    now = instant_of(scene, scene.operation.point, np.zeros(grid.shape), np.full(grid.shape, 1e12))
+    now = instant_of(Case(scene, scene.operation.point), np.zeros(grid.shape), np.full(grid.shape, 1e12))
     return Scaled(now, grid, Settings(1e-9, 1e-3, 100, "scipy"))
 
 

@@ -6,7 +6,7 @@ from scipy.stats import kurtosis, skew
 
 from contact_core import Scene, SceneError
 from contact_core.scene import Surface
-from contact_core.surfaces import generate, groove_free, rms_roughness
+from contact_core.surfaces.roughness import generate, groove_free, rms_roughness
 
 DOMAIN = 0.5e-3
 ALL = slice(None)

@@ -7,12 +7,14 @@ import pytest
 from cheap_scene import CHEAP, cheap
 from comparison import approx
 
-from contact_core import oil, solve
+from contact_core import solve
+from contact_core.deterministic import oil_temperature as oil
+from contact_core.deterministic.observed import observed
 from contact_core.laws.heat import Rubbing
-from contact_core.patches import bare_heights, heights_of, on_grid, patch_nodes, rolled, yielded
 from contact_core.reference import hamrock_dowson
+from contact_core.scene import Case
 from contact_core.shapes import Point
-from contact_core.sweep import observed
+from contact_core.surfaces.patches import bare_heights, heights_of, on_grid, patch_nodes, rolled, yielded
 
 
 @pytest.fixture(scope="module")
@@ -29,7 +31,7 @@ def inside(scene, op, fields):
 
 def test_lambda_is_the_film_over_the_rms_roughness_where_both_are_measured(instant):
     scene, op, fields = instant
-    here, seen = inside(scene, op, fields), observed(scene, op, fields)
+    here, seen = inside(scene, op, fields), observed(Case(scene, op), fields)
     assert here.sum() > 30
     assert seen["h_c"] == approx(fields.gap[here].mean(), rel=1e-12)
     heights = fields.roughness[here]
@@ -42,12 +44,12 @@ def test_lambda_is_the_film_over_the_rms_roughness_where_both_are_measured(insta
 
 def test_what_lies_outside_the_contact_decides_no_mean_over_its_middle(instant):
     scene, op, fields = instant
-    outside, seen = ~inside(scene, op, fields), observed(scene, op, fields)
+    outside, seen = ~inside(scene, op, fields), observed(Case(scene, op), fields)
     other = {
         name: np.where(outside, 5.0, 1.0) * getattr(fields, name)
         for name in ("roughness", "gap", "pressure", "solid_pressure")
     }
-    changed = observed(scene, op, replace(fields, **other))
+    changed = observed(Case(scene, op), replace(fields, **other))
     for name in ("lambda_ratio", "lambda_conventional", "h_c", "contact_area_ratio_disc", "contact_load_ratio_disc"):
         assert changed[name] == seen[name] > 0.0, name
 
@@ -78,7 +80,7 @@ def test_rolling_resistance_is_the_oils_pressure_slope_along_x_over_half_the_gap
     x, y = np.meshgrid(fields.x, fields.y)
     even = replace(fields, gap=np.full_like(fields.gap, 2e-7), fluid_pressure=1e12 * x + 3e12 * y)
     expected = 0.5 * 2e-7 * 1e12 * x.size * scene.film.spacing**2
-    assert observed(scene, op, even)["rolling_resistance"] == approx(expected, rel=1e-9)
+    assert observed(Case(scene, op), even)["rolling_resistance"] == approx(expected, rel=1e-9)
 
 
 @pytest.mark.parametrize("i", [0, 1])

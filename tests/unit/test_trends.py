@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from comparison import approx
 
-from contact_core.trends import NAMES, Trends
+from contact_core.state.trends import NAMES, Trends
 
 
 def follow(values, memory=0.75, lag=0.5, trends=None):

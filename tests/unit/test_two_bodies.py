@@ -7,7 +7,7 @@ from cheap_scene import CHEAP
 from comparison import approx
 
 from contact_core import OperatingPoint, Scene, advance, initial_state
-from contact_core.folding import means_of
+from contact_core.surfaces.track_means import means_of
 
 BODIES = {
     "geometry.track_length_1": "60 mm", "geometry.track_length_2": "250 mm",

@@ -1,8 +1,8 @@
 import pytest
 from comparison import approx
 
-from contact_core import units
 from contact_core.errors import SceneError
+from contact_core.scene import units
 
 
 @pytest.mark.parametrize(

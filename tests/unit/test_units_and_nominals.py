@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import pytest
 
-from contact_core import OperatingPoint, Outputs, Scene, advance, initial_state, units
+from contact_core import OperatingPoint, Outputs, Scene, advance, initial_state
 from contact_core.quantities import INPUTS, OF_CALLER, OUTPUTS, Quantity
+from contact_core.scene import units
 
 BASES = {
     "load": "N",

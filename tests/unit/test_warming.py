@@ -8,7 +8,7 @@ from functools import cache
 
 import pytest
 
-from contact_core import ConvergenceError, Scene, advance, initial_state, warm_up, warming
+from contact_core import ConvergenceError, Scene, advance, initial_state, warm_up
 
 SMALL = {"film.points": "33", "surface_1.correlation_length": "16 um", "surface_2.correlation_length": "16 um"}
 AT_REST = {"operation.speed_1": "0 m/s", "operation.speed_2": "0 m/s"}
@@ -96,6 +96,6 @@ def test_a_contact_that_cannot_be_solved_is_left_to_its_own_step(monkeypatch):
         raise ConvergenceError("no solution")
 
     calls = []
-    monkeypatch.setattr(warming, "solve", unsolvable)
+    monkeypatch.setattr("contact_core.deterministic.warming.solve_instant", unsolvable)
     warm_up(Scene.from_toml("mtm_zddp", SMALL))
     assert calls

@@ -8,11 +8,11 @@ from cheap_scene import CHEAP, cheap
 from comparison import approx
 
 from contact_core import advance, initial_state, run_cycle, track_of, uncertainty
-from contact_core.block import solve_block
-from contact_core.evolution import evolved
-from contact_core.friction import sliding
-from contact_core.geometry import LineGeometry
-from contact_core.patches import contact_grid
+from contact_core.deterministic.block import solve_block
+from contact_core.deterministic.friction import sliding
+from contact_core.deterministic.growth_and_wear import evolved
+from contact_core.scene import Case
+from contact_core.shapes import LineGeometry
 
 FACE = 0.8e-3
 BARE = {"tribofilm.model": "none"}
@@ -110,7 +110,8 @@ def test_a_cycle_takes_the_volume_that_its_depths_have(shape):
 def test_wear_under_a_film_that_grows_within_a_block_is_of_second_order_in_the_steps(i):
     """The integral of K(film) p v / H, the film by its closed form, with the solution of one block held."""
     scene, state, op = contact("point", "deterministic")
-    body, law, wear, flash = solve_block(scene, op, state).bodies[i], scene.tribofilm, scene.wear, 0.0
+    case = Case(scene, op)
+    body, law, wear, flash = solve_block(case, state).bodies[i], scene.tribofilm, scene.wear, 0.0
     span = 0.1 / law.rate(op.temperature)
     nodes, weights = np.polynomial.legendre.leggauss(8)
     exact = np.zeros_like(body.wear)
@@ -123,7 +124,7 @@ def test_wear_under_a_film_that_grows_within_a_block_is_of_second_order_in_the_s
     for count in (1, 2, 4):
         after = body
         for _ in range(count):
-            after = evolved(scene, op, after, i, span / count, flash)
+            after = evolved(case, case.sides[i], after, span / count, flash)
         off.append(abs(after.wear.sum() / exact.sum() - 1.0))
     assert off[0] < 0.02
     assert np.log2(np.divide(off[:-1], off[1:])) == approx([2.0, 2.0], abs=0.15)
@@ -176,7 +177,7 @@ def test_each_side_of_a_spinning_track_wears_as_fast_as_friction_says_that_it_sl
     scene, state, op = cheap(DRY | BARE | smooth, film__points=65)
     op = replace(op, speed_1=0.3 + turned * 0.006, speed_2=0.3, spin=spin)
     state, _ = advance(scene, op, state, 1e-3)
-    grid = contact_grid(scene, scene.rows)
+    grid = scene.grid(scene.rows)
     x, y = grid.x[None, :-1], grid.y[:, None]
     hertz = scene.hertz_at(op)
     pressure = np.sqrt(np.maximum(1.0 - (x / hertz.a) ** 2 - (y / hertz.b) ** 2, 0.0))

@@ -1,12 +1,7 @@
 """Growth and removal of the tribofilm.
 
-In each solved instant a law says how strongly every node is exposed (`exposure`). Its `dose` says how the instants of a
-pass become the mean exposure per test time:
-
-    clock            the largest exposure of any instant of the last pass, for the whole time; the pass stands for the
-                     many real ones of a block, so a smooth body, which meets ever other asperities, is all exposed
-    contact_length   the mean over the crossing of the contact's length 2a
-    residence        the mean over the whole track
+In each solved instant a law gives the exposure of every node (`exposure`). Its `dose` (`doses`) says how the instants
+of a pass become the mean exposure per test time.
 
 Mean exposure times test time is what `evolve` takes as `exposed`. A law that `abrades` also says how fast rubbing
 takes away what there is (`abrasion`, by the solid pressure as mean over the track); times test time: `abraded`.
@@ -19,8 +14,21 @@ first-order removal needs one only: it keeps the thickness in `growth` and nothi
 """
 
 from .activated import Combined, Gosvami, ZhangSpikes
+from .doses import DOSES, MeanPasses, Passes
 from .fitted import Andersson, Ghanbarzadeh, NoTribofilm, thickness
 
 LAWS = (NoTribofilm, Ghanbarzadeh, Andersson, ZhangSpikes, Gosvami, Combined)
 
-__all__ = ["LAWS", "Andersson", "Combined", "Ghanbarzadeh", "Gosvami", "NoTribofilm", "ZhangSpikes", "thickness"]
+__all__ = [
+    "DOSES",
+    "LAWS",
+    "Andersson",
+    "Combined",
+    "Ghanbarzadeh",
+    "Gosvami",
+    "MeanPasses",
+    "NoTribofilm",
+    "Passes",
+    "ZhangSpikes",
+    "thickness",
+]

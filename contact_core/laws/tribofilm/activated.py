@@ -20,8 +20,8 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ...constants import BOLTZMANN
 from ...quantities import parameter
+from ..constants import BOLTZMANN
 from .fitted import Ghanbarzadeh, beyond_fit, fit_temperature, thickness
 
 Array = NDArray[np.float64]

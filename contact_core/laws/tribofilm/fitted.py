@@ -6,8 +6,8 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ...constants import BOLTZMANN, PLANCK
 from ...quantities import parameter
+from ..constants import BOLTZMANN, PLANCK
 from ..elementary import Numbers, expm1
 
 Array = NDArray[np.float64]

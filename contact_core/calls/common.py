@@ -1,0 +1,286 @@
+"""What calls that solve one film have in common: checks of their arguments, the solution, and what they give back."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from operator import index
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import OperatingPointError
+from ..film.instant import FilmSolution, Grid, Instant, Settings
+from ..laws.density import DowsonHigginson, Incompressible
+from ..laws.viscosity import Barus, Roelands
+from ..quantities import TABLE, out_of_range, parameter
+from ..reference.starvation import supplied_film
+from ..scene.toml import did_you_mean
+from ..shapes import Point, Shape
+
+Array = NDArray[np.float64]
+
+UNLIMITED = 1e12  # Pa
+_REFERENCE = 300.0  # K: the laws of temperature play no part here
+_THICKEST = 0.01  # film over the smaller radius
+_VISCOSITY = {law.name: law for law in (Roelands, Barus)}
+_DENSITY = {law.name: law for law in (DowsonHigginson, Incompressible)}
+_CHOICES = {
+    "viscosity_law": tuple(_VISCOSITY),
+    "density_law": tuple(_DENSITY),
+    "criterion": ("split", "lumped"),
+    "cavitation": ("reynolds", "mass_conserving"),
+    "fft": ("pyfftw", "scipy"),
+}
+
+
+@dataclass(frozen=True)
+class FilmContact:
+    """What a call found, in SI. Arrays [ny, nx], x along entrainment of positive speed."""
+
+    x: Array  # [nx]
+    y: Array  # [ny]
+    pressure: Array  # total
+    fluid_pressure: Array
+    solid_pressure: Array
+    film: Array  # gap, at least the floor
+    oil: Array  # density ratio times thickness of the oil in the gap: less than that of the gap in cavities
+    h_central: float
+    h_c: float
+    h_min: float
+    contact_area_ratio: float
+    contact_load_ratio: float
+    pressure_max: float
+    approach: float
+    converged: bool
+    shortfall: str  # why it is not converged; empty if it is
+    algorithm: str  # regime and algorithm, as in film/routes.py
+    iterations: int
+    pressure_change: float  # of the last iteration, relative
+    load_error: float  # relative
+    load_beyond: float  # share of the load that a film wider than the grid carries beyond its edge
+    complementarity: float  # mean distance of solid contacts from the floor, weighted by pressure, in floors
+    imbalance: float  # mass that the film gains or loses unasked, relative
+    error_estimate: dict[str, float]  # half width for each number above that is an output, in its unit; by two grids
+    warnings: tuple[str, ...]  # what makes the answer less sure
+
+
+Found = TypeVar("Found", bound=FilmContact)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Numbers:
+    """The scalars that every call takes, with their ranges."""
+
+    reduced_modulus: float = parameter("Pa", "E' = 2 / [(1 - v1^2)/E1 + (1 - v2^2)/E2]", above=1e3, most=1e13)
+    speed_1: float = parameter("m/s", TABLE["speed_1"].text, least=-1e3, most=1e3)
+    speed_2: float = parameter("m/s", TABLE["speed_2"].text, least=-1e3, most=1e3)
+    viscosity: float = parameter("Pa s", "viscosity at p = 0", least=1e-4, most=1e3)
+    pressure_viscosity: float = parameter("Pa^-1", "d ln(viscosity)/dp at p = 0", least=0.0, most=1e-7)
+    hardness: float = parameter("Pa", "largest pressure", above=1e6, most=UNLIMITED, default=UNLIMITED)
+    floor: float = parameter("m", "gap at which solids touch", above=1e-11, most=1e-6)
+    tolerance: float = parameter("", "relative pressure change that counts as converged", above=0.0, most=0.1)
+    iterations: int = parameter("", "most iterations", least=1, most=100_000)
+    spacing: float = parameter("m", "distance between nodes along x and y", above=0.0, most=1.0, default=1.0)
+    supply: float = parameter("m", "oil on both surfaces before the contact", above=0.0, most=1.0, default=1.0)
+    meniscus: float = parameter("m", "distance of the inlet meniscus", above=0.0, most=1.0, default=1.0)
+
+    @property
+    def entrainment_speed(self) -> float:
+        """u_e = (u1 + u2) / 2 [m/s]."""
+        return 0.5 * (self.speed_1 + self.speed_2)
+
+
+Given = TypeVar("Given", bound=Numbers)
+
+
+def numbers_of(cls: type[Given], given: Mapping[str, Any]) -> Given:
+    """The numbers of a call, checked; those that are None keep their defaults."""
+    values = {name: value for name, value in given.items() if value is not None}
+    refuse(no_numbers(values))
+    whole = {name: int(value) if name == "iterations" else float(value) for name, value in values.items()}
+    numbers = cls(**whole)  # type: ignore[arg-type]
+    refuse(list(out_of_range(numbers, "")))
+    return numbers
+
+
+def check_choices(given: Mapping[str, Any]) -> None:
+    """Refuse what is not among the choices of an argument."""
+    refuse(
+        [
+            f"{name} = {value!r} is not one of {', '.join(_CHOICES[name])}."
+            + did_you_mean(str(value), list(_CHOICES[name]))
+            for name, value in given.items()
+            if value not in _CHOICES[name]
+        ]
+    )
+
+
+def refuse(sentences: list[str]) -> None:
+    """Raise OperatingPointError with the sentences, if there are any."""
+    if sentences:
+        raise OperatingPointError(" ".join(sentences))
+
+
+def film_of(shape: Shape, load: float, numbers: Numbers, supply: float | None) -> float:
+    """Film [m] of smooth bodies by formula, behind an oil layer [m] or flooded, 0 at rest; refused if it is too thick
+    for bodies of that shape.
+    """
+    if numbers.entrainment_speed == 0.0:
+        return 0.0
+    oil = _VISCOSITY["barus"](numbers.viscosity, _REFERENCE, numbers.pressure_viscosity, 0.0), _REFERENCE
+    smooth = shape.smooth(load, abs(numbers.entrainment_speed), *oil, numbers.reduced_modulus)
+    film = replace(smooth, pressure_coefficient=max(numbers.pressure_viscosity, 1e-12)).film
+    if supply is not None:
+        film = supplied_film(film, supply, resistance=shape.side_resistance)
+    radius, least = shape.radius_x, "radius"
+    if isinstance(shape, Point):
+        radius, least = min((shape.radius_x, "radius_x"), (shape.radius_y, "radius_y"))
+    if film > _THICKEST * radius:
+        refuse(
+            [
+                f"The oil film would be about {film:.2g} m, over {_THICKEST:g} of {least} = {radius:g} m: "
+                "the bodies are no parabolas on its scale. Raise load, or lower speed_1, speed_2 or viscosity."
+            ]
+        )
+    return film
+
+
+def solve_call(
+    found_as: type[Found],
+    shape: Shape,
+    load: float,
+    numbers: Numbers,
+    nodes: Grid,
+    heights: Array | None,
+    supply: tuple[float | None, float | None],
+    options: Mapping[str, str],
+) -> Found:
+    """Solve one steady film. `load` [N] of the whole shape; `supply`: oil layer and distance of the meniscus [m]."""
+    from ..film.estimate import solve_with_estimate  # the kernels: loaded where a film is solved
+
+    hertz = shape.hertz(load, numbers.reduced_modulus)
+    if supply[1] is not None and supply[1] <= hertz.a:
+        refuse(
+            [
+                f"meniscus = {supply[1]:g} m must be more than the half width of Hertz's contact, {hertz.a:.3g} m: no "
+                "oil would be before it."
+            ]
+        )
+    if supply[0] is not None and options["cavitation"] != "mass_conserving":
+        refuse([f"supply = {supply[0]:g} m needs cavitation = 'mass_conserving': else every gap counts as full."])
+    now = Instant(
+        load=load,
+        entrainment_speed=numbers.entrainment_speed,
+        temperature=_REFERENCE,
+        shape=shape,
+        reduced_modulus=numbers.reduced_modulus,
+        viscosity=_VISCOSITY[options["viscosity_law"]](numbers.viscosity, _REFERENCE, numbers.pressure_viscosity, 0.0),
+        density=_DENSITY[options["density_law"]](),
+        heights=np.zeros(nodes.shape) if heights is None else heights,
+        limit=np.full(nodes.shape, numbers.hardness),
+        hardness=numbers.hardness,
+        conserving=options["cavitation"] == "mass_conserving",
+        supply=supply[0],
+        meniscus=supply[1],
+    )
+    lumped = options["criterion"] == "lumped"
+    settings = Settings(numbers.floor, numbers.tolerance, numbers.iterations, options["fft"], lumped)
+    found, values, errors = solve_with_estimate(now, nodes, settings)
+    state = found.state
+    return found_as(
+        x=nodes.x,
+        y=nodes.y,
+        pressure=state.pressure,
+        fluid_pressure=state.fluid,
+        solid_pressure=np.where(state.solid, state.pressure - state.fluid, 0.0),
+        film=found.gap,
+        oil=state.mass,
+        **values,
+        converged=found.converged,
+        shortfall=found.shortfall,
+        algorithm=found.algorithm,
+        iterations=found.iterations,
+        pressure_change=found.change,
+        load_error=found.load_error,
+        load_beyond=found.load_beyond,
+        complementarity=found.complementarity,
+        imbalance=found.imbalance,
+        error_estimate=errors,
+        warnings=tuple(_warnings(found, nodes, min(hertz.a, hertz.b))),
+    )
+
+
+def heights_of(first: ArrayLike | None, second: ArrayLike | None) -> Array | None:
+    """Heights of both bodies together, or None for smooth ones."""
+    given = []
+    for name, values in (("heights_1", first), ("heights_2", second)):
+        if values is None:
+            continue
+        try:
+            array = np.array(values, dtype=np.float64)
+        except (TypeError, ValueError):
+            refuse([f"{name} is no array of real numbers; it must be an array [ny, nx] of heights in metres."])
+        if array.ndim != 2:
+            refuse([f"{name} has {array.ndim} dimensions; it must be an array [ny, nx] of heights in metres."])
+        if not np.isfinite(array).all():
+            refuse(
+                [f"{name} holds {int((~np.isfinite(array)).sum())} values that are not finite. Fill the gaps first."]
+            )
+        given.append(array)
+    if len(given) == 2 and given[0].shape != given[1].shape:
+        refuse(
+            [f"heights_1 is {given[0].shape} and heights_2 {given[1].shape}; both must lie on the same nodes [ny, nx]."]
+        )
+    return np.sum(given, axis=0) if given else None
+
+
+def asked(grid: int | tuple[int, int] | None) -> tuple[int | None, int | None]:
+    """Nodes (ny, nx) that `grid` names; None where it leaves them open."""
+    if grid is None:
+        return None, None
+    try:
+        nodes = [index(n) for n in np.atleast_1d(np.asarray(grid)).tolist()]
+    except (TypeError, ValueError):
+        nodes = []
+    if len(nodes) not in (1, 2):
+        refuse([f"grid = {grid!r} must be one whole number or (ny, nx)."])
+    return (None, nodes[0]) if len(nodes) == 1 else (nodes[0], nodes[1])
+
+
+def no_numbers(given: dict[str, Any]) -> list[str]:
+    """One sentence for each value that is not a real number."""
+    return [
+        f"{name} = {value!r} is not a number. Give it as one, in SI units without a unit string."
+        for name, value in given.items()
+        if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating))
+    ]
+
+
+def _warnings(found: FilmSolution, grid: Grid, a: float) -> list[str]:
+    """Sentences on what makes an answer less sure."""
+    sentences = [] if found.converged else [f"The solution is short of its stopping rule: {found.shortfall}."]
+    if found.route == "fallback":
+        sentences.append("The dry contact stands in for a film that was not found.")
+    if found.route == "mixed" and found.inlet_nodes < 3.0:
+        sentences.append(
+            f"The film builds up across {found.inlet_nodes:.1f} nodes of the grid: it is a number of this grid. "
+            "Use more nodes or a smaller domain for its own value."
+        )
+    if found.load_beyond > 0.1:
+        sentences.append(
+            f"{found.load_beyond:.0%} of the load are carried beyond the grid, by the formula of a rigid inlet. "
+            "Integrals over the grid miss that part."
+        )
+    pressure = found.state.pressure
+    near = np.zeros(pressure.shape, np.bool_)  # the edge
+    near[:, [0, 1, -2, -1]] = True
+    if not grid.periodic:
+        near[[0, 1, -2, -1], :] = True
+    edges = float(pressure[near].max())
+    if found.state.solid[near].any():
+        sentences.append("Solids touch at the edge of the grid. Enlarge the domain.")
+    elif edges > 0.05 * pressure.max():
+        sentences.append(f"The pressure at the edge of the grid is {edges:.2g} Pa. Enlarge the domain.")
+    if 2.0 * a < 8.0 * grid.spacing and found.route != "mixed":
+        sentences.append("Fewer than 8 nodes lie across the Hertz contact.")
+    return sentences

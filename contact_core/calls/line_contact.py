@@ -1,0 +1,196 @@
+"""One call, SI, arrays in and arrays out: a lubricated line contact at one instant, without ends or with them."""
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..film.instant import Grid
+from ..laws.profile import Logarithmic, Rounded
+from ..quantities import out_of_range, parameter
+from ..shapes import Line, Profile, Roller
+from .common import (
+    FilmContact,
+    Numbers,
+    asked,
+    check_choices,
+    film_of,
+    heights_of,
+    no_numbers,
+    numbers_of,
+    refuse,
+    solve_call,
+)
+
+Array = NDArray[np.float64]
+
+_NODES = 257  # along x of smooth bodies
+_MOST = 8193  # nodes along an axis
+_BESIDE = 1.02  # grid over length of a line with ends
+
+
+class LineContact(FilmContact):
+    """What `line_contact` found. Without ends ny rows repeat themselves across, one for smooth bodies."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Numbers(Numbers):
+    """The scalars of a call, with their ranges."""
+
+    load: float = parameter("N/m", "normal load per length", above=0.0, most=1e9)
+    radius: float = parameter("m", "combined radius of curvature along x", above=0.0, most=100.0)
+    length: float = parameter("m", "length of the line", above=0.0, most=100.0, default=1.0)
+
+
+def line_contact(
+    *,
+    load: float,
+    radius: float,
+    reduced_modulus: float,
+    speed_1: float,
+    speed_2: float,
+    viscosity: float,
+    pressure_viscosity: float,
+    length: float | None = None,
+    profile: Profile | None = None,
+    viscosity_law: str = "roelands",
+    density_law: str = "dowson_higginson",
+    heights_1: ArrayLike | None = None,
+    heights_2: ArrayLike | None = None,
+    spacing: float | None = None,
+    hardness: float | None = None,
+    grid: int | tuple[int, int] | None = None,
+    domain: tuple[float, float] | None = None,
+    floor: float = 1e-9,
+    cavitation: str = "reynolds",
+    supply: float | None = None,
+    meniscus: float | None = None,
+    tolerance: float = 1e-3,
+    iterations: int = 2000,
+    fft: str = "pyfftw",
+) -> LineContact:
+    """Steady mixed lubrication of a line contact, from full film to dry.
+
+    load per length [N/m]; radius of combined curvature along x [m]; length [m] of the line. Without a `profile` it has
+    no ends: the rows repeat themselves across, and the length decides the approach alone (1 m if not given), which is
+    that of an even load on such a length. With one, such as `Rounded` or `Logarithmic`, it is a roller of that length.
+    heights_1, heights_2 [ny, nx] of each body [m], positive toward the other one, centred on the contact, `spacing` [m]
+    apart, their first row follows their last without ends: an even number of rows, or one. grid of smooth bodies: nodes
+    along x (257 if not given), for a roller (ny, nx), too; domain: (x_min, x_max) [m] about the contact instead of the
+    one that fits the film; cells are square. The rest is as in `point_contact`.
+
+    Forces are not in the result; the integral of a stress per length is its sum over the nodes times spacing / ny.
+    Raises OperatingPointError for values that cannot be used and ConvergenceError if no solution was found.
+    """
+    numbers = numbers_of(
+        _Numbers,
+        {
+            "load": load, "radius": radius, "length": length, "reduced_modulus": reduced_modulus, "speed_1": speed_1,
+            "speed_2": speed_2, "viscosity": viscosity, "pressure_viscosity": pressure_viscosity, "hardness": hardness,
+            "floor": floor, "tolerance": tolerance, "iterations": iterations, "spacing": spacing, "supply": supply,
+            "meniscus": meniscus,
+        },
+    )  # fmt: skip
+    options = {
+        "viscosity_law": viscosity_law, "density_law": density_law, "criterion": "split", "cavitation": cavitation,
+        "fft": fft,
+    }  # fmt: skip
+    check_choices(options)
+    if profile is not None and length is None:
+        refuse(["length = None: a line with ends needs its length in metres."])
+    heights = heights_of(heights_1, heights_2)
+    shape = Line(numbers.radius, numbers.length)
+    if profile is not None:
+        refuse(_no_profile(profile, numbers.length))
+        shape = Roller(numbers.radius, numbers.length, profile)
+    total = numbers.load * numbers.length
+    pressure = shape.hertz(total, numbers.reduced_modulus).pressure_max
+    if pressure > numbers.hardness:
+        refuse(
+            [
+                f"hardness = {numbers.hardness:g} Pa is below the Hertz pressure of {pressure:.3g} Pa: the bodies "
+                "would yield as a whole. Lower the load or raise the hardness."
+            ]
+        )
+    film = film_of(shape, total, numbers, supply)
+    nodes = _grid(numbers, shape, total, film, heights, spacing, grid, domain)
+    starved = (supply, meniscus)
+    return solve_call(LineContact, shape, total, numbers, nodes, heights, starved, options)
+
+
+def _no_profile(profile: Profile, length: float) -> list[str]:
+    """What is wrong with a profile for a roller of a length [m]."""
+    if isinstance(profile, type) or not isinstance(profile, (Rounded, Logarithmic)):
+        return [f"profile = {profile!r} must be a Rounded(straight, radius) or a Logarithmic(depth), in metres."]
+    values = {f"profile.{f.name}": getattr(profile, f.name) for f in fields(profile)}
+    sentences = no_numbers(values) or list(out_of_range(profile, "profile"))
+    if not sentences and isinstance(profile, Rounded) and profile.straight > length:
+        sentences = [f"profile.straight = {profile.straight:g} m must be at most length = {length:g} m."]
+    return sentences
+
+
+def _grid(
+    numbers: _Numbers,
+    shape: Line,
+    load: float,
+    film: float,
+    heights: Array | None,
+    spacing: float | None,
+    grid: int | tuple[int, int] | None,
+    domain: tuple[float, float] | None,
+) -> Grid:
+    """The nodes that the arguments ask for."""
+    from ..film.fitted import line_extent, rows_over
+
+    ny, nx = asked(grid)
+    if ny is not None and shape.periodic:
+        refuse([f"grid = {grid} has rows: smooth lines without ends have one, that of rough ones heights decide."])
+    if heights is not None:
+        if nx is not None and (ny or heights.shape[0], nx) != heights.shape:
+            refuse([f"grid = {grid} does not fit heights of {heights.shape} nodes. Leave grid out: heights decide it."])
+        if spacing is None:
+            refuse(["spacing = None: heights need the distance between their nodes in metres."])
+        ny, nx = heights.shape
+        if ny < 1 or nx < 17:
+            refuse([f"heights of {heights.shape} nodes [ny, nx] are too few: 17 along x are the least, and one row."])
+        if shape.periodic and ny > 1 and ny % 2:
+            refuse([f"heights of {ny} rows: a line without ends needs an even number of rows, or one."])
+        if not shape.periodic and (ny - 1) * numbers.spacing < numbers.length:
+            reach = (ny - 1) * numbers.spacing
+            refuse([f"heights are {reach:g} m long; they must reach over length = {shape.length:g} m."])
+    nx = nx or _NODES
+    if not 17 <= nx <= _MOST or (ny is not None and ny > _MOST):
+        refuse([f"grid = {(ny, nx)} must have from 17 to {_MOST} nodes along x, and at most as many along y."])
+    left, right = line_extent(shape, load, numbers.reduced_modulus, film) if domain is None else _sides(domain)
+    if spacing is None:
+        spacing = (left + right) / (nx - 1)
+        before = left / spacing if domain is not None else round(left / spacing)  # a node lies on the centre
+        x = (np.arange(nx, dtype=np.float64) - before) * spacing
+        if numbers.entrainment_speed < 0.0 and domain is None:
+            x = -x[::-1]
+    else:
+        x = (np.arange(nx, dtype=np.float64) - 0.5 * (nx - 1)) * spacing
+    if shape.periodic:
+        rows = ny or 1
+        y = (np.arange(rows, dtype=np.float64) - 0.5 * (rows - 1)) * spacing
+        return Grid(x, y, periodic=True, repeats=shape.length / (rows * spacing))
+    rows = ny or rows_over(_BESIDE * shape.length, spacing, nx)
+    if rows > _MOST:
+        refuse(
+            [
+                f"length = {shape.length:g} m takes {rows} rows of cells {spacing:.3g} m wide, above {_MOST}. Use "
+                "fewer nodes along x, or a line without ends."
+            ]
+        )
+    return Grid(x, (np.arange(rows, dtype=np.float64) - 0.5 * (rows - 1)) * spacing)
+
+
+def _sides(domain: tuple[float, float]) -> tuple[float, float]:
+    try:
+        x_min, x_max = (float(value) for value in domain)
+        about = x_min < 0.0 < x_max and bool(np.isfinite(domain).all())
+    except (TypeError, ValueError):
+        about = False
+    if not about:
+        refuse([f"domain = {domain!r} must be (x_min, x_max) in metres about the contact at 0."])
+    return -x_min, x_max

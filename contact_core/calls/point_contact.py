@@ -1,0 +1,172 @@
+"""One call, SI, arrays in and arrays out: a lubricated, circular or elliptical point contact at one instant."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..film.instant import Grid
+from ..quantities import TABLE, parameter
+from ..shapes import Point
+from .common import FilmContact, Numbers, asked, check_choices, film_of, heights_of, numbers_of, refuse, solve_call
+
+Array = NDArray[np.float64]
+
+_SLIMMEST = 30.0  # ratio of the radii, either way
+
+
+class PointContact(FilmContact):
+    """What `point_contact` found."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Numbers(Numbers):
+    """The scalars of a call, with their ranges."""
+
+    load: float = parameter("N", TABLE["load"].text, above=0.0, most=1e6)
+    radius_x: float = parameter("m", "combined radius of curvature along x", above=0.0, most=100.0)
+    radius_y: float = parameter("m", "combined radius of curvature along y", above=0.0, most=100.0)
+
+
+def point_contact(
+    *,
+    load: float,
+    radius_x: float,
+    radius_y: float | None = None,
+    reduced_modulus: float,
+    speed_1: float,
+    speed_2: float,
+    viscosity: float,
+    pressure_viscosity: float,
+    viscosity_law: str = "roelands",
+    density_law: str = "dowson_higginson",
+    heights_1: ArrayLike | None = None,
+    heights_2: ArrayLike | None = None,
+    spacing: float | None = None,
+    hardness: float | None = None,
+    grid: int | tuple[int, int] | None = None,
+    domain: tuple[float, float, float, float] | None = None,
+    floor: float = 1e-9,
+    criterion: str = "split",
+    cavitation: str = "reynolds",
+    supply: float | None = None,
+    meniscus: float | None = None,
+    tolerance: float = 1e-3,
+    iterations: int = 2000,
+    fft: str = "pyfftw",
+) -> PointContact:
+    """Steady mixed lubrication of a point contact, from full film to dry.
+
+    load [N]; radius_x, radius_y [m], combined, radius_y = radius_x if not given; reduced_modulus E' [Pa]; speed_1,
+    speed_2 [m/s] along x relative to the contact; viscosity [Pa s] and pressure_viscosity [1/Pa] at p = 0;
+    viscosity_law "roelands" or "barus"; density_law "dowson_higginson" or "none"; heights_1, heights_2 [ny, nx] of each
+    body [m], positive toward the other one, centred on the contact, `spacing` [m] apart; hardness [Pa]: no pressure is
+    above it (None: no limit); grid of smooth bodies: nodes along x, as many along y as the film needs (the same for a
+    circle), or (ny, nx), 129 along the shorter side if not given; domain: (x_min, x_max, y_min, y_max) [m] about the
+    contact instead of the grid that fits the film; cells are square; floor [m]: gap at which solids touch; criterion:
+    "split" for fluid and solid pressure apart, "lumped" for one pressure as in Azam et al. 2019 (with floor = 0.47e-9);
+    cavitation: "reynolds", a gap without pressure counts as full, or "mass_conserving", it holds what flows in; supply
+    [m]: oil on both surfaces together before the contact (None: flooded); meniscus [m]: distance before the centre at
+    which the inlet begins to fill (None: at the edge of the grid).
+
+    Raises OperatingPointError for values that cannot be used and ConvergenceError if no solution was found. A solution
+    short of the tolerance says so (`converged`, `shortfall`). At rest the dry contact is the answer; the gap of solids
+    is the floor then, too, so that `approach` is a floor less than that of `dry_contact`.
+    """
+    numbers = numbers_of(
+        _Numbers,
+        {
+            "load": load, "radius_x": radius_x, "radius_y": radius_x if radius_y is None else radius_y,
+            "reduced_modulus": reduced_modulus, "speed_1": speed_1, "speed_2": speed_2, "viscosity": viscosity,
+            "pressure_viscosity": pressure_viscosity, "hardness": hardness, "floor": floor, "tolerance": tolerance,
+            "iterations": iterations, "spacing": spacing, "supply": supply, "meniscus": meniscus,
+        },
+    )  # fmt: skip
+    refuse(_too_slim(numbers))
+    options = {
+        "viscosity_law": viscosity_law, "density_law": density_law, "criterion": criterion, "cavitation": cavitation,
+        "fft": fft,
+    }  # fmt: skip
+    check_choices(options)
+    heights, shape = heights_of(heights_1, heights_2), Point(numbers.radius_x, numbers.radius_y)
+    film = film_of(shape, numbers.load, numbers, supply)
+    nodes = _grid(numbers, shape, film, heights, spacing, grid, domain)
+    starved = (supply, meniscus)
+    return solve_call(PointContact, shape, numbers.load, numbers, nodes, heights, starved, options)
+
+
+def _too_slim(numbers: _Numbers) -> list[str]:
+    if not 1.0 / _SLIMMEST <= numbers.radius_y / numbers.radius_x <= _SLIMMEST:
+        return [
+            f"radius_y = {numbers.radius_y:g} m is not within 1/{_SLIMMEST:g} and {_SLIMMEST:g} times radius_x = "
+            f"{numbers.radius_x:g} m. Take the nearest ratio that is, or a line contact."
+        ]
+    return []
+
+
+def _grid(
+    numbers: _Numbers,
+    shape: Point,
+    film: float,
+    heights: Array | None,
+    spacing: float | None,
+    grid: int | tuple[int, int] | None,
+    domain: tuple[float, float, float, float] | None,
+) -> Grid:
+    """The nodes that the arguments ask for."""
+    ny, nx = asked(grid)
+    if heights is not None:
+        if heights.shape[0] < 17 or heights.shape[1] < 17:
+            refuse([f"heights of {heights.shape} nodes [ny, nx] are too few: 17 along each axis are the least."])
+        if nx is not None and (ny or nx, nx) != heights.shape:
+            refuse([f"grid = {grid} does not fit heights of {heights.shape} nodes. Leave grid out: heights decide it."])
+        ny, nx = heights.shape
+    from ..film.fitted import Extent
+
+    extent = Extent.of(shape, numbers.load, numbers.reduced_modulus, film)
+    sides = None if domain is None else _sides(domain)
+    if ny is None or nx is None:
+        if sides is not None:
+            nx = nx or 129
+            ny = round((nx - 1) * (sides[3] - sides[2]) / (sides[1] - sides[0])) + 1
+        elif shape.circular:
+            ny, nx = nx or 129, nx or 129
+        else:
+            ny, nx = extent.shape(nx)
+    if min(ny, nx) < 17 or max(ny, nx) > 4097:
+        refuse([f"grid = {(ny, nx)} must be one number or (ny, nx), from 17 to 4097 nodes along each axis."])
+    if sides is not None:
+        return _grid_of_sides(sides, spacing, ny, nx)
+    if heights is not None and spacing is None:
+        refuse(["spacing = None: heights need the distance between their nodes in metres."])
+    if spacing is not None:
+        if not (np.isfinite(spacing) and spacing > 0.0):
+            refuse([f"spacing = {spacing:g} m must be finite and above 0."])
+        return Grid.centred(ny, nx, spacing)
+    found = extent.grid(ny, nx)
+    return found if numbers.speed_1 + numbers.speed_2 >= 0.0 else found.mirrored()
+
+
+def _sides(domain: tuple[float, float, float, float]) -> tuple[float, float, float, float]:
+    try:
+        x_min, x_max, y_min, y_max = (float(value) for value in domain)
+        about = x_min < 0.0 < x_max and y_min < 0.0 < y_max and bool(np.isfinite(domain).all())
+    except (TypeError, ValueError):
+        about = False
+    if not about:
+        refuse([f"domain = {domain!r} must be (x_min, x_max, y_min, y_max) in metres about the contact at (0, 0)."])
+    return x_min, x_max, y_min, y_max
+
+
+def _grid_of_sides(sides: tuple[float, float, float, float], spacing: float | None, ny: int, nx: int) -> Grid:
+    x, y = np.linspace(sides[0], sides[1], nx), np.linspace(sides[2], sides[3], ny)
+    dx, dy = x[1] - x[0], y[1] - y[0]
+    if abs(dx - dy) > 1e-6 * dx or (spacing is not None and abs(spacing - dx) > 1e-6 * dx):
+        refuse(
+            [
+                f"domain = {sides} on {ny} by {nx} nodes gives distances of {dx:.6g} m along x and {dy:.6g} m along y"
+                f"{'' if spacing is None else f', spacing says {spacing:.6g} m'}; they must be the same. "
+                "Change grid or domain."
+            ]
+        )
+    return Grid(x, y)

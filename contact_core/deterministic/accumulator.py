@@ -1,0 +1,106 @@
+"""Sums over the instants of a block: exposure and pressure of each surface point, mean outputs of the contact."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Case
+from ..state import ContactState, RangeFlag
+from ..surfaces.patches import on_patches
+from .friction import Film, derivatives
+from .instant import ContactFields
+from .observed import instant_flags, observed
+
+Array = NDArray[np.float64]
+
+_MANY = 0.1  # share of unconverged solutions that raises a flag
+
+
+@dataclass
+class Accumulator:
+    """Sums over the instants of a block; fields of both bodies lie on their patches."""
+
+    pressures: tuple[Array, Array]
+    exposures: tuple[Array, Array]
+    since: tuple[Array, Array]  # passes since a node was last exposed
+    outputs: list[dict[str, float]] = field(default_factory=list)
+    iterations: int = 0
+    mixed: int = 0
+    missed: int = 0  # solutions that stayed short of the tolerance
+    fallbacks: int = 0
+    flags: RangeFlag = field(default_factory=lambda: RangeFlag(0))
+    sheared: Film | None = None  # the last instant's
+
+    @staticmethod
+    def before(state: ContactState) -> "Accumulator":
+        """Return empty sums at the beginning of a block."""
+        first, second = (body.since.copy() for body in state.bodies)
+        zeros = [np.zeros_like(first) for _ in range(4)]
+        return Accumulator((zeros[0], zeros[1]), (zeros[2], zeros[3]), (first, second))
+
+    @property
+    def all_flags(self) -> RangeFlag:
+        """The instants' flags, and one if many of them are not converged."""
+        many = self.count > 0 and self.missed > _MANY * self.count
+        return self.flags | (RangeFlag.NOT_CONVERGED if many else RangeFlag(0))
+
+    @property
+    def count(self) -> int:
+        """Number of instants so far."""
+        return len(self.outputs)
+
+    @property
+    def driver(self) -> str:
+        """Solutions that drive the block: "mixed", "dry" or, where dry ones replace most mixed ones, "fallback"."""
+        return "fallback" if 2 * self.fallbacks > self.count else "mixed" if self.mixed else "dry"
+
+    def add(
+        self, case: Case, state: ContactState, fields: ContactFields, passes: tuple[float, float] = (0.0, 0.0)
+    ) -> None:
+        """Add one instant. `passes`: the part of a pass through the contact each body makes until the next."""
+        exposures = self.touch(case, state, fields, passes)
+        pressures = on_patches(case.scene, state, (fields.solid_pressure, fields.solid_pressure))
+        for i in (0, 1):
+            self.pressures[i][:] += pressures[i]
+            self.exposures[i][:] += exposures[i]
+        self.outputs.append(observed(case, fields))
+        self.sheared = fields.sheared
+        self.iterations += fields.iterations
+        self.mixed += fields.route == "mixed"
+        self.missed += not fields.converged
+        self.fallbacks += fields.route == "fallback"
+        self.flags |= instant_flags(case, fields)
+
+    def touch(
+        self, case: Case, state: ContactState, fields: ContactFields, passes: tuple[float, float]
+    ) -> list[Array]:
+        """Note which points are exposed in an instant; return the exposure on both patches."""
+        found = on_patches(case.scene, state, _exposures(case, fields))
+        for since, exposed, part in zip(self.since, found, passes, strict=True):
+            since += part
+            since[exposed > 0.0] = 0.0
+        return found
+
+    def slopes(self, case: Case) -> dict[str, float]:
+        """Return the derivatives of the friction in the last instant."""
+        return derivatives(case, self.sheared) if self.sheared else {}
+
+    def means(self) -> dict[str, float]:
+        """Return the mean outputs of the instants."""
+        return {name: sum(seen[name] for seen in self.outputs) / self.count for name in self.outputs[0]}
+
+    def spread(self, *, apart: bool) -> dict[str, float]:
+        """Return the standard deviation of these means; `apart`: the instants are independent of each other."""
+        effective = self.count if apart else 1
+        return {name: float(np.std([seen[name] for seen in self.outputs])) / effective**0.5 for name in self.outputs[0]}
+
+
+def _exposures(case: Case, fields: ContactFields) -> tuple[Array, Array]:
+    """Return the exposure of both bodies on the grid, each at the temperature of its surface."""
+    law, op = case.scene.tribofilm, case.op
+    stresses = (fields.solid_pressure, fields.shear, fields.friction.slide if op.spin else op.sliding_speed)
+    warm_1, warm_2 = fields.temperatures.surface_1, fields.temperatures.surface_2
+    first = law.exposure(*stresses, warm_1)
+    alike = warm_1 is warm_2 or (isinstance(warm_1, float) and isinstance(warm_2, float) and warm_1 == warm_2)
+    return first, first if alike else law.exposure(*stresses, warm_2)

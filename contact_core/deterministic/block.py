@@ -1,0 +1,188 @@
+"""One block: an interval over which one set of contact solutions holds, because the geometry changes only a little.
+
+`control.driver` says which solutions drive it. Where the solids carry more than `control.dry_above` of the load, a dry
+contact replaces the mixed one: its solids carry the same share, under oil that carries the rest like smooth bodies. A
+mixed march measures that share anew every few blocks. `sampling` has the instants of both.
+"""
+
+import math
+from dataclasses import replace
+
+from ..laws.tribofilm import DOSES
+from ..scene import Case, Scene
+from ..state import Body, ContactState, RangeFlag
+from ..surfaces.patches import widened
+from ..surfaces.track import mean_tribofilm, roughness_now
+from .accumulator import Accumulator
+from .exposure import with_exposure
+from .growth_and_wear import stable_time, wear_rate
+from .instant import solve_instant
+from .sampling import blocks_per_pass, jumps_of, sample_dry, sample_mixed
+
+_DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
+_MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
+# how far the noise of blocks cancels, against that of independent ones: fitted to the roughness of case A's ball, which
+# `python -m benchmarks.surfaces.evolution control` judges
+_ALIKE = {"dry": 0.1, "mixed": 0.5}
+_CREEP = 0.01  # a body below this share of the other's speed shows a block only a piece of its track
+_SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most
+# flags of a march that stay true of the dry contact that takes its share
+_OF_FILM = RangeFlag.INLET_UNRESOLVED | RangeFlag.NOT_CONVERGED
+_SHORTEST = 0.05  # of control.longest: no block is shorter to keep wear stable; a flag says where it should be
+_LONGER = 2.0  # a block may be so much longer than the one before
+_EDGE = 3  # rows at the edge that the scar must not reach
+_WIDEST = 4  # times the scene's rows
+
+
+def is_due(case: Case, state: ContactState) -> bool:
+    """Return True if geometry or inputs have changed so far that the contact has to be solved again."""
+    used_up = state.change >= 0.999 * case.scene.control.change or state.held >= state.hold
+    other_law = state.law != law_of(case.scene)
+    return state.solved_for is None or used_up or other_law or case.differs_from(state.solved_for)
+
+
+def law_of(scene: Scene) -> str:
+    """Return what a stored exposure means: the tribofilm law and its dose."""
+    return f"{scene.tribofilm.name}, {scene.tribofilm.dose}"
+
+
+def solve_block(case: Case, state: ContactState) -> ContactState:
+    """Solve the contact for one block; time stands still. Return the state with exposures and outputs."""
+    same = state.solved_for is not None and not case.differs_from(state.solved_for)
+    state = replace(state, settling=0.0)
+    if not same:
+        state = replace(state, dry_blocks_left=0, share=1.0, trends=state.trends.restarted(), held=0.0)
+    state = _wide_enough(case, state)
+    sums = Accumulator.before(state)
+    if not case.loaded:
+        sums.add(case, state, solve_instant(case, state))
+        return finished(case, replace(state, film=None, share=1.0), sums)
+    driver = case.scene.control.driver
+    if not case.entrained or driver == "dry":
+        state = replace(state, share=1.0)
+    elif driver == "mixed" or state.dry_blocks_left == 0:
+        state = sample_mixed(case, state, sums, same)
+        found = sums.means()["contact_load_ratio"]
+        if driver == "mixed" or found <= case.scene.control.dry_above or sums.fallbacks:
+            return finished(case, replace(state, share=1.0), sums)
+        share = found if state.share == 1.0 else 0.5 * (found + state.share)  # one measurement scatters
+        state = replace(state, share=share, dry_blocks_left=_DRY_BLOCKS, film=None)
+        sums, measured = Accumulator.before(state), sums
+        sums.flags, sums.iterations = measured.all_flags & _OF_FILM, measured.iterations
+    else:  # what made the share less sure still does
+        sums.flags = RangeFlag(state.outputs.range_flags) & _OF_FILM
+    return finished(case, sample_dry(case, state, sums), sums)
+
+
+def _wide_enough(case: Case, state: ContactState) -> ContactState:
+    """Return the state with more rows if the scar has reached the edge of the patches."""
+    rows = state.rows
+    if not _worn_at_the_edge(case, state) or rows >= _WIDEST * case.scene.rows:
+        return state
+    more = 8 * math.ceil(rows / 64)  # an eighth on either side
+    first, second = (widened(body, more) for body in state.bodies)
+    return replace(state, bodies=(first, second), film=None)
+
+
+def _worn_at_the_edge(case: Case, state: ContactState) -> bool:
+    if case.shape.along_face:
+        return False  # there is no edge, or it lies beyond the roller's ends
+    rows = [*range(_EDGE), *range(-_EDGE, 0)]
+    return any(body.wear[rows].max() > 1e-3 * body.wear.max() for body in state.bodies)
+
+
+def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1) -> ContactState:
+    """Return the state with a block's results: exposure of the surfaces, outputs, limits of the next block."""
+    driver = sums.driver
+    kind = "dry" if driver == "dry" else "mixed"
+    sums.flags = sums.all_flags | _flags_of_motion(case, state, driver)
+    first, second = (with_exposure(case, side, state, sums, _ALIKE[kind]) for side in case.sides)
+    state = replace(state, bodies=(first, second))
+    seen, spread = _observed(case, state, sums, apart=driver == "dry")
+    trends = state.trends.followed(seen, spread, _MEMORY[kind], _lag(case.scene, driver))
+    smooth, count = trends.values(), f"blocks_{driver}"
+    outputs = replace(
+        state.outputs,
+        **smooth,
+        **{count: getattr(state.outputs, count) + blocks},
+        **sums.slopes(case),
+        friction_coefficient=abs(smooth["friction_force"]) / case.op.load if case.loaded else 0.0,
+        range_flags=int(sums.flags),
+        iterations=sums.iterations,
+        unconverged=sums.missed / sums.count,
+    )
+    left = max(state.dry_blocks_left - 1, 0) if driver == "dry" else 0
+    state = replace(
+        state,
+        law=law_of(case.scene),
+        solved_for=case.op,
+        change=0.0,
+        dry_blocks_left=left,
+        outputs=outputs,
+        trends=trends,
+    )
+    return replace(state, hold=_longest(case, state, state.held), held=0.0)
+
+
+def _observed(
+    case: Case, state: ContactState, sums: Accumulator, *, apart: bool
+) -> tuple[dict[str, float], dict[str, float]]:
+    """Return means and standard deviations of what the trends follow, by name."""
+    seen, spread = sums.means(), sums.spread(apart=apart)
+    share = seen["contact_load_ratio"]
+    scatter = spread["contact_load_ratio"] / share if share > 0.0 else 0.0  # wear is in proportion to it
+    for side, body in zip(case.sides, state.bodies, strict=True):
+        k = side.index + 1
+        rate = wear_rate(case, side, body)
+        seen |= {
+            f"wear_depth_{k}_rate": rate,
+            f"roughness_{k}": roughness_now(case.scene, body, side.index),
+            f"tribofilm_{k}": mean_tribofilm(case.scene, body),
+        }
+        spread[f"wear_depth_{k}_rate"] = rate * scatter
+    return seen, spread
+
+
+def _lag(scene: Scene, driver: str) -> float:
+    """Return by how many blocks the exposure of the surfaces is late, on average.
+
+    It is half a block by Euler's steps, and half a pass where the dose is that of a whole pass.
+    """
+    if not DOSES[scene.tribofilm.dose].whole_pass:
+        return 0.5
+    return 0.5 + 0.5 * blocks_per_pass(scene, driver)
+
+
+def _stable_time(case: Case, bodies: tuple[Body, Body]) -> float:
+    return min(stable_time(case, *pair) for pair in zip(case.sides, bodies, strict=True))
+
+
+def _longest(case: Case, state: ContactState, before: float) -> float:
+    """Return the longest time [s] until the next block, whatever its change.
+
+    Wear stays stable, the regime and the block's length (`before`: of the last one [s]) change little by little.
+    """
+    control = case.scene.control
+    limits = [control.longest]
+    if case.loaded:
+        limits += [max(_stable_time(case, state.bodies), _SHORTEST * control.longest)]
+        if before > 0.0:
+            step = abs(state.trends.slope_of("contact_load_ratio"))
+            limits += [before * min(_LONGER, _SHARE_STEP / max(step, 1e-6))]
+    return min(limits)
+
+
+def _flags_of_motion(case: Case, state: ContactState, driver: str) -> RangeFlag:
+    """Return what the speeds and the scar make less sure."""
+    flags = RangeFlag(0)
+    slow, fast = sorted(abs(speed) for speed in case.speeds)
+    jumping = driver == "dry" or any(
+        any(jumps_of(case, side.index)) and abs(side.speed) == slow for side in case.sides
+    )
+    if case.loaded and 0.0 < slow < (_CREEP if jumping else 0.9) * fast:
+        flags |= RangeFlag.SLOW_BODY
+    if case.loaded and _stable_time(case, state.bodies) < _SHORTEST * case.scene.control.longest:
+        flags |= RangeFlag.STIFF_WEAR
+    if _worn_at_the_edge(case, state):
+        flags |= RangeFlag.DOMAIN_EDGE
+    return flags

@@ -1,0 +1,103 @@
+"""The evolution over time: between two solved blocks, tribofilm and wear continue in closed form.
+
+A block holds until the geometry has changed by `control.change`, a limit of time is reached or the inputs have changed,
+however short or long the caller's steps are.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..scene import Case, Scene
+from ..state import Body, ContactState, Outputs
+from ..state.bulk_temperature import NO_TIME, cool_time, temperatures_after
+from ..surfaces.track import track_rows
+from ..surfaces.track_means import folded
+from .block import is_due, solve_block
+from .changing_inputs import is_following, solve_following
+from .growth_and_wear import evolved, wear_volume_rate
+from .outputs import outputs_of
+from .transient import longest_instant
+
+_THIN = 3  # every third node along x and y is enough to tell the change of geometry
+_GROOVE = 0.2  # weight of a groove's depth among changes of geometry
+
+
+def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
+    """Return the state and outputs after `dt` [s] at the deterministic level."""
+    state = folded(case.scene, state)
+    before = [body.worn for body in state.bodies]
+    left = dt
+    while True:
+        case = case.warmed(state.temperatures)
+        following = is_following(case, state)
+        if not following and is_due(case, state):
+            state = solve_block(case, state)
+        if left <= 0.0:
+            break
+        if following:
+            step, change = min(left, longest_instant(case)), 0.0
+            state = solve_following(case, state, step)
+        else:
+            step, change = _longest_step(case, state, left)
+        left -= step
+        state = _after(case, state, step, change)
+    if dt > 0.0:
+        rates = [(body.worn - worn) / dt for body, worn in zip(state.bodies, before, strict=True)]
+    else:
+        rates = [wear_volume_rate(case, *pair) for pair in zip(case.sides, state.bodies, strict=True)]
+    suggested, _ = _longest_step(case, state, 10.0 * case.scene.operation.duration)
+    outputs = replace(outputs_of(case, state, suggested), wear_rate_1=rates[0], wear_rate_2=rates[1])
+    return replace(state, outputs=outputs), outputs
+
+
+def _after(case: Case, state: ContactState, step: float, change: float) -> ContactState:
+    """Return the state after `step` [s] of the present block, in which the geometry changes by `change` [m]."""
+    return replace(
+        state,
+        time=state.time + step,
+        bodies=_evolved(case, state, state.bodies, step),
+        change=state.change + change,
+        held=state.held + step,
+        trends=state.trends.over(step, state.held),
+        temperatures=temperatures_after(case, state.outputs, step),
+    )
+
+
+def _evolved(case: Case, state: ContactState, bodies: tuple[Body, Body], step: float) -> tuple[Body, Body]:
+    """Return both bodies after `step` [s]."""
+    flash = state.outputs.flash_temperature_rise
+    first, second = (evolved(case, *pair, step, flash) for pair in zip(case.sides, bodies, strict=True))
+    return first, second
+
+
+def _longest_step(case: Case, state: ContactState, left: float) -> tuple[float, float]:
+    """Return the time [s] in which the block is used up, at most `left`, and the change of geometry [m] in it."""
+    budget = case.scene.control.change - state.change
+    rest = max(state.hold - state.held, NO_TIME)
+    step = min(left, rest, cool_time(case, state.outputs, left))
+    samples = (_thinned(case.scene, state.bodies[0]), _thinned(case.scene, state.bodies[1]))
+    while True:  # the tribofilm's growth slows down: this ends within few rounds
+        after = _evolved(case, state, samples, step)
+        change = max(geometry_change(*pair) for pair in zip(samples, after, strict=True))
+        if change <= 1.01 * budget:
+            return step, change if change < 0.9 * budget else budget  # near enough: the block is used up
+        step *= min(max(budget / change, 0.05), 0.95)
+
+
+def _thinned(scene: Scene, body: Body) -> Body:
+    """Return a body of every third node of its track."""
+    rows = np.flatnonzero(track_rows(scene, body.wear.shape[0]))[::_THIN]
+    return replace(body, **{name: getattr(body, name)[rows, ::_THIN] for name in Body.ARRAYS})
+
+
+def geometry_change(before: Body, after: Body) -> float:
+    """Return the rms change [m] of the heights by tribofilm and wear.
+
+    Wear that is the same all along a row deepens the groove; it changes the contact far less than asperities do, and
+    has a small weight.
+    """
+    film = after.tribofilm - before.tribofilm
+    worn = after.wear - before.wear
+    groove = worn.mean(axis=1, keepdims=True)
+    return float(np.sqrt(np.mean((film - worn + (1.0 - _GROOVE) * groove) ** 2)))

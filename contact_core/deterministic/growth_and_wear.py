@@ -1,0 +1,92 @@
+"""Tribofilm and wear of one body between two contact solutions, in closed form."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..laws.tribofilm import thickness
+from ..scene import Case, Side
+from ..state import Body
+from ..surfaces.track import track_rows
+
+Array = NDArray[np.float64]
+
+
+def evolved(case: Case, side: Side, body: Body, step: float, flash: float) -> Body:
+    """Return a body after `step` [s] of its last exposure; `flash` [K] above its bulk temperature."""
+    law = case.scene.tribofilm
+    abraded = body.abrasion * step if law.abrades else body.abrasion
+    growth, removal = law.evolve(body.growth, body.removal, body.exposure * step, abraded, side.temperature + flash)
+    film = 0.5 * (thickness(growth, removal) + body.tribofilm)
+    worn = step * wear_speed(case, side, body, film)
+    return replace(
+        body,
+        growth=growth,
+        removal=removal,
+        wear=body.wear + worn,
+        worn=body.worn + float(worn.sum()) * area_of_node(case, side),
+        cycles=body.cycles + abs(side.speed) * step / side.track_length,
+    )
+
+
+def wear_speed(case: Case, side: Side, body: Body, film: Array) -> Array:
+    """Return the wear depth per second [m/s] of a patch under a tribofilm [m]."""
+    scene = case.scene
+    cover = film / scene.tribofilm.full_thickness
+    speeds: tuple[float | Array, float] = case.speeds
+    if scene.wear.of_sliding:
+        speeds = sliding_on_track(case, film.shape[0]), 0.0
+    return scene.wear.rate(body.pressure, cover, speeds, side.index, scene.plasticity.hardness)
+
+
+def sliding_on_track(case: Case, rows: int) -> float | Array:
+    """Return the sliding speed [m/s]; with spin that of each row [rows, 1], mean over its part of the contact."""
+    op = case.op
+    if op.spin == 0.0 or not case.loaded:
+        return op.sliding_speed
+    hertz, y = case.hertz, case.grid(rows).y[:, None]
+    # mean |x| over a row under Hertz's pressure is 4 / (3 pi) of its length on either side
+    along = 4.0 / (3.0 * math.pi) * hertz.a * hertz.chords(y)
+    return np.hypot(op.sliding_speed - op.spin * y, op.spin * along)
+
+
+def area_of_node(case: Case, side: Side) -> float:
+    """Return the area [m2] that one node of the patch stands for: the patch repeats along a moving body's track."""
+    film = case.scene.film
+    return film.spacing**2 * case.scene.repeats * (side.track_length / film.domain if side.moves else 1.0)
+
+
+def wear_rate(case: Case, side: Side, body: Body) -> float:
+    """Return the mean speed [m/s] at which the track wears now."""
+    speed = wear_speed(case, side, body, body.tribofilm)
+    return float(speed[track_rows(case.scene, body.wear.shape[0])].mean())
+
+
+def wear_volume_rate(case: Case, side: Side, body: Body) -> float:
+    """Return the volume [m3/s] that a body loses now."""
+    speed = wear_speed(case, side, body, body.tribofilm)
+    return float(speed.sum()) * area_of_node(case, side)
+
+
+def stable_time(case: Case, side: Side, body: Body) -> float:
+    """Return the longest time [s] between two solutions for which wear smooths the shortest waves.
+
+    A wave of wear of amplitude w and wave number q changes the pressure by E* q w / 2 while it is in contact, so it
+    decays at the rate K |v| d E* q / (2 H), d being the share of time a point is in contact. Euler's steps are stable
+    below twice the time of that decay; beyond, they make new waves.
+    """
+    scene = case.scene
+    if not scene.wear.wears:
+        return math.inf
+    track = track_rows(scene, body.wear.shape[0])
+    cover = body.tribofilm[track].mean(keepdims=True) / scene.tribofilm.full_thickness
+    width = 2.0 * case.hertz.a
+    duty = min(width / side.track_length, 1.0) if side.moves else 1.0
+    shortest = math.sqrt(2.0) * math.pi / scene.film.spacing
+    stiffness = 0.25 * scene.solids.reduced_modulus * shortest
+    slide = scene.wear.slide(case.speeds, side.index)
+    decay = float(scene.wear.coefficient(cover).max()) * slide * duty * stiffness / scene.plasticity.hardness
+    # a point that a block samples in only part of its passes gets more in those
+    return 2.0 / decay / max(1.0, scene.film.domain / width) if decay > 0.0 else math.inf

@@ -1,0 +1,220 @@
+"""One instant of a scene in a state: geometry, film, friction and flash temperature, node by node."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import SceneError
+from ..film import Deterministic
+from ..film.instant import FilmSolution, FilmState, Grid, Instant, Step
+from ..laws.heat import Temperatures
+from ..scene import Case, OperatingPoint, Scene
+from ..state import ContactState
+from ..surfaces.patches import facing_surfaces
+from .friction import Film, Friction, friction
+from .oil_temperature import left_behind, sheared, solve_flow, warmed
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Transient:
+    """How an instant follows from the state's last film solution."""
+
+    dt: float  # time since then [s]
+    moved: int  # nodes by which the rougher surface has moved along +x since then
+    iterations: int  # at most
+    heated: bool = True  # False: nobody asks for temperatures; the film stays as warm as it was
+    order: int = 1  # of the squeeze term in time, 1 or 2
+    thorough: bool = False  # True: each algorithm has its turn; False: what the film lacks, the next instant pays
+
+
+@dataclass(frozen=True)
+class ContactFields:
+    """Everything about one instant. Arrays [ny, nx] on the grid of the contact, x along entrainment, SI."""
+
+    x: Array  # [nx]
+    y: Array  # [ny]
+    pressure: Array  # total
+    fluid_pressure: Array
+    solid_pressure: Array
+    gap: Array  # at least film.floor
+    heights: Array  # of both bodies together, positive into the gap, tribofilm and wear included
+    roughness: Array  # the same, free of the grooves' shape
+    cover_1: Array  # tribofilm of each body / its full thickness
+    cover_2: Array
+    overlap: Array  # what yields plastically in this instant
+    fluid_shear: Array  # on body 2 along +x
+    solid_shear: Array
+    shear: Array  # of solids and oil together, in the direction of the local sliding
+    friction: Friction
+    sheared: Film  # what that friction is of
+    temperatures: Temperatures
+    film: FilmState
+    converged: bool
+    shortfall: str  # why it is not converged, empty if it is
+    # "mixed", "dry" (no entrainment, or asked for), "fallback" (dry for want of a mixed solution) or "open" (no load)
+    route: str
+    algorithm: str  # row of the table in film/routes.py and what of it found the film
+    iterations: int
+    pressure_change: float  # of the last iteration, relative
+    load_error: float  # relative
+    load_beyond: float  # share of the load that a film wider than the grid carries beyond its edge
+    complementarity: float  # mean distance of solid contacts from the floor, weighted by pressure, in floors
+    imbalance: float  # mass that the film gains or loses unasked, relative
+    inlet_nodes: float  # nodes across the inlet zone; below 3 the film is a number of this grid
+
+
+def solve(
+    scene: Scene,
+    op: OperatingPoint,
+    state: ContactState,
+    transient: Transient | None = None,
+    *,
+    dry: bool = False,
+    solid_share: float = 1.0,
+) -> ContactFields:
+    """Solve the contact at one instant; time and state stand still.
+
+    Parameters
+    ----------
+    transient : how the film follows from the state's last one; None: the film is steady.
+    dry : leave the film out.
+    solid_share : share of the load that the solids of a dry contact carry; oil spread as in Hertz's contact carries the
+        rest.
+
+    Returns
+    -------
+    ContactFields
+        A film solution that did not converge says so; if it cannot be used, the dry one replaces it (`route`).
+
+    Raises
+    ------
+    OperatingPointError
+        For values that cannot be used.
+    ConvergenceError
+        If no solution exists.
+    SceneError
+        For a scene of another level.
+
+    """
+    if not isinstance(scene.film, Deterministic):
+        raise SceneError(
+            f"film.model = '{scene.film.name}' has no fields. Solve scene.at_level('deterministic')."
+        )
+    return solve_instant(Case.bind(scene, op, state.temperatures), state, transient, dry=dry, solid_share=solid_share)
+
+
+def solve_instant(
+    case: Case,
+    state: ContactState,
+    transient: Transient | None = None,
+    *,
+    dry: bool = False,
+    solid_share: float = 1.0,
+) -> ContactFields:
+    """Solve a case at one instant; as `solve`, for an operating point that has been checked."""
+    scene = case.scene
+    level, full = scene.film, scene.tribofilm.full_thickness
+    assert isinstance(level, Deterministic)
+    faced, grid = facing_surfaces(scene, state), scene.grid(state.rows)
+    film_1, film_2 = faced.tribofilms
+    limit = scene.plasticity.limit(film_1, film_2, faced.plastic, full)
+    covers = film_1 / full, film_2 / full
+    cover = 0.5 * (covers[0] + covers[1])
+    now = replace(instant_of(case, faced.heights, limit), dry=dry, solid_share=solid_share)
+    before = state.film if transient else None
+    if not case.loaded:
+        film = _open(case, grid, faced.heights)
+    else:
+        step = None
+        if transient and before:
+            step = Step(transient.dt, transient.moved, transient.order, transient.thorough)
+        most = transient.iterations if transient else None
+        film = solve_flow(
+            case,
+            grid,
+            cover,
+            now,
+            before,
+            lambda now, start: level.solve(now, grid, start, step, most),
+            level.tolerance,
+        )
+    found, stress, warm, shortfall = warmed(
+        case, sheared(grid, film, cover, case.op.inlet_temperature), before, heated=not transient or transient.heated
+    )
+    return ContactFields(
+        x=grid.x,
+        y=grid.y,
+        pressure=film.state.pressure,
+        fluid_pressure=film.state.fluid,
+        solid_pressure=found.solid,
+        gap=film.gap,
+        heights=faced.heights,
+        roughness=faced.roughness,
+        cover_1=covers[0],
+        cover_2=covers[1],
+        overlap=film.overlap,
+        fluid_shear=stress.fluid * stress.along_x,
+        solid_shear=stress.solid * stress.along_x,
+        shear=stress.total,
+        friction=friction(stress, grid),
+        sheared=found,
+        temperatures=warm,
+        film=left_behind(case, now, film, found),
+        converged=film.converged and not shortfall,
+        shortfall="; ".join(text for text in (film.shortfall, shortfall) if text),
+        route=film.route,
+        algorithm=film.algorithm,
+        iterations=film.iterations,
+        pressure_change=film.change,
+        load_error=film.load_error,
+        load_beyond=film.load_beyond,
+        complementarity=film.complementarity,
+        imbalance=film.imbalance,
+        inlet_nodes=film.inlet_nodes,
+    )
+
+
+def instant_of(case: Case, heights: Array, limit: Array) -> Instant:
+    """An instant of a scene with heights and largest pressures as given, [ny, nx]."""
+    return Instant(
+        load=case.op.load,
+        entrainment_speed=case.op.entrainment_speed,
+        temperature=case.op.inlet_temperature,
+        shape=case.shape,
+        reduced_modulus=case.scene.solids.reduced_modulus,
+        viscosity=case.scene.lubricant.viscosity,
+        density=case.scene.lubricant.density,
+        heights=heights,
+        limit=limit,
+        hardness=case.scene.plasticity.hardness,
+        conserving=case.scene.lubricant.cavitation == "mass_conserving",
+        supply=case.scene.lubricant.supply.layer,
+        meniscus=case.scene.lubricant.supply.inlet,
+    )
+
+
+def _open(case: Case, grid: Grid, heights: Array) -> FilmSolution:
+    """No load: the bodies just touch and nothing presses."""
+    bodies = case.shape
+    shape = bodies.gap(grid.x, grid.y, 1.0) / bodies.radius_x - heights
+    rigid = case.scene.film.floor - float(shape.min())
+    zeros, nothing = np.zeros_like(shape), np.zeros(shape.shape, np.bool_)
+    return FilmSolution(
+        state=FilmState(zeros, zeros, nothing, shape + rigid, rigid),
+        gap=shape + rigid,
+        overlap=zeros,
+        converged=True,
+        shortfall="",
+        route="open",
+        algorithm="none",
+        iterations=0,
+        change=0.0,
+        load_error=0.0,
+        load_beyond=0.0,
+        complementarity=0.0,
+        imbalance=0.0,
+        inlet_nodes=np.inf,
+    )

@@ -1,0 +1,65 @@
+"""Outputs and range flags of one instant."""
+
+import numpy as np
+
+from ..film.outputs import disc, film_outputs, open_outputs
+from ..scene import Case
+from ..state import RangeFlag
+from .instant import ContactFields
+
+LAMBDA_CAP = 1e3
+
+
+def observed(case: Case, fields: ContactFields) -> dict[str, float]:
+    """Return the outputs of one instant by their names."""
+    scene, grid = case.scene, case.grid(fields.y.size)
+    found, warm = fields.friction, fields.temperatures
+    seen = {
+        "friction_force": found.force_solid + found.force_fluid,
+        "friction_solid": found.force_solid,
+        "spin_torque": found.spin_torque,
+        "flash_temperature_rise": warm.flash_rise,
+        "heat_flow_1": warm.into_1 * grid.repeats,
+    }
+    formula, sigma = 0.0, 0.0
+    if case.loaded:
+        hertz = case.hertz
+        inside = disc(grid, hertz)
+        carried = fields.pressure[inside].sum()
+        slope = np.gradient(fields.fluid_pressure, scene.film.spacing, axis=1)
+        seen |= film_outputs(grid, fields.film, fields.gap, case.op.load, hertz)
+        seen |= {
+            "rolling_resistance": float((0.5 * fields.gap * slope).sum()) * grid.cell,
+            "contact_area_ratio_disc": float((fields.solid_pressure[inside] > 0.0).mean()),
+            "contact_load_ratio_disc": float(fields.solid_pressure[inside].sum() / carried) if carried > 0.0 else 0.0,
+        }
+        sigma = float(fields.roughness[inside].std())
+        formula = case.conventional_film
+    else:
+        seen |= open_outputs(grid, fields.film, fields.gap)
+        none = ("rolling_resistance", "contact_area_ratio_disc", "contact_load_ratio_disc")
+        seen |= dict.fromkeys(none, 0.0)
+    for name, film in (("lambda_ratio", seen["h_c"]), ("lambda_conventional", formula)):
+        seen[name] = min(film / sigma, LAMBDA_CAP) if sigma > 0.0 else LAMBDA_CAP
+    return seen
+
+
+def instant_flags(case: Case, fields: ContactFields) -> RangeFlag:
+    """Return what makes one instant less sure."""
+    flags = RangeFlag(0)
+    if not case.loaded:
+        return RangeFlag.LAMBDA_CAPPED
+    if fields.route == "fallback":
+        flags |= RangeFlag.FALLBACK
+    if fields.route == "mixed" and fields.inlet_nodes < 3.0:
+        flags |= RangeFlag.INLET_UNRESOLVED
+    edges = [fields.solid_pressure[:, [1, -2]]]
+    if not case.shape.periodic:
+        edges.append(fields.solid_pressure[[1, -2], :])
+    if max(edge.max() for edge in edges) > 0.01 * fields.pressure.max():
+        flags |= RangeFlag.DOMAIN_EDGE
+    if 2.0 * case.hertz.a < 8.0 * case.scene.film.spacing:
+        flags |= RangeFlag.FEW_NODES
+    if not fields.roughness.any():
+        flags |= RangeFlag.LAMBDA_CAPPED
+    return flags

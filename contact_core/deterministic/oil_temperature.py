@@ -1,0 +1,136 @@
+"""The oil at work: what heat and shear make of it in the contact, and how much more easily it then flows.
+
+Warm oil shears more easily and so warms less; thinned or warm oil flows more easily, so that less of it is drawn in.
+Where `lubricant.flow` is "newtonian" Reynolds' equation sees the viscosity at the inlet's temperature and the local
+pressure alone; where it is "local", that of the local temperature, thinned by the local shear.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..film.instant import FilmSolution, FilmState, Grid, Instant
+from ..film.thinning import eased, recalled, remembering, solve_thinning
+from ..laws.heat import NoHeat, Rubbing, Temperatures
+from ..reference import inlet_shear_factor
+from ..scene import Case
+from .friction import Film, Shear, shear, sliding
+
+Array = NDArray[np.float64]
+
+_ROUNDS = 30  # of shear and temperature of a steady film, at most
+_TAKEN = 0.7  # share of a change of temperature that is taken over, lest the rounds swing
+_ENOUGH = 1e-3  # change of temperature that ends them, of the highest rise
+_FILM_OF_VISCOSITY = 0.67  # power of the viscosity in the film of smooth bodies (Hamrock & Dowson)
+
+
+def sheared(grid: Grid, found: FilmSolution, cover: Array, temperature: float) -> Film:
+    """What friction needs to know of a film solution, its oil at one temperature [K]."""
+    state = found.state
+    solid = np.where(state.solid, state.pressure - state.fluid, 0.0)
+    return Film(grid, state.fluid, solid, found.gap, cover, temperature)
+
+
+def warmed(
+    case: Case, film: Film, before: FilmState | None, *, heated: bool = True
+) -> tuple[Film, Shear, Temperatures, str]:
+    """A film at its temperature, its shear, the temperatures, and why they do not belong together if so.
+
+    A march goes on from the warmth of the instant before; a steady film (`before` None) repeats until its temperature
+    stands still. Not `heated`, it stays at that warmth.
+    """
+    inlet = case.op.inlet_temperature
+    law = case.scene.heat if heated else NoHeat()
+    if case.scene.heat.warms_film and before is not None:
+        film = replace(film, temperature=inlet + before.warmth)
+    change = 0.0
+    for _ in range(_ROUNDS):
+        stress = shear(case, film)
+        rubbing = Rubbing(
+            dissipation=stress.dissipation,
+            gap=film.gap,
+            solid=film.solid > 0.0,
+            inside=film.fluid + film.solid > 0.0,
+            spacing=film.grid.spacing,
+            speeds=case.speeds,
+            bodies=case.op.bodies,
+            oil_conductivity=case.scene.lubricant.conductivity,
+            face=film.grid.repeats * film.grid.shape[0] * film.grid.spacing if film.grid.periodic else None,
+        )
+        warm = law.temperatures(rubbing)
+        if not law.warms_film:
+            return film, stress, warm, ""
+        change = float(np.abs(warm.film - film.temperature).max())
+        film = replace(film, temperature=film.temperature + _TAKEN * (warm.film - film.temperature))
+        if before is not None or change <= _ENOUGH * (1.0 + float(np.abs(warm.film - inlet).max())):
+            return film, stress, warm, "" if warm.solved else "the partition of heat was not solved"
+    return film, stress, warm, f"the film's temperature still changes by {change:.2g} K"
+
+
+def inlet_ease(case: Case) -> float:
+    """How many times more easily the oil flows for the heat of shear in the inlet (`heat.inlet_shear`)."""
+    if case.scene.heat.inlet_shear == "none" or not case.loaded or not case.entrained:
+        return 1.0
+    return inlet_factor(case) ** (-1.0 / _FILM_OF_VISCOSITY)
+
+
+def inlet_factor(case: Case) -> float:
+    """Film with the heat of shear in the inlet over that without."""
+    oil, inlet = case.scene.lubricant, case.op.inlet_temperature
+    viscosity, warmer, colder = (float(oil.viscosity(np.zeros(1), inlet + step)[0]) for step in (0.0, 0.5, -0.5))
+    speed, pressure = abs(case.op.entrainment_speed), case.hertz.pressure_max
+    return inlet_shear_factor(
+        viscosity,
+        float(np.log(colder / warmer)),
+        speed,
+        case.op.sliding_speed / speed,
+        oil.conductivity,
+        pressure,
+        case.scene.solids.reduced_modulus,
+    )
+
+
+def solve_flow(
+    case: Case,
+    grid: Grid,
+    cover: Array,
+    now: Instant,
+    before: FilmState | None,
+    solve: Callable[[Instant, FilmState | None], FilmSolution],
+    tolerance: float,
+) -> FilmSolution:
+    """The film of an instant with the flow that the scene asks for; `solve` is the solution for one state of the oil.
+
+    A march takes the oil as the instant before has left it, a steady film (`before` None) repeats until both fit.
+    """
+    inlet = inlet_ease(case)
+    if inlet != 1.0:
+        now = replace(now, ease=np.full(grid.shape, inlet))
+    if case.scene.lubricant.flow == "newtonian" or now.dry or (not case.entrained and before is None):
+        return solve(now, before)
+    if before is not None:
+        return solve(recalled(now, before), before)
+
+    def ease(now: Instant, found: FilmSolution) -> Instant:
+        film = warmed(case, sheared(grid, found, cover, case.op.inlet_temperature), None)[0]
+        return _worked(case, now, found, film)
+
+    return solve_thinning(now, solve, ease, tolerance)
+
+
+def _worked(case: Case, now: Instant, found: FilmSolution, film: Film) -> Instant:
+    """An instant with the oil as a film `found` has left it."""
+    inlet, viscosity = inlet_ease(case), None
+    if inlet != 1.0 or case.scene.heat.warms_film:
+        viscosity = case.scene.lubricant.viscosity(film.fluid, film.temperature) / inlet
+    speed = sliding(case.op, film.grid)[0]
+    return eased(now, found, case.scene.lubricant.rheology, speed, film.grid.spacing, viscosity)
+
+
+def left_behind(case: Case, now: Instant, found: FilmSolution, film: Film) -> FilmState:
+    """The state of a film with its oil as the next instant of a march takes it over."""
+    if case.scene.lubricant.flow == "local" and found.route == "mixed":
+        found = remembering(found, _worked(case, now, found, film))
+    return replace(found.state, warmth=np.atleast_2d(film.temperature - case.op.inlet_temperature))

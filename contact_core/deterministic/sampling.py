@@ -1,0 +1,141 @@
+"""The instants of a block: the moving surfaces are solved at a few places of their tracks.
+
+Mixed lubrication has a memory, so its instants are a march, a node apart, that continues from block to block. In near
+rolling the bodies would keep the same asperities in contact all the way, so the smoother one jumps under the march (an
+additive golden-ratio sequence, of low discrepancy); the oil, which follows the rougher one, stays where it is. Dry
+contact has no memory: a few instants at offsets of both bodies, again of low discrepancy, sample it.
+"""
+
+import math
+from contextlib import suppress
+from dataclasses import replace
+
+from ..errors import ConvergenceError
+from ..film.instant import FilmState
+from ..scene import Case, Scene
+from ..state import ContactState
+from ..surfaces.patches import moved_nodes, rolled, yielded
+from .accumulator import Accumulator
+from .instant import Transient, solve_instant
+from .transient import after
+
+# transient steps after a new start before the march is sampled: about one passage of the oil in near rolling, in
+# proportion more where the faster body runs ahead of the oil
+_SETTLING = 80  # at least
+_PASSAGE = 1.8  # of half the contact's length
+_MOST_SETTLING = 400
+_AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which that is near rolling
+_ITERATIONS = 150  # at most, of one transient step; a warm one needs about 16, over rough lines up to 100
+_DRY_PASS = 8  # dry instants that stand for one pass of a surface point through the contact
+_CLEAR = 3.0  # formula film over rms roughness, from which on a dry contact is no start
+_GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy in the plane
+_SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under the sampled film
+_CALMING = 24  # transient steps after a jump of a rougher one, or from a dry contact of the right share
+
+
+def sample_dry(case: Case, state: ContactState, sums: Accumulator) -> ContactState:
+    """Add the instants of a dry block to `sums`; return the state after them."""
+    jumps = _dry_jumps(case)
+    for _ in range(case.scene.control.dry_instants):
+        state = rolled(case.scene, state, jumps)
+        fields = solve_instant(case, state, dry=True, solid_share=state.share)
+        sums.add(case, state, fields, (1.0 / _DRY_PASS, 1.0 / _DRY_PASS))
+        state = yielded(case.scene, replace(state, film=None), fields.overlap)
+    return state
+
+
+def _dry_jumps(case: Case) -> list[float]:
+    """Return how far [m] the moving bodies jump from instant to instant.
+
+    The first one jumps by a golden ratio of the patch. The other one lags by whole nodes that share no factor with the
+    patch's: after as many instants as the patch has nodes, each point has met every other once.
+    """
+    film = case.scene.film
+    columns = film.points - 1
+    behind = next(k for k in range(round(0.382 * columns), columns + 1) if math.gcd(k, columns) == 1)
+    first = _GOLDEN * film.domain
+    second = first - behind * film.spacing
+    return [jump * side.moves for jump, side in zip((first, second), case.sides, strict=True)]
+
+
+def sample_mixed(
+    case: Case, state: ContactState, sums: Accumulator, same: bool, *, jumping: bool = True
+) -> ContactState:
+    """Add the instants of a mixed block to `sums`; return the state after them.
+
+    `same`: the march continues at the same operating point. `jumping` False: all bodies roll on as they are.
+    """
+    scene = case.scene
+    dt = scene.film.spacing / case.fastest
+    steps = [speed * dt for speed in case.speeds]
+    passes = (abs(steps[0]) / scene.film.domain, abs(steps[1]) / scene.film.domain)
+    smoother = 1 - scene.rougher
+    jumps = jumps_of(case, smoother) if jumping else [0.0, 0.0]
+    unsampled = settling_instants(case)
+    if state.film is None:
+        state = replace(state, film=_first_film(case, state))
+        unsampled = unsampled if state.share == 1.0 else _CALMING
+    elif same and (any(jumps) or not jumping):
+        unsampled = 0
+    elif same:
+        state, unsampled = rolled(scene, state, jumps_of(case, smoother, 1.0)), _CALMING
+    length = case.sides[scene.rougher].surface.correlation_length / scene.film.spacing
+    stride = max(1, round((0.5 * length) ** 2))  # instants in which oil between asperities gets used to a jump
+    for k in range(-unsampled, mixed_instants(scene)):
+        before = state
+        jump_now = k % stride == 0
+        state = rolled(scene, state, [step + jump * jump_now for step, jump in zip(steps, jumps, strict=True)])
+        moved = moved_nodes(scene, before, state)
+        settled = 2 * k >= -unsampled  # enough to tell which points are touched, and how warm they are
+        fields = solve_instant(case, state, Transient(dt, moved, _ITERATIONS, heated=settled))
+        if k >= 0:
+            sums.add(case, state, fields, passes)
+        elif settled:
+            sums.touch(case, state, fields, passes)
+        state = after(case, state, fields)
+    return state
+
+
+def _first_film(case: Case, state: ContactState) -> FilmState:
+    """Return the film that a march begins with.
+
+    It is the steady one where smooth bodies' film clears the roughness by far, else that of a dry contact, whose solids
+    carry the share that was measured.
+    """
+    scene = case.scene
+    clear = case.smooth_film > _CLEAR * math.hypot(scene.surface_1.rq, scene.surface_2.rq)
+    if clear and state.share == 1.0:
+        with suppress(ConvergenceError):
+            return solve_instant(case, state).film
+    return solve_instant(case, state, dry=True, solid_share=state.share).film
+
+
+def settling_instants(case: Case) -> int:
+    """Return the instants, a node of the faster body apart, until the film has settled."""
+    fastest, entrained = case.fastest, abs(case.op.entrainment_speed)
+    across = max(_SETTLING, math.ceil(_PASSAGE * case.hertz.a / case.scene.film.spacing))
+    if fastest <= _AHEAD * entrained:
+        return across
+    return min(math.ceil(across * fastest / entrained), _MOST_SETTLING) if entrained > 0.0 else _MOST_SETTLING
+
+
+def mixed_instants(scene: Scene) -> int:
+    """Return the sampled instants of a mixed block: by default an eighth of a pass, whatever the grid."""
+    return scene.control.mixed_instants or math.ceil((scene.film.points - 1) / 8)
+
+
+def blocks_per_pass(scene: Scene, driver: str) -> float:
+    """Return how many blocks it takes until the sampled instants make up one pass of a surface point."""
+    if driver == "dry":
+        return _DRY_PASS / scene.control.dry_instants
+    return (scene.film.points - 1) / mixed_instants(scene)
+
+
+def jumps_of(case: Case, index: int, most: float = _SMOOTHER) -> list[float]:
+    """Return how far [m] both bodies jump under a sampled film.
+
+    Only body 1 (`index` 0) or 2 (1) jumps, if it moves and its roughness is at most `most` times the other's.
+    """
+    side, other = case.sides[index], case.sides[1 - index]
+    jumping = side.moves and side.surface.rq <= most * other.surface.rq
+    return [case.scene.film.domain * _GOLDEN * (jumping and k == index) for k in (0, 1)]

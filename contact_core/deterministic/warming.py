@@ -1,0 +1,16 @@
+"""What a process loads before its first step at the deterministic level."""
+
+from dataclasses import replace
+
+from ..scene import Case
+from ..state import ContactState
+from .instant import Transient, solve_instant
+
+_ITERATIONS = 40
+
+
+def warm_up(case: Case, state: ContactState) -> None:
+    """Solve a dry instant and a mixed one after it."""
+    state = replace(state, film=solve_instant(case, state, dry=True).film)
+    dt = case.scene.film.spacing / abs(case.op.entrainment_speed)
+    solve_instant(case, state, Transient(dt, 1, _ITERATIONS))

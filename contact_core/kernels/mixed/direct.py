@@ -1,0 +1,288 @@
+"""The iteration of `mixed` with the fluid off the stiff zone solved at once, together with the rigid gap and the load.
+
+Lines need thousands of iterations where the oil has to find its way: in pockets closed off by contacts, and under a
+light load, where a film is far wider than the contact and hardly a node is stiff enough to carry a change of load.
+Here the equation that `reynolds.relax_lines` sweeps over is solved by a sparse factorisation, bordered by the rigid gap
+and the load. It takes a few tens of iterations from light to heavy loads and full film to dry, each of the price of
+some tens of those of `mixed`.
+"""
+
+from typing import Any
+
+import numpy as np
+import scipy
+from numba import njit
+from numpy.typing import NDArray
+
+from ..half_space import HalfSpace
+from . import cavities, reynolds
+from .fixed_point import Iterate, Iteration, Problem, Solution, iterate_on, set_edge
+
+Array = NDArray[np.float64]
+
+_jit = njit(cache=True, nogil=True, error_model="numpy")
+
+_DEPTH, _STIFF_STEP = 5, 0.5  # of Anderson's memory; part of their correction that stiff nodes take
+_LARGEST_STEP = 0.3  # of the load, that pressures may change by in an iteration
+_LARGEST_FALL = 0.5  # of the mean film, that the rigid gap may fall by
+_JUMP = 10.0  # times the change before, from which on the memory misleads
+_PROBE = 1e-6  # part of a film by which the rigid gap is moved to see what flows
+
+
+@_jit
+def _response(  # type: ignore[no-untyped-def]
+    f,
+    solid,
+    h,
+    floor,
+    mobility,
+    thinned,
+    fluidity,
+    density,
+    step,
+    mass_old,
+    per_dt,
+    wedge,
+    dx,
+    gap,
+    out,
+    supply=None,
+    conserving=False,
+    first=1,
+):
+    """Change of the net inflow of mass of every fluid node with the rigid gap; `gap` is the change that is tried."""
+    ny, nx = f.shape
+    mass, e, r = np.empty((2, ny, nx)), np.empty((2, ny, nx)), np.zeros((2, ny, nx))
+    for way in range(2):
+        for j in range(ny):
+            for i in range(nx):
+                flow = floor if solid[j, i] else max(h[j, i] + way * gap, floor)
+                rho = reynolds.interpolate(density, step, f[j, i])
+                mass[way, j, i] = rho * flow
+                phi = reynolds.interpolate(fluidity, step, f[j, i]) + thinned[j, i]
+                e[way, j, i] = mobility[j, i] * rho * flow**3 * phi
+        if supply is None:
+            reynolds.residual(f, solid, mass[way], mass_old, e[way], per_dt, wedge, dx, r[way])
+        else:
+            m, flux, filling = np.empty((ny, nx)), np.empty((ny, nx)), np.empty((ny, nx))
+            inlet = (conserving, supply, first)
+            cavities.carry(f, mass[way], mass_old, e[way], per_dt, wedge, dx, *inlet, m, flux, filling)
+            reynolds.residual(f, solid, m, mass_old, e[way], per_dt, wedge, dx, r[way], flux, filling, first)
+    for j in range(ny):
+        for i in range(nx):
+            out[j, i] = (r[1, j, i] - r[0, j, i]) / gap
+
+
+@_jit
+def _equations(  # type: ignore[no-untyped-def]
+    p,
+    solid,
+    stiff,
+    h,
+    mass,
+    e,
+    r,
+    edge,
+    floor,
+    per_dt,
+    wedge,
+    dx,
+    near,
+    patch_wide,
+    given,
+    unit,
+    response,
+    wrapped,
+    number,
+    starts,
+    columns,
+    values,
+    rhs,
+    filling=None,
+    first=1,
+):
+    """Rows of the linearised equation for the free nodes, numbered in `number` (-1: not free). Returns how many.
+
+    An image has the number of its node: of few rows, some columns stand in a row more than once, and add up.
+
+    given, unit: step of the stiff nodes and its fall with the rigid gap. rhs [2, n]: what is asked for, and its change
+    with the rigid gap.
+    """
+    ny, nx = p.shape
+    n = 0
+    for j in range(ny):
+        for i in range(nx):
+            number[j, i] = -1
+            inner = 0 < j < ny - 1 and 0 < i < nx - 1
+            if inner and not stiff[j, i] and not solid[j, i] and not (p[j, i] <= 0.0 and r[j, i] <= 0.0):
+                number[j, i] = n
+                n += 1
+    if wrapped:
+        reynolds.wrap(number)
+    half = 0.5 / (dx * dx)
+    k0, k1, k2, k3, k4 = near[0, 0], near[0, 1], near[0, 2], near[0, 3], near[0, 4]
+    lifts = np.empty(6)  # d(deformation wedge)_i / dp_(i + m), m = -3 ... 2
+    lifts[0] = wedge * ((1.5 * k3 - 2.0 * k2 + 0.5 * k1) / dx)
+    lifts[1] = wedge * ((1.5 * k2 - 2.0 * k1 + 0.5 * k0) / dx)
+    lifts[2] = wedge * ((1.5 * k1 - 2.0 * k0 + 0.5 * k1) / dx)
+    lifts[3] = wedge * ((1.5 * k0 - 2.0 * k1 + 0.5 * k2) / dx) + per_dt * patch_wide
+    lifts[4] = wedge * ((1.5 * k1 - 2.0 * k2 + 0.5 * k3) / dx)
+    lifts[5] = wedge * ((1.5 * k2 - 2.0 * k3 + 0.5 * k4) / dx)
+    filled = 0
+    for j in range(1, ny - 1):
+        for i in range(1, nx - 1):
+            row = number[j, i]
+            if row < 0:
+                continue
+            starts[row] = filled
+            rho = mass[j, i] / h[j, i] if h[j, i] > floor else 0.0  # at the floor the flow does not feel it
+            asked, moved = r[j, i], response[j, i]
+            diagonal = rho * lifts[3]
+            faces = np.zeros(6)
+            for side in range(4):  # south, west, east, north
+                dj, di = (-1, 0, 0, 1)[side], (0, -1, 1, 0)[side]
+                face = half * (e[j, i] + e[j + dj, i + di])
+                diagonal += face
+                if filling is not None and side == 1:
+                    diagonal -= reynolds.returned(filling, first, per_dt, wedge, dx, j, i) * face
+                diagonal -= face * edge[j + dj, i + di]
+                if solid[j + dj, i + di] or edge[j + dj, i + di] > 0.0:  # the fluid pressure of a contact stays
+                    face = 0.0
+                if dj == 0:
+                    faces[3 + di] = face
+                    continue
+                if side == 0 and number[j - 1, i] >= 0:
+                    columns[filled], values[filled] = number[j - 1, i], -face
+                    filled += 1
+                elif side == 0:
+                    asked += face * given[j - 1, i]
+                    moved -= face * unit[j - 1, i]
+            for m in range(6):
+                k = i + m - 3
+                if m == 3:
+                    columns[filled], values[filled] = row, diagonal
+                    filled += 1
+                elif 0 <= k < nx:
+                    value = rho * lifts[m] - faces[m]
+                    if number[j, k] >= 0:
+                        columns[filled], values[filled] = number[j, k], value
+                        filled += 1
+                    else:
+                        asked -= value * given[j, k]
+                        moved += value * unit[j, k]
+            north = 0.0 if solid[j + 1, i] or edge[j + 1, i] > 0.0 else half * (e[j, i] + e[j + 1, i])
+            if number[j + 1, i] >= 0:
+                columns[filled], values[filled] = number[j + 1, i], -north
+                filled += 1
+            else:
+                asked += north * given[j + 1, i]
+                moved -= north * unit[j + 1, i]
+            rhs[0, row], rhs[1, row] = asked, moved
+    starts[n] = filled
+    return n, filled
+
+
+@_jit
+def _carried(base, lever, shift, cap, edge, weight, wrapped, out):  # type: ignore[no-untyped-def]
+    """Put base + shift * lever within its bounds into `out`; returns the load it carries and its rate."""
+    ny, nx = base.shape
+    for j in range(1, ny - 1):
+        for i in range(1, nx - 1):
+            out[j, i] = min(max(base[j, i] + shift * lever[j, i], 0.0), cap[j, i])
+    set_edge(out, edge, wrapped)
+    total, rate = 0.0, 0.0
+    for j in range(ny):
+        for i in range(nx):
+            total += weight[j, i] * out[j, i]
+            if 0.0 < out[j, i] < cap[j, i]:
+                rate += weight[j, i] * lever[j, i]
+    return total, rate
+
+
+class _Direct(Iteration):
+    """As its parent; the free nodes by factorisation."""
+
+    def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate) -> None:
+        super().__init__(half_space, problem, start, _DEPTH, _STIFF_STEP)
+        shape, size = self.p.shape, self.p.size
+        self.number, self.response, self.lever = np.zeros(shape, np.int64), np.zeros(shape), np.zeros(shape)
+        self.starts, self.columns = np.zeros(size + 1, np.int64), np.zeros(8 * size, np.int64)
+        self.values, self.rhs = np.zeros(8 * size), np.zeros((2, size))
+
+    def correct(self) -> None:
+        self._film()
+        self._press()
+        q, p = self.problem, self.p
+        bound = 0.2 + 0.5 * p
+        base = np.where(self.stiff, np.clip(self.dp, -bound, bound), 0.0)
+        self.lever[:] = np.where(self.stiff, -self.unit, 0.0)
+        if q.wrapped:
+            reynolds.wrap(base)
+            reynolds.wrap(self.lever)
+        self._solve_free(base)
+        base += p
+        yields = self.stiff & (p >= q.cap) & (self.dh >= 0.0)  # stay at the cap until their gap opens too far
+        base[yields], self.lever[yields] = p[yields], 0.0
+        image = self._pressure_of(self.memory.image)
+        shift = self._meet_load(base, image)
+        change = float(np.abs(image - p)[self.rows].sum()) / q.load
+        part = min(1.0, _LARGEST_STEP / max(change, 1e-300))
+        if part < 1.0:
+            image[:] = p + part * (image - p)
+        self.memory.image[-1] = self.x[-1] + self.weight * part * shift
+        self.change = part * change
+        if self.change > _JUMP * max(self.least, 1e-3):
+            self.memory.clear()
+        self.least = self.change
+
+    def _solve_free(self, base: Array) -> None:
+        """Steps of the free nodes into `base`, their change with the rigid gap into the lever."""
+        q, p = self.problem, self.p
+        scale = _PROBE * float(np.maximum(self.h, q.floor).min())
+        oil = (q.mobility, q.thinned, q.fluidity, q.density, q.step)
+        in_time = (q.mass_old, q.per_dt, q.wedge, q.spacing)
+        inlet: tuple[Any, ...] = ()
+        filling: tuple[Any, ...] = ()
+        if (carried := self.carried) is not None:
+            inlet, filling = (carried.supply, q.conserving, carried.first), (carried.filling, carried.first)
+        _response(self.f, self.solid, self.h, q.floor, *oil, *in_time, scale, self.response, *inlet)
+        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.wedge, q.spacing)
+        given = (self.half_space.near, self.patch_wide, base, -self.lever, self.response)
+        system = (self.number, self.starts, self.columns, self.values, self.rhs)
+        n, filled = _equations(p, self.solid, self.stiff, *film, *given, q.wrapped, *system, *filling)
+        if n == 0:
+            return
+        rows = (self.values[:filled], self.columns[:filled], self.starts[: n + 1])
+        # rows read as columns: the transpose. Its pattern is all but symmetric, which saves a third of the time
+        matrix, how = scipy.sparse.csc_matrix(rows, shape=(n, n)), {"SymmetricMode": True}
+        try:
+            factors = scipy.sparse.linalg.splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options=how)
+        except RuntimeError:  # singular: no step
+            base[:] = np.nan
+            return
+        free = self.number[1:-1] >= 0
+        base[1:-1][free], self.lever[1:-1][free] = (factors.solve(side[:n], trans="T") for side in self.rhs)
+
+    def _meet_load(self, base: Array, image: Array) -> float:
+        """The change of the rigid gap with which base + change * lever carries the load, put into `image`."""
+        q = self.problem
+        oil = ~self.stiff & (self.p > 0.0)
+        pressure = self.p[oil]
+        film = float((np.maximum(self.h[oil], q.floor) * pressure).sum() / pressure.sum()) if oil.any() else 1.0
+        shift, most = 0.0, 0.3 + 0.3 * film
+        for _ in range(30):
+            total, rate = _carried(base, self.lever, shift, q.cap, q.edge, q.weight, q.wrapped, image)
+            if abs(total - q.load) <= 1e-10 * q.load or rate >= 0.0:
+                break
+            shift = min(max(shift - (total - q.load) / rate, -max(_LARGEST_FALL * film, q.floor)), most)
+        _carried(base, self.lever, shift, q.cap, q.edge, q.weight, q.wrapped, image)
+        if self.carried is not None and not image.any():  # nothing is full: the bodies approach until something is
+            shift = -_LARGEST_FALL * float(self.h.min())
+        return shift
+
+
+def solve_direct(
+    half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int
+) -> Solution:
+    """As `mixed.solve_mixed`, which it steps in for."""
+    return iterate_on(_Direct(half_space, problem, start), tolerance, iterations)

@@ -1,0 +1,170 @@
+"""Newton's method for pressure and rigid gap together, for the coarsest level of a multigrid solver.
+
+Fields are [rows, nx] as in `relaxation`; the unknowns are the pressures of the inner nodes, row by row, and the rigid
+gap. Nodes that would fall below zero are held at zero, the others satisfy their balance (semi-smooth, as in
+Hintermueller, Ito & Kunisch, SIAM J. Optim. 13 (2003) 865, doi:10.1137/S1052623401383558).
+"""
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from ..half_space import influence
+
+Array = NDArray[np.float64]
+
+_jit = njit(cache=True, nogil=True, error_model="numpy")
+
+# nodes that a node's balance looks at: itself, west, east, south, north, second west
+_DJ = np.array([0, 0, 0, -1, 1, 0])
+_DI = np.array([0, -1, 1, 0, 0, -2])
+
+
+def dense_deformation(ny: int, nx: int, mirror: bool) -> Array:
+    """Matrix [nodes, nodes] of the deformation of every node kept by the pressure of every other, for unit scale."""
+    kernel = influence(ny, nx)
+    across = np.abs(np.arange(nx)[:, None] - np.arange(nx)[None, :])
+    j = np.arange((ny + 1) // 2 if mirror else ny)
+    matrix = kernel[np.abs(j[:, None] - j[None, :])][:, :, across]
+    if mirror:
+        matrix[:, :-1] += kernel[ny - 1 - j[:, None] - j[None, :-1]][:, :, across]
+    nodes = j.size * nx
+    return np.ascontiguousarray(matrix.transpose(0, 2, 1, 3).reshape(nodes, nodes))
+
+
+@_jit
+def _stencil(p, mass, e, dx, mirror, j, i, by_p, by_e, by_mass):  # type: ignore[no-untyped-def]
+    """Net inflow of a node, and its derivatives by pressure, mobility and mass on the stencil."""
+    rows = p.shape[0]
+    half = 0.5 / (dx * dx)
+    inflow = 0.0
+    by_p[:], by_e[:], by_mass[:] = 0.0, 0.0, 0.0
+    for k in range(1, 5):
+        row = rows - 2 if mirror and j + _DJ[k] == rows else j + _DJ[k]
+        ease, drop = half * (e[j, i] + e[row, i + _DI[k]]), half * (p[row, i + _DI[k]] - p[j, i])
+        inflow += ease / half * drop
+        by_p[k], by_e[k] = ease, drop
+        by_p[0] -= ease
+        by_e[0] += drop
+    if i > 1:
+        by_mass[0], by_mass[1], by_mass[5] = -1.5 / dx, 2.0 / dx, -0.5 / dx
+        inflow += by_mass[5] * mass[j, i - 2]
+    else:
+        by_mass[0], by_mass[1] = -1.0 / dx, 1.0 / dx
+    return inflow + by_mass[0] * mass[j, i] + by_mass[1] * mass[j, i - 1]
+
+
+@_jit
+def _inner(j, i, edge, mirror):  # type: ignore[no-untyped-def]
+    """The unknown that the pressure of a node goes with, and the ratio to it."""
+    rows, nx = edge.shape
+    ratio = 1.0
+    if j == 0 or (j == rows - 1 and not mirror):
+        ratio *= edge[j, i]
+        j = 1 if j == 0 else rows - 2
+    if i == 0 or i == nx - 1:
+        ratio *= edge[j, i]
+        i = 1 if i == 0 else nx - 2
+    return (j - 1) * (nx - 2) + i - 1, ratio
+
+
+@_jit
+def condensed(matrix, edge, mirror):  # type: ignore[no-untyped-def]
+    """The deformation [nodes, unknowns] by the unknowns, edges moving along."""
+    rows, nx = edge.shape
+    out = np.zeros((rows * nx, (rows - (1 if mirror else 2)) * (nx - 2)))
+    for j in range(rows):
+        for i in range(nx):
+            at, ratio = _inner(j, i, edge, mirror)
+            if ratio != 0.0:
+                for k in range(rows * nx):
+                    out[k, at] += ratio * matrix[k, j * nx + i]
+    return out
+
+
+@_jit
+def assemble(  # type: ignore[no-untyped-def]
+    p, h, mass, e, rho, soft, f, edge, weight, missing, lift, dx, mirror, thinned, fluidity, step, jacobian, right
+):
+    """Jacobian and right side of the next change of pressures and rigid gap, each equation per its diagonal.
+
+    `lift` [nodes, unknowns]: gap by unit pressures, see `condensed`; `missing`: sum of weight * p still to come.
+    """
+    rows, nx = p.shape
+    n = right.size - 1
+    by_p, by_e, by_mass = np.empty(6), np.empty(6), np.empty(6)
+    jacobian[:] = 0.0
+    for j in range(1, rows if mirror else rows - 1):
+        for i in range(1, nx - 1):
+            at = (j - 1) * (nx - 2) + i - 1
+            excess = _stencil(p, mass, e, dx, mirror, j, i, by_p, by_e, by_mass) - f[j, i]
+            diagonal = -by_p[0] - by_mass[0] * rho[j, i] * lift[j * nx + i, at]
+            right[at] = excess / diagonal
+            if p[j, i] + right[at] <= 0.0:
+                jacobian[at, at], right[at] = 1.0, -p[j, i]
+                continue
+            for k in range(6):
+                column = i + _DI[k]
+                if column < 0:
+                    continue
+                row = rows - 2 if mirror and j + _DJ[k] == rows else j + _DJ[k]
+                by_gap = by_mass[k] * rho[row, column]
+                if h[row, column] > 0.0:
+                    by_gap += 3.0 * by_e[k] * e[row, column] / h[row, column]
+                for m in range(n):
+                    jacobian[at, m] -= by_gap / diagonal * lift[row * nx + column, m]
+                jacobian[at, n] -= by_gap / diagonal
+                place, thinner = int(p[row, column] / step), 0.0
+                if p[row, column] > 0.0 and place < fluidity.size - 1:
+                    fluid = max(fluidity[place] + thinned[row, column], 1e-300)
+                    thinner = (fluidity[place + 1] - fluidity[place]) / (step * fluid)
+                directly = by_p[k] + by_mass[k] * soft[row, column] + by_e[k] * e[row, column] * thinner
+                m, ratio = _inner(row, column, edge, mirror)
+                jacobian[at, m] -= ratio * directly / diagonal
+    for j in range(rows):
+        for i in range(nx):
+            m, ratio = _inner(j, i, edge, mirror)
+            jacobian[n, m] += ratio * weight[j, i]
+    right[n] = missing
+
+
+@_jit
+def solve_dense(a, b):  # type: ignore[no-untyped-def]
+    """Put the solution of a x = b into b by elimination with row pivoting; a is lost. Returns whether it is regular.
+
+    Not LAPACK's: its threads make small systems slow on a busy machine, and its bits depend on their number.
+    """
+    n = b.size
+    for k in range(n):
+        best = k
+        for i in range(k + 1, n):
+            if abs(a[i, k]) > abs(a[best, k]):
+                best = i
+        if not abs(a[best, k]) > 0.0:
+            return False
+        if best != k:
+            for m in range(k, n):
+                a[k, m], a[best, m] = a[best, m], a[k, m]
+            b[k], b[best] = b[best], b[k]
+        inverse = 1.0 / a[k, k]
+        for i in range(k + 1, n):
+            factor = a[i, k] * inverse
+            if factor != 0.0:
+                for m in range(k + 1, n):
+                    a[i, m] -= factor * a[k, m]
+                b[i] -= factor * b[k]
+    for k in range(n - 1, -1, -1):
+        value = b[k]
+        for m in range(k + 1, n):
+            value -= a[k, m] * b[m]
+        b[k] = value / a[k, k]
+    return True
+
+
+@_jit
+def advance(p, change, part, mirror):  # type: ignore[no-untyped-def]
+    """Take a part of a change of the inner pressures, at least to zero."""
+    rows, nx = p.shape
+    for j in range(1, rows if mirror else rows - 1):
+        for i in range(1, nx - 1):
+            p[j, i] = max(p[j, i] + part * change[(j - 1) * (nx - 2) + i - 1], 0.0)

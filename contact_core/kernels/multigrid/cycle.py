@@ -1,0 +1,275 @@
+"""Smooth, fully flooded films by full multigrid: nested grids, each solved by cycles over all coarser ones.
+
+Every level relaxes the pressure by lines (`relaxation`); the coarsest solves pressure and rigid gap together by
+Newton's method (`coarsest`), so that the load needs no loop of its own. Coarse levels work on the full unknowns and
+carry what the finer one knows better on their right sides (full approximation scheme).
+
+Sources: Brandt & Lubrecht, J. Comput. Phys. 90 (1990) 348, doi:10.1016/0021-9991(90)90171-V; Venner & Lubrecht,
+Multilevel Methods in Lubrication, Elsevier 2000.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..far_field import far_field
+from ..mixed.fixed_point import Iterate, Problem, Solution, shortfall
+from . import transfer
+from .level import Level
+
+Array = NDArray[np.float64]
+
+_COARSEST = 9  # nodes along an axis that no level goes below
+_DENSE = 400  # unknowns that Newton's method is given at most
+_START = 2  # level of the first guess: on coarser ones a thin film has no meaning of its own
+_DOWN, _UP = 2, 1  # sweeps before and after the coarse correction
+_VISITS = 2  # of the coarser level by a cycle from above the starting level: W there, V below
+_NESTED_CHANGE, _NESTED_CYCLES = 1e-2, 6  # where the levels below the finest stop
+_LOST = 10.0  # change of a cycle, in loads, that is not made good again
+_DAMPING_PARTS = (1.0, 0.75, 0.5)  # one after the other where a solution is lost
+_SYMMETRY = 1e-9
+
+
+@dataclass(frozen=True)
+class LevelFilm:
+    """What a level of the nested start ended with."""
+
+    spacing: float
+    central: float  # gap at x = y = 0
+    least: float  # smallest gap
+    change: float  # of the pressure by its last cycle, relative
+
+
+@dataclass(frozen=True)
+class _Progress:
+    """Where the cycles on a level have got to."""
+
+    cycles: int
+    change: float  # of the pressure by the last cycle, relative
+    load_error: float  # relative
+    imbalance: float  # as in `reynolds.imbalance`
+
+    def shortfall(self, tolerance: float) -> str:
+        """What is short of the stopping rule."""
+        return shortfall(tolerance, self.change, self.load_error, 0.0, self.imbalance, per_dt=0.0)
+
+
+class _Multigrid:
+    """Levels from the coarsest to the finest, and how their changes are damped."""
+
+    def __init__(self, levels: list[Level], load: float, depth: float, single: float, spread: float) -> None:
+        self.levels, self.load, self.depth, self.damping = levels, load, depth, (single, spread)
+        self._found: tuple[Array, float] | None = None  # pressure and rigid gap of the last level but one
+
+    def nested(self, film: float, tolerance: float, cycles: int) -> tuple[_Progress, list[LevelFilm]]:
+        """From the first guess to the finest level, and what each level found."""
+        films: list[LevelFilm] = []
+        last = len(self.levels) - 1
+        for k in range(min(_START, last), last + 1):
+            if films and films[-1].change < _LOST:
+                self._refine(k)
+            else:  # at the start, and where a film is beyond the level before
+                self._guess(k, film)
+            limits = (tolerance, cycles, True) if k == last else (_NESTED_CHANGE, _NESTED_CYCLES, False)
+            progress = self._iterate(k, *limits)
+            films.append(LevelFilm(self.levels[k].dx, *self.levels[k].film_thickness(), progress.change))
+        return progress, films
+
+    def _guess(self, k: int, film: float) -> None:
+        """A Hertz-like pressure under a film on level k."""
+        level = self.levels[k]
+        self._found = None
+        level.state_problem(self.load)
+        level.p[:] = np.sqrt(np.maximum(1.0 - 2.0 * level.undeformed, 0.0))
+        level.p *= self.load / max(level.load(), 1e-300)
+        level.rigid = film - self.depth
+        level.set_edges()
+
+    def _refine(self, k: int) -> None:
+        """Begin level k with what level k - 1 found, extrapolated from what level k - 2 had found."""
+        fine, coarse = self.levels[k], self.levels[k - 1]
+        before, self._found = self._found, (coarse.p.copy(), coarse.rigid)
+        if before is not None:
+            pressure, rigid = before
+            transfer.interpolate_cubic(pressure, coarse.mirror, coarse.work)
+            transfer.extrapolate(coarse.work, coarse.p)
+            coarse.rigid += 0.25 * (coarse.rigid - rigid)
+        fine.state_problem(self.load)
+        transfer.interpolate_cubic(coarse.p, coarse.mirror, fine.p)
+        fine.rigid = coarse.rigid
+        fine.set_edges()
+
+    def _iterate(self, k: int, tolerance: float, cycles: int, strictly: bool) -> _Progress:
+        """Cycles on level k until the pressure changes by less than `tolerance`; `strictly`: and nothing else is
+        short of the stopping rule.
+        """
+        level = self.levels[k]
+        level.film()
+        progress = _Progress(0, np.inf, np.inf, np.inf)
+        for n in range(1, cycles + 1):
+            start = level.p.copy()
+            self._cycle(k)
+            level.film()
+            change = float(transfer.distance(level.weight, level.p, start)) * level.dx**2 / self.load
+            progress = _Progress(n, change, level.load() / self.load - 1.0, level.defect())
+            if not change < _LOST or (progress.shortfall(tolerance) == "" if strictly else change < tolerance):
+                break
+        return progress
+
+    def _cycle(self, k: int) -> None:
+        """Improve level k, whose film is up to date, by one cycle; it is not afterwards."""
+        level = self.levels[k]
+        if k == 0:
+            level.newton()
+            return
+        for _ in range(_DOWN):
+            level.relax(*self.damping)
+            level.film()
+        coarse = self.levels[k - 1]
+        coarse.restrict(level)
+        for visit in range(_VISITS if k > _START else 1):
+            if visit > 0:
+                coarse.film()
+            self._cycle(k - 1)
+        level.correct(coarse)
+        for _ in range(_UP):
+            level.film()
+            level.relax(*self.damping)
+
+
+def is_symmetric(problem: Problem) -> bool:
+    """Whether one half of the contact is the image of the other."""
+    oil = (problem.mobility, problem.thinned)
+    fields = (problem.undeformed, problem.edge, problem.weight, *oil)
+    return fields[0].shape[0] % 2 == 1 and all(
+        float(np.abs(f - f[::-1]).max()) <= _SYMMETRY * float(np.abs(f).max()) for f in fields
+    )
+
+
+def is_applicable(problem: Problem) -> bool:
+    """Whether the film is steady, full where it has no pressure and without a period, and its grid can be halved often
+    enough.
+    """
+    (ny, nx), mirror = problem.undeformed.shape, is_symmetric(problem)
+    halvings = _level_count(ny, nx, mirror) - 1
+    unknowns = (ny >> halvings) * (nx >> halvings) / (2 if mirror else 1)
+    plain = not (problem.per_dt > 0.0 or problem.by_flux or problem.wrapped)
+    return plain and halvings >= 2 and unknowns <= _DENSE
+
+
+def _level_count(ny: int, nx: int, mirror: bool) -> int:
+    """Levels that a grid can be halved into, the finest included. `mirror`: the middle row stays a row."""
+    count, y, x = 1, ny - 1, nx - 1
+    while y % (4 if mirror else 2) == 0 and x % 2 == 0 and min(x, y) // 2 >= _COARSEST - 1:
+        count, y, x = count + 1, y // 2, x // 2
+    return count
+
+
+def _damping(problem: Problem, film: float) -> tuple[float, float]:
+    """Of the single and the spread changes of `relaxation`: light loads, little coupled, bear more."""
+    depth = 0.42 * problem.compliance / film
+    thickening = float(np.log(problem.fluidity[0] / problem.fluidity[1])) / problem.step
+    return float(np.clip(1.0 - 0.15 * depth - 0.2 * thickening, 0.4, 0.95)), 0.4
+
+
+def _levels(problem: Problem, x: Array, y: Array, library: str, film: float, curvature: float) -> list[Level]:
+    mirror, far = is_symmetric(problem), bool(problem.edge.any())
+    surface = problem.undeformed - problem.undeformed.min()
+    levels: list[Level] = []
+    for k in range(_level_count(y.size, x.size, mirror)):
+        xk, yk = x[:: 2**k], y[:: 2**k]
+        level = Level(problem, xk, yk, mirror, library)
+        edge, weight = problem.edge, problem.weight
+        if k > 0:
+            shape = (yk.size, xk.size)
+            edge, weight = far_field(xk, yk, film, curvature) if far else (np.zeros(shape), np.ones(shape))
+        every = np.s_[:: 2**k, :: 2**k]
+        level.set_bodies(surface[every], edge, weight)
+        level.set_oil(problem.mobility[every], problem.thinned[every])
+        levels.insert(0, level)
+    return levels
+
+
+def solve_smooth(
+    problem: Problem,
+    x: Array,
+    y: Array,
+    library: str,
+    film: float,
+    tolerance: float,
+    cycles: int,
+    depth: float | None = None,
+    curvature: float = 1.0,
+    damping: float = 1.0,
+) -> tuple[Solution, list[LevelFilm]]:
+    """Steady film of smooth bodies on the nodes x [nx], y [ny], from nothing.
+
+    `film`: central film by a formula, for the first guess and the far field that `problem.edge` was made for; `depth`:
+    approach of the dry bodies, for the same guess, that of a ball if not given; `curvature`: of the gap along y over
+    that along x, for the same far field; `damping`: of all changes, beside the usual one. Ends after `cycles` on the
+    finest grid, or when one of them changes the pressure by less than `tolerance` and load and mass balance are met.
+    Floor and cap are not imposed: a film that violates them is not converged. Non-finite values never leave: where
+    there are any, the change is infinite. The second result tells what the levels found, from coarse to fine.
+    ValueError if not `is_applicable`.
+    """
+    if not is_applicable(problem):
+        raise ValueError("multigrid needs a steady problem, full cavities and a grid of m 2^k + 1 nodes, m small")
+    levels = _levels(problem, x, y, library, film, curvature)
+    depth = problem.compliance ** (2.0 / 3.0) if depth is None else depth  # a^2 / R
+    found, films = _failure(problem), list[LevelFilm]()
+    single, spread = (damping * part for part in _damping(problem, film))
+    for part in _DAMPING_PARTS:
+        solver = _Multigrid(levels, problem.load * problem.spacing**2, depth, part * single, spread)
+        progress, films = solver.nested(film, tolerance, cycles)
+        found = _solution(problem, levels[-1], progress, tolerance)
+        if progress.change < _LOST:
+            break
+    return found, [level for level in films if level.change < _LOST]
+
+
+def extrapolated(films: list[LevelFilm]) -> tuple[float, float]:
+    """Central and smallest gap of an infinitely fine grid, from those of the two finest levels: the error falls with
+    the square of the spacing (Richardson).
+    """
+    coarse, fine = films[-2:]
+    return fine.central + (fine.central - coarse.central) / 3.0, fine.least + (fine.least - coarse.least) / 3.0
+
+
+def _solution(problem: Problem, level: Level, progress: _Progress, tolerance: float) -> Solution:
+    p, h, mass = (level.whole(field) for field in (level.p, level.h, level.mass))
+    if not (progress.change < _LOST and np.isfinite(h).all() and np.isfinite(mass).all()):
+        return _failure(problem)
+    missing = progress.shortfall(tolerance)
+    if not missing and (h < problem.floor).any():
+        missing = "the film is below the floor"
+    if not missing and (p > problem.cap).any():
+        missing = "the pressure is above the cap"
+    return Solution(
+        iterate=Iterate(p, p.copy(), np.zeros(p.shape, np.bool_), level.rigid - float(problem.undeformed.min())),
+        gap=h,
+        mass=mass,
+        converged=not missing,
+        iterations=progress.cycles,
+        change=progress.change,
+        load_error=progress.load_error,
+        intrusion=0.0,
+        imbalance=progress.imbalance,
+        shortfall=missing,
+    )
+
+
+def _failure(problem: Problem) -> Solution:
+    zero = np.zeros_like(problem.undeformed)
+    return Solution(
+        iterate=Iterate(zero, zero.copy(), np.zeros(zero.shape, np.bool_), 0.0),
+        gap=zero.copy(),
+        mass=zero.copy(),
+        converged=False,
+        iterations=0,
+        change=np.inf,
+        load_error=np.inf,
+        intrusion=0.0,
+        imbalance=np.inf,
+        shortfall="diverged",
+    )

@@ -1,0 +1,155 @@
+"""One level of a multigrid solver: a grid, its fields and its share of the problem."""
+
+import threading
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..half_space import HalfSpace, influence
+from ..mixed.fixed_point import Problem
+from . import coarsest, relaxation, transfer
+from .mirrored import MirroredHalfSpace
+
+Array = NDArray[np.float64]
+
+_KEPT = 32  # grids whose plans and scratch are kept
+_LARGEST_STEP = 0.5  # of a pressure by Newton's method
+_LOCAL = threading.local()  # plans and scratch may not be shared between threads
+
+
+class _Transforms:
+    """What only depends on the number of nodes; kept between solutions. Holds scratch."""
+
+    def __init__(self, ny: int, nx: int, mirror: bool, library: str) -> None:
+        self.near = influence(ny, nx)[:2, :8]
+        self.deform = MirroredHalfSpace(ny, nx, library).deform if mirror else HalfSpace(ny, nx, 1.0, library).deform
+        self._grid = (ny, nx, mirror)
+
+    @cached_property
+    def matrix(self) -> Array:
+        """Dense deformation, for the coarsest level."""
+        return coarsest.dense_deformation(*self._grid)
+
+
+def _transforms(ny: int, nx: int, mirror: bool, library: str) -> _Transforms:
+    key = (ny, nx, mirror, library)
+    store: dict[tuple[int, int, bool, str], _Transforms] = _LOCAL.__dict__.setdefault("transforms", {})
+    if key not in store:
+        if len(store) >= _KEPT:
+            store.pop(next(iter(store)))
+        store[key] = _Transforms(*key)
+    return store[key]
+
+
+class Level:
+    """Fields are [rows, nx], see `relaxation`. `f`, `base`, `offset` and `target` state the problem: right side of the
+    balance, gap of the undeformed bodies, edge pressures beyond those that go with the inner ones, load.
+    """
+
+    def __init__(self, problem: Problem, x: Array, y: Array, mirror: bool, library: str) -> None:
+        self.x, self.y, self.mirror = x, y, mirror
+        self.rows, self.nx = (y.size + 1) // 2 if mirror else y.size, x.size
+        self.dx = float(x[-1] - x[0]) / (x.size - 1)
+        self.compliance, self.scale = problem.compliance, problem.compliance * 2.0 / np.pi**2 * self.dx
+        self._problem = problem
+        self._transforms = _transforms(y.size, x.size, mirror, library)
+        self._wedge, self._wedge_soft = relaxation.line_kernels(self._transforms.near * self.scale, self.dx)
+        shape = (self.rows, self.nx)
+        self.p, self.h, self.mass, self.e, self.rho, self.soft, self.f = (np.zeros(shape) for _ in range(7))
+        self.undeformed, self.base, self.edge, self.weight = (np.zeros(shape) for _ in range(4))
+        self.mobility, self.thinned = np.zeros(shape), np.zeros(shape)
+        self.offset, self.before, self.work = (np.zeros(shape) for _ in range(3))
+        self.target, self.rigid, self.rigid_before = 0.0, 0.0, 0.0
+
+    def set_bodies(self, undeformed: Array, edge: Array, weight: Array) -> None:
+        """Take over arrays [ny, nx]."""
+        self.undeformed[:], self.edge[:], self.weight[:] = (f[: self.rows] for f in (undeformed, edge, weight))
+        if self.mirror:
+            self.weight[:-1] *= 2.0  # each row but the last stands for two
+
+    def set_oil(self, mobility: Array, thinned: Array) -> None:
+        """Take over arrays [ny, nx]."""
+        self.mobility[:], self.thinned[:] = mobility[: self.rows], thinned[: self.rows]
+
+    def state_problem(self, load: float) -> None:
+        """The problem itself, without corrections of a finer level. `load`: integral of the pressure."""
+        self.f[:], self.offset[:], self.base[:] = 0.0, 0.0, self.undeformed
+        self.target = load
+
+    def whole(self, field: Array) -> Array:
+        """A copy of a field on all nodes [ny, nx]."""
+        return np.concatenate([field, field[-2::-1]]) if self.mirror else field.copy()
+
+    def film(self) -> None:
+        """Bring the film up to date with the pressure."""
+        self._film(self._transforms.deform(self.p))
+
+    def _film(self, deformation: Array) -> None:
+        oil = self._problem
+        relaxation.film_pass(
+            self.p, self.base, deformation, self.scale, self.rigid, self.mobility, self.thinned,
+            oil.fluidity, oil.density, oil.step, self.h, self.mass, self.e, self.rho, self.soft,
+        )  # fmt: skip
+
+    def relax(self, single: float, spread: float) -> None:
+        """One sweep; the film has to be up to date and is not afterwards."""
+        relaxation.relax(
+            self.p, self.mass, self.e, self.rho, self.soft, self.f, self.edge, self.offset, self._wedge,
+            self._wedge_soft, self.dx, self.compliance, self.mirror, single, spread, self.work,
+        )  # fmt: skip
+
+    def set_edges(self) -> None:
+        """Edge pressures from the inner ones."""
+        relaxation.set_edges(self.p, self.edge, self.offset, self.mirror)
+
+    def load(self) -> float:
+        """Integral of the pressure."""
+        return float(transfer.weighted_sum(self.weight, self.p)) * self.dx**2
+
+    def defect(self) -> float:
+        """Put what is missing in the balance into `work`; returns the imbalance of `reynolds.imbalance`."""
+        wrong, film = relaxation.defect(self.p, self.mass, self.e, self.f, self.dx, self.mirror, self.work)
+        return abs(float(wrong / film))
+
+    def restrict(self, fine: "Level") -> None:
+        """State what the finer level, whose film is up to date, has to improve; begin with its fields."""
+        fine.defect()
+        transfer.inject(fine.p, self.p)
+        transfer.inject(fine.h, self.h)
+        self.before[:] = self.p
+        self.rigid = self.rigid_before = fine.rigid
+        transfer.edge_offset(self.p, self.edge, self.mirror, self.offset)
+        deformation = self._transforms.deform(self.p)
+        transfer.undeformed_gap(self.h, deformation, self.scale, self.rigid, self.base)
+        self._film(deformation)
+        relaxation.balance(self.p, self.mass, self.e, self.dx, self.mirror, self.f)
+        transfer.add_weighted(fine.work, fine.mirror, self.f)
+        self.target = self.load() + fine.target - fine.load()
+
+    def correct(self, coarse: "Level") -> None:
+        """Take over what the coarser level has changed."""
+        transfer.add_interpolated(coarse.p, coarse.before, self.p)
+        self.set_edges()
+        self.rigid += coarse.rigid - coarse.rigid_before
+
+    def newton(self) -> None:
+        """Improve pressure and rigid gap together by a step of Newton's method; the film has to be up to date."""
+        lift = coarsest.condensed(self._transforms.matrix, self.edge, self.mirror) * self.scale
+        unknowns = lift.shape[1] + 1
+        jacobian, change = np.empty((unknowns, unknowns)), np.empty(unknowns)
+        missing = (self.target - self.load()) / self.dx**2
+        coarsest.assemble(
+            self.p, self.h, self.mass, self.e, self.rho, self.soft, self.f, self.edge, self.weight, missing, lift,
+            self.dx, self.mirror, self.thinned, self._problem.fluidity, self._problem.step, jacobian, change,
+        )  # fmt: skip
+        if coarsest.solve_dense(jacobian, change) and np.isfinite(change).all():  # else finer levels do without
+            part = min(1.0, _LARGEST_STEP / max(float(np.abs(change[:-1]).max()), 1e-300))
+            coarsest.advance(self.p, change, part, self.mirror)
+            self.rigid += part * float(change[-1])
+            self.set_edges()
+
+    def film_thickness(self) -> tuple[float, float]:
+        """Gap at x = 0 on the row next to y = 0, and the smallest."""
+        row = min(int(np.abs(self.y).argmin()), self.rows - 1)
+        return float(np.interp(0.0, self.x, self.h[row])), float(self.h.min())

@@ -1,0 +1,17 @@
+"""The regression level: film formulas, fitted curves of load sharing, and track means of both surfaces.
+
+    surfaces       tribofilms, roughness and cover from the track means
+    oil            friction and temperature of the oil
+    smooth_film    film of the smooth bodies by formula
+    load_sharing   how solids and oil share the load
+    contact        film, friction, heat and derivatives of an operating point
+    exposure       exposure, abrasion and wear of a track
+    outputs        outputs and their errors
+    evolution      `advance`: the track means over time
+    warming        what a process loads before its first step
+"""
+
+from .evolution import advance
+from .warming import warm_up
+
+__all__ = ["advance", "warm_up"]

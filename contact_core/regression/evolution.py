@@ -1,0 +1,191 @@
+"""The evolution over time at the regression level: the track means of both surfaces.
+
+A step solves nothing: `contact` has the film from a formula and the friction from curves fitted to the deterministic
+level, and the surfaces are a handful of numbers per body. The patches of the state stay as they are meanwhile;
+`surfaces.track_means` brings them up to date when a run returns to the deterministic level.
+"""
+
+import math
+
+import numpy as np
+
+from ..errors import ConvergenceError, OperatingPointError
+from ..scene import Case, Side
+from ..state import ContactState, Mean, Outputs, changed
+from ..state.bulk_temperature import NO_TIME, cool_time, temperatures_after
+from ..surfaces.track_means import means_of
+from .contact import MeanContact, evaluate
+from .exposure import abrasion, doses, track_area, wear_rate
+from .oil import Law
+from .outputs import outputs_of
+from .surfaces import Means, Tribofilms, composite_roughness, mean_cover, regression_film, tribofilms_of
+
+_SAME = 1e-4  # a contact evaluated before the surfaces changed by less, relative, is the contact after it
+_AGREED = 0.05  # of control.change: contacts before and after a step may differ by so much in the surfaces they make
+_TRIAL = 1.0  # s: step that tells how fast the surfaces change
+
+
+def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
+    """Return the state and outputs after `dt` [s] at the regression level.
+
+    Where the bodies warm up, it takes steps in which neither oil nor surfaces change much.
+    """
+    scene = case.scene
+    _check_pressure(case)
+    if not scene.heat.bulk.stores_heat or dt == 0.0:
+        return _stepped(case.warmed(state.temperatures), state, dt)
+    before, left = [state.outputs.wear_volume_1, state.outputs.wear_volume_2], dt
+    while left > 0.0:
+        now, step = case.warmed(state.temperatures), left
+        after, outputs = _stepped(now, state, step)
+        while step > (longest := min(outputs.suggested_step, cool_time(now, after.outputs, step))) > NO_TIME:
+            step = longest
+            after, outputs = _stepped(now, state, step)
+        warm = temperatures_after(now, after.outputs, step)
+        state, left = changed(after, temperatures=warm), left - step
+    rates = [(out - old) / dt for out, old in zip((outputs.wear_volume_1, outputs.wear_volume_2), before, strict=True)]
+    bodies = case.warmed(state.temperatures).op.bodies
+    outputs = changed(
+        outputs, wear_rate_1=rates[0], wear_rate_2=rates[1], temperature_1=bodies[0], temperature_2=bodies[1]
+    )
+    return changed(state, outputs=outputs), outputs
+
+
+def _check_pressure(case: Case) -> None:
+    """Raise OperatingPointError if smooth bodies would yield: no curve was fitted to such a contact."""
+    hertz, hardness = case.unit_hertz, case.scene.plasticity.hardness
+    pressure = hertz.pressure_max * hertz.growth(case.op.load)[0]
+    if pressure > hardness:
+        raise OperatingPointError(
+            f"load = {case.op.load:g} N presses smooth bodies together with {pressure:.3g} Pa, above "
+            f"plasticity.hardness = {hardness:g} Pa: film.model = 'regression' has no such contact. Lower the load or "
+            "enlarge the radii."
+        )
+
+
+def _stepped(case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
+    """Return the state and outputs after `dt` [s] at held bulk temperatures."""
+    before = state.means or means_of(case.scene, state)
+    means, films, left = before, tribofilms_of(before), dt
+    contact = evaluate(case, films)
+    speed = 0.0  # at which the surfaces change [m/s]
+    while left > 0.0:
+        start = means
+        step, means, films, speed = _substep(case, contact, start, left)
+        left -= step
+        if _has_changed(case, contact, films):
+            contact = evaluate(case, films)
+            settled = _settled(case, start, means, _evolved(case, contact, start, step))
+            if settled is not means:
+                means, films = settled, tribofilms_of(settled)
+                contact = evaluate(case, films)
+    if dt > 0.0:
+        rates = [(now.worn - then.worn) / dt for now, then in zip(means, before, strict=True)]
+    else:
+        speed = _substep(case, contact, means, _TRIAL)[3]
+        rates = [
+            wear_rate(case, side, contact, film.thickness) for side, film in zip(case.sides, films, strict=True)
+        ]
+    if not math.isfinite(contact.solid + contact.fluid + contact.gap):
+        op = case.op
+        raise ConvergenceError(
+            f"Friction or film at load = {op.load:g} N, speeds {op.speed_1:g} and {op.speed_2:g} m/s is not finite: "
+            "the laws of the oil do not reach that far. Lower load or sliding speed."
+        )
+    outputs = outputs_of(case, state.outputs, contact, means, films, rates, speed)
+    return changed(state, time=state.time + dt, means=means, outputs=outputs, solved_for=None), outputs
+
+
+def _substep(case: Case, contact: MeanContact, means: Means, left: float) -> tuple[float, Means, Tribofilms, float]:
+    """Return the time [s], at most `left`, in which the surfaces change by control.change; they after it; their speed.
+
+    The speed [m/s] is the change over the time.
+    """
+    step, budget = left, case.scene.control.change
+    while True:
+        after = _evolved(case, contact, means, step)
+        change = max(_distance(means[0], after[0]), _distance(means[1], after[1]))
+        if change <= 1.01 * budget:
+            return step, after, tribofilms_of(after), change / step
+        step *= min(max(budget / change, 0.05), 0.95)
+
+
+def _settled(case: Case, start: Means, after: Means, again: Means) -> Means:
+    """Return the surfaces after a step that contacts of its beginning and its end agree on, to first order.
+
+    The contact of the start makes `after` of them, the contact after that makes `again`. Where more tribofilm grows
+    less, the first goes too far, and a long step would swing about the balance of growth and removal.
+    """
+    first = np.array([_change(*pair) for pair in zip(start, after, strict=True)])
+    second = np.array([_change(*pair) for pair in zip(start, again, strict=True)])
+    back = float(np.vdot(first - second, first))
+    if back <= 0.0 or float(np.abs(first - second).max()) < _AGREED * case.scene.control.change:
+        return after
+    share = 1.0 / (1.0 + back / float(np.vdot(first, first)))
+    one, two = (_between(*pair, share) for pair in zip(after, again, strict=True))
+    return one, two
+
+
+def _between(one: Mean, other: Mean, share: float) -> Mean:
+    return Mean(*(a + share * (b - a) for a, b in zip(one.__dict__.values(), other.__dict__.values(), strict=True)))
+
+
+def _change(then: Mean, now: Mean) -> tuple[float, float]:
+    """Return the changes [m] of a body's tribofilm, as rms over the track, and of its solid's roughness."""
+    film = (now.growth - now.removal) - (then.growth - then.removal)
+    return film / math.sqrt(max(now.coverage, 1e-3)), now.roughness - then.roughness
+
+
+def _distance(then: Mean, now: Mean) -> float:
+    """Return the size of the change [m]."""
+    film, roughness = _change(then, now)
+    return abs(film) + abs(roughness)
+
+
+def _has_changed(case: Case, contact: MeanContact, films: Tribofilms) -> bool:
+    """Return True if the surfaces differ from those that the contact was evaluated for."""
+    return (
+        abs(composite_roughness(films) - contact.sigma) > _SAME * contact.sigma
+        or abs(mean_cover(case.scene, films) - contact.cover) > _SAME
+    )
+
+
+def _evolved(case: Case, contact: MeanContact, means: Means, step: float) -> Means:
+    """Return both bodies after `step` [s] of the contact."""
+    first, second = (
+        _body_after(case, side, contact, mean, step, coverage, exposure * step)
+        for side, mean, (coverage, exposure) in zip(case.sides, means, doses(case, contact, means), strict=True)
+    )
+    return first, second
+
+
+def _body_after(
+    case: Case, side: Side, contact: MeanContact, mean: Mean, step: float, coverage: float, exposed: float
+) -> Mean:
+    """Return a body whose covered part was `exposed`, worn under the mean of the old and the new tribofilm.
+
+    Wear takes heights that stand out of the composite roughness by `smoothing` of it. A body's share in such a height
+    is that of its variance, so its roughness falls by smoothing Rq_i / sigma for each depth worn (assumed).
+    """
+    growth, removal, new = mean.growth, mean.removal, 0.0
+    if coverage > 0.0:
+        evolve: Law = case.scene.tribofilm.evolve
+        abraded = abrasion(case, side, contact) * step / coverage
+        warm = side.temperature + contact.rise
+        grown, removed = evolve(growth / coverage, removal / coverage, exposed, abraded, warm)
+        growth, removal, new = float(grown) * coverage, float(removed) * coverage, max(float(grown - removed), 0.0)
+    film = 0.5 * (contact.tribofilms[side.index].thickness + new)
+    volume = step * wear_rate(case, side, contact, film)
+    depth = volume / track_area(case, side)
+    smoothing = regression_film(case.scene).smoothing
+    smoother = math.exp(-smoothing * depth / contact.sigma) if contact.sigma > 0.0 else 1.0
+    return changed(
+        mean,
+        growth=growth,
+        removal=removal,
+        coverage=coverage,
+        wear=mean.wear + depth,
+        roughness=mean.roughness * smoother,
+        worn=mean.worn + volume,
+        cycles=mean.cycles + abs(side.speed) * step / side.track_length,
+    )

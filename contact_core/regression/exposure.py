@@ -1,0 +1,122 @@
+"""Exposure, abrasion and wear of a body's track in a mean contact."""
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from ..film.instant import Grid
+from ..laws.tribofilm import DOSES, MeanPasses
+from ..scene import Case, Side
+from .contact import MeanContact
+from .oil import Law
+from .surfaces import Means, hardness_of, regression_film
+
+# pressures over their mean and what they weigh, of an exponential distribution
+_PARTS, _OF_PARTS = np.polynomial.laguerre.laggauss(6)
+# rows |y| / b of the track, what they weigh in its mean, and the mean pressure on each over that
+_ROWS = 0.5 + 0.5 * np.polynomial.legendre.leggauss(6)[0]
+_OF_ROWS = 0.5 * np.polynomial.legendre.leggauss(6)[1]
+_ROWS_PRESSURE = 1.5 * (1.0 - _ROWS**2)
+
+Dose = tuple[float, float]  # share of a track that has been rubbed, and exposure of that share per test time
+
+
+def doses(case: Case, contact: MeanContact, means: Means) -> tuple[Dose, Dose]:
+    """Return the dose of each track."""
+    if not case.op.slides or not case.loaded:
+        return (means[0].coverage, 0.0), (means[1].coverage, 0.0)
+    exposure: Law = case.scene.tribofilm.exposure
+    warm = case.op.inlet_temperature + contact.rise
+    touching = _touching(case, contact, warm)
+    oiled = float(exposure(0.0, contact.fluid_shear, contact.slide, warm))
+    first, second = (
+        _dose(case, side, contact, mean.coverage, touching, oiled)
+        for side, mean in zip(case.sides, means, strict=True)
+    )
+    return first, second
+
+
+def _touching(case: Case, contact: MeanContact, warm: float) -> float:
+    """Return the mean exposure where solids touch.
+
+    Laws that stress activates take it in an exponential, so that the pressure may not be taken as even there: it falls
+    off exponentially up to the hardness (assumed).
+    """
+    law: Any = case.scene.tribofilm
+    if not law.abrades or contact.solid_pressure == 0.0:
+        return float(law.exposure(contact.solid_pressure, contact.solid_shear, contact.slide, warm))
+    parts = np.minimum(_PARTS, hardness_of(case.scene, contact.tribofilms) / contact.solid_pressure)
+    exposure = law.exposure(parts * contact.solid_pressure, parts * contact.solid_shear, contact.slide, warm)
+    return float(_OF_PARTS @ exposure)
+
+
+def _dose(
+    case: Case, side: Side, contact: MeanContact, coverage: float, touching: float, oiled: float
+) -> Dose:
+    """Return the dose of one body, for the exposures of a point in solid contact and of one under oil."""
+    scene = case.scene
+    first, second = scene.surface_1.rq, scene.surface_2.rq
+    as_rougher = (True, False) if first == second else ((first > second) == (side.index == 0),)  # alike: between both
+    dry = contact.load_ratio > scene.control.dry_above
+    sharing = regression_film(scene).sharing
+    curves = [sharing.exposed(contact.area_ratio, rougher=rougher, dry=dry) for rougher in as_rougher]
+    exposed = sum(curves) / len(curves)
+    coverage = max(coverage, 1.0 if oiled > 0.0 else exposed if touching > 0.0 else 0.0)
+    if coverage == 0.0:
+        return 0.0, 0.0
+    passes = MeanPasses(
+        moves=side.moves,
+        exposed=exposed,
+        touching=contact.area_ratio,
+        chord=case.unit_hertz.chord_share,
+        residence=_residence(case, side),
+    )
+    return coverage, DOSES[scene.tribofilm.dose].mean(touching, oiled, passes) / coverage
+
+
+def abrasion(case: Case, side: Side, contact: MeanContact) -> float:
+    """Return the rate [1/s] at which rubbing takes tribofilm from a track, mean over it; zero where there is none."""
+    law: Any = case.scene.tribofilm
+    if not law.abrades:
+        return 0.0
+    pressure = contact.solid_pressure * contact.area_ratio * _residence(case, side)
+    if case.shape.along_face:
+        return float(law.abrasion(np.array([pressure]), contact.slide, None)[0])
+    return float(_OF_ROWS @ law.abrasion(pressure * _ROWS_PRESSURE, contact.slide, _ROWS))
+
+
+def _residence(case: Case, side: Side) -> float:
+    """Return the share of its time that a point of the track |y| < b is in Hertz's contact."""
+    length = side.track_length if side.moves else case.scene.film.domain
+    hertz = case.unit_hertz
+    return 2.0 * hertz.chord_share * hertz.a * hertz.growth(case.op.load)[0] / length
+
+
+def wear_rate(case: Case, side: Side, contact: MeanContact, film: float) -> float:
+    """Return the volume [m3/s] that a body loses under a tribofilm [m]: the law's depth rate, for force as pressure."""
+    scene = case.scene
+    force, cover = contact.load_ratio * case.op.load, min(film / scene.tribofilm.full_thickness, 1.0)
+    if force == 0.0:
+        return 0.0
+    speeds = case.speeds
+    if case.op.spin and scene.wear.of_sliding:
+        speeds = contact.slide, 0.0
+    rate: Law = scene.wear.rate
+    return float(rate(force, cover, speeds, side.index, scene.plasticity.hardness))
+
+
+def track_area(case: Case, side: Side) -> float:
+    """Return the area [m2] of a body's track |y| < b; at rest, of the patch's part of it."""
+    scene, film = case.scene, case.scene.film
+    hertz = scene.unit_hertz
+    b = hertz.growth(scene.operation.load)[1] * hertz.b
+    width = 2.0 * b if case.shape.periodic else _track_width(scene.rows, film.points, film.domain, b)
+    return width * (side.track_length if side.moves else film.domain)
+
+
+@lru_cache(maxsize=64)
+def _track_width(rows: int, points: int, domain: float, b: float) -> float:
+    """Return the width [m] of a patch's rows with |y| < b, at least the middle one."""
+    grid = Grid.centred(rows, rows, domain / (points - 1))
+    return grid.spacing * int((np.abs(grid.y) < max(b, 0.51 * grid.spacing)).sum())

@@ -1,0 +1,80 @@
+"""How solids and oil of rough bodies share the load, by curves fitted to the deterministic level."""
+
+import math
+from typing import NamedTuple
+
+from ..laws.load_sharing import flattening_of, rms_slope
+from ..scene import Case
+from .oil import Law
+from .surfaces import Tribofilms, composite_roughness, hardness_of, mean_cover, regression_film
+
+
+class Fit(NamedTuple):
+    """Place of a contact among the points of the fit; see `laws.load_sharing.FittedSharing`."""
+
+    clearance: float
+    flattening: float
+    resolution: float
+
+
+UNFITTED = Fit(math.inf, 0.0, 0.0)  # no load
+
+
+class Surfaces(NamedTuple):
+    """Properties of the surfaces that friction and load sharing need at any operating point."""
+
+    sigma: float  # composite rms roughness [m]
+    cover: float  # mean cover of both bodies where they touch
+    hardness: float  # where they touch [Pa]
+    flattening: float  # per Hertz's largest pressure [1/Pa]
+    resolution: float  # correlation length of the rougher body over the distance of the nodes
+
+
+class Shares(NamedTuple):
+    """How solids and oil share the load."""
+
+    fit: Fit
+    gap: float  # mean [m]
+    load: float  # contact_load_ratio
+    area: float  # contact_area_ratio of elastic solids
+    raised: float  # pressure of the oil over Hertz's
+
+
+def surfaces_of(case: Case, tribofilms: Tribofilms) -> Surfaces:
+    """Return the properties of the surfaces under their tribofilms."""
+    scene, hertz = case.scene, case.unit_hertz
+    first, second = scene.surface_1, scene.surface_2
+    slope = rms_slope(tribofilms[0].both, first.correlation_length, tribofilms[1].both, second.correlation_length)
+    rougher = case.sides[scene.rougher].surface
+    per_pressure = flattening_of(hertz.mean_share, scene.solids.reduced_modulus, slope) if slope > 0.0 else math.inf
+    return Surfaces(
+        sigma=composite_roughness(tribofilms),
+        cover=mean_cover(scene, tribofilms),
+        hardness=hardness_of(scene, tribofilms),
+        flattening=per_pressure,
+        resolution=rougher.correlation_length / scene.film.spacing,
+    )
+
+
+def shared(case: Case, surfaces: Surfaces, film: float, grown: tuple[float, float]) -> Shares:
+    """Return the shares of rough bodies for a film of smooth ones [m].
+
+    `grown` are the factors of Hertz's contact at 1 N along x and y that give it at the load.
+    """
+    root, wide = grown
+    scene, hertz = case.scene, case.unit_hertz
+    floor, sharing = scene.film.floor, regression_film(scene).sharing
+    sigma = max(surfaces.sigma, floor)  # smooth bodies touch where their adsorbed layers do
+    pressure, half = root * hertz.pressure_max, root * hertz.a
+    clearance, flattening, resolution = fit = Fit(film / sigma, surfaces.flattening * pressure, surfaces.resolution)
+    if not sharing.covers(*fit):  # powers of them have no meaning far from the fit
+        flattening, resolution = sharing.nearest(flattening, resolution)
+    density: Law = scene.lubricant.density
+    share = sharing.load_ratio(clearance, flattening, resolution, film / floor)
+    dense = clearance / float(density(hertz.mean_share * pressure))
+    gap = max(sigma * sharing.film_ratio(dense, share, flattening, resolution), floor)
+    raised = sharing.oil_pressure(clearance, flattening, *case.shape.depths(film, half, wide * hertz.b))
+    # no pressure is above the hardness
+    return Shares(
+        fit, gap, share, sharing.area_ratio(share, flattening), min(raised, scene.plasticity.hardness / pressure)
+    )

@@ -1,0 +1,141 @@
+"""Outputs of the regression level."""
+
+import math
+from typing import Any
+
+from ..laws.load_sharing import FittedSharing
+from ..scene import Case
+from ..state import Outputs, RangeFlag, changed
+from .contact import MeanContact
+from .surfaces import Means, Tribofilms, regression_film
+
+_LAMBDA_CAP = 1e3
+_LONGEST = 10.0  # times the duty: no step need be shorter than that
+_LAMBDA_CAPPED, _OUTSIDE_FIT = int(RangeFlag.LAMBDA_CAPPED), int(RangeFlag.OUTSIDE_FIT)
+_TRIBOFILM_TEMPERATURE = int(RangeFlag.TRIBOFILM_TEMPERATURE)  # numbers are faster to add up
+_BLANK = Outputs()
+# half widths of errors grow: twice beyond the fit, and by so much where a film or wear has changed the heights by this
+# share of the roughness or more, for curves of fresh surfaces
+_BEYOND, _RUN_IN, _CHANGED = 2.0, 1.6, 0.1
+_UNKNOWN = 1e3  # relative, of wear where next to no solids touch: nobody knows
+_LOCAL = 1.0  # error of tribofilms that feel local stresses, of which this level knows the mean
+
+
+def outputs_of(
+    case: Case,
+    before: Outputs,
+    contact: MeanContact,
+    means: Means,
+    tribofilms: Tribofilms,
+    rates: list[float],
+    speed: float,
+) -> Outputs:
+    """Return the outputs of this level; the others stay zero. Counters of solved blocks continue."""
+    force = contact.solid + contact.fluid
+    hot_1, hot_2 = case.op.bodies
+    first, second = means
+    longest = _LONGEST * case.scene.operation.duration
+    return changed(
+        _BLANK,
+        friction_force=force,
+        friction_coefficient=abs(force) / case.op.load if case.loaded else 0.0,
+        friction_solid=contact.solid,
+        friction_fluid=contact.fluid,
+        dfriction_dspeed_1=contact.derivatives[0],
+        dfriction_dspeed_2=contact.derivatives[1],
+        dfriction_dload=contact.derivatives[2],
+        dfriction_dtemperature=contact.derivatives[3],
+        power_loss=contact.power,
+        rolling_resistance=contact.rolling,
+        wear_rate_1=rates[0],
+        wear_rate_2=rates[1],
+        wear_volume_1=first.worn,
+        wear_volume_2=second.worn,
+        wear_depth_1=first.wear,
+        wear_depth_2=second.wear,
+        h_c=contact.gap,
+        h_central=contact.gap,
+        lambda_ratio=_lambda_ratio(case, contact),
+        tribofilm_1=max(first.growth - first.removal, 0.0),
+        tribofilm_2=max(second.growth - second.removal, 0.0),
+        tribofilm_roughness_1=tribofilms[0].roughness,
+        tribofilm_roughness_2=tribofilms[1].roughness,
+        roughness_1=tribofilms[0].both,
+        roughness_2=tribofilms[1].both,
+        contact_area_ratio=contact.area_ratio,
+        contact_load_ratio=contact.load_ratio,
+        flash_temperature_rise=contact.rise,
+        temperature_1=hot_1,
+        temperature_2=hot_2,
+        heat_flow_1=contact.into_1,
+        heat_flow_2=contact.power - contact.into_1,
+        spin_torque=contact.spin_torque,
+        approach=case.unit_hertz.approach_at(case.op.load) - contact.gap,
+        range_flags=_flags(case, contact),
+        suggested_step=min(case.scene.control.change / speed, longest) if speed > 0.0 else longest,
+        load_cycles_1=first.cycles,
+        load_cycles_2=second.cycles,
+        coverage_1=first.coverage,
+        coverage_2=second.coverage,
+        blocks_dry=before.blocks_dry,
+        blocks_mixed=before.blocks_mixed,
+        blocks_fallback=before.blocks_fallback,
+        **_errors(case, contact),
+    )
+
+
+def _exposure_error(sharing: FittedSharing) -> float:
+    """Return the relative half width of the exposed share of the rougher body: no tribofilm is less sure."""
+    return sharing.HALF_WIDTHS["exposure_rougher"] / sharing.exposure_rougher
+
+
+def _lambda_ratio(case: Case, contact: MeanContact) -> float:
+    if contact.sigma == 0.0 or not case.loaded:
+        return _LAMBDA_CAP
+    return min(contact.gap / contact.sigma, _LAMBDA_CAP)
+
+
+def _flags(case: Case, contact: MeanContact) -> int:
+    flags = 0
+    if contact.sigma == 0.0 or not case.loaded:
+        flags |= _LAMBDA_CAPPED
+    elif not regression_film(case.scene).sharing.covers(*contact.fit):
+        flags |= _OUTSIDE_FIT
+    one, two = case.op.bodies
+    if not (case.scene.tribofilm.covers(one) and case.scene.tribofilm.covers(two)):
+        flags |= _TRIBOFILM_TEMPERATURE
+    return flags
+
+
+def _errors(case: Case, contact: MeanContact) -> dict[str, Any]:
+    """Return the half widths (95 %) of the errors by the fit, relative.
+
+    Friction is wrong where load carried by oil is attributed to solids, and by the oil's own friction, but never by
+    more than if solids carried all.
+    """
+    force, share = abs(contact.solid + contact.fluid), contact.load_ratio
+    if force == 0.0:
+        return {}
+    sharing = regression_film(case.scene).sharing
+    widths, clearance = sharing.WIDTHS, contact.fit.clearance
+    wider = _run_in(case, contact) * (1.0 if sharing.covers(*contact.fit) else _BEYOND)
+    load = wider * widths.of_load(share)
+    oil = wider * widths.of_oil(clearance, contact.oil_slope)
+    solid = abs(contact.solid) / share if share > 0.0 else case.scene.boundary_friction.bare * case.op.load
+    fluid = abs(contact.fluid) / (1.0 - share) if share < 1.0 else 0.0
+    friction = math.hypot(abs(solid - fluid) * load, abs(contact.fluid) * oil) / force
+    return {
+        "error_friction": min(friction, max(solid / force, 1.0)),
+        "error_film": min(wider * widths.of_film(clearance), 1.0),
+        "error_tribofilm": _LOCAL if case.scene.tribofilm.abrades else _exposure_error(sharing),
+        "error_wear": min(load / share, _UNKNOWN) if share > 0.0 else 0.0,
+    }
+
+
+def _run_in(case: Case, contact: MeanContact) -> float:
+    """Return the factor by which errors are wider for surfaces that rubbing has changed."""
+    if contact.sigma == 0.0:
+        return 1.0
+    pairs = zip(case.sides, contact.tribofilms, strict=True)
+    changed = sum(film.thickness + abs(film.both - side.surface.rq) for side, film in pairs)
+    return 1.0 + (_RUN_IN - 1.0) * min(changed / (_CHANGED * contact.sigma), 1.0)

@@ -1,0 +1,65 @@
+"""Surfaces of both bodies from their track means: tribofilms, roughness, cover."""
+
+import math
+from typing import NamedTuple
+
+from ..film import Regression
+from ..scene import Scene
+from ..state import Mean
+
+Means = tuple[Mean, Mean]
+
+
+class Tribofilm(NamedTuple):
+    """A body's tribofilm, and the roughness under and with it."""
+
+    thickness: float  # mean where there is one [m]
+    roughness: float  # rms deviation of its thickness over the track [m]
+    both: float  # rms roughness of solid and tribofilm [m]
+
+
+Tribofilms = tuple[Tribofilm, Tribofilm]
+
+
+def tribofilms_of(means: Means) -> Tribofilms:
+    """Return the tribofilms of both bodies."""
+    first, second = means
+    return _tribofilm_of(first), _tribofilm_of(second)
+
+
+def _tribofilm_of(mean: Mean) -> Tribofilm:
+    """Return a tribofilm that lies evenly on the highest part of a track of Gaussian heights (assumed)."""
+    share = mean.coverage
+    if share == 0.0:
+        return Tribofilm(0.0, 0.0, mean.roughness)
+    thickness = max(mean.growth - mean.removal, 0.0) / share
+    apart = share * (1.0 - share)
+    roughness = math.sqrt(apart) * thickness
+    # the normal density at the height above which `share` of the heights lie, to 8 % from 2 to 98 %
+    density = 0.3989 * (4.0 * apart) ** 0.8
+    heights = mean.roughness
+    return Tribofilm(
+        thickness, roughness, math.sqrt((heights + 2.0 * density * thickness) * heights + roughness * roughness)
+    )
+
+
+def composite_roughness(tribofilms: Tribofilms) -> float:
+    """Return the composite rms roughness [m]."""
+    return math.hypot(tribofilms[0].both, tribofilms[1].both)
+
+
+def mean_cover(scene: Scene, tribofilms: Tribofilms) -> float:
+    """Return the mean cover of both bodies where they touch."""
+    return min(0.5 * (tribofilms[0].thickness + tribofilms[1].thickness) / scene.tribofilm.full_thickness, 1.0)
+
+
+def hardness_of(scene: Scene, tribofilms: Tribofilms) -> float:
+    """Return the hardness [Pa] where they touch: under the thicker tribofilm."""
+    thickest = min(max(tribofilms[0].thickness, tribofilms[1].thickness) / scene.tribofilm.full_thickness, 1.0)
+    return float(scene.plasticity.under(thickest))
+
+
+def regression_film(scene: Scene) -> Regression:
+    """Return the scene's film record, which is of this level."""
+    assert isinstance(scene.film, Regression)
+    return scene.film

@@ -1,0 +1,33 @@
+"""The complete description of one contact, and the point at which it works.
+
+    scene       `Scene`: fields, TOML, checks
+    fields      the fields of a scene, and the geometry and grid that follow from them
+    records     solids, surfaces, lubricant, control of the evolution over time
+    operation   operating points, and the duty of a scene
+    case        a scene at an operating point, bound once per step
+    checks      what makes a scene or an operating point unusable
+    toml        TOML to records and back
+    tunables    numbers that may be changed in a scene
+    units       "1.26 GPa" to SI
+"""
+
+from .case import Case, Side
+from .operation import OperatingPoint, Operation, Step
+from .records import Control, Lubricant, Solids, Surface
+from .scene import Scene
+from .tunables import tunables, with_values
+
+__all__ = [
+    "Case",
+    "Control",
+    "Lubricant",
+    "OperatingPoint",
+    "Operation",
+    "Scene",
+    "Side",
+    "Solids",
+    "Step",
+    "Surface",
+    "tunables",
+    "with_values",
+]

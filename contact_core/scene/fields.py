@@ -1,0 +1,134 @@
+"""The fields of a scene, and the geometry and grid that follow from them."""
+
+import hashlib
+import json
+import math
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import Any
+
+from ..film import Deterministic, Regression
+from ..film.instant import Grid
+from ..laws.boundary_friction import FilmBlend
+from ..laws.heat import FlashTemperature, NoHeat, TemperatureField
+from ..laws.plasticity import ElasticPerfectlyPlastic
+from ..laws.tribofilm import Andersson, Combined, Ghanbarzadeh, Gosvami, NoTribofilm, ZhangSpikes
+from ..laws.wear import Archard, NoWear
+from ..reference import Hertz
+from ..shapes import LineGeometry, PointGeometry, RollerGeometry, Shape
+from .operation import OperatingPoint, Operation
+from .records import Control, Lubricant, Solids, Surface
+from .toml import unbuild
+
+ROOM = 2.4  # side of the grid over the half width of Hertz's contact, at least
+
+
+@dataclass(frozen=True)
+class SceneFields:
+    """One contact: geometry, surfaces, materials and a law in every slot."""
+
+    name: str
+    description: str
+    geometry: PointGeometry | LineGeometry | RollerGeometry
+    solids: Solids
+    surface_1: Surface
+    surface_2: Surface
+    lubricant: Lubricant
+    plasticity: ElasticPerfectlyPlastic
+    boundary_friction: FilmBlend
+    heat: NoHeat | FlashTemperature | TemperatureField
+    tribofilm: NoTribofilm | Ghanbarzadeh | Andersson | ZhangSpikes | Gosvami | Combined
+    wear: NoWear | Archard
+    film: Deterministic | Regression
+    control: Control
+    operation: Operation
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return nested tables, from which `Scene.from_dict` makes an equal scene, bit for bit."""
+        return unbuild(self)
+
+    def shape(self, op: OperatingPoint | None = None) -> Shape:
+        """Return the undeformed bodies at an operating point, or at the scene's own radii."""
+        if op is None or op.radius_x is op.radius_y is None:
+            return self._own_shape
+        return self.geometry.shape(op.radius_x, op.radius_y)
+
+    @cached_property
+    def _own_shape(self) -> Shape:
+        return self.geometry.shape()
+
+    def radii(self, op: OperatingPoint) -> tuple[float, ...]:
+        """Return the combined radii of curvature [m] along x and, for points, along y at an operating point."""
+        return tuple(value for _, value in self.shape(op).radii)
+
+    def hertz(self, load: float) -> Hertz:
+        """Return Hertz's contact of the smooth, dry bodies at a load [N] above zero."""
+        return self.shape().hertz(load, self.solids.reduced_modulus)
+
+    def hertz_at(self, op: OperatingPoint) -> Hertz:
+        """Return Hertz's contact of the smooth, dry bodies at an operating point with a load."""
+        return self.shape(op).hertz(op.load, self.solids.reduced_modulus)
+
+    @cached_property
+    def unit_hertz(self) -> Hertz:
+        """Hertz's contact at 1 N; `Hertz.growth` gives it at other loads."""
+        return self.hertz(1.0)
+
+    def unit_hertz_at(self, op: OperatingPoint) -> Hertz:
+        """Return Hertz's contact at 1 N and the radii of an operating point."""
+        if op.radius_x is op.radius_y is None:
+            return self.unit_hertz
+        return _unit_hertz(self.shape(op), self.solids.reduced_modulus)
+
+    @cached_property
+    def rows(self) -> int:
+        """Rows of nodes that the contact has along y before a scar makes them more."""
+        return self.geometry.rows(self.film, self.surface_1.rq == self.surface_2.rq == 0.0)
+
+    @property
+    def repeats(self) -> float:
+        """Number of times the grid lies in the contact, side by side along y."""
+        return self.geometry.repeats(self.rows * self.film.spacing)
+
+    @property
+    def rougher(self) -> int:
+        """Index of the rougher body: 0 of body 1, 1 of body 2; 1 if they are alike."""
+        return 0 if self.surface_1.rq > self.surface_2.rq else 1
+
+    @property
+    def track_lengths(self) -> tuple[float, float]:
+        """Travel [m] of a surface point of body 1 and 2 between two passes."""
+        return self.geometry.track_length_1, self.geometry.track_length_2
+
+    def grid(self, rows: int) -> Grid:
+        """Return the nodes of the contact with `rows` of them along y."""
+        film = self.film
+        return Grid.centred(rows, film.points, film.spacing, periodic=self._own_shape.periodic, repeats=self.repeats)
+
+    @property
+    def room(self) -> tuple[float, float]:
+        """Largest half widths [m] of Hertz's contact along x and y that the grid has room for."""
+        across = (self.rows - 1) * self.film.spacing / ROOM if self.geometry.bounded_across else math.inf
+        return self.film.domain / ROOM, across
+
+    @property
+    def largest_load(self) -> float:
+        """Largest load [N] that the scene's grid has to hold."""
+        operation = self.operation
+        return max(operation.largest_load, operation.load, *(step.load or 0.0 for step in operation.steps))
+
+    def digest(self) -> str:
+        """Return the fingerprint of what a stored state depends on: shape, surfaces and grid."""
+        return self._digest
+
+    @cached_property
+    def _digest(self) -> str:
+        table = self.to_dict()
+        parts = {key: table[key] for key in ("geometry", "surface_1", "surface_2")}
+        parts["grid"] = [self.film.points, self.film.domain, self.rows]
+        return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:16]
+
+
+@lru_cache(maxsize=64)
+def _unit_hertz(shape: Shape, reduced_modulus: float) -> Hertz:
+    return shape.hertz(1.0, reduced_modulus)

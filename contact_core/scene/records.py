@@ -1,0 +1,91 @@
+"""Records of a scene: solids, surfaces, lubricant, and the control of the evolution over time."""
+
+from dataclasses import dataclass, field
+
+from ..laws.density import DowsonHigginson, Incompressible
+from ..laws.rheology import Carreau, Eyring, Newtonian
+from ..laws.supply import Flooded, Meniscus, SupplyFilm
+from ..laws.viscosity import AstmD341, Barus, Modulus, Roelands
+from ..quantities import parameter
+
+SEEDS = 2**31  # of a surface: what FMI's integers can tell apart
+
+
+@dataclass(frozen=True)
+class Solids:
+    """Elasticity of the pair."""
+
+    reduced_modulus: float = parameter(
+        "Pa", "E' = 2 / [(1 - v1^2)/E1 + (1 - v2^2)/E2]", above=1e3, most=1e13, quantity="Stress"
+    )
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Roughness of one body: Gaussian heights, autocorrelation rq^2 exp(-(r/correlation_length)^2). rq = 0 is
+    smooth.
+    """
+
+    rq: float = parameter("m", "rms roughness", least=0.0, most=1e-4)
+    correlation_length: float = parameter("m", "correlation length", above=0.0, most=1.0, shapes_arrays=True)
+    seed: int = parameter("", "number of the realisation", least=0, most=SEEDS - 1)
+
+
+@dataclass(frozen=True)
+class Lubricant:
+    """The oil."""
+
+    viscosity: Roelands | Barus | Modulus | AstmD341
+    density: DowsonHigginson | Incompressible
+    rheology: Newtonian | Eyring | Carreau
+    conductivity: float = parameter("W/(m K)", "thermal conductivity of the oil", above=0.0, most=10.0, default=0.14)
+    flow: str = parameter(
+        "",
+        "what Reynolds' equation sees: newtonian, the viscosity at the inlet's temperature; local, that of the local "
+        "temperature, thinned by the local shear",
+        choices=("newtonian", "local"),
+        default="newtonian",
+    )
+    cavitation: str = parameter(
+        "",
+        "where oil would be under tension: reynolds, it has no pressure and its gap counts as full; mass_conserving, "
+        "the gap holds what flows in, and is full where that is more than it can hold",
+        choices=("reynolds", "mass_conserving"),
+        default="reynolds",
+    )
+    supply: Flooded | SupplyFilm | Meniscus = field(default=Flooded())
+
+
+@dataclass(frozen=True)
+class Control:
+    """How the evolution over time is cut into blocks, in each of which the contact is solved at a few instants."""
+
+    change: float = parameter(
+        "m", "largest change of film or wear in a block, as rms over the track", above=0.0, most=1e-6
+    )
+    dry_above: float = parameter(
+        "", "contact_load_ratio above which dry pressures drive the blocks", least=0.0, most=2.0
+    )
+    input_change: float = parameter("", "relative change of an input that asks for a new solution", least=0.0, most=1.0)
+    driver: str = parameter(
+        "",
+        "whose pressures drive film and wear: mixed lubrication's, dry contact's, or by contact_load_ratio",
+        choices=("auto", "mixed", "dry"),
+        default="auto",
+    )
+    dry_instants: int = parameter("", "instants of a block driven dry", least=1, most=1000, default=3)
+    mixed_instants: int = parameter(
+        "",
+        "instants of a block driven by mixed lubrication; 0: as many as an eighth of a pass takes",
+        least=0,
+        most=1000,
+        default=0,
+    )
+    longest: float = parameter("s", "longest block", above=0.0, most=1e9, default=120.0)
+    inputs: str = parameter(
+        "",
+        "what a change of load, speeds or radii finds: quasi_steady, a film that has long settled; transient, the one "
+        "that was there, which follows",
+        choices=("quasi_steady", "transient"),
+        default="quasi_steady",
+    )

@@ -1,0 +1,90 @@
+"""What a contact is and which physics it needs: a frozen record read from TOML, checked before anything is computed."""
+
+from collections.abc import Mapping
+from dataclasses import fields, replace
+from pathlib import Path
+from typing import Any
+
+from ..errors import SceneError
+from ..film import FILMS
+from . import checks
+from .fields import SceneFields
+from .operation import OperatingPoint
+from .records import SEEDS
+from .toml import build, completed, did_you_mean, full_key, override, override_order, read_table
+
+_SEED_STEP = 1_327_217_885  # the odd number nearest to SEEDS over the golden ratio
+
+
+class Scene(SceneFields):
+    """The complete description of one contact, checked."""
+
+    @staticmethod
+    def from_toml(source: str | Path, overrides: Mapping[str, str] | None = None) -> "Scene":
+        """Read a shipped scene by name or a TOML file by path; `overrides` maps dotted keys to new values.
+
+        Raises SceneError with every sentence that says what is wrong and what would be right.
+        """
+        table = read_table(source)
+        changes = {full_key(key, value): value for key, value in (overrides or {}).items()}
+        for key, value in sorted(changes.items(), key=override_order):
+            override(table, key, value)
+        return Scene.from_dict(table)
+
+    @staticmethod
+    def from_dict(table: Mapping[str, Any]) -> "Scene":
+        """Build and check a scene from nested tables as TOML gives them."""
+        return checked(build(Scene, completed(table), ""))
+
+    def at_level(self, level: str) -> "Scene":
+        """Return the scene with `film.model` = `level`, on the same grid: both levels share their states.
+
+        Fields that only the film of the other level has get their defaults. Raises SceneError for an unknown level.
+        """
+        films = {film.name: film for film in FILMS}
+        if level not in films:
+            raise SceneError(
+                f"There is no level '{level}'.{did_you_mean(level, list(films))} Known are {', '.join(films)}."
+            )
+        if level == self.film.name:
+            return self
+        shared = {f.name for f in fields(films[level])} & {f.name for f in fields(self.film)}
+        film = films[level](**{name: getattr(self.film, name) for name in shared})
+        return replace(self, film=film.with_sharing(self.geometry.sharing()))
+
+    def realisation(self, seed: int) -> "Scene":
+        """Return the scene with other surfaces of the same statistics; 0: its own.
+
+        Both bodies stay independent of each other. Their own seeds step by 2^31 over the golden ratio, modulo 2^31: no
+        two seeds repeat a surface, and up to seed 10,000 the derived seeds stay at least 100,000 from the scene's own.
+        Raises SceneError for a negative seed.
+        """
+        if not 0 <= seed < SEEDS:
+            raise SceneError(f"seed = {seed} must be at least 0 and at most {SEEDS - 1}.")
+        if seed == 0:
+            return self
+        first, second = (
+            replace(surface, seed=(surface.seed + seed * _SEED_STEP) % SEEDS)
+            for surface in (self.surface_1, self.surface_2)
+        )
+        return replace(self, surface_1=first, surface_2=second)
+
+    def refusal(self, op: OperatingPoint) -> str:
+        """Return why the scene cannot have an operating point, or an empty text."""
+        return checks.refusal(self, op)
+
+    def check(self) -> list[tuple[str, str]]:
+        """Return (rule, sentence) for everything that makes the scene unusable."""
+        return checks.errors(self)
+
+    def warnings(self) -> list[str]:
+        """Return sentences on what can be computed but is not resolved well."""
+        return checks.warnings(self)
+
+
+def checked(scene: Scene) -> Scene:
+    """Return the scene as it is. Raises SceneError with all sentences on what makes it unusable."""
+    errors = scene.check()
+    if errors:
+        raise SceneError(" ".join(sentence for _, sentence in errors))
+    return scene

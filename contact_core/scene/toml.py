@@ -1,0 +1,243 @@
+"""Reading a scene: TOML to records, with a sentence for everything that does not fit, and back."""
+
+import difflib
+import tomllib
+from collections.abc import Mapping
+from dataclasses import MISSING, Field, fields, is_dataclass
+from importlib.resources import files
+from pathlib import Path
+from typing import Any, get_args, get_origin, get_type_hints
+
+from ..errors import SceneError
+from ..film import FILMS
+from ..laws import SLOTS
+from ..shapes import GEOMETRIES
+from . import units
+
+_SHARING = {film.name for film in FILMS if "sharing" in {f.name for f in fields(film)}}
+
+
+def shipped_scenes() -> dict[str, str]:
+    """Names and descriptions of the scenes that come with the package."""
+    folder = files("contact_core") / "data" / "scenes"
+    tables = {p.name.removesuffix(".toml"): p for p in folder.iterdir() if p.name.endswith(".toml")}
+    return {name: str(tomllib.loads(tables[name].read_text("utf-8"))["description"]) for name in sorted(tables)}
+
+
+def read_table(source: str | Path) -> dict[str, Any]:
+    """Read a scene's TOML by name or path, as nested tables."""
+    shipped = files("contact_core") / "data" / "scenes" / f"{source}.toml"
+    path = Path(source)
+    try:
+        if path.suffix == ".toml":
+            text = path.read_text("utf-8")
+        elif shipped.is_file():
+            text = shipped.read_text("utf-8")
+        else:
+            names = list(shipped_scenes())
+            raise SceneError(
+                f"There is no scene '{source}'.{did_you_mean(str(source), names)} Shipped are "
+                f"{', '.join(names)}; or give the path of a .toml file."
+            )
+        return tomllib.loads(text)
+    except OSError as error:
+        raise SceneError(f"The scene file '{source}' cannot be read: {error.strerror}.") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise SceneError(f"The scene file '{source}' is not valid TOML: {error}.") from None
+
+
+def did_you_mean(word: str, choices: list[str]) -> str:
+    """Return " Did you mean ...?" if one of the choices looks like the word, else nothing."""
+    close = difflib.get_close_matches(word, choices, n=1, cutoff=0.5)
+    return f" Did you mean '{close[0]}'?" if close else ""
+
+
+def models_of(path: str) -> tuple[type, ...]:
+    """The records that a table at a dotted path may be, told apart by its `model`; none if there is one kind only."""
+    return {"film": FILMS, "geometry": GEOMETRIES}.get(path) or SLOTS.get(path.rpartition(".")[2], ())
+
+
+def override(table: dict[str, Any], key: str, value: str) -> None:
+    """Set a dotted key; a new `model` keeps what it has in common with the old one and drops the rest, a new `set`
+    drops what stood beside the old.
+    """
+    *path, last = key.split(".")
+    where = ".".join(path)
+    for part in path:
+        table = table.setdefault(part, {})
+        if not isinstance(table, dict):
+            raise SceneError(f"'{key}' cannot be set: '{part}' is a value, not a table.")
+    if last == "model":
+        full = _with_named_set(dict(table), where)
+        if full.get("model") == value:
+            return
+        table.clear()
+        table |= _for_model(full, where, value)
+    if last == "set" and str(table.get("set")).lower() != value.lower():
+        table.clear()
+    table[last] = value
+
+
+def flat(table: Mapping[str, Any], path: str = "") -> dict[str, Any]:
+    """Values of nested tables by dotted key."""
+    found: dict[str, Any] = {}
+    for key, value in table.items():
+        found |= flat(value, f"{path}{key}.") if isinstance(value, Mapping) else {f"{path}{key}": value}
+    return found
+
+
+def build(cls: type, table: Any, path: str) -> Any:
+    """Make a record of `cls` from a table; every complaint names the table and the key."""
+    if not isinstance(table, Mapping):
+        raise SceneError(f"[{path}] must be a table.")
+    table = _with_named_set(dict(table), path)
+    known, hints = {f.name: f for f in fields(cls)}, get_type_hints(cls)
+    for key in table:
+        if key not in known:
+            where = f"[{path}]" if path else "The scene"
+            hint = _elsewhere(cls, key, path) or did_you_mean(key, list(known))
+            raise SceneError(f"{where} has no key '{key}'.{hint} Known are {', '.join(known)}.")
+    values = {}
+    for name, f in known.items():
+        full = f"{path}.{name}" if path else name
+        if name not in table and f.default is not MISSING:
+            continue
+        if name not in table:
+            raise SceneError(f"'{full}' is missing. {_hint(f)}")
+        values[name] = _value(hints[name], table[name], full, f)
+    return cls(**values)
+
+
+def _elsewhere(cls: type, key: str, path: str) -> str:
+    """Which other models of a table have a key that `cls` does not have."""
+    others = [f"'{law.name}'" for law in models_of(path) if key in {f.name for f in fields(law)}]  # type: ignore[attr-defined]
+    return f" It belongs to model = {' or '.join(others)}, not to '{cls.name}'." if others else ""  # type: ignore[attr-defined]
+
+
+def _value(hint: Any, raw: Any, full: str, f: "Field[Any]") -> Any:
+    models = () if f.metadata else models_of(full)
+    if models:
+        usual = models[0].name if full == "geometry" else getattr(f.default, "name", None)  # type: ignore[attr-defined]
+        if isinstance(raw, Mapping) and not {"model", "set"} & set(raw) and usual:
+            raw = {"model": usual, **raw}
+        return _build_law(models, raw, full)
+    if is_dataclass(hint):
+        return build(hint, raw, full)  # type: ignore[arg-type]
+    if get_origin(hint) is tuple:
+        if not isinstance(raw, list):
+            raise SceneError(f"[[{full}]] must be a list of tables.")
+        return tuple(build(get_args(hint)[0], item, f"{full}[{i}]") for i, item in enumerate(raw))
+    if hint in (float, float | None):
+        return units.parse(raw, f.metadata["unit"], full)
+    if hint is int:
+        number = units.parse(raw, "", full)
+        if number != int(number):
+            raise SceneError(f"{full} = {raw!r} must be a whole number.")
+        return int(number)
+    if not isinstance(raw, str):
+        raise SceneError(f"{full} = {raw!r} must be text in quotes.")
+    return raw
+
+
+def _build_law(models: tuple[type, ...], raw: Any, path: str) -> Any:
+    if isinstance(raw, str):
+        raw = {"model": raw}
+    if not isinstance(raw, Mapping):
+        raise SceneError(f"[{path}] must be a table with a 'model', or the model's name.")
+    table, names = _with_named_set(dict(raw), path), {m.name: m for m in models}  # type: ignore[attr-defined]
+    model = table.pop("model", None)
+    if model not in names:
+        said = f"has no model '{model}'." + did_you_mean(str(model), list(names)) if model else "needs a 'model'."
+        raise SceneError(f"[{path}] {said} Known are {', '.join(names)}.")
+    return build(names[model], table, path)
+
+
+_SET_FILES = {
+    "lubricant": "lubricants",
+    "solids": "solids",
+    "heat": "solids",
+    "plasticity": "solids",
+    "tribofilm": "tribofilms",
+}
+
+
+def _with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
+    """Replace `set = "name"` (in capitals or not) by the named values of data/*.toml; keys written beside it win."""
+    if "set" not in table:
+        return table
+    name = str(table.pop("set")).lower()
+    if path not in _SET_FILES:
+        raise SceneError(f"[{path}] has no named sets. Known are sets for {', '.join(_SET_FILES)}.")
+    data = tomllib.loads((files("contact_core") / "data" / f"{_SET_FILES[path]}.toml").read_text("utf-8"))
+    sets = {key: value[path] for key, value in data.items() if isinstance(value.get(path), dict)}
+    if name not in sets:
+        raise SceneError(f"[{path}] has no set '{name}'.{did_you_mean(name, list(sets))} Known are {', '.join(sets)}.")
+    return _merged(sets[name], table, path)
+
+
+def _for_model(table: Mapping[str, Any], path: str, model: str) -> dict[str, Any]:
+    """The keys of a law's table that the law `model` in its place has, too."""
+    shared = {f.name for law in models_of(path) if law.name == model for f in fields(law)}  # type: ignore[attr-defined]
+    return {name: item for name, item in table.items() if name in shared}
+
+
+def _merged(base: Mapping[str, Any], over: Mapping[str, Any], path: str) -> dict[str, Any]:
+    """`base` with the keys of `over`, table by table; another `model` keeps what it has in common with the old one."""
+    model = over.get("model", base.get("model"))
+    merged = dict(base) if model == base.get("model") else _for_model(base, path, model)
+    for key, value in over.items():
+        both = isinstance(value, Mapping) and isinstance(merged.get(key), Mapping)
+        merged[key] = _merged(merged[key], value, f"{path}.{key}") if both else value
+    return merged
+
+
+def _hint(f: "Field[Any]") -> str:
+    if "unit" not in f.metadata:
+        models = ", ".join(law.name for law in models_of(f.name))  # type: ignore[attr-defined]
+        return f"Add the table, with a 'model': {models}." if models else "Add the table."
+    return f"It is the {f.metadata['text']}" + (f" [{f.metadata['unit']}]." if f.metadata["unit"] else ".")
+
+
+def unbuild(record: Any) -> dict[str, Any]:
+    """Nested tables of a record, with SI units, from which `build` makes an equal one."""
+    table: dict[str, Any] = {"model": record.name} if type(record) in _all_models() else {}
+    for f in fields(record):
+        value = getattr(record, f.name)
+        if value is None:
+            continue
+        if is_dataclass(value):
+            table[f.name] = unbuild(value)
+        elif isinstance(value, tuple):
+            table[f.name] = [unbuild(item) for item in value]
+        elif isinstance(value, float) and f.metadata["unit"]:
+            table[f.name] = f"{value!r} {f.metadata['unit']}"
+        else:
+            table[f.name] = value
+    return table
+
+
+def _all_models() -> set[type]:
+    return {model for models in (*SLOTS.values(), FILMS, GEOMETRIES) for model in models}
+
+
+def full_key(key: str, value: str) -> str:
+    """Return the key that an override means: `heat.bulk=oil` is short for `heat.bulk.model=oil`."""
+    return f"{key}.model" if value in {law.name for law in models_of(key)} else key  # type: ignore[attr-defined]
+
+
+def override_order(item: tuple[str, str]) -> int:
+    """Return the rank in which an override is applied: sets and models first, for they decide what keys there are."""
+    return {"set": 0, "model": 1}.get(item[0].rpartition(".")[2], 2)
+
+
+def completed(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a scene's table with the curves of load sharing that fit its geometry, if it names none and needs some."""
+    film, geometry = table.get("film"), table.get("geometry")
+    if not isinstance(film, Mapping) or not isinstance(geometry, Mapping):
+        return dict(table)
+    sharing = film.get("sharing", {})
+    if film.get("model") not in _SHARING or not isinstance(sharing, Mapping) or "model" in sharing:
+        return dict(table)
+    bodies = {law.name: law for law in GEOMETRIES}
+    usual = bodies.get(str(geometry.get("model")), GEOMETRIES[0]).sharing
+    return {**table, "film": {**film, "sharing": {"model": usual.name, **sharing}}}

@@ -1,0 +1,219 @@
+"""Everything that can change the next answer, frozen, and what a step gives back.
+
+A state is never changed: `advance` returns a new one, so the caller may keep, compare and go back to any of them.
+Arrays are read-only and lie on body-fixed patches [ny, nx], periodic along x, except the film's, which lie on the
+grid of the contact.
+"""
+
+import struct
+import zlib
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import StateError
+from ..film.instant import FilmState
+from ..laws.tribofilm import thickness
+from ..scene import OperatingPoint, Scene
+from .outputs import Outputs
+from .storage import Reader, numbers, stored
+from .trends import Trends
+
+Array = NDArray[np.float64]
+_Record = TypeVar("_Record", "ContactState", "Outputs", "Mean", OperatingPoint)
+_MAGIC, _SCHEMA = b"tribofmu", 6
+_FEWEST = 100  # bytes that a header of schema 5 or before has at least
+_CHECKSUM, _SIGNED = struct.Struct("<I"), struct.Struct("<II")
+_TEXTS = struct.Struct("<4?II")  # what is there of film, solved_for, means, temperatures; lengths of digest, law
+_PAIR = struct.Struct("<2d")
+
+
+@dataclass(frozen=True)
+class Body:
+    """One body's rubbing track, cut to a patch that repeats along x. Arrays [rows, nx - 1]."""
+
+    growth: Array  # tribofilm formed [m]
+    removal: Array  # tribofilm removed [m]
+    wear: Array  # depth worn [m]
+    plastic: Array  # permanent depth pressed in [m]
+    pressure: Array  # solid pressure a point feels, mean over its track [Pa]; what wear needs of the last solution
+    exposure: Array  # per test time, what the tribofilm law needs of the last solution
+    abrasion: Array  # rate [1/s], per test time, at which rubbing removes the tribofilm; zero for laws without it
+    since: Array  # passes through the contact since a point was last exposed
+    offset: float  # how far the patch has moved along x in the solved steps [m], within one patch length
+    cycles: float  # passes through the contact
+    worn: float  # wear volume of the whole track [m3]
+    noise: float  # variance of the wear depth from node to node that sampling has made [m2]
+
+    ARRAYS: ClassVar[tuple[str, ...]] = (
+        "growth",
+        "removal",
+        "wear",
+        "plastic",
+        "pressure",
+        "exposure",
+        "abrasion",
+        "since",
+    )
+
+    def __post_init__(self) -> None:
+        for name in self.ARRAYS:
+            getattr(self, name).setflags(write=False)
+
+    @cached_property
+    def tribofilm(self) -> Array:
+        """Tribofilm thickness [m], [rows, nx - 1]."""
+        film = thickness(self.growth, self.removal)
+        film.setflags(write=False)
+        return film
+
+
+@dataclass(frozen=True)
+class Mean:
+    """What the fast level knows of a body: means over its track |y| < b, b at the scene's reference load."""
+
+    growth: float  # tribofilm formed [m]; all of it lies on the covered part
+    removal: float  # tribofilm removed [m]
+    coverage: float  # share of the track that has been rubbed and may carry a tribofilm
+    wear: float  # depth worn [m]
+    roughness: float  # rms roughness of the solid under its tribofilm [m]
+    worn: float  # wear volume of the whole track [m3]
+    cycles: float  # passes through the contact
+
+
+@dataclass(frozen=True)
+class ContactState:
+    """A contact's whole memory."""
+
+    digest: str  # fingerprint of the scene it belongs to
+    time: float  # [s]
+    bodies: tuple[Body, Body]
+    film: FilmState | None  # the last film solution: warm start and history of the squeeze term; None: start dry
+    law: str  # what `exposure` of the bodies means
+    solved_for: OperatingPoint | None  # of the last block; None: nothing solved yet
+    change: float  # geometry change since the last block [m]
+    held: float  # time since the last block [s]
+    hold: float  # longest time until the next block [s]
+    settling: float  # time [s] for which the film still follows inputs that have changed (control.inputs)
+    dry_blocks_left: int  # blocks until the share of the solids is measured again
+    share: float  # of the load on the solids of a dry contact
+    trends: Trends
+    temperatures: (
+        tuple[float, float] | None
+    )  # of the bodies [K], which heat.bulk = "lumped" goes on from; None: none yet
+    outputs: Outputs
+    means: tuple[Mean, Mean] | None = None  # of the fast level, newer than the patches; None: the patches are current
+
+    @property
+    def rows(self) -> int:
+        """Rows of the patches and of the grid of the contact."""
+        return self.bodies[0].wear.shape[0]
+
+    def to_bytes(self) -> bytes:
+        """Serialise: magic, checksum of the head, the head (schema, length, texts, numbers, what the arrays are, their
+        checksums), raw little-endian arrays.
+
+        The same state gives the same bytes.
+        """
+        return b"".join(self.parts())
+
+    def parts(self) -> list[bytes | memoryview]:
+        """What `to_bytes` joins: all up to the arrays, then the memory of each array, which is not copied.
+
+        An array of one value everywhere has no part: fresh surfaces take up no room. One that has not changed since an
+        earlier state is the same object in both (`obj` of its part): at the fast level that is all of them, between two
+        solutions of the deterministic one all but what grows and wears.
+        """
+        kept = [stored(record) for record in (*self.bodies, self.trends, self.film) if record is not None]
+        texts = self.digest.encode(), self.law.encode()
+        given = [record is not None for record in (self.film, self.solved_for, self.means, self.temperatures)]
+        single = [r for r in (self, self.outputs, self.solved_for, *(self.means or ())) if r is not None]
+        head = b"".join(
+            [
+                _TEXTS.pack(*given, *map(len, texts)),
+                *texts,
+                *map(numbers, single),
+                _PAIR.pack(*self.temperatures or (0.0, 0.0)),
+                *[record.head for record in kept],
+            ]
+        )
+        signed = _SIGNED.pack(_SCHEMA, len(head)) + head
+        memory = [array for record in kept for array in record.memory]
+        return [b"".join([_MAGIC, _CHECKSUM.pack(zlib.crc32(signed)), signed]), *memory]
+
+    @staticmethod
+    def from_bytes(data: bytes, scene: Scene) -> "ContactState":
+        """Restore what `to_bytes` wrote, bit for bit. Raises StateError if damaged or of another scene."""
+        state = _read(data)
+        if state.digest != scene.digest():
+            raise StateError(
+                f"The stored state belongs to another contact (fingerprint {state.digest}, scene '{scene.name}' has "
+                f"{scene.digest()}): geometry, surfaces and grid must be the same. Use the scene it was made with."
+            )
+        return state
+
+
+def _read(data: bytes) -> ContactState:
+    start = len(_MAGIC) + _CHECKSUM.size
+    if data[: len(_MAGIC)] != _MAGIC or len(data) < start + _SIGNED.size:
+        raise StateError("The stored state is not one of tribofmu's. Give a file that a run has written.")
+    (checksum,) = _CHECKSUM.unpack_from(data, len(_MAGIC))
+    schema, length = _SIGNED.unpack_from(data, start)
+    if schema != _SCHEMA:  # 5 and before had the length of their header there
+        found = schema if schema < _FEWEST else "5 or less"
+        raise StateError(
+            f"The stored state has schema {found} or is damaged; this version reads {_SCHEMA}. Give a file that a run "
+            "of this version has written."
+        )
+    end = start + _SIGNED.size + length
+    if zlib.crc32(memoryview(data)[start:end]) != checksum:
+        raise StateError("The stored state is damaged: it was cut or changed. Use an earlier one.")
+    reader = Reader(data, start + _SIGNED.size, end)
+    try:
+        state = _unpacked(reader)
+        reader.close()
+    except (ValueError, struct.error) as error:
+        raise StateError(f"The stored state is damaged ({error}). Use an earlier one.") from None
+    return state
+
+
+def _unpacked(reader: Reader) -> ContactState:
+    film, solved_for, means, temperatures, digest, law = reader.values(_TEXTS)
+    texts: dict[str, Any] = {"digest": reader.text(digest), "law": reader.text(law)}
+    own = reader.numbers(ContactState)
+    outputs = Outputs(**reader.numbers(Outputs))
+    point = OperatingPoint(**reader.numbers(OperatingPoint)) if solved_for else None
+    both = (Mean(**reader.numbers(Mean)), Mean(**reader.numbers(Mean))) if means else None
+    warm = reader.values(_PAIR)
+    return ContactState(
+        **texts,
+        **own,
+        outputs=outputs,
+        solved_for=point,
+        means=both,
+        temperatures=(warm[0], warm[1]) if temperatures else None,
+        bodies=(reader.record(Body), reader.record(Body)),
+        trends=reader.record(Trends),
+        film=reader.record(FilmState) if film else None,
+    )
+
+
+def changed(record: _Record, **values: Any) -> _Record:
+    """`dataclasses.replace` at a fifth of its cost: the fields must exist, and nothing is looked at."""
+    copy = object.__new__(type(record))
+    copy.__dict__.update(record.__dict__)
+    copy.__dict__.update(values)
+    return copy
+
+
+def initial_state(scene: Scene) -> ContactState:
+    """Fresh surfaces: no film, no wear, nothing solved."""
+    shape = (scene.rows, scene.film.points - 1)
+    zeros = np.zeros(shape)
+    body = Body(zeros, zeros, zeros, zeros, zeros, zeros, zeros, np.full(shape, np.inf), 0.0, 0.0, 0.0, 0.0)
+    return ContactState(
+        scene.digest(), 0.0, (body, body), None, "", None, 0.0, 0.0, 0.0, 0.0, 0, 1.0, Trends.fresh(), None, Outputs()
+    )

@@ -1,0 +1,138 @@
+"""From patches to the track means of the regression level, and back."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Scene
+from ..state import Body, ContactState, Mean
+from .patches import bare_heights, roughness_of
+from .roughness import rms_roughness
+from .track import MIDDLE, track_rows
+
+Array = NDArray[np.float64]
+Means = tuple[Mean, Mean]
+
+_HALVINGS = 40  # of an interval of heights
+
+
+def means_of(scene: Scene, state: ContactState) -> Means:
+    """Return the means of the patches over the track."""
+    first, second = (_mean_of(scene, state, i) for i in (0, 1))
+    return first, second
+
+
+def _mean_of(scene: Scene, state: ContactState, i: int) -> Mean:
+    body, rows = state.bodies[i], state.rows
+    track = track_rows(scene, rows)
+    bare = bare_heights(scene, rows)[i]
+    solid = roughness_of(bare, bare - body.wear - body.plastic)
+    return Mean(
+        growth=float(body.growth[track].mean()),
+        removal=float(body.removal[track].mean()),
+        coverage=float((body.growth[track] > 0.0).mean()),
+        wear=float(body.wear[track].mean()),
+        roughness=rms_roughness(solid, track_rows(scene, rows, MIDDLE)),
+        worn=body.worn,
+        cycles=body.cycles,
+    )
+
+
+def folded(scene: Scene, state: ContactState) -> ContactState:
+    """Return the state with its patches brought up to date: the change of the track means is added to them.
+
+    Tribofilm is added where there is some and on the highest points without any. Wear cuts off the highest points as
+    far as the roughness has to fall, and takes the rest in proportion to the last pressure on each point. Unchanged
+    means change nothing.
+    """
+    if state.means is None:
+        return state
+    old = means_of(scene, state)
+    first, second = (
+        body if now == then else _folded(scene, state.rows, i, body, then, now)
+        for i, (body, then, now) in enumerate(zip(state.bodies, old, state.means, strict=True))
+    )
+    return replace(state, bodies=(first, second), means=None, solved_for=None)
+
+
+def _folded(scene: Scene, rows: int, i: int, body: Body, then: Mean, now: Mean) -> Body:
+    """Return a body whose track has changed from one mean to another."""
+    track = track_rows(scene, rows)
+    bare = bare_heights(scene, rows)[i]
+    heights = (bare - body.wear - body.plastic)[track]
+    pressure = body.pressure[track]
+    share = pressure / pressure.mean() if pressure.any() else np.ones_like(pressure)
+    covered = _covered(heights, body.growth[track] > 0.0, now.coverage)
+    full = scene.tribofilm.full_thickness
+    changed: dict[str, Any] = {
+        "growth": _raised(body.growth[track], covered, then.growth, now.growth, full),
+        "removal": _raised(body.removal[track], covered, then.removal, now.removal, full),
+        "wear": body.wear[track] + _lost(scene, rows, bare, heights, share, now.wear - then.wear, now.roughness),
+    }
+    arrays = {name: getattr(body, name).copy() for name in changed}
+    for name, array in arrays.items():
+        array[track] = changed[name]
+    return replace(body, **arrays, worn=now.worn, cycles=now.cycles)
+
+
+def _lost(scene: Scene, rows: int, bare: Array, heights: Array, share: Array, wear: float, roughness: float) -> Array:
+    """Return the wear [m] of the track's solid heights, of a given mean, that leaves a given roughness [m].
+
+    If no cut through the highest points takes away enough, the roughness becomes as small as it can. `share` is the
+    pressure over its mean.
+    """
+    track, middle = track_rows(scene, rows), track_rows(scene, rows, MIDDLE)
+    if wear <= 0.0:
+        return wear * share
+
+    def lost(cut: float) -> Array:
+        peaks = np.maximum(heights - cut, 0.0)
+        return peaks + (wear - peaks.mean()) * share
+
+    def too_rough(cut: float) -> bool:
+        solid = bare.copy()
+        solid[track] = heights - lost(cut)
+        return rms_roughness(roughness_of(bare, solid), middle) > roughness
+
+    high = float(heights.max())
+    if not too_rough(high):
+        return lost(high)
+    low = _level(heights, wear)
+    for _ in range(_HALVINGS):
+        cut = 0.5 * (low + high)
+        low, high = (low, cut) if too_rough(cut) else (cut, high)
+    return lost(high)
+
+
+def _level(heights: Array, mean: float) -> float:
+    """Return the height [m] above which there is `mean` [m] of the solid, averaged over all nodes."""
+    high, low = float(heights.max()), float(heights.min()) - mean
+    for _ in range(_HALVINGS):
+        cut = 0.5 * (low + high)
+        low, high = (cut, high) if np.maximum(heights - cut, 0.0).mean() > mean else (low, cut)
+    return high
+
+
+def _covered(heights: Array, before: NDArray[np.bool_], coverage: float) -> NDArray[np.bool_]:
+    """Return the nodes that carry a tribofilm: those that did, and as many of the highest as make up the coverage."""
+    more = round(coverage * heights.size) - int(before.sum())
+    if more <= 0:
+        return before
+    order = np.argsort(np.where(before, -np.inf, heights), axis=None, kind="stable")
+    after = before.copy()
+    after.flat[order[-more:]] = True
+    return after
+
+
+def _raised(field: Array, covered: NDArray[np.bool_], then: float, now: float, most: float) -> Array:
+    """Return a field [m] whose mean changes from `then` to `now`.
+
+    An increase takes the same part of the room up to `most` on every covered node, a decrease the same part of the
+    field everywhere.
+    """
+    if now <= then or not covered.any():
+        return field * (now / then) if then > 0.0 else field
+    room = np.where(covered, np.maximum(most - field, 0.0), 0.0)
+    return field + room * ((now - then) / float(room.mean()))
