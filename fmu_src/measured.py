@@ -1,4 +1,4 @@
-"""Measured errors and costs that the FMU's documentation shows: figures of `docs/`, written there by the benchmarks.
+"""Measured errors and costs that the FMU's documentation shows: figures of `docs/measured`, from the benchmarks.
 
 Every row holds the numbers of one line of its page; `tests/fmu/test_content.py` compares them.
 """
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Table:
-    """Measured figures: what they say, what writes them, and the page of docs/ that they are from."""
+    """Measured figures: what they say, what writes them, and the page of docs/measured that they are from."""
 
     title: str
     command: str
@@ -17,7 +17,7 @@ class Table:
     rows: tuple[tuple[str, ...], ...]
 
 
-_FAST = "python benchmarks/regression.py check"
+_FAST = "python -m benchmarks.regression.curves check"
 _BANDS = ("λ", "points", "friction, median", "90 %", "h_c, median", "90 %", "W_c (absolute), median", "90 %")
 
 ERRORS: dict[str, tuple[Table, ...]] = {
@@ -25,8 +25,8 @@ ERRORS: dict[str, tuple[Table, ...]] = {
         Table(
             "Time steps and sampling: two hours of azam_case_a on 129 nodes against ten times shorter blocks, rms over "
             "time in %, of tribofilm and wear body 1 and 2",
-            "python benchmarks/evolution.py control",
-            "evolution.md",
+            "python -m benchmarks.surfaces.evolution control",
+            "surfaces/evolution.md",
             ("driver", "friction", "h_c", "W_c", "A_c", "tribofilm 1", "tribofilm 2", "wear 1", "wear 2"),
             (
                 ("auto", "2.1", "1.2", "3.3", "1.7", "1.5", "0.9", "1.4", "2.2"),
@@ -35,8 +35,8 @@ ERRORS: dict[str, tuple[Table, ...]] = {
         ),
         Table(
             "The same of mtm_zddp, most of whose blocks are driven dry, against driving all of them mixed",
-            "python benchmarks/evolution.py driver",
-            "evolution.md",
+            "python -m benchmarks.surfaces.evolution driver",
+            "surfaces/evolution.md",
             ("scene", "driver", "blocks", "of them dry", "friction", "h_c", "W_c", "A_c", "tribofilm 1", "tribofilm 2"),
             (
                 ("mtm_zddp", "auto", "95", "75", "2.6", "3.2", "3.8", "4.2", "3.6", "6.4"),
@@ -45,15 +45,15 @@ ERRORS: dict[str, tuple[Table, ...]] = {
         ),
         Table(
             "Iteration: one step of moving roughness, mtm_zddp on 129 nodes, against film.tolerance = 2e-4",
-            "python benchmarks/tolerance.py mtm_zddp",
-            "tolerance.md",
+            "python -m benchmarks.film.tolerance mtm_zddp",
+            "film/tolerance.md",
             ("film.tolerance", "pressure error %", "W_c"),
             (("1e-3", "0.65", "0.620"), ("3e-3", "1.35", "0.621"), ("1e-2", "3.02", "0.634")),
         ),
         Table(
             "Grid: the first block of mtm_zddp on fresh surfaces; no error_* output knows of it",
-            "python benchmarks/grid.py mtm_zddp",
-            "grid.md",
+            "python -m benchmarks.film.grid mtm_zddp",
+            "film/grid.md",
             ("nodes", "friction coefficient", "W_c", "A_c", "h_c [m]"),
             (
                 ("65", "0.106", "0.817", "0.479", "4.1e-08"),
@@ -66,7 +66,7 @@ ERRORS: dict[str, tuple[Table, ...]] = {
         Table(
             "Against the deterministic level on random points of azam_case_a that the fit has not seen, relative",
             _FAST,
-            "regression.md",
+            "regression/curves.md",
             _BANDS,
             (
                 ("below 0.05", "35", "0.036", "0.131", "0.072", "0.152", "0.042", "0.095"),
@@ -78,7 +78,7 @@ ERRORS: dict[str, tuple[Table, ...]] = {
         Table(
             "The same for mtm_zddp",
             _FAST,
-            "regression.md",
+            "regression/curves.md",
             _BANDS,
             (
                 ("below 0.05", "45", "0.020", "0.054", "0.058", "0.094", "0.022", "0.052"),
@@ -90,7 +90,7 @@ ERRORS: dict[str, tuple[Table, ...]] = {
         Table(
             "After two hours of rubbing and where the levels are furthest apart, deterministic / fast; lengths in nm",
             _FAST,
-            "regression.md",
+            "regression/curves.md",
             ("scene", "min", "friction", "W_c", "A_c", "h_c", "tribofilm 1", "tribofilm 2", "wear 1", "wear 2"),
             (
                 (
@@ -146,8 +146,8 @@ ERRORS: dict[str, tuple[Table, ...]] = {
         Table(
             "How often error_friction and error_film cover the deviation on points that nothing was fitted to; solved "
             "well: the deterministic level met its tolerance and its grid resolves the inlet",
-            "python benchmarks/regression_shapes.py page",
-            "regression_shapes.md",
+            "python -m benchmarks.regression.shapes page",
+            "regression/shapes.md",
             ("shape", "seed", "solved well", "points", "error_friction", "error_film"),
             (
                 ("line", "check", "yes", "34", "97 % of 34", "97 % of 34"),
@@ -167,7 +167,7 @@ COSTS: dict[str, Table] = {
     "deterministic": Table(
         "CPU seconds so far on 129 nodes, one thread: at 0 min the first solution, at 120 min with all that followed",
         _FAST,
-        "regression.md",
+        "regression/curves.md",
         ("scene", "min", "CPU s"),
         (
             ("azam_case_a", "0", "3.7"),
@@ -178,8 +178,8 @@ COSTS: dict[str, Table] = {
     ),
     "regression": Table(
         "Microseconds of one step with changed load, speeds and temperature, as shipped and with the costliest laws",
-        "python benchmarks/regression_cost.py",
-        "regression_cost.md",
+        "python -m benchmarks.regression.cost",
+        "regression/cost.md",
         ("scene", "laws", "median", "5 %", "95 %"),
         (
             ("azam_case_a", "as shipped", "132.8", "124.0", "418.2"),

@@ -1,7 +1,11 @@
 """What all tests share: a test's marker is the folder it lies in, and random inputs repeat in every run."""
 
 import os
+import sys
 from pathlib import Path
+
+# the benchmarks; behind the installed packages, which are what is tested
+sys.path.append(str(Path(__file__).parents[1]))
 
 # before numpy is loaded: threads that wait for each other on matrices of six rows take half of the time of some files
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

@@ -21,7 +21,7 @@ from .sampling import blocks_per_pass, jumps_of, sample_dry, sample_mixed
 _DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
 # how far the noise of blocks cancels, against that of independent ones: fitted to the roughness of case A's ball, which
-# `benchmarks/evolution.py control` judges
+# `python -m benchmarks.surfaces.evolution control` judges
 _ALIKE = {"dry": 0.1, "mixed": 0.5}
 _CREEP = 0.01  # a body below this share of the other's speed shows a block only a piece of its track
 _SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most

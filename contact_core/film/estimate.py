@@ -6,7 +6,7 @@ from .routes import coarser, prolonged, solve_film
 from .scaled import Scaled
 
 # error of an output over its difference between the two grids: 1/3 at second order, more where little is resolved;
-# these cover nine in ten of random contacts of another seed than the one benchmarks/error_estimate.py reports
+# these cover nine in ten of random contacts of another seed than the one benchmarks/film/error_estimate.py reports
 _FACTORS = {"contact_load_ratio": 2.0, "pressure_max": 2.5}
 _FACTOR = 1.5  # of the others
 _RESOLVED = 3.0  # nodes across the inlet, from which on a grid knows the film

@@ -73,13 +73,14 @@ class FittedSharing:
     pressure, g = G ln[1 + k (s / 0.2)^-1.5] / k, f = F (s r / 0.4)^-0.75 >= g.
 
     W_c at a given lambda is a number of the grid: the constants hold for resolutions as those of the fit. They were
-    fitted over the ranges `FITTED`; `HALF_WIDTHS` are those of their 95 % intervals (docs/regression.md).
+    fitted over the ranges `FITTED`; `HALF_WIDTHS` are those of their 95 % intervals
+    (docs/measured/regression/curves.md).
     """
 
     name: ClassVar[str] = "fitted"
     source: ClassVar[str] = (
         "form of W_c: Zhou & Hoeprich, J. Tribol. 113 (1991) 590, doi:10.1115/1.2920664; "
-        "constants: benchmarks/regression.py"
+        "constants: benchmarks/regression/curves.py"
     )
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
         "clearance": (0.003, 70.0),

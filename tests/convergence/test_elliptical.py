@@ -89,7 +89,7 @@ def test_a_dry_ellipse_converges_to_hertz_and_lies_the_other_way_if_turned(ratio
     ids=["along the long axis", "across the long axis", "far across"],
 )
 def test_films_converge_to_second_order_on_the_limit_of_finer_grids(ratio, load, limit):
-    """Limits in Moes' units from docs/elliptical.md, 129 and 257 nodes along the shorter side; b/a = 0.5, 2 and 5."""
+    """Limits in Moes' units: docs/measured/film/elliptical.md, 129, 257 nodes along the shorter side."""
     given = of_moes(load, 10.0, ratio)
     unit = RADIUS * np.sqrt((10.0 / (2.2e-8 * MODULUS)) ** 4)
     found = films(given, (33, 65, 129)) / unit
@@ -107,7 +107,7 @@ def test_films_across_the_long_axis_are_those_of_the_formula(ratio, load):
 
 def test_slim_contacts_tend_to_a_film_without_leakage_round_the_tip():
     """H of b/a = 0.2 over that of the circle rises toward (p_H / sqrt(a))^(-1/2) with the load, where formulas stay at
-    0.3 (see docs/elliptical.md).
+    0.3 (see docs/measured/film/elliptical.md).
     """
     ratio = 0.08456
     slim, circle = (hertz_point(LOAD, RADIUS, k * RADIUS, MODULUS) for k in (ratio, 1.0))

@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from comparison import approx
-from models import build
 from scipy.integrate import solve_ivp
 
+from benchmarks.models import build
 from system_models.master import System, simulate
 
 

@@ -8,9 +8,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 from comparison import approx
-from models import build, systems
-from models.systems import Case
 
+from benchmarks.models import build, systems
+from benchmarks.models.systems import Case
 from system_models.master import System, simulate
 
 # [s]: the faster of the quarter car's two modes falls to 1/e in 0.079 s, and errors are not dead then: with that for

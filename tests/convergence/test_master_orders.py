@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 from comparison import approx
-from models import build, systems
-from models.systems import Case
 
+from benchmarks.models import build, systems
+from benchmarks.models.systems import Case
 from system_models.master import System, simulate
 
 END = 2.0

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 import xarray as xr
 from comparison import approx
-from models import systems
-from models.systems import Case
 
+from benchmarks.models import systems
+from benchmarks.models.systems import Case
 from system_models.master import CouplingError, simulate
 
 REST = 1.0795e-6  # [m]: (300 / F_ref)^(2/3) x_ref

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from fmu_host import LINE, SMALL, Host, hosted, unpacked
 from isolated import FAULTS, SCRIPT, UNSAVED
-from native_host import compiled, embedding_environment, plain_environment
 
+from benchmarks.hosts.native_host import compiled, embedding_environment, plain_environment
 from contact_core import Scene
 from fmu_src.build import build
 from fmu_src.flavours import FLAVOURS, Flavour

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from pathlib import Path
 
-from native_host import OK, Fmu, Instance, NativeHost, plain_environment
+from benchmarks.hosts.native_host import OK, Fmu, Instance, NativeHost, plain_environment
 
 # What the load does to a faulty model.
 FAULTS = {

@@ -6,8 +6,8 @@ from xml.etree import ElementTree as ET
 
 import fmpy
 import pytest
-from models import build as build_model
 
+from benchmarks.models import build as build_model
 from contact_core import Scene
 from fmu_src.build import build
 from system_models.master import System, export_ssp, simulate

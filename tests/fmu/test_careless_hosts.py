@@ -6,8 +6,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from native_host import ERROR, OK, Fmu, Instance, NativeHost, plain_environment
-from processes import alive, children, soon
+
+from benchmarks.hosts.native_host import ERROR, OK, Fmu, Instance, NativeHost, plain_environment
+from benchmarks.hosts.processes import alive, children, soon
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the processes are looked at as Linux shows them")
 

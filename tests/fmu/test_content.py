@@ -262,8 +262,8 @@ def numbers(line: str) -> list[str]:
     ids=lambda table: table.title[:30],
 )
 def test_measured_figures_are_those_of_the_benchmarks_page(figures):
-    text = (ROOT / "docs" / figures.page).read_text("utf-8")
-    assert (ROOT / figures.command.split()[1]).exists()
+    text = (ROOT / "docs" / "measured" / figures.page).read_text("utf-8")
+    assert ROOT.joinpath(*figures.command.split()[2].split(".")).with_suffix(".py").exists()
     assert figures.command.rpartition(" ")[0] in text or figures.command in text
     lines = text.splitlines()
     for row in figures.rows:

@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 from fmu_host import environment
 from importers import IMPORTERS, PRINTED_DIGITS, STEP, STIMULI, UNUSABLE, real_outputs
-from native_host import OK, NativeHost
 from test_run import direct
+
+from benchmarks.hosts.native_host import OK, NativeHost
 
 EMBEDDED_REFUSED = {
     "fmuloader": "fmuloader asks for the functions of model exchange, which pythonfmu's binary does not have",

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from comparison import approx
 from fmpy.fmi1 import FMICallException
-from models import build
-from models.description import inlet, output
 
+from benchmarks.models import build
+from benchmarks.models.description import inlet, output
 from system_models.master.errors import CouplingError
 from system_models.master.initial import initialise
 from system_models.master.slave import Fmi2Slave, Slave

@@ -11,7 +11,8 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from fmu_host import hosted
 from isolated import ENDLESS, FAULTS, STEPS, UNSAVED, rows, running, started
-from native_host import ERROR, OK, WARNING, NativeHost
+
+from benchmarks.hosts.native_host import ERROR, OK, WARNING, NativeHost
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the processes are looked at as Linux shows them")
 

@@ -11,10 +11,10 @@ from pathlib import Path
 
 import pytest
 from fmu_host import Host, hosted, unpacked
-from native_host import ERROR, NONE, OK, WARNING, Fmu, Instance, NativeHost, plain_environment
-from processes import children
 from test_parts_fmu import EXAMPLES, STEPS, SYSTEMS, at_rest
 
+from benchmarks.hosts.native_host import ERROR, NONE, OK, WARNING, Fmu, Instance, NativeHost, plain_environment
+from benchmarks.hosts.processes import children
 from fmu_src.flavours import FLAVOURS
 from system_models.check import deep
 from system_models.cli import main

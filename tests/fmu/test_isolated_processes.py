@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 from fmu_host import unpacked
 from isolated import rows, running, started, stepped
-from native_host import ERROR, OK, NativeHost, plain_environment
-from processes import alive, children, descriptors, mapped, soon
 
+from benchmarks.hosts.native_host import ERROR, OK, NativeHost, plain_environment
+from benchmarks.hosts.processes import alive, children, descriptors, mapped, soon
 from fmu_src.build import build
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the processes are looked at as Linux shows them")

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 from fmu_host import unpacked
 from isolated import running, started
-from native_host import NONE, OK, NativeHost, plain_environment
 
+from benchmarks.hosts.native_host import NONE, OK, NativeHost, plain_environment
 from fmu_src.build import build
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the processes are looked at as Linux shows them")

@@ -17,8 +17,8 @@ import fmpy
 import pytest
 from fmpy.simulation import instantiate_fmu
 from fmu_host import environment, hosted
-from native_host import ERROR, OK, NativeHost, plain_environment
 
+from benchmarks.hosts.native_host import ERROR, OK, NativeHost, plain_environment
 from fmu_src import slave
 from fmu_src.snapshot import Snapshot
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 import xarray as xr
 from comparison import approx
-from models import build
 
+from benchmarks.models import build
 from system_models.master import CouplingError, System, simulate
 
 

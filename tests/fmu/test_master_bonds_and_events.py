@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from comparison import approx
-from models import build
 
+from benchmarks.models import build
 from system_models.master import CouplingError, System, simulate
 
 

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from models import build, systems
 
+from benchmarks.models import build, systems
 from system_models.checkpoint import Checkpoint
 from system_models.master import System, simulate
 from system_models.master.coupled import Coupled

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from comparison import approx
-from models.systems import quarter_car_force, two_mass_force
 
+from benchmarks.models.systems import quarter_car_force, two_mass_force
 from system_models.master import CouplingError, simulate
 from system_models.master.coupled import Coupled
 

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from models import systems
-from processes import allocated
+from memory import allocated
 
+from benchmarks.models import systems
 from system_models.master import simulate
 
 ROW = 8 * (1 + 1 + 4)  # bytes: time, one output, how the step went

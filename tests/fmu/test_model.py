@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 from comparison import approx
-from models import build
 
+from benchmarks.models import build
 from system_models.master.model import Model, kind
 from system_models.master.system import System
 

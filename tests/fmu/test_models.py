@@ -14,10 +14,11 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Discard, fmi2Error, fmi2LastSuccessfulTime, fmi2Terminated
 from fmpy.fmi3 import FMU3Slave, fmi3Error
 from fmpy.validation import validate_fmu
-from models import MODELS, build, exact
-from models.description import Variant, describe, inlet, output
-from processes import allocated
+from memory import allocated
 from scipy.linalg import expm
+
+from benchmarks.models import MODELS, build, exact
+from benchmarks.models.description import Variant, describe, inlet, output
 
 PREDEFINED = sorted(set(MODELS) - {"linear"})
 

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 from fmu_host import unpacked
-from native_host import OK, NativeHost, compiled, plain_environment
 
+from benchmarks.hosts.native_host import OK, NativeHost, compiled, plain_environment
 from contact_core import Scene
 from fmu_src.build import binaries
 from fmu_src.build import build as build_fmu

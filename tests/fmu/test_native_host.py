@@ -2,7 +2,8 @@
 
 import pytest
 from fmu_host import unpacked
-from native_host import NONE, OK, WARNING, NativeHost
+
+from benchmarks.hosts.native_host import NONE, OK, WARNING, NativeHost
 
 OUTPUTS = ("friction_force", "h_c", "wear_volume_1")
 IN_A_NAME = {"embedded": " ", "isolated": " #ü+(@%20"}  # characters that the folder of an FMU may have

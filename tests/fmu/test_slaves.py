@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from comparison import approx
 from fmpy.fmi1 import FMICallException
-from models import build
 
+from benchmarks.models import build
 from system_models.master.errors import CouplingError
 from system_models.master.model import Model
 from system_models.master.slave import Fmi2Slave, Slave

@@ -8,14 +8,14 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
-import native_host
 import pytest
 import wine_host
 from fmu_host import unpacked
-from native_host import ERROR, NONE, OK, Instance, NativeHost, plain_environment
-from processes import soon
 from wine_host import Relay, WineHost, windows_path
 
+from benchmarks.hosts import native_host
+from benchmarks.hosts.native_host import ERROR, NONE, OK, Instance, NativeHost, plain_environment
+from benchmarks.hosts.processes import soon
 from contact_core import Scene
 from fmu_src.build import build
 

@@ -16,7 +16,9 @@ from pathlib import Path
 from shutil import which
 
 import fmpy
-from native_host import Fmu, NativeHost, plain_environment
+
+from benchmarks.hosts import native_host
+from benchmarks.hosts.native_host import Fmu, NativeHost, plain_environment
 
 _HERE = Path(__file__).parent
 
@@ -29,7 +31,7 @@ def compiled(folder: Path) -> tuple[Path, Path]:
     """The host of c_host.c and the relay, as programs for Windows in `folder`."""
     zig = [sys.executable, "-m", "ziglang", "cc", "-target", "x86_64-windows-gnu", "-std=gnu11", "-O2", "-g0", "-s"]
     headers = Path(fmpy.__file__).parent / "c-code"
-    host = ["-w", "-I", _HERE / "windows", "-I", headers, _HERE / "c_host.c", "-o", folder / "c_host.exe"]
+    host = ["-w", "-I", _HERE / "windows", "-I", headers, native_host.SOURCE, "-o", folder / "c_host.exe"]
     relay = [_HERE / "windows" / "relay.c", "-lws2_32", "-o", folder / "relay.exe"]
     for arguments in (host, relay):
         subprocess.run([*zig, *map(str, arguments)], check=True)

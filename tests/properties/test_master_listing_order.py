@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
-from models import build
 
+from benchmarks.models import build
 from system_models.master import System, simulate
 
 FMUS = {"one": "mass_1_force", "two": "mass_2_spring", "three": "point_mass", "four": "gain"}

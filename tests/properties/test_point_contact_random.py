@@ -1,18 +1,14 @@
 """Points drawn far beyond a machine's: they converge, and what is called converged solves the equations."""
 
 import math
-import sys
 from dataclasses import replace
 from itertools import islice
-from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
-
-from hard_cases import TOLERANCE, answer, judge
-from random_points import draw
-
+from benchmarks.film.hard_cases_kept import TOLERANCE
+from benchmarks.film.independent import answer, judge
+from benchmarks.film.random_points import draw
 from contact_core.calls.point_contact import point_contact
 
 POINTS = list(islice((point for point in draw(2) if point is not None), 14))

@@ -7,10 +7,10 @@ import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
-import models
 import pytest
 from checking import LAX, ROUGH, answers, deep_findings, edited, replaced, verdicts
 
+from benchmarks import models
 from contact_core import Scene
 from fmu_src.build import build
 from system_models.check import deep

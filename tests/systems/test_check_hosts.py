@@ -7,7 +7,6 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-import models
 import pytest
 from checking import (
     answers,
@@ -15,6 +14,7 @@ from checking import (
     verdicts,
 )
 
+from benchmarks import models
 from system_models.check import deep
 from system_models.check.package import opened
 from system_models.check.verdict import Verdict

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 import xarray as xr
 from comparison import approx
-from models import build
 from test_resume import KILLED, bits
 
+from benchmarks.models import build
 from contact_core import StateError
 from system_models import cosim_report
 from system_models.checkpoint import Checkpoint

@@ -1,4 +1,4 @@
-"""What docs/cosim.md tells to do works as it stands."""
+"""What docs/how-to/cosim.md tells to do works as it stands."""
 
 import re
 import shlex
@@ -16,7 +16,7 @@ from system_models import cosim_report
 from system_models.cli import main
 from system_models.master import reading
 
-PAGE = (Path(__file__).parents[2] / "docs" / "cosim.md").read_text("utf-8")
+PAGE = (Path(__file__).parents[2] / "docs" / "how-to" / "cosim.md").read_text("utf-8")
 
 
 def blocks(language: str) -> list[str]:

@@ -10,7 +10,7 @@ import pytest
 from system_models.machine import reading, timeline
 from system_models.machine.files import folder
 
-PAGE = Path(__file__).parents[2].joinpath("docs", "machines.md").read_text("utf-8")
+PAGE = Path(__file__).parents[2].joinpath("docs", "how-to", "machines.md").read_text("utf-8")
 ROWS = re.findall(r"^\| `(\w+)` \| (.+?) \| (.+?) \| (.+?) \|$", PAGE, re.MULTILINE)
 TOML = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
 

@@ -2,30 +2,29 @@
 
 import re
 import shutil
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 from comparison import approx
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
-
-import peers
-from readme_figures import Pages, number, section, section_of
-from thesis_page import KINDS, NAMES, explained
-from thesis_rows import VERDICTS, Judged
+from benchmarks.film import peers
+from benchmarks.house.readme_figures import section, section_of
+from benchmarks.house.tables import Pages, number
+from benchmarks.thesis.page import KINDS, NAMES, explained
+from benchmarks.thesis.rows import VERDICTS, Judged
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
+MEASURED = DOCS / "measured"
 README = (ROOT / "README.md").read_text("utf-8")
-PAGES = Pages(DOCS)
+PAGES = Pages(MEASURED)
 UNITS = r"(?:%|[mu]s\b|s\b|MB\b|kB\b|WU\b|times\b|work units|seconds|minutes)"
-CORE = ("core_smooth.md", "core_cost.md", "core_accuracy.md", "core_lambda.md", "core_starts.md")
+CORE = tuple(f"film/core_{part}.md" for part in ("smooth", "cost", "accuracy", "lambda", "starts"))
 
 
 def page(name: str) -> str:
-    return (DOCS / name).read_text("utf-8")
+    return (MEASURED / name).read_text("utf-8")
 
 
 # README
@@ -44,32 +43,24 @@ def test_figures_of_a_measurement_stand_in_that_section_alone() -> None:
 @pytest.mark.parametrize(
     ("name", "old", "new", "said"),
     [
-        ("regression.md", "0.0604 / 0.0761", "0.0604 / 0.302", "+4e+02 % (azam_case_a, 120 min)"),
-        ("regression.md", "| 26 | 0.211 | 0.354 |", "| 26 | 0.211 | 0.97 |", "21 %; 97 %"),
-        ("regression_shapes.md", "-0.06 within 0.42", "-0.56 within 0.42", "2 of 6 (circles)"),
-        ("regression_shapes.md", "92 % of 13 | 85 % of 13", "92 % of 13 | 8 % of 13", "28 of 40 (ellipses)"),
-        ("regression_cost.md", "| all of them | load, speeds, temperature | ", "| all | hot | 9", " us (all)"),
-        ("evolution.md", "1.4 (0.38)", "1.4 (0.01)", "| 1 % (wear 1) |"),
-        ("grid.md", "| 193 | 12.8 | 0.0725 | 0.477 |", "| 193 | 12.8 | 0.0725 | 0.1 |", "-84 % (W_c)"),
-        ("masters.md", "409 | PyCosimLibrary 0.0.5, iterated Jacobi | 4102 | 10.0", "409 | P | 4102 | 0.3", "| 0.3 |"),
-        ("core.md", "| 89 | yes |", "| 89 | **no** |", "not |"),
+        ("regression/curves.md", "0.0604 / 0.0761", "0.0604 / 0.302", "+4e+02 % (azam_case_a, 120 min)"),
+        ("regression/curves.md", "| 26 | 0.211 | 0.354 |", "| 26 | 0.211 | 0.97 |", "21 %; 97 %"),
+        ("regression/shapes.md", "-0.06 within 0.42", "-0.56 within 0.42", "2 of 6 (circles)"),
+        ("regression/shapes.md", "92 % of 13 | 85 % of 13", "92 % of 13 | 8 % of 13", "28 of 40 (ellipses)"),
+        ("regression/cost.md", "| all of them | load, speeds, temperature | ", "| all | hot | 9", " us (all)"),
+        ("surfaces/evolution.md", "1.4 (0.38)", "1.4 (0.01)", "| 1 % (wear 1) |"),
+        ("film/grid.md", "| 193 | 12.8 | 0.0725 | 0.477 |", "| 193 | 12.8 | 0.0725 | 0.1 |", "-84 % (W_c)"),
+        ("coupling/masters.md", "PyCosimLibrary 0.0.5, iterated Jacobi | 4102 | 10.0", "P | 4102 | 0.3", "| 0.3 |"),
+        ("film/core.md", "| 89 | yes |", "| 89 | **no** |", "not |"),
     ],
 )
 def test_a_worse_figure_of_a_page_becomes_the_worst(name: str, old: str, new: str, said: str, tmp_path: Path) -> None:
-    shutil.copytree(DOCS, tmp_path / "docs", ignore=shutil.ignore_patterns("*.png"))
+    shutil.copytree(MEASURED, tmp_path / "docs", ignore=shutil.ignore_patterns("*.png"))
     text = page(name)
     assert old in text
     (tmp_path / "docs" / name).write_text(text.replace(old, new, 1), "utf-8")
     changed = set(section(Pages(tmp_path / "docs")).splitlines()) - set(section(PAGES).splitlines())
     assert any(said in line for line in changed), changed
-
-
-def test_pages_and_benchmarks_that_are_named_exist() -> None:
-    for path in (ROOT / "README.md", *DOCS.glob("*.md")):
-        text = path.read_text("utf-8")
-        targets = [path.parent / name for name in re.findall(r"\]\((?!https?:|#)([^)#]+)", text)]
-        targets += [ROOT / name for name in re.findall(r"python (benchmarks/\w+\.py)", text)]
-        assert [str(target) for target in targets if not target.exists()] == [], path.name
 
 
 # pages
@@ -79,11 +70,11 @@ def test_the_summary_of_the_core_has_the_bars_of_its_pages() -> None:
     def asked(name: str) -> list[tuple[str, ...]]:
         return [tuple(row.values()) for row in PAGES.rows(name, "met?")]
 
-    assert asked("core.md") == [row for name in CORE for row in asked(name)]
+    assert asked("film/core.md") == [row for name in CORE for row in asked(name)]
 
 
 def test_verdicts_on_the_thesis_are_counted_as_they_stand() -> None:
-    text = page("validation.md")
+    text = page("thesis/validation.md")
     claims = {
         number: [cell.strip(" *") for cell in line.split(" | ")][5].split(" / ")
         for number, line in re.findall(r"^\| (\d\.\d+) \| (.*)$", text, re.MULTILINE)
@@ -94,7 +85,7 @@ def test_verdicts_on_the_thesis_are_counted_as_they_stand() -> None:
             why = re.search(rf"^- \*\*{re.escape(claim)}\*\*.*\n((?:  - .*\n)*)", text, re.MULTILINE)
             said = re.findall(rf"  - {NAMES[kind]}: (.*)\.\n", why[1]) if why else []
             judged[claim] = Judged(verdicts[place], "", tuple(part for line in said for part in line.split("; ")))
-        (row,) = (row for row in PAGES.rows("validation.md", "not run") if row[""] == NAMES[kind])
+        (row,) = (row for row in PAGES.rows("thesis/validation.md", "not run") if row[""] == NAMES[kind])
         counts = [sum(entry.verdict == verdict for entry in judged.values()) for verdict in VERDICTS]
         assert [int(row[verdict]) for verdict in VERDICTS] == counts
         assert f"**{sum(counts)} claims" in text
@@ -102,13 +93,13 @@ def test_verdicts_on_the_thesis_are_counted_as_they_stand() -> None:
 
 
 def test_ratios_and_differences_are_those_of_their_rows() -> None:
-    for row in PAGES.rows("masters.md", "ratio"):
+    for row in PAGES.rows("coupling/masters.md", "ratio"):
         assert number(row["ratio"]) == approx(int(row["calls (2)"]) / int(row["calls"]), rel=0.02)
-    direct = {row["slave"]: row for row in PAGES.rows("fmu_overhead.md", "slave", **{"called by": "direct call"})}
-    for row in PAGES.rows("fmu_overhead.md", "slave"):
+    direct = {row["slave"]: row for row in PAGES.rows("fmu/overhead.md", "slave", **{"called by": "direct call"})}
+    for row in PAGES.rows("fmu/overhead.md", "slave"):
         over = number(row["median [us]"]) - number(direct[row["slave"]]["median [us]"])
         assert number(row["over the direct call [us]"]) == approx(over, abs=0.11)
-    rows = PAGES.rows("peers.md", "ratio")
+    rows = PAGES.rows("film/peers.md", "ratio")
     for row in rows:
         others = [
             number(other["ms"])
@@ -123,10 +114,11 @@ def test_ratios_and_differences_are_those_of_their_rows() -> None:
 def test_the_page_of_the_fmu_says_what_a_step_costs_over_the_models_own_time() -> None:
     rows = {
         (row["slave"], row["called by"]): row["over the direct call [us]"]
-        for row in PAGES.rows("fmu_overhead.md", "slave")
+        for row in PAGES.rows("fmu/overhead.md", "slave")
     }
+    text = (DOCS / "how-to" / "fmu.md").read_text("utf-8")
     for slave, start in (("empty", "| a step of an empty model"), ("mtm_zddp", "| a step of `mtm_zddp`")):
-        (line,) = (line for line in page("fmu.md").splitlines() if line.startswith(start))
+        (line,) = (line for line in text.splitlines() if line.startswith(start))
         ways = (
             *("isolated, host in C", "isolated, host in C, any CPU"),
             *("embedded, fmpy", "embedded, host in C"),

@@ -12,9 +12,9 @@ import pytest
 from comparison import approx
 from fmpy.ssp.ssd import get_connections, read_ssd
 from lxml import etree
-from models import build
-from ssp_importers import UNUSABLE
 
+from benchmarks.hosts import ssp_runner
+from benchmarks.models import build
 from contact_core import Scene
 from fmu_src.build import build as build_contact
 from system_models.master import CouplingError, System, export_ssp, simulate
@@ -64,11 +64,11 @@ def structure(file: Path) -> etree._Element:
 
 def imported(importer: str, file: Path, names: list[str], step: float = STEP, count: int = COUNT) -> np.ndarray:
     """Values after each step, a row for each."""
-    script = str(Path(__file__).with_name("ssp_importers.py"))
+    script = ssp_runner.__file__
     run = subprocess.run(
         [sys.executable, script, importer, str(file), str(step), str(count), *names], capture_output=True, text=True
     )
-    if run.returncode == UNUSABLE:
+    if run.returncode == ssp_runner.UNUSABLE:
         pytest.skip(f"{importer}: {run.stderr.strip()}")
     assert run.returncode == 0, run.stderr[-2000:]
     return np.array(json.loads(run.stdout.splitlines()[-1]))  # libcosim logs to stdout

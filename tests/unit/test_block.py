@@ -64,7 +64,7 @@ def test_solids_of_a_dry_contact_under_oil_carry_their_share(share):
 
 
 def test_dry_contact_under_oil_touches_and_rubs_like_the_mixed_one_and_not_like_the_dry_one():
-    """The claim on which blocks above control.dry_above rest; docs/evolution.md has it for the shipped scenes."""
+    """Blocks above control.dry_above rest on this claim; shipped scenes: docs/measured/surfaces/evolution.md."""
     scene, state, op = cheap(film__points=65, control__mixed_instants=64, control__dry_instants=16)
     slow = replace(op, speed_1=0.006 * op.speed_1, speed_2=0.006 * op.speed_2)
     mixed = Accumulator.before(state)

@@ -13,10 +13,10 @@ LAW = FittedSharing()
 LAWS = [FittedSharing(), LineSharing()]
 FAR = np.inf  # floors, of a film far above the floor
 RATIOS = np.geomspace(1e-4, 1e2, 200)
-# a few points of the sweep: `python benchmarks/regression.py fit` writes it
+# a few points of the sweep: `python -m benchmarks.regression.curves fit` writes it
 GOLDEN = Path(__file__).parent.parent / "golden" / "load_sharing.csv"
 
-DOCS = Path(__file__).parents[2] / "docs"
+MEASURED = Path(__file__).parents[2] / "docs" / "measured" / "regression"
 
 
 @pytest.fixture(scope="module")
@@ -188,10 +188,10 @@ def test_shipped_constants_give_the_sweep_back_within_their_half_widths(golden):
     np.testing.assert_allclose(area, golden["area_ratio"], atol=0.03)
 
 
-@pytest.mark.parametrize(("law", "page"), [(FittedSharing, "regression.md"), (LineSharing, "regression_shapes.md")])
+@pytest.mark.parametrize(("law", "page"), [(FittedSharing, "curves.md"), (LineSharing, "shapes.md")])
 def test_shipped_constants_are_those_of_the_fit_on_the_page(law, page):
     """Rounded to two or three digits."""
-    rows = [line.strip("| ").split(" | ") for line in (DOCS / page).read_text(encoding="utf-8").splitlines()]
+    rows = [line.strip("| ").split(" | ") for line in (MEASURED / page).read_text(encoding="utf-8").splitlines()]
     fitted = {
         name: (float(found), float(width)) for name, found, width, _ in (r for r in rows if r[0] in law.HALF_WIDTHS)
     }

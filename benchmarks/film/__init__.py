@@ -1,0 +1,1 @@
+"""One contact at one instant: films, dry contacts, their errors and cost."""

@@ -1,0 +1,1 @@
+"""Friction and the cost of the laws."""

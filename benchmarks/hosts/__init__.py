@@ -1,0 +1,1 @@
+"""Programs that load FMUs and importers of SSP, for benchmarks and tests."""

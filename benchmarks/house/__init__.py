@@ -1,0 +1,1 @@
+"""The tests and the README: faults put into the code, figures written from the pages."""

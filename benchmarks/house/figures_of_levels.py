@@ -1,0 +1,153 @@
+"""Figures of the README about the two levels: the regression level, and two hours at the deterministic one."""
+
+
+from benchmarks.house.tables import Pages, Row, line_of, link, number, pair, per_cent, range_of
+
+HOURS = {
+    "tribofilm": ("ball's film nm", "disc's film nm"),
+    "wear": ("ball's wear nm", "disc's wear nm"),
+    "friction": ("mu",),
+    "h_c": ("h_c nm",),
+    "W_c": ("W_c",),
+    "A_c": ("A_c",),
+    "roughness of the disc": ("disc's roughness nm",),
+}
+
+
+def random_points(pages: Pages) -> list[tuple[str, ...]]:
+    """Friction, film and load of the solids on points that the fit has not seen."""
+    lines = []
+    for name, column in (("friction", "mu [rel.]"), ("h_c", "h_c [rel.]"), ("W_c (of 1)", "W_c [1]")):
+        found = []
+        for kind in ("median", "90 %"):
+            rows = pages.rows("regression/curves.md", f"{column}, {kind}", "The fast level")
+            found.append(range_of((row[f"{column}, {kind}"] for row in rows), per_cent))
+        ends = (f"{half}; {most}" for half, most in zip(*found, strict=True))
+        lines.append(
+            (f"{name} on random points of the shipped circles, half; nine of ten within", *ends, link("regression/curves.md"))
+        )
+    return lines
+
+
+def two_hours(pages: Pages) -> list[tuple[str, ...]]:
+    """Deviations over two hours of rubbing, which the curves were not fitted to."""
+    rows, lines = pages.rows("regression/curves.md", "CPU s", "Two hours"), []
+    for name, columns in HOURS.items():
+        found = []
+        for row in rows:
+            for column in columns:
+                slow, fast = pair(row[column])
+                if slow > 0.0:
+                    found.append((abs(fast / slow - 1.0), f"{100.0 * (fast / slow - 1.0):+.2g} %", row))
+        (_, best, _), (_, worst, at) = min(found, key=lambda one: one[0]), max(found, key=lambda one: one[0])
+        when = f"{worst} ({at['scene']}, {at['min']} min)"
+        lines.append((f"{name} at 0, 20, 60 and 120 min of rubbing", best, when, link("regression/curves.md")))
+    times = [slow / fast for slow, fast in (pair(row["CPU s"]) for row in rows if row["min"] == "120")]
+    lines.append(
+        ("their CPU time, times less", f"{max(times):.0f}", f"{min(times):.0f}", link("regression/curves.md"))
+    )
+    return lines
+
+
+def covered(rows: list[Row], column: str) -> tuple[int, int]:
+    """How many points of how many, of cells such as "97 % of 34"."""
+    counts = [(round(number(row[column]) / 100.0 * int(row[column].split(" of ")[1])), row[column]) for row in rows]
+    return sum(count for count, _ in counts), sum(int(cell.split(" of ")[1]) for _, cell in counts)
+
+
+def error_outputs(pages: Pages) -> list[tuple[str, ...]]:
+    """How often the error outputs cover the deviation where nothing was fitted."""
+    page, lines = "regression/shapes.md", []
+    rows = pages.rows(page, "solved well", points="check")
+    for name in ("friction", "film"):
+        for sure in (True, False):
+            kept = [row for row in rows if not sure or row["solved well"] == "yes"]
+            shapes = dict.fromkeys(row["shape"] for row in kept)
+            by_shape = {shape: covered([row for row in kept if row["shape"] == shape], name) for shape in shapes}
+            shares = {shape: hit / count for shape, (hit, count) in by_shape.items()}
+            best, worst = max(shares, key=shares.__getitem__), min(shares, key=shares.__getitem__)
+            hit, count = covered(kept, name)
+            which = "points solved well" if sure else "points, solved well or not,"
+            lines.append(
+                (
+                    f"`error_{name}` covers {hit} of {count} {which} of gears, bearings and an MTM that nothing was fitted to",
+                    *("{1} of {2} ({0}s)".format(shape, *by_shape[shape]) for shape in (best, worst)),
+                    link(page),
+                )
+            )
+    within: dict[str, list[bool]] = {}
+    for row in pages.rows(page, "tribofilm 2 nm", "Surfaces that have rubbed"):
+        pairs = [row[name].split(" within ") for name in ("friction", "film")]
+        within.setdefault(row["shape"], []).append(all(abs(float(off)) <= float(error) for off, error in pairs))
+    ranked = sorted(within, key=lambda shape: sum(within[shape]) / len(within[shape]), reverse=True)
+    every = [held for shape in ranked for held in within[shape]]
+    ends = (f"{sum(within[shape])} of {len(within[shape])} ({shape}s)" for shape in (ranked[0], ranked[-1]))
+    lines.append((f"both cover {sum(every)} of {len(every)} surfaces that have rubbed", *ends, link(page)))
+    return lines
+
+
+def fast_step(pages: Pages) -> list[tuple[str, ...]]:
+    """What a step costs."""
+    page = "regression/cost.md"
+    lines = []
+    for name, shipped in (("as shipped", True), ("with other laws", False)):
+        rows = [row for row in pages.rows(page, "median [us]") if (row["laws"] == "as shipped") == shipped]
+        ranked = sorted(rows, key=lambda row: number(row["median [us]"]))
+        ends = (
+            f"{number(row['5 % [us]']):.0f}; {number(row['median [us]']):.0f}; {number(row['95 % [us]']):.0f} us "
+            f"({row['scene'] if shipped else row['laws']})"
+            for row in (ranked[0], ranked[-1])
+        )
+        lines.append((f"a step {name}: 5 % are faster; median; 5 % are slower", *ends, link(page)))
+    return lines
+
+
+# the deterministic level over two hours
+
+
+def drivers(pages: Pages) -> list[str]:
+    """Errors of two hours by driver: azam_case_a against finer blocks, mtm_zddp against mixed driving."""
+    heads = ("scene", "`control.driver`", "against", "blocks", "of them dry", "CPU s", "WU")
+    names = ("friction", "h_c", "W_c", "A_c", "tribofilm", "wear", "Rq disc", "Rq ball")
+    columns = (("mu",), ("h_c",), ("W_c",), ("A_c",), ("film 1", "film 2"), ("wear 1", "wear 2"), ("Rq 2",), ("Rq 1",))
+    control = {row["driver"]: row for row in pages.rows("surfaces/evolution.md", "blocks", "The shipped control") if row["mu"]}
+    by_rule = pages.rows("surfaces/evolution.md", "dry blocks", "At the same surfaces")
+    rows = []
+    for driver in ("auto", "mixed", "dry"):
+        found = [row for row in by_rule if row["case"] == "azam_case_a" and row["driver"] == driver]
+        dry = found[0]["dry blocks"] if found else "0"
+        rows.append(("azam_case_a", driver, "ten times finer blocks", dry, control[driver]))
+    rows += [
+        (row["case"], row["driver"], "the same driven mixed", row["dry blocks"], row)
+        for row in by_rule
+        if (row["case"], row["driver"]) != ("azam_case_a", "auto")  # that is in `control`
+    ]
+    lines = [line_of((*heads, *names)), "|" + "---|" * (len(heads) + len(names))]
+    for scene, driver, against, dry, row in rows:
+        errors = (f"{max(number(row[column]) for column in columns_):.1f} %" for columns_ in columns)
+        shipped = f"{driver} (shipped)" if driver == "auto" else driver
+        share = f"{dry} ({100.0 * int(dry) / int(row['blocks']):.0f} %)"
+        cost = (f"{number(row['s']):.0f}", f"{number(row['WU']):.1e}".replace("e+0", "e"))
+        lines.append(line_of((scene, shipped, against, row["blocks"], share, *cost, *errors)))
+    return lines
+
+
+def half_widths(pages: Pages) -> list[tuple[str, ...]]:
+    """At which share of the times the error is within the reported half widths."""
+    lines = []
+    for row in pages.rows("surfaces/evolution.md", "blocks", "The shipped control"):
+        shares = {name: float(cell[cell.index("(") + 1 : -1]) for name, cell in row.items() if cell.endswith(")")}
+        if not shares:
+            continue
+        worst = min(shares, key=shares.__getitem__)
+        held = sum(share >= 0.9 for share in shares.values())
+        lines.append(
+            (
+                f"azam_case_a driven {row['driver']}: share of the times at which `uncertainty(state)` covers the error; "
+                f"nine of ten in {held} of {len(shares)} outputs",
+                per_cent(max(shares.values())),
+                f"{per_cent(shares[worst])} ({worst})",
+                link("surfaces/evolution.md"),
+            )
+        )
+    return lines

@@ -1,0 +1,87 @@
+"""Figures of the README about FMU, coupling, machines and the thesis."""
+
+import re
+
+from benchmarks.house.tables import Pages, link, number, range_of
+
+
+def fmu(pages: Pages) -> list[tuple[str, ...]]:
+    """What the isolated FMU costs over its model."""
+    page, over = "fmu/overhead.md", "over the direct call [us]"
+    lines = []
+    for slave, what in (("empty", "an empty model"), ("mtm_zddp", "the fast level of mtm_zddp")):
+        rows = [row for row in pages.rows(page, over, slave=slave) if row["called by"].startswith("isolated, host in C")]
+        rows = [row for row in rows if not row["called by"].endswith("taken back")]
+        found = range_of((row[over] for row in rows), "{:.0f} us".format)
+        alone = number(pages.row(page, over, slave=slave, **{"called by": "direct call"})["median [us]"])
+        ends = (f"{found[0]} on a CPU of its own", f"{found[1]} on any CPU")
+        lines.append((f"isolated FMU, a step of {what} ({alone:.0f} us) called from C, over its own time", *ends, link(page)))
+    many = pages.rows(page, "instances", flavour="isolated")
+    ends = (
+        f"{row['instances']}: {row['ready after [s]']} s, {row['memory [MB]']} MB" for row in (many[0], many[-1])
+    )
+    lines.append(("instances: ready after, memory", *ends, link(page)))
+    page = "fmu/endurance.md"
+    lost = pages.rows(page, "lost process")
+    restored = sorted(lost, key=lambda row: number(row["restored after, median [ms]"]))
+    ends = (
+        f"{row['restored after, median [ms]']} ms ({row['lost process']}, {row['model']})"
+        for row in (restored[0], restored[-1])
+    )
+    lines.append(("a lost process replaced and its state restored", *ends, link(page)))
+    return lines
+
+
+def coupling(pages: Pages) -> list[tuple[str, ...]]:
+    """Accuracy and cost of the co-simulation master."""
+    text = (pages.folder / "coupling/accuracy.md").read_text(encoding="utf-8")
+    shares = [tuple(map(float, pair)) for pair in re.findall(r"horizon .* s: ([\d.]+) to ([\d.]+) of the tolerance", text)]
+    least, most = min(low for low, _ in shares), max(high for _, high in shares)
+    lines = [("error over the tolerance asked for, 1e-2 to 1e-6", f"{least:g}", f"{most:g}", link("coupling/accuracy.md"))]
+    rows = pages.rows("coupling/masters.md", "ratio")
+    low, high = range_of((row["ratio"] for row in rows), "{:.1f}".format)
+    lines.append(("steps of the best of three other masters over the best of ours", high, low, link("coupling/masters.md")))
+    rows = pages.rows("coupling/cost.md", "beyond")
+    for name, newton in (("explicit schemes and fixed-point iteration", False), ("quasi-Newton", True)):
+        kept = [row["beyond"] for row in rows if ("quasi-Newton" in row["scheme"]) == newton]
+        found = range_of(kept, "{:.0f} us".format)
+        lines.append((f"a step per FMU beyond the calls, {name}", *found, link("coupling/cost.md")))
+    return lines
+
+
+def machines(pages: Pages) -> list[tuple[str, ...]]:
+    """How often the error of the coupling that a machine states covers what far shorter steps change."""
+    rows = pages.rows("machines/tolerance.md", "not covered")
+    ranked = sorted(rows, key=lambda row: number(row["not covered"]) / number(row["outputs"]))
+    ends = (f"{row['not covered']} of {row['outputs']} ({row['machine']})" for row in (ranked[0], ranked[-1]))
+    return [("`error_coupling` of a machine: outputs that it does not cover", *ends, link("machines/tolerance.md"))]
+
+
+def thesis(pages: Pages) -> list[tuple[str, ...]]:
+    """How many claims of the thesis come out, and how many of the others are explained."""
+    page = "thesis/validation.md"
+    (row,) = (row for row in pages.rows(page, "cannot be judged") if row[""] == "ours")
+    total = sum(int(row[name]) for name in ("agree", "disagree", "cannot be judged", "not run"))
+    text = (pages.folder / page).read_text(encoding="utf-8")
+    said = re.search(
+        r"Of the (\d+) that disagree in ours, an experiment makes (\d+) agree and none of those tried (\d+); "
+        r"(\d+) have no experiment that was run .*?, (\d+) lack some",
+        text,
+    )
+    if said is None:
+        raise LookupError(f"docs/measured/{page} does not say what experiments explain")
+    wrong, mended, unknown, none, short = said.groups()
+    return [
+        (
+            "claims of the thesis about the shipped cases",
+            f"{row['agree']} of {total} come out",
+            f"{row['disagree']} do not, {row['cannot be judged']} cannot be judged",
+            link(page),
+        ),
+        (
+            f"of the {wrong} that do not",
+            f"an experiment beside {mended} makes them agree",
+            f"none tried does for {unknown}; {none} have none, {short} lack some",
+            link(page),
+        ),
+    ]

@@ -1,0 +1,103 @@
+"""Tables of pages, and the figures in their cells."""
+
+import re
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import NamedTuple
+
+Row = dict[str, str]
+
+
+class Table(NamedTuple):
+    """A table of a page: the heading it stands under, and its rows by column."""
+
+    heading: str
+    columns: tuple[str, ...]
+    rows: list[Row]
+
+
+def tables(text: str) -> list[Table]:
+    """All tables of a page."""
+    found: list[Table] = []
+    heading, before = "", ""
+    for line in text.splitlines():
+        if line.startswith("#"):
+            heading = line.lstrip("# ")
+        elif re.match(r"\|(---\|)+$", line):
+            found.append(Table(heading, unlike(cell.strip() for cell in before.strip()[1:-1].split("|")), []))
+        elif line.startswith("|") and before.startswith("|"):
+            # prose may hold |x|: such rows have cells to spare, which no figure here is taken from
+            cells = [cell.strip() for cell in line.strip()[1:-1].split("|")]
+            found[-1].rows.append(dict(zip(found[-1].columns, cells, strict=False)))
+        before = line
+    return found
+
+
+def unlike(names: Iterable[str]) -> tuple[str, ...]:
+    """Names of columns, the second of the same name with a number."""
+    found: list[str] = []
+    for name in names:
+        found.append(f"{name} ({found.count(name) + 1})" if name in found else name)
+    return tuple(found)
+
+
+class Pages:
+    """The pages of a folder, each read once."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder, self.read = folder, {}  # type: Path, dict[str, list[Table]]
+
+    def rows(self, page: str, column: str, heading: str = "", **given: str) -> list[Row]:
+        """Rows of the tables with a column under a heading that begins so, whose cells have these values."""
+        if page not in self.read:
+            self.read[page] = tables((self.folder / page).read_text(encoding="utf-8"))
+        found = [
+            row
+            for table in self.read[page]
+            if column in table.columns and table.heading.startswith(heading)
+            for row in table.rows
+            if all(row.get(name) == value for name, value in given.items())
+        ]
+        if not found:
+            raise LookupError(f"docs/measured/{page} has no row with {column!r}, {given} under {heading!r}")
+        return found
+
+    def row(self, page: str, column: str, heading: str = "", **given: str) -> Row:
+        """Return the only such row."""
+        (found,) = self.rows(page, column, heading, **given)
+        return found
+
+
+def number(cell: str) -> float:
+    """Return the first number of a cell."""
+    found = re.search(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?", cell)
+    if found is None:
+        raise ValueError(f"no number in {cell!r}")
+    return float(found[0])
+
+
+def per_cent(share: float) -> str:
+    """A share in per cent."""
+    return f"{100.0 * share:.0f} %"
+
+
+def link(*pages: str) -> str:
+    """Links to pages."""
+    return ", ".join(f"[{page.removesuffix('.md')}](docs/measured/{page})" for page in pages)
+
+
+def range_of(cells: Iterable[str], say: Callable[[float], str]) -> tuple[str, str]:
+    """The least and the largest number."""
+    numbers = [number(cell) for cell in cells]
+    return say(min(numbers)), say(max(numbers))
+
+
+def pair(cell: str) -> tuple[float, float]:
+    """Both numbers of a cell "a / b"."""
+    one, other = cell.split(" / ")
+    return float(one), float(other)
+
+
+def line_of(cells: Iterable[str]) -> str:
+    """A row of a table."""
+    return f"| {' | '.join(cells)} |"

@@ -1,0 +1,1 @@
+"""Ball bearings, gear pairs and the test rig."""

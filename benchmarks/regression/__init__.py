@@ -1,0 +1,1 @@
+"""The regression level: its fit, its errors, its cost."""

@@ -1,0 +1,425 @@
+"""Constants of the load-sharing curves from the sweep, with their intervals, and the page's part on them."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from scipy.optimize import least_squares
+
+from benchmarks.pages import cells
+from benchmarks.regression.points import SCENES, Columns, solved
+from contact_core import RangeFlag, Scene
+from contact_core.laws.load_sharing import FittedSharing, LineSharing
+
+RANGES = ((0.0, 0.05), (0.05, 0.2), (0.2, 1.0), (1.0, np.inf))
+FAR = 0.1  # residuals beyond which a point counts by its distance
+SWEPT = ("shipped", "amplitude", "length")  # groups of the sweep
+STUDENT = 1.96  # half width of a 95 % interval, in standard deviations
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Table:
+    """Columns by the names of the law's numbers."""
+
+    columns: Columns
+
+    @property
+    def clearance(self) -> Array:
+        return self.columns["lambda"]
+
+    @property
+    def flattening(self) -> Array:
+        c = self.columns
+        return c["mean_pressure"] / (0.5 * c["modulus"] * c["slope"])
+
+    @property
+    def resolution(self) -> Array:
+        return self.columns["correlation_length"] / self.columns["spacing"]
+
+    @property
+    def floors(self) -> Array:
+        return self.columns["lambda"] * self.columns["sigma"] / self.columns["floor"]
+
+    @property
+    def dense(self) -> Array:
+        return self.columns["lambda"] / self.columns["density"]
+
+    @property
+    def load_ratio(self) -> Array:
+        return self.columns["contact_load_ratio"]
+
+    @property
+    def area_ratio(self) -> Array:
+        return self.columns["contact_area_ratio"]
+
+    @property
+    def film_ratio(self) -> Array:
+        return self.columns["h_c"] / self.columns["sigma"]
+
+    def of(self, kept: Array) -> "Table":
+        """Some of the rows."""
+        return Table({name: values[kept] for name, values in self.columns.items()})
+
+
+def fitted(residual: Callable[[Array], Array], start: list[float]) -> tuple[Array, Array, float]:
+    """Least squares in which rows far off count by their distance: constants, half widths of their 95 % intervals,
+    standard deviation of the residuals.
+    """
+    found = least_squares(residual, start, loss="soft_l1", f_scale=FAR)
+    freedom = found.fun.size - found.x.size
+    variance = float(found.fun @ found.fun) / freedom
+    widths = STUDENT * np.sqrt(np.diag(np.linalg.pinv(found.jac.T @ found.jac)) * variance)
+    return found.x, widths, variance**0.5
+
+
+class Fit:
+    """The law of a shape with its constants fitted one curve after the other.
+
+    `sweep` and what `others` there are together make the sharing of the load, the area, the gap and the oil's pressure;
+    `dry` and `whole` passes, where there are any, the area of dry contacts and the exposure.
+    """
+
+    def __init__(
+        self,
+        law: FittedSharing,
+        sweep: Columns,
+        others: Columns | None = None,
+        dry: Columns | None = None,
+        whole: Columns | None = None,
+    ) -> None:
+        tables = [table for table in (sweep, others, dry, whole) if table is not None]
+        self.refused = sum(int((~np.isfinite(table["contact_area_ratio"])).sum()) for table in tables)
+        self.law, self.half_widths = law, dict[str, float]()
+        self.sweep = Table(solved(sweep))
+        self.all = rows = self.sweep if others is None else Table(shared([self.sweep.columns, told(solved(others))]))
+        further = ("load_flattening", "load_bending") if isinstance(law, LineSharing) else ()
+        self._fit(
+            ("load_factor", "load_exponent", *further),
+            lambda law: law.load_ratio(rows.clearance, rows.flattening, rows.resolution, rows.floors) - rows.load_ratio,
+        )
+        self._fit(
+            ("area_factor", "area_exponent"), self._area_residual(rows, None if dry is None else Table(solved(dry)))
+        )
+        open_gap = rows.of(rows.columns["h_c"] > 3.0 * rows.columns["floor"])
+        self._fit(
+            ("film_dry", "film_parted", "film_mixed", "film_factor", "film_exponent"),
+            lambda law: np.log(
+                law.film_ratio(open_gap.dense, open_gap.load_ratio, open_gap.flattening, open_gap.resolution)
+                / open_gap.film_ratio
+            ),
+        )
+        sliding = Traction(rows)
+        self._fit(("oil_pressure_excess", "oil_pressure_decay"), sliding.misfit)
+        if dry is not None and whole is not None:
+            self.dry, self.whole = Table(solved(dry)), Table(solved(whole))
+            self._fit_exposure()
+        found = predicted(self.law, rows)
+        self.scatter = {
+            "W_c": float(np.std(found["W_c"] - rows.load_ratio)),
+            "h_c": float(np.std(np.log(found["h_c"] / rows.film_ratio))),
+            "friction of the oil": float(np.std(sliding.misfit(self.law))),
+        }
+
+    def _fit(self, names: tuple[str, ...], residual: Callable[[FittedSharing], Array]) -> None:
+        def of(x: Array) -> Array:
+            return residual(replace(self.law, **dict(zip(names, np.maximum(x, 1e-6).tolist(), strict=True))))
+
+        found, widths, _ = fitted(of, [getattr(self.law, name) for name in names])
+        self.law = replace(self.law, **dict(zip(names, found.tolist(), strict=True)))
+        self.half_widths |= dict(zip(names, widths.tolist(), strict=True))
+
+    @staticmethod
+    def _area_residual(rows: Table, dry: Table | None) -> Callable[[FittedSharing], Array]:
+        def residual(law: FittedSharing) -> Array:
+            off = law.area_ratio(rows.load_ratio, rows.flattening) - rows.area_ratio
+            if dry is None:
+                return off
+            alone = law.area_ratio(np.ones_like(dry.flattening), dry.flattening) - dry.area_ratio
+            return np.concatenate([off, alone])
+
+        return residual
+
+    def _fit_exposure(self) -> None:
+        for is_dry, names in (
+            (False, {True: ("exposure_rougher", "exposure_exponent"), False: ("exposure_smoother",)}),
+            (True, {True: ("exposure_dry_rougher",), False: ("exposure_dry_smoother",)}),
+        ):
+            whole = self.whole.of((self.whole.columns["blocks_dry"] > 0.0) == is_dry)
+            for rougher, which in names.items():
+                self._fit(which, self._exposure_residual(whole, rougher, is_dry))
+
+    @staticmethod
+    def _exposure_residual(whole: Table, rougher: bool, dry: bool) -> Callable[[FittedSharing], Array]:
+        seen = whole.columns["exposed_rougher" if rougher else "exposed_smoother"]
+        within = covered(whole)
+        return lambda law: within * law.exposed(whole.area_ratio, rougher=rougher, dry=dry) - seen
+
+
+def told(columns: Columns) -> Columns:
+    """Without what the deterministic level does not stand for: films short of the tolerance, and ellipses whose inlet
+    the grid does not resolve.
+    """
+    flags = columns["range_flags"].astype(int)
+    unresolved = (columns["shape"] == "ellipse") & (flags & RangeFlag.INLET_UNRESOLVED > 0)
+    kept = (flags & RangeFlag.NOT_CONVERGED == 0) & ~unresolved
+    return {name: values[kept] for name, values in columns.items()}
+
+
+def shared(parts: list[Columns]) -> Columns:
+    """Tables below each other, of the columns that all of them have."""
+    names = [name for name in parts[0] if all(name in part for part in parts)]
+    return {name: np.concatenate([part[name] for part in parts]) for name in names}
+
+
+class Traction:
+    """Friction coefficient of the oil of solved points that slide without spin, if it carries its load at some factor
+    of Hertz's pressure; with the solved load ratio and film. Where solids carry most of it, they leave it unsure.
+    """
+
+    def __init__(self, table: Table) -> None:
+        c = table.columns
+        self.scenes = {name: Scene.from_toml(name) for name in np.unique(c["scene"])}
+        bare = np.array([self.scenes[name].boundary_friction.bare for name in c["scene"]])
+        fluid = c["friction_coefficient"] - bare * c["contact_load_ratio"]
+        swept = np.isin(c["group"], SWEPT)
+        share = np.where(swept, 0.1, 0.6)  # of sweeps, where it counts for more
+        kept = (c["contact_load_ratio"] < share) & (c["h_c"] > 2.0 * c["floor"]) & (fluid > 0.0) & (c["spin"] == 0.0)
+        self.table, self.solved = table.of(kept), fluid[kept]
+        nodes, weights = np.polynomial.legendre.leggauss(16)
+        heights, cosine = 0.5 + 0.5 * nodes, np.cos(0.25 * np.pi * (1.0 + nodes))
+        self.ellipse = heights, heights * weights  # of Hertz's pressure, and what they weigh in the mean
+        self.strip = cosine, 0.25 * np.pi * weights * cosine
+
+    def misfit(self, law: FittedSharing) -> Array:
+        """Logarithm of the law's friction over the solved one."""
+        t, c = self.table, self.table.columns
+        raised = law.oil_pressure(t.clearance, t.flattening, c["thick_x"], c["thick_y"])
+        return np.log(self.friction(raised) / self.solved)
+
+    def friction(self, factor: Array) -> Array:
+        """Friction of the oil over the load."""
+        c = self.table.columns
+        found = np.empty_like(factor)
+        for i, name in enumerate(c["scene"]):
+            oil, line = self.scenes[name].lubricant, c["thick_y"][i] == 0.0
+            heights, weights = self.strip if line else self.ellipse
+            most = min(factor[i], c["hardness"][i] / c["largest_pressure"][i])
+            local = most * c["largest_pressure"][i] * heights
+            rate = abs(c["srr"][i]) * c["speed"][i] / c["h_c"][i]
+            stress = weights @ oil.rheology(oil.viscosity(local, float(c["temperature"][i])) * rate, local)
+            found[i] = stress / (most * c["mean_pressure"][i]) * (1.0 - c["contact_load_ratio"][i])
+        return found
+
+
+def covered(table: Table) -> Array:
+    """Share of the track's width, that of the reference load, that Hertz's contact covers."""
+    scene_b = {name: Scene.from_toml(name).hertz(Scene.from_toml(name).operation.load).b for name in SCENES}
+    reference = np.array([scene_b[name] for name in table.columns["scene"]])
+    return np.minimum(table.columns["width"] / reference, 1.0)
+
+
+def reduced_clearance(table: Table) -> Array:
+    """L of the law."""
+    return table.clearance * (table.flattening / 0.2) ** 2 * table.resolution / 2.0
+
+
+def predicted(law: FittedSharing, table: Table) -> Columns:
+    """What the law makes of lambda, flattening and resolution; h_c in sigma."""
+    share = law.load_ratio(table.clearance, table.flattening, table.resolution, table.floors)
+    return {
+        "W_c": share,
+        "A_c": law.area_ratio(share, table.flattening),
+        "h_c": law.film_ratio(table.dense, share, table.flattening, table.resolution),
+    }
+
+
+def free_exponents(sweep: Table) -> tuple[float, float]:
+    """Of s and r beside lambda to the power of one."""
+    found, _, _ = fitted(
+        lambda p: (
+            np.exp(-p[0] * (sweep.clearance * sweep.flattening ** p[2] * sweep.resolution ** p[3]) ** p[1])
+            - sweep.load_ratio
+        ),
+        [10.0, 0.6, 2.0, 1.0],
+    )
+    return float(found[2]), float(found[3])
+
+
+def alternatives(sweep: Table) -> list[tuple[str, int, float, float]]:
+    """Forms of W_c: what, how many constants, standard deviation and largest distance of the residuals."""
+    lam, flat, fine, share = sweep.clearance, sweep.flattening / 0.2, sweep.resolution / 2.0, sweep.load_ratio
+    relative = sweep.columns["correlation_length"] / sweep.columns["width"]
+    forms: list[tuple[str, Callable[[Array], Array], list[float]]] = [
+        ("exp(-B lambda^C)", lambda p: np.exp(-p[0] * lam ** p[1]), [2.0, 0.6]),
+        (
+            "exp(-B lambda^C (l/a)^p)",
+            lambda p: np.exp(-p[0] * lam ** p[1] * (relative / 0.05) ** p[2]),
+            [2.0, 0.6, 0.0],
+        ),
+        ("exp(-B lambda^C r^q)", lambda p: np.exp(-p[0] * lam ** p[1] * fine ** p[2]), [2.0, 0.6, 0.0]),
+        ("exp(-B lambda^C s^m)", lambda p: np.exp(-p[0] * lam ** p[1] * flat ** p[2]), [2.0, 0.6, 0.0]),
+        (
+            "exp(-B lambda^C s^m r^q)",
+            lambda p: np.exp(-p[0] * lam ** p[1] * flat ** p[2] * fine ** p[3]),
+            [2.0, 0.6, 1.0, 0.6],
+        ),
+        ("**exp(-B (lambda s^2 r)^C)**", lambda p: np.exp(-p[0] * (lam * flat**2 * fine) ** p[1]), [2.0, 0.6]),
+        ("1 / (1 + B (lambda s^2 r)^C)", lambda p: 1.0 / (1.0 + p[0] * (lam * flat**2 * fine) ** p[1]), [6.0, 0.9]),
+    ]
+    found = []
+    for name, form, start in forms:
+        constants, _, _ = fitted(lambda p, form=form: form(p) - share, start)
+        off = form(constants) - share
+        found.append((name, len(start), float(np.std(off)), float(np.abs(off).max())))
+    return found
+
+
+def table(names: tuple[str, ...], rows: list[tuple[Any, ...]]) -> list[str]:
+    """Lines of a table."""
+    return ["", cells(names), "|" + "---|" * len(names), *(cells(row) for row in rows), ""]
+
+
+def by_range(clearance: Array, errors: Columns) -> list[str]:
+    """Median and 90th percentile of errors by ranges of lambda."""
+    rows = []
+    for low, high in RANGES:
+        inside = (clearance >= low) & (clearance < high)
+        found = [
+            f(np.abs(error[inside])) for error in errors.values() for f in (np.median, lambda e: np.quantile(e, 0.9))
+        ]
+        name = f"below {high:g}" if low == 0.0 else f"above {low:g}" if high == np.inf else f"{low:g} to {high:g}"
+        rows.append((name, int(inside.sum()), *(f"{value:.3f}" for value in found)))
+    heads = [f"{name}, {what}" for name in errors for what in ("median", "90 %")]
+    return table(("lambda", "points", *heads), rows)
+
+
+def errors_of(law: FittedSharing, data: Table) -> Columns:
+    """Of the curves against solved points: W_c absolute, A_c absolute, h_c relative."""
+    found = predicted(law, data)
+    return {
+        "W_c [1]": found["W_c"] - data.load_ratio,
+        "A_c [1]": found["A_c"] - data.area_ratio,
+        "h_c [rel.]": found["h_c"] / data.film_ratio - 1.0,
+    }
+
+
+def ends(rows: Table) -> dict[str, tuple[float, float]]:
+    """Between which numbers the rows lie."""
+    found = (("lambda", rows.clearance), ("s", rows.flattening), ("r", rows.resolution))
+    return {name: (float(x.min()), float(x.max())) for name, x in found}
+
+
+def constants(fit: Fit) -> list[tuple[str, ...]]:
+    """Rows of the table of constants."""
+    shipped = type(fit.law)()
+    return [
+        (name, f"{getattr(fit.law, name):.4g}", f"{width:.2g}", f"{getattr(shipped, name):.4g}")
+        for name, width in fit.half_widths.items()
+    ]
+
+
+def constants_page(fit: Fit) -> list[str]:
+    """The fit's part of the page."""
+    sweep, rows, dry, whole = fit.sweep, fit.all, fit.dry, fit.whole
+    many = int((sweep.columns["unconverged"] > 0.1).sum())
+    span = ", ".join(f"{name} {low:.3g} to {high:.3g}" for name, (low, high) in ends(rows).items())
+    dry_off = fit.law.area_ratio(np.ones_like(dry.flattening), dry.flattening) / dry.area_ratio - 1.0
+    area_off = fit.law.area_ratio(rows.load_ratio, rows.flattening) - rows.area_ratio
+    film_off = fit.law.film_ratio(rows.dense, rows.load_ratio, rows.flattening, rows.resolution)
+    film_off = np.log(film_off / rows.film_ratio)
+    early = sweep.of(reduced_clearance(sweep) < 0.015)
+    light = sweep.of((sweep.clearance > 1.0) & (sweep.flattening < 0.17))
+
+    def curve(part: Table) -> Array:
+        return fit.law.load_ratio(part.clearance, part.flattening, part.resolution, part.floors)
+
+    oil = Traction(rows)
+    plain = oil.misfit(replace(fit.law, oil_pressure_excess=1e-9, oil_spread=1e-9))
+    m, q = free_exponents(sweep)
+    exposed = []
+    for rougher in (True, False):
+        seen = whole.columns["exposed_rougher" if rougher else "exposed_smoother"]
+        is_dry = whole.columns["blocks_dry"] > 0.0
+        dry_share, mixed_share = (fit.law.exposed(whole.area_ratio, rougher=rougher, dry=d) for d in (True, False))
+        off = covered(whole) * np.where(is_dry, dry_share, mixed_share) - seen
+        exposed.append((("smoother", "rougher")[rougher], f"{np.std(off):.3f}", f"{np.abs(off).max():.3f}"))
+    return [
+        "## The sweep",
+        "",
+        f"{sweep.clearance.size} first blocks on fresh surfaces, {' and '.join(SCENES)} on their own grids (129 nodes over 0.5 mm), "
+        "sliding as shipped; speed, load (0.3 to 1.3 of the reference), temperature (40 K below to 20 K above, for the viscosity), "
+        "34 of each scene with the roughness as shipped, 14 with 0.3 to 1 of its amplitude, 12 with 1.25 to 3 times its correlation length. "
+        f"{rows.clearance.size - sweep.clearance.size} more circles and ellipses over the ranges of a rig and of a ball bearing (regression_shapes.md). "
+        f"Covered: {span}. {dry.clearance.size} dry contacts for the area, {whole.clearance.size} blocks of a whole pass for the exposure. "
+        f"Refused by the solver: {fit.refused}. {many} blocks of the sweep had more than a tenth of their instants short of the tolerance; they are kept.",
+        "",
+        "## Constants",
+        "",
+        "Names as in `contact_core/laws/load_sharing.py`; half widths of 95 % intervals from the covariance, points taken as independent. "
+        f"Chosen, not fitted: {', '.join(sorted(FittedSharing.CHOSEN))}.",
+        *table(("constant", "fitted", "half width", "shipped"), constants(fit)),
+        "Standard deviations about the curves, A_c and h_c with W_c from its own curve, the friction of the oil with the solved W_c and h_c; relative but for W_c:",
+        *table(("name", "found"), [(k, f"{v:.3f}") for k, v in fit.scatter.items()]),
+        f"With the solved W_c: A_c {np.std(area_off):.3f}, h_c {np.std(film_off):.3f} (relative). "
+        f"Friction of the oil if it had Hertz's pressure everywhere: {plain.std():.2f} (relative). "
+        f"Dry A_c: {np.std(dry_off):.3f} (relative, at most {np.abs(dry_off).max():.3f}).",
+        "",
+        "Exposed share of each body's track |y| < b in a whole pass:",
+        *table(("body", "scatter", "largest error"), exposed),
+        "## What W_c depends on",
+        "",
+        "lambda alone does not collapse it: at the same lambda a shallower, longer or harder pressed roughness carries less. "
+        "s = p_m / (E* slope), slope = rms gradient of both roughnesses; r = correlation length / distance of the nodes; a = Hertz's half width.",
+        *table(
+            ("form", "constants", "scatter", "largest error"),
+            [(n, k, f"{a:.3f}", f"{b:.3f}") for n, k, a, b in alternatives(sweep)],
+        ),
+        "**r says it: W_c at a given lambda is a number of the grid** (core_lambda.md, grid.md), so these constants hold for the grids of the shipped scenes. "
+        f"Left free, the exponents of s and r beside lambda come out at {m:.2f} and {q:.2f}; 2 and 1 do as well.",
+        "",
+        "## Where the curve falls short",
+        "",
+        f"Below 0.015 in the reduced lambda the solved W_c is {np.median(early.load_ratio):.3f} "
+        f"(median of {early.clearance.size}), the curve {np.median(curve(early)):.3f}; the film is then thinner than the floor of 1 nm, or little thicker. "
+        f"And s counts for less where the bodies hardly touch: above lambda 1 and below s = 0.17 the solved W_c is {np.median(light.load_ratio):.3f} "
+        f"(median of {light.clearance.size}), the curve {np.median(curve(light)):.3f}.",
+        "",
+        "## Curves against the sweep they were fitted to",
+        *by_range(sweep.clearance, errors_of(fit.law, sweep)),
+    ]
+
+
+def draw(fit: Fit) -> Figure:
+    """Points and curves over the numbers that collapse them."""
+    figure = Figure(figsize=(10.5, 7.0), layout="constrained")
+    axes = figure.subplots(2, 2)
+    sweep, dry = fit.sweep, fit.dry
+    looks = {"shipped": ("#2471a3", "o"), "amplitude": ("#e59866", "s"), "length": ("#27ae60", "^")}
+    reduced = reduced_clearance(sweep)
+    found = predicted(fit.law, sweep)
+    for group, (colour, marker) in looks.items():
+        kept = sweep.columns["group"] == group
+        style = {"color": colour, "marker": marker, "ls": "none", "ms": 4, "label": group}
+        axes[0, 0].plot(reduced[kept], sweep.load_ratio[kept], **style)
+        axes[0, 1].plot(sweep.clearance[kept], sweep.load_ratio[kept], **style)
+        axes[1, 0].plot(found["h_c"][kept], sweep.film_ratio[kept], **style)
+        axes[1, 1].plot((sweep.flattening * sweep.load_ratio)[kept], sweep.area_ratio[kept], **style)
+    line = np.geomspace(1e-3, 20.0, 200)
+    axes[0, 0].plot(line, fit.law.load_ratio(line, 0.2, 2.0, np.inf), "k-", lw=1)
+    axes[0, 0].set(xscale="log", xlabel="lambda (s / 0.2)$^2$ (r / 2)", ylabel="W_c")
+    axes[0, 1].plot(line, fit.law.load_ratio(line, 0.2, 2.0, np.inf), "k-", lw=1, label="s = 0.2, r = 2")
+    axes[0, 1].set(xscale="log", xlabel="lambda", ylabel="W_c", xlim=(2e-3, 10.0))
+    axes[1, 0].plot([0.05, 5.0], [0.05, 5.0], "k-", lw=1)
+    axes[1, 0].set(xscale="log", yscale="log", xlabel="h_c / sigma by the curve", ylabel="h_c / sigma, solved")
+    axes[1, 1].plot(dry.flattening, dry.area_ratio, color="0.4", marker="x", ls="none", ms=4, label="dry")
+    flat = np.linspace(0.0, 0.75, 100)
+    axes[1, 1].plot(flat, fit.law.area_ratio(1.0, flat), "k-", lw=1, label="W_c = 1")
+    axes[1, 1].set(xlabel="s W_c", ylabel="A_c")
+    for panel in axes.ravel():
+        panel.spines[["top", "right"]].set_visible(False)
+        panel.grid(color="0.93")
+        panel.legend(frameon=False, fontsize="small")
+    return figure

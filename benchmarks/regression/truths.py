@@ -1,0 +1,73 @@
+"""What the deterministic level says of a few contacts, for tests of the fast level's error outputs.
+
+    python -m benchmarks.regression.truths    # 20 min
+
+Random contacts that no curve was fitted to (the seed `check` of regression_shapes.py): within the fit, beyond it, and
+rubbed for ten minutes. Writes tests/golden/fast_level.json; what stands there is kept.
+"""
+
+import json
+from collections.abc import Iterator
+from dataclasses import asdict, replace
+from typing import Any
+
+from benchmarks.folders import ROOT
+from benchmarks.regression.shapes_points import CHECK, MINUTES, RUBBED, RUNS, ShapePoint, points
+from contact_core import Scene, advance, initial_state
+from contact_core.surfaces.track_means import means_of
+
+GOLDEN = ROOT / "tests" / "golden" / "fast_level.json"
+COUNT = 16  # of each shape
+HEAVIEST = {"line": 1500.0, "circle": 75.0}  # N: others take long
+BEYOND = {"film.points": "65"}  # roughness on half as many nodes as in the fit
+TRUTHS = ("friction_coefficient", "h_c", "contact_load_ratio", "unconverged")
+
+
+def cases() -> Iterator[tuple[str, ShapePoint, dict[str, str], float]]:
+    """Name, contact, changes of its scene, and for how long it rubs [s]."""
+    for shape, heaviest in HEAVIEST.items():
+        for k, drawn in enumerate(points(shape, CHECK, COUNT)):
+            point = replace(drawn, load=min(drawn.load, heaviest))
+            yield f"fresh {shape} {k}", point, {}, 0.0
+            yield f"beyond {shape} {k}", point, BEYOND, 0.0
+    for k, drawn in enumerate(points("line", RUBBED, RUNS)):
+        yield f"rubbed line {k}", drawn, {}, 60.0 * MINUTES
+
+
+def solved(point: ShapePoint, changes: dict[str, str], rubbed: float) -> dict[str, Any]:
+    """A contact, so that a test can build it, and what the deterministic level says of it."""
+    scene, op = point.build(changes), point.operating_point
+    state, out = advance(scene, op, initial_state(scene), rubbed)
+    return {
+        "scene": scene.name,
+        "changes": changed(scene),
+        "point": {name: value for name, value in asdict(op).items() if value is not None},
+        "means": [asdict(mean) for mean in means_of(scene, state)] if rubbed else None,
+        "truth": {name: getattr(out, name) for name in TRUTHS},
+    }
+
+
+def changed(scene: Scene) -> dict[str, Any]:
+    """What differs from the shipped scene of this name, by dotted names."""
+    shipped = flat(Scene.from_toml(scene.name).to_dict())
+    return {name: value for name, value in flat(scene.to_dict()).items() if shipped.get(name) != value}
+
+
+def flat(tree: dict[str, Any], prefix: str = "") -> dict[str, Any]:
+    found = {}
+    for name, value in tree.items():
+        found |= flat(value, f"{prefix}{name}.") if isinstance(value, dict) else {f"{prefix}{name}": value}
+    return found
+
+
+def main() -> None:
+    rows = json.loads(GOLDEN.read_text()) if GOLDEN.exists() else {}
+    for name, *case in cases():
+        if name not in rows:
+            rows[name] = solved(*case)
+            print(name, rows[name]["truth"], flush=True)
+            GOLDEN.write_text(json.dumps(rows, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()

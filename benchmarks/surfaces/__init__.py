@@ -1,0 +1,1 @@
+"""Surfaces over hours: tribofilm, wear, roughness, Stribeck curves."""

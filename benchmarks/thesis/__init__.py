@@ -1,0 +1,1 @@
+"""The shipped cases against the thesis that they are from."""
