@@ -263,7 +263,7 @@ def cold_films(report: Report, scene: Scene, correlation: str, unit: float) -> t
 
     report.say(
         f"Cold, correlation {correlation}: W_c {1.0 - reference.iterate.fluid.sum() / pressure.sum():.3f}; the reference "
-        f"ended with a pressure change of {reference.change:.1g}."
+        f"ended with a pressure change of {reference.pressure_change:.1g}."
     )
     report.header("by", "ms", "WU", "error [%]", "iterations", "converged", "algorithm")
     costs, errors = [], []

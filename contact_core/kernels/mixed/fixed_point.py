@@ -14,6 +14,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from ..anderson import Anderson
+from ..convergence import SolverConvergence
 from ..half_space import HalfSpace
 from . import cavities, reynolds
 
@@ -29,7 +30,7 @@ _STIFF_STEP = 0.4  # part of their correction that nodes in the stiff zone take
 _RENEW = 0.02  # share of the stiff zone that changes before the lever of the load is computed anew
 _CARRIED = 0.3  # pressure of smooth bodies above which the pattern of the rough ones moves along with them
 _LOAD_TOLERANCE = 1e-4
-_INTRUSION_TOLERANCE = 0.2
+_COMPLEMENTARITY_TOLERANCE = 0.2
 _IMBALANCE_PER_TOLERANCE = 100.0  # what a time step still owes is made up for in the next one...
 _STEADY_IMBALANCE_PER_TOLERANCE = 5.0  # ...but a steady film has no next one,
 _OWED_PER_STEP = 6.0  # and a long step must not lose much of its film
@@ -106,44 +107,37 @@ class Iterate:
 
 
 @dataclass(frozen=True)
-class Solution:
+class Solution(SolverConvergence):
     """The end of an iteration and how good it is."""
 
     iterate: Iterate
     gap: Array  # may be below the floor where the pressure is capped: what is missing yields plastically
     mass: Array
-    converged: bool
-    iterations: int
-    change: float  # last relative change of the pressure by an iteration
-    load_error: float  # relative
-    intrusion: float  # mean distance of solid contacts below the cap from the floor, weighted by pressure, in floors
-    imbalance: float  # mass that the film gains or loses unasked in the unit of time, relative, by the load it carries
-    shortfall: str = ""  # why it is not converged, empty if it is
 
 
 def shortfall(
-    tolerance: float, change: float, load_error: float, intrusion: float, imbalance: float, per_dt: float
+    tolerance: float, change: float, load_error: float, complementarity: float, imbalance: float, per_dt: float
 ) -> str:
     """The stopping rule of every film: what is short of it, in words, or nothing. `per_dt`: 1 / time step or 0."""
-    rules = _rules(tolerance, change, load_error, intrusion, imbalance, per_dt)
+    rules = _rules(tolerance, change, load_error, complementarity, imbalance, per_dt)
     return "; ".join(f"{name} {value:.2g}, not below {most:.2g}" for name, value, most in rules if not value < most)
 
 
 def excess(found: Solution, tolerance: float, per_dt: float) -> float:
     """How many times the stopping rule's worst number is above its limit."""
-    numbers = (found.change, found.load_error, found.intrusion, found.imbalance)
+    numbers = (found.pressure_change, found.load_error, found.complementarity, found.imbalance)
     return max(value / most for _, value, most in _rules(tolerance, *numbers, per_dt))
 
 
 def _rules(
-    tolerance: float, change: float, load_error: float, intrusion: float, imbalance: float, per_dt: float
+    tolerance: float, change: float, load_error: float, complementarity: float, imbalance: float, per_dt: float
 ) -> tuple[tuple[str, float, float], ...]:
     least = _STEADY_IMBALANCE_PER_TOLERANCE
     owed = tolerance * min(max(_OWED_PER_STEP * per_dt, least), _IMBALANCE_PER_TOLERANCE)
     return (
         ("pressure change", change, tolerance),
         ("load error", abs(load_error), _LOAD_TOLERANCE),
-        ("distance of contacts from the floor", intrusion, _INTRUSION_TOLERANCE),
+        ("distance of contacts from the floor", complementarity, _COMPLEMENTARITY_TOLERANCE),
         ("mass imbalance", imbalance, owed),
     )
 
@@ -367,18 +361,29 @@ class Iteration:
     def assess(self, n: int, tolerance: float) -> Solution:
         """How good the present pressure is; refers to the scratch arrays, so it holds until the next `correct`."""
         q = self.problem
-        wrong, film, fluid, solids, intrusion, gained, held = (float(value) for value in self.sums)
+        wrong, film, fluid, solids, complementarity, gained, held = (float(value) for value in self.sums)
         load_error, share = self.load / q.load - 1.0, solids / q.load
-        intrusion /= q.floor * q.load
+        complementarity /= q.floor * q.load
         imbalance = wrong / max(film, 1e-300) * fluid / q.load
         if q.conserving:  # pockets that still fill up carry little yet, but will
             imbalance = wrong / max(film, 1e-300) * max(fluid / q.load, _LEAST_PART) + gained / max(held, 1e-300)
-        why = shortfall(tolerance, self.change, load_error, intrusion, imbalance, q.per_dt)
+        why = shortfall(tolerance, self.change, load_error, complementarity, imbalance, q.per_dt)
         if abs(share - self.share) >= _SHARE_TOLERANCE:
             why = "; ".join(filter(None, (why, "the share of the solids still changes")))
         self.share = share
         iterate = Iterate(self.p, self.f, self.solid, self.rigid)
-        return Solution(iterate, self.h, self.mass, not why, n, self.change, load_error, intrusion, imbalance, why)
+        return Solution(
+            iterate,
+            self.h,
+            self.mass,
+            converged=not why,
+            shortfall=why,
+            iterations=n,
+            pressure_change=self.change,
+            load_error=load_error,
+            complementarity=complementarity,
+            imbalance=imbalance,
+        )
 
     def _owed(self) -> Array:
         """Mass that nodes have taken in by their balance and do not hold."""
@@ -408,7 +413,7 @@ def solve_mixed(half_space: HalfSpace, problem: Problem, start: Iterate, toleran
     """Iterate from `start` until the relative pressure change is below `tolerance` or `iterations` are spent.
 
     What is not converged is the best of the last quarter, in the pressure's change. Non-finite values never leave: what
-    is returned is finite, or its `change` is infinite.
+    is returned is finite, or its `pressure_change` is infinite.
     """
     return iterate_on(Iteration(half_space, problem, start, _DEPTH, _STIFF_STEP), tolerance, iterations)
 
@@ -421,18 +426,32 @@ def iterate_on(it: Iteration, tolerance: float, iterations: int) -> Solution:
     for n in range(1, iterations + 1):
         it.correct()
         found = it.assess(n, tolerance)
-        if not np.isfinite(found.change):
+        if not np.isfinite(found.pressure_change):
             break
         if found.converged:
             return it.kept(found)
-        if 4 * n >= 3 * iterations and (best is None or found.change < best.change):
+        if 4 * n >= 3 * iterations and (best is None or found.pressure_change < best.pressure_change):
             best = it.kept(found)
         it.mix()
     if best is None:
-        zeros = np.zeros_like(problem.cap)
-        why = "no finite solution"
-        return Solution(it.start, zeros, problem.mass_old, False, n, np.inf, np.inf, np.inf, np.inf, why)
+        return failed(it.start, np.zeros_like(problem.cap), problem.mass_old, n, "no finite solution")
     return replace(best, iterations=n)
+
+
+def failed(start: Iterate, gap: Array, mass: Array, iterations: int, why: str) -> Solution:
+    """Return the start of an iteration that found nothing, with infinite errors."""
+    return Solution(
+        start,
+        gap,
+        mass,
+        converged=False,
+        shortfall=why,
+        iterations=iterations,
+        pressure_change=np.inf,
+        load_error=np.inf,
+        complementarity=np.inf,
+        imbalance=np.inf,
+    )
 
 
 def advected(start: Iterate, smooth: Array, nodes: int) -> Iterate:

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from ..half_space import HalfSpace
 from . import cavities, reynolds, streaming
 from .band import band_inverse
-from .fixed_point import Carried, Iterate, Problem, Solution, shortfall
+from .fixed_point import Carried, Iterate, Problem, Solution, failed, shortfall
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -433,7 +433,7 @@ class _Film:
         load_error = float((q.weight * p).sum()) / q.load - 1.0
         below_cap = self.solid & (p < q.cap)
         total = max(float(p.sum()), 1e-300)
-        intrusion = float((p * np.abs(q.floor - self.h))[below_cap].sum()) / (q.floor * total)
+        complementarity = float((p * np.abs(q.floor - self.h))[below_cap].sum()) / (q.floor * total)
         inflow, nowhere = np.zeros_like(p), np.zeros_like(self.solid)
         self._residual(nowhere, inflow)
         film = (self.solid, self.h, self.mass, inflow, q.floor, q.spacing)
@@ -443,9 +443,20 @@ class _Film:
             mean = float((p * self.mass).sum()) / total
             imbalance += float(light) * q.spacing / (mean * self.r[self.rows].shape[0])
         change += self.sought / q.load
-        why = shortfall(tolerance, change if whole else np.inf, load_error, intrusion, imbalance, q.per_dt)
+        why = shortfall(tolerance, change if whole else np.inf, load_error, complementarity, imbalance, q.per_dt)
         iterate = Iterate(p, self.f, self.solid, self.rigid)
-        return Solution(iterate, self.h, self.mass, not why, n, change, load_error, intrusion, imbalance, why)
+        return Solution(
+            iterate,
+            self.h,
+            self.mass,
+            converged=not why,
+            shortfall=why,
+            iterations=n,
+            pressure_change=change,
+            load_error=load_error,
+            complementarity=complementarity,
+            imbalance=imbalance,
+        )
 
 
 def solve_newton(
@@ -453,7 +464,7 @@ def solve_newton(
 ) -> Solution:
     """Newton steps from `start` until a step of full length meets the rule of `shortfall` or `iterations` are spent.
 
-    Non-finite values never leave: what is returned is finite, or its `change` is infinite.
+    Non-finite values never leave: what is returned is finite, or its `pressure_change` is infinite.
     """
     film = _Film(half_space, problem, start)
     film.evaluate()
@@ -461,8 +472,7 @@ def solve_newton(
     for n in range(1, iterations + 1):
         correction = film.correction()
         if correction is None or not np.isfinite(correction[0]).all():
-            nothing = np.zeros_like(film.p)
-            return Solution(start, nothing, problem.mass_old, False, n, *4 * (np.inf,), "no Newton step")
+            return failed(start, np.zeros_like(film.p), problem.mass_old, n, "no Newton step")
         change, share = film.advance(*correction)
         film.evaluate()
         found = film.assess(n, change, share == 1.0, tolerance)

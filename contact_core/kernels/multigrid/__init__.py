@@ -1,1 +1,1 @@
-""""""
+"""Smooth films by full multigrid."""
