@@ -1,8 +1,8 @@
 """Which algorithm solves which contact: a table, and the little that carries it out.
 
 A steady film goes to the first row of REGIMES that it fits; the algorithms of that row are tried in turn until one
-meets the stopping rule (`kernels.mixed.shortfall`). An instant that follows from another one is marched from it, and
-that film serves if it can be used at all, unless the step is to be thorough.
+meets the stopping rule (`kernels.mixed.stopping_rule`). An instant that follows from another one is marched from it,
+and that film serves if it can be used at all, unless the step is to be thorough.
 """
 
 import math
@@ -13,9 +13,12 @@ import numpy as np
 
 from ..errors import ConvergenceError, FilmTooWideError
 from ..kernels.grids import prolong, restrict
+from ..kernels.mixed.advection import advected
 from ..kernels.mixed.direct import solve_direct
-from ..kernels.mixed.fixed_point import Iterate, Solution, advected, excess, solve_mixed
+from ..kernels.mixed.fixed_point import solve_mixed
 from ..kernels.mixed.newton import solve_newton
+from ..kernels.mixed.problem import Iterate, Solution
+from ..kernels.mixed.stopping_rule import excess
 from ..kernels.multigrid.cycle import is_applicable, solve_smooth
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .scaled import LOAD_ACCEPTED, Scaled, inlet_length

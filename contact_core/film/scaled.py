@@ -14,7 +14,7 @@ from ..errors import ConvergenceError
 from ..kernels.dry import solve_dry
 from ..kernels.far_field import far_field
 from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
-from ..kernels.mixed.fixed_point import Iterate, Problem, Solution
+from ..kernels.mixed.problem import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
 from ..reference.starvation import film_behind_meniscus, supplied_film
 from ..shapes import Shape

@@ -8,8 +8,8 @@ import pytest
 from comparison import approx
 from line_contact import line
 
-from contact_core.kernels.mixed.fixed_point import Iterate
 from contact_core.kernels.mixed.newton import solve_newton
+from contact_core.kernels.mixed.problem import Iterate
 
 
 def solve(load, oil, nx, coarse=None):

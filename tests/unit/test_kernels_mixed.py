@@ -7,8 +7,9 @@ from wavy_contact import axis, problem
 
 from contact_core.kernels.dry import solve_dry
 from contact_core.kernels.mixed.direct import solve_direct
-from contact_core.kernels.mixed.fixed_point import Iterate, solve_mixed
+from contact_core.kernels.mixed.fixed_point import solve_mixed
 from contact_core.kernels.mixed.newton import solve_newton
+from contact_core.kernels.mixed.problem import Iterate
 
 N = 49
 WAVE = 0.04

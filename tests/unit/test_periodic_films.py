@@ -8,8 +8,9 @@ from comparison import approx
 from line_contact import line, roughness, with_images
 
 from contact_core.kernels.mixed.direct import solve_direct
-from contact_core.kernels.mixed.fixed_point import Iterate, solve_mixed
+from contact_core.kernels.mixed.fixed_point import solve_mixed
 from contact_core.kernels.mixed.newton import solve_newton
+from contact_core.kernels.mixed.problem import Iterate
 from contact_core.kernels.multigrid.cycle import is_applicable
 
 NX = 129

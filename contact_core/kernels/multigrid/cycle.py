@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..far_field import far_field
-from ..mixed.fixed_point import Iterate, Problem, Solution, shortfall
+from ..mixed.problem import Iterate, Problem, Solution
+from ..mixed.stopping_rule import shortfall
 from . import transfer
 from .level import Level
 
