@@ -14,8 +14,7 @@ from pathlib import Path
 import numpy as np
 from random_points import draw
 
-from contact_core import ConvergenceError
-from contact_core.calls import point_contact
+from contact_core import ConvergenceError, point_contact
 
 DOCS = Path(__file__).parent.parent / "docs"
 OUTPUTS = ("h_central", "h_c", "h_min", "contact_area_ratio", "contact_load_ratio", "pressure_max", "approach")

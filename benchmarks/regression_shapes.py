@@ -18,8 +18,7 @@ from regression_points import Columns
 from regression_points import solved as answered
 from regression_shapes_points import CHECK, COUNTS, FIT, ORIGIN, OTHERS, WIDTH, ShapePoint, points, rubbed, solved
 
-from contact_core import RangeFlag, advance, initial_state
-from contact_core.calls import line_contact, point_contact
+from contact_core import RangeFlag, advance, initial_state, line_contact, point_contact
 from contact_core.laws.load_sharing import LineSharing
 from contact_core.reference import rolling_line, rolling_point
 from contact_core.state import Outputs

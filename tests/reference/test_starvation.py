@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from comparison import approx
 
-from contact_core.calls import point_contact
+from contact_core import point_contact
 from contact_core.film.fitted import fitted_grid
 from contact_core.film.instant import Instant, Settings, Step
 from contact_core.film.outputs import at_centre

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from comparison import approx
 
-from contact_core.calls import line_contact
+from contact_core import line_contact
 from contact_core.kernels.half_space import PeriodicHalfSpace
 from contact_core.kernels.mixed.newton import solve_newton
 from contact_core.kernels.mixed.problem import Iterate, Problem

@@ -7,8 +7,7 @@ import pytest
 from comparison import approx
 from wavy_contact import problem
 
-from contact_core import OperatingPointError, Scene, SceneError, advance, initial_state
-from contact_core.calls import point_contact
+from contact_core import OperatingPointError, Scene, SceneError, advance, initial_state, point_contact
 from contact_core.deterministic.instant import instant_of
 from contact_core.film.instant import Grid, Settings
 from contact_core.film.scaled import Scaled
