@@ -87,7 +87,7 @@ class Carried:
         """Mass of every node, and the flow between them, of a fluid pressure and what full nodes hold."""
         q = self.problem
         inlet = (q.conserving, self.supply, self.first)
-        carry(f, self.full, q.mass_old, e, q.per_dt, q.wedge, q.spacing, *inlet, mass, self.flux, self.filling)
+        carry(f, self.full, q.mass_old, e, *q.terms, *inlet, mass, self.flux, self.filling)
         if q.wrapped:
             for field in (mass, self.flux, self.filling):
                 wrap(field)

@@ -240,14 +240,12 @@ class _Direct(Iteration):
         """Steps of the free nodes into `base`, their change with the rigid gap into the lever."""
         q, p = self.problem, self.p
         scale = _PROBE * float(np.maximum(self.h, q.floor).min())
-        oil = (q.mobility, q.thinned, q.fluidity, q.density, q.step)
-        in_time = (q.mass_old, q.per_dt, q.wedge, q.spacing)
         inlet: tuple[Any, ...] = ()
         filling: tuple[Any, ...] = ()
         if (carried := self.carried) is not None:
             inlet, filling = (carried.supply, q.conserving, carried.first), (carried.filling, carried.first)
-        _response(self.f, self.solid, self.h, q.floor, *oil, *in_time, scale, self.response, *inlet)
-        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.wedge, q.spacing)
+        _response(self.f, self.solid, self.h, q.floor, *q.oil, q.mass_old, *q.terms, scale, self.response, *inlet)
+        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, *q.terms)
         given = (self.half_space.near, self.patch_wide, base, -self.lever, self.response)
         system = (self.number, self.starts, self.columns, self.values, self.rhs)
         n, filled = _equations(p, self.solid, self.stiff, *film, *given, q.wrapped, *system, *filling)

@@ -156,7 +156,7 @@ class Iteration:
         self._film()
         self._press()
         q, p = self.problem, self.p
-        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.wedge, q.spacing)
+        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, *q.terms)
         near = (self.half_space.near, self.patch_wide)
         inlet = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
         relaxation = (q.lumped, _LINE_SWEEPS, self.dp, *inlet, q.wrapped)
@@ -183,7 +183,7 @@ class Iteration:
     def _film(self) -> None:
         """Gap, contacts, fluid pressure under them, mass balance, and the change of the gap that mends it."""
         q, p, f, solid, carried = self.problem, self.p, self.f, self.solid, self.carried
-        oil = (q.floor, q.mobility, q.thinned, q.fluidity, q.density, q.step)
+        oil = (q.floor, *q.oil)
         full = self.mass
         flow: tuple[Any, int] = (None, 1)
         inlet: tuple[Any, ...] = ()
@@ -196,13 +196,13 @@ class Iteration:
         if carried is not None:
             carried.carry(f, self.e, self.mass)
         if not q.lumped:
-            constants = (q.per_dt, q.wedge, q.spacing, _SWEEPS_UNDER_CONTACTS)
+            constants = (*q.terms, _SWEEPS_UNDER_CONTACTS)
             film = (self.h, self.mass, q.mass_old, self.e)
             reynolds.fluid_under_contacts(p, f, solid, *film, *constants, *oil, full, *flow, q.wrapped)
             if carried is not None:
                 carried.carry(f, self.e, self.mass)
         balance = (self.h, self.mass, q.mass_old, self.e)
-        scales = (q.floor, q.per_dt, q.wedge, q.spacing, q.compliance, self.patch)
+        scales = (q.floor, *q.terms, q.compliance, self.patch)
         out = (self.r, self.stiff, self.dh, self.sums)
         self.zone = corrections.mend_film(p, f, q.cap, solid, *balance, *scales, self.stiff_of_unit, *out, *inlet)
         if q.wrapped:
@@ -256,7 +256,7 @@ class Iteration:
             return np.where(self.solid | (self.p <= 0.0), 0.0, self.r)
         q, carried, owed, nowhere = self.problem, self.carried, np.zeros_like(self.r), np.zeros_like(self.solid)
         assert carried is not None
-        balance = (self.mass, q.mass_old, self.e, q.per_dt, q.wedge, q.spacing)
+        balance = (self.mass, q.mass_old, self.e, *q.terms)
         reynolds.residual(self.f, nowhere, *balance, owed, carried.flux, carried.filling, carried.first)
         return owed
 

@@ -115,7 +115,7 @@ class _Film:
         self._pass()
         if self.carried is None:
             rigid = 30.0 * self.half_space.near[0, 0] / q.spacing  # there the gap does not feel light pressures
-            balance = (self.e, self.mass, q.mass_old, q.per_dt, q.wedge, q.spacing)
+            balance = (self.e, self.mass, q.mass_old, *q.terms)
             light = _LIGHT * self.p.max()
             _seek_cavity(self.f, self.p, self.solid, *balance, rigid, light, _SWEEPS_AT_CAVITY, q.wrapped)
             set_edge(self.p, q.edge, q.wrapped)
@@ -127,7 +127,7 @@ class _Film:
     def _residual(self, solid: Mask, out: Array) -> None:
         """Net inflow of every node that is full and not `solid`."""
         q, flow = self.problem, self._flow
-        reynolds.residual(self.f, solid, self.mass, q.mass_old, self.e, q.per_dt, q.wedge, q.spacing, out, *flow)
+        reynolds.residual(self.f, solid, self.mass, q.mass_old, self.e, *q.terms, out, *flow)
 
     @property
     def _flow(self) -> tuple[Any, ...]:
@@ -136,7 +136,7 @@ class _Film:
 
     def _pass(self) -> None:
         q, p, f, solid = self.problem, self.p, self.f, self.solid
-        oil = (q.floor, q.mobility, q.thinned, q.fluidity, q.density, q.step)
+        oil = (q.floor, *q.oil)
         deformation = self.half_space.deform(p)
         solid |= self.inner & (self.rigid + q.undeformed + deformation < _TOUCH * q.floor)
         if q.wrapped:
@@ -152,7 +152,7 @@ class _Film:
         settled = solid & (self.releases >= _RELEASES)
         if carried is not None:
             carried.carry(f, self.e, self.mass)
-        balance = (self.mass, q.mass_old, self.e, q.per_dt, q.wedge, q.spacing)
+        balance = (self.mass, q.mass_old, self.e, *q.terms)
         flow = (*oil, full, flux, first, q.wrapped)
         reynolds.fluid_under_contacts(p, f, solid, self.h, *balance, _SWEEPS_UNDER_CONTACTS, *flow)
         if carried is not None:
@@ -162,15 +162,14 @@ class _Film:
     def correction(self) -> tuple[Array, Array, float] | None:
         """Newton's changes of pressure, gap [ny, nx] and rigid gap; None if there are none."""
         q, solid, near = self.problem, self.solid, self.half_space.near
-        oil = (q.floor, q.mobility, q.thinned, q.fluidity, q.density, q.step)
+        oil = (q.floor, *q.oil)
         by_f, by_h, scale, carried = self.by_f, self.by_h, self.scale, self.carried
         linearisation.slopes(self.f, solid, self.h, *oil, self.slope)
         if carried is None:
             linearisation.linearise(self.f, self.e, q.spacing, q.per_dt, q.wedge, self.slope, by_f, by_h)
         else:
             film = (self.f, carried.full, self.e, self.slope)
-            in_time = (q.per_dt, q.wedge, q.spacing)
-            streaming.linearise(*film, carried.filling, *in_time, carried.first, by_f, by_h)
+            streaming.linearise(*film, carried.filling, *q.terms, carried.first, by_f, by_h)
         yields = solid & (self.p >= q.cap) & (self.h < q.floor)
         wet = ((self.p > 0.0) | (self.r > 0.0)) & ~((self.p >= q.cap) & (self.r >= 0.0))
         nodes = self.order[np.where(solid, ~yields, wet).ravel()[self.order]]
@@ -188,7 +187,7 @@ class _Film:
                 linearisation.product(by_f, by_h, scale, nodes, solid, df, dh, out)
                 return
             flow = (carried.flux, carried.filling, df, dh)
-            streaming.change(*film, *flow, *in_time, q.conserving, carried.first, change)
+            streaming.change(*film, *flow, *q.terms, q.conserving, carried.first, change)
             out[:] = (np.where(solid, dh, change) * scale).ravel()[nodes]
 
         lift = np.empty(size)

@@ -1,6 +1,8 @@
 """One instant of a mixed film in the units of the kernels: the problem, an iterate and a solution of it."""
 
 from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +11,28 @@ from ..convergence import SolverConvergence
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+
+
+class Oil(NamedTuple):
+    """Properties of the oil, in the order in which kernels take them (as `*problem.oil`).
+
+    Compiled functions get the fields one by one: unpacking a named tuple costs each call about 1.5 us, 5 % of an
+    iteration on 129 x 129 nodes.
+    """
+
+    mobility: Array
+    thinned: Array
+    fluidity: Array
+    density: Array
+    step: float
+
+
+class Terms(NamedTuple):
+    """Coefficients of the terms that carry mass along, in the order in which kernels take them."""
+
+    per_dt: float
+    wedge: float
+    spacing: float
 
 
 @dataclass(frozen=True)
@@ -42,6 +66,16 @@ class Problem:
     conserving: bool = False  # cavities hold the oil that flows into them; else they count as full
     supply: float | Array | None = None  # conserving: mass [ny] that enters, None: as much as the first column can take
     first: int = 0  # first column in which oil has pressure; upstream of it none presses
+
+    @cached_property
+    def oil(self) -> Oil:
+        """Arguments of kernels: properties of the oil."""
+        return Oil(self.mobility, self.thinned, self.fluidity, self.density, self.step)
+
+    @cached_property
+    def terms(self) -> Terms:
+        """Arguments of kernels: time step, entrainment, spacing."""
+        return Terms(self.per_dt, self.wedge, self.spacing)
 
     @property
     def by_flux(self) -> bool:
