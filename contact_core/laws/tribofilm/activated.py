@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...quantities import parameter
-from ..constants import BOLTZMANN
+from ...reference.constants import BOLTZMANN
 from .fitted import Ghanbarzadeh, beyond_fit, fit_temperature, thickness
 
 Array = NDArray[np.float64]

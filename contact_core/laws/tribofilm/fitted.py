@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...quantities import parameter
-from ..constants import BOLTZMANN, PLANCK
+from ...reference.constants import BOLTZMANN, PLANCK
 from ..elementary import Numbers, expm1
 
 Array = NDArray[np.float64]
