@@ -26,7 +26,7 @@ def _loaded(code: str) -> set[str]:
     return set(json.loads(run.stdout))
 
 
-@pytest.mark.parametrize("package", ["contact_core", "fmu_src.slave"])
+@pytest.mark.parametrize("package", ["contact_core", "fmu_src.runtime.slave"])
 def test_an_import_loads_no_compiler_and_no_heavy_package(package):
     assert _loaded(f"import {package}") == set()
 
