@@ -16,9 +16,9 @@ import numpy as np
 import xarray as xr
 
 from benchmarks.folders import MEASURED, RESULTS
-from system_models.machine import reading
-from system_models.machine.assembly import Assembly
-from system_models.machine.coupling_error import coarser, differences, relative, settled, stated
+from system_models.machines import reading
+from system_models.machines.assembly import Assembly
+from system_models.machines.coupling_error import coarser, differences, relative, settled, stated
 from system_models.master import simulate
 
 KEPT = RESULTS / "machine_tolerance"
@@ -104,7 +104,7 @@ Written by `python -m benchmarks.machines.tolerance`.
 
 `tribofmu run` simulates each machine a second time, at every second of its communication points. The coupling is of
 first order, so the difference would be the error of the result if steps were short enough. Two step sizes do not tell
-that: three times the difference is stated for each output (`system_models.machine.coupling_error`), the largest at any
+that: three times the difference is stated for each output (`system_models.machines.coupling_error`), the largest at any
 time, and no less than a jump of the output in one step by less than a tenth of its largest value, as finer steps may
 have it in another one. It is the attribute `error_coupling` in result.nc.
 
