@@ -41,9 +41,10 @@ def scene_of(name="mtm_zddp", **changes):
 """
 _FMU = """
 import zipfile
+from pathlib import Path
 from fmu_src.package.build import build
 def package_of(scene):
-    with zipfile.ZipFile(build(scene, "contact.fmu", "embedded")) as package:
+    with zipfile.ZipFile(build(scene, Path("contact.fmu"), "embedded")) as package:
         page = package.read("documentation/index.html").decode()
         return package.read("modelDescription.xml").decode(), page
 """
@@ -74,9 +75,10 @@ def found_by(tree: Tree, code: str) -> Any:
 
 
 def columns(tree: Tree, name: str) -> list[dict[str, str]]:
-    """Rows of the result that a run has written."""
+    """Return the rows of the result that a run has written."""
     with (tree.folder / "work" / "results" / name / "result.csv").open(encoding="utf-8") as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+        heading, *rows = csv.reader(line for line in file if not line.startswith("#"))
+    return [dict(zip((name.partition(" [")[0] for name in heading), row, strict=True)) for row in rows]
 
 
 @pytest.mark.parametrize(
@@ -108,18 +110,23 @@ found = {"rate": law.rate(353.15)}
 for level in ("deterministic", "regression"):
     scene = scene_of(tribofilm__set="quinn_80c", heat="none", wear="none", control__driver="dry").at_level(level)
     state, point = initial_state(scene), scene.operation.point
+    if level == "regression":
+        _, out = advance(scene, point, state, 30.0)
+        found["step"] = out.tribofilm_2
     for step in (1.0, 7.0, 22.0):
         state, out = advance(scene, point, state, step)
-    thickest = float(track_of(scene, state, 2).tribofilm.max()) if level == "deterministic" else 0.0
-    found[level] = [out.tribofilm_2, out.coverage_2, thickest]
+    found[level] = [out.tribofilm_2, out.coverage_2]
+    if level == "deterministic":
+        found["thickest"] = float(track_of(scene, state, 2).tribofilm.max())
 print(json.dumps(found))
 """,
     )
     closed = (2.0 * found["rate"] * 30.0) ** 0.5
     assert found["rate"] == approx(100e-9**2 / (2.0 * 7200.0), rel=0.01)  # 100 nm after 2 h, as the set says
-    assert found["deterministic"][2] == approx(closed, rel=1e-9)  # a node that has been rubbed in every pass
-    mean, coverage, _ = found["regression"]
-    assert mean == approx(coverage * closed, rel=1e-3)
+    assert found["thickest"] == approx(closed, rel=1e-9)  # a node that has been rubbed in every pass
+    mean, coverage = found["regression"]
+    assert mean == approx(coverage * closed, rel=0.02)  # of the part of the track that is rubbed, which grows a little
+    assert mean == approx(found["step"], rel=1e-3)
     assert 0.0 < found["deterministic"][0] < closed
 
 
@@ -168,14 +175,19 @@ def test_the_shape_runs_at_both_levels_and_in_the_fmu(trees: Any) -> None:
         trees(SHAPE),
         _FMU
         + """
-changes = {"geometry__model": "barrel", "geometry__radius_y": "30 mm", "geometry__length": "0.4 mm"}
-scene = scene_of(operation__load="20 N", control__driver="mixed", **changes)
-found = [advance(s, s.operation.point, initial_state(s), 1.0)[1].h_c for s in (scene, scene.at_level("regression"))]
-print(json.dumps([*found, *package_of(scene)]))
+point = scene_of(operation__load="20 N", control__driver="mixed", geometry__radius_y="30 mm")
+table = point.to_dict()
+barrel = Scene.from_dict(table | {"geometry": table["geometry"] | {"model": "barrel", "length": "0.4 mm"}})
+found = [
+    [advance(s, s.operation.point, initial_state(s), 1.0)[1].h_c for s in (point.at_level(level), barrel.at_level(level))]
+    for level in ("deterministic", "regression")
+]
+print(json.dumps([*found, *package_of(barrel)]))
 """,
     )
-    deterministic, regression, description, page = found
-    assert deterministic == approx(regression, rel=0.5)
+    (point, barrel), by_formula, description, page = found
+    assert barrel == approx(point, rel=0.05)  # the ellipse ends within the face
+    assert by_formula[0] == by_formula[1] > 0.0
     assert 'name="radius_y"' in description
     assert "A roller of the length l with a crown" in page
 
@@ -218,8 +230,8 @@ def test_the_output_is_in_the_fmu_and_in_the_results(trees: Any) -> None:
     assert float(tree.python(code)) > 1e8
     description, page = json.loads(tree.python(_START + _FMU + "print(json.dumps(package_of(scene_of())))"))
     (variable,) = [part for part in description.split("<ScalarVariable ") if 'name="asperity_pressure"' in part]
-    for said in ('causality="output"', 'unit="Pa"', 'displayUnit="GPa"', 'nominal="1e+09"', 'quantity="Pressure"'):
-        assert said.replace("1e+09", "1000000000.0") in variable or said in variable
+    for said in ('causality="output"', 'unit="Pa"', 'displayUnit="GPa"', 'nominal="1000000000.0"'):
+        assert said in variable
     assert "mean pressure of the solids where they touch" in page
     (line,) = examples(OUTPUT, "sh")
     tree.command(line)
@@ -285,20 +297,21 @@ def error(step, **options):
     run = simulate(case.system, 2.0, step, history=past, outputs=case.states, **options)
     assert run.attrs["unconverged"] == 0
     return float(np.abs(np.array([run[name].values[-1] for name in case.states]) - exact).max())
-found = {}
-for order in (0, 1, 2):
-    for iterate in (None, "relaxed"):
-        options = {"order": order, "iterate": iterate, "iteration_tolerance": 1e-11, "algorithm": "leader"}
-        found[f"{order} {iterate}"] = [error(step, **options) for step in (0.02, 0.01)]
-found["gauss_seidel"] = [error(step, order=1, algorithm="gauss_seidel") for step in (0.02, 0.01)]
+def orders(**options):
+    return [error(step, algorithm="leader", **options) for step in (0.02, 0.01)]
+found = {
+    "scheme": [orders(order=order) for order in (0, 1, 2)],
+    "iteration": orders(order=1, iterate="relaxed", iteration_tolerance=1e-9),
+    "gauss_seidel": [error(step, order=1, algorithm="gauss_seidel") for step in (0.02, 0.01)],
+}
 print(json.dumps(found))
 """,
     )
-    for order in (0, 1, 2):
-        for iterate in ("None", "relaxed"):
-            coarse, fine = found[f"{order} {iterate}"]
-            assert coarse / fine == approx(2.0 ** (order + 1), rel=0.25)
-    assert found["1 None"] == found["gauss_seidel"]  # of two FMUs
+    for order, (coarse, fine) in enumerate(found["scheme"]):
+        assert coarse / fine == approx(2.0 ** (order + 1), rel=0.25)
+    coarse, fine = found["iteration"]
+    assert coarse / fine == approx(4.0, rel=0.1)
+    assert found["scheme"][1] == found["gauss_seidel"]  # of two FMUs
 
 
 def test_followers_do_not_see_one_another(trees: Any) -> None:
