@@ -85,7 +85,7 @@ class Control:
     longest: float = parameter("s", "longest block", above=0.0, most=1e9, default=120.0)
     inputs: str = parameter(
         "",
-        "film after a change of load, speeds or radii: quasi_steady, settled at once; transient, the film before, which "
+        "film after a change of load, speeds or radii: quasi_steady, settled at once; transient, the last film, which "
         "follows the change",
         choices=("quasi_steady", "transient"),
         default="quasi_steady",

@@ -40,7 +40,7 @@ class Body:
     removal: Array  # tribofilm removed [m]
     wear: Array  # depth worn [m]
     plastic: Array  # permanent depth pressed in [m]
-    pressure: Array  # solid pressure on a point, mean over its track [Pa], of the last solution: for wear
+    pressure: Array  # of the solids on a point, mean over its track [Pa], of the last solution: for wear
     exposure: Array  # per test time, of the last solution: for the tribofilm law
     abrasion: Array  # rate [1/s], per test time, at which rubbing removes the tribofilm; zero for laws without it
     since: Array  # passes through the contact since a point was last exposed
@@ -104,7 +104,7 @@ class ContactState:
     trends: Trends
     temperatures: tuple[float, float] | None  # of the bodies [K], for heat.bulk = "lumped"; None: none yet
     outputs: Outputs
-    means: tuple[Mean, Mean] | None = None  # of the regression level, newer than the patches; None: the patches are current
+    means: tuple[Mean, Mean] | None = None  # of the regression level, newer than the patches; None: these are current
 
     @property
     def rows(self) -> int:
