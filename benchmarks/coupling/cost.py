@@ -280,9 +280,9 @@ def main() -> None:
     fixed = [(c.beyond, kind, count) for kind, count, scheme, c in found if scheme in FIXED]
     above = [f"{scheme}, {kind} of {count}: {c.beyond:.1f}" for kind, count, scheme, c in found if c.beyond > LIMIT]
     lines = [
-        "# What the co-simulation master costs",
+        "# Cost of the co-simulation master",
         "",
-        "Written by `python -m benchmarks.coupling.cost`, which says what is measured. Microseconds of CPU time per FMU and",
+        "Written by `python -m benchmarks.coupling.cost`, which describes the measurement. Microseconds of CPU time per FMU and",
         f"pass (one doStep), median of {REPEATS} pairs of runs. Asked for: less than {LIMIT:.0f} us beyond the calls with fixed steps;",
         "the most that Jacobi needs is {:.1f} us ({} of {}).".format(*max(fixed)),
         "",
@@ -294,10 +294,9 @@ def main() -> None:
         "",
         f"Above {LIMIT:.0f} us: {'; '.join(above) or 'none'}.",
         "",
-        "A controlled step has two rows, and is made once whole and once in halves: 1.5 passes a row, and more where it is",
-        "repeated. Other programs on the machine move single figures by several microseconds.",
+        "A controlled step has two rows, and is made once as a whole and once in halves: 1.5 passes per row, and more where it is repeated. Other programs on the machine change single figures by several microseconds.",
         "",
-        "What it costs to record outputs, with Jacobi and order 0; a Real that is coupled is read anyway:",
+        "Cost of recording outputs, with Jacobi and order 0; a coupled Real is read in any case:",
         "",
         "| recorded | us per step | us per value |",
         "|---|---|---|",

@@ -141,10 +141,9 @@ def run() -> None:
     units = {nodes: unit_of(nodes) for nodes in GRIDS}
     report.say(
         "Ball of 10 mm, E' 230 GPa, 0.04 Pa s, 15 1/GPa, Rq 100 nm, correlation length 20 um, the same surface and domain "
-        "on every grid. `point_contact` as it is, its error estimate (a second film on half the nodes) included: CPU seconds, "
-        "least of two where short; the error of 513 nodes is that of the iteration alone. Errors against the finest grid, relative, of W_c absolute. 1/h: mean over r < 2a/3. Friction: "
-        f"slip {100 * SLIP:g} %, Newtonian up to {LIMIT:g} p, {SOLID:g} for solids. Rows `cascade`: every grid from the one before, "
-        "to the tolerance of the reference, 400 iterations at most, the time of the coarser ones included. One work unit: "
+        "on every grid. `point_contact` with its defaults, including its error estimate (a second film on half the nodes): CPU seconds, "
+        "least of two where short; the error of 513 nodes is that of the iteration alone. Errors against the finest grid, relative, for W_c absolute. 1/h: mean over r < 2a/3. Friction: "
+        f"slip {100 * SLIP:g} %, Newtonian up to {LIMIT:g} p, {SOLID:g} for solids. Rows `cascade`: every grid started from the coarser one, to the tolerance of the reference, 400 iterations at most, including the time of the coarser ones. One work unit: "
         + ", ".join(f"{1e3 * unit:.3g} ms on {nodes}" for nodes, unit in units.items())
         + "."
     )

@@ -43,9 +43,9 @@ def run() -> None:
     report = Page("film/core", "Contact over lambda, grid, floor and criterion", "lambda")
     report.say(
         f"Load, ball and oil of case B, one Gaussian surface of Rq {BASE.rq * 1e9:.1f} nm and correlation length "
-        f"{BASE.correlation * 1e6:.0f} um, the same on every grid; speed makes lambda, the formula film of smooth bodies over "
-        "Rq. The domain fits the film, so that nodes lie closer for thin films. The coarsest grid is solved as "
-        f"`film/routes.py` has it, finer ones by at most {ITERATIONS} hybrid iterations from the one before, to a pressure "
+        f"{BASE.correlation * 1e6:.0f} um, the same on every grid; the speed sets the lambda ratio, the formula film of smooth bodies over "
+        "Rq. The domain fits the film, so nodes are closer for thin films. The coarsest grid is solved by "
+        f"`contact_core/film/routes.py`, finer ones by at most {ITERATIONS} hybrid iterations from the one before, to a pressure "
         "change of 1e-3; from lambda 2.5 on (split) by Newton's method, to 257 nodes. W_c: load share of the solids; A_c: their area over Hertz's; gap: mean over r < 2a/3, in Rq."
     )
     report.header("criterion, floor", "lambda", "u [m/s]", "nodes", "W_c", "A_c", "gap", "imbalance", "converged")
@@ -109,7 +109,7 @@ def judge(report: Page, table: dict[tuple[str, int, float], dict[str, float]]) -
         inside = all(0.8 < share < 0.9 for shares in each.values() for share in shares)
         report.verdict(f"Zhu & Wang's 0.8 < W_c < 0.9 at lambda 0.05 and 0.1, beside {name}", text, inside)
     report.say(
-        "### What is a number of the grid\n\nChange from the second finest to the finest grid, floor 1 nm, split:"
+        "### Dependence on the grid\n\nChange from the second finest to the finest grid, floor 1 nm, split:"
     )
     report.header("lambda", "nodes", "W_c", "A_c", "gap [%]")
     for ratio in LAMBDAS:

@@ -117,9 +117,9 @@ def restored(instance: Instance, victim: Callable[[], int]) -> float:
 
 def main() -> None:
     lines = [
-        "# What the isolated FMU stands",
+        "# Endurance of the isolated FMU",
         "",
-        "Written by `python -m benchmarks.fmu.endurance`, which says what is measured.",
+        "Written by `python -m benchmarks.fmu.endurance`, which describes the measurement.",
         "",
         "| what | process | growth |",
         "|---|---|---|",
@@ -134,7 +134,7 @@ def main() -> None:
         folder, program = Path(name), compiled(Path(name))
         quick = Flavour("isolated", plain_environment).contact(folder)
         shipped = unpacked(build(SHIPPED, folder / "shipped.fmu"))
-        models = ((quick, "fast level"), (shipped, "129 x 129 nodes"))
+        models = ((quick, "regression level"), (shipped, "129 x 129 nodes"))
         add(cycles(program, quick))
         add(steps(program, quick))
         lines += [

@@ -278,9 +278,9 @@ def shown(rows: Iterator[str]) -> list[str]:
 
 def main() -> None:
     lines = [
-        "# What an FMU costs over a direct call",
+        "# Cost of an FMU step over a direct call",
         "",
-        "Written by `python -m benchmarks.fmu.overhead`, which says what is measured.",
+        "Written by `python -m benchmarks.fmu.overhead`, which describes the measurement.",
         "",
         "| slave | called by | median [us] | 5 % [us] | 95 % [us] | over the direct call [us] |",
         "|---|---|---|---|---|---|",

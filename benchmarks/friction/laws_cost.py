@@ -144,10 +144,10 @@ PARTS: dict[str, Callable[[int], Iterator[Row]]] = {
 
 def main() -> None:
     lines = [
-        "# What laws cost",
+        "# Cost of the laws",
         "",
         "Written by `python -m benchmarks.friction.laws_cost`: case A on fresh surfaces, slide-to-roll ratio 50 %. A work unit is one",
-        'deformation convolution on the same grid. A law that is "none" is not called at all, but for its zeros.',
+        'deformation convolution on the same grid. A law "none" is called only for its zeros.',
         "",
         cells(HEADER),
         "|" + "---|" * len(HEADER),

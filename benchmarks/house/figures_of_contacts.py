@@ -10,7 +10,7 @@ def bars(pages: Pages) -> list[tuple[str, ...]]:
     rows = pages.rows("film/core.md", "met?")
     met = sum(row["met?"] == "yes" for row in rows if "no bar given" not in row["asked"])
     asked = sum("no bar given" not in row["asked"] for row in rows)
-    return [("accuracy and cost that were asked of the core", f"{met} of {asked} met", f"{asked - met} not", link("film/core.md"))]
+    return [("requirements on accuracy and cost of the core", f"{met} of {asked} met", f"{asked - met} not met", link("film/core.md"))]
 
 
 def finest(pages: Pages) -> list[tuple[str, ...]]:
@@ -92,7 +92,7 @@ def estimates(pages: Pages) -> list[tuple[str, ...]]:
             *(high, low),
             link(page),
         ),
-        ("and is so many times as large, median", small, large, link(page)),
+        ("ratio of estimate and true error, median", small, large, link(page)),
     ]
 
 
@@ -108,5 +108,5 @@ def grids(pages: Pages) -> list[tuple[str, ...]]:
     shares = range_of((row["contact_load_ratio"] for row in pages.rows("film/grid.md", "nodes")), "{:.2f}".format)
     return [
         ("mtm_zddp on fresh surfaces, from 129 to 193 nodes", *ends, link("film/grid.md")),
-        ("its W_c on 65 to 193 nodes", f"{shares[1]} to {shares[0]}", "it belongs to a grid", link("film/grid.md")),
+        ("W_c of mtm_zddp on 65 to 193 nodes", f"{shares[1]} to {shares[0]}", "depends on the grid", link("film/grid.md")),
     ]

@@ -20,11 +20,11 @@ def random_points(pages: Pages) -> list[tuple[str, ...]]:
     for name, column in (("friction", "mu [rel.]"), ("h_c", "h_c [rel.]"), ("W_c (of 1)", "W_c [1]")):
         found = []
         for kind in ("median", "90 %"):
-            rows = pages.rows("regression/curves.md", f"{column}, {kind}", "The fast level")
+            rows = pages.rows("regression/curves.md", f"{column}, {kind}", "The regression level")
             found.append(range_of((row[f"{column}, {kind}"] for row in rows), per_cent))
         ends = (f"{half}; {most}" for half, most in zip(*found, strict=True))
         lines.append(
-            (f"{name} on random points of the shipped circles, half; nine of ten within", *ends, link("regression/curves.md"))
+            (f"deviation of {name} at random points of the shipped circular contacts: median; 90 %", *ends, link("regression/curves.md"))
         )
     return lines
 
@@ -44,7 +44,7 @@ def two_hours(pages: Pages) -> list[tuple[str, ...]]:
         lines.append((f"{name} at 0, 20, 60 and 120 min of rubbing", best, when, link("regression/curves.md")))
     times = [slow / fast for slow, fast in (pair(row["CPU s"]) for row in rows if row["min"] == "120")]
     lines.append(
-        ("their CPU time, times less", f"{max(times):.0f}", f"{min(times):.0f}", link("regression/curves.md"))
+        ("ratio of their CPU times", f"{max(times):.0f}", f"{min(times):.0f}", link("regression/curves.md"))
     )
     return lines
 
@@ -70,7 +70,7 @@ def error_outputs(pages: Pages) -> list[tuple[str, ...]]:
             which = "points solved well" if sure else "points, solved well or not,"
             lines.append(
                 (
-                    f"`error_{name}` covers {hit} of {count} {which} of gears, bearings and an MTM that nothing was fitted to",
+                    f"`error_{name}` covers {hit} of {count} {which} of gears, bearings and an MTM, not used in any fit",
                     *("{1} of {2} ({0}s)".format(shape, *by_shape[shape]) for shape in (best, worst)),
                     link(page),
                 )
@@ -82,7 +82,7 @@ def error_outputs(pages: Pages) -> list[tuple[str, ...]]:
     ranked = sorted(within, key=lambda shape: sum(within[shape]) / len(within[shape]), reverse=True)
     every = [held for shape in ranked for held in within[shape]]
     ends = (f"{sum(within[shape])} of {len(within[shape])} ({shape}s)" for shape in (ranked[0], ranked[-1]))
-    lines.append((f"both cover {sum(every)} of {len(every)} surfaces that have rubbed", *ends, link(page)))
+    lines.append((f"both cover {sum(every)} of {len(every)} rubbed surfaces", *ends, link(page)))
     return lines
 
 
@@ -98,7 +98,7 @@ def fast_step(pages: Pages) -> list[tuple[str, ...]]:
             f"({row['scene'] if shipped else row['laws']})"
             for row in (ranked[0], ranked[-1])
         )
-        lines.append((f"a step {name}: 5 % are faster; median; 5 % are slower", *ends, link(page)))
+        lines.append((f"time of a step {name}: 5 %; median; 95 %", *ends, link(page)))
     return lines
 
 
@@ -144,7 +144,7 @@ def half_widths(pages: Pages) -> list[tuple[str, ...]]:
         lines.append(
             (
                 f"azam_case_a driven {row['driver']}: share of the times at which `uncertainty(state)` covers the error; "
-                f"nine of ten in {held} of {len(shares)} outputs",
+                f"at least 90 % in {held} of {len(shares)} outputs",
                 per_cent(max(shares.values())),
                 f"{per_cent(shares[worst])} ({worst})",
                 link("surfaces/evolution.md"),

@@ -58,7 +58,7 @@ def curves_page(law: FittedSharing, solved: Columns) -> list[str]:
     return [
         "## Curves on random points",
         "",
-        f"{COUNT} points of each scene that the fit has not seen: load 0.3 to 1.3 of the reference, speed log-uniform over the same lambda, "
+        f"{COUNT} points of each scene that were not used in the fit: load 0.3 to 1.3 of the reference, speed log-uniform over the same lambda, "
         "temperature within 5 K, slide-roll ratio 0.5 to 100 % of either sign, log-uniform; roughness as shipped and fresh. "
         f"{refused} were refused by the deterministic solver.",
         *each_scene(solved, rows),
@@ -77,7 +77,7 @@ def level_page(solved: Columns) -> list[str]:
         return by_range(solved["lambda"][kept], {name: error[kept] for name, error in named.items()})
 
     return [
-        "## The fast level against the deterministic one",
+        "## The regression level against the deterministic level",
         "",
         'The same points by `film.model = "regression"`.',
         *each_scene(solved, rows),
@@ -89,7 +89,7 @@ def hours_page() -> list[str]:
     lines = [
         "## Two hours of rubbing",
         "",
-        "Deterministic / fast. The curves were fitted to fresh surfaces only.",
+        "Deterministic / regression level. The curves were fitted to fresh surfaces only.",
         "",
         f"| scene | min | {' | '.join(RUN)} | CPU s |",
         "|---" * (len(RUN) + 3) + "|",

@@ -79,7 +79,7 @@ def unit() -> list[float]:
 
 def main() -> None:
     lines = [
-        "# What a step of the fast level costs",
+        "# Cost of a step at the regression level",
         "",
         "Written by `python -m benchmarks.regression.cost`.",
         "",

@@ -63,7 +63,7 @@ def write_page(*, fast: bool) -> None:
     fit = Fit(FittedSharing(), tables["sweep"], others, tables["dry"], tables["pass"])
     draw(fit).savefig(MEASURED / "regression" / "curves.png", dpi=130)
     lines = [
-        "# The fast level: load-sharing curves and their errors",
+        "# The regression level: load-sharing curves and their errors",
         "",
         f"Written by `python -m benchmarks.regression.curves {'check' if fast else 'fit'}`.",
         "",
