@@ -1,4 +1,4 @@
-"""How accurate the co-simulation master is: orders, asked and reached tolerances, a stiff contact.
+"""Accuracy of the co-simulation master: orders, requested and reached tolerances, a stiff contact.
 
     python -m benchmarks.coupling.accuracy
 
@@ -147,7 +147,7 @@ CASES = (
 
 
 class Run(NamedTuple):
-    """What was asked for, and what came out."""
+    """A run: requested tolerance and reached error."""
 
     case: str
     scheme: str
@@ -188,7 +188,7 @@ def runs(folder: Path) -> Iterator[Run]:
 
 
 class Contact(NamedTuple):
-    """Where the pressed mass is at the end, or why there is no end."""
+    """Position of the pressed mass at the end, or the reason why the run failed."""
 
     step: float
     scheme: str
@@ -199,7 +199,7 @@ class Contact(NamedTuple):
 
     @property
     def rests(self) -> bool:
-        """Whether it is at rest, and every step has converged."""
+        """Whether the mass is at rest and every step has converged."""
         return abs(self.place - 1.0) < 0.01 and not self.missed
 
 
@@ -234,7 +234,7 @@ def order_rows(found: list[Order]) -> Iterator[str]:
 
 
 def exponent(runs: list[Run]) -> float:
-    """Of the work over the tolerance, between the last two of them."""
+    """Return the exponent of the work over the tolerance, between the last two tolerances."""
     return float(-np.log(runs[-1].calls / runs[-2].calls) / np.log(runs[-1].tolerance / runs[-2].tolerance))
 
 
@@ -293,7 +293,7 @@ def shown(rows: Iterator[str]) -> list[str]:
 
 
 def findings(rates: list[Order], found: list[Run]) -> Iterator[str]:
-    """What the tables say, the misses first of all."""
+    """Yield the findings of the tables."""
     off = max(abs(o.found - o.order - 1) for o in rates if not o.iterated)
     ratios = [
         error / known

@@ -1,4 +1,4 @@
-"""What the co-simulation master costs beyond the calls of the FMUs themselves.
+"""Cost of the co-simulation master beyond the calls of the FMUs.
 
     python -m benchmarks.coupling.cost
 
@@ -155,7 +155,7 @@ def repeated(system: System, settings: Mapping[str, Any], trace: Trace) -> float
 
 
 def cost(system: System, settings: Mapping[str, Any]) -> Cost:
-    """Of a scheme, the median of pairs of runs."""
+    """Cost of a scheme, the median of pairs of runs."""
     settings = {"outputs": []} | settings
     steps = max(20, CALLS // len(system.models))
     trace = Trace(system, settings, steps)
@@ -191,7 +191,7 @@ SYSTEMS = {"chain": chain, "pairs": pairs}
 
 
 def costs(folder: Path) -> Iterator[tuple[str, int, str, Cost]]:
-    """Of all systems and schemes; a chain has no loop and nothing to iterate."""
+    """Yield the costs of all systems and schemes; a chain has no loop and nothing to iterate."""
     for kind, counts in COUNTS.items():
         for count in counts:
             system = SYSTEMS[kind](folder, count)
@@ -225,7 +225,7 @@ def memory(folder: Path) -> Iterator[str]:
 
 
 def _grown(system: System, settings: Mapping[str, Any], keep: bool) -> dict[int, float]:
-    """By how many MB the resident set has grown since the first of the steps that are looked at."""
+    """Return the growth of the resident set since the first recorded step [MB]."""
     found: dict[int, float] = {}
     add = Recorder.add if keep else (lambda *_: None)
     with patch.object(Recorder, "add", add):

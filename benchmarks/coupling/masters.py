@@ -1,4 +1,4 @@
-"""Our master beside others on the same FMUs: error against the number of calls of fmi2DoStep.
+"""The master beside other masters on the same FMUs: error against the number of calls of fmi2DoStep.
 
     pip install -e ".[importers]" && python -m benchmarks.coupling.masters [--python RIVAL=INTERPRETER ...]
 

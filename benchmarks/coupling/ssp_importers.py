@@ -1,4 +1,4 @@
-"""The exported SSPs of all kinds of machines in every importer: whether they say what the master says.
+"""Exported SSP files of all kinds of machines in every importer, compared with the master.
 
     python -m benchmarks.coupling.ssp_importers
 
@@ -110,7 +110,7 @@ def ours(system: System, settings: dict[str, Any], case: Case) -> tuple[list[flo
 
 
 def answered(importer: str, file: Path, case: Case) -> Answer:
-    """What an importer makes of the file."""
+    """Return the values of an importer for the file."""
     begin = time.perf_counter()
     if importer == OMSIMULATOR:
         if omsimulator.program() is None:
@@ -168,7 +168,7 @@ def section(case: Case, folder: Path) -> tuple[list[str], dict[str, float]]:
 
 
 def versions() -> str:
-    """Of the importers in the environment."""
+    """Return the versions of the importers."""
     found = []
     for name in IMPORTERS:
         try:
@@ -188,7 +188,7 @@ def largest(done: Sequence[tuple[list[str], dict[str, float]]], wanted: Callable
 
 
 def fed(importer: str) -> bool:
-    """Whether an importer's first step has the inputs that the outputs give."""
+    """Return whether the first step of an importer has the inputs that the outputs give."""
     return importer != STARTS_AT_ZERO
 
 

@@ -1,4 +1,4 @@
-"""The headline: error against cost, from full film to boundary lubrication, over grids and tolerances."""
+"""Error against cost, from full film to boundary lubrication, over grids and tolerances."""
 
 from dataclasses import dataclass
 
@@ -50,7 +50,7 @@ class Row:
 def outputs(
     case: RoughCase, grid: Grid, gap: np.ndarray, fluid: np.ndarray, solid: np.ndarray, numbers: dict[str, float]
 ) -> dict[str, float]:
-    """What errors are taken of. Friction: Newtonian up to a limit, and solids, over the load."""
+    """The quantities whose errors are compared. Friction: Newtonian up to a limit, and solids, over the load."""
     viscosity = Roelands(case.viscosity, 300.0, case.alpha, 0.0)(fluid, 300.0)
     shear = np.minimum(viscosity * SLIP * case.speed / gap, LIMIT * fluid) + SOLID * solid
     return {

@@ -1,4 +1,4 @@
-"""What solutions cost: smooth films cold, a warm step of moving roughness, the same cold."""
+"""Cost of solutions: smooth films cold, a warm step of moving roughness, the same cold."""
 
 from collections.abc import Iterator
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Smooth films: grid convergence, formula, rigid limit, and what a hardness does to a film."""
+"""Smooth films: grid convergence, formula, rigid limit, and the effect of a hardness."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Whether a film depends on where its solution began, and the limits of no and much speed."""
+"""Dependence of films on their start, and the limits of zero and high speed."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Smooth films of elliptical contacts: beside formulas, and how they converge with the grid.
+"""Smooth films of elliptical contacts: comparison with formulas, and grid convergence.
 
     OMP_NUM_THREADS=1 NUMBA_NUM_THREADS=1 python -m benchmarks.film.elliptical
 

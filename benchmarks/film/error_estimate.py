@@ -1,4 +1,4 @@
-"""Whether the error estimate of `point_contact` is true: random points against grids of twice and four times the nodes.
+"""Error estimate of `point_contact` against true errors, from grids of twice and four times the nodes.
 
     python -m benchmarks.film.error_estimate [--points 200] [--seconds 1800] [--shape ellipse]
 

@@ -1,4 +1,4 @@
-"""The page of the hard cases: tables and a map of what is kept in results/hard_cases."""
+"""The page of the hard cases: tables and a map of the rows in results/hard_cases."""
 
 import sys
 from collections import Counter
@@ -90,7 +90,7 @@ def _random_tables(lines: list[dict[str, str]]) -> list[str]:
 
 
 def _map(lines: list[dict[str, str]], path: Path) -> None:
-    """Where the points lie, by Moes' M and formula film over Rq, and what found them."""
+    """Plot the points by Moes' M and formula film over Rq, with the algorithms that solved them."""
     lines = [line for line in lines if float(line["speed"]) != 0.0]
     load, rq = _numbers(lines, "moes_load"), _numbers(lines, "rq")
     clearance = np.where(rq > 0.0, _numbers(lines, "formula_film") / np.maximum(rq, 1e-300), 1e5)

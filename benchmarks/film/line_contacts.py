@@ -1,4 +1,4 @@
-"""Line contacts: films of smooth lines against formulas, what rough lines cost, rollers with ends.
+"""Line contacts: films of smooth lines against formulas, cost of rough lines, rollers with ends.
 
 python -m benchmarks.film.line_contacts
 """

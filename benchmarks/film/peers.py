@@ -1,4 +1,4 @@
-"""Dry rough contact beside open peers: time, and whether the answers agree.
+"""Dry rough contact beside other open solvers: time, and agreement of the results.
 
     pip install -e ".[peers]" && pip install --no-deps slippy tinydb
     python -m benchmarks.film.peers [--sizes 128 129 ...] [--repeats 3]
@@ -106,7 +106,7 @@ class Case:
 
     @cached_property
     def heights(self):
-        """Of both bodies [m]."""
+        """Heights of both bodies [m]."""
         nodes = max(self.ny, self.nx) // 2 * 2 + 1
         z = generate(Surface(RQ, LENGTH, seed=1), nodes, self.spacing * (nodes - 1), 1)
         return np.ascontiguousarray(np.concatenate([z, z[:, :1]], axis=1)[: self.ny, : self.nx])
@@ -119,7 +119,7 @@ class Case:
 
     @cached_property
     def gap(self):
-        """Of the undeformed bodies [m]."""
+        """Gap of the undeformed bodies [m]."""
         return self.radius_2 / (2.0 * RADIUS) - self.heights
 
     @cached_property

@@ -118,7 +118,7 @@ def flank() -> tuple[Scene, OperatingPoint, ContactState]:
 
 
 def duties(scene: Scene, op: OperatingPoint) -> dict[str, Callable[[float], OperatingPoint]]:
-    """What changes, by name."""
+    """The changes, by name."""
     radius = scene.radii(op)[0]
 
     def part(time: float) -> float:

@@ -1,4 +1,4 @@
-"""What each law costs per contact solve, in milliseconds and work units.
+"""Cost of each law per contact solution, in milliseconds and work units.
 
     python -m benchmarks.friction.laws_cost [friction] [flow] [heat] [tribofilm]
 
@@ -88,7 +88,7 @@ def friction(points: int) -> Iterator[Row]:
 
 
 def flow(points: int) -> Iterator[Row]:
-    """What flow = "local" adds to an instant of a march, and the march itself."""
+    """Yield the additional cost of flow = "local" in an instant of a march, and the cost of the march."""
     local = {"lubricant.flow": "local"}
     for name, more in (
         ("newtonian", {}),

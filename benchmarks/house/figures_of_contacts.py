@@ -6,7 +6,7 @@ from benchmarks.house.tables import Pages, link, number, range_of
 
 
 def bars(pages: Pages) -> list[tuple[str, ...]]:
-    """How many of the bars of the core are met."""
+    """Return how many requirements of the core are met."""
     rows = pages.rows("film/core.md", "met?")
     met = sum(row["met?"] == "yes" for row in rows if "no bar given" not in row["asked"])
     asked = sum("no bar given" not in row["asked"] for row in rows)
@@ -79,7 +79,7 @@ def dry_contact(pages: Pages) -> list[tuple[str, ...]]:
 
 
 def estimates(pages: Pages) -> list[tuple[str, ...]]:
-    """Whether the error estimates of single calls are true."""
+    """Return how often the error estimates of single calls cover the true error."""
     page = "film/error_estimate.md"
     text = (pages.folder / page).read_text(encoding="utf-8")
     points, left = map(int, re.findall(r"(\d+) random points on .*?, (\d+) of them left out", text)[0])
@@ -97,7 +97,7 @@ def estimates(pages: Pages) -> list[tuple[str, ...]]:
 
 
 def grids(pages: Pages) -> list[tuple[str, ...]]:
-    """What a finer grid than the shipped one changes."""
+    """Return the change by a finer grid than the shipped one."""
     shipped, finest = (pages.row("film/grid.md", "nodes", nodes=nodes) for nodes in ("129", "193"))
     names = {"h_c": "h_c", "friction_coefficient": "friction", "contact_load_ratio": "W_c", "contact_area_ratio": "A_c"}
     change = {name: number(finest[key]) / number(shipped[key]) - 1.0 for key, name in names.items()}

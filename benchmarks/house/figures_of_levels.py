@@ -50,13 +50,13 @@ def two_hours(pages: Pages) -> list[tuple[str, ...]]:
 
 
 def covered(rows: list[Row], column: str) -> tuple[int, int]:
-    """How many points of how many, of cells such as "97 % of 34"."""
+    """Return covered points and all points, from cells such as "97 % of 34"."""
     counts = [(round(number(row[column]) / 100.0 * int(row[column].split(" of ")[1])), row[column]) for row in rows]
     return sum(count for count, _ in counts), sum(int(cell.split(" of ")[1]) for _, cell in counts)
 
 
 def error_outputs(pages: Pages) -> list[tuple[str, ...]]:
-    """How often the error outputs cover the deviation where nothing was fitted."""
+    """Return how often the error outputs cover the deviation where nothing was fitted."""
     page, lines = "regression/shapes.md", []
     rows = pages.rows(page, "solved well", points="check")
     for name in ("friction", "film"):
@@ -87,7 +87,7 @@ def error_outputs(pages: Pages) -> list[tuple[str, ...]]:
 
 
 def fast_step(pages: Pages) -> list[tuple[str, ...]]:
-    """What a step costs."""
+    """Return the time of a step."""
     page = "regression/cost.md"
     lines = []
     for name, shipped in (("as shipped", True), ("with other laws", False)):
@@ -133,7 +133,7 @@ def drivers(pages: Pages) -> list[str]:
 
 
 def half_widths(pages: Pages) -> list[tuple[str, ...]]:
-    """At which share of the times the error is within the reported half widths."""
+    """Return the share of the times at which the error is within the stated half widths."""
     lines = []
     for row in pages.rows("surfaces/evolution.md", "blocks", "The shipped control"):
         shares = {name: float(cell[cell.index("(") + 1 : -1]) for name, cell in row.items() if cell.endswith(")")}

@@ -6,7 +6,7 @@ from benchmarks.house.tables import Pages, link, number, range_of
 
 
 def fmu(pages: Pages) -> list[tuple[str, ...]]:
-    """What the isolated FMU costs over its model."""
+    """Return the cost of the isolated FMU over its model."""
     page, over = "fmu/overhead.md", "over the direct call [us]"
     lines = []
     for slave, what in (("empty", "an empty model"), ("mtm_zddp", "the regression level of mtm_zddp")):
@@ -50,7 +50,7 @@ def coupling(pages: Pages) -> list[tuple[str, ...]]:
 
 
 def machines(pages: Pages) -> list[tuple[str, ...]]:
-    """How often the error of the coupling that a machine states covers what far shorter steps change."""
+    """Return how often the stated error of the coupling covers the change by far shorter steps."""
     rows = pages.rows("machines/tolerance.md", "not covered")
     ranked = sorted(rows, key=lambda row: number(row["not covered"]) / number(row["outputs"]))
     ends = (f"{row['not covered']} of {row['outputs']} ({row['machine']})" for row in (ranked[0], ranked[-1]))
@@ -58,7 +58,7 @@ def machines(pages: Pages) -> list[tuple[str, ...]]:
 
 
 def thesis(pages: Pages) -> list[tuple[str, ...]]:
-    """How many claims of the thesis come out, and how many of the others are explained."""
+    """Return how many claims of the thesis agree, and how many of the others are explained."""
     page = "thesis/validation.md"
     (row,) = (row for row in pages.rows(page, "cannot be judged") if row[""] == "ours")
     total = sum(int(row[name]) for name in ("agree", "disagree", "cannot be judged", "not run"))

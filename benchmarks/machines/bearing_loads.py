@@ -1,4 +1,4 @@
-"""Ball bearings: loads against textbook figures, where the equilibrium converges and what it costs, error of classes.
+"""Ball bearings: loads against textbook figures, convergence and cost of the equilibrium, error of load classes.
 
 python -m benchmarks.machines.bearing_loads
 """

@@ -1,4 +1,4 @@
-"""Start-stop cycles of ball bearing 209 with the memory of its surfaces and without.
+"""Start-stop cycles of ball bearing 209 with and without changes of its surfaces.
 
 python -m benchmarks.machines.bearing_memory
 """
@@ -40,7 +40,7 @@ def torque_at(found: BearingRun, rpm: float) -> Array:
 
 
 def of_starts(found: BearingRun, contact: str, name: str) -> Array:
-    """What a contact tells at the end of each start."""
+    """Outputs of a contact at the end of each start."""
     return np.array([found.of(f"{contact}.{name}")[rows[-1]] for rows in found.starts])
 
 

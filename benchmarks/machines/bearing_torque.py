@@ -1,4 +1,4 @@
-"""Friction torque of ball bearing 209 over speed, load and temperature beside SKF and Palmgren, and by levels of load.
+"""Friction torque of ball bearing 209 over speed, load and temperature beside SKF and Palmgren, and by load classes.
 
 python -m benchmarks.machines.bearing_torque
 """

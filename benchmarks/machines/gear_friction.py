@@ -74,7 +74,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Found:
-    """What holds at the end of each stage of a record; arrays [stages]."""
+    """Values at the end of each stage of a record; arrays [stages]."""
 
     friction: Array
     schlenk: Array
@@ -86,7 +86,7 @@ class Found:
 
     @staticmethod
     def of(records: Sequence[Record]) -> "Found":
-        """From the last row of each stage of all records."""
+        """Build from the last row of each stage of all records."""
         return Found(*np.array([_end(record, stage.last) for record in records for stage in record.stages]).T)
 
 
@@ -174,7 +174,7 @@ def curves(report: Page) -> None:
 
 
 def explain(report: Page, by_load: dict[str, Found], by_speed: dict[str, Found]) -> None:
-    """What the variations say about the differences."""
+    """Return the findings of the variations about the differences."""
     machine, smooth, cold = by_load["machine"], by_load["smooth, Rq 20 nm"], by_load["film not warmed"]
     slow = by_speed["machine"]
     at = STAGES.index(STAGE)
@@ -229,7 +229,7 @@ def stations(report: Page) -> None:
 
 
 def solved_deterministically(report: Page) -> None:
-    """Flanks at the fast level, and what the deterministic level finds in the same states."""
+    """Flanks at the regression level, and what the deterministic level finds in the same states."""
     record = Case().record([torque_of(stage) for stage in STAGES], SPEED)
     report.say(
         f"### Stations at the deterministic level\n\nStates of the machine over the load stages at {SPEED:.0f} rpm, new flanks: the regression level, the deterministic level, and the stated error of the former."

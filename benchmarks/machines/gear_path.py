@@ -1,4 +1,4 @@
-"""FZG test gears along their path of contact, how their teeth share the load, and what stations cost in accuracy.
+"""FZG test gears along their path of contact: load sharing of the teeth, and accuracy by number of stations.
 
 python -m benchmarks.machines.gear_path
 """
@@ -115,7 +115,7 @@ def losses(report: Page) -> None:
 
 
 def errors_of(pair: SpurGearPair, sharing: Sharing) -> Array:
-    """Of the loss factor by stations, relative, for all counts."""
+    """Return the relative error of the loss factor for all numbers of stations."""
     force = force_of(pair, STAGE)
     exact = exact_factor(pair, sharing, force)
     return np.array([abs(factor(pair, sharing, force, count) / exact - 1.0) for count in COUNTS])

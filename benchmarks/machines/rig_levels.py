@@ -1,4 +1,4 @@
-"""The MTM rig at both levels over a whole run, side by side: how far they are apart, what they state, what they cost.
+"""The MTM rig at both fidelity levels over a whole run: differences, stated errors, cost.
 
     OMP_NUM_THREADS=1 NUMBA_NUM_THREADS=1 python -m benchmarks.machines.rig_levels
 
@@ -160,7 +160,7 @@ def friction(dataset: xr.Dataset) -> np.ndarray:
 
 
 def figure(fast: xr.Dataset, deep: xr.Dataset) -> Figure:
-    """Both levels: the Stribeck curves, and all of SHOWN against time; the fast level's stated errors as bands."""
+    """Both levels: the Stribeck curves, and all of SHOWN against time; the regression level's stated errors as bands."""
     drawn = Figure(figsize=(10.0, 12.0), layout="constrained")
     axes = drawn.subplots(5, 2).ravel()
     for axis, (name, text, factor, unit, error) in zip(axes, SHOWN, strict=False):

@@ -1,4 +1,4 @@
-"""The error of the coupling that machines state, beside what simulations with far shorter steps change.
+"""The stated error of the coupling of machines, compared with simulations with far shorter steps.
 
     OMP_NUM_THREADS=1 NUMBA_NUM_THREADS=1 python -m benchmarks.machines.tolerance [MACHINE ...]
 

@@ -1,4 +1,4 @@
-"""The fast level against the deterministic one on random points of the shipped scenes."""
+"""The regression level against the deterministic level on random points of the shipped scenes."""
 
 import time
 from collections.abc import Callable
@@ -33,7 +33,7 @@ def deterministic() -> Columns:
 
 
 def fast() -> Columns:
-    """The same points by the fast level, solved anew each time."""
+    """Return the same points at the regression level, solved again each time."""
     found = [observe(point, {"film.model": "regression"}) for name in SCENES for point in random_points(name, COUNT)]
     return {name: np.array([row[name] for row in found]) for name in found[0]}
 
@@ -66,7 +66,7 @@ def curves_page(law: FittedSharing, solved: Columns) -> list[str]:
 
 
 def level_page(solved: Columns) -> list[str]:
-    """The fast level's outputs on the same points."""
+    """Return the page's part on the outputs of the regression level on the same points."""
     quick = fast()
     errors = {
         name: (quick[key] - solved[key]) / (1.0 if name == "W_c" else solved[key]) for name, key in COMPARED.items()

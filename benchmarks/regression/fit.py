@@ -227,7 +227,7 @@ def reduced_clearance(table: Table) -> Array:
 
 
 def predicted(law: FittedSharing, table: Table) -> Columns:
-    """What the law makes of lambda, flattening and resolution; h_c in sigma."""
+    """Return the outputs of the law for lambda, flattening and resolution; h_c in sigma."""
     share = law.load_ratio(table.clearance, table.flattening, table.resolution, table.floors)
     return {
         "W_c": share,
@@ -237,7 +237,7 @@ def predicted(law: FittedSharing, table: Table) -> Columns:
 
 
 def free_exponents(sweep: Table) -> tuple[float, float]:
-    """Of s and r beside lambda to the power of one."""
+    """Return the exponents of s and r beside lambda to the power of one."""
     found, _, _ = fitted(
         lambda p: (
             np.exp(-p[0] * (sweep.clearance * sweep.flattening ** p[2] * sweep.resolution ** p[3]) ** p[1])
@@ -297,7 +297,7 @@ def by_range(clearance: Array, errors: Columns) -> list[str]:
 
 
 def errors_of(law: FittedSharing, data: Table) -> Columns:
-    """Of the curves against solved points: W_c absolute, A_c absolute, h_c relative."""
+    """Return the errors of the curves against solved points: W_c absolute, A_c absolute, h_c relative."""
     found = predicted(law, data)
     return {
         "W_c [1]": found["W_c"] - data.load_ratio,

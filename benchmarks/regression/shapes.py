@@ -1,4 +1,4 @@
-"""The fast level on the shapes of systems: flanks of gears, balls of a bearing, the ball of a rig.
+"""The regression level on the shapes of machines: flanks of gears, balls of a bearing, the ball of a rig.
 
     python -m benchmarks.regression.shapes solve   # the points by the deterministic level: 20 min
     python -m benchmarks.regression.shapes rub     # a few contacts that have rubbed for ten minutes: 15 min
@@ -64,7 +64,7 @@ class Compared:
         self.sure = np.isin(np.arange(int(kept.sum())), told_so)
 
     def column(self, name: str) -> np.ndarray:
-        """An output of the fast level."""
+        """An output of the regression level."""
         return np.array([getattr(out, name) for out in self.fast], dtype=np.float64)
 
     def deviations(self) -> Columns:
@@ -82,12 +82,12 @@ class Compared:
 
     @property
     def outside(self) -> np.ndarray:
-        """Which the fast level says are outside its fit."""
+        """Points that the regression level flags as outside its fit."""
         return (self.column("range_flags").astype(int) & RangeFlag.OUTSIDE_FIT) > 0
 
 
 def fast(point: ShapePoint) -> Outputs:
-    """The point by the fast level."""
+    """The point at the regression level."""
     scene = point.build().at_level("regression")
     return advance(scene, point.operating_point, initial_state(scene), 0.0)[1]
 
@@ -125,7 +125,7 @@ def deviation_page(all_compared: dict[tuple[str, int], Compared]) -> list[str]:
 
 
 def coverage_page(all_compared: dict[tuple[str, int], Compared]) -> list[str]:
-    """How often the error outputs cover the deviation."""
+    """Return how often the error outputs cover the deviation."""
     rows = []
     for (shape, seed), part in all_compared.items():
         for sure in (True, False):
@@ -283,14 +283,14 @@ def draw(all_compared: dict[tuple[str, int], Compared]) -> Figure:
 
 
 def _softly(all_compared: dict[tuple[str, int], Compared]) -> str:
-    """How much more the solids of soft lines carry."""
+    """Return the additional load on the solids of soft lines."""
     parts = [all_compared["soft line", seed] for seed in NAMES]
     off = np.concatenate([part.deviations()["W_c"][part.sure & (part.solved["lambda"] < 1.0)] for part in parts])
     return f"Soft lines below lambda 1: mean deviation of W_c {off.mean():+.3f}, from {off.min():+.2f} to {off.max():+.2f}."
 
 
 def _lines() -> Columns:
-    """What the constants of lines are fitted to."""
+    """Return the points that the constants of lines are fitted to."""
     return shared([solved(shape, FIT, COUNTS[shape]) for shape in ("line", "soft line")])
 
 

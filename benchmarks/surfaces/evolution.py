@@ -1,4 +1,4 @@
-"""Two hours of rubbing: what they cost, how sure they are, and what they depend on.
+"""Two hours of rubbing: cost, errors and their causes.
 
     python -m benchmarks.surfaces.evolution                run what is not yet in results/evolution, then write the page
     python -m benchmarks.surfaces.evolution grid driver    these parts only
@@ -155,7 +155,7 @@ def control() -> list[str]:
 
 
 def judged(driver: str, found: dict[str, tuple[float, float]]) -> list[list[str]]:
-    """What was asked of a run against its control, and whether it is met."""
+    """Return the requirement on a run against its control, and whether it is met."""
     most, names = (0.03, list(NAMES)) if driver == "dry" else (0.05, [n for n in NAMES if n[:4] in ("fric", "h_c", "trib", "wear")])
     above = [f"{NAMES[n]} {100 * found[n][0]:.1f} %" for n in names if found[n][0] > most]
     worst = max(found[n][0] for n in names if f"{NAMES[n]} {100 * found[n][0]:.1f} %" not in above)

@@ -1,4 +1,4 @@
-"""Stribeck curves of the shipped scenes after two hours of rubbing, with and without tribofilm: do they shift?
+"""Shift of the Stribeck curves of the shipped scenes after two hours of rubbing, with and without tribofilm.
 
     python -m benchmarks.surfaces.stribeck                      what is not yet in results/stribeck, then the page
     python -m benchmarks.surfaces.stribeck mtm_zddp --again     this scene only, and anew, after a change of the core
