@@ -121,16 +121,15 @@ def judge(report: Page, table: dict[tuple[str, int, float], dict[str, float]]) -
 
 
 STATEMENT = """**Independent of the grid:** the mean gap, to about 15 % from 129 nodes on; and all of W_c, A_c and gap where the
-floor is thicker than the film that the oil would build (lambda 0.005 with a floor of 1 nm or more): there the answer is the
-dry one.
+floor is thicker than the film without it (lambda 0.005 with a floor of 1 nm or more): there the solution is the dry one.
 
-**Not independent of it:** W_c and A_c by the split criterion from lambda 0.02 to 0.6. They fall with every refinement, in the
-end to nothing. The likely reason: an asperity slides in on oil that it presses together before itself, and a grid that
-does not resolve that inlet lets it touch. The floor moves them too where it is not far below the film on the asperities. So in
-this range W_c belongs to a grid and a floor, and has to be told with them. Below lambda 0.3 many of these films are short of the
-stopping rule, too: their mass balance is off by what the table says.
+**Not independent of it:** W_c and A_c by the split criterion from lambda 0.02 to 0.6. They fall with every refinement
+and finally vanish. Likely reason: an asperity enters on oil that it compresses ahead of itself, and a grid that does not resolve this
+inlet lets it touch. The floor also changes them where it is not far below the film on the asperities. In this range W_c depends on grid
+and floor, which must be stated with it. Below lambda 0.3 many of these films have not converged: the table has the error of their
+mass balance.
 
-**The lumped criterion** puts the pressure of the solids into the oil's flow. Solids then seal the oil off and keep themselves in
+**The lumped criterion** puts the pressure of the solids into the oil's flow. Solids then seal off the oil and remain in
 contact: W_c stays about 0.94 up to lambda 0.1 on every grid, and up to lambda 0.3 to 1.2 by the grid, and its mass balance does
 not close. That is on the side of the published band (0.8 to 0.9 at lambda 0.05 to 0.1; Zhu & Wang 2012,
 doi:10.1177/1350650112461867); the split criterion is far below it, the more so the finer the grid. By these figures the band is
