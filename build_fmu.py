@@ -1,5 +1,5 @@
 """Build a scene's FMU: python build_fmu.py SCENE [--flavour isolated|embedded] [--out FILE.fmu] ..."""
 
-from fmu_src.command import main
+from fmu_src.package.command import main
 
 raise SystemExit(main())

@@ -1,4 +1,4 @@
-"""The kinds of FMU: "isolated" loads in any host, its model in a process of its own; "embedded" runs in its host."""
+"""Flavours of an FMU: "isolated", the model in a process of its own, for any host; "embedded", in a host in Python."""
 
 from typing import Literal, get_args
 

@@ -1,4 +1,4 @@
-"""The variables of the FMU: inputs, parameters and outputs of a scene, time, in order of their value references."""
+"""The variables of an FMU in order of value references: inputs, parameters and outputs of a scene, time."""
 
 import math
 from dataclasses import Field, dataclass
@@ -14,10 +14,10 @@ Value = float | int | bool | str
 
 FIDELITY, SEED, INITIAL_STATE = "fidelity", "seed", "initial_state"
 TIME = "time"
-SPECIAL = (FIDELITY, SEED, INITIAL_STATE)  # parameters that are no numbers of the scene
+SPECIAL = (FIDELITY, SEED, INITIAL_STATE)  # parameters that are not numbers of the scene
 ZERO: dict[Kind, Value] = {"Real": 0.0, "Integer": 0, "Boolean": False, "String": ""}
 
-# units in which people read numbers, the largest first
+# display units, the largest first
 _READ_IN = {
     "Pa": ("GPa", "MPa"),
     "Pa s": ("mPa s",),
@@ -29,7 +29,7 @@ _READ_IN = {
 
 @dataclass(frozen=True)
 class Variable:
-    """One variable of the FMU, in SI; its position in `variables` is its value reference."""
+    """One variable of an FMU, in SI units; its position in `variables` is its value reference."""
 
     name: str
     text: str
@@ -41,24 +41,24 @@ class Variable:
     nominal: float | None = None
     minimum: float = -math.inf
     maximum: float = math.inf
-    quantity: str = ""  # what is measured: see contact_core.quantities.measured
-    levels: tuple[str, ...] = LEVELS  # that fill an output
+    quantity: str = ""  # kind of quantity: see contact_core.quantities.measured
+    levels: tuple[str, ...] = LEVELS  # levels that fill an output
     direct: tuple[str, ...] = ()  # inputs on which an output depends without delay
-    at_start: tuple[str, ...] | None = None  # on which its first value depends besides; None: all
+    at_start: tuple[str, ...] | None = None  # further inputs on which its first value depends; None: all
 
     @property
     def relative(self) -> bool:
-        """Whether it is a difference, to which no offset between units applies."""
+        """True for a difference, to which no offset between units applies."""
         return self.quantity == DIFFERENCE
 
     @property
     def has_start(self) -> bool:
-        """Whether a host can set it, and is told where it starts."""
+        """True if a host can set the variable and the description gives its start value."""
         return self.causality in ("input", "parameter")
 
     @property
     def variability(self) -> Variability:
-        """As FMI says it; what is not Real has no derivative."""
+        """FMI's variability; only a Real is continuous."""
         if self.causality == "parameter":
             return "tunable" if self.name == FIDELITY else "fixed"
         return "continuous" if self.kind == "Real" else "discrete"
@@ -70,9 +70,9 @@ CLOCK = Variable(
 
 
 def variables(scene: Scene) -> tuple[Variable, ...]:
-    """Inputs, parameters and outputs of a scene's FMU, and time. Index + 1 is the index of the model description.
+    """Return inputs, parameters and outputs of a scene's FMU, and time; index + 1 is the index of the description.
 
-    What the scene's level cannot tell, or means nothing to its geometry, is absent.
+    Outputs that the level of the scene does not compute, and quantities that its geometry does not have, are absent.
     """
     lacks = scene.geometry.lacks
     return (
@@ -81,7 +81,7 @@ def variables(scene: Scene) -> tuple[Variable, ...]:
         Variable(
             FIDELITY,
             "film model from the next step on: 1 regression (means), 2 deterministic (fields)",
-            "Integer",  # as an Enumeration, libcosim and ecos would leave it out, and set nothing without a word
+            "Integer",  # as an Enumeration, libcosim and ecos would leave it out, and silently not set it
             "parameter",
             fidelity_of(scene.film.name),
             minimum=1,
@@ -113,12 +113,12 @@ def variables(scene: Scene) -> tuple[Variable, ...]:
 
 
 def fidelity_of(level: str) -> int:
-    """The number that FMI has for a level."""
+    """Return the value of the parameter `fidelity` for a level."""
     return LEVELS.index(level) + 1
 
 
 def _start(scene: Scene, name: str) -> float:
-    """Start value of an input: the operation's, else the geometry's radius, and for a body the oil's temperature."""
+    """Return the start value of an input: the operation's; else the geometry's radius or the oil's temperature."""
     value = getattr(scene.operation, name)
     return float(getattr(scene.geometry, name, scene.operation.temperature) if value is None else value)
 
@@ -130,7 +130,7 @@ def of_quantity(
     direct: tuple[str, ...] = (),
     at_start: tuple[str, ...] | None = None,
 ) -> Variable:
-    """The variable of an input or output."""
+    """Return the variable of an input or output."""
     return Variable(
         q.name,
         q.text,
@@ -150,8 +150,9 @@ def of_quantity(
 
 
 def of_number(name: str, value: float | int, field: "Field[Any]") -> Variable:
-    """The parameter for a number of a scene or component. FMI knows closed ranges only: the bound of `above` is in,
-    refused when used.
+    """Return the parameter for a number of a scene or component.
+
+    FMI has closed ranges only: the bound of `above` is part of the range and refused when it is used.
     """
     above, least, most = (field.metadata[key] for key in ("above", "least", "most"))
     low = above if above is not None else least if least is not None else -math.inf
@@ -174,12 +175,12 @@ def of_number(name: str, value: float | int, field: "Field[Any]") -> Variable:
 
 
 def _magnitude(value: float, most: float | None) -> float:
-    """Nominal of a parameter: its value; of one that is switched off by zero, a thousandth of the most it may be."""
+    """Return the nominal of a parameter: its value; for zero, a thousandth of its maximum."""
     return abs(value) or 1e-3 * (1e3 if most is None else most)
 
 
 def _read_in(unit: str, quantity: str, magnitude: float) -> str:
-    """The unit in which people read a parameter: the largest of which it has at least one."""
+    """Return the display unit of a parameter: the largest in which its magnitude is at least one."""
     if unit == "K":
         return "" if quantity == DIFFERENCE else "degC"
     listed = _READ_IN.get(unit, ("",))

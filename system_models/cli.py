@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from contact_core.errors import ContactError, StateError
 from contact_core.scene import Scene, units
 from contact_core.scene.toml import did_you_mean, shipped_scenes
-from fmu_src import command as fmu_command
+from fmu_src.package import command as fmu_command
 
 from . import cosim_command
 from .console import add_settings, note, output_folder
@@ -261,7 +261,7 @@ def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint") -> "xr.Datas
     from tqdm import tqdm
     from tqdm.contrib.logging import logging_redirect_tqdm
 
-    from fmu_src.build import build
+    from fmu_src.package.build import build
 
     from .driven_contact import run
 

@@ -81,7 +81,7 @@ class Judgement:
 
     load: float  # error of the total force
     gap: float  # largest difference between the gap that is reported and that of the pressure, in floors
-    intrusion: float  # |gap - floor| on solid contacts below the hardness, mean by solid pressure, in floors
+    complementarity: float  # |gap - floor| on solid contacts below the hardness, mean by solid pressure, in floors
     penetration: float  # largest overlap of nodes not in contact, in floors
     film: float  # volume gained or lost where fluid alone carries / what entrainment brings and takes there
     cavity: float  # volume that should fill a node without pressure / the same
@@ -108,7 +108,7 @@ def judge(scene, op, fields):
     return Judgement(
         load=float(p.sum() * scene.film.spacing**2 / op.load - 1.0),
         gap=float(np.abs(np.maximum(h, floor) - fields.gap).max() / floor),
-        intrusion=float((weight * np.abs(h - floor)[below]).sum() / max(weight.sum(), 1e-300) / floor),
+        complementarity=float((weight * np.abs(h - floor)[below]).sum() / max(weight.sum(), 1e-300) / floor),
         penetration=float(np.maximum(floor - h, 0.0)[~solid].max(initial=0.0) / floor),
         film=lost(~solid & ~empty),
         cavity=lost(~solid & empty, lambda r: np.maximum(r, 0.0)),

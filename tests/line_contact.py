@@ -11,7 +11,7 @@ from scipy.ndimage import gaussian_filter
 
 from contact_core.kernels.dry import solve_dry
 from contact_core.kernels.half_space import PeriodicHalfSpace
-from contact_core.kernels.mixed.fixed_point import Iterate, Problem
+from contact_core.kernels.mixed.problem import Iterate, Problem
 from contact_core.reference import moes_line_film
 
 

@@ -14,7 +14,8 @@ from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
 from contact_core.kernels.half_space import HalfSpace
 from contact_core.kernels.mixed.direct import solve_direct
-from contact_core.kernels.mixed.fixed_point import Iterate, Problem, Solution, solve_mixed
+from contact_core.kernels.mixed.fixed_point import solve_mixed
+from contact_core.kernels.mixed.problem import Iterate, Problem, Solution
 from contact_core.scene import Case
 from contact_core.surfaces.patches import bare_heights
 

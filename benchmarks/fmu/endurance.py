@@ -22,7 +22,7 @@ from benchmarks.folders import MEASURED
 from benchmarks.hosts.native_host import ERROR, OK, Instance, NativeHost, compiled, plain_environment
 from benchmarks.hosts.processes import alive, children, descriptors, resident, soon
 from contact_core import Scene
-from fmu_src.build import build
+from fmu_src.package.build import build
 
 CYCLES, STEPS, LOSSES = 5_000, 100_000, 11
 SHIPPED = Scene.from_toml("mtm_zddp")

@@ -37,7 +37,7 @@ from benchmarks.hosts.native_host import Instance, NativeHost, compiled, embeddi
 from benchmarks.hosts.processes import children
 from benchmarks.regression.cost import unit
 from contact_core import ContactState, Scene, advance, initial_state
-from fmu_src.build import build
+from fmu_src.package.build import build
 
 ROUNDS, PASSES, STEP, FIRST = 5_000, 3, 1e-3, 60.0  # -, -, s, s
 READ = ("friction_force", "friction_coefficient", "power_loss", "heat_flow_1", "heat_flow_2")

@@ -11,7 +11,7 @@ from typing import Any
 
 from pythonfmu import Fmi2Slave
 
-from fmu_src.snapshot import Phase
+from fmu_src.phases import Phase
 
 INPUT, OUTPUT, PARAMETER = range(3)  # value references
 LAYOUT = (("Real", "input"), ("Real", "output"), ("Real", "parameter"))

@@ -34,7 +34,7 @@ LISTS = Path(__file__).with_suffix("")
 FOUND = RESULTS / "faults.json"
 PAGE = MEASURED / "house" / "faults.md"
 LONGEST = 1800.0  # s for the tests of one fault, each more than enough
-NATIVE = Path("fmu_src", "native")
+NATIVE = Path("fmu_src", "isolated", "native")
 NOTICED, SURVIVES, UNKNOWN = "noticed", "survives", "not tried"
 
 
@@ -131,7 +131,7 @@ class Copy:
                 # numba looks only at the file of the function called: kernels that use a changed one stay as they were
                 environment["NUMBA_CACHE_DIR"] = str(kept / "kernels")
             if native:
-                subprocess.run([self.python, "-m", "fmu_src.native.build"], cwd=self.tree, env=environment, check=True)
+                subprocess.run([self.python, "-m", "fmu_src.isolated.native.build"], cwd=self.tree, env=environment, check=True)
             return self._pytest(tests, environment, LONGEST * max(1, len(tests) // 5))
         finally:
             if native:

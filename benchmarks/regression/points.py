@@ -15,7 +15,7 @@ from contact_core.film.instant import Grid
 from contact_core.film.outputs import film_outputs
 from contact_core.laws.load_sharing import rms_slope
 from contact_core.reference.point_films import at_no_pressure
-from contact_core.surfaces.track import track_rows
+from contact_core.surfaces.patches import track_rows
 
 STORE = RESULTS / "regression"
 SCENES = ("azam_case_a", "mtm_zddp")

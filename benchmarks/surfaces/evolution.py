@@ -25,7 +25,7 @@ from contact_core import OperatingPoint, Scene, advance, initial_state, solve, u
 from contact_core.deterministic.accumulator import Accumulator
 from contact_core.deterministic.sampling import sample_dry, sample_mixed
 from contact_core.scene import Case
-from contact_core.surfaces.track import track_rows
+from contact_core.surfaces.patches import track_rows
 
 DOCS, KEPT = MEASURED / "surfaces", RESULTS / "evolution"
 CASE, HOURS, INTERVAL = "azam_case_a", 2.0, 60.0

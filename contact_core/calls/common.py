@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import OperatingPointError
+from ..film import Convergence
 from ..film.instant import FilmSolution, Grid, Instant, Settings
 from ..laws.density import DowsonHigginson, Incompressible
 from ..laws.viscosity import Barus, Roelands
 from ..quantities import TABLE, out_of_range, parameter
 from ..reference.starvation import supplied_film
 from ..scene.toml import did_you_mean
-from ..shapes import Point, Shape
+from ..shapes import Shape
 
 Array = NDArray[np.float64]
 
@@ -34,7 +35,7 @@ _CHOICES = {
 
 
 @dataclass(frozen=True)
-class FilmContact:
+class FilmContact(Convergence):
     """What a call found, in SI. Arrays [ny, nx], x along entrainment of positive speed."""
 
     x: Array  # [nx]
@@ -51,15 +52,6 @@ class FilmContact:
     contact_load_ratio: float
     pressure_max: float
     approach: float
-    converged: bool
-    shortfall: str  # why it is not converged; empty if it is
-    algorithm: str  # regime and algorithm, as in film/routes.py
-    iterations: int
-    pressure_change: float  # of the last iteration, relative
-    load_error: float  # relative
-    load_beyond: float  # share of the load that a film wider than the grid carries beyond its edge
-    complementarity: float  # mean distance of solid contacts from the floor, weighted by pressure, in floors
-    imbalance: float  # mass that the film gains or loses unasked, relative
     error_estimate: dict[str, float]  # half width for each number above that is an output, in its unit; by two grids
     warnings: tuple[str, ...]  # what makes the answer less sure
 
@@ -132,9 +124,9 @@ def film_of(shape: Shape, load: float, numbers: Numbers, supply: float | None) -
     film = replace(smooth, pressure_coefficient=max(numbers.pressure_viscosity, 1e-12)).film
     if supply is not None:
         film = supplied_film(film, supply, resistance=shape.side_resistance)
-    radius, least = shape.radius_x, "radius"
-    if isinstance(shape, Point):
-        radius, least = min((shape.radius_x, "radius_x"), (shape.radius_y, "radius_y"))
+    radius, least = min((value, name) for name, value in shape.radii)
+    if len(shape.radii) == 1:
+        least = "radius"  # as the call of a line names it
     if film > _THICKEST * radius:
         refuse(
             [
@@ -195,16 +187,7 @@ def solve_call(
         solid_pressure=np.where(state.solid, state.pressure - state.fluid, 0.0),
         film=found.gap,
         oil=state.mass,
-        **values,
-        converged=found.converged,
-        shortfall=found.shortfall,
-        algorithm=found.algorithm,
-        iterations=found.iterations,
-        pressure_change=found.change,
-        load_error=found.load_error,
-        load_beyond=found.load_beyond,
-        complementarity=found.complementarity,
-        imbalance=found.imbalance,
+        **(found.convergence | values),
         error_estimate=errors,
         warnings=tuple(_warnings(found, nodes, min(hertz.a, hertz.b))),
     )

@@ -8,10 +8,9 @@
     march              `march`, `run_cycle`: inputs that change within a run
     accumulator        sums over the instants of a block
     sampling           at which instants a block is solved
-    exposure           what a block does to the surface points
+    growth_and_wear    exposure, tribofilm and wear of one body
     block              one block: due when, driven by what, followed by what
     changing_inputs    instants in place of blocks while inputs change
-    growth_and_wear    tribofilm and wear of one body between two solutions, in closed form
     outputs            outputs of a step, and how sure they are
     evolution          `advance`: blocks and what continues between them
     warming            what a process loads before its first step

@@ -39,6 +39,12 @@ class Accumulator:
         zeros = [np.zeros_like(first) for _ in range(4)]
         return Accumulator((zeros[0], zeros[1]), (zeros[2], zeros[3]), (first, second))
 
+    def restarted(self, state: ContactState, kept: RangeFlag) -> "Accumulator":
+        """Return empty sums that keep the iterations and, of the flags, those in `kept`."""
+        sums = Accumulator.before(state)
+        sums.flags, sums.iterations = self.all_flags & kept, self.iterations
+        return sums
+
     @property
     def all_flags(self) -> RangeFlag:
         """The instants' flags, and one if many of them are not converged."""
@@ -56,10 +62,24 @@ class Accumulator:
         return "fallback" if 2 * self.fallbacks > self.count else "mixed" if self.mixed else "dry"
 
     def add(
-        self, case: Case, state: ContactState, fields: ContactFields, passes: tuple[float, float] = (0.0, 0.0)
+        self,
+        case: Case,
+        state: ContactState,
+        fields: ContactFields,
+        passes: tuple[float, float] = (0.0, 0.0),
+        *,
+        sampled: bool = True,
     ) -> None:
-        """Add one instant. `passes`: the part of a pass through the contact each body makes until the next."""
-        exposures = self.touch(case, state, fields, passes)
+        """Add one instant; not `sampled`, only note which points are exposed in it.
+
+        `passes` is the part of a pass through the contact that each body makes until the next instant.
+        """
+        exposures = on_patches(case.scene, state, _exposures(case, fields))
+        for since, exposed, part in zip(self.since, exposures, passes, strict=True):
+            since += part
+            since[exposed > 0.0] = 0.0
+        if not sampled:
+            return
         pressures = on_patches(case.scene, state, (fields.solid_pressure, fields.solid_pressure))
         for i in (0, 1):
             self.pressures[i][:] += pressures[i]
@@ -71,16 +91,6 @@ class Accumulator:
         self.missed += not fields.converged
         self.fallbacks += fields.route == "fallback"
         self.flags |= instant_flags(case, fields)
-
-    def touch(
-        self, case: Case, state: ContactState, fields: ContactFields, passes: tuple[float, float]
-    ) -> list[Array]:
-        """Note which points are exposed in an instant; return the exposure on both patches."""
-        found = on_patches(case.scene, state, _exposures(case, fields))
-        for since, exposed, part in zip(self.since, found, passes, strict=True):
-            since += part
-            since[exposed > 0.0] = 0.0
-        return found
 
     def slopes(self, case: Case) -> dict[str, float]:
         """Return the derivatives of the friction in the last instant."""

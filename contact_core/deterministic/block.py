@@ -11,11 +11,10 @@ from dataclasses import replace
 from ..laws.tribofilm import DOSES
 from ..scene import Case, Scene
 from ..state import Body, ContactState, RangeFlag
+from ..state.trends import RATES_FOLLOWED
 from ..surfaces.patches import widened
-from ..surfaces.track import mean_tribofilm, roughness_now
 from .accumulator import Accumulator
-from .exposure import with_exposure
-from .growth_and_wear import stable_time, wear_rate
+from .growth_and_wear import after_block, stable_time
 from .instant import solve_instant
 from .sampling import blocks_per_pass, jumps_of, sample_dry, sample_mixed
 
@@ -52,26 +51,28 @@ def solve_block(case: Case, state: ContactState) -> ContactState:
     state = replace(state, settling=0.0)
     if not same:
         state = replace(state, dry_blocks_left=0, share=1.0, trends=state.trends.restarted(), held=0.0)
-    state = _wide_enough(case, state)
-    sums = Accumulator.before(state)
+    return finished(case, *_sampled(case, _wide_enough(case, state), same))
+
+
+def _sampled(case: Case, state: ContactState, same: bool) -> tuple[ContactState, Accumulator]:
+    """Return the state after the instants of a block, and their sums; `same`: the operating point has not changed."""
+    driver, sums = case.scene.control.driver, Accumulator.before(state)
     if not case.loaded:
         sums.add(case, state, solve_instant(case, state))
-        return finished(case, replace(state, film=None, share=1.0), sums)
-    driver = case.scene.control.driver
+        return replace(state, film=None, share=1.0), sums
     if not case.entrained or driver == "dry":
         state = replace(state, share=1.0)
     elif driver == "mixed" or state.dry_blocks_left == 0:
         state = sample_mixed(case, state, sums, same)
         found = sums.means()["contact_load_ratio"]
         if driver == "mixed" or found <= case.scene.control.dry_above or sums.fallbacks:
-            return finished(case, replace(state, share=1.0), sums)
+            return replace(state, share=1.0), sums
         share = found if state.share == 1.0 else 0.5 * (found + state.share)  # one measurement scatters
         state = replace(state, share=share, dry_blocks_left=_DRY_BLOCKS, film=None)
-        sums, measured = Accumulator.before(state), sums
-        sums.flags, sums.iterations = measured.all_flags & _OF_FILM, measured.iterations
+        sums = sums.restarted(state, _OF_FILM)
     else:  # what made the share less sure still does
         sums.flags = RangeFlag(state.outputs.range_flags) & _OF_FILM
-    return finished(case, sample_dry(case, state, sums), sums)
+    return sample_dry(case, state, sums), sums
 
 
 def _wide_enough(case: Case, state: ContactState) -> ContactState:
@@ -96,9 +97,9 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
     driver = sums.driver
     kind = "dry" if driver == "dry" else "mixed"
     sums.flags = sums.all_flags | _flags_of_motion(case, state, driver)
-    first, second = (with_exposure(case, side, state, sums, _ALIKE[kind]) for side in case.sides)
-    state = replace(state, bodies=(first, second))
-    seen, spread = _observed(case, state, sums, apart=driver == "dry")
+    bodies, surfaces = after_block(case, state, sums, _ALIKE[kind])
+    state = replace(state, bodies=bodies)
+    seen, spread = _observed(sums, surfaces, apart=driver == "dry")
     trends = state.trends.followed(seen, spread, _MEMORY[kind], _lag(case.scene, driver))
     smooth, count = trends.values(), f"blocks_{driver}"
     outputs = replace(
@@ -125,22 +126,14 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
 
 
 def _observed(
-    case: Case, state: ContactState, sums: Accumulator, *, apart: bool
+    sums: Accumulator, surfaces: dict[str, float], *, apart: bool
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Return means and standard deviations of what the trends follow, by name."""
     seen, spread = sums.means(), sums.spread(apart=apart)
     share = seen["contact_load_ratio"]
     scatter = spread["contact_load_ratio"] / share if share > 0.0 else 0.0  # wear is in proportion to it
-    for side, body in zip(case.sides, state.bodies, strict=True):
-        k = side.index + 1
-        rate = wear_rate(case, side, body)
-        seen |= {
-            f"wear_depth_{k}_rate": rate,
-            f"roughness_{k}": roughness_now(case.scene, body, side.index),
-            f"tribofilm_{k}": mean_tribofilm(case.scene, body),
-        }
-        spread[f"wear_depth_{k}_rate"] = rate * scatter
-    return seen, spread
+    rates = {name: surfaces[name] * scatter for name in RATES_FOLLOWED}
+    return seen | surfaces, spread | rates
 
 
 def _lag(scene: Scene, driver: str) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 from ..scene import Case, Scene
 from ..state import Body, ContactState, Outputs
 from ..state.bulk_temperature import NO_TIME, cool_time, temperatures_after
-from ..surfaces.track import track_rows
+from ..surfaces.patches import track_rows
 from ..surfaces.track_means import folded
 from .block import is_due, solve_block
 from .changing_inputs import is_following, solve_following
@@ -76,7 +76,7 @@ def _longest_step(case: Case, state: ContactState, left: float) -> tuple[float, 
     budget = case.scene.control.change - state.change
     rest = max(state.hold - state.held, NO_TIME)
     step = min(left, rest, cool_time(case, state.outputs, left))
-    samples = (_thinned(case.scene, state.bodies[0]), _thinned(case.scene, state.bodies[1]))
+    samples = _thinned(case.scene, state)
     while True:  # the tribofilm's growth slows down: this ends within few rounds
         after = _evolved(case, state, samples, step)
         change = max(geometry_change(*pair) for pair in zip(samples, after, strict=True))
@@ -85,10 +85,13 @@ def _longest_step(case: Case, state: ContactState, left: float) -> tuple[float, 
         step *= min(max(budget / change, 0.05), 0.95)
 
 
-def _thinned(scene: Scene, body: Body) -> Body:
-    """Return a body of every third node of its track."""
-    rows = np.flatnonzero(track_rows(scene, body.wear.shape[0]))[::_THIN]
-    return replace(body, **{name: getattr(body, name)[rows, ::_THIN] for name in Body.ARRAYS})
+def _thinned(scene: Scene, state: ContactState) -> tuple[Body, Body]:
+    """Return both bodies with every third node of their tracks."""
+    rows = np.flatnonzero(track_rows(scene, state.rows))[::_THIN]
+    first, second = (
+        replace(body, **{name: getattr(body, name)[rows, ::_THIN] for name in Body.ARRAYS}) for body in state.bodies
+    )
+    return first, second
 
 
 def geometry_change(before: Body, after: Body) -> float:

@@ -1,4 +1,4 @@
-"""Tribofilm and wear of one body between two contact solutions, in closed form."""
+"""Tribofilm and wear of one body: exposure by the instants of a block, then growth and wear in closed form."""
 
 import math
 from dataclasses import replace
@@ -6,12 +6,59 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..laws.tribofilm import thickness
+from ..laws.tribofilm import DOSES, Passes, thickness
 from ..scene import Case, Side
-from ..state import Body
-from ..surfaces.track import track_rows
+from ..state import Body, ContactState
+from ..surfaces.patches import across_track, middle_rows, surface_now, track_rows
+from ..surfaces.roughness import groove_free, rms_roughness
+from .accumulator import Accumulator
 
 Array = NDArray[np.float64]
+
+
+def after_block(
+    case: Case, state: ContactState, sums: Accumulator, alike: float
+) -> tuple[tuple[Body, Body], dict[str, float]]:
+    """Return both bodies with the exposure of a block, and what the trends follow of them."""
+    first, second = (with_exposure(case, side, state, sums, alike) for side in case.sides)
+    return (first, second), _followed(case, case.sides[0], first) | _followed(case, case.sides[1], second)
+
+
+def with_exposure(case: Case, side: Side, state: ContactState, sums: Accumulator, alike: float) -> Body:
+    """Return a body with the mean pressure over its track, the abrasion by it, and the exposure per test time.
+
+    `alike` says how far the noise of blocks cancels, against that of independent ones.
+    """
+    scene, i, body = case.scene, side.index, state.bodies[side.index]
+    law, film = scene.tribofilm, scene.film
+    # a moving point spends patch / track of its time in reach of the contact, a resting one all of it
+    reach = film.domain / side.track_length if side.moves else 1.0
+    passes = Passes(
+        since=sums.since[i],
+        moves=side.moves,
+        reach=reach,
+        domain=film.domain,
+        contact_length=2.0 * case.hertz.a if case.loaded else None,
+    )
+    exposure = DOSES[law.dose].on_patch(sums.exposures[i] / sums.count, passes)
+    if not case.op.slides or not case.loaded:  # nothing rubs in pure rolling, at rest or apart
+        exposure = np.zeros_like(exposure)
+    pressure = sums.pressures[i] / sums.count * reach
+    abrasion = law.abrasion(pressure, sliding_on_track(case, state.rows), across_track(scene, state.rows))
+    after = replace(body, pressure=pressure, exposure=exposure, abrasion=abrasion, since=sums.since[i])
+    return replace(after, noise=body.noise + _noise(case, side, state, after, alike))
+
+
+def _noise(case: Case, side: Side, state: ContactState, after: Body, alike: float) -> float:
+    """Return the variance of the wear depth [m2] that the last block has made by sampling.
+
+    Two blocks that sample the same wear differ by their noise.
+    """
+    body = state.bodies[side.index]
+    middle = middle_rows(case.scene, state.rows)
+    film = body.tribofilm
+    change = wear_speed(case, side, after, film)[middle] - wear_speed(case, side, body, film)[middle]
+    return alike * 0.5 * float(np.var(groove_free(change))) * state.held**2
 
 
 def evolved(case: Case, side: Side, body: Body, step: float, flash: float) -> Body:
@@ -58,10 +105,15 @@ def area_of_node(case: Case, side: Side) -> float:
     return film.spacing**2 * case.scene.repeats * (side.track_length / film.domain if side.moves else 1.0)
 
 
-def wear_rate(case: Case, side: Side, body: Body) -> float:
-    """Return the mean speed [m/s] at which the track wears now."""
-    speed = wear_speed(case, side, body, body.tribofilm)
-    return float(speed[track_rows(case.scene, body.wear.shape[0])].mean())
+def _followed(case: Case, side: Side, body: Body) -> dict[str, float]:
+    """Return what the trends follow of a body: roughness, mean tribofilm and the mean speed [m/s] of its wear."""
+    now = surface_now(case.scene, body, side.index)
+    k = side.index + 1
+    return {
+        f"wear_depth_{k}_rate": float(wear_speed(case, side, body, body.tribofilm)[now.track].mean()),
+        f"roughness_{k}": rms_roughness(now.roughness, now.middle),
+        f"tribofilm_{k}": float(body.tribofilm[now.track].mean()),
+    }
 
 
 def wear_volume_rate(case: Case, side: Side, body: Body) -> float:

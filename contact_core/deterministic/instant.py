@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import SceneError
-from ..film import Deterministic
+from ..film import Convergence, Deterministic
 from ..film.instant import FilmSolution, FilmState, Grid, Instant, Step
 from ..laws.heat import Temperatures
 from ..scene import Case, OperatingPoint, Scene
@@ -31,7 +31,7 @@ class Transient:
 
 
 @dataclass(frozen=True)
-class ContactFields:
+class ContactFields(Convergence):
     """Everything about one instant. Arrays [ny, nx] on the grid of the contact, x along entrainment, SI."""
 
     x: Array  # [nx]
@@ -52,18 +52,6 @@ class ContactFields:
     sheared: Film  # what that friction is of
     temperatures: Temperatures
     film: FilmState
-    converged: bool
-    shortfall: str  # why it is not converged, empty if it is
-    # "mixed", "dry" (no entrainment, or asked for), "fallback" (dry for want of a mixed solution) or "open" (no load)
-    route: str
-    algorithm: str  # row of the table in film/routes.py and what of it found the film
-    iterations: int
-    pressure_change: float  # of the last iteration, relative
-    load_error: float  # relative
-    load_beyond: float  # share of the load that a film wider than the grid carries beyond its edge
-    complementarity: float  # mean distance of solid contacts from the floor, weighted by pressure, in floors
-    imbalance: float  # mass that the film gains or loses unasked, relative
-    inlet_nodes: float  # nodes across the inlet zone; below 3 the film is a number of this grid
 
 
 def solve(
@@ -144,6 +132,10 @@ def solve_instant(
     found, stress, warm, shortfall = warmed(
         case, sheared(grid, film, cover, case.op.inlet_temperature), before, heated=not transient or transient.heated
     )
+    convergence = film.convergence | {
+        "converged": film.converged and not shortfall,
+        "shortfall": "; ".join(text for text in (film.shortfall, shortfall) if text),
+    }
     return ContactFields(
         x=grid.x,
         y=grid.y,
@@ -163,17 +155,7 @@ def solve_instant(
         sheared=found,
         temperatures=warm,
         film=left_behind(case, now, film, found),
-        converged=film.converged and not shortfall,
-        shortfall="; ".join(text for text in (film.shortfall, shortfall) if text),
-        route=film.route,
-        algorithm=film.algorithm,
-        iterations=film.iterations,
-        pressure_change=film.change,
-        load_error=film.load_error,
-        load_beyond=film.load_beyond,
-        complementarity=film.complementarity,
-        imbalance=film.imbalance,
-        inlet_nodes=film.inlet_nodes,
+        **convergence,
     )
 
 
@@ -211,7 +193,7 @@ def _open(case: Case, grid: Grid, heights: Array) -> FilmSolution:
         route="open",
         algorithm="none",
         iterations=0,
-        change=0.0,
+        pressure_change=0.0,
         load_error=0.0,
         load_beyond=0.0,
         complementarity=0.0,

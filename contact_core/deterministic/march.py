@@ -18,8 +18,7 @@ from ..errors import OperatingPointError
 from ..scene import Case, OperatingPoint, Scene, Side
 from ..state import Body, ContactState
 from .accumulator import Accumulator
-from .exposure import with_exposure
-from .growth_and_wear import area_of_node, wear_speed
+from .growth_and_wear import area_of_node, wear_speed, with_exposure
 from .instant import ContactFields
 from .observed import observed
 from .transient import begin, follow

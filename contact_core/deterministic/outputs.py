@@ -4,16 +4,12 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..scene import Case
+from ..scene import Case, Side
 from ..state import Body, ContactState, Outputs, RangeFlag
 from ..state.bulk_temperature import heat_flows, power_loss
-from ..surfaces.patches import bare_heights, heights_of, roughness_of
+from ..surfaces.patches import surface_now
 from ..surfaces.roughness import mean_roughness, rms_roughness
-from ..surfaces.track import MIDDLE, track_rows
-
-Array = NDArray[np.float64]
 
 _COVERED = 1e-9  # a thinner tribofilm does not count as coverage [m]
 _UPPER = 0.8  # of the thickest tribofilm: nodes of the mean of the thick film
@@ -23,8 +19,7 @@ def outputs_of(case: Case, state: ContactState, suggested_step: float) -> Output
     """Return the last block's contact outputs with those of the surfaces now."""
     values: dict[str, Any] = {}
     for side, body in zip(case.sides, state.bodies, strict=True):
-        bare = bare_heights(case.scene, state.rows)[side.index]
-        found = _of_surface(case, bare, body) | {"temperature": side.temperature}
+        found = _of_surface(case, side, body) | {"temperature": side.temperature}
         values |= {f"{name}_{side.index + 1}": value for name, value in found.items()}
     out = state.outputs
     flags = RangeFlag(out.range_flags) & ~RangeFlag.TRIBOFILM_TEMPERATURE
@@ -42,12 +37,10 @@ def outputs_of(case: Case, state: ContactState, suggested_step: float) -> Output
     )
 
 
-def _of_surface(case: Case, bare: Array, body: Body) -> dict[str, float]:
+def _of_surface(case: Case, side: Side, body: Body) -> dict[str, float]:
     """Return the outputs of one surface by their names without the body's number."""
-    rows = body.wear.shape[0]
-    track, middle = track_rows(case.scene, rows), track_rows(case.scene, rows, MIDDLE)
-    film, heights = body.tribofilm, heights_of(bare, body)
-    rough = roughness_of(bare, heights)
+    heights, rough, track, middle = surface_now(case.scene, body, side.index)
+    film = body.tribofilm
     rubbed = film[track]
     covered, upper = rubbed > _COVERED, rubbed > _UPPER * rubbed.max()
     return {

@@ -1,7 +1,7 @@
 """The instants of a block: the moving surfaces are solved at a few places of their tracks.
 
 Mixed lubrication has a memory, so its instants are a march, a node apart, that continues from block to block. In near
-rolling the bodies would keep the same asperities in contact all the way, so the smoother one jumps under the march (an
+rolling the bodies would keep the same asperities in contact throughout, so the smoother one jumps under the march (an
 additive golden-ratio sequence, of low discrepancy); the oil, which follows the rougher one, stays where it is. Dry
 contact has no memory: a few instants at offsets of both bodies, again of low discrepancy, sample it.
 """
@@ -14,10 +14,9 @@ from ..errors import ConvergenceError
 from ..film.instant import FilmState
 from ..scene import Case, Scene
 from ..state import ContactState
-from ..surfaces.patches import moved_nodes, rolled, yielded
 from .accumulator import Accumulator
 from .instant import Transient, solve_instant
-from .transient import after
+from .transient import dry_instant, next_instant, rolled
 
 # transient steps after a new start before the march is sampled: about one passage of the oil in near rolling, in
 # proportion more where the faster body runs ahead of the oil
@@ -37,10 +36,8 @@ def sample_dry(case: Case, state: ContactState, sums: Accumulator) -> ContactSta
     """Add the instants of a dry block to `sums`; return the state after them."""
     jumps = _dry_jumps(case)
     for _ in range(case.scene.control.dry_instants):
-        state = rolled(case.scene, state, jumps)
-        fields = solve_instant(case, state, dry=True, solid_share=state.share)
+        state, fields = dry_instant(case, state, jumps)
         sums.add(case, state, fields, (1.0 / _DRY_PASS, 1.0 / _DRY_PASS))
-        state = yielded(case.scene, replace(state, film=None), fields.overlap)
     return state
 
 
@@ -82,17 +79,12 @@ def sample_mixed(
     length = case.sides[scene.rougher].surface.correlation_length / scene.film.spacing
     stride = max(1, round((0.5 * length) ** 2))  # instants in which oil between asperities gets used to a jump
     for k in range(-unsampled, mixed_instants(scene)):
-        before = state
         jump_now = k % stride == 0
-        state = rolled(scene, state, [step + jump * jump_now for step, jump in zip(steps, jumps, strict=True)])
-        moved = moved_nodes(scene, before, state)
-        settled = 2 * k >= -unsampled  # enough to tell which points are touched, and how warm they are
-        fields = solve_instant(case, state, Transient(dt, moved, _ITERATIONS, heated=settled))
-        if k >= 0:
-            sums.add(case, state, fields, passes)
-        elif settled:
-            sums.touch(case, state, fields, passes)
-        state = after(case, state, fields)
+        moves = [step + jump * jump_now for step, jump in zip(steps, jumps, strict=True)]
+        settled = 2 * k >= -unsampled  # enough to tell which points are exposed, and how warm they are
+        state, fields = next_instant(case, state, moves, Transient(dt, 0, _ITERATIONS, heated=settled))
+        if settled:
+            sums.add(case, state, fields, passes, sampled=k >= 0)
     return state
 
 

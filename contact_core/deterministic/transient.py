@@ -4,11 +4,17 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..errors import FilmTooWideError, OperatingPointError
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState
-from ..surfaces.patches import moved_nodes, rolled, yielded
+from ..surfaces.patches import on_patches, patch_nodes
 from .instant import ContactFields, Transient, solve, solve_instant
+
+Array = NDArray[np.float64]
+Found = tuple[ContactState, ContactFields]
 
 _ITERATIONS = 200  # of an instant, at most
 _SMOOTH_STEP = 4.0  # nodes that smooth bodies move on by in an instant of a march, at most
@@ -41,22 +47,37 @@ def follow(
     *,
     order: int = 1,
     iterations: int = _ITERATIONS,
-) -> tuple[ContactState, ContactFields]:
+) -> Found:
     """Solve the instant `dt` [s] after that of a state, in which the bodies have moved along +x by `steps` [m]."""
-    before, state = state, rolled(case.scene, state, steps)
     if state.film is None or not case.loaded:
-        return begin(case, state)
-    moved = moved_nodes(case.scene, before, state)
+        return begin(case, rolled(case.scene, state, steps))
     try:
-        fields = solve_instant(case, state, Transient(dt, moved, iterations, order=order, thorough=True))
+        return next_instant(case, state, steps, Transient(dt, 0, iterations, order=order, thorough=True))
     except FilmTooWideError as error:
         if not case.entrained:  # nothing would bring the oil back
             raise
-        return _open(case, state, str(error))
-    return after(case, state, fields), fields
+        return _open(case, rolled(case.scene, state, steps), str(error))
 
 
-def begin(case: Case, state: ContactState) -> tuple[ContactState, ContactFields]:
+def next_instant(case: Case, state: ContactState, steps: Sequence[float], transient: Transient) -> Found:
+    """Solve an instant after that of a state with a film; the bodies have moved along +x by `steps` [m].
+
+    The nodes moved by in `transient` are filled in here.
+    """
+    before, state = state, rolled(case.scene, state, steps)
+    moved = _moved_nodes(case.scene, before, state)
+    fields = solve_instant(case, state, replace(transient, moved=moved))
+    return _after(case.scene, state, fields), fields
+
+
+def dry_instant(case: Case, state: ContactState, steps: Sequence[float]) -> Found:
+    """Solve a dry instant whose solids carry the state's share; the bodies have moved along +x by `steps` [m]."""
+    state = rolled(case.scene, state, steps)
+    fields = solve_instant(case, state, dry=True, solid_share=state.share)
+    return replace(_after(case.scene, state, fields), film=None), fields
+
+
+def begin(case: Case, state: ContactState) -> Found:
     """Solve an instant without a film before it."""
     if not case.loaded:
         return _open(case, state, "")
@@ -64,15 +85,42 @@ def begin(case: Case, state: ContactState) -> tuple[ContactState, ContactFields]
         fields = solve_instant(case, state)
     except FilmTooWideError as error:
         return _open(case, state, str(error))
-    return after(case, state, fields), fields
+    return _after(case.scene, state, fields), fields
 
 
-def after(case: Case, state: ContactState, fields: ContactFields) -> ContactState:
-    """Return the state with the film of an instant, and its plastic overlap pressed into the bodies."""
-    return yielded(case.scene, replace(state, film=fields.film), fields.overlap)
-
-
-def _open(case: Case, state: ContactState, why: str) -> tuple[ContactState, ContactFields]:
+def _open(case: Case, state: ContactState, why: str) -> Found:
     """Return bodies apart, and why if there is a load."""
     fields = solve_instant(case.unloaded(), state)
     return replace(state, film=None), replace(fields, converged=not why, shortfall=why)
+
+
+def _after(scene: Scene, state: ContactState, fields: ContactFields) -> ContactState:
+    """Return the state with the film of an instant, and the bodies yielded."""
+    return yielded(scene, replace(state, film=fields.film), fields.overlap)
+
+
+def yielded(scene: Scene, state: ContactState, overlap: Array) -> ContactState:
+    """Return the state after half of the overlap has been pressed into each body permanently."""
+    if not overlap.any():
+        return state
+    first, second = (
+        replace(body, plastic=body.plastic + 0.5 * pressed)
+        for body, pressed in zip(state.bodies, on_patches(scene, state, (overlap, overlap)), strict=True)
+    )
+    return replace(state, bodies=(first, second))
+
+
+def rolled(scene: Scene, state: ContactState, steps: Sequence[float]) -> ContactState:
+    """Return the state after both bodies have moved along +x, each by its step [m]."""
+    first, second = (
+        replace(body, offset=(body.offset + step) % scene.film.domain)
+        for body, step in zip(state.bodies, steps, strict=True)
+    )
+    return replace(state, bodies=(first, second))
+
+
+def _moved_nodes(scene: Scene, before: ContactState, after: ContactState) -> int:
+    """Return the whole nodes by which the rougher body has moved along +x, by half a patch at most."""
+    rougher, columns = scene.rougher, scene.film.points - 1
+    early, late = (patch_nodes(scene, state.bodies[rougher]) for state in (before, after))
+    return (late - early + columns // 2) % columns - columns // 2

@@ -1,10 +1,62 @@
 """Deterministic mixed lubrication: fluid and solid pressure node by node, from full film to dry contact."""
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
+from ..laws.equations import Equations, OfShape
 from ..quantities import parameter
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
+
+_GOVERNING = (
+    Equations(
+        (
+            "∂/∂x [ρ h^3/(12 η) ∂p_f/∂x] + ∂/∂y [ρ h^3/(12 η) ∂p_f/∂y] = u_e ∂(ρ h)/∂x + ∂(ρ h)/∂t",
+            "p_f ≥ 0,   u_e = (u_1 + u_2)/2",
+        ),
+        "At every node, with the squeeze of the passing roughness.",
+        title="Flow of the oil (Reynolds)",
+    ),
+    Equations(
+        ("h = h_0 + g(x, y) − z_1 − z_2 + d",),
+        "g is the gap of the undeformed bodies (geometry), z the present heights of both surfaces with tribofilm, wear "
+        "and plastic depth, d the elastic deformation.",
+        title="Gap",
+    ),
+)
+_CAVITATION = {
+    "reynolds": Equations(
+        ("p_f = 0 where it would be negative",),
+        "The gap counts as full there, so that oil appears behind a cavity (Reynolds' outlet condition).",
+        title="Oil under tension: lubricant.cavitation = reynolds",
+    ),
+    "mass_conserving": Equations(
+        ("p_f ≥ 0,   0 ≤ θ ≤ 1,   p_f (1 − θ) = 0", "ρ h → θ ρ h in entrainment and squeeze"),
+        "θ is the share of the gap that oil fills. Oil that flows into a cavity flows out of it (Jakobsson, Floberg, "
+        "Olsson; Elrod).",
+        title="Oil under tension: lubricant.cavitation = mass_conserving",
+    ),
+}
+_SHARING = {
+    "split": Equations(
+        (
+            "h > h_{floor}:   p = p_f",
+            "h = h_{floor}:   p = p_f + p_s,   p_s ≥ 0",
+            "0 ≤ p ≤ hardness,   W_c = ∬ p_s dx dy / W",
+        ),
+        "Solids touch where the gap is at its floor, film.floor, the thickness of the adsorbed layer. Overlap beyond "
+        "the hardness remains as plastic depth.",
+        title="Solids and oil share the load: film.criterion = split",
+    ),
+    "lumped": Equations(
+        (
+            "h > h_{floor}:   p is the oil's",
+            "h = h_{floor}:   p is the solids'",
+            "0 ≤ p ≤ hardness",
+        ),
+        "One pressure for both: where the gap is at film.floor, all of it counts as solid pressure.",
+        title="Solids and oil share the load: film.criterion = lumped",
+    ),
+}
 
 
 @dataclass(frozen=True)
@@ -20,6 +72,14 @@ class Deterministic:
     )
 
     on_grid: ClassVar[bool] = True  # the contact is solved on the nodes, which must hold it
+    friction: ClassVar[Equations] = Equations(
+        (
+            "F = −∬ (τ_{oil} + τ_{solid}) v_x/|v| dx dy,   v = (u_1 − u_2 − ω y, ω x)",
+            "τ_N = η(p_f, T) |v|/h",
+        ),
+        "Summed over the nodes; the rheology gives the stress of the oil from the Newtonian stress τN.",
+        title="Friction",
+    )
 
     points: int = parameter("", "grid nodes along x and along y", least=17, most=4097, shapes_arrays=True)
     domain: float = parameter(
@@ -66,6 +126,11 @@ class Deterministic:
     def warnings(self, lubricant: object, tribofilm: object) -> list[str]:
         """Return no sentence: this level resolves every law."""
         return []
+
+    def governing(self, geometry: OfShape, lubricant: Any) -> tuple[Equations, ...]:
+        """Return the equations of a contact of this geometry and lubricant at this level, for documentation."""
+        shared = _CAVITATION[lubricant.cavitation], _SHARING[self.criterion]
+        return *_GOVERNING, geometry.deformation, geometry.load_balance, *shared
 
     def solve(
         self,

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..kernels.convergence import Convergence
 from ..shapes import Shape
 
 Array = NDArray[np.float64]
@@ -139,7 +140,7 @@ class FilmState:
 
 
 @dataclass(frozen=True)
-class FilmSolution:
+class FilmSolution(Convergence):
     """The film of one instant. `gap` is at least the floor; `overlap` is what is missing to it and yields
     plastically.
     """
@@ -147,17 +148,6 @@ class FilmSolution:
     state: FilmState
     gap: Array
     overlap: Array
-    converged: bool
-    shortfall: str  # why it is not converged, empty if it is
-    route: str  # "mixed", "dry" (asked for, or no entrainment), "fallback" (dry for want of a film) or "open" (no load)
-    algorithm: str  # row of `routes.REGIMES` and the algorithm of it that found the film: "smooth: multigrid from none"
-    iterations: int
-    change: float  # of the pressure in the last iteration, relative
-    load_error: float  # relative
-    load_beyond: float  # share of the load that a film wider than the grid carries beyond its edge
-    complementarity: float  # mean distance of solid contacts from the floor, weighted by pressure, in floors
-    imbalance: float  # mass that the film gains or loses unasked, relative
-    inlet_nodes: float  # grid nodes across the inlet zone of the film; below 3 the film is a number of the grid
 
     def mirrored(self) -> "FilmSolution":
         """The solution seen from the other side."""

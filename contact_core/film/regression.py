@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
+from ..laws.equations import Equations, OfShape
 from ..laws.load_sharing import FittedSharing, LineSharing
 from ..quantities import parameter
 
@@ -22,6 +23,19 @@ class Regression:
     )
 
     on_grid: ClassVar[bool] = False
+
+    friction: ClassVar[Equations] = Equations(
+        (
+            "F = −(μ W_c W + ⟨τ_{oil}⟩ A_{oil}) (u_1 − u_2)/|u_1 − u_2|",
+            "τ_N = η(p, T) |u_1 − u_2|/h_c",
+            "A_{oil} = (1 − W_c) A_H/k,   p = k p_H",
+            "k = [1 + K z exp(−d λ z^q)] [(1 + S h_s R_x/a^2) (1 + S h_s R_y/b^2)]^{−1/2},   z = 0.2/s",
+        ),
+        "⟨τ⟩ is the mean stress of the oil under k times the Hertz pressure, on the share 1/k of the Hertz area A H: "
+        "between rough bodies oil carries load in spots; a thick film carries it on a larger area, of lines along x "
+        "only. No pressure exceeds the hardness.",
+        title="Friction",
+    )
 
     points: int = parameter(
         "", "nodes of the state's patches along x and along y", least=17, most=4097, default=129, shapes_arrays=True
@@ -49,6 +63,8 @@ class Regression:
         default=1.2,
     )
 
+    tolerance: ClassVar[None] = None  # of a solution: nothing is iterated
+
     @property
     def spacing(self) -> float:
         """Distance between nodes [m]."""
@@ -69,3 +85,8 @@ class Regression:
                 "their mean and takes them as exponentially distributed: within a factor of two to four."
             )
         return found
+
+    def governing(self, geometry: OfShape, lubricant: Any) -> tuple[Equations, ...]:
+        """Return the equations of a contact of this geometry and lubricant at this level, for documentation."""
+        thinning = lubricant.rheology.inlet_thinning if lubricant.flow == "local" else None
+        return geometry.smooth_film, geometry.rolling, *([thinning] if thinning else [])

@@ -1,8 +1,8 @@
 """Which algorithm solves which contact: a table, and the little that carries it out.
 
 A steady film goes to the first row of REGIMES that it fits; the algorithms of that row are tried in turn until one
-meets the stopping rule (`kernels.mixed.shortfall`). An instant that follows from another one is marched from it, and
-that film serves if it can be used at all, unless the step is to be thorough.
+meets the stopping rule (`kernels.mixed.stopping_rule`). An instant that follows from another one is marched from it,
+and that film serves if it can be used at all, unless the step is to be thorough.
 """
 
 import math
@@ -13,11 +13,13 @@ import numpy as np
 
 from ..errors import ConvergenceError, FilmTooWideError
 from ..kernels.grids import prolong, restrict
+from ..kernels.mixed.advection import advected
 from ..kernels.mixed.direct import solve_direct
-from ..kernels.mixed.fixed_point import Iterate, Solution, advected, excess, solve_mixed
+from ..kernels.mixed.fixed_point import solve_mixed
 from ..kernels.mixed.newton import solve_newton
+from ..kernels.mixed.problem import Iterate, Solution
+from ..kernels.mixed.stopping_rule import excess
 from ..kernels.multigrid.cycle import is_applicable, solve_smooth
-from ..shapes import Roller
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .scaled import LOAD_ACCEPTED, Scaled, inlet_length
 
@@ -38,7 +40,7 @@ _OWED = 10.0  # times the stopping rule's limits, by which a thorough step over 
 _CLOSINGS = 4  # solutions of a light film, at most, until what lies beyond the grid goes with how the bodies lie
 # a film short of its tolerance is still better than the dry contact within these
 _CHANGE_ACCEPTED = 0.1
-_INTRUSION_ACCEPTED = 20.0
+_COMPLEMENTARITY_ACCEPTED = 20.0
 
 
 @dataclass(frozen=True)
@@ -60,7 +62,7 @@ class Regime:
         clearance = film / scaled.roughness if scaled.roughness > 0.0 else math.inf
         if self.rows is not None and not scaled.grid.periodic:
             return False
-        if self.ends and not isinstance(scaled.now.shape, Roller):
+        if self.ends and not scaled.now.shape.ends:
             return False
         rows = (self.rows or _ALL, scaled.grid.shape[0])
         pairs = ((self.floors, film / scaled.settings.floor), (self.clearance, clearance), (self.load, load), rows)
@@ -371,6 +373,6 @@ def prolonged(state: FilmState, shape: tuple[int, int]) -> FilmState:
 
 def _usable(solution: Solution) -> bool:
     """Whether a film short of its tolerance is still better than the dry contact."""
-    finite = np.isfinite(solution.change) and np.isfinite(solution.iterate.rigid)
-    settled = solution.change < _CHANGE_ACCEPTED and solution.intrusion < _INTRUSION_ACCEPTED
+    finite = np.isfinite(solution.pressure_change) and np.isfinite(solution.iterate.rigid)
+    settled = solution.pressure_change < _CHANGE_ACCEPTED and solution.complementarity < _COMPLEMENTARITY_ACCEPTED
     return bool(finite and settled and abs(solution.load_error) < LOAD_ACCEPTED)

@@ -14,10 +14,10 @@ from ..errors import ConvergenceError
 from ..kernels.dry import solve_dry
 from ..kernels.far_field import far_field
 from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
-from ..kernels.mixed.fixed_point import Iterate, Problem, Solution
+from ..kernels.mixed.problem import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
 from ..reference.starvation import film_behind_meniscus, supplied_film
-from ..shapes import Point, Roller, Shape
+from ..shapes import Shape
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .outputs import disc
 
@@ -100,8 +100,9 @@ class Scaled:
         self.x, self.y = grid.x / self.size, grid.y / self.size
         gap = shape.gap(self.x, self.y, self.size)
         reach = 2.0 * gap
-        if isinstance(shape, Point) and not shape.circular:  # Hertz's ellipse is slimmer than a line of equal gap
-            slim = self.size / film_size(hertz.b, shape.radius_y, self.smooth_film)
+        radius_y = shape.ellipse_radius
+        if radius_y is not None:  # Hertz's ellipse is slimmer than a line of equal gap
+            slim = self.size / film_size(hertz.b, radius_y, self.smooth_film)
             reach = self.x[None, :] ** 2 + (slim * self.y[:, None]) ** 2
         self.smooth = np.sqrt(np.maximum(1.0 - reach, 0.0))
         self.undeformed = gap - now.heights / self.h_unit
@@ -145,8 +146,7 @@ class Scaled:
     @property
     def curvature(self) -> float:
         """Of the undeformed gap along y, over that along x."""
-        shape = self.now.shape
-        return shape.radius_x / shape.radius_y if isinstance(shape, Point) else 0.0
+        return self.now.shape.curvature_ratio
 
     @cached_property
     def film(self) -> float:
@@ -258,7 +258,7 @@ class Scaled:
     def _far_field(self, film: float) -> tuple[Array, Array]:
         """What lies beyond the grid of bodies that far apart [m], as `far_field`; nothing if that does not matter."""
         starved = self._first > 0 or self.now.supply is not None
-        if self.is_light and isinstance(self.now.shape, Point) and not starved:
+        if self.is_light and self.now.shape.has_far_field and not starved:
             by_wedge = (3.0 + 2.0 * self.curvature) / (2.0 + 2.0 * self.curvature)  # see `far_field`
             closing = by_wedge * self.closing * self.now.shape.radius_x / (self.speed * self.size)
             wedge = self.now.entrainment_speed / self.speed
@@ -305,7 +305,7 @@ class Scaled:
         """
         pressure = np.minimum(self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300)), self.cap)
         lift = self.smooth_film + 0.5 * max(float(self.now.heights.max()), 0.0)
-        if isinstance(self.now.shape, Roller):
+        if self.now.shape.ends:
             smooth = self.undeformed + self.now.heights / self.h_unit
             limits = self.load, self.smooth, _START_TOLERANCE, _DRY_ITERATIONS
             pressure, rigid, _, _ = solve_dry(self.half_space, smooth, self.cap, *limits)
@@ -349,7 +349,18 @@ class Scaled:
         if self.now.supply is not None:
             mass = np.minimum(mass, self.now.supply / self.h_unit)
         why = "" if converged else f"dry contact short of {tolerance:g} after {iterations} iterations"
-        found = Solution(iterate, gap, mass, converged, iterations, tolerance, load_error, 0.0, 0.0, why)
+        found = Solution(
+            iterate,
+            gap,
+            mass,
+            converged=converged,
+            shortfall=why,
+            iterations=iterations,
+            pressure_change=tolerance,
+            load_error=load_error,
+            complementarity=0.0,
+            imbalance=0.0,
+        )
         return self.solution(found, route, "conjugate gradients")
 
     def solution(self, found: Solution, route: str, algorithm: str) -> FilmSolution:
@@ -373,17 +384,11 @@ class Scaled:
             state=state,
             gap=gap,
             overlap=overlap,
-            converged=found.converged,
-            shortfall=found.shortfall,
             route=route,
             algorithm=algorithm,
-            iterations=found.iterations,
-            change=found.change,
-            load_error=found.load_error,
             load_beyond=1.0 + found.load_error - float(it.pressure.sum()) / self.load,
-            complementarity=found.intrusion,
-            imbalance=found.imbalance,
             inlet_nodes=self._inlet_nodes(gap),
+            **found.convergence,
         )
 
     def _inlet_nodes(self, gap: Array) -> float:

@@ -1,17 +1,18 @@
-"""Numba and FFT: arrays in, arrays out. No laws, no units, no scene.
+"""Compiled loops and FFT: arrays in, arrays out. No laws, no units, no scene.
 
-    half_space    deformation of an elastic half space by DC-FFT, free or periodic along y, and its approximate inverse
-    dry           contact without a fluid
-    mixed         fluid and solids together: the fixed point, its problem, its stopping rule
-    reynolds      passes over the film: gap and mass, residual, fluid pressure under contacts, corrections
-    anderson      acceleration of a fixed point
-    direct        as mixed, with the fluid, the rigid gap and the load solved at once
-    newton        light loads and smooth lines: Newton's method with the whole half space
-    band          its local inverse on the single row of a smooth line
-    multigrid     smooth films: full approximation scheme (level, relaxation, transfer, coarsest, mirrored)
-    far_field     what lies beyond the edge of the grid
-    grids         between a grid and that of half its nodes
-    cache         where compiled kernels are kept
+    half_space      deformation of an elastic half space by DC-FFT, free or periodic along y, and its inverse
+    dry             contact without a fluid: coarse grids and windows
+    dry_faces       conjugate gradients in one window
+    mixed/          fluid and solids together, on rough bodies
+    multigrid/      smooth films
+    far_field       pressure and load beyond the edge of the grid
+    thinning        flow of an oil that thins under shear
+    moving_source   temperature of surfaces that move through heat
+    anderson        acceleration of a fixed point
+    grids           between a grid and that of half its nodes
+    convergence     the record of how a solution went
+    compiled        the decorator of all compiled kernels
+    cache           folder of compiled kernels
 
 All kernels are serial, release the GIL, keep the order of summation and use no fast-math: the same input gives the
 same bits.

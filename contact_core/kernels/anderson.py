@@ -4,18 +4,18 @@ Source: Walker & Ni, SIAM J. Numer. Anal. 49 (2011) 1715, doi:10.1137/10078356X.
 """
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from .compiled import jit
 
 Array = NDArray[np.float64]
 
-_jit = njit(cache=True, nogil=True, error_model="numpy")
 _CHUNK = 512  # of the vectors, so that it stays in the fastest cache
 _REGULAR = 1e-6
 _LARGEST = 3.0  # sum of the magnitudes of the mixing weights
 
 
-@_jit
+@jit
 def _dot(a, b):  # type: ignore[no-untyped-def]
     """Four sums side by side, so that one need not wait for the other."""
     s0, s1, s2, s3 = 0.0, 0.0, 0.0, 0.0
@@ -30,7 +30,7 @@ def _dot(a, b):  # type: ignore[no-untyped-def]
     return (s0 + s1) + (s2 + s3)
 
 
-@_jit
+@jit
 def _remember(x, images, residuals, gram, slot, used):  # type: ignore[no-untyped-def]
     """Residual of the newest image, and its products with all that are held."""
     for k in range(used):
@@ -46,7 +46,7 @@ def _remember(x, images, residuals, gram, slot, used):  # type: ignore[no-untype
         gram[k, slot] = gram[slot, k]
 
 
-@_jit
+@jit
 def _weights(gram, slot, used):  # type: ignore[no-untyped-def]
     """Weights of the images, adding up to 1, that make the residual least; all on the newest where mixing is unsafe."""
     rows, n = gram.shape[0], used - 1
@@ -82,7 +82,7 @@ def _weights(gram, slot, used):  # type: ignore[no-untyped-def]
     return weights
 
 
-@_jit
+@jit
 def _combine(images, weights, used, x):  # type: ignore[no-untyped-def]
     for first in range(0, x.size, _CHUNK):
         part = slice(first, min(first + _CHUNK, x.size))

@@ -1,9 +1,8 @@
 """Oil that thins under shear, flowing between sliding walls under a pressure gradient: one node at a time."""
 
 import numpy as np
-from numba import njit
 
-_jit = njit(cache=True, nogil=True, error_model="numpy")
+from .compiled import jit
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(6)
 _STEPS = 50  # of Newton's method at most
@@ -11,7 +10,7 @@ _PRECISION = 1e-6
 _TANGENT = 1e-2  # pressure flow over sliding flow below which the first guess is as good as the table
 
 
-@_jit
+@jit
 def stress_of_flow(sheared, pressed, mean, half, log_least, log_step, log_ease):  # type: ignore[no-untyped-def]
     """Shear stresses mean + s half, s = -1...1 across the film, that go with a sliding and a pressure flow.
 

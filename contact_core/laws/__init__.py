@@ -1,4 +1,5 @@
-"""Physics in slots: each law is a frozen dataclass with a `name`, its `source`, its parameters and array functions.
+"""Physics in slots: each law is a frozen dataclass with a `name`, its `source`, its `equations` (for
+documentation), its parameters and array functions.
 
 A slot's table in a scene says `model = "<name>"`; for a law without parameters the name alone will do. A new law is one
 class and one entry in its module's LAWS.

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ..quantities import parameter
 from .elementary import tanh
+from .equations import Equations
 
 Array = NDArray[np.float64]
 
@@ -23,6 +24,10 @@ class FilmBlend:
 
     name: ClassVar[str] = "film_blend"
     source: ClassVar[str] = "assumed: linear in the cover between the coefficients given"
+    equations: ClassVar[Equations] = Equations(
+        ("τ_{solid} = μ p_s tanh(|v|/v_0),   μ = μ_{bare} + (μ_{film} − μ_{bare}) c",),
+        "c is the mean cover of both bodies by tribofilm, 0 to 1; v0 is slip_speed.",
+    )
 
     bare: float = parameter("", "friction coefficient of bare solids", least=0.0, most=2.0)
     film: float = parameter("", "friction coefficient under a full tribofilm", least=0.0, most=2.0)

@@ -6,6 +6,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..quantities import parameter
+from .equations import Equations
 
 Pair = tuple[float, float]
 
@@ -19,6 +20,9 @@ class OilBulk:
     follows_oil: ClassVar[bool] = True
     from_inputs: ClassVar[bool] = False
     stores_heat: ClassVar[bool] = False
+    equations: ClassVar[Equations] = Equations(
+        ("T_{bulk,1} = T_{bulk,2} = T_{oil}",),
+    )
 
     def bodies(self, oil: float, inputs: tuple[float | None, float | None], stored: Pair | None) -> Pair:
         """Bulk temperatures (T_1, T_2) [K] at an oil temperature [K]."""
@@ -38,6 +42,10 @@ class InputBulk:
     follows_oil: ClassVar[bool] = False
     from_inputs: ClassVar[bool] = True
     stores_heat: ClassVar[bool] = False
+    equations: ClassVar[Equations] = Equations(
+        ("T_{bulk,i} = T_{b,i}",),
+        "The inputs body_temperature_1 and _2; the heat flows are outputs.",
+    )
 
     def bodies(self, oil: float, inputs: tuple[float | None, float | None], stored: Pair | None) -> Pair:
         """Bulk temperatures (T_1, T_2) [K] at an oil temperature and inputs [K]."""
@@ -60,6 +68,10 @@ class LumpedBulk:
     follows_oil: ClassVar[bool] = False
     from_inputs: ClassVar[bool] = False
     stores_heat: ClassVar[bool] = True
+    equations: ClassVar[Equations] = Equations(
+        ("C_i ∂T_{bulk,i}/∂t = Q_i − G_i (T_{bulk,i} − T_{oil})",),
+        "Exact over a step of constant heat.",
+    )
 
     heat_capacity_1: float = parameter("J/K", "C, heat capacity of body 1", least=1e-9, most=1e9)
     heat_capacity_2: float = parameter("J/K", "C, heat capacity of body 2", least=1e-9, most=1e9)

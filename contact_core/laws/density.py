@@ -6,6 +6,8 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from .equations import Equations
+
 
 @dataclass(frozen=True)
 class DowsonHigginson:
@@ -13,6 +15,9 @@ class DowsonHigginson:
 
     name: ClassVar[str] = "dowson_higginson"
     source: ClassVar[str] = "Dowson & Higginson, Elasto-hydrodynamic Lubrication, Pergamon 1966"
+    equations: ClassVar[Equations] = Equations(
+        ("ρ/ρ_0 = (5.9 · 10^8 + 1.34 p)/(5.9 · 10^8 + p),   p in Pa",),
+    )
 
     def __call__(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
         """Density ratio at pressures [Pa] (any shape)."""
@@ -25,6 +30,10 @@ class Incompressible:
 
     name: ClassVar[str] = "none"
     source: ClassVar[str] = ""
+    equations: ClassVar[Equations] = Equations(
+        ("ρ = ρ_0",),
+        "Incompressible.",
+    )
 
     def __call__(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
         """Ones in the shape of `pressure`."""

@@ -15,6 +15,7 @@ from ..kernels.moving_source import MovingSurface, partition
 from ..quantities import parameter
 from .bulk import InputBulk, LumpedBulk, OilBulk
 from .elementary import Numbers, sqrt
+from .equations import Equations
 
 Array = NDArray[np.float64]
 Nodes = NDArray[np.bool_]
@@ -59,7 +60,7 @@ class Temperatures:
 
 
 def _flat(bodies: Pair, into_1: float, into_2: float) -> Temperatures:
-    """Surfaces as warm as their bodies."""
+    """The surfaces have the temperatures of their bodies."""
     return Temperatures(*bodies, 0.5 * (bodies[0] + bodies[1]), into_1, into_2, 0.0, True)
 
 
@@ -107,12 +108,29 @@ def _inlet_shear() -> Any:
     return parameter("", text, choices=("none", "gupta"), default="none")
 
 
+_INLET_SHEAR = {
+    "gupta": Equations(
+        (
+            "φ = [1 − 13.2 (p_H/E′) Q^{0.42}]/[1 + 0.213 (1 + 2.23 |S|^{0.83}) Q^{0.64}]",
+            "Q = η_0 β u_e^2/k,   S = (u_1 − u_2)/u_e",
+        ),
+        "Shear warms the oil in the inlet: the film is φ of the isothermal one; β is −d ln η/dT there, k the oil's "
+        "conductivity.",
+        source="Gupta, Cheng, Zhu, Forster & Schrand 1992, doi:10.1080/10402009208982117",
+    ),
+}
+
+
 @dataclass(frozen=True)
 class NoHeat:
     """The surfaces are as warm as their bodies, and these share the heat in halves."""
 
     name: ClassVar[str] = "none"
     source: ClassVar[str] = ""
+    equations: ClassVar[Equations] = Equations(
+        ("T = T_{bulk},   Q_1 = Q_2 = P/2",),
+        "The surfaces have the temperatures of their bodies.",
+    )
     inlet_shear: ClassVar[str] = "none"
     warms_film: ClassVar[bool] = False  # whether the oil in the contact is at another temperature than in the inlet
 
@@ -149,6 +167,14 @@ class FlashTemperature(_Conductors):
 
     name: ClassVar[str] = "flash"
     source: ClassVar[str] = "Tian & Kennedy 1994, doi:10.1115/1.2927035"
+    equations: ClassVar[Equations] = Equations(
+        (
+            "ΔT = 1.22 r q/{√π [K_1 (0.6575 + Pe_1)^{1/2} + K_2 (0.6575 + Pe_2)^{1/2}]}",
+            "q = τ |u_1 − u_2|,   Pe_i = |u_1 − u_2| r/(2 κ_i)",
+        ),
+        "The mean rise of a contact spot of radius r; K and κ are conductivity and diffusivity of the bodies.",
+        options={"inlet_shear": _INLET_SHEAR},
+    )
     warms_film: ClassVar[bool] = False
 
     def rise(self, radius: Array, shear: Array, sliding_speed: float) -> Array:
@@ -200,6 +226,15 @@ class TemperatureField(_Conductors):
 
     name: ClassVar[str] = "field"
     source: ClassVar[str] = "Jaeger, Proc. R. Soc. N. S. W. 76 (1942) 203; Carslaw & Jaeger 1959, section 10.7"
+    equations: ClassVar[Equations] = Equations(
+        (
+            "T_i = T_{bulk,i} + G_i ∗ q_i,   q_1 + q_2 = q = τ |v|",
+            "q_1 = q/2 + (k/h) (T_2 − T_1)",
+        ),
+        "G is the steady rise under a source that moves at the body's own speed, ∗ the sum over "
+        "all nodes; the film conducts across its thickness.",
+        options={"inlet_shear": _INLET_SHEAR},
+    )
     warms_film: ClassVar[bool] = True
 
     def conductances(self, radius: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:

@@ -5,6 +5,7 @@ from typing import ClassVar, NamedTuple
 
 from ..quantities import parameter
 from .elementary import Numbers, exp, expm1, log1p, maximum, minimum, sqrt
+from .equations import Equations
 
 _FLATTENING = 0.2  # where the constants hold as they are: about that of the shipped circles,
 _RESOLUTION = 2.0  # and theirs on their grids
@@ -81,6 +82,17 @@ class FittedSharing:
     source: ClassVar[str] = (
         "form of W_c: Zhou & Hoeprich, J. Tribol. 113 (1991) 590, doi:10.1115/1.2920664; "
         "constants: benchmarks/regression/curves.py"
+    )
+    equations: ClassVar[Equations] = Equations(
+        (
+            "1 − W_c = [1 − exp(−B Λ^C)] [1 − exp(−b (h_s/h_{floor})^c)],   Λ = λ (s/0.2)^m (r/2)",
+            "A_c = [1 − exp(−c s)] W_c^D",
+            "h_c/σ = W_c g + (1 − W_c) [(E λ/ρ)^n + f^n]^{1/n}",
+            "g = (G/k) ln[1 + k (s/0.2)^{−1.5}],   f = F (s r/0.4)^{−0.75} ≥ g",
+        ),
+        "λ: film of the smooth bodies over composite roughness; s: mean Hertz pressure over what "
+        "would press the roughness flat; r: correlation length over the distance of the nodes; "
+        "ρ: density of the oil under Hertz's mean pressure.",
     )
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
         "clearance": (0.003, 70.0),

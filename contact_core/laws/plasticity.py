@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..quantities import parameter
+from .equations import Equations
 
 Array = NDArray[np.float64]
 
@@ -26,6 +27,10 @@ class ElasticPerfectlyPlastic:
 
     name: ClassVar[str] = "elastic_perfectly_plastic"
     source: ClassVar[str] = "Azam et al. 2019, doi:10.1016/j.triboint.2018.11.011"
+    equations: ClassVar[Equations] = Equations(
+        ("p ≤ H(c),   H(c) = H_{steel} − (H_{steel} − H_{film}) c",),
+        "c is the thickness of the tribofilm over its full thickness; each body takes half of the plastic depth.",
+    )
 
     hardness: float = parameter("Pa", "hardness of the bare solids", above=1e6, most=1e12)
     film_hardness: float = parameter("Pa", "hardness of a full tribofilm", above=1e6, most=1e12)

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ..quantities import parameter
 from ..reference import logarithmic_drop, rounded_drop
+from .equations import Equations
 
 Array = NDArray[np.float64]
 
@@ -18,6 +19,10 @@ class Rounded:
 
     name: ClassVar[str] = "rounded"
     source: ClassVar[str] = "a circle's arc along the axis"
+    equations: ClassVar[Equations] = Equations(
+        ("P = R_e − [R_e^2 − max(|y| − s/2, 0)^2]^{1/2},   |y| ≤ b/2",),
+        "s is the straight length, Re the radius along the axis beyond it.",
+    )
 
     straight: float = parameter("m", "length of the straight part", least=0.0, most=10.0)
     radius: float = parameter("m", "radius along the axis beyond the straight part", above=0.0, most=1e4)
@@ -33,6 +38,10 @@ class Logarithmic:
 
     name: ClassVar[str] = "logarithmic"
     source: ClassVar[str] = "Lundberg, Forschung im Ingenieurwesen 10 (1939) 201, doi:10.1007/BF02584950"
+    equations: ClassVar[Equations] = Equations(
+        ("P = d ln{1/[1 − (2 y/b)^2]},   |y| < b/2",),
+        "d is depth.",
+    )
 
     depth: float = parameter("m", "factor on ln[1 / (1 - (2 y / length)^2)]", above=0.0, most=1e-3)
 

@@ -13,6 +13,7 @@ import scipy
 from numpy.typing import NDArray
 
 from ..quantities import parameter
+from .equations import Equations
 
 Array = NDArray[np.float64]
 
@@ -27,6 +28,8 @@ class _Limited(ABC):
     """What all laws share: odd in the shear, cut at the limiting stress (Bair & Winer, J. Lubr. Technol. 101 (1979)
     258). A law gives its `_stress` [Pa] of a Newtonian stress >= 0 and the `_slope` of that.
     """
+
+    inlet_thinning: ClassVar[Equations | None] = None  # of the film by shear in the inlet, where a formula is known
 
     limiting_coefficient: float
 
@@ -59,6 +62,10 @@ class Newtonian(_Limited):
 
     name: ClassVar[str] = "newtonian"
     source: ClassVar[str] = "limit: Bair & Winer, J. Lubr. Technol. 101 (1979) 258, doi:10.1115/1.3453342"
+    equations: ClassVar[Equations] = Equations(
+        ("τ_{oil} = τ_N,   at most Λ p_f",),
+        "Λ: limiting_coefficient; 0 means no limit.",
+    )
     thins: ClassVar[bool] = False
 
     limiting_coefficient: float = _limiting_coefficient()
@@ -80,6 +87,10 @@ class Eyring(_Limited):
 
     name: ClassVar[str] = "eyring"
     source: ClassVar[str] = "Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129"
+    equations: ClassVar[Equations] = Equations(
+        ("τ_{oil} = τ_E arsinh(τ_N/τ_E),   at most Λ p_f",),
+        "Λ: limiting_coefficient; 0 means no limit.",
+    )
     thins: ClassVar[bool] = True
 
     eyring_stress: float = parameter(
@@ -105,6 +116,19 @@ class Carreau(_Limited):
 
     name: ClassVar[str] = "carreau"
     source: ClassVar[str] = "Carreau 1972, doi:10.1122/1.549276; in elastohydrodynamics Bair 2007, ISBN 9780444528803"
+    equations: ClassVar[Equations] = Equations(
+        ("τ_{oil} = τ_N [1 + (τ_N/G)^2]^{(n − 1)/2},   at most Λ p_f",),
+        "Λ: limiting_coefficient; 0 means no limit.",
+    )
+    inlet_thinning: ClassVar[Equations] = Equations(
+        (
+            "φ = [1 + 0.79 X^m]^{−q},   X = (1 + |S|) u_e η_0/(h_s G)",
+            "m = 1/(1 + 0.2 |S|),   q = 3.6 (1 − n)^{1.7},   S = (u_1 − u_2)/u_e",
+        ),
+        "Shear thins the oil in the inlet: the film is φ of the Newtonian one.",
+        title="Shear thinning in the inlet: lubricant.flow = local",
+        source="Bair, Proc. IMechE J 219 (2005) 69",
+    )
     thins: ClassVar[bool] = True
 
     critical_stress: float = parameter(

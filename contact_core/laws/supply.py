@@ -5,6 +5,7 @@ from typing import ClassVar
 
 from ..quantities import parameter
 from ..reference.starvation import film_behind_meniscus, supplied_film
+from .equations import Equations
 
 
 @dataclass(frozen=True)
@@ -13,6 +14,10 @@ class Flooded:
 
     name: ClassVar[str] = "flooded"
     source: ClassVar[str] = "assumed: the inlet is full as far as it makes pressure"
+    equations: ClassVar[Equations] = Equations(
+        ("p_f = 0 at the edge of the grid",),
+        "The inlet is as full as the grid is wide.",
+    )
 
     layer: ClassVar[None] = None
     inlet: ClassVar[None] = None
@@ -30,6 +35,10 @@ class SupplyFilm:
 
     name: ClassVar[str] = "film"
     source: ClassVar[str] = "Chevalier et al. 1998, doi:10.1115/1.2834175"
+    equations: ClassVar[Equations] = Equations(
+        ("ρ h θ = ρ_0 h_{oil} where oil comes in",),
+        "h oil is the thickness. Pressure begins where the gap is full.",
+    )
 
     thickness: float = parameter("m", "oil on both surfaces together before the contact", above=0.0, most=1e-2)
 
@@ -51,6 +60,10 @@ class Meniscus:
 
     name: ClassVar[str] = "meniscus"
     source: ClassVar[str] = "Hamrock & Dowson 1977, doi:10.1115/1.3453285"
+    equations: ClassVar[Equations] = Equations(
+        ("p_f = 0 for x < −d",),
+        "d is the distance. The gap is full from there on.",
+    )
 
     distance: float = parameter("m", "distance of the inlet meniscus before the centre", above=0.0, most=1.0)
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..quantities import parameter
 from .elementary import Numbers, exp, log, log10, maximum, minimum
+from .equations import Equations
 
 Array = NDArray[np.float64]
 
@@ -34,6 +35,13 @@ class Roelands:
     error: ClassVar[str] = ""
     source: ClassVar[str] = (
         "Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of oils, TU Delft 1966"
+    )
+    equations: ClassVar[Equations] = Equations(
+        (
+            "η = η_0 exp{(ln η_0 + 9.67) [(1 + p/p_0)^z ((T − 138)/(T_0 − 138))^{−S} − 1]}",
+            "p_0 = 196 MPa,   η in pascal seconds,   T in kelvin",
+        ),
+        "z and S follow from the pressure and temperature coefficients at p = 0 and T0.",
     )
 
     viscosity: float = parameter("Pa s", "viscosity at p = 0 and the reference temperature", above=6.4e-5, most=1e3)
@@ -63,6 +71,9 @@ class Barus:
     name: ClassVar[str] = "barus"
     error: ClassVar[str] = ""
     source: ClassVar[str] = "Barus, Am. J. Sci. 45 (1893) 87, doi:10.2475/ajs.s3-45.266.87"
+    equations: ClassVar[Equations] = Equations(
+        ("η = η_0 exp[α p − β (T − T_0)]",),
+    )
 
     viscosity: float = parameter("Pa s", "viscosity at p = 0 and the reference temperature", above=0.0, most=1e3)
     reference_temperature: float = parameter("K", "temperature of that viscosity", least=200.0, most=600.0)
@@ -89,6 +100,10 @@ class Modulus:
     error: ClassVar[str] = ""
     source: ClassVar[str] = (
         "Gold et al., J. Synth. Lubr. 18 (2001) 51; as in Arana, Larranaga & Ulacia 2019, doi:10.1177/1350650118778655"
+    )
+    equations: ClassVar[Equations] = Equations(
+        ("η = K exp[C/(D + T)] exp{p/[a_1 + a_2 T + (b_1 + b_2 T) p]}",),
+        "Vogel's law without pressure, the modulus equation with it.",
     )
 
     vogel_viscosity: float = parameter("Pa s", "K, viscosity of the hot oil", above=0.0, most=1.0)
@@ -126,6 +141,14 @@ class AstmD341:
     source: ClassVar[str] = (
         "ASTM D341, Standard Practice for Viscosity-Temperature Charts for Liquid Petroleum Products; under pressure "
         "Roelands, Correlational aspects of the viscosity-temperature-pressure relationship of oils, TU Delft 1966"
+    )
+    equations: ClassVar[Equations] = Equations(
+        (
+            "log_{10} log_{10}(ν + 0.7) = A − B log_{10} T,   ν in mm^2/s",
+            "η = η_∞ [η(0, T)/η_∞]^m,   m = (1 + p/p_0)^z",
+        ),
+        "A straight line through the data sheet's two viscosities; the density falls linearly "
+        "with temperature. Under pressure Roelands' law, 63.1 µPa s and 196 MPa.",
     )
 
     viscosity_40: float = parameter(

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..quantities import parameter
+from .equations import Equations
 
 Array = NDArray[np.float64]
 Speeds = tuple[float | Array, float]
@@ -18,6 +19,9 @@ class NoWear:
 
     name: ClassVar[str] = "none"
     source: ClassVar[str] = ""
+    equations: ClassVar[Equations] = Equations(
+        ("w = 0",),
+    )
     of_sliding: ClassVar[bool] = True
     wears: ClassVar[bool] = False
 
@@ -47,6 +51,11 @@ class Archard:
     name: ClassVar[str] = "archard"
     source: ClassVar[str] = "Archard 1953, doi:10.1063/1.1721448"
     wears: ClassVar[bool] = True
+    equations: ClassVar[Equations] = Equations(
+        ("∂w/∂t = K p_s v/H,   K = K_{bare} + (K_{film} − K_{bare}) c",),
+        "ps is the mean solid pressure on a point of the surface over its track, c the thickness of its "
+        "tribofilm over the full thickness; wear.sliding chooses the speed v.",
+    )
 
     bare: float = parameter("", "dimensionless wear coefficient of bare solids", least=0.0, most=1.0)
     film: float = parameter("", "dimensionless wear coefficient under a full tribofilm", least=0.0, most=1.0)

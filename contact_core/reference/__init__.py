@@ -10,6 +10,7 @@
     oil           what heat and shear of the oil make of a film
     evolution     tribofilm and wear over time
     heat          temperature under moving sources
+    constants     of nature
 
 SI throughout, and scipy's parts are loaded at their first use.
 """

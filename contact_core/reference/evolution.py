@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from ..laws.constants import BOLTZMANN, PLANCK
+from .constants import BOLTZMANN, PLANCK
 
 
 def ghanbarzadeh_thickness(

@@ -3,13 +3,44 @@
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import ClassVar
+from typing import ClassVar, Protocol
 
 import numpy as np
 import scipy  # its parts are loaded at their first use
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Nodes = tuple[Array, Array]  # pressures over the largest [n, 1], their weights in the mean over the contact [n]
+
+_GAUSS, _WEIGHTS = np.polynomial.legendre.leggauss(10)
+
+
+def _ellipse_nodes() -> Nodes:
+    """Return Gauss nodes of the mean over an ellipse.
+
+    The pressure is proportional to t at the distance sqrt(1 - t^2) from the centre, the area dA to t dt.
+    """
+    t = 0.5 + 0.5 * _GAUSS[:, None]
+    return t, t[:, 0] * _WEIGHTS
+
+
+def _strip_nodes() -> Nodes:
+    """Return Gauss nodes of the mean over a strip.
+
+    The pressure is proportional to cos(s) at x = a sin(s), the area dA to cos(s) ds.
+    """
+    cosine = np.cos(0.25 * math.pi * (1.0 + _GAUSS))
+    return cosine[:, None], 0.25 * math.pi * cosine * _WEIGHTS
+
+
+class Conductors(Protocol):
+    """Two bodies that conduct the heat of a contact away, as `laws.heat`."""
+
+    def conductances(self, radius: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Return heat flux per mean rise [W/(m2 K)] into each body, even source on a circle of `radius` [m]."""
+
+    def strip_conductances(self, a: Array, b: float, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Return the same for a strip of half width a and half length b [m]."""
 
 
 @dataclass(frozen=True)
@@ -18,6 +49,7 @@ class Hertz:
 
     mean_share: ClassVar[float] = 2.0 / 3.0  # mean pressure over the largest
     chord_share: ClassVar[float] = 0.25 * math.pi  # mean of `chords`
+    pressure_nodes: ClassVar[Nodes] = _ellipse_nodes()  # for means over the contact of functions of the pressure
 
     a: float  # half width along x [m]
     b: float  # half width along y [m]
@@ -58,6 +90,13 @@ class Hertz:
         slim = (self.a / self.b) ** 2
         return 2.0 / (slim * float(scipy.special.elliprd(0.0, 1.0, slim)))
 
+    def conductances(self, bodies: Conductors, areas: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Return heat flux per mean rise [W/(m2 K)] into each of the bodies under an even source that holds still.
+
+        The source covers `areas` [m2]; speeds [m/s]. It stands on a circle as large as the ellipse.
+        """
+        return bodies.conductances(np.sqrt(areas / math.pi), speeds)
+
     def growth(self, times: float) -> tuple[float, float]:
         """By how much `times` the load makes a and the pressure larger, and b."""
         root = times ** (1 / 3)
@@ -79,6 +118,7 @@ class HertzLine(Hertz):
 
     mean_share: ClassVar[float] = 0.25 * math.pi
     chord_share: ClassVar[float] = 1.0
+    pressure_nodes: ClassVar[Nodes] = _strip_nodes()
 
     @cached_property
     def area(self) -> float:
@@ -103,6 +143,10 @@ class HertzLine(Hertz):
     def turn_share(self) -> float:
         """As of a point, for a strip much longer than wide: the part within this distance slides with the others."""
         return 1.0
+
+    def conductances(self, bodies: Conductors, areas: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Return the same as `Hertz.conductances` for a source on the strip."""
+        return bodies.strip_conductances(0.25 * areas / self.b, self.b, speeds)
 
     def growth(self, times: float) -> tuple[float, float]:
         """By how much `times` the load makes a and the pressure larger, and b."""

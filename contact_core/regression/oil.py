@@ -1,6 +1,5 @@
-"""Friction and warmth of the oil in a Hertzian mean contact, for several operating points at once."""
+"""Friction and temperature of the oil in a Hertzian mean contact, for several operating points at once."""
 
-import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -9,7 +8,7 @@ from numpy.typing import NDArray
 
 from ..errors import ConvergenceError
 from ..laws.heat import TemperatureField
-from ..reference import Hertz, HertzLine
+from ..reference import Hertz
 from ..scene import Scene
 
 Array = NDArray[np.float64]
@@ -17,13 +16,6 @@ Pair = tuple[Array, Array]  # of body 1 and 2
 # laws take anything that broadcasts: plain floats, which are faster than arrays of one, and arrays of temperatures
 Law = Callable[..., Any]
 
-# pressures over the largest, and what they weigh in the mean over Hertz's contact. On an ellipse p is proportional to t
-# at the distance sqrt(1 - t^2) from its centre, dA to t dt; on a strip to cos(s) at x = a sin(s), dA to cos(s) ds
-_NODES, _OF_NODES = np.polynomial.legendre.leggauss(10)
-_T = 0.5 + 0.5 * _NODES[:, None]
-_ON_ELLIPSE = _T, _T[:, 0] * _OF_NODES
-_COS = np.cos(0.25 * math.pi * (1.0 + _NODES))
-_ON_STRIP = _COS[:, None], 0.25 * math.pi * _COS * _OF_NODES
 _ROUNDS = 100  # of the oil's temperature, at most
 _SETTLED = 1e-8  # misfit that ends them, over the rise and 1 K
 
@@ -33,7 +25,7 @@ def oil_shear(scene: Scene, hertz: Hertz, pressures: Array, rates: Array, grips:
 
     `pressures` are the largest at each point, `grips` the shares of the limiting stress (`FilmBlend.grip`).
     """
-    parts, weights = _ON_STRIP if isinstance(hertz, HertzLine) else _ON_ELLIPSE
+    parts, weights = hertz.pressure_nodes
     local = parts * pressures
     viscosity: Law = scene.lubricant.viscosity
     newtonian = viscosity(local, temperatures) * rates
@@ -61,23 +53,22 @@ class MeanHeat(NamedTuple):
         gaps: Array,
         oil_conductivity: float,
     ) -> "MeanHeat":
-        """Both bodies as half spaces at their speeds [m/s] under an even source that holds still, on a circle as large
-        as the ellipse, or on the strip.
+        """Return the heat of both bodies, half spaces at their speeds [m/s] under an even source that holds still.
+
+        The source lies on a circle of the ellipse's area, or on the strip.
         """
-        if isinstance(hertz, HertzLine):
-            first, second = law.strip_conductances(0.25 * areas / hertz.b, hertz.b, speeds)
-        else:
-            first, second = law.conductances(np.sqrt(areas / math.pi), speeds)
+        first, second = hertz.conductances(law, areas, speeds)
         return MeanHeat(first, second, *bodies, areas, gaps / (12.0 * oil_conductivity))
 
     def _surfaces(self, power: Array) -> Array:
-        """Temperature [K] of the surfaces under a power [W]."""
+        """Return the temperature [K] of the surfaces under a power [W]."""
         one, two = self.conductance_1, self.conductance_2
         return (power / self.areas + one * self.body_1 + two * self.body_2) / (one + two)
 
     def film(self, start: Array, power: Callable[[Array], Array]) -> Array:
-        """Temperature [K] of the oil with which its friction makes it that warm, from a guess. By secants in a bracket:
-        the warmer, the less friction. Raises ConvergenceError if it cannot be found.
+        """Return the temperature [K] of the oil at which its own friction makes it that warm, from a guess.
+
+        By secants in a bracket: the warmer, the less friction. Raises ConvergenceError if it cannot be found.
         """
         low = self._surfaces(np.zeros_like(start))
         high = np.full_like(start, np.inf)
@@ -103,7 +94,7 @@ class MeanHeat(NamedTuple):
         )
 
     def surface(self, power: float) -> tuple[float, float]:
-        """Rise [K] of the surfaces over the bodies' mean and heat [W] into body 1, at the first point."""
+        """Return the rise [K] of the surfaces over the bodies' mean and heat [W] into body 1, at the first point."""
         warm = float(self._surfaces(np.full_like(self.areas, power))[0])
         into_1 = float(self.areas[0] * self.conductance_1[0]) * (warm - float(self.body_1[0]))
         return warm - 0.5 * float(self.body_1[0] + self.body_2[0]), into_1

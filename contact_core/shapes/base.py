@@ -12,6 +12,7 @@ from typing import ClassVar, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..laws.equations import Equations
 from ..laws.load_sharing import FittedSharing
 from ..quantities import input_parameter, parameter
 from ..reference import Hertz, SmoothContact, SmoothLine
@@ -130,6 +131,13 @@ class Geometry(Protocol):
     source: ClassVar[str]
     lacks: ClassVar[frozenset[str]]  # quantities that have no meaning for it
     sharing: ClassVar[type[FittedSharing]]  # curves of load sharing fitted to its like
+    equations: ClassVar[Equations]  # gap; these and the next four for documentation
+    deformation: ClassVar[Equations]
+    load_balance: ClassVar[Equations]
+    smooth_film: ClassVar[Equations]
+    rolling: ClassVar[Equations]
+    film_formula: ClassVar[str]  # names of its authors
+    not_modelled: ClassVar[tuple[str, ...]]
     bounded_across: ClassVar[bool]  # the grid must hold the half width along y, too
     lumped: ClassVar[bool]  # film.criterion = "lumped" finds a film
 

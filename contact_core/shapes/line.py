@@ -5,10 +5,26 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..laws.equations import Equations
 from ..laws.load_sharing import FittedSharing, LineSharing
 from ..quantities import parameter
 from ..reference import Hertz, SmoothLine, dowson_line, hertz_line, line_film, rolling_line
 from .base import Array, Bodies, GridRecord, Shape, Viscosity
+from .equations import REDUCED, ROLLING_NOTE
+
+SMOOTH_LINE = Equations(
+    ("h_s = R_x U^{1/2} H(M, L),   λ = h_s/σ",),
+    "H is Moes' formula of line contacts over all regimes, " + REDUCED,
+    title="Film of the smooth bodies",
+)
+ROLLING_LINE = Equations(
+    (
+        "F_r = b E′ R_x 1.42 (U w)^{1/2} [1 + (0.966 M^{1/2})^{10}]^{−1/10} (1 − W_c)",
+        "w = W/(b E′ R_x),   M = w U^{−1/2}",
+    ),
+    ROLLING_NOTE + " b is the face width.",
+    title="Rolling resistance",
+)
 
 
 @dataclass(frozen=True)
@@ -91,6 +107,28 @@ class LineGeometry(Bodies):
 
     name: ClassVar[str] = "line"
     source: ClassVar[str] = ""
+    equations: ClassVar[Equations] = Equations(
+        ("g = x^2/(2 R_x)",),
+        "A line without ends. One period along y is solved and represents all of face_width, which load and outputs "
+        "refer to.",
+    )
+    deformation: ClassVar[Equations] = Equations(
+        (
+            "d(x, y) = 2/(π E′) Σ_{k} ∬ p(x′, y′) {[(x − x′)^2 + (y − y′ − k w)^2]^{−1/2} − d_k} dx′ dy′",
+            "d̄(x) = −4/(π E′) ∫ p̄(x′) ln(|x − x′|/b) dx′",
+        ),
+        "p is the pressure of oil and solids together, periodic along y with the period w. The approach of a line "
+        "depends on a datum: dk makes the means over a period deform as in the second line, relative to a face width "
+        "b away.",
+        title="Elastic deformation (half space)",
+    )
+    load_balance: ClassVar[Equations] = Equations(
+        ("W = (b/w) ∬ p dx dy",), "Over one period. It determines the rigid gap h0.", title="Load balance"
+    )
+    smooth_film: ClassVar[Equations] = SMOOTH_LINE
+    rolling: ClassVar[Equations] = ROLLING_LINE
+    film_formula: ClassVar[str] = "Moes for lines"
+    not_modelled: ClassVar[tuple[str, ...]] = ("the ends of the face, and misalignment",)
     lacks: ClassVar[frozenset[str]] = frozenset({"radius_y", "spin", "spin_torque"})
     sharing: ClassVar[type[FittedSharing]] = LineSharing
     bounded_across: ClassVar[bool] = False

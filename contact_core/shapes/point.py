@@ -5,10 +5,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..laws.equations import Equations
 from ..laws.load_sharing import FittedSharing
 from ..quantities import input_parameter
 from ..reference import Hertz, SmoothContact, hamrock_dowson, hertz_point, nvm_film, rolling_point
 from .base import Array, Bodies, GridRecord, Shape, Viscosity
+from .equations import HALF_SPACE, LOAD_BALANCE, REDUCED, ROLLING_NOTE
 
 
 @dataclass(frozen=True)
@@ -112,6 +114,26 @@ class PointGeometry(Bodies):
 
     name: ClassVar[str] = "point"
     source: ClassVar[str] = ""
+    equations: ClassVar[Equations] = Equations(("g = x^2/(2 R_x) + y^2/(2 R_y)",), "A circular or elliptical contact.")
+    deformation: ClassVar[Equations] = HALF_SPACE
+    load_balance: ClassVar[Equations] = LOAD_BALANCE
+    smooth_film: ClassVar[Equations] = Equations(
+        ("h_s = R_x U^{1/2} H(M, L, R_x/R_y),   λ = h_s/σ",),
+        "H is the formula of Nijenbanning, Venner and Moes over all regimes, " + REDUCED,
+        title="Film of the smooth bodies",
+    )
+    rolling: ClassVar[Equations] = Equations(
+        (
+            "F_r = 2 b E′ R_x U^{3/4} [(r − e)/(1 + M/6.6) + e] (1 − W_c)",
+            "r = 0.77 β^{−1/3} k^{0.12} U^{−1/12},   e = 1.8 β^{−1/4}",
+            "M = β^{1/4} k W/(E′ R_x^2) U^{−3/4},   β = E′ a/(π p_H R_x),   k = a/b",
+        ),
+        ROLLING_NOTE + " a and b are Hertz's half widths.",
+        title="Rolling resistance",
+    )
+    film_formula: ClassVar[str] = "Nijenbanning, Venner and Moes"
+    not_modelled: ClassVar[tuple[str, ...]] = ()
+    face_width: ClassVar[None] = None  # its size across follows from the load
     lacks: ClassVar[frozenset[str]] = frozenset()
     sharing: ClassVar[type[FittedSharing]] = FittedSharing
     bounded_across: ClassVar[bool] = True

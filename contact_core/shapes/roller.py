@@ -6,12 +6,14 @@ from typing import ClassVar, Protocol
 
 import numpy as np
 
+from ..laws.equations import Equations
 from ..laws.load_sharing import FittedSharing, LineSharing
 from ..laws.profile import Logarithmic, Rounded
 from ..quantities import parameter
 from ..reference import Hertz
 from .base import Array, Bodies, GridRecord, Shape
-from .line import Line, no_radius_y
+from .equations import HALF_SPACE, LOAD_BALANCE
+from .line import ROLLING_LINE, SMOOTH_LINE, Line, no_radius_y
 
 _DEEPEST = 0.1  # drop of an end, in radii: no deformation reaches that far
 _BESIDE = 1.02  # depth of the grid over the length of a roller, at least
@@ -21,7 +23,7 @@ class Profile(Protocol):
     """How the ends of a roller are taken back; a law of `laws.profile`."""
 
     def drop(self, y: Array, length: float) -> Array:
-        """Return the material taken away [m] at y [m] from the middle of a face of a length [m]; inf beyond the ends."""
+        """Return the material taken away [m] at y [m] from the middle of a face [m]; inf beyond the ends."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +52,16 @@ class RollerGeometry(Bodies):
 
     name: ClassVar[str] = "roller"
     source: ClassVar[str] = ""
+    equations: ClassVar[Equations] = Equations(
+        ("g = x^2/(2 R_x) + P(y)",),
+        "A line with ends, relieved by the profile P; load and outputs refer to the whole face_width b.",
+    )
+    deformation: ClassVar[Equations] = HALF_SPACE
+    load_balance: ClassVar[Equations] = LOAD_BALANCE
+    smooth_film: ClassVar[Equations] = SMOOTH_LINE
+    rolling: ClassVar[Equations] = ROLLING_LINE
+    film_formula: ClassVar[str] = "Moes for lines"
+    not_modelled: ClassVar[tuple[str, ...]] = ("misalignment",)
     lacks: ClassVar[frozenset[str]] = frozenset({"radius_y"})
     sharing: ClassVar[type[FittedSharing]] = LineSharing
     bounded_across: ClassVar[bool] = False

@@ -39,7 +39,8 @@ SHAPES = (
     "tribofilm_1",
     "tribofilm_2",
 )  # followed for their slope; they need no smoothing
-NAMES = (*SMOOTHED, *SHAPES, *(f"{name}_rate" for name in RATES))
+RATES_FOLLOWED = tuple(f"{name}_rate" for name in RATES)
+NAMES = (*SMOOTHED, *SHAPES, *RATES_FOLLOWED)
 _SIGNED = (
     "friction_force",
     "friction_solid",

@@ -1,10 +1,10 @@
-"""Body-fixed patches: heights of the bodies as they are now, and their place under the contact.
+"""Body-fixed patches: heights of the bodies as they are now, their place under the contact, their rubbing track.
 
 A patch [rows, nx - 1] repeats along x and shares its rows with the grid of the contact [rows, nx]. A scar that reaches
-the edge adds rows, except on a line, which has no edge.
+the edge adds rows, except on a line, which has no edge. The track is |y| < b; b is Hertz's half width at the reference
+load and the scene's own radii, whatever load and radii are now: a mean over the track does not jump with them.
 """
 
-from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -17,6 +17,17 @@ from ..state import Body, ContactState
 from .roughness import generate, groove_free
 
 Array = NDArray[np.float64]
+
+_MIDDLE = 2.0 / 3.0  # share of the track over which roughness is measured
+
+
+class SurfaceNow(NamedTuple):
+    """One body's patch as it is now. Arrays [rows, nx - 1]; rows of the track are masks [rows]."""
+
+    heights: Array  # [m]
+    roughness: Array  # heights free of the groove's shape [m]
+    track: NDArray[np.bool_]  # rows with |y| < b
+    middle: NDArray[np.bool_]  # rows with |y| < 2b/3, over which roughness is measured
 
 
 class FacingSurfaces(NamedTuple):
@@ -44,6 +55,35 @@ def facing_surfaces(scene: Scene, state: ContactState) -> FacingSurfaces:
         tribofilms=(films[0], films[1]),
         plastic=plastic,
     )
+
+
+def surface_now(scene: Scene, body: Body, index: int) -> SurfaceNow:
+    """Return the patch of body 1 (`index` 0) or 2 (1) as it is now."""
+    rows = body.wear.shape[0]
+    bare = bare_heights(scene, rows)[index]
+    heights = heights_of(bare, body)
+    return SurfaceNow(heights, roughness_of(bare, heights), track_rows(scene, rows), middle_rows(scene, rows))
+
+
+def across_track(scene: Scene, rows: int) -> Array | None:
+    """Return |y| / b of each row of the patches, [rows, 1]; None where nothing changes along the face."""
+    if scene.shape().along_face:
+        return None
+    across: Array = np.abs(scene.grid(rows).y)[:, None] / scene.hertz(scene.operation.load).b
+    return across
+
+
+def track_rows(scene: Scene, rows: int, share: float = 1.0) -> NDArray[np.bool_]:
+    """Return the rows of the patches with |y| < share * b, at least the middle one."""
+    b = scene.hertz(scene.operation.load).b
+    y = scene.grid(rows).y
+    inside: NDArray[np.bool_] = np.abs(y) < max(share * b, 0.51 * scene.film.spacing)
+    return inside
+
+
+def middle_rows(scene: Scene, rows: int) -> NDArray[np.bool_]:
+    """Return the rows of the patches over which roughness is measured, |y| < 2b/3."""
+    return track_rows(scene, rows, _MIDDLE)
 
 
 def patch_nodes(scene: Scene, body: Body) -> int:
@@ -101,30 +141,3 @@ def widened(body: Body, more: int) -> Body:
 
     arrays: dict[str, Any] = {name: fresh(name) for name in Body.ARRAYS}
     return replace(body, **arrays)
-
-
-def rolled(scene: Scene, state: ContactState, steps: Sequence[float]) -> ContactState:
-    """Return the state after both bodies have moved along +x, each by its step [m]."""
-    first, second = (
-        replace(body, offset=(body.offset + step) % scene.film.domain)
-        for body, step in zip(state.bodies, steps, strict=True)
-    )
-    return replace(state, bodies=(first, second))
-
-
-def yielded(scene: Scene, state: ContactState, overlap: Array) -> ContactState:
-    """Return the state after half of the overlap has been pressed into each body permanently."""
-    if not overlap.any():
-        return state
-    first, second = (
-        replace(body, plastic=body.plastic + 0.5 * pressed)
-        for body, pressed in zip(state.bodies, on_patches(scene, state, (overlap, overlap)), strict=True)
-    )
-    return replace(state, bodies=(first, second))
-
-
-def moved_nodes(scene: Scene, before: ContactState, after: ContactState) -> int:
-    """Return the whole nodes by which the rougher body has moved along +x, by half a patch at most."""
-    rougher, columns = scene.rougher, scene.film.points - 1
-    early, late = (patch_nodes(scene, state.bodies[rougher]) for state in (before, after))
-    return (late - early + columns // 2) % columns - columns // 2

@@ -8,9 +8,8 @@ from numpy.typing import NDArray
 
 from ..scene import Scene
 from ..state import Body, ContactState, Mean
-from .patches import bare_heights, roughness_of
+from .patches import bare_heights, middle_rows, roughness_of, track_rows
 from .roughness import rms_roughness
-from .track import MIDDLE, track_rows
 
 Array = NDArray[np.float64]
 Means = tuple[Mean, Mean]
@@ -34,7 +33,7 @@ def _mean_of(scene: Scene, state: ContactState, i: int) -> Mean:
         removal=float(body.removal[track].mean()),
         coverage=float((body.growth[track] > 0.0).mean()),
         wear=float(body.wear[track].mean()),
-        roughness=rms_roughness(solid, track_rows(scene, rows, MIDDLE)),
+        roughness=rms_roughness(solid, middle_rows(scene, rows)),
         worn=body.worn,
         cycles=body.cycles,
     )
@@ -83,7 +82,7 @@ def _lost(scene: Scene, rows: int, bare: Array, heights: Array, share: Array, we
     If no cut through the highest points takes away enough, the roughness becomes as small as it can. `share` is the
     pressure over its mean.
     """
-    track, middle = track_rows(scene, rows), track_rows(scene, rows, MIDDLE)
+    track, middle = track_rows(scene, rows), middle_rows(scene, rows)
     if wear <= 0.0:
         return wear * share
 

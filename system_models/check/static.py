@@ -16,7 +16,7 @@ from lxml import etree
 
 from contact_core.errors import SceneError
 from contact_core.scene import units
-from fmu_src.native import image
+from fmu_src.isolated.native import image
 
 from .package import DESCRIPTION, Package
 from .variables import attribute, base_type, is_real

@@ -12,8 +12,8 @@ from typing import Any
 
 from contact_core.quantities import TABLE
 from contact_core.scene import Scene
-from fmu_src.build import build as build_contact
 from fmu_src.flavours import Flavour
+from fmu_src.package.build import build as build_contact
 
 from ..master import System
 from ..parts.build import build as build_part

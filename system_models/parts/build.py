@@ -4,10 +4,10 @@ import inspect
 from collections.abc import Iterator
 from pathlib import Path
 
-from fmu_src.build import pack
-from fmu_src.describe import Model
 from fmu_src.flavours import Flavour
-from fmu_src.markup import paragraph, plain, table
+from fmu_src.package.build import pack
+from fmu_src.package.describe import Model
+from fmu_src.package.document.markup import paragraph, plain, table
 from fmu_src.variables import Variable
 
 from . import resources
@@ -26,8 +26,9 @@ def build(
 ) -> Path:
     """Write the FMU of a component to `out` and return it. The same arguments and versions give the same bytes.
 
-    `flavour` and `python`: as for a contact, see `fmu_src.build`. `duration` and `step_size` [s] are proposals to its
-    host. Raises SceneError if the component's numbers cannot be used, OSError if the file cannot be written.
+    `flavour` and `python`: as for a contact, see `fmu_src.package.build`. `duration` and `step_size` [s] are
+    proposals to its host. Raises SceneError if the component's numbers cannot be used, OSError if the file cannot be
+    written.
     """
     resources.check(part)
     experiment = {"startTime": 0.0, "stopTime": duration, "stepSize": step_size}

@@ -12,7 +12,7 @@ from contact_core.errors import SceneError
 from contact_core.quantities import out_of_range, value_out_of_range
 from contact_core.scene.toml import build, did_you_mean, unbuild
 from fmu_src.flavours import Flavour
-from fmu_src.resources import identity, script
+from fmu_src.runtime.resources import identity, script
 
 from .part import Part
 

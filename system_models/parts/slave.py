@@ -13,8 +13,8 @@ from pythonfmu.enums import Fmi2Status
 
 from contact_core.errors import ContactError, StateError
 from contact_core.quantities import with_numbers
-from fmu_src.guarded import GuardedSlave
-from fmu_src.snapshot import Phase
+from fmu_src.phases import Phase
+from fmu_src.runtime.guarded import GuardedSlave
 from fmu_src.variables import Value, Variable
 
 from . import resources

@@ -10,7 +10,8 @@ from scipy.signal import fftconvolve
 
 from contact_core.kernels.far_field import far_field
 from contact_core.kernels.half_space import HalfSpace
-from contact_core.kernels.mixed.fixed_point import Problem, solve_mixed
+from contact_core.kernels.mixed.fixed_point import solve_mixed
+from contact_core.kernels.mixed.problem import Problem
 from contact_core.kernels.multigrid.coarsest import solve_dense
 from contact_core.kernels.multigrid.cycle import extrapolated, is_applicable, is_symmetric, solve_smooth
 from contact_core.kernels.multigrid.mirrored import MirroredHalfSpace

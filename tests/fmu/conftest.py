@@ -11,9 +11,9 @@ from isolated import FAULTS, SCRIPT, UNSAVED
 
 from benchmarks.hosts.native_host import compiled, embedding_environment, plain_environment
 from contact_core import Scene
-from fmu_src.build import build
 from fmu_src.flavours import FLAVOURS, Flavour
-from fmu_src.resources import module_name
+from fmu_src.package.build import build
+from fmu_src.runtime.resources import module_name
 
 
 @pytest.fixture(scope="session", autouse=True)

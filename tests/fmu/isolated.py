@@ -23,7 +23,7 @@ ENDLESS = (1008.0, 1009.0)
 UNSAVED = 2000.0  # the load at which a faulty model cannot be saved
 SCRIPT = """
 import ctypes, os
-from fmu_src import slave
+from fmu_src.runtime import slave
 from contact_core import advance
 
 def interrupted(*arguments):

@@ -9,7 +9,7 @@ import pytest
 
 from benchmarks.models import build as build_model
 from contact_core import Scene
-from fmu_src.build import build
+from fmu_src.package.build import build
 from system_models.master import System, export_ssp, simulate
 from system_models.parts.build import build as build_part
 from system_models.parts.shaft import Shaft

@@ -6,7 +6,7 @@ from importlib.resources import files
 import pytest
 from fmu_host import SMALL
 
-from fmu_src.command import main
+from fmu_src.package.command import main
 
 CHANGES = [f"{key}={value}" for key, value in SMALL.items()]
 
@@ -60,3 +60,10 @@ def test_a_place_that_cannot_be_written_is_named(tmp_path, capsys):
 def test_a_scene_that_is_not_well_resolved_is_built_with_a_note(tmp_path, capsys):
     assert main(["mtm_zddp", "--set", *CHANGES, "--out", str(tmp_path / "x.fmu")]) == 0
     assert "Note: surface_1 has 1.02 nodes per correlation length" in capsys.readouterr().err
+
+
+def test_a_script_of_an_earlier_build_is_refused_with_a_way_out():
+    with pytest.raises(ImportError, match="Build it again"):
+        from fmu_src import slave  # noqa: F401
+    with pytest.raises(ImportError, match="cannot import name 'slaves'"):
+        from fmu_src import slaves  # noqa: F401

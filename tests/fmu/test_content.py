@@ -9,8 +9,9 @@ import zipfile
 import zlib
 from dataclasses import fields
 from html.parser import HTMLParser
-from itertools import pairwise
+from itertools import pairwise, product
 from pathlib import Path
+from types import SimpleNamespace
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -21,17 +22,19 @@ from fmu_host import SHAPES, SMALL, hosted, unpacked
 from contact_core import ConvergenceError, RangeFlag, Scene
 from contact_core.film import FILMS
 from contact_core.laws import SLOTS
+from contact_core.laws.rheology import Carreau
 from contact_core.scene import Lubricant
 from contact_core.shapes import GEOMETRIES
-from fmu_src import evidence, icon, measured, packages
-from fmu_src.build import build
-from fmu_src.document import documentation
-from fmu_src.equations import CAVITATION, DOSES, GOVERNING, INLET_SHEAR, LAWS, OF_SHAPE, SHARING
-from fmu_src.markup import equation
-from fmu_src.slave import ContactSlave
+from fmu_src.package import evidence, icon, licences
+from fmu_src.package.build import build
+from fmu_src.package.document import measured
+from fmu_src.package.document.markup import equation
+from fmu_src.package.document.page import documentation
+from fmu_src.runtime.slave import ContactSlave
 from fmu_src.variables import variables
 
 ROOT = Path(__file__).parents[2]
+REQUIRED = {"deterministic": {"points": 65, "domain": 1e-3, "floor": 1e-9}, "regression": {}}
 OTHERS = {  # laws that the shipped scenes do not use
     "lubricant.set": "m100",
     "lubricant.rheology": "carreau",
@@ -170,17 +173,28 @@ def test_the_page_names_every_law_in_use_with_its_source(contact, changes):
     assert len(laws(scene)) >= 9
 
 
-def test_every_law_and_film_has_equations():
-    slots = {**SLOTS, "geometry": GEOMETRIES}
-    assert set(LAWS) == {(slot, law.name) for slot, known in slots.items() for law in known}
-    assert set(GOVERNING) == {film.name for film in FILMS}
-    doses = {choice for law in SLOTS["tribofilm"] for choice in choices(law, "dose")}
-    assert set(DOSES) == doses
-    assert set(INLET_SHEAR) | {"none"} == {choice for law in SLOTS["heat"] for choice in choices(law, "inlet_shear")}
-    deterministic = next(film for film in FILMS if film.name == "deterministic")
-    assert set(SHARING) == choices(deterministic, "criterion")
-    assert set(OF_SHAPE) == {(film.name, geometry.name) for film in FILMS for geometry in GEOMETRIES}
-    assert set(CAVITATION) == choices(Lubricant, "cavitation")
+def test_every_law_and_shape_has_equations():
+    for law in (law for known in SLOTS.values() for law in known):
+        assert law.equations.lines
+        for option, texts in law.equations.options.items():
+            assert set(texts) >= (choices(law, option) or {getattr(law, option)}) - {"none"}
+    for geometry in GEOMETRIES:
+        for shown in (geometry.equations, geometry.deformation, geometry.load_balance, geometry.smooth_film):
+            assert shown.lines
+        assert geometry.rolling.lines
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+@pytest.mark.parametrize("film", FILMS)
+def test_every_level_has_titled_equations_for_every_option(film, geometry):
+    for cavitation, flow, criterion in product(
+        choices(Lubricant, "cavitation"), choices(Lubricant, "flow"), ("split", "lumped")
+    ):
+        oil = SimpleNamespace(cavitation=cavitation, flow=flow, rheology=Carreau)
+        options = {"criterion": criterion} if choices(film, "criterion") else {}
+        found = film(**REQUIRED[film.name], **options).governing(geometry, oil)
+        assert found
+        assert all(shown.title and shown.lines for shown in (*found, film.friction))
 
 
 def choices(law: type, name: str) -> set[str]:
@@ -199,8 +213,8 @@ def test_the_page_of_every_shape_speaks_of_that_shape(shape, level):
     assert set(page.cells) >= {v.name for v in variables(scene)}
     on_face = shape != "ellipse"
     assert ("radius of combined curvature along y" in page.cells) != on_face
-    assert ("face width, on all of which load and outputs lie" in page.cells) == on_face
-    assert ("spin is that of body 1" in page.text) == (shape != "line")
+    assert ("face width, which load and outputs refer to" in page.cells) == on_face
+    assert ("spin is the angular speed of body 1" in page.text) == (shape != "line")
     formula = "Moes for lines" if on_face else "Nijenbanning, Venner and Moes"
     assert f"by the formula of {formula}" in page.cells
 
@@ -226,7 +240,7 @@ STARVED = {"lubricant.supply.model": "film", "lubricant.supply.thickness": "50 n
     ("changes", "told", "left"),
     [
         ({}, "The gap counts as full there", True),
-        ({"lubricant.cavitation": "mass_conserving"}, "θ is how much of the gap oil fills", True),
+        ({"lubricant.cavitation": "mass_conserving"}, "θ is the share of the gap that oil fills", True),
         ({"lubricant.cavitation": "mass_conserving"} | STARVED, "lubricant.supply: film", False),
         ({"lubricant.supply.model": "meniscus", "lubricant.supply.distance": "0.2 mm"}, "supply: meniscus", False),
     ],
@@ -236,7 +250,7 @@ def test_the_page_says_what_becomes_of_cavities_and_how_much_oil_there_is(change
     page = Page(documentation(scene, "isolated", reference=False))
     assert told in page.text
     assert ("starvation (lubricant.supply = flooded: the inlet is full)" in page.text) == left
-    assert ("film that the supply leaves" in page.cells) != left
+    assert ("film with this oil supply" in page.cells) != left
 
 
 def test_an_equation_has_scripts_and_italic_letters():
@@ -303,7 +317,7 @@ def test_the_icon_is_the_picture_that_its_script_draws(files):
 def test_the_licences_are_ours_and_that_of_the_library_in_the_fmu(files):
     assert files["documentation/licenses/license.txt"] == (ROOT / "LICENSE").read_bytes()
     assert b"MIT License" in files["documentation/licenses/pythonfmu.txt"]
-    isolated = packages.licences("isolated")
+    isolated = licences.licences("isolated")
     assert set(isolated) == {"license.txt", "fmi.txt"}
     assert b"Redistribution and use in source and binary forms" in isolated["fmi.txt"]
 
@@ -313,13 +327,13 @@ def test_what_the_fmu_needs_from_outside_is_listed(files):
     for needed in ("Python >=3.11", "tribofmu 0.1.0", "pythonfmu 0.7", "numba>=", "PYTHONPATH"):
         assert needed in text
     assert "pytest" not in text
-    assert "TRIBOFMU_PYTHON" in packages.external_dependencies("isolated").decode()
+    assert "TRIBOFMU_PYTHON" in licences.external_dependencies("isolated").decode()
 
 
 def test_a_package_without_its_licence_is_named(monkeypatch):
-    monkeypatch.setattr(packages, "PACKAGE", "tribofmu-elsewhere")
+    monkeypatch.setattr(licences, "PACKAGE", "tribofmu-elsewhere")
     with pytest.raises(FileNotFoundError, match="tribofmu-elsewhere is not installed with its LICENSE"):
-        packages.licences("isolated")
+        licences.licences("isolated")
 
 
 # reference data

@@ -15,8 +15,8 @@ from contact_core import Scene
 from contact_core.quantities import INPUTS, OF_CALLER, OUTPUTS
 from contact_core.scene import tunables
 from contact_core.state import Outputs
-from fmu_src.build import build
-from fmu_src.resources import VERSIONS, guid, module_name
+from fmu_src.package.build import build
+from fmu_src.runtime.resources import VERSIONS, guid, module_name
 from fmu_src.variables import variables
 
 

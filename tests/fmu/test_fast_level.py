@@ -13,7 +13,7 @@ from test_run import STEPS, bits, direct
 
 from contact_core import Scene
 from contact_core.quantities import OUTPUTS
-from fmu_src.build import build
+from fmu_src.package.build import build
 
 
 @pytest.fixture(scope="module")

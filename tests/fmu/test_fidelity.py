@@ -14,7 +14,7 @@ from test_run import bits
 
 from contact_core import RangeFlag, advance, initial_state
 from contact_core.quantities import LEVELS, OUTPUTS
-from fmu_src.build import build
+from fmu_src.package.build import build
 
 FAST, FULL = 1, 2
 UP_AND_DOWN = [(60.0, FULL), (30.0, FAST), (300.0, FAST), (60.0, FULL), (5.0, FAST)]

@@ -9,7 +9,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Error, fmi2Terminated
 
 from contact_core import Outputs
-from fmu_src import slave
+from fmu_src.runtime import slave
 
 
 @pytest.mark.parametrize(

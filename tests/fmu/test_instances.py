@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 from fmu_host import environment, hosted, unpacked
 
-from fmu_src import loader
-from fmu_src.build import build
+from fmu_src.package.build import build
+from fmu_src.runtime import loader
 
 
 def test_two_scenes_in_one_process_keep_to_themselves(folder, other_scene, tmp_path):

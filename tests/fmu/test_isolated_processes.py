@@ -14,7 +14,7 @@ from isolated import rows, running, started, stepped
 
 from benchmarks.hosts.native_host import ERROR, OK, NativeHost, plain_environment
 from benchmarks.hosts.processes import alive, children, descriptors, mapped, soon
-from fmu_src.build import build
+from fmu_src.package.build import build
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the processes are looked at as Linux shows them")
 

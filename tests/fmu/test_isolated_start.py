@@ -12,7 +12,7 @@ from fmu_host import unpacked
 from isolated import running, started
 
 from benchmarks.hosts.native_host import NONE, OK, NativeHost, plain_environment
-from fmu_src.build import build
+from fmu_src.package.build import build
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the processes are looked at as Linux shows them")
 

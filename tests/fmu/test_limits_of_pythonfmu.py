@@ -17,10 +17,10 @@ import fmpy
 import pytest
 from fmpy.simulation import instantiate_fmu
 from fmu_host import environment, hosted
+from fmu_src.runtime.snapshot import Snapshot
 
 from benchmarks.hosts.native_host import ERROR, OK, NativeHost, plain_environment
 from fmu_src import slave
-from fmu_src.snapshot import Snapshot
 
 OUTPUTS = ("friction_force", "h_c", "wear_volume_1")
 
@@ -154,7 +154,10 @@ def test_an_unexpected_error_is_an_error_to_the_host(stepped, monkeypatch):
 
 @limit("the model runs in the process of its host")
 def test_a_crash_of_the_model_leaves_the_host_alive(quick_folder):
-    crash = "from fmu_src import slave; import ctypes; slave.advance = lambda *a: ctypes.string_at(0); host.step(60.0)"
+    crash = (
+        "from fmu_src.runtime import slave; import ctypes; slave.advance = lambda *a: ctypes.string_at(0); "
+        "host.step(60.0)"
+    )
     assert exit_code(quick_folder, crash) == 0
 
 

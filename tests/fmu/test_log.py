@@ -10,7 +10,7 @@ from fmpy.fmi2 import fmi2Error, fmi2OK, fmi2Warning
 from fmu_host import hosted
 
 from contact_core import ConvergenceError, RangeFlag
-from fmu_src import slave
+from fmu_src.runtime import slave
 
 
 def no_solution(scene, point, state, dt):

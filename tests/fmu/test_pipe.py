@@ -14,9 +14,9 @@ import pytest
 from fmu_host import unpacked
 
 from contact_core import Scene
-from fmu_src.build import build
-from fmu_src.resources import guid
-from fmu_src.worker import Operation
+from fmu_src.isolated.message import Operation
+from fmu_src.package.build import build
+from fmu_src.runtime.resources import guid
 
 pytestmark = pytest.mark.fmu
 
@@ -116,7 +116,8 @@ def test_what_the_model_prints_is_no_message(resources: Path, scene: Scene, tmp_
 
 
 def test_a_missing_package_is_told_before_anything_else(resources: Path, tmp_path: Path) -> None:
-    foreign = edited(resources, tmp_path, "start.py", lambda text: text.replace("fmu_src.worker", "no_such_package"))
+    lacking = "no_such_package"
+    foreign = edited(resources, tmp_path, "start.py", lambda text: text.replace("fmu_src.isolated.worker", lacking))
     with PipeHost(foreign) as host:
         assert host.receive().startswith(b"ENo module named 'no_such_package'")
         assert host.end() == (1, "")

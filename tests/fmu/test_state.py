@@ -18,9 +18,9 @@ from replay import STEPS, replay
 
 from contact_core import StateError
 from contact_core.quantities import LEVELS
-from fmu_src.build import build
-from fmu_src.resources import module_name
-from fmu_src.snapshot import Layout, Snapshot
+from fmu_src.package.build import build
+from fmu_src.runtime.resources import module_name
+from fmu_src.runtime.snapshot import Layout, Snapshot
 from fmu_src.variables import variables
 
 

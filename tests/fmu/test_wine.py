@@ -17,7 +17,7 @@ from benchmarks.hosts import native_host
 from benchmarks.hosts.native_host import ERROR, NONE, OK, Instance, NativeHost, plain_environment
 from benchmarks.hosts.processes import soon
 from contact_core import Scene
-from fmu_src.build import build
+from fmu_src.package.build import build
 
 pytestmark = [
     pytest.mark.fmu,
@@ -175,7 +175,7 @@ def test_what_cannot_run_the_model_is_told(hosts: Hosts, isolated: Path, tmp_pat
 def test_a_missing_package_is_told(hosts: Hosts, isolated: Path, tmp_path: Path) -> None:
     folder = Path(shutil.copytree(isolated, tmp_path / "fmu"))
     start = folder / "resources" / "start.py"
-    start.write_text(start.read_text().replace("fmu_src.worker", "no_such_package"))
+    start.write_text(start.read_text().replace("fmu_src.isolated.worker", "no_such_package"))
     with hosts() as host:
         created = host.load(folder).instance().created
     assert created.status == NONE

@@ -19,7 +19,7 @@ from scipy.optimize import brentq
 
 from contact_core.kernels.half_space import HalfSpace
 from contact_core.kernels.mixed.direct import solve_direct
-from contact_core.kernels.mixed.fixed_point import Iterate, Problem
+from contact_core.kernels.mixed.problem import Iterate, Problem
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,7 @@ from itertools import pairwise
 import numpy as np
 from comparison import approx
 
-from contact_core import Logarithmic, Rounded
-from contact_core.calls import line_contact
+from contact_core import Logarithmic, Rounded, line_contact
 from contact_core.reference import hertz_line, lundberg_depth
 
 E, LENGTH, LOAD, RADIUS = 230e9, 3e-3, 4e5, 10e-3  # LOAD per length

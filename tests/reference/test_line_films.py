@@ -6,7 +6,7 @@ from comparison import approx
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
-from contact_core.calls import line_contact
+from contact_core import line_contact
 from contact_core.laws.density import DowsonHigginson
 from contact_core.laws.rheology import Carreau
 from contact_core.reference import (

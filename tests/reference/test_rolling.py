@@ -8,8 +8,7 @@ import pytest
 from comparison import approx
 from scipy.optimize import brentq
 
-from contact_core import Scene, advance, initial_state
-from contact_core.calls import line_contact, point_contact
+from contact_core import Scene, advance, initial_state, line_contact, point_contact
 from contact_core.reference import rolling_line, rolling_point
 
 MODULUS, RADIUS, PRESSURE = 2.27e11, 8e-3, 18e-9  # Pa, m, 1/Pa

@@ -10,7 +10,7 @@ from checking import SLAVE, edited, replaced
 from pythonfmu.builder import FmuBuilder
 
 from contact_core import Scene
-from fmu_src.build import build
+from fmu_src.package.build import build
 from system_models.driven_contact import run
 from system_models.duty import Duty
 

@@ -12,7 +12,7 @@ from checking import LAX, ROUGH, answers, deep_findings, edited, replaced, verdi
 
 from benchmarks import models
 from contact_core import Scene
-from fmu_src.build import build
+from fmu_src.package.build import build
 from system_models.check import deep
 from system_models.check.instance import Instance
 from system_models.check.verdict import Verdict

@@ -9,7 +9,7 @@ import pytest
 from checking import XML, Edit, deep_findings, edited, replaced, static_findings, unchanged, verdicts
 
 from contact_core import Scene
-from fmu_src.build import build
+from fmu_src.package.build import build
 from system_models.check import deep, report
 from system_models.check.package import opened
 from system_models.check.verdict import Finding, Verdict

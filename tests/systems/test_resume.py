@@ -14,9 +14,9 @@ import xarray as xr
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 
-import fmu_src.slave
+import fmu_src.runtime.slave
 from contact_core import ContactError, OperatingPoint, Scene, StateError, advance
-from fmu_src.build import build
+from fmu_src.package.build import build
 from system_models import report
 from system_models.checkpoint import Checkpoint, identity
 from system_models.cli import main
@@ -191,7 +191,7 @@ def interrupted(call: int, monkeypatch: pytest.MonkeyPatch) -> None:
             raise KeyboardInterrupt
         return advance(*arguments)
 
-    monkeypatch.setattr(fmu_src.slave, "advance", advance_or_stop)
+    monkeypatch.setattr(fmu_src.runtime.slave, "advance", advance_or_stop)
 
 
 def test_after_ctrl_c_the_command_says_how_to_go_on_and_does(

@@ -16,7 +16,7 @@ from lxml import etree
 from benchmarks.hosts import ssp_runner
 from benchmarks.models import build
 from contact_core import Scene
-from fmu_src.build import build as build_contact
+from fmu_src.package.build import build as build_contact
 from system_models.master import CouplingError, System, export_ssp, simulate
 from system_models.parts.build import build as build_part
 from system_models.parts.shaft import Shaft

@@ -71,7 +71,7 @@ def test_fluid_and_solids_satisfy_the_equations_written_independently(speed):
     assert found.film < 0.03
     assert found.cavity < 5e-3
     assert found.beneath < 5e-3
-    assert found.intrusion < 0.2
+    assert found.complementarity < 0.2
     assert found.penetration < 0.5
 
 

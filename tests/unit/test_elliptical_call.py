@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from comparison import approx
 
-from contact_core import OperatingPointError
-from contact_core.calls import point_contact
+from contact_core import OperatingPointError, point_contact
 from contact_core.film.fitted import Extent, fitted_grid
 from contact_core.kernels.multigrid.cycle import _level_count
 from contact_core.shapes import Point

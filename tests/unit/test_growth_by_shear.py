@@ -13,8 +13,7 @@ from contact_core.deterministic.accumulator import Accumulator
 from contact_core.laws.tribofilm import Andersson, Combined, Ghanbarzadeh, Gosvami, NoTribofilm, ZhangSpikes
 from contact_core.laws.tribofilm.activated import edge_tension
 from contact_core.scene import Case
-from contact_core.surfaces.patches import on_patch, patch_nodes
-from contact_core.surfaces.track import across_track
+from contact_core.surfaces.patches import across_track, on_patch, patch_nodes
 
 WARM = 353.15
 BELL = ZhangSpikes(200e-9, 20.0, 1.08e-19, 0.13e-27, 2e-8)
@@ -175,8 +174,10 @@ def test_each_body_is_exposed_at_the_temperature_of_its_own_surface():
     hot = np.full(fields.gap.shape, op.temperature + 40.0)
     cool = replace(fields.temperatures, surface_1=op.temperature, surface_2=op.temperature)
     warmed = replace(fields, temperatures=replace(cool, surface_2=hot))
-    first, second = Accumulator.before(state).touch(Case(scene, op), state, warmed, (0.0, 0.0))
-    alike = Accumulator.before(state).touch(Case(scene, op), state, replace(fields, temperatures=cool), (0.0, 0.0))
+    apart, even = Accumulator.before(state), Accumulator.before(state)
+    apart.add(Case(scene, op), state, warmed)
+    even.add(Case(scene, op), state, replace(fields, temperatures=cool))
+    (first, second), alike = apart.exposures, even.exposures
     assert np.array_equal(first, alike[0])
     rubbed = alike[1] > 0.0
     assert rubbed.any() and np.all(second[rubbed] >= alike[1][rubbed]) and second.max() > alike[1].max()

@@ -12,7 +12,7 @@ from contact_core.laws.load_sharing import FittedSharing
 from contact_core.laws.rheology import Newtonian
 from contact_core.reference import SmoothLine, hertz_line, hertz_point, moes_line
 from contact_core.regression.oil import oil_shear
-from contact_core.surfaces.track import across_track
+from contact_core.surfaces.patches import across_track
 
 FACE, LOAD = 8e-3, 2000.0
 LINE = {"film.model": "regression", "geometry.model": "line", "geometry.face_width": "8 mm", "operation.load": "2 kN"}

@@ -10,8 +10,8 @@ from scipy.ndimage import gaussian_filter
 
 from contact_core.kernels.far_field import far_field
 from contact_core.kernels.half_space import HalfSpace
-from contact_core.kernels.mixed.fixed_point import Iterate, Problem
 from contact_core.kernels.mixed.newton import solve_newton
+from contact_core.kernels.mixed.problem import Iterate, Problem
 from contact_core.reference import moes_film
 
 KAPITZA = 35.03  # film times load squared, in Moes' units, of the rigid, isoviscous ball

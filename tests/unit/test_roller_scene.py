@@ -11,7 +11,7 @@ from contact_core import advance, solve
 from contact_core.deterministic.block import solve_block
 from contact_core.deterministic.growth_and_wear import area_of_node
 from contact_core.scene import Case
-from contact_core.surfaces.track import track_rows
+from contact_core.surfaces.patches import track_rows
 
 FACE = 0.8e-3
 SHORT = {

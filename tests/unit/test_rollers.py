@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from comparison import approx
 
-from contact_core import Logarithmic, Rounded
-from contact_core.calls import line_contact
+from contact_core import Logarithmic, Rounded, line_contact
 
 E, LENGTH, RADIUS = 230e9, 3e-3, 10e-3
 OIL = {"viscosity": 0.05, "pressure_viscosity": 2e-8}

@@ -7,14 +7,14 @@ import pytest
 from comparison import approx
 from wavy_contact import problem
 
-from contact_core import OperatingPointError, Scene, SceneError, advance, initial_state
-from contact_core.calls import point_contact
+from contact_core import OperatingPointError, Scene, SceneError, advance, initial_state, point_contact
 from contact_core.deterministic.instant import instant_of
 from contact_core.film.instant import Grid, Settings
 from contact_core.film.scaled import Scaled
 from contact_core.kernels.mixed.direct import solve_direct
-from contact_core.kernels.mixed.fixed_point import Iterate, solve_mixed
+from contact_core.kernels.mixed.fixed_point import solve_mixed
 from contact_core.kernels.mixed.newton import solve_newton
+from contact_core.kernels.mixed.problem import Iterate
 from contact_core.kernels.multigrid.cycle import is_applicable
 from contact_core.laws.supply import Flooded, Meniscus, SupplyFilm
 from contact_core.scene import Case

@@ -10,11 +10,12 @@ from comparison import approx
 from contact_core import solve
 from contact_core.deterministic import oil_temperature as oil
 from contact_core.deterministic.observed import observed
+from contact_core.deterministic.transient import rolled, yielded
 from contact_core.laws.heat import Rubbing
 from contact_core.reference import hamrock_dowson
 from contact_core.scene import Case
 from contact_core.shapes import Point
-from contact_core.surfaces.patches import bare_heights, heights_of, on_grid, patch_nodes, rolled, yielded
+from contact_core.surfaces.patches import bare_heights, heights_of, on_grid, patch_nodes
 
 
 @pytest.fixture(scope="module")

@@ -3,7 +3,7 @@
 import numpy as np
 
 from contact_core.kernels.half_space import HalfSpace
-from contact_core.kernels.mixed.fixed_point import Problem
+from contact_core.kernels.mixed.problem import Problem
 
 BARUS = 10.0  # viscosity at the largest Hertz pressure: exp(10)
 

@@ -8,17 +8,16 @@ from collections.abc import Callable
 
 import numpy as np
 import scipy
-from numba import njit
 from numpy.typing import NDArray
+
+from ..compiled import jit
 
 Array = NDArray[np.float64]
 
 _WIDE = 64  # nodes on either side that a node is coupled to
 
-_jit = njit(cache=True, nogil=True, error_model="numpy")
 
-
-@_jit
+@jit
 def _assemble(by_f, by_h, scale, kernel, nodes, column, solid, edge, wide, band):  # type: ignore[no-untyped-def]
     nx = solid.size
     for k in range(nodes.size):
@@ -49,7 +48,7 @@ def band_inverse(
     """What solves the local system of the `nodes`, ascending, of a row; None if it is singular.
 
     by_f, by_h [6, nx]: derivatives of the net inflow on the stencil; scale [nx] of the equations; response [nx]:
-    deformation by the unit pressure of a node at a distance; solid, edge [nx] as in `mixed`.
+    deformation by the unit pressure of a node at a distance; solid, edge [nx] as in `problem`.
     """
     size = nodes.size
     wide = max(min(_WIDE, size - 1), 2)

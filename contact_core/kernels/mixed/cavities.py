@@ -14,9 +14,15 @@ is not: gradually, as a jump would leave nodes at which neither state fits. Sour
 doi:10.1115/1.4002215 (complementarity).
 """
 
-from numba import njit
+import numpy as np
+from numpy.typing import NDArray
 
-_jit = njit(cache=True, nogil=True, error_model="numpy")
+from ..compiled import jit
+from .edge import wrap
+from .problem import Problem
+
+Array = NDArray[np.float64]
+
 
 FADE = 4.0  # how fast the second order fades with the emptiness of the node upstream
 # of a node's mass that flows on at least: second order would let oil flow back where a film falls to under half of
@@ -24,7 +30,7 @@ FADE = 4.0  # how fast the second order fades with the emptiness of the node ups
 LEAST = 0.5
 
 
-@_jit
+@jit
 def close_inlet(p, f, solid, first):  # type: ignore[no-untyped-def]
     """No oil presses upstream of column `first`."""
     for j in range(p.shape[0]):
@@ -34,7 +40,7 @@ def close_inlet(p, f, solid, first):  # type: ignore[no-untyped-def]
                 p[j, i] = 0.0
 
 
-@_jit
+@jit
 def carry(f, full, mass_old, e, per_dt, wedge, dx, conserving, supply, first, mass, flux, filling):  # type: ignore[no-untyped-def]
     """Filling theta, mass and flow of mass of every node, from the fluid pressure and what full nodes hold.
 
@@ -65,3 +71,23 @@ def carry(f, full, mass_old, e, per_dt, wedge, dx, conserving, supply, first, ma
                 theta = min(max(inflow / (wedge_per_dx * most + per_dt * own), 0.0), 1.0)
             flux[j, i], filling[j, i], mass[j, i] = theta * most, theta, theta * own
             before = theta
+
+
+class Carried:
+    """Oil of a film that cavities and an inlet meniscus leave not full: `carry` and its scratch arrays."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem, shape = problem, problem.cap.shape
+        self.full, self.flux, self.filling = np.zeros(shape), np.zeros(shape), np.ones(shape)
+        supply = np.inf if problem.supply is None else problem.supply
+        self.supply: Array = np.broadcast_to(np.asarray(supply, np.float64), shape[:1]).copy()
+        self.first = max(problem.first, 1)
+
+    def carry(self, f: Array, e: Array, mass: Array) -> None:
+        """Mass of every node, and the flow between them, of a fluid pressure and what full nodes hold."""
+        q = self.problem
+        inlet = (q.conserving, self.supply, self.first)
+        carry(f, self.full, q.mass_old, e, *q.terms, *inlet, mass, self.flux, self.filling)
+        if q.wrapped:
+            for field in (mass, self.flux, self.filling):
+                wrap(field)

@@ -1,26 +1,27 @@
-"""The iteration of `mixed` with the fluid off the stiff zone solved at once, together with the rigid gap and the load.
+"""The iteration of `fixed_point` with fluid off the stiff zone, rigid gap and load solved at once.
 
 Lines need thousands of iterations where the oil has to find its way: in pockets closed off by contacts, and under a
 light load, where a film is far wider than the contact and hardly a node is stiff enough to carry a change of load.
-Here the equation that `reynolds.relax_lines` sweeps over is solved by a sparse factorisation, bordered by the rigid gap
-and the load. It takes a few tens of iterations from light to heavy loads and full film to dry, each of the price of
-some tens of those of `mixed`.
+Here the equation of `corrections.relax_lines` is solved by a sparse factorisation, bordered by the rigid gap and the
+load. It takes a few tens of iterations from light to heavy loads and full film to dry, each of the price of some tens
+of those of `fixed_point`.
 """
 
 from typing import Any
 
 import numpy as np
 import scipy
-from numba import njit
 from numpy.typing import NDArray
 
+from ..compiled import jit
 from ..half_space import HalfSpace
 from . import cavities, reynolds
-from .fixed_point import Iterate, Iteration, Problem, Solution, iterate_on, set_edge
+from .edge import set_edge, wrap
+from .fixed_point import Iteration, iterate_on
+from .problem import Iterate, Problem, Solution
 
 Array = NDArray[np.float64]
 
-_jit = njit(cache=True, nogil=True, error_model="numpy")
 
 _DEPTH, _STIFF_STEP = 5, 0.5  # of Anderson's memory; part of their correction that stiff nodes take
 _LARGEST_STEP = 0.3  # of the load, that pressures may change by in an iteration
@@ -29,7 +30,7 @@ _JUMP = 10.0  # times the change before, from which on the memory misleads
 _PROBE = 1e-6  # part of a film by which the rigid gap is moved to see what flows
 
 
-@_jit
+@jit
 def _response(  # type: ignore[no-untyped-def]
     f,
     solid,
@@ -73,7 +74,7 @@ def _response(  # type: ignore[no-untyped-def]
             out[j, i] = (r[1, j, i] - r[0, j, i]) / gap
 
 
-@_jit
+@jit
 def _equations(  # type: ignore[no-untyped-def]
     p,
     solid,
@@ -118,7 +119,7 @@ def _equations(  # type: ignore[no-untyped-def]
                 number[j, i] = n
                 n += 1
     if wrapped:
-        reynolds.wrap(number)
+        wrap(number)
     half = 0.5 / (dx * dx)
     k0, k1, k2, k3, k4 = near[0, 0], near[0, 1], near[0, 2], near[0, 3], near[0, 4]
     lifts = np.empty(6)  # d(deformation wedge)_i / dp_(i + m), m = -3 ... 2
@@ -182,7 +183,7 @@ def _equations(  # type: ignore[no-untyped-def]
     return n, filled
 
 
-@_jit
+@jit
 def _carried(base, lever, shift, cap, edge, weight, wrapped, out):  # type: ignore[no-untyped-def]
     """Put base + shift * lever within its bounds into `out`; returns the load it carries and its rate."""
     ny, nx = base.shape
@@ -217,8 +218,8 @@ class _Direct(Iteration):
         base = np.where(self.stiff, np.clip(self.dp, -bound, bound), 0.0)
         self.lever[:] = np.where(self.stiff, -self.unit, 0.0)
         if q.wrapped:
-            reynolds.wrap(base)
-            reynolds.wrap(self.lever)
+            wrap(base)
+            wrap(self.lever)
         self._solve_free(base)
         base += p
         yields = self.stiff & (p >= q.cap) & (self.dh >= 0.0)  # stay at the cap until their gap opens too far
@@ -239,14 +240,12 @@ class _Direct(Iteration):
         """Steps of the free nodes into `base`, their change with the rigid gap into the lever."""
         q, p = self.problem, self.p
         scale = _PROBE * float(np.maximum(self.h, q.floor).min())
-        oil = (q.mobility, q.thinned, q.fluidity, q.density, q.step)
-        in_time = (q.mass_old, q.per_dt, q.wedge, q.spacing)
         inlet: tuple[Any, ...] = ()
         filling: tuple[Any, ...] = ()
         if (carried := self.carried) is not None:
             inlet, filling = (carried.supply, q.conserving, carried.first), (carried.filling, carried.first)
-        _response(self.f, self.solid, self.h, q.floor, *oil, *in_time, scale, self.response, *inlet)
-        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, q.per_dt, q.wedge, q.spacing)
+        _response(self.f, self.solid, self.h, q.floor, *q.oil, q.mass_old, *q.terms, scale, self.response, *inlet)
+        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, *q.terms)
         given = (self.half_space.near, self.patch_wide, base, -self.lever, self.response)
         system = (self.number, self.starts, self.columns, self.values, self.rhs)
         n, filled = _equations(p, self.solid, self.stiff, *film, *given, q.wrapped, *system, *filling)
@@ -284,5 +283,5 @@ class _Direct(Iteration):
 def solve_direct(
     half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int
 ) -> Solution:
-    """As `mixed.solve_mixed`, which it steps in for."""
+    """As `fixed_point.solve_mixed`, which it steps in for."""
     return iterate_on(_Direct(half_space, problem, start), tolerance, iterations)

@@ -1,7 +1,7 @@
 """Semi-smooth Newton method for steady or transient films, from the rigid, flooded ball to a few rough contacts.
 
-Unknowns are the total pressure of every node and the rigid gap; equations are those of `mixed`: no net inflow where
-fluid carries the load (p > 0), the gap at the floor on solid contacts, the load. Sets (cavity, contacts, cap) are
+Unknowns are the total pressure of every node and the rigid gap. Equations are those of `fixed_point`: no net inflow
+where fluid carries the load (p > 0), the gap at the floor on solid contacts, the load. Sets (cavity, contacts, cap) are
 guessed anew in every step. A step solves the linear system by GMRES with the full elastic coupling (FFT); it is
 preconditioned by a sparse LU of the local part: Reynolds' equation and a 3 x 3 patch of the deformation, bordered by
 rigid gap and load. A contact of one row, repeated for ever, has a band instead (`band`).
@@ -10,30 +10,30 @@ Where cavities hold oil, or an inlet meniscus keeps nodes from pressing, masses 
 their derivatives those of `streaming`: a node that is full and gains mass joins those with pressure, one whose pressure
 falls to zero becomes a cavity.
 
-Sources: active sets: Hintermueller, Ito & Kunisch, SIAM J. Optim. 13 (2003) 865, doi:10.1137/S1052623401383558;
-elimination order: George, SIAM J. Numer. Anal. 10 (1973) 345, doi:10.1137/0710032.
+Source of the active sets: Hintermueller, Ito & Kunisch, SIAM J. Optim. 13 (2003) 865, doi:10.1137/S1052623401383558.
 """
 
 from collections.abc import Callable
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 import scipy
-from numba import njit
 from numpy.typing import NDArray
 
+from ..compiled import jit
 from ..half_space import HalfSpace
-from . import cavities, reynolds, streaming
+from . import cavities, linearisation, reynolds, streaming
 from .band import band_inverse
-from .fixed_point import Carried, Iterate, Problem, Solution, shortfall
+from .cavities import Carried
+from .edge import set_edge, wrap
+from .linear_solver import elimination_order, gmres
+from .problem import Iterate, Problem, Solution, failed
+from .stopping_rule import shortfall
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 Indices = NDArray[np.int64]
 
-_LINEAR_TOLERANCE = 1e-2
-_KRYLOV = 40  # most GMRES steps; no restart
 _SWEEPS_UNDER_CONTACTS = 6
 _SWEEPS_AT_CAVITY = 30
 _LIGHT = 1e-2  # share of the largest pressure below which the cavity's edge is sought
@@ -42,111 +42,8 @@ _RISE = (2.0, 1.0)  # largest rise of a fluid pressure in a step, and by how muc
 _TOUCH = 0.95  # gap in floors below which a node becomes solid
 _RELEASES = 1  # a contact that comes back after so many releases stays: some would come and go for ever
 
-# stencil of Reynolds' equation: centre, west, east, south, north, second west; then the corners of the patch
-_DJ = np.array([0, 0, 0, -1, 1, 0, -1, -1, 1, 1])
-_DI = np.array([0, -1, 1, 0, 0, -2, -1, 1, -1, 1])
 
-_jit = njit(cache=True, nogil=True, error_model="numpy")
-
-
-@_jit
-def _slopes(f, solid, h, floor, mobility, thinned, fluidity, density, step, slope):  # type: ignore[no-untyped-def]
-    """Derivatives of what a full node holds and of its mobility, slope [4, ny, nx]: dm/df, dm/dh, de/df, de/dh."""
-    ny, nx = f.shape
-    for j in range(ny):
-        for i in range(nx):
-            k = min(int(f[j, i] / step), density.size - 2)
-            rho = reynolds.interpolate(density, step, f[j, i])
-            phi = reynolds.interpolate(fluidity, step, f[j, i]) + thinned[j, i]
-            d_rho, d_phi = (density[k + 1] - density[k]) / step, (fluidity[k + 1] - fluidity[k]) / step
-            lift = 0.0 if solid[j, i] or h[j, i] <= floor else 1.0
-            flow = floor if solid[j, i] else max(h[j, i], floor)
-            slope[0, j, i], slope[1, j, i] = d_rho * flow, rho * lift
-            slope[2, j, i] = mobility[j, i] * flow**3 * (d_rho * phi + rho * d_phi)
-            slope[3, j, i] = 3.0 * mobility[j, i] * rho * flow**2 * phi * lift
-
-
-@_jit
-def _linearise(f, e, dx, rate, wedge, slope, by_f, by_h):  # type: ignore[no-untyped-def]
-    """Derivatives of the net inflow by fluid pressure and by gap on the stencil: by_f, by_h [6, ny, nx]."""
-    ny, nx = f.shape
-    half = 0.5 / (dx * dx)
-    by_f[:], by_h[:] = 0.0, 0.0
-    for j in range(1, ny - 1):
-        for i in range(1, nx - 1):
-            a0, a1, a2 = (1.5 / dx, -2.0 / dx, 0.5 / dx) if i > 1 else (1.0 / dx, -1.0 / dx, 0.0)
-            a0, a1, a2 = wedge * a0, wedge * a1, wedge * a2
-            faces, fall = 0.0, 0.0
-            for n in range(1, 5):
-                jn, im = j + _DJ[n], i + _DI[n]
-                d = f[jn, im] - f[j, i]
-                face = half * (e[j, i] + e[jn, im])
-                by_f[n, j, i] = face + half * slope[2, jn, im] * d
-                by_h[n, j, i] = half * slope[3, jn, im] * d
-                faces += face
-                fall += d
-            by_f[0, j, i] = -faces + half * slope[2, j, i] * fall - (a0 + rate) * slope[0, j, i]
-            by_h[0, j, i] = half * slope[3, j, i] * fall - (a0 + rate) * slope[1, j, i]
-            by_f[1, j, i] -= a1 * slope[0, j, i - 1]
-            by_h[1, j, i] -= a1 * slope[1, j, i - 1]
-            if i > 1:
-                by_f[5, j, i] = -a2 * slope[0, j, i - 2]
-                by_h[5, j, i] = -a2 * slope[1, j, i - 2]
-
-
-@_jit
-def _product(by_f, by_h, scale, nodes, solid, df, dh, out):  # type: ignore[no-untyped-def]
-    """Rows of the Jacobian of all `nodes` times a change of the fluid pressure and of the gap."""
-    nx = df.shape[1]
-    for k in range(nodes.size):
-        j, i = nodes[k] // nx, nodes[k] % nx
-        if solid[j, i]:
-            out[k] = dh[j, i] * scale[j, i]
-            continue
-        total = 0.0
-        for n in range(6 if i > 1 else 5):
-            jn, im = j + _DJ[n], i + _DI[n]
-            total += by_f[n, j, i] * df[jn, im] + by_h[n, j, i] * dh[jn, im]
-        out[k] = total * scale[j, i]
-
-
-@_jit
-def _assemble(by_f, by_h, scale, patch, nodes, column, solid, edge, wrapped, start, index, value):  # type: ignore[no-untyped-def]
-    """Compressed rows of the local Jacobian of `nodes`; patch [10, 6]: deformation of the stencil by the patch.
-
-    An image has the column of its node: of few rows, some columns stand in a row more than once, and add up.
-    """
-    ny, nx = solid.shape
-    row = np.empty(10)
-    count = 0
-    start[0] = 0
-    for k in range(nodes.size):
-        j, i = nodes[k] // nx, nodes[k] % nx
-        for o in range(10):
-            if solid[j, i]:
-                row[o] = patch[o, 0]
-                continue
-            row[o] = 0.0
-            for n in range(6):
-                row[o] += by_h[n, j, i] * patch[o, n]
-        if not solid[j, i]:
-            for n in range(6 if i > 1 else 5):
-                jn, im = j + _DJ[n], i + _DI[n]
-                if (wrapped or 0 < jn < ny - 1) and 0 < im < nx - 1:
-                    if not solid[jn, im]:
-                        row[n] += by_f[n, j, i]
-                else:  # an edge follows its inner neighbour
-                    row[1 if n == 5 else 0] += by_f[n, j, i] * edge[jn, im]
-        for o in range(10):
-            jn, im = j + _DJ[o], i + _DI[o]
-            if (wrapped or 0 < jn < ny - 1) and 0 < im < nx - 1 and column[jn, im] >= 0 and row[o] != 0.0:
-                index[count], value[count] = column[jn, im], row[o] * scale[j, i]
-                count += 1
-        start[k + 1] = count
-    return count
-
-
-@_jit
+@jit
 def _seek_cavity(  # type: ignore[no-untyped-def]
     f, p, solid, e, mass, mass_old, per_dt, wedge, dx, rigid, light, sweeps, wrapped
 ):
@@ -172,46 +69,7 @@ def _seek_cavity(  # type: ignore[no-untyped-def]
                 f[j, i] = min(max(f[j, i] + 1.6 * (value - f[j, i]), 0.0), light)
                 p[j, i] = f[j, i]
         if wrapped:
-            reynolds.wrap(f)
-
-
-@lru_cache(maxsize=8)
-def _elimination_order(ny: int, nx: int, wrapped: bool) -> Indices:
-    """Nodes of a grid by nested dissection; separators are two nodes thick as the stencil reaches two nodes west.
-    `wrapped`: the last inner row neighbours the first. A single row is in order.
-    """
-    if wrapped and ny == 3:
-        return np.arange(nx + 1, 2 * nx - 1)
-    order: list[int] = []
-
-    def dissect(j0: int, j1: int, i0: int, i1: int, ring: bool = False) -> None:
-        if (j1 - j0) * (i1 - i0) <= 24:
-            order.extend(j * nx + i for i in range(i0, i1) for j in range(j0, j1))
-        elif i1 - i0 >= j1 - j0:
-            middle = (i0 + i1) // 2
-            dissect(j0, j1, i0, middle, ring)
-            dissect(j0, j1, middle + 2, i1, ring)
-            order.extend(j * nx + i for j in range(j0, j1) for i in range(middle, middle + 2))
-        elif ring:  # cut open
-            dissect(j0 + 1, j1, i0, i1)
-            order.extend(j0 * nx + i for i in range(i0, i1))
-        else:
-            middle = (j0 + j1) // 2
-            dissect(j0, middle, i0, i1)
-            dissect(middle + 1, j1, i0, i1)
-            order.extend(middle * nx + i for i in range(i0, i1))
-
-    dissect(1, ny - 1, 1, nx - 1, wrapped)
-    return np.array(order)
-
-
-def _follow_edge(field: Array, edge: Array, wrapped: bool) -> None:
-    """Put on the edge what follows from the inner neighbours, or what it is an image of."""
-    field[:, 0], field[:, -1] = edge[:, 0] * field[:, 1], edge[:, -1] * field[:, -2]
-    if wrapped:
-        reynolds.wrap(field)
-    else:
-        field[0], field[-1] = edge[0] * field[1], edge[-1] * field[-2]
+            wrap(f)
 
 
 def _inner_weight(weight: Array, edge: Array) -> Array:
@@ -224,33 +82,6 @@ def _inner_weight(weight: Array, edge: Array) -> Array:
     return w
 
 
-def _gmres(operator: Callable[[Array], Array], invert: Callable[[Array], Array], right: Array) -> Array:
-    """Right-preconditioned GMRES of Saad & Schultz from zero, doi:10.1137/0907058."""
-    size = np.linalg.norm(right)
-    if size == 0.0:
-        return np.zeros_like(right)
-    basis: list[Array] = [right / size]
-    images: list[Array] = []
-    hessenberg = np.zeros((_KRYLOV + 1, _KRYLOV))
-    target = np.zeros(_KRYLOV + 1)
-    target[0] = size
-    weights: Array = np.zeros(1)
-    for k in range(_KRYLOV):
-        images.append(invert(basis[k]))
-        v = operator(images[k])
-        for n, u in enumerate(basis):
-            hessenberg[n, k] = u @ v
-            v -= hessenberg[n, k] * u
-        hessenberg[k + 1, k] = np.linalg.norm(v)
-        used = hessenberg[: k + 2, : k + 1]
-        weights = np.asarray(np.linalg.lstsq(used, target[: k + 2], rcond=None)[0], np.float64)
-        short = np.linalg.norm(used @ weights - target[: k + 2])
-        if not np.isfinite(short) or short < _LINEAR_TOLERANCE * size or hessenberg[k + 1, k] == 0.0:
-            break
-        basis.append(v / hessenberg[k + 1, k])
-    return np.sum([w * image for w, image in zip(weights, images, strict=True)], axis=0)
-
-
 class _Film:
     """The present iterate, its film and its linearisation."""
 
@@ -259,12 +90,12 @@ class _Film:
         self.carried = Carried(problem) if problem.by_flux else None
         self.p, self.f = np.clip(start.pressure, 0.0, problem.cap), start.fluid.copy()
         self.solid, self.rigid = start.solid.copy(), start.rigid
-        _follow_edge(self.p, problem.edge, problem.wrapped)
+        set_edge(self.p, problem.edge, problem.wrapped)
         shape = self.p.shape
         self.h, self.mass, self.e, self.r, self.scale = (np.zeros(shape) for _ in range(5))
         self.slope, self.by_f, self.by_h = np.zeros((4, *shape)), np.zeros((6, *shape)), np.zeros((6, *shape))
         self.inner_weight = _inner_weight(problem.weight, problem.edge)
-        self.order = _elimination_order(*shape, problem.wrapped)
+        self.order = elimination_order(*shape, problem.wrapped)
         self.rows = slice(1, -1) if problem.wrapped else slice(None)  # that are no images
         self.inner = np.zeros(shape, np.bool_)
         self.inner[1:-1, 1:-1] = True
@@ -275,7 +106,7 @@ class _Film:
             unit[:, 0] = 1.0
             self.response = half_space.deform(unit)[1]
         near = half_space.near
-        apart_j, apart_i = (np.abs(d[:, None] - d[None, :6]) for d in (_DJ, _DI))
+        apart_j, apart_i = (np.abs(d[:, None] - d[None, :6]) for d in (linearisation.DJ, linearisation.DI))
         self.patch = np.where((apart_j < 2) & (apart_i < 2), near[np.minimum(apart_j, 1), np.minimum(apart_i, 1)], 0.0)
 
     def evaluate(self) -> None:
@@ -284,10 +115,10 @@ class _Film:
         self._pass()
         if self.carried is None:
             rigid = 30.0 * self.half_space.near[0, 0] / q.spacing  # there the gap does not feel light pressures
-            balance = (self.e, self.mass, q.mass_old, q.per_dt, q.wedge, q.spacing)
+            balance = (self.e, self.mass, q.mass_old, *q.terms)
             light = _LIGHT * self.p.max()
             _seek_cavity(self.f, self.p, self.solid, *balance, rigid, light, _SWEEPS_AT_CAVITY, q.wrapped)
-            _follow_edge(self.p, q.edge, q.wrapped)
+            set_edge(self.p, q.edge, q.wrapped)
             self._pass()
         self.sought = float(np.abs(self.p - old)[self.rows].sum())
         self._residual(self.solid, self.r)
@@ -296,7 +127,7 @@ class _Film:
     def _residual(self, solid: Mask, out: Array) -> None:
         """Net inflow of every node that is full and not `solid`."""
         q, flow = self.problem, self._flow
-        reynolds.residual(self.f, solid, self.mass, q.mass_old, self.e, q.per_dt, q.wedge, q.spacing, out, *flow)
+        reynolds.residual(self.f, solid, self.mass, q.mass_old, self.e, *q.terms, out, *flow)
 
     @property
     def _flow(self) -> tuple[Any, ...]:
@@ -305,11 +136,11 @@ class _Film:
 
     def _pass(self) -> None:
         q, p, f, solid = self.problem, self.p, self.f, self.solid
-        oil = (q.floor, q.mobility, q.thinned, q.fluidity, q.density, q.step)
+        oil = (q.floor, *q.oil)
         deformation = self.half_space.deform(p)
         solid |= self.inner & (self.rigid + q.undeformed + deformation < _TOUCH * q.floor)
         if q.wrapped:
-            reynolds.wrap(solid)
+            wrap(solid)
         full, flux, first = self.mass, None, 1
         if (carried := self.carried) is not None:
             full, flux, first = carried.full, carried.flux, carried.first
@@ -317,11 +148,11 @@ class _Film:
         reynolds.film_pass(p, f, solid, q.undeformed, deformation, self.rigid, *oil, self.h, full, self.e)
         solid &= self.inner  # the edge does not touch
         if q.wrapped:
-            reynolds.wrap(solid)
+            wrap(solid)
         settled = solid & (self.releases >= _RELEASES)
         if carried is not None:
             carried.carry(f, self.e, self.mass)
-        balance = (self.mass, q.mass_old, self.e, q.per_dt, q.wedge, q.spacing)
+        balance = (self.mass, q.mass_old, self.e, *q.terms)
         flow = (*oil, full, flux, first, q.wrapped)
         reynolds.fluid_under_contacts(p, f, solid, self.h, *balance, _SWEEPS_UNDER_CONTACTS, *flow)
         if carried is not None:
@@ -331,15 +162,14 @@ class _Film:
     def correction(self) -> tuple[Array, Array, float] | None:
         """Newton's changes of pressure, gap [ny, nx] and rigid gap; None if there are none."""
         q, solid, near = self.problem, self.solid, self.half_space.near
-        oil = (q.floor, q.mobility, q.thinned, q.fluidity, q.density, q.step)
+        oil = (q.floor, *q.oil)
         by_f, by_h, scale, carried = self.by_f, self.by_h, self.scale, self.carried
-        _slopes(self.f, solid, self.h, *oil, self.slope)
+        linearisation.slopes(self.f, solid, self.h, *oil, self.slope)
         if carried is None:
-            _linearise(self.f, self.e, q.spacing, q.per_dt, q.wedge, self.slope, by_f, by_h)
+            linearisation.linearise(self.f, self.e, q.spacing, q.per_dt, q.wedge, self.slope, by_f, by_h)
         else:
             film = (self.f, carried.full, self.e, self.slope)
-            in_time = (q.per_dt, q.wedge, q.spacing)
-            streaming.linearise(*film, carried.filling, *in_time, carried.first, by_f, by_h)
+            streaming.linearise(*film, carried.filling, *q.terms, carried.first, by_f, by_h)
         yields = solid & (self.p >= q.cap) & (self.h < q.floor)
         wet = ((self.p > 0.0) | (self.r > 0.0)) & ~((self.p >= q.cap) & (self.r >= 0.0))
         nodes = self.order[np.where(solid, ~yields, wet).ravel()[self.order]]
@@ -354,10 +184,10 @@ class _Film:
 
         def product(df: Array, dh: Array, out: Array) -> None:
             if carried is None:
-                _product(by_f, by_h, scale, nodes, solid, df, dh, out)
+                linearisation.product(by_f, by_h, scale, nodes, solid, df, dh, out)
                 return
             flow = (carried.flux, carried.filling, df, dh)
-            streaming.change(*film, *flow, *in_time, q.conserving, carried.first, change)
+            streaming.change(*film, *flow, *q.terms, q.conserving, carried.first, change)
             out[:] = (np.where(solid, dh, change) * scale).ravel()[nodes]
 
         lift = np.empty(size)
@@ -369,7 +199,7 @@ class _Film:
         def spread(x: Array) -> tuple[Array, Array]:
             dp = np.zeros(shape)
             dp.ravel()[nodes] = x[:-1]
-            _follow_edge(dp, q.edge, q.wrapped)
+            set_edge(dp, q.edge, q.wrapped)
             return dp, self.half_space.deform(dp) + x[-1]
 
         def operator(x: Array) -> Array:
@@ -386,7 +216,7 @@ class _Film:
 
         wanted = (np.where(solid, q.floor - self.h, -self.r) * scale).ravel()[nodes]
         short = (q.load - float((q.weight * self.p).sum())) / np.sqrt(q.load)
-        x = _gmres(operator, invert, np.append(wanted, short))
+        x = gmres(operator, invert, np.append(wanted, short))
         return *spread(x), float(x[-1])
 
     def _local_inverse(self, nodes: Indices) -> Callable[[Array], Array] | None:
@@ -399,10 +229,10 @@ class _Film:
         column = np.full(shape, -1, np.int32)
         column.ravel()[nodes] = np.arange(size)
         if q.wrapped:
-            reynolds.wrap(column)
+            wrap(column)
         start, index, value = np.empty(size + 1, np.int32), np.empty(10 * size, np.int32), np.empty(10 * size)
         args = (by_f, by_h, scale, self.patch, nodes, column, solid, q.edge, q.wrapped)
-        count = _assemble(*args, start, index, value)
+        count = linearisation.assemble(*args, start, index, value)
         # the transpose, by columns
         rows = scipy.sparse.csc_matrix((value[:count], index[:count], start), shape=(size, size))
         how = {"SymmetricMode": True}
@@ -422,7 +252,7 @@ class _Film:
         rise = float((np.where(wet, np.minimum(dp, q.cap - old), 0.0) / (_RISE[0] + _RISE[1] * old)).max())
         share = 1.0 / max(fall, rise, 1.0)
         self.p = np.clip(old + share * dp, 0.0, q.cap)
-        _follow_edge(self.p, q.edge, q.wrapped)
+        set_edge(self.p, q.edge, q.wrapped)
         self.rigid += share * d_rigid
         self.solid &= self.p > 0.0
         return float(np.abs(self.p - old)[self.rows].sum()) / q.load, share
@@ -433,7 +263,7 @@ class _Film:
         load_error = float((q.weight * p).sum()) / q.load - 1.0
         below_cap = self.solid & (p < q.cap)
         total = max(float(p.sum()), 1e-300)
-        intrusion = float((p * np.abs(q.floor - self.h))[below_cap].sum()) / (q.floor * total)
+        complementarity = float((p * np.abs(q.floor - self.h))[below_cap].sum()) / (q.floor * total)
         inflow, nowhere = np.zeros_like(p), np.zeros_like(self.solid)
         self._residual(nowhere, inflow)
         film = (self.solid, self.h, self.mass, inflow, q.floor, q.spacing)
@@ -443,9 +273,20 @@ class _Film:
             mean = float((p * self.mass).sum()) / total
             imbalance += float(light) * q.spacing / (mean * self.r[self.rows].shape[0])
         change += self.sought / q.load
-        why = shortfall(tolerance, change if whole else np.inf, load_error, intrusion, imbalance, q.per_dt)
+        why = shortfall(tolerance, change if whole else np.inf, load_error, complementarity, imbalance, q.per_dt)
         iterate = Iterate(p, self.f, self.solid, self.rigid)
-        return Solution(iterate, self.h, self.mass, not why, n, change, load_error, intrusion, imbalance, why)
+        return Solution(
+            iterate,
+            self.h,
+            self.mass,
+            converged=not why,
+            shortfall=why,
+            iterations=n,
+            pressure_change=change,
+            load_error=load_error,
+            complementarity=complementarity,
+            imbalance=imbalance,
+        )
 
 
 def solve_newton(
@@ -453,7 +294,7 @@ def solve_newton(
 ) -> Solution:
     """Newton steps from `start` until a step of full length meets the rule of `shortfall` or `iterations` are spent.
 
-    Non-finite values never leave: what is returned is finite, or its `change` is infinite.
+    Non-finite values never leave: what is returned is finite, or its `pressure_change` is infinite.
     """
     film = _Film(half_space, problem, start)
     film.evaluate()
@@ -461,8 +302,7 @@ def solve_newton(
     for n in range(1, iterations + 1):
         correction = film.correction()
         if correction is None or not np.isfinite(correction[0]).all():
-            nothing = np.zeros_like(film.p)
-            return Solution(start, nothing, problem.mass_old, False, n, *4 * (np.inf,), "no Newton step")
+            return failed(start, np.zeros_like(film.p), problem.mass_old, n, "no Newton step")
         change, share = film.advance(*correction)
         film.evaluate()
         found = film.assess(n, change, share == 1.0, tolerance)

@@ -1,4 +1,4 @@
-"""Passes over the film, in the units of `mixed.Problem`.
+"""Passes over the film, in the units of `problem`.
 
     div(e grad f) - wedge d(m)/dx - d(m)/dt = 0,   m = rho max(h, floor),
     e = mobility rho max(h, floor)^3 (1 / eta(f) + thinned)
@@ -14,16 +14,15 @@ everywhere. With them, `first` is the first column in which the oil has pressure
 """
 
 import numpy as np
-from numba import njit
 
-_jit = njit(cache=True, nogil=True, error_model="numpy")
+from ..compiled import jit
+from .edge import wrap
 
 _TOUCH = 0.5  # gap in floors below which a node becomes solid at once; below 1, where its film loses mass
 _DEEP = 0.5  # gap in floors below which a contact is not released: it has to come up first
-_OVER = 1.6  # relaxation of the lines
 
 
-@_jit
+@jit
 def interpolate(table, step, p):  # type: ignore[no-untyped-def]
     """Linear interpolation in a table over p = 0, step, 2 step...; clamped at its end."""
     at = p / step
@@ -33,7 +32,7 @@ def interpolate(table, step, p):  # type: ignore[no-untyped-def]
     return table[k] + (at - k) * (table[k + 1] - table[k])
 
 
-@_jit
+@jit
 def _properties(p, per_step, density, fluidity):  # type: ignore[no-untyped-def]
     """Density and fluidity at a pressure, as `interpolate`."""
     at = p * per_step
@@ -45,7 +44,7 @@ def _properties(p, per_step, density, fluidity):  # type: ignore[no-untyped-def]
     return rho + part * (density[k + 1] - rho), flow + part * (fluidity[k + 1] - flow)
 
 
-@_jit
+@jit
 def film_pass(  # type: ignore[no-untyped-def]
     p,
     f,
@@ -90,16 +89,7 @@ def film_pass(  # type: ignore[no-untyped-def]
             e[j, i] = mobility[j, i] * rho * (fluid + thinned[j, i]) * (flow * flow * flow) + 1e-300
 
 
-@_jit
-def wrap(field):  # type: ignore[no-untyped-def]
-    """Make the first and the last row images of the last and the first but one."""
-    ny, nx = field.shape
-    for i in range(nx):
-        field[0, i] = field[ny - 2, i]
-        field[ny - 1, i] = field[1, i]
-
-
-@_jit
+@jit
 def transport(mass, flux, mass_old, per_dt, wedge, dx, j, i):  # type: ignore[no-untyped-def]
     """Mass carried away and squeezed out at a node: wedge d(m)/dx + d(m)/dt."""
     if flux is not None:
@@ -111,13 +101,13 @@ def transport(mass, flux, mass_old, per_dt, wedge, dx, j, i):  # type: ignore[no
     return wedge * slope + (mass[j, i] - mass_old[j, i]) * per_dt
 
 
-@_jit
+@jit
 def returned(filling, first, per_dt, wedge, dx, j, i):  # type: ignore[no-untyped-def]
     """Share that comes back of what a node's pressure drives upstream: all of it, in time, from a cavity."""
     return wedge / (wedge + per_dt * dx) if i > first and filling[j, i - 1] < 1.0 else 0.0
 
 
-@_jit
+@jit
 def fluid_under_contacts(  # type: ignore[no-untyped-def]
     p,
     f,
@@ -197,7 +187,7 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
         wrap(solid)
 
 
-@_jit
+@jit
 def residual(f, solid, mass, mass_old, e, per_dt, wedge, dx, r, flux=None, filling=None, first=1):  # type: ignore[no-untyped-def]
     """Net inflow of mass per area at every interior node, zero on solid contacts, in cavities and on the edge."""
     ny, nx = f.shape
@@ -218,7 +208,7 @@ def residual(f, solid, mass, mass_old, e, per_dt, wedge, dx, r, flux=None, filli
                 r[j, i] = half * flow - transport(mass, flux, mass_old, per_dt, wedge, dx, j, i)
 
 
-@_jit
+@jit
 def imbalance(p, f, cap, solid, h, mass, r, floor, dx):  # type: ignore[no-untyped-def]
     """What the film gains or loses unasked over the film, weighted by pressure, times the oil's share of the load.
 
@@ -241,219 +231,3 @@ def imbalance(p, f, cap, solid, h, mass, r, floor, dx):  # type: ignore[no-untyp
             film += mass[j, i] * here
             fluid += here
     return wrong / film * fluid / total
-
-
-@_jit
-def mend_film(  # type: ignore[no-untyped-def]
-    p,
-    f,
-    cap,
-    solid,
-    h,
-    mass,
-    mass_old,
-    e,
-    floor,
-    per_dt,
-    wedge,
-    dx,
-    compliance,
-    patch,
-    stiff_before,
-    r,
-    stiff,
-    dh,
-    sums,
-    flux=None,
-    filling=None,
-    first=1,
-):
-    """Residual r, the stiff zone, and the change of the gap dh in it that mends the residual, marched downstream.
-
-    r: net inflow of mass per area, zero on solid contacts and on the edge. stiff: where elasticity rules, solid
-    contacts and fluid nodes whose faces hardly pass any pressure flow. dh: on solid contacts, to the floor; zero
-    off the stiff zone. `patch`: opening of a gap by a unit pressure on it and its eight neighbours.
-
-    Returns the first row, the row after the last, first column and column after the last of dh, and how many nodes are
-    stiff and how many of them differ from `stiff_before`. sums [7]: of |r| p, m p and p over nodes that fluid alone
-    carries; of p - f and, below the cap, of p |floor - h| over solid contacts; with `flux`, of r over nodes that are
-    full and have no pressure yet, and of what all others gain together, and of m over nodes that have some.
-    """
-    ny, nx = p.shape
-    half, per_dx, wedge_per_dx = 0.5 / (dx * dx), 1.0 / dx, wedge / dx
-    limit = 2.0 * dx * dx * compliance
-    a0, a1, a2 = 1.5 * wedge_per_dx + per_dt, -2.0 * wedge_per_dx, 0.5 * wedge_per_dx
-    per_patch, per_floor = half / patch, 1.0 / floor
-    wrong, film, fluid, solids, intrusion, gained, held = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    net = 0.0
-    top, bottom, left, right, count, changed = ny, 0, nx, 0, 0, 0
-    for j in range(1, ny - 1):
-        before, before_2 = 0.0, 0.0  # change of the film that flows at the two nodes upstream
-        for i in range(1, nx - 1):
-            here, own, m = p[j, i], h[j, i], mass[j, i]
-            touches, value, change, is_stiff = solid[j, i], 0.0, 0.0, False
-            if not touches:
-                ej, west, east, south, north = e[j, i], e[j, i - 1], e[j, i + 1], e[j - 1, i], e[j + 1, i]
-                flow = (ej + west) * (f[j, i - 1] - here) + (ej + east) * (f[j, i + 1] - here)
-                flow += (ej + south) * (f[j - 1, i] - here) + (ej + north) * (f[j + 1, i] - here)
-                if flux is not None:
-                    rise = flux[j, i] - flux[j, i - 1]
-                else:
-                    rise = 1.5 * m - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2] if i > 1 else m - mass[j, i - 1]
-                value = half * flow - wedge_per_dx * rise - per_dt * (m - mass_old[j, i])
-                sinks = value < 0.0
-                if filling is not None and (filling[j, i] < 1.0 or i < first):  # nothing is unbalanced there
-                    sinks, value = True, 0.0
-                if own < floor and sinks:
-                    touches, value = True, 0.0  # the film sinks on: solids carry what it cannot
-                    solid[j, i] = True
-            if touches:
-                is_stiff = True
-                change = floor - own
-                solids += here - f[j, i]
-                if here > 0.0 and f[j, i] >= here and here < cap[j, i]:  # oil alone carries it: it ought to lift it
-                    ej, west, east, south, north = e[j, i], e[j, i - 1], e[j, i + 1], e[j - 1, i], e[j + 1, i]
-                    flow = (ej + west) * (f[j, i - 1] - here) + (ej + east) * (f[j, i + 1] - here)
-                    flow += (ej + south) * (f[j - 1, i] - here) + (ej + north) * (f[j + 1, i] - here)
-                    wrong += max(half * flow - transport(mass, flux, mass_old, per_dt, wedge, dx, j, i), 0.0) * here
-                if here < cap[j, i]:
-                    intrusion += here * abs(change)
-                elif change > 0.0:
-                    change = 0.0
-            elif here > 0.0:
-                gap = max(own, floor)
-                # a film that loses mass sinks to the floor at most: near it, that is all it lacks
-                loss = min(-value, m * (gap * per_floor - 1.0) * per_dx)
-                gain = value if here < cap[j, i] else 0.0  # the solids yield to a film that presses on
-                wrong += max(loss, gain) * here
-                film += m * here
-                fluid += here
-                is_stiff = ej + max(max(west, east), max(south, north)) < limit
-                if is_stiff:
-                    faces = 4.0 * ej + west + east + south + north
-                    change = (value * gap - m * (a1 * before + a2 * before_2)) / (m * a0 + faces * per_patch * gap)
-                    change = max(change, min(floor - own, 0.0))  # solids stop it there
-                    if here >= cap[j, i]:
-                        change = min(change, 0.0)  # the solids yield, the gap does not open
-            if flux is not None:
-                if here > 0.0:
-                    held += m
-                    net += value
-                elif value > 0.0:
-                    gained += value
-            r[j, i], stiff[j, i], dh[j, i] = value, is_stiff, change
-            before_2 = before
-            before = 0.0 if solid[j, i] else max(h[j, i] + change, floor) - max(h[j, i], floor)
-            if is_stiff:
-                count += 1
-                top, bottom = min(top, j), max(bottom, j + 1)
-                left, right = min(left, i), max(right, i + 1)
-            if is_stiff != stiff_before[j, i]:
-                changed += 1
-    sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6] = (
-        wrong,
-        film,
-        fluid,
-        solids,
-        intrusion,
-        gained + abs(net),
-        held,
-    )
-    return top, bottom, left, right, count, changed
-
-
-@_jit
-def relax_lines(  # type: ignore[no-untyped-def]
-    p,
-    solid,
-    stiff,
-    h,
-    mass,
-    e,
-    r,
-    edge,
-    floor,
-    per_dt,
-    wedge,
-    dx,
-    near,
-    patch_wide,
-    lumped,
-    sweeps,
-    dp,
-    filling=None,
-    first=1,
-    wrapped=False,
-):
-    """Line over-relaxation of the linearised equation outside the stiff zone, dp given inside it. Updates dp, p +
-    dp >= 0.
-    """
-    ny, nx = p.shape
-    half = 0.5 / (dx * dx)
-    k0, k1, k2, k3, k4 = near[0, 0], near[0, 1], near[0, 2], near[0, 3], near[0, 4]
-    # d(deformation wedge)_i / dp_(i + m)
-    w_3 = wedge * ((1.5 * k3 - 2.0 * k2 + 0.5 * k1) / dx)
-    w_2 = wedge * ((1.5 * k2 - 2.0 * k1 + 0.5 * k0) / dx)
-    w_1 = wedge * ((1.5 * k1 - 2.0 * k0 + 0.5 * k1) / dx)
-    w0 = wedge * ((1.5 * k0 - 2.0 * k1 + 0.5 * k2) / dx) + per_dt * patch_wide
-    w1 = wedge * ((1.5 * k1 - 2.0 * k2 + 0.5 * k3) / dx)
-    w2 = wedge * ((1.5 * k2 - 2.0 * k3 + 0.5 * k4) / dx)
-    ratio, known, free = np.zeros(nx), np.zeros(nx), np.zeros(nx, np.bool_)
-    alone = wrapped and ny == 3  # a row that is its own neighbour
-    over = 1.0 if alone else _OVER
-    if wrapped:
-        wrap(dp)
-    for sweep in range(sweeps):
-        for row in range(1, ny - 1):
-            j = row if sweep % 2 == 0 else ny - 1 - row
-            first, last = nx, 0
-            for i in range(1, nx - 1):
-                ratio[i], known[i], free[i] = 0.0, dp[j, i], False
-                if stiff[j, i]:
-                    continue
-                if p[j, i] <= 0.0 and r[j, i] <= 0.0:  # a cavity: its pressure would go below zero with its neighbours'
-                    continue
-                free[i] = True
-                first, last = min(first, i), i
-                ej = e[j, i]
-                west, east = half * (ej + e[j, i - 1]), half * (ej + e[j, i + 1])
-                south, north = half * (ej + e[j - 1, i]), half * (ej + e[j + 1, i])
-                if alone:
-                    south, north = 0.0, 0.0
-                # at the floor the flow does not feel the deformation
-                rho = mass[j, i] / h[j, i] if h[j, i] > floor else 0.0
-                far = w2 * dp[j, i + 2] if i < nx - 2 else 0.0
-                far += w_2 * dp[j, i - 2] if i > 1 else 0.0
-                far += w_3 * dp[j, i - 3] if i > 2 else 0.0
-                diag = west + east + south + north + rho * w0
-                if filling is not None:
-                    diag -= returned(filling, first, per_dt, wedge, dx, j, i) * west
-                lower, upper = rho * w_1, rho * w1
-                rhs = r[j, i] - rho * far
-                # the fluid pressure of a solid contact stays in this step
-                if lumped or not solid[j, i - 1]:
-                    lower -= west
-                if lumped or not solid[j, i + 1]:
-                    upper -= east
-                if lumped or not solid[j - 1, i]:
-                    rhs += south * dp[j - 1, i]
-                if lumped or not solid[j + 1, i]:
-                    rhs += north * dp[j + 1, i]
-                if i == 1:
-                    diag += lower * edge[j, 0]
-                if i == nx - 2:
-                    diag += upper * edge[j, nx - 1]
-                if j == 1:
-                    diag -= south * edge[0, i]
-                if j == ny - 2:
-                    diag -= north * edge[ny - 1, i]
-                pivot = 1.0 / (diag - lower * ratio[i - 1])
-                ratio[i] = upper * pivot
-                known[i] = (rhs - lower * known[i - 1]) * pivot
-            value = known[last + 1] if last < nx - 2 else 0.0
-            for i in range(last, first - 1, -1):
-                value = known[i] - ratio[i] * value
-                if free[i]:
-                    dp[j, i] = max(dp[j, i] + over * (value - dp[j, i]), -p[j, i])
-            if wrapped and (j == 1 or j == ny - 2):
-                wrap(dp)

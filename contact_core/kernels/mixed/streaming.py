@@ -4,14 +4,11 @@ Which nodes are full is held. What flows through a cavity is marched downstream,
 product with the Jacobian is exact; its local part knows of a cavity only what comes back at once.
 """
 
-from numba import njit
-
+from ..compiled import jit
 from . import cavities, reynolds
 
-_jit = njit(cache=True, nogil=True, error_model="numpy")
 
-
-@_jit
+@jit
 def _most(full, before, j, i):  # type: ignore[no-untyped-def]
     """Flow of a full node behind one of a filling `before`: derivatives by what both hold, and by that filling."""
     if i == 0:
@@ -23,7 +20,7 @@ def _most(full, before, j, i):  # type: ignore[no-untyped-def]
     return 1.0 + 0.5 * order, -0.5 * order, 0.5 * cavities.FADE * rise if order > 0.0 else 0.0
 
 
-@_jit
+@jit
 def change(  # type: ignore[no-untyped-def]
     f, full, e, slope, flux, filling, df, dh, per_dt, wedge, dx, conserving, first, dr
 ):
@@ -66,7 +63,7 @@ def change(  # type: ignore[no-untyped-def]
             before, d_before, d_held, d_flow = theta, d_theta, held, d_next
 
 
-@_jit
+@jit
 def linearise(f, full, e, slope, filling, per_dt, wedge, dx, first, by_f, by_h):  # type: ignore[no-untyped-def]
     """Local part of `change`: derivatives by_f, by_h [6, ny, nx] on the stencil of `newton`."""
     ny, nx = f.shape

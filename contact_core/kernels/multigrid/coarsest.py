@@ -6,14 +6,13 @@ Hintermueller, Ito & Kunisch, SIAM J. Optim. 13 (2003) 865, doi:10.1137/S1052623
 """
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from ..compiled import jit
 from ..half_space import influence
 
 Array = NDArray[np.float64]
 
-_jit = njit(cache=True, nogil=True, error_model="numpy")
 
 # nodes that a node's balance looks at: itself, west, east, south, north, second west
 _DJ = np.array([0, 0, 0, -1, 1, 0])
@@ -32,7 +31,7 @@ def dense_deformation(ny: int, nx: int, mirror: bool) -> Array:
     return np.ascontiguousarray(matrix.transpose(0, 2, 1, 3).reshape(nodes, nodes))
 
 
-@_jit
+@jit
 def _stencil(p, mass, e, dx, mirror, j, i, by_p, by_e, by_mass):  # type: ignore[no-untyped-def]
     """Net inflow of a node, and its derivatives by pressure, mobility and mass on the stencil."""
     rows = p.shape[0]
@@ -54,7 +53,7 @@ def _stencil(p, mass, e, dx, mirror, j, i, by_p, by_e, by_mass):  # type: ignore
     return inflow + by_mass[0] * mass[j, i] + by_mass[1] * mass[j, i - 1]
 
 
-@_jit
+@jit
 def _inner(j, i, edge, mirror):  # type: ignore[no-untyped-def]
     """The unknown that the pressure of a node goes with, and the ratio to it."""
     rows, nx = edge.shape
@@ -68,7 +67,7 @@ def _inner(j, i, edge, mirror):  # type: ignore[no-untyped-def]
     return (j - 1) * (nx - 2) + i - 1, ratio
 
 
-@_jit
+@jit
 def condensed(matrix, edge, mirror):  # type: ignore[no-untyped-def]
     """The deformation [nodes, unknowns] by the unknowns, edges moving along."""
     rows, nx = edge.shape
@@ -82,7 +81,7 @@ def condensed(matrix, edge, mirror):  # type: ignore[no-untyped-def]
     return out
 
 
-@_jit
+@jit
 def assemble(  # type: ignore[no-untyped-def]
     p, h, mass, e, rho, soft, f, edge, weight, missing, lift, dx, mirror, thinned, fluidity, step, jacobian, right
 ):
@@ -128,7 +127,7 @@ def assemble(  # type: ignore[no-untyped-def]
     right[n] = missing
 
 
-@_jit
+@jit
 def solve_dense(a, b):  # type: ignore[no-untyped-def]
     """Put the solution of a x = b into b by elimination with row pivoting; a is lost. Returns whether it is regular.
 
@@ -161,7 +160,7 @@ def solve_dense(a, b):  # type: ignore[no-untyped-def]
     return True
 
 
-@_jit
+@jit
 def advance(p, change, part, mirror):  # type: ignore[no-untyped-def]
     """Take a part of a change of the inner pressures, at least to zero."""
     rows, nx = p.shape

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..far_field import far_field
-from ..mixed.fixed_point import Iterate, Problem, Solution, shortfall
+from ..mixed.problem import Iterate, Problem, Solution
+from ..mixed.stopping_rule import shortfall
 from . import transfer
 from .level import Level
 
@@ -251,9 +252,9 @@ def _solution(problem: Problem, level: Level, progress: _Progress, tolerance: fl
         mass=mass,
         converged=not missing,
         iterations=progress.cycles,
-        change=progress.change,
+        pressure_change=progress.change,
         load_error=progress.load_error,
-        intrusion=0.0,
+        complementarity=0.0,
         imbalance=progress.imbalance,
         shortfall=missing,
     )
@@ -267,9 +268,9 @@ def _failure(problem: Problem) -> Solution:
         mass=zero.copy(),
         converged=False,
         iterations=0,
-        change=np.inf,
+        pressure_change=np.inf,
         load_error=np.inf,
-        intrusion=0.0,
+        complementarity=0.0,
         imbalance=np.inf,
         shortfall="diverged",
     )

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..half_space import HalfSpace, influence
-from ..mixed.fixed_point import Problem
+from ..mixed.problem import Problem
 from . import coarsest, relaxation, transfer
 from .mirrored import MirroredHalfSpace
 

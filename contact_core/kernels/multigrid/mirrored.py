@@ -8,17 +8,15 @@ doi:10.1016/0022-460X(70)90075-1.
 
 import numpy as np
 import scipy
-from numba import njit
 from numpy.typing import NDArray
 
+from ..compiled import jit
 from ..half_space import influence
 
 Array = NDArray[np.float64]
 
-_jit = njit(cache=True, nogil=True, error_model="numpy")
 
-
-@_jit
+@jit
 def _pack(x, packed, odd):  # type: ignore[no-untyped-def]
     """Pack the even, periodic sequence of samples x[0], x[1]..., zero between x[-1] and its image. `odd`: sum of its
     odd samples.
@@ -45,7 +43,7 @@ def _pack(x, packed, odd):  # type: ignore[no-untyped-def]
                 odd[k] += 2.0 * x[below, k]
 
 
-@_jit
+@jit
 def _unpack(packed, odd, sine, factor, out):  # type: ignore[no-untyped-def]
     """Transform of what was packed, from the transform of the packed, times a factor of each term.
 

@@ -12,9 +12,8 @@ quarter each) where elasticity does.
 """
 
 import numpy as np
-from numba import njit
 
-_jit = njit(cache=True, nogil=True, error_model="numpy")
+from ..compiled import jit
 
 _STIFF = 0.3  # e / dx^2, in compliances, below which elasticity rules
 _LOWER, _UPPER = 3, 2  # neighbours upstream and downstream in a line's equations
@@ -44,7 +43,7 @@ def line_kernels(near, dx):  # type: ignore[no-untyped-def]
     return np.array([wedge(single), wedge(spread), none]), np.array([wedge(unit), wedge(unit_spread), none])
 
 
-@_jit
+@jit
 def film_pass(p, base, deformation, scale, rigid, mobility, thinned, fluidity, density, step, h, mass, e, rho, soft):  # type: ignore[no-untyped-def]
     """Gap, mass, mobility, density and h d(rho)/dp of every node from the pressure and the deformation it makes."""
     rows, nx = p.shape
@@ -71,7 +70,7 @@ def film_pass(p, base, deformation, scale, rigid, mobility, thinned, fluidity, d
             e[j, i] = mobility[j, i] * dense * open_gap * open_gap * open_gap * (ease + thinned[j, i]) + 1e-300
 
 
-@_jit
+@jit
 def balance(p, mass, e, dx, mirror, out):  # type: ignore[no-untyped-def]
     """Net inflow of mass per area at every inner node."""
     rows, nx = p.shape
@@ -93,7 +92,7 @@ def balance(p, mass, e, dx, mirror, out):  # type: ignore[no-untyped-def]
             out[j, i] = half * flow - carried
 
 
-@_jit
+@jit
 def defect(p, mass, e, f, dx, mirror, out):  # type: ignore[no-untyped-def]
     """What is missing in the balance where there is pressure, zero elsewhere. Returns the sums of |defect| p and of
     mass p.
@@ -113,7 +112,7 @@ def defect(p, mass, e, f, dx, mirror, out):  # type: ignore[no-untyped-def]
     return wrong, film
 
 
-@_jit
+@jit
 def set_edges(p, edge, offset, mirror):  # type: ignore[no-untyped-def]
     """Pressure of the edge nodes from that of their inner neighbours."""
     rows, nx = p.shape
@@ -126,7 +125,7 @@ def set_edges(p, edge, offset, mirror):  # type: ignore[no-untyped-def]
             p[rows - 1, i] = max(edge[rows - 1, i] * p[rows - 2, i] + offset[rows - 1, i], 0.0)
 
 
-@_jit
+@jit
 def _line_balance(p, mass, e, f, dx, j, up, limit, faces, r, kind):  # type: ignore[no-untyped-def]
     """Mobilities of the faces of a row's nodes, what they gain too much, and how each is to be changed. Returns the
     first and the last node that is.
@@ -155,7 +154,7 @@ def _line_balance(p, mass, e, f, dx, j, up, limit, faces, r, kind):  # type: ign
     return first, final
 
 
-@_jit
+@jit
 def _line_changes(faces, r, kind, rho, soft, wedge, wedge_soft, j, first, final, a, b):  # type: ignore[no-untyped-def]
     """Solve a row's equations for the changes b; they are zero on the two nodes beyond the last.
 
@@ -211,7 +210,7 @@ def _line_changes(faces, r, kind, rho, soft, wedge, wedge_soft, j, first, final,
         b[i] -= a[i, 0] * b[i + 1] + a[i, 1] * b[i + 2]
 
 
-@_jit
+@jit
 def relax(p, mass, e, rho, soft, f, edge, offset, wedge, wedge_soft, dx, compliance, mirror, single, spread, dp):  # type: ignore[no-untyped-def]
     """One sweep of line relaxation over the rows. `single`, `spread`: damping of the two kinds of changes.
 

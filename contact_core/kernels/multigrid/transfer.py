@@ -4,12 +4,11 @@ The finer grid has 2 m - 1 rows and columns where the coarser one has m.
 """
 
 import numpy as np
-from numba import njit
 
-_jit = njit(cache=True, nogil=True, error_model="numpy")
+from ..compiled import jit
 
 
-@_jit
+@jit
 def inject(fine, out):  # type: ignore[no-untyped-def]
     """Values of the finer grid on the nodes of the coarser."""
     for j in range(out.shape[0]):
@@ -17,7 +16,7 @@ def inject(fine, out):  # type: ignore[no-untyped-def]
             out[j, i] = fine[2 * j, 2 * i]
 
 
-@_jit
+@jit
 def add_weighted(fine, mirror, out):  # type: ignore[no-untyped-def]
     """Add the full weighting of a field of the finer grid to the inner nodes of the coarser."""
     rows, nx = out.shape
@@ -31,7 +30,7 @@ def add_weighted(fine, mirror, out):  # type: ignore[no-untyped-def]
             out[j, i] += (corners + 2.0 * sides + 4.0 * fine[m, n]) / 16.0
 
 
-@_jit
+@jit
 def undeformed_gap(h, deformation, scale, rigid, base):  # type: ignore[no-untyped-def]
     """The undeformed gap that makes a gap of a rigid one and a deformation."""
     for j in range(h.shape[0]):
@@ -39,7 +38,7 @@ def undeformed_gap(h, deformation, scale, rigid, base):  # type: ignore[no-untyp
             base[j, i] = h[j, i] - rigid - scale * deformation[j, i]
 
 
-@_jit
+@jit
 def edge_offset(p, edge, mirror, offset):  # type: ignore[no-untyped-def]
     """What edge pressures lack of those of `set_edges`."""
     rows, nx = p.shape
@@ -51,7 +50,7 @@ def edge_offset(p, edge, mirror, offset):  # type: ignore[no-untyped-def]
             offset[rows - 1, i] = p[rows - 1, i] - edge[rows - 1, i] * p[rows - 2, i]
 
 
-@_jit
+@jit
 def add_interpolated(new, old, p):  # type: ignore[no-untyped-def]
     """Add the bilinear interpolation of new - old of the coarser grid to p where it is positive; p >= 0."""
     rows, nx = p.shape
@@ -65,7 +64,7 @@ def add_interpolated(new, old, p):  # type: ignore[no-untyped-def]
                 p[j, i] = max(p[j, i] + 0.25 * change, 0.0)
 
 
-@_jit
+@jit
 def interpolate_cubic(coarse, mirror, fine):  # type: ignore[no-untyped-def]
     """Cubic interpolation of the coarser grid, at least zero; linear in the cells at the edge."""
     rows, nx = fine.shape
@@ -95,7 +94,7 @@ def interpolate_cubic(coarse, mirror, fine):  # type: ignore[no-untyped-def]
             fine[j, i] = max(value, 0.0)
 
 
-@_jit
+@jit
 def extrapolate(coarser, p):  # type: ignore[no-untyped-def]
     """Add a quarter of p - coarser to p where it is positive, `coarser` being twice as coarse a solution: what the next
     finer one of a scheme of second order adds. p >= 0.
@@ -106,7 +105,7 @@ def extrapolate(coarser, p):  # type: ignore[no-untyped-def]
                 p[j, i] = max(p[j, i] + 0.25 * (p[j, i] - coarser[j, i]), 0.0)
 
 
-@_jit
+@jit
 def weighted_sum(weight, p):  # type: ignore[no-untyped-def]
     """Sum of weight * p."""
     out = 0.0
@@ -116,7 +115,7 @@ def weighted_sum(weight, p):  # type: ignore[no-untyped-def]
     return out
 
 
-@_jit
+@jit
 def distance(weight, a, b):  # type: ignore[no-untyped-def]
     """Sum of weight * |a - b|."""
     out = 0.0

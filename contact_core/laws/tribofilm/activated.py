@@ -21,7 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...quantities import parameter
-from ..constants import BOLTZMANN
+from ...reference.constants import BOLTZMANN
+from ..equations import Equations
+from .doses import DOSES
 from .fitted import Ghanbarzadeh, beyond_fit, fit_temperature, thickness
 
 Array = NDArray[np.float64]
@@ -153,6 +155,14 @@ class ZhangSpikes(_ByOneStress):
     source: ClassVar[str] = (
         "Zhang & Spikes 2016, doi:10.1007/s11249-016-0706-7; Zhang, Ewen & Spikes 2022, doi:10.1039/d2me00049k"
     )
+    equations: ClassVar[Equations] = Equations(
+        (
+            "∂h_t/∂t = A exp[−(E_0 − τ ΔV)/(k_B T)] (1 − h_t/h_{max}) − r h_t",
+            "r = k_r p_s |v|",
+        ),
+        "τ is the shear stress of oil and solids: a full film grows a tribofilm, too.",
+        options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
+    )
 
     least_shear: float = _least_shear()
 
@@ -173,6 +183,14 @@ class Gosvami(_ByOneStress):
 
     name: ClassVar[str] = "gosvami"
     source: ClassVar[str] = "Gosvami et al. 2015, doi:10.1126/science.1258788"
+    equations: ClassVar[Equations] = Equations(
+        (
+            "∂h_t/∂t = A exp[−(E_0 − p_s ΔV)/(k_B T)] (1 − h_t/h_{max}) − r h_t",
+            "r = k_r p_s |v|",
+        ),
+        "The normal stress drives the growth where solids touch.",
+        options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
+    )
 
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
         """Rate of growth over h_max [1/s] under the solid pressure [Pa] where solids touch; 0 without sliding."""
@@ -193,6 +211,14 @@ class Combined(_Activated):
 
     name: ClassVar[str] = "combined"
     source: ClassVar[str] = "sum of ghanbarzadeh and zhang_spikes, for Azam's thesis 2018, section 8.3; weights assumed"
+    equations: ClassVar[Equations] = Equations(
+        (
+            "∂h_t/∂t = (w_1 k c + w_2 g) (h_{max} − h_t) − r h_t",
+            "k = x k_B T/h_P,   g = (A/h_{max}) exp[−(E_0 − τ ΔV)/(k_B T)],   r = k_r p_s |v|",
+        ),
+        "c is 1 where solids rub, else 0.",
+        options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
+    )
 
     full_thickness: float = _full_thickness()
     contact_weight: float = parameter("", "w1, weight of growth in contacts", least=0.0, most=1e3)

@@ -9,6 +9,8 @@ from typing import ClassVar, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..equations import Equations
+
 Array = NDArray[np.float64]
 
 
@@ -39,6 +41,7 @@ class Dose(Protocol):
 
     name: ClassVar[str]
     whole_pass: ClassVar[bool]  # the exposure of a whole pass counts: it is late by half a pass
+    equations: ClassVar[Equations]  # for documentation
 
     def on_patch(self, exposure: Array, passes: Passes) -> Array:
         """Return the exposure per test time from the mean `exposure` of the sampled instants."""
@@ -60,6 +63,9 @@ class Clock:
 
     name: ClassVar[str] = "clock"
     whole_pass: ClassVar[bool] = True
+    equations: ClassVar[Equations] = Equations(
+        (), "Dose 'clock': a point rubbed at any instant of a pass counts as rubbed all the time."
+    )
 
     def on_patch(self, exposure: Array, passes: Passes) -> Array:
         """Return 1 where a point was exposed in the last pass."""
@@ -78,6 +84,9 @@ class ContactLength:
 
     name: ClassVar[str] = "contact_length"
     whole_pass: ClassVar[bool] = False
+    equations: ClassVar[Equations] = Equations(
+        (), "Dose 'contact_length': growth by the mean over the crossing of the contact's length."
+    )
 
     def on_patch(self, exposure: Array, passes: Passes) -> Array:
         """Return the mean over the contact's length in place of the grid's."""
@@ -96,6 +105,7 @@ class Residence:
 
     name: ClassVar[str] = "residence"
     whole_pass: ClassVar[bool] = False
+    equations: ClassVar[Equations] = Equations((), "Dose 'residence': growth by the mean over the whole track.")
 
     def on_patch(self, exposure: Array, passes: Passes) -> Array:
         """Return the mean over the track in place of the grid's."""

@@ -7,8 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...quantities import parameter
-from ..constants import BOLTZMANN, PLANCK
+from ...reference.constants import BOLTZMANN, PLANCK
 from ..elementary import Numbers, expm1
+from ..equations import Equations
+from .doses import DOSES
 
 Array = NDArray[np.float64]
 Temperature = float | Array
@@ -55,6 +57,10 @@ class NoTribofilm(_Unabraded):
 
     name: ClassVar[str] = "none"
     source: ClassVar[str] = ""
+    equations: ClassVar[Equations] = Equations(
+        ("h_t = 0",),
+        "No additive.",
+    )
     full_thickness: ClassVar[float] = 1.0  # any positive number: the thickness is always zero
     dose: ClassVar[str] = "clock"
 
@@ -91,6 +97,11 @@ class Ghanbarzadeh(_Unabraded):
 
     name: ClassVar[str] = "ghanbarzadeh"
     source: ClassVar[str] = "Ghanbarzadeh et al. 2016, doi:10.1016/j.triboint.2014.12.018"
+    equations: ClassVar[Equations] = Equations(
+        ("h_t = h_{max} [1 − exp(−k t)] − C_3 [1 − exp(−C_4 t)],   k = x k_B T/h_P",),
+        "t is the time for which the point has been rubbed; kB and hP are Boltzmann's and Planck's constants.",
+        options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
+    )
 
     full_thickness: float = parameter("m", "h_max, thickness without removal", above=0.0, most=1e-5)
     rate_factor: float = parameter("", "x, share of k_B T / h that forms film", least=0.0, most=1.0)
@@ -156,6 +167,11 @@ class Andersson(_Unabraded):
     name: ClassVar[str] = "andersson"
     source: ClassVar[str] = (
         "Andersson, Larsson, Almqvist, Grahn & Minami, Faraday Discuss. 156 (2012) 343, doi:10.1039/c2fd00132b"
+    )
+    equations: ClassVar[Equations] = Equations(
+        ("∂h_t/∂t = C_5 (1 − h_t/h_{max}) max(τ |u_1 − u_2| − C_6, 0)",),
+        "Where solids touch; nothing is removed.",
+        options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
     )
     dose: ClassVar[str] = "residence"
 

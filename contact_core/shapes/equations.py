@@ -1,0 +1,18 @@
+"""Equations that several shapes share, for documentation."""
+
+from ..laws.equations import Equations
+
+HALF_SPACE = Equations(
+    ("d(x, y) = 2/(π E′) ∬ p(x′, y′) [(x − x′)^2 + (y − y′)^2]^{−1/2} dx′ dy′",),
+    "p is the pressure of oil and solids together.",
+    title="Elastic deformation (half space)",
+)
+LOAD_BALANCE = Equations(("W = ∬ p dx dy",), "It determines the rigid gap h0.", title="Load balance")
+REDUCED = (
+    "σ the present composite rms roughness. Heating (heat.inlet_shear), thinning (lubricant.flow) in the inlet "
+    "and starvation (lubricant.supply) reduce the film."
+)
+ROLLING_NOTE = (
+    "Smooth bodies with a flooded inlet, U = 2 η0 u_e/(E′ Rx) (Biboulet and Houpert 2010), times the share 1 − Wc of "
+    "the load on the oil. Inlet heating, thinning and starvation reduce it as they reduce the film."
+)

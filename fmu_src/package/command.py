@@ -1,0 +1,90 @@
+"""The command line that builds an FMU: build_fmu.py, and `tribofmu build`. Light to import."""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from shutil import which
+
+from contact_core.errors import SceneError
+from contact_core.scene import Scene
+
+from ..flavours import FLAVOURS
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line; return 0, or 2 after an error message on stderr."""
+    parser = argparse.ArgumentParser(prog="build_fmu.py", description="Build the FMU of a scene.")
+    add_arguments(parser)
+    try:
+        return run(parser.parse_args(argv))
+    except SceneError as error:
+        print(error, file=sys.stderr)
+        return 2
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments that `run` reads."""
+    parser.add_argument("scene", metavar="SCENE", help="name of a shipped scene, or path of a .toml file")
+    parser.add_argument("--out", type=Path, metavar="FILE.fmu", help="default: name of the scene, in this folder")
+    parser.add_argument(
+        "--flavour",
+        choices=FLAVOURS,
+        default="isolated",
+        help="isolated: for any host, the model in a process of its own; embedded: for hosts in Python "
+        "(default: %(default)s)",
+    )
+    parser.add_argument(
+        "--python",
+        metavar="PATH",
+        nargs="?",
+        const=sys.executable,
+        help="interpreter of an isolated FMU where TRIBOFMU_PYTHON is not set (without PATH: the one that builds it; "
+        "without --python: python3 on the host's PATH)",
+    )
+    parser.add_argument(
+        "--set",
+        dest="overrides",
+        metavar="key=value",
+        nargs="+",
+        action="extend",
+        default=[],
+        help="change a value of the scene, e.g. film.points=65 or tribofilm.model=none",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Build the FMU and print its path; return 0, or 2 if it cannot be written.
+
+    Raises SceneError if the arguments cannot be used.
+    """
+    if arguments.python and arguments.flavour == "embedded":
+        raise SceneError("--python is for isolated FMUs: an embedded FMU runs in its host's Python. Leave it out.")
+    scene = Scene.from_toml(arguments.scene, _overrides(arguments.overrides))
+    for warning in scene.warnings():
+        print(f"Note: {warning}", file=sys.stderr)
+    out = arguments.out or Path(f"{scene.name}.fmu")
+    from .build import build
+
+    try:
+        print(build(scene, out, arguments.flavour, python=_recorded(arguments.python), reference=True))
+    except OSError as error:
+        print(f"The FMU cannot be written: {error}.", file=sys.stderr)
+        return 2
+    return 0
+
+
+def _recorded(python: str | None) -> str | None:
+    """Return the absolute path of the interpreter, if it is on this machine; links of virtual environments are kept."""
+    found = python and which(python)
+    if python and not found:
+        print(f"Note: '{python}' cannot be run here. The FMU will look for it under this name.", file=sys.stderr)
+        return python
+    return str(Path(found).absolute()) if found else None
+
+
+def _overrides(pairs: Sequence[str]) -> dict[str, str]:
+    for pair in pairs:
+        if "=" not in pair:
+            raise SceneError(f"--set {pair} has no '='. Write for example --set film.points=65.")
+    return {key.strip(): value.strip() for key, _, value in (pair.partition("=") for pair in pairs)}

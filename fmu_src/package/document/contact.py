@@ -1,0 +1,177 @@
+"""Sections on the contact: data of the scene, signs, range of validity, errors and steps."""
+
+import math
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from contact_core.scene import Scene
+
+from ...variables import FIDELITY
+from . import drawings, measured
+from .levels import LEVELS
+from .markup import bullets, number, paragraph, plain, table
+
+_CELSIUS = 273.15  # K
+
+
+def _numbers(factor: float, values: Iterable[float], unit: str) -> str:
+    return ", ".join(number(factor * value) for value in values) + f" {unit}"
+
+
+def data(scene: Scene) -> Iterator[str]:
+    """Yield the section on the data of the scene."""
+    bodies, point, hertz = scene.geometry, scene.operation.point, scene.hertz(scene.operation.load)
+    yield paragraph(
+        "Two rough bodies roll and slide on each other in oil under a normal load. The FMU computes film thickness, "
+        "pressure, real contact area, friction, growth of the tribofilm, wear and the resulting roughness. It starts "
+        f"at the {scene.film.name} level: {LEVELS[scene.film.name].summary(scene)} The parameter {FIDELITY} changes "
+        "the level at any step; this page describes the one at the start."
+    )
+    rows = [
+        *(
+            (f"radius of combined curvature along {axis}", number(1e3 * radius, "mm"))
+            for axis, radius in zip("xy", scene.radii(point), strict=False)
+        ),
+        *_face(scene),
+        ("reduced modulus E′ = 2/[(1 − ν₁²)/E₁ + (1 − ν₂²)/E₂]", number(1e-9 * scene.solids.reduced_modulus, "GPa")),
+        *(
+            (
+                f"body {i}: rms roughness, correlation length; track length between two passes",
+                f"{number(1e9 * s.rq, 'nm')}, {number(1e6 * s.correlation_length, 'µm')}; {number(1e3 * track, 'mm')}",
+            )
+            for i, s, track in (
+                (1, scene.surface_1, bodies.track_length_1),
+                (2, scene.surface_2, bodies.track_length_2),
+            )
+        ),
+        ("reference operating point: load", number(point.load, "N")),
+        ("speeds of body 1 and 2", _numbers(1.0, (point.speed_1, point.speed_2), "m/s")),
+        ("oil temperature", number(point.temperature - _CELSIUS, "°C")),
+        ("Hertz contact: half width along x", number(1e6 * hertz.a, "µm")),
+        *([("Hertz contact: half width along y", number(1e6 * hertz.b, "µm"))] if bodies.face_width is None else []),
+        ("Hertz contact: maximum pressure", number(1e-9 * hertz.pressure_max, "GPa")),
+    ]
+    yield table(("", "this scene"), rows)
+    if scene.warnings():
+        yield "<h3>Notes on this scene</h3>"
+        yield from bullets(scene.warnings())
+
+
+def _face(scene: Scene) -> Iterator[tuple[str, str]]:
+    if scene.geometry.face_width is not None:
+        yield "face width, which load and outputs refer to", number(1e3 * scene.geometry.face_width, "mm")
+        yield from LEVELS[scene.film.name].size(scene)
+
+
+def signs(scene: Scene) -> Iterator[str]:
+    """Yield the section on signs and directions."""
+    yield drawings.SIGNS
+    spins = "spin" not in scene.geometry.lacks
+    yield from bullets(
+        (
+            "x is the direction of entrainment. Speeds are surface speeds along x, relative to the contact.",
+            "friction_force acts on body 1 along +x, the opposite force on body 2. friction_coefficient is its "
+            "magnitude over the load, 0 without load.",
+            *(
+                ["spin is the angular speed of body 1 relative to body 2, positive from x to y; spin_torque acts on "
+                 "body 1 and has the same direction."]
+                if spins
+                else []
+            ),
+            f"power_loss = −friction_force (speed_1 − speed_2){' − spin_torque spin' if spins else ''}. It is never "
+            "negative and flows into the bodies: heat_flow_1 + heat_flow_2.",
+            LEVELS[scene.film.name].derivatives,
+            "A force −rolling_resistance acts on each surface along +x in addition to friction_force; power_loss does "
+            "not include its power.",
+        )
+    )  # fmt: skip
+
+
+def validity(scene: Scene) -> Iterator[str]:
+    """Yield the section on the range of validity."""
+    yield paragraph(
+        "Inputs and parameters outside the ranges in the tables below are refused: valid becomes false. Inside them, "
+        "range_flags reports what makes a result less certain. This scene, at its reference operating point:"
+    )
+    yield table(("", "here", "meaning"), _limits(scene))
+    yield paragraph(f"Not modelled: {', '.join(_not_modelled(scene))}.")
+
+
+def _not_modelled(scene: Scene) -> Iterator[str]:
+    if scene.lubricant.supply.name == "flooded":
+        yield "starvation (lubricant.supply = flooded: the inlet is full)"
+    yield from scene.geometry.not_modelled
+    yield "heat carried along by moving asperities (temperatures are steady)"
+    yield "motion of the bodies across the track"
+
+
+def _limits(scene: Scene) -> Iterator[tuple[str, str, str]]:
+    """Yield quantity, value and meaning of the limits of the model at this scene."""
+    hertz, load = scene.hertz(scene.operation.load), scene.operation.load
+    power = 1.0 / scene.shape().power  # maximum pressure grows with the load to the power of its inverse
+    hardest = load * (scene.plasticity.hardness / hertz.pressure_max) ** power
+    yield "load", f"below {number(hardest, 'N')}", "there the Hertz pressure of the smooth bodies reaches the hardness"
+    yield from _smooth_film(scene)
+    yield from LEVELS[scene.film.name].limits(scene)
+    for i, surface in ((1, scene.surface_1), (2, scene.surface_2)):
+        if surface.rq > 0.0:
+            nodes = number(surface.correlation_length / scene.film.spacing)
+            yield f"nodes per correlation length, body {i}", nodes, "2 or more resolve the roughness; W_c depends on it"
+    yield "tribofilm", _temperatures(scene), "bulk temperatures (oil or given bodies) for which its constants hold"
+
+
+def _smooth_film(scene: Scene) -> Iterator[tuple[str, str, str]]:
+    point, modulus = scene.operation.point, scene.solids.reduced_modulus
+    oil = scene.lubricant.viscosity, point.inlet_temperature
+    smooth = scene.shape().smooth(scene.operation.load, point.entrainment_speed, *oil, modulus)
+    if smooth.entrainment_speed == 0.0:
+        yield "film of the smooth bodies", "none", "nothing entrains oil: the contact is dry"
+        return
+    hertz, supply = scene.hertz(scene.operation.load), scene.lubricant.supply
+    film = supply.film(smooth.film, hertz.a, scene.geometry.radius_x, scene.shape().side_resistance)
+    yield "Moes' M and L", ", ".join(map(number, smooth.moes_parameters)), "load and lubricant parameters"
+    formula = f"by the formula of {scene.geometry.film_formula}"
+    yield "flooded film of the smooth bodies", number(1e9 * smooth.film, "nm"), formula
+    if supply.name != "flooded":
+        yield "film with this oil supply", number(1e9 * film, "nm"), supply.source
+    sigma = math.hypot(scene.surface_1.rq, scene.surface_2.rq)
+    if sigma > 0.0:
+        yield "λ: that film over composite roughness", number(film / sigma), "the smaller λ, the more load on solids"
+
+
+def _temperatures(scene: Scene) -> str:
+    """Return the range of bulk temperatures for which the constants of the tribofilm hold, to a degree."""
+    tried = np.arange(230.0, 500.0, 0.1)
+    held = [t for t in tried if scene.tribofilm.covers(float(t))]
+    low, high = (round(t - _CELSIUS) for t in (held[0], held[-1]))
+    return "any" if len(held) == len(tried) else f"{low} to {high} °C"
+
+
+def errors(scene: Scene) -> Iterator[str]:
+    """Yield the section on the errors of the outputs."""
+    yield paragraph(
+        "error_friction, error_film, error_tribofilm and error_wear are half widths of 95 % intervals, relative. "
+        + LEVELS[scene.film.name].errors
+    )
+    yield paragraph("Measured errors, and the command of the repository that measures them:")
+    for found in measured.ERRORS[scene.film.name]:
+        yield _measured(found)
+
+
+def _measured(found: measured.Table) -> str:
+    title = f"<p>{plain(found.title)} (<code>{plain(found.command)}</code>):</p>"
+    return title + table(found.head, found.rows)
+
+
+def steps(scene: Scene) -> Iterator[str]:
+    """Yield the section on communication steps."""
+    yield drawings.STEPS
+    yield paragraph(
+        "A communication step from t to t + h holds the inputs as set before it; the outputs are those at t + h. "
+        "Between steps the outputs depend on the state alone: a new input takes effect in the next step. Coupled to "
+        "another model, one of the two lags by a step; choose h so short that the inputs change little in it. Steps "
+        "may differ in length; any length is allowed, zero too."
+    )
+    yield paragraph(LEVELS[scene.film.name].steps(scene))
+    yield _measured(measured.COSTS[scene.film.name])

@@ -1,0 +1,135 @@
+"""Sections on the FMU as a component: status, variables, state, log, requirements, check and licence."""
+
+import math
+from collections.abc import Iterator
+
+import contact_core
+from contact_core.scene import Scene
+from contact_core.state import RangeFlag
+
+from ...flavours import Flavour
+from ...runtime.guarded import LOG_CATEGORIES
+from ...variables import FIDELITY, INITIAL_STATE, Variable, variables
+from .. import evidence, licences
+from .markup import bullets, paragraph, table
+
+_KINDS = (("Inputs", "input"), ("Outputs", "output"), ("Parameters", "parameter"), ("Time", "independent"))
+_FAILURES: dict[Flavour, tuple[tuple[str, str, str], ...]] = {
+    "isolated": (
+        ("unexpected error in the model", "Error", "the log has its traceback; the host continues"),
+        (
+            "the process of the model ends, or does not answer within TRIBOFMU_TIMEOUT",
+            "Error",
+            "the host continues; restore a state, or reset, to continue in a new process",
+        ),
+    ),
+    "embedded": (
+        (
+            "unexpected error in the model",
+            "OK",
+            "valid is false; state and outputs do not change; the log has its traceback",
+        ),
+    ),
+}
+_PROCESS: dict[Flavour, str] = {
+    "isolated": "The FMU starts a Python process of its own for the model; the host needs no Python.",
+    "embedded": "The model runs in the Python of the host.",
+}
+
+
+def status(flavour: Flavour) -> Iterator[str]:
+    """Yield the section on status, valid and range_flags."""
+    yield table(
+        ("event", "status", "result"),
+        (
+            ("a usable step or value", "OK", "valid is true"),
+            (
+                "an unusable input or step size, a contact that cannot be solved",
+                "OK",
+                "valid is false; time advances, state and outputs do not change, the log gives the reason. The next "
+                "step that can be computed sets valid to true again",
+            ),
+            (
+                f"an unusable parameter or {INITIAL_STATE}",
+                "OK",
+                "the same at every step until a reset; the FMU never runs with other values than the given ones",
+            ),
+            *_FAILURES[flavour],
+        ),
+    )
+    yield paragraph("Check valid after every step. range_flags is the sum of:")
+    yield table(("value", "name", "meaning"), ((flag.value, flag.name, flag.text) for flag in RangeFlag))
+
+
+def variable_tables(scene: Scene) -> Iterator[str]:
+    """Yield the section of all variables."""
+    yield paragraph("All values are in SI units. Bounds are those of modelDescription.xml.")
+    listed = variables(scene)
+    for title, causality in _KINDS:
+        yield f"<h3>{title}</h3>"
+        if causality == "parameter":
+            yield paragraph(
+                f"Set them before initialisation ends; afterwards all but {FIDELITY} are fixed until a reset."
+            )
+        rows = (_row(v) for v in listed if v.causality == causality)
+        yield table(("name", "unit", "minimum", "maximum", "start", "meaning"), rows)
+
+
+def _row(v: Variable) -> tuple[str, ...]:
+    low, high = (f"{bound:.10g}" if math.isfinite(bound) else "" for bound in (v.minimum, v.maximum))
+    start = f"{v.start:.10g}" if isinstance(v.start, float) else str(v.start)
+    return v.name, v.unit, low, high, start if v.has_start else "", v.text
+
+
+def state() -> Iterator[str]:
+    """Yield the section on FMU states."""
+    yield from bullets(
+        (
+            "FMU states can be got, set, serialised and deserialised at any time. A replay agrees bit for bit, also in "
+            "another instance and in another process. A state includes parameters and inputs.",
+            "A damaged state, or a state of another FMU, is refused when it is set: valid is false, nothing changes.",
+            f"{INITIAL_STATE} names a file with the bytes of contact_core's ContactState.to_bytes(), to start from "
+            "run-in surfaces; empty: fresh surfaces.",
+            "fmi2Reset restores the start values; the next run repeats the first one.",
+        )
+    )
+
+
+def log() -> Iterator[str]:
+    """Yield the section on log messages."""
+    yield paragraph("The FMU sends messages if the host has switched logging on. Categories:")
+    yield table(("category", "messages"), LOG_CATEGORIES.items())
+
+
+def requirements(flavour: Flavour) -> Iterator[str]:
+    """Yield the section on required packages and environment variables."""
+    exact = " and ".join(f"{name} {version}" for name, version in licences.exact().items())
+    yield paragraph(
+        f"{_PROCESS[flavour]} It needs Python {licences.python()} with exactly {exact} and the packages that pip "
+        f"installs with them: {', '.join(licences.dependencies())}. externalDependencies.txt lists the same."
+    )
+    yield table(("environment variable", "meaning"), licences.VARIABLES[flavour].items())
+
+
+def check(reference: bool) -> Iterator[str]:
+    """Yield the section on reference data."""
+    if not reference:
+        yield paragraph("This FMU was built without reference data.")
+        return
+    names = {evidence.STIMULI: "stimuli", evidence.EXPECTED: "expected outputs", evidence.EXPERIMENT: "experiment"}
+    links = [f'<a href="../{evidence.FOLDER}/{name}">{text}</a>' for name, text in names.items()]
+    yield (
+        f"<p>The FMU carries a short run of its own, {', '.join(links)}, in the layout of the FMI layered standard for "
+        f'references. <a href="fmi-ls-ref.txt">How to replay it</a>; tolerance {evidence.TOLERANCE:g}.</p>'
+    )
+    yield paragraph("tribofmu check FILE.fmu --deep replays it, among other checks.")
+
+
+def licence(flavour: Flavour) -> Iterator[str]:
+    """Yield the section on licences."""
+    names = licences.licences(flavour)
+    links = ", ".join(f'<a href="licenses/{name}">{name}</a>' for name in names)
+    yield (
+        f"<p>{licences.PACKAGE} {contact_core.__version__} is under the BSD 3-clause licence. Licences of the parts of "
+        f"this FMU: {links}. Please cite the sources of the laws, too.</p>"
+    )

@@ -1,0 +1,342 @@
+"""The base of all slaves: variables by value reference, phases, and a guard that lets no exception reach the host.
+
+An exception that reaches pythonfmu's binary can end the host's process; its only other answer, Discard, ends a
+simulation without a message. So every callback returns OK. The log says what could not be used, `valid` becomes false,
+and state and outputs stay as they are until the next step that can be computed. An isolated FMU returns the worst
+status of the log.
+
+Every message has one of `LOG_CATEGORIES`. pythonfmu's binary forwards it if the host has switched logging on and asked
+for its category, or for none.
+"""
+
+import math
+import sys
+import traceback
+from abc import abstractmethod
+from collections.abc import Callable, Collection, Sequence
+from typing import Any
+
+from pythonfmu import Fmi2Slave
+from pythonfmu.enums import Fmi2Status
+
+from contact_core import ContactError, ConvergenceError
+
+from ..phases import Phase
+from ..variables import TIME, ZERO, Causality, Kind, Value, Variable
+from . import loader
+
+LOG_CATEGORIES = {
+    "logStatusWarning": "calls that FMI does not allow, and the user's interrupt",
+    "logStatusError": "unexpected errors, with their traceback",
+    "logValidity": "inputs, parameters, steps and states that cannot be used; range flags when they appear",
+    "logSolver": "contacts without a solution, and solutions that missed their tolerance or were replaced",
+}
+
+
+_PART, _ROUNDED = 1e-6, 1e-12  # of a step and of a time: communication points that differ by less are the same
+_PAST = 1e-5  # s, and of the stop time: fmusim takes as much for rounding, no known host takes more
+_HALF = 0.5  # of a step: more is not rounding
+
+_WHEN = {
+    Phase.NEW: "before initialisation",
+    Phase.UNSETTLED: "in initialisation mode",
+    Phase.SETTLED: "in initialisation mode",
+    Phase.STEPPING: "after initialisation",
+}
+
+
+class CallError(ContactError):
+    """A call that FMI does not allow."""
+
+
+class StepError(CallError):
+    """A step that does not begin where the last one ended, or that goes beyond the stop time."""
+
+
+class GuardedSlave(Fmi2Slave):
+    """A model with variables by value reference, among them the output `valid` and the independent `time`.
+
+    Attributes, to be read only: `values` of all variables, always the same list; `layout`, kind and role of each;
+    `phase` of the instance.
+    """
+
+    log_categories = LOG_CATEGORIES
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self._module = type(self).__module__
+        loader.tidy(self.resources, type(self).__name__)
+        try:
+            self._variables = self._read()
+        except ContactError as error:
+            print(error, file=sys.stderr)  # the host only learns that the FMU cannot be instantiated
+            raise
+        self._references = {v.name: vr for vr, v in enumerate(self._variables)}
+        self.values: list[Value] = [v.start for v in self._variables]
+        direct = {name for v in self._variables for name in v.direct}
+        self.layout = tuple((v.kind, _role(v, direct)) for v in self._variables)
+        self._inputs = [(v.name, vr) for vr, v in enumerate(self._variables) if v.causality == "input"]
+        self._settable = {
+            (kind, stepping): {vr for vr in self._references.values() if not self._objection(vr, kind, stepping)}
+            for kind in ZERO
+            for stepping in (False, True)
+        }
+        self.phase = Phase.NEW
+        self._due: float | None = None  # begin of the next step [s]; None: anywhere
+        self._stop: float | None = None  # [s], if the host has defined it
+        self._interrupted = self._terminated = False
+
+    @abstractmethod
+    def _read(self) -> Sequence[Variable]:
+        """Read the model from the resources and return its variables. Raises ContactError if it cannot be used."""
+
+    @abstractmethod
+    def _initialise(self) -> None:
+        """Make model, state and outputs from the present parameters and inputs."""
+
+    @abstractmethod
+    def _advance(self, step_size: float) -> None:
+        """Advance state and outputs by a step [s] under held inputs."""
+
+    # initialisation and steps
+
+    def setup_experiment(self, start_time: float, stop_time: float | None, tolerance: float | None) -> None:
+        """Set the start time and the limit of time [s]; the tolerance is not used."""
+        self._guard(self._set_up, start_time, stop_time)
+
+    def _set_up(self, start: float, stop: float | None) -> None:
+        self._must_be("fmi2SetupExperiment", Phase.NEW)
+        if not math.isfinite(start):
+            raise CallError(f"startTime = {start} s must be a finite number. Correct it in fmi2SetupExperiment.")
+        self.values[self._references[TIME]] = self._due = float(start)
+        self._stop = stop
+
+    def enter_initialization_mode(self) -> None:
+        """Enter initialisation mode: the outputs follow inputs and parameters until it ends."""
+        self._guard(self._enter)
+
+    def _enter(self) -> None:
+        self._must_be("fmi2EnterInitializationMode", Phase.NEW)
+        self.phase = Phase.UNSETTLED
+
+    def exit_initialization_mode(self) -> None:
+        """Set up the model and evaluate it, without moving time."""
+        self._guard(self._exit)
+
+    def _exit(self) -> None:
+        self._must_be("fmi2ExitInitializationMode", Phase.UNSETTLED, Phase.SETTLED)
+        if self.phase is not Phase.SETTLED or not self._value("valid"):  # log errors in this call, too
+            self._settle()
+        self.phase = Phase.STEPPING
+
+    def _must_be(self, call: str, *phases: Phase) -> None:
+        """Raise CallError if the instance is in none of these phases."""
+        if self._terminated or self.phase not in phases:
+            when = "after fmi2Terminate" if self._terminated else _WHEN[self.phase]
+            raise CallError(f"{call} is not allowed {when}. Nothing was done.")
+
+    def _settle(self) -> None:
+        self.phase = Phase.SETTLED
+        self._guard(self._initialise)
+
+    def do_step(self, current_time: float, step_size: float) -> bool:
+        """Advance under held inputs. Return False, which ends the simulation, only after the user's interrupt."""
+        if not self._interrupted:
+            self._guard(self._step, current_time, step_size)
+        return not self._interrupted
+
+    def _step(self, time: float, size: float) -> None:
+        """Advance from `time` by `size` [s]. Time advances also if the step cannot be computed."""
+        self._must_be("fmi2DoStep", Phase.STEPPING)
+        size = 0.0 if -_ROUNDED * abs(time) <= size < 0.0 else size  # a host's rounding at the end
+        self._check_times(time, size)
+        reached = time + size if size >= 0.0 and math.isfinite(time + size) else time
+        self.values[self._references[TIME]] = reached
+        self._due = None  # after an unexpected error some hosts continue, others try again
+        try:
+            self._advance(size)
+        except ContactError:
+            self._due = reached
+            raise
+        self._due = reached
+
+    def _check_times(self, time: float, size: float) -> None:
+        if not math.isfinite(time):
+            raise StepError(f"currentCommunicationPoint = {time} s must be a finite number. Nothing was done.")
+        length = abs(size) if math.isfinite(size) else 0.0
+        if self._due is not None and not abs(time - self._due) <= _PART * length + _ROUNDED * abs(time):
+            raise StepError(
+                f"currentCommunicationPoint = {time!r} s must be {self._due!r} s, where the last step has ended. Begin "
+                "there, or restore a saved state. Nothing was done."
+            )
+        if self._stop is not None and time + size > self._stop + min(_HALF * length, _PAST * max(1.0, abs(self._stop))):
+            raise StepError(
+                f"The step from {time!r} s to {time + size!r} s goes beyond stopTime = {self._stop!r} s. Give a later "
+                "one, or none, in fmi2SetupExperiment. Nothing was done."
+            )
+
+    def terminate(self) -> None:
+        """Allow no further step until a state is restored."""
+        self._terminated = True
+
+    def refresh(self) -> None:
+        """Bring the outputs up to date with parameters, inputs and state."""
+        if self.phase is Phase.UNSETTLED:
+            self._settle()
+
+    def _value(self, name: str) -> Value:
+        return self.values[self._references[name]]
+
+    def _parameters(self, values: Sequence[Value]) -> dict[str, Any]:
+        pairs = zip(self._variables, values, strict=True)
+        return {v.name: value for v, value in pairs if v.causality == "parameter"}
+
+    # the guard
+
+    def _guard(self, action: Callable[..., None], *arguments: Any) -> None:
+        """Run `action`; an exception becomes one log entry and valid = false."""
+        try:
+            action(*arguments)
+        except StepError as error:
+            self._refuse(str(error), Fmi2Status.error, "logStatusError")
+        except CallError as error:
+            self._refuse(str(error), Fmi2Status.warning, "logStatusWarning")
+        except ConvergenceError as error:
+            self._refuse(str(error), Fmi2Status.warning, "logSolver")
+        except ContactError as error:
+            self._refuse(str(error), Fmi2Status.warning, "logValidity")
+        except KeyboardInterrupt:
+            self._interrupted = True
+            self._refuse("Interrupted by the user.", Fmi2Status.warning, "logStatusWarning")
+        except (Exception, SystemExit):
+            reason = f"Unexpected error in the model. {traceback.format_exc()}"
+            self._refuse(reason, Fmi2Status.error, "logStatusError")
+
+    def _refuse(self, reason: str, status: Fmi2Status, category: str) -> None:
+        self.values[self._references["valid"]] = False
+        self._message(reason, status, category)
+
+    def _message(self, message: str, status: Fmi2Status, category: str) -> None:
+        # the host reads the message as a printf format, the binary as strict UTF-8
+        self.log(message.replace("%", "%%").encode("utf-8", "backslashreplace").decode(), status, category)
+
+    # variables by value reference
+
+    def _get(self, references: list[int], kind: Kind) -> list[Any]:
+        if any(self._causality(vr) == "output" for vr in references):
+            self.refresh()
+        found = []
+        for vr in references:
+            known = self._causality(vr) is not None and self._variables[vr].kind == kind
+            if not known:
+                reason = f"There is no {kind} variable with value reference {vr}."
+                self._refuse(reason, Fmi2Status.warning, "logStatusWarning")
+            found.append(self.values[vr] if known else ZERO[kind])
+        return found
+
+    def _set(self, references: list[int], values: Sequence[Value], kind: Kind) -> None:
+        stepping = self.phase is Phase.STEPPING
+        settable = self._settable[kind, stepping]
+        pairs = list(zip(references, values, strict=True))
+        if not settable.issuperset(references):
+            for reference in references:
+                if objection := self._objection(reference, kind, stepping):
+                    self._refuse(objection, Fmi2Status.warning, "logStatusWarning")
+            pairs = [(reference, value) for reference, value in pairs if reference in settable]
+        if pairs:
+            self._guard(self._store, pairs)
+
+    def _store(self, pairs: Sequence[tuple[int, Value]]) -> None:
+        """Store values by reference."""
+        for reference, value in pairs:
+            self.values[reference] = value
+        if self.phase is Phase.SETTLED:
+            self.phase = Phase.UNSETTLED
+
+    def _objection(self, reference: int, kind: Kind, stepping: bool) -> str:
+        """Return why a variable of this kind cannot be set now; an empty text if it can."""
+        causality = self._causality(reference)
+        if causality is None or self._variables[reference].kind != kind:
+            return f"There is no {kind} variable with value reference {reference}."
+        name = self._variables[reference].name
+        if causality == "output":
+            return f"{name} is an output and cannot be set."
+        if causality == "independent":
+            return f"{name} is the independent variable: fmi2SetupExperiment and fmi2DoStep set it."
+        if stepping and self._variables[reference].variability == "fixed":
+            return f"{name} is a parameter: set it before initialisation ends, or reset the FMU first."
+        return ""
+
+    def _causality(self, reference: int) -> Causality | None:
+        return self._variables[reference].causality if 0 <= reference < len(self._variables) else None
+
+    def get_real(self, vrs: list[int]) -> list[float]:
+        """Return values of Real variables."""
+        return self._get(vrs, "Real")
+
+    def get_integer(self, vrs: list[int]) -> list[int]:
+        """Return values of Integer variables."""
+        return self._get(vrs, "Integer")
+
+    def get_boolean(self, vrs: list[int]) -> list[bool]:
+        """Return values of Boolean variables."""
+        return self._get(vrs, "Boolean")
+
+    def get_string(self, vrs: list[int]) -> list[str]:
+        """Return values of String variables."""
+        return self._get(vrs, "String")
+
+    def set_real(self, vrs: list[int], values: list[float]) -> None:
+        """Set Real inputs or parameters; values are checked when they are used."""
+        self._set(vrs, values, "Real")
+
+    def set_integer(self, vrs: list[int], values: list[int]) -> None:
+        """Set Integer parameters."""
+        self._set(vrs, values, "Integer")
+
+    def set_boolean(self, vrs: list[int], values: list[bool]) -> None:
+        """Refuse: no Boolean can be set."""
+        self._set(vrs, values, "Boolean")
+
+    def set_string(self, vrs: list[int], values: list[str | None]) -> None:
+        """Set String parameters; a null pointer is an empty text."""
+        self._set(vrs, [value or "" for value in values], "String")
+
+    # state: a handle is a frozen record with `data`, or its bytes until they are set (the binary decodes without the
+    # instance)
+
+    def _set_fmu_state(self, handle: Any) -> None:
+        self._guard(self._restore, handle)
+
+    @abstractmethod
+    def _restore(self, handle: Any) -> None:
+        """Restore the state of a handle. An unusable one is an error: the host would take it for the model's state."""
+
+    def _go_to(self, values: Sequence[Value], phase: Phase) -> None:
+        """Restore values and phase of a state."""
+        self.values[:] = values
+        self.phase = phase
+        self._due = float(self._value(TIME))
+        self._interrupted = self._terminated = False
+
+    @staticmethod
+    def parts(handle: Any) -> Sequence[bytes | memoryview]:
+        """Return buffers whose join is `_fmu_state_to_bytes`; unchanged ones are shared between states."""
+        return [handle.data]
+
+    @staticmethod
+    def _fmu_state_to_bytes(handle: Any) -> bytes:
+        return handle if isinstance(handle, bytes) else handle.data
+
+    @staticmethod
+    def _fmu_state_from_bytes(data: bytes) -> bytes:
+        return data
+
+
+def _role(variable: Variable, direct: Collection[str]) -> str:
+    """Return the role of a variable for the host: its causality, "direct" or "tunable"; time is an "output"."""
+    if variable.name in direct:
+        return "direct"
+    if variable.causality == "independent":
+        return "output"  # it changes in every step
+    return "tunable" if variable.variability == "tunable" else variable.causality

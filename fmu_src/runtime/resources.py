@@ -1,0 +1,103 @@
+"""Resources of an FMU for its slave, written and read in one place.
+
+`scene.json` is the scene, `versions.json` the packages it was built with; `slavemodule.txt` names the script that
+defines the slave. The name of the script contains a fingerprint of scene and versions: two FMUs in one process never
+share a module, and an edited scene is detected. An isolated FMU has in addition `start.py`, which its library runs,
+`guid.txt`, and `python.txt` if an interpreter was recorded (package.build).
+"""
+
+import functools
+import hashlib
+import json
+import uuid
+from pathlib import Path
+
+import pythonfmu
+
+import contact_core
+from contact_core.errors import SceneError
+from contact_core.scene import Scene
+
+from ..flavours import Flavour
+
+MODEL = "MixedContact"
+VERSIONS = {"contact_core": contact_core.__version__, "pythonfmu": pythonfmu.__version__}
+
+# The binary runs the file twice and takes the deepest subclass of Fmi2Slave among its names: define one only.
+_SCRIPT = '''"""The slave that the FMU's library loads."""
+
+from {package} import {module}
+
+# Each instantiation, pythonfmu 0.7 drops one reference too many to this module's names: add one.
+globals().setdefault("_references", []).append(globals())
+
+
+if "{model}" in globals():
+    {model} = globals()["{model}"]  # one class for all instances: classes are never freed
+else:
+
+    class {model}({module}.{name}):
+        """{text}"""
+'''
+
+
+def script(model: str, slave: str, text: str) -> bytes:
+    """Return the script that defines the slave: the class `model`, derived from `slave` (package.module.Class)."""
+    package, module, name = slave.rsplit(".", 2)
+    return _SCRIPT.format(model=model, package=package, module=module, name=name, text=text).encode()
+
+
+def guid(scene: Scene, flavour: Flavour) -> str:
+    """Return the UUID of the FMU of a scene; it depends on scene, versions and flavour."""
+    return identity(_fingerprint(scene), flavour)
+
+
+def identity(fingerprint: str, flavour: Flavour) -> str:
+    """Return the UUID of an FMU from the fingerprint of its source."""
+    return str(uuid.uuid5(uuid.UUID(hex=fingerprint[:32]), flavour))
+
+
+def module_name(scene: Scene) -> str:
+    """Return the name of the script, unique to scene and versions."""
+    return f"mixed_contact_{_fingerprint(scene)[:16]}"
+
+
+def _fingerprint(scene: Scene) -> str:
+    return hashlib.sha256(json.dumps([scene.to_dict(), VERSIONS], sort_keys=True).encode()).hexdigest()
+
+
+def files(scene: Scene) -> dict[str, bytes]:
+    """Return name and content of every file in `resources/` that both flavours have."""
+    module = module_name(scene)
+    return {
+        "scene.json": (json.dumps(scene.to_dict(), indent=1) + "\n").encode(),
+        "versions.json": (json.dumps(VERSIONS, indent=1) + "\n").encode(),
+        "slavemodule.txt": module.encode(),
+        f"{module}.py": script(MODEL, "fmu_src.runtime.slave.ContactSlave", "The contact of scene.json."),
+    }
+
+
+@functools.lru_cache(maxsize=64)
+def read(folder: str, module: str) -> Scene:
+    """Return the scene in an FMU's resources, for the script `module`; cached, so that a reset cannot fail.
+
+    Raises SceneError if the FMU was built with another version, or edited.
+    """
+    try:
+        versions = json.loads(Path(folder, "versions.json").read_text("utf-8"))
+        table = json.loads(Path(folder, "scene.json").read_text("utf-8"))
+    except (OSError, ValueError) as error:
+        raise SceneError(
+            f"The resources of the FMU in {folder} cannot be read ({error}). Build the FMU again."
+        ) from None
+    for package, installed in VERSIONS.items():
+        built_with = versions.get(package)
+        if built_with != installed:
+            raise SceneError(
+                f"The FMU was built with {package} {built_with}, but {installed} is installed. "
+                f"Build the FMU again, or install {package} {built_with}."
+            )
+    scene = Scene.from_dict(table)
+    if module_name(scene) != module:
+        raise SceneError(f"The scene of the FMU in {folder} was changed after building. Build the FMU again.")
+    return scene
