@@ -83,7 +83,7 @@ def study(report: Page, name: str, units: dict[int, float]) -> tuple[list[Row], 
     report.say(
         f"### {name.capitalize()}\n\n{load:g} N, u = {speed:g} m/s, M = {case.smooth.moes_parameters[0]:.0f}, film by formula "
         f"{case.film * 1e9:.0f} nm, lambda {case.film / case.rq:.2f}. Reference: {levels[-1].nodes} nodes, {film.algorithm}, "
-        f"pressure change {film.pressure_change:.1g}, imbalance {film.imbalance:.1g}, {levels[-1].seconds:.1f} s, short of: {film.shortfall or 'nothing'}. Its "
+        f"pressure change {film.pressure_change:.1g}, imbalance {film.imbalance:.1g}, {levels[-1].seconds:.1f} s, not met: {film.shortfall or 'nothing'}. Its "
         + ", ".join(f"{key} {value:.3g}" for key, value in reference.items())
         + "."
     )
