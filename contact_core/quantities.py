@@ -11,6 +11,9 @@ from typing import Any, Literal
 
 Role = Literal["input", "output", "diagnostic"]
 Kind = Literal["Real", "Integer", "Boolean"]
+# level: each instant has it (`deterministic.observed`), and the output is its smoothed mean over blocks; slope: the
+# surfaces have it, and its change per block tells the error of time steps; rate: so has its rate of change
+Trend = Literal["", "level", "slope", "rate"]
 
 LEVELS = ("regression", "deterministic")  # film models by rising fidelity: 1, 2
 
@@ -62,7 +65,8 @@ class Quantity:
     display: str = ""  # the unit people read, convertible to `unit`
     kind: Kind = "Real"
     relative: bool = False  # a temperature difference, not a temperature
-    levels: tuple[str, ...] = LEVELS  # film models that can tell it; others leave it zero
+    levels: tuple[str, ...] = LEVELS  # film models that have it; others leave it zero
+    trend: Trend = ""  # how the deterministic level follows it from block to block, see `Trend`
 
     @property
     def quantity(self) -> str:
@@ -91,13 +95,13 @@ INPUTS: tuple[Quantity, ...] = (
 )
 
 OUTPUTS: tuple[Quantity, ...] = (
-    Quantity("friction_force", "F", "N", "friction force on body 1 along +x", nominal=1.0),
+    Quantity("friction_force", "F", "N", "friction force on body 1 along +x", nominal=1.0, trend="level"),
     Quantity("friction_coefficient", "mu", "1", "|friction_force| / load, 0 at zero load", nominal=0.1, minimum=0.0),
     Quantity("rolling_resistance", "F_r", "N",
-             "integral of (h/2) dp/dx over the fluid film; each surface feels the opposite along +x; not in power_loss", nominal=0.1),
-    Quantity("friction_solid", "F_s", "N", "part of friction_force where solids touch", nominal=1.0),
+             "integral of (h/2) dp/dx over the fluid film; each surface feels the opposite along +x; not in power_loss", nominal=0.1, trend="level"),
+    Quantity("friction_solid", "F_s", "N", "part of friction_force where solids touch", nominal=1.0, trend="level"),
     Quantity("friction_fluid", "F_f", "N", "part of friction_force in the oil film", nominal=1.0),
-    Quantity("spin_torque", "M_s", "N m", "friction torque on body 1 about the axis from x to y", nominal=1e-3),
+    Quantity("spin_torque", "M_s", "N m", "friction torque on body 1 about the axis from x to y", nominal=1e-3, trend="level"),
     Quantity("power_loss", "P", "W", "-friction_force (speed_1 - speed_2) - spin_torque spin", nominal=1.0, minimum=0.0),
     *(Quantity(f"dfriction_d{name}", f"dF/d{symbol}", unit, f"derivative of friction_force by {text}; at a held film, or total where film.model is 'regression'", nominal=nominal)
       for name, symbol, unit, nominal, text in (
@@ -107,21 +111,22 @@ OUTPUTS: tuple[Quantity, ...] = (
           ("temperature", "T", "N/K", 0.01, "the temperature of oil and bodies together"))),
     *_pair("wear_rate", "dV/dt", "m3/s", "wear volume of the step divided by the step", nominal=1e-17, minimum=0.0, display="um3/s"),
     *_pair("wear_volume", "V", "m3", "wear volume of the whole track", nominal=1e-14, minimum=0.0, display="um3"),
-    *_pair("wear_depth", "w", "m", "mean wear depth over the track |y| < b", nominal=1e-8, minimum=0.0, display="nm"),
-    Quantity("h_c", "h_c", "m", "mean gap over the inner 2/3 of Hertz's contact: r < 2a/3, or such an ellipse or strip", nominal=1e-8, minimum=0.0, display="nm"),
-    Quantity("h_central", "h_central", "m", "gap at the centre of the contact", nominal=1e-8, minimum=0.0, display="nm"),
-    Quantity("h_min", "h_min", "m", "smallest gap", nominal=1e-9, minimum=0.0, display="nm", levels=_FIELDS),
-    Quantity("lambda_ratio", "lambda", "1", "h_c / composite rms roughness over the same disc, at most 1000", minimum=0.0),
-    *_pair("tribofilm", "h_t", "m", "mean tribofilm thickness over the track |y| < b, all nodes", nominal=1e-8, minimum=0.0, display="nm"),
+    *_pair("wear_depth", "w", "m", "mean wear depth over the track |y| < b", nominal=1e-8, minimum=0.0, display="nm", trend="rate"),
+    Quantity("h_c", "h_c", "m", "mean gap over the inner 2/3 of Hertz's contact: r < 2a/3, or such an ellipse or strip", nominal=1e-8, minimum=0.0, display="nm", trend="level"),
+    Quantity("h_central", "h_central", "m", "gap at the centre of the contact", nominal=1e-8, minimum=0.0, display="nm", trend="level"),
+    Quantity("h_min", "h_min", "m", "smallest gap", nominal=1e-9, minimum=0.0, display="nm", levels=_FIELDS, trend="level"),
+    Quantity("lambda_ratio", "lambda", "1", "h_c / composite rms roughness over the same disc, at most 1000", minimum=0.0, trend="level"),
+    *_pair("tribofilm", "h_t", "m", "mean tribofilm thickness over the track |y| < b, all nodes", nominal=1e-8, minimum=0.0, display="nm", trend="slope"),
     *_pair("tribofilm_roughness", "Rq_t", "m", "rms deviation of the tribofilm thickness over |y| < 2b/3", nominal=1e-8, minimum=0.0, display="nm"),
-    *_pair("roughness", "Rq", "m", "rms roughness over |y| < 2b/3, free of the groove's shape", nominal=1e-8, minimum=0.0, display="nm"),
-    Quantity("contact_area_ratio", "A_c", "1", "real contact area / Hertz area", minimum=0.0),
-    Quantity("contact_load_ratio", "W_c", "1", "load carried by the solids / load", minimum=0.0, maximum=1.0),
-    Quantity("pressure_max", "p_max", "Pa", "largest pressure", nominal=1e9, minimum=0.0, display="GPa", levels=_FIELDS),
-    Quantity("flash_temperature_rise", "dT_f", "K", "mean rise of the surfaces over the bulk temperatures in the real contact", relative=True),
+    *_pair("roughness", "Rq", "m", "rms roughness over |y| < 2b/3, free of the groove's shape", nominal=1e-8, minimum=0.0, display="nm", trend="slope"),
+    Quantity("contact_area_ratio", "A_c", "1", "real contact area / Hertz area", minimum=0.0, trend="level"),
+    Quantity("contact_load_ratio", "W_c", "1", "load carried by the solids / load", minimum=0.0, maximum=1.0, trend="level"),
+    Quantity("pressure_max", "p_max", "Pa", "largest pressure", nominal=1e9, minimum=0.0, display="GPa", levels=_FIELDS, trend="level"),
+    Quantity("flash_temperature_rise", "dT_f", "K", "mean rise of the surfaces over the bulk temperatures in the real contact", relative=True, trend="level"),
     *_pair("temperature", "T", "K", "bulk temperature", nominal=350.0, minimum=0.0, display="degC"),
-    *_pair("heat_flow", "Q", "W", "heat that the contact puts into the body", nominal=1.0),
-    Quantity("approach", "delta", "m", "approach of the bodies from first touching of the undeformed, smooth shapes", nominal=1e-6, display="um"),
+    Quantity("heat_flow_1", "Q_1", "W", "heat that the contact puts into the body, body 1", nominal=1.0, trend="level"),
+    Quantity("heat_flow_2", "Q_2", "W", "heat that the contact puts into the body, body 2", nominal=1.0),
+    Quantity("approach", "delta", "m", "approach of the bodies from first touching of the undeformed, smooth shapes", nominal=1e-6, display="um", trend="level"),
     Quantity("valid", "", "", "false: the last input could not be used; state and outputs stand as they were", kind="Boolean"),
     Quantity("fidelity_used", "", "", "film model that gave the outputs: 1 regression, 2 deterministic, 0 none yet", kind="Integer", minimum=0, maximum=2),
     Quantity("range_flags", "", "", "sum of the RangeFlag values raised (see RangeFlag)", kind="Integer", minimum=0),
@@ -129,9 +134,9 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("suggested_step", "dt", "s", "time until the stored contact is due to be solved again", nominal=60.0, minimum=0.0),
     *_pair("load_cycles", "N", "1", "passes of a surface point through the contact", role="diagnostic", nominal=1e4, minimum=0.0),
     Quantity("lambda_conventional", "lambda_HD", "1",
-             "Hamrock and Dowson's central film of the smooth bodies / composite rms roughness, at most 1000", role="diagnostic", minimum=0.0, levels=_FIELDS),
-    Quantity("contact_area_ratio_disc", "A_c_disc", "1", "share of the disc r < 2a/3 in solid contact", role="diagnostic", minimum=0.0, maximum=1.0, levels=_FIELDS),
-    Quantity("contact_load_ratio_disc", "W_c_disc", "1", "share of the load on the disc r < 2a/3 that solids carry", role="diagnostic", minimum=0.0, maximum=1.0, levels=_FIELDS),
+             "Hamrock and Dowson's central film of the smooth bodies / composite rms roughness, at most 1000", role="diagnostic", minimum=0.0, levels=_FIELDS, trend="level"),
+    Quantity("contact_area_ratio_disc", "A_c_disc", "1", "share of the disc r < 2a/3 in solid contact", role="diagnostic", minimum=0.0, maximum=1.0, levels=_FIELDS, trend="level"),
+    Quantity("contact_load_ratio_disc", "W_c_disc", "1", "share of the load on the disc r < 2a/3 that solids carry", role="diagnostic", minimum=0.0, maximum=1.0, levels=_FIELDS, trend="level"),
     *_pair("tribofilm_covered", "h_t_cov", "m", "mean tribofilm thickness over the track's nodes with more than 1 nm", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm", levels=_FIELDS),
     *_pair("tribofilm_upper", "h_t_up", "m", "mean tribofilm thickness over the track's nodes above 80 % of the thickest", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm", levels=_FIELDS),
     *_pair("roughness_ra", "Ra", "m", "arithmetic mean roughness over |y| < 2b/3, free of the groove's shape", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm", levels=_FIELDS),
@@ -150,6 +155,8 @@ OUTPUTS: tuple[Quantity, ...] = (
 # fmt: on
 
 OF_CALLER = {"valid", "fidelity_used"}  # outputs that the core leaves to its caller, who chooses what is solved and how
+
+OF_CORE = tuple(q for q in OUTPUTS if q.name not in OF_CALLER)
 
 TABLE: dict[str, Quantity] = {q.name: q for q in (*INPUTS, *OUTPUTS)}
 

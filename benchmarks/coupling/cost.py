@@ -56,7 +56,7 @@ FIXED = [scheme for scheme, settings in SCHEMES.items() if settings.keys() <= {"
 class Call(NamedTuple):
     """One call of an FMU."""
 
-    slave: str
+    instance: str
     function: str
     arguments: tuple[Any, ...]
 
@@ -72,8 +72,8 @@ class Trace:
         class Traced(Coupled):
             def initialise(self) -> None:
                 super().initialise()
-                for slave in self.slaves.values():
-                    trace.watch(slave)
+                for instance in self.instances.values():
+                    trace.watch(instance)
 
         def mark(_: float) -> None:
             self.begin = self.begin or len(self.calls)
@@ -85,15 +85,15 @@ class Trace:
         self.made = sum(call.function == "fmi2DoStep" for call in self.calls[self.begin : self.end])
         del self.calls[self.end :]
 
-    def watch(self, slave: Any) -> None:
+    def watch(self, instance: Any) -> None:
         """Keep all calls of an instance from now on."""
-        for name in dir(slave._fmu):
+        for name in dir(instance._fmu):
             if name.startswith("fmi2"):
-                setattr(slave._fmu, name, self._kept(slave.name, name, getattr(slave._fmu, name)))
+                setattr(instance._fmu, name, self._kept(instance.name, name, getattr(instance._fmu, name)))
 
-    def _kept(self, slave: str, name: str, function: Callable[..., Any]) -> Callable[..., Any]:
+    def _kept(self, instance: str, name: str, function: Callable[..., Any]) -> Callable[..., Any]:
         def call(*arguments: Any) -> Any:
-            self.calls.append(Call(slave, name, arguments))
+            self.calls.append(Call(instance, name, arguments))
             return function(*arguments)
 
         return call
@@ -112,9 +112,9 @@ class Trace:
 
         result = []
         for name, function, (_, *rest) in self.calls:
-            slave = coupled.slaves[name]
-            arguments = (slave._component, *(moved(argument, slave) for argument in rest))
-            result.append((getattr(slave._fmu, function), arguments))
+            instance = coupled.instances[name]
+            arguments = (instance._component, *(moved(argument, instance) for argument in rest))
+            result.append((getattr(instance._fmu, function), arguments))
         return result
 
 

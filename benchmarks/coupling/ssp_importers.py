@@ -24,8 +24,8 @@ from typing import Any, NamedTuple
 from benchmarks.folders import MEASURED
 from benchmarks.hosts import omsimulator, ssp_runner
 from benchmarks.hosts.ssp_runner import IMPORTERS, UNUSABLE
-from system_models.machine import reading
-from system_models.machine.export import with_timetable
+from system_models.machines import reading
+from system_models.machines.export import with_timetable
 from system_models.master import System, export_ssp, simulate
 
 RUNNER = Path(ssp_runner.__file__)

@@ -12,11 +12,11 @@ from matplotlib.figure import Figure
 
 from benchmarks.pages import Page
 from contact_core import OperatingPoint, Scene, advance, initial_state
-from system_models.bearing.equilibrium import Equilibrium, RingLoads, solve
-from system_models.bearing.geometry import BEARING_209, BEARING_218, RACES, BallBearingGeometry
-from system_models.bearing.kinematics import SLIDE_COULOMB, motion
-from system_models.bearing.levels import classify
-from system_models.bearing.textbook import sjovall
+from system_models.machines.ball_bearing.equilibrium import Equilibrium, RingLoads, solve
+from system_models.machines.ball_bearing.geometry import BEARING_209, BEARING_218, RACES, BallBearingGeometry
+from system_models.machines.ball_bearing.kinematics import SLIDE_COULOMB, motion
+from system_models.machines.ball_bearing.load_classes import classify
+from system_models.machines.ball_bearing.textbook import sjovall
 
 MM, RPM = 10**4.5, math.pi / 30.0
 BEARINGS = {"209": BEARING_209, "218": BEARING_218}

@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from benchmarks.pages import Page
-from system_models.machine import reading
-from system_models.machine.ball_bearing_results import Array, BearingRun
+from system_models.machines import reading
+from system_models.machines.ball_bearing.record import Array, BearingRun
 from system_models.master import simulate
 
 MACHINE = "bearing_209_start_stop"

@@ -11,12 +11,12 @@ from matplotlib.figure import Figure
 
 from benchmarks.pages import Page
 from contact_core import OperatingPoint, advance, initial_state
-from system_models.bearing.equilibrium import RingLoads
-from system_models.bearing.geometry import RACES
-from system_models.bearing.part import BallBearing
-from system_models.bearing.textbook import CATALOGUE_209, palmgren_torque, skf_torque
-from system_models.machine import reading
-from system_models.machine.ball_bearing_results import kinematic_viscosity
+from system_models.machines import reading
+from system_models.machines.ball_bearing.equilibrium import RingLoads
+from system_models.machines.ball_bearing.geometry import RACES
+from system_models.machines.ball_bearing.part import BallBearing
+from system_models.machines.ball_bearing.record import kinematic_viscosity
+from system_models.machines.ball_bearing.textbook import CATALOGUE_209, palmgren_torque, skf_torque
 
 RPM = math.pi / 30.0
 SPEEDS = (100.0, 200.0, 500.0, 1000.0, 2000.0, 3000.0, 5000.0, 7000.0, 10000.0)

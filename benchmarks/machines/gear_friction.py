@@ -14,13 +14,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from benchmarks.pages import Page
-from system_models.gear.geometry import FZG_STAGES
-from system_models.gear.path import Array
-from system_models.gear.textbook import ohlendorf
-from system_models.machine import reading
-from system_models.machine.gear_pair import flank
-from system_models.machine.gear_pair_record import Record
-from system_models.machine.resolve import solved_again
+from system_models.machines import reading
+from system_models.machines.gear_pair.geometry import FZG_STAGES
+from system_models.machines.gear_pair.mesh import flank
+from system_models.machines.gear_pair.path import Array
+from system_models.machines.gear_pair.record import Record
+from system_models.machines.gear_pair.textbook import ohlendorf
+from system_models.machines.resolve import solved_again
 from system_models.master import simulate
 
 STAGES = (3, 5, 7, 9, 10, 11, 12)

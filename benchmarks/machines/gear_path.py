@@ -14,10 +14,25 @@ from scipy.integrate import quad
 from benchmarks.pages import Page
 from contact_core import Scene
 from contact_core.reference import hertz_line
-from system_models.gear.geometry import FZG_A, FZG_C, FZG_STAGES, SpurGearPair
-from system_models.gear.path import Array, named_points, radius, slide_to_roll, stations_of, steps, surface_speeds
-from system_models.gear.sharing import Sharing, loads, mean_stiffness, pair_stiffness, single_stiffness
-from system_models.gear.textbook import iso_14179_1, load_intensity, loss_factor, ohlendorf, schlenk, sliding_share
+from system_models.machines.gear_pair.geometry import FZG_A, FZG_C, FZG_STAGES, SpurGearPair
+from system_models.machines.gear_pair.path import (
+    Array,
+    named_points,
+    radius,
+    slide_to_roll,
+    stations_of,
+    steps,
+    surface_speeds,
+)
+from system_models.machines.gear_pair.sharing import Sharing, loads, mean_stiffness, pair_stiffness, single_stiffness
+from system_models.machines.gear_pair.textbook import (
+    iso_14179_1,
+    load_intensity,
+    loss_factor,
+    ohlendorf,
+    schlenk,
+    sliding_share,
+)
 
 PAIRS = {"C": FZG_C, "A": FZG_A}
 PINION = 2170.0 * 2.0 * math.pi / 60.0  # rad/s

@@ -17,11 +17,12 @@ from matplotlib.figure import Figure
 
 from benchmarks.folders import MEASURED, RESULTS
 from contact_core.quantities import LEVELS
-from system_models import results
-from system_models.machine import ball_on_disc_report, reading
-from system_models.machine.assembly import Assembly
+from system_models.machines import reading
+from system_models.machines.assembly import Assembly
+from system_models.machines.ball_on_disc import report as ball_on_disc_report
 from system_models.master import simulate
 from system_models.master.saving import identity
+from system_models.store import results
 
 DOCS, KEPT = MEASURED / "machines", RESULTS / "rig_levels"
 SPEEDS = (2.0, 0.5, 0.12, 0.03, 0.01)  # of entrainment in a sweep [m/s]
@@ -74,7 +75,7 @@ def run(level: str) -> xr.Dataset:
     settings = {**assembly.settings, "outputs": assembly.outputs()}
     system = assembly.system(folder / "fmus")
     origin = {"simulation_json": json.dumps(identity(system, settings))}
-    kept = results.find_by(origin, folder)
+    kept = results.find(origin, folder)
     if kept is not None:
         return kept
     begin = time.process_time()

@@ -16,9 +16,9 @@ import numpy as np
 import xarray as xr
 
 from benchmarks.folders import MEASURED, RESULTS
-from system_models.machine import reading
-from system_models.machine.assembly import Assembly
-from system_models.machine.coupling_error import coarser, differences, relative, settled, stated
+from system_models.machines import reading
+from system_models.machines.assembly import Assembly
+from system_models.machines.coupling_error import coarser, differences, relative, settled, stated
 from system_models.master import simulate
 
 KEPT = RESULTS / "machine_tolerance"
@@ -103,13 +103,19 @@ def page() -> str:
 Written by `python -m benchmarks.machines.tolerance`.
 
 `tribofmu run` simulates each machine a second time, with every second of its communication points. The coupling is of
-first order, so the difference would be the error of the result if steps were short enough. Two step sizes cannot prove this. Therefore three times the difference is stated for each output (`system_models.machine.coupling_error`), the largest at any time, and at least any jump of the output in one step by less than a tenth of its largest value, since finer steps may have it in another step. It is the attribute `error_coupling` in result.nc.
+first order, so the difference would be the error of the result if steps were short enough. Two step sizes cannot
+prove this. Therefore three times the difference is stated for each output (`system_models.machines.coupling_error`),
+the largest at any time, and at least any jump of the output in one step by less than a tenth of its largest value,
+since finer steps may have it in another step. It is the attribute `error_coupling` in result.nc.
 
-The first three double steps after a change of the duty are left out, and three on either side of a jump of an output by more than a tenth of its largest value: the time of such a jump within a step is not resolved, and the error there may be as large as the output.
+The first three double steps after a change of the duty are left out, and three on either side of a jump of an output
+by more than a tenth of its largest value: the time of such a jump within a step is not resolved, and the error there
+may be as large as the output.
 
-Test: each machine is simulated again with every step divided by four or eight, as given in the table. The change is the error except for a quarter or an eighth of it. Errors and changes are relative to the output's largest value
-or, if that is more, a hundredth of its nominal (temperatures in degC). An output counts as not covered from
-{SMALL:.1%} on. The last column counts those that a tenth of the stated error would not cover.{lacks}
+Test: each machine is simulated again with every step divided by four or eight, as given in the table. The change is
+the error except for a quarter or an eighth of it. Errors and changes are relative to the output's largest value or,
+if that is more, a hundredth of its nominal (temperatures in degC). An output counts as not covered from {SMALL:.1%}
+on. The last column counts those that a tenth of the stated error would not cover.{lacks}
 
 | machine | steps: double, as shipped, shortest | cut | outputs | stated, median | largest | largest change | not covered | worst ratio: stated, change | not covered by a tenth |
 |---|---|---|---|---|---|---|---|---|---|

@@ -22,10 +22,10 @@ from matplotlib.figure import Figure
 
 from benchmarks.folders import MEASURED, RESULTS
 from contact_core import Scene, shipped_scenes
-from system_models import stribeck_report
-from system_models.duty import Duty
-from system_models.results import write
-from system_models.stribeck import Curves, Plan, measure
+from system_models.run import stribeck_report
+from system_models.run.duty import Duty
+from system_models.run.stribeck import Curves, Plan, measure
+from system_models.store.results import write
 
 DOCS, KEPT = MEASURED / "surfaces", RESULTS / "stribeck"
 FASTEST, SLOWEST = 10.0, 0.003  # m/s, as the command has them

@@ -1,7 +1,12 @@
 """The outputs of the core, and flags for answers that are less sure than usual."""
 
-from dataclasses import dataclass
+from dataclasses import make_dataclass
 from enum import IntFlag
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from ..quantities import OF_CORE
+
+_TYPES = {"Real": float, "Integer": int}
 
 
 class RangeFlag(IntFlag):
@@ -28,69 +33,22 @@ class RangeFlag(IntFlag):
     OTHER_LEVEL = 1024, "outputs that only the deterministic level can tell stand as it last left them, or at zero"
 
 
-@dataclass(frozen=True)
-class Outputs:
-    """The output quantities of `quantities.OUTPUTS` that the core computes, in SI."""
+if TYPE_CHECKING:
 
-    friction_force: float = 0.0
-    friction_coefficient: float = 0.0
-    rolling_resistance: float = 0.0
-    friction_solid: float = 0.0
-    friction_fluid: float = 0.0
-    spin_torque: float = 0.0
-    dfriction_dspeed_1: float = 0.0
-    dfriction_dspeed_2: float = 0.0
-    dfriction_dload: float = 0.0
-    dfriction_dtemperature: float = 0.0
-    power_loss: float = 0.0
-    wear_rate_1: float = 0.0
-    wear_rate_2: float = 0.0
-    wear_volume_1: float = 0.0
-    wear_volume_2: float = 0.0
-    wear_depth_1: float = 0.0
-    wear_depth_2: float = 0.0
-    h_c: float = 0.0
-    h_central: float = 0.0
-    h_min: float = 0.0
-    lambda_ratio: float = 0.0
-    tribofilm_1: float = 0.0
-    tribofilm_2: float = 0.0
-    tribofilm_roughness_1: float = 0.0
-    tribofilm_roughness_2: float = 0.0
-    roughness_1: float = 0.0
-    roughness_2: float = 0.0
-    contact_area_ratio: float = 0.0
-    contact_load_ratio: float = 0.0
-    pressure_max: float = 0.0
-    flash_temperature_rise: float = 0.0
-    temperature_1: float = 0.0
-    temperature_2: float = 0.0
-    heat_flow_1: float = 0.0
-    heat_flow_2: float = 0.0
-    approach: float = 0.0
-    range_flags: int = 0
-    iterations: int = 0
-    suggested_step: float = 0.0
-    load_cycles_1: float = 0.0
-    load_cycles_2: float = 0.0
-    coverage_1: float = 0.0
-    coverage_2: float = 0.0
-    tribofilm_covered_1: float = 0.0
-    tribofilm_covered_2: float = 0.0
-    tribofilm_upper_1: float = 0.0
-    tribofilm_upper_2: float = 0.0
-    roughness_ra_1: float = 0.0
-    roughness_ra_2: float = 0.0
-    roughness_raw_1: float = 0.0
-    roughness_raw_2: float = 0.0
-    lambda_conventional: float = 0.0
-    contact_area_ratio_disc: float = 0.0
-    contact_load_ratio_disc: float = 0.0
-    error_friction: float = 0.0
-    error_film: float = 0.0
-    error_tribofilm: float = 0.0
-    error_wear: float = 0.0
-    unconverged: float = 0.0
-    blocks_dry: float = 0.0
-    blocks_mixed: float = 0.0
-    blocks_fallback: float = 0.0
+    class Outputs:
+        """The output quantities of `quantities.OF_CORE`, in SI; zero by default."""
+
+        __dataclass_fields__: ClassVar[dict[str, Any]]
+
+        def __init__(self, **values: float) -> None: ...
+
+        def __getattr__(self, name: str) -> Any: ...
+
+else:
+    Outputs = make_dataclass(
+        "Outputs",
+        [(q.name, _TYPES[q.kind], _TYPES[q.kind](0)) for q in OF_CORE],
+        frozen=True,
+        namespace={"__doc__": "The output quantities of `quantities.OF_CORE`, in SI; zero by default."},
+    )
+    Outputs.__module__ = __name__

@@ -7,8 +7,8 @@ grid of the contact.
 
 import struct
 import zlib
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, fields
+from functools import cache, cached_property
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
@@ -20,13 +20,14 @@ from ..laws.tribofilm import thickness
 from ..scene import OperatingPoint, Scene
 from .outputs import Outputs
 from .storage import Reader, numbers, stored
-from .trends import Trends
+from .trends import NAMES, Trends
 
 Array = NDArray[np.float64]
 _Record = TypeVar("_Record", "ContactState", "Outputs", "Mean", OperatingPoint)
-_MAGIC, _SCHEMA = b"tribofmu", 6
+_MAGIC, _SCHEMA = b"tribofmu", 7
 _FEWEST = 100  # bytes that a header of schema 5 or before has at least
 _CHECKSUM, _SIGNED = struct.Struct("<I"), struct.Struct("<II")
+_LAYOUT = struct.Struct("<I")
 _TEXTS = struct.Struct("<4?II")  # what is there of film, solved_for, means, temperatures; lengths of digest, law
 _PAIR = struct.Struct("<2d")
 
@@ -73,7 +74,7 @@ class Body:
 
 @dataclass(frozen=True)
 class Mean:
-    """What the fast level knows of a body: means over its track |y| < b, b at the scene's reference load."""
+    """Track means of a body at the regression level: over |y| < b, b at the scene's reference load."""
 
     growth: float  # tribofilm formed [m]; all of it lies on the covered part
     removal: float  # tribofilm removed [m]
@@ -105,7 +106,7 @@ class ContactState:
         tuple[float, float] | None
     )  # of the bodies [K], which heat.bulk = "lumped" goes on from; None: none yet
     outputs: Outputs
-    means: tuple[Mean, Mean] | None = None  # of the fast level, newer than the patches; None: the patches are current
+    means: tuple[Mean, Mean] | None = None  # of the regression level, newer than the patches; None: the patches are current
 
     @property
     def rows(self) -> int:
@@ -113,19 +114,19 @@ class ContactState:
         return self.bodies[0].wear.shape[0]
 
     def to_bytes(self) -> bytes:
-        """Serialise: magic, checksum of the head, the head (schema, length, texts, numbers, what the arrays are, their
-        checksums), raw little-endian arrays.
+        """Return the state as bytes; the same state gives the same bytes.
 
-        The same state gives the same bytes.
+        They are: magic, checksum of the head, the head (schema, length, layout, texts, numbers, what the arrays are,
+        their checksums), raw little-endian arrays.
         """
         return b"".join(self.parts())
 
     def parts(self) -> list[bytes | memoryview]:
-        """What `to_bytes` joins: all up to the arrays, then the memory of each array, which is not copied.
+        """Return the parts that `to_bytes` joins: all up to the arrays, then the memory of each array, not copied.
 
-        An array of one value everywhere has no part: fresh surfaces take up no room. One that has not changed since an
-        earlier state is the same object in both (`obj` of its part): at the fast level that is all of them, between two
-        solutions of the deterministic one all but what grows and wears.
+        An array of one value everywhere has no part: fresh surfaces take up no room. An array that has not changed
+        since an earlier state is the same object in both (`obj` of its part): at the regression level all of them,
+        between two solutions of the deterministic level all but tribofilm and wear.
         """
         kept = [stored(record) for record in (*self.bodies, self.trends, self.film) if record is not None]
         texts = self.digest.encode(), self.law.encode()
@@ -133,6 +134,7 @@ class ContactState:
         single = [r for r in (self, self.outputs, self.solved_for, *(self.means or ())) if r is not None]
         head = b"".join(
             [
+                _LAYOUT.pack(_layout()),
                 _TEXTS.pack(*given, *map(len, texts)),
                 *texts,
                 *map(numbers, single),
@@ -180,7 +182,21 @@ def _read(data: bytes) -> ContactState:
     return state
 
 
+@cache
+def _layout() -> int:
+    """Return the fingerprint of the numbers and trends in a stored state, by their names and order."""
+    records = (ContactState, Outputs, OperatingPoint, Mean, Body, Trends, FilmState)
+    names = [f.name for record in records for f in fields(record)]
+    return zlib.crc32(" ".join([*names, *NAMES]).encode())
+
+
 def _unpacked(reader: Reader) -> ContactState:
+    (layout,) = reader.values(_LAYOUT)
+    if layout != _layout():
+        raise StateError(
+            "The stored state was written by a version with other inputs or outputs. Give a file that a run of this "
+            "version has written."
+        )
     film, solved_for, means, temperatures, digest, law = reader.values(_TEXTS)
     texts: dict[str, Any] = {"digest": reader.text(digest), "law": reader.text(law)}
     own = reader.numbers(ContactState)

@@ -1,4 +1,6 @@
-"""What the blocks' outputs are without their noise, and how sure that is.
+"""Outputs of blocks without their noise, and how sure they are.
+
+The column `trend` of the quantity table says which outputs are followed, and how.
 
 A block samples the moving surfaces at a few instants, so its means scatter; and they drift, as the surfaces change.
 A fading-memory filter of level and slope follows each quantity from block to block. What it misses tells the
@@ -11,46 +13,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..quantities import OUTPUTS
+
 Array = NDArray[np.float64]
 
-RATES = ("wear_depth_1", "wear_depth_2")  # followed as rates [m/s], reported as depths
-SMOOTHED = (
-    "friction_force",
-    "friction_solid",
-    "spin_torque",
-    "rolling_resistance",
-    "heat_flow_1",
-    "flash_temperature_rise",
-    "h_c",
-    "h_central",
-    "h_min",
-    "lambda_ratio",
-    "lambda_conventional",
-    "contact_area_ratio",
-    "contact_load_ratio",
-    "contact_area_ratio_disc",
-    "contact_load_ratio_disc",
-    "pressure_max",
-    "approach",
-)
-SHAPES = (
-    "roughness_1",
-    "roughness_2",
-    "tribofilm_1",
-    "tribofilm_2",
-)  # followed for their slope; they need no smoothing
+_OF = {kind: [q for q in OUTPUTS if q.trend == kind] for kind in ("level", "slope", "rate")}
+SMOOTHED = tuple(q.name for q in _OF["level"])
+SLOPES = tuple(q.name for q in _OF["slope"])
+RATES = tuple(q.name for q in _OF["rate"])
 RATES_FOLLOWED = tuple(f"{name}_rate" for name in RATES)
-NAMES = (*SMOOTHED, *SHAPES, *RATES_FOLLOWED)
-_SIGNED = (
-    "friction_force",
-    "friction_solid",
-    "spin_torque",
-    "rolling_resistance",
-    "flash_temperature_rise",
-    "heat_flow_1",
-    "approach",
-)
-_LEAST = np.array([0.0 if name in SMOOTHED and name not in _SIGNED else -np.inf for name in NAMES])
+NAMES = (*SMOOTHED, *SLOPES, *RATES_FOLLOWED)
+_LEAST = np.array([q.minimum for q in _OF["level"]] + [-np.inf] * (len(NAMES) - len(SMOOTHED)))
 _MEMORY_OF_SPREAD = 0.1
 _UNKNOWN = 0.05  # error of time steps, relative, while fewer than two blocks say nothing of a drift
 
@@ -90,6 +63,9 @@ class Trends:
         Gains as in Morrison, Introduction to Sequential Smoothing and Prediction, McGraw-Hill 1969: least squares
         over all blocks at first, fading memory later.
         """
+        if seen.keys() != set(NAMES):
+            wrong = ", ".join(sorted(seen.keys() ^ set(NAMES)))
+            raise ValueError(f"{wrong}: an output of a block has a trend in the quantity table, and is computed.")
         x = np.array([seen[name] for name in NAMES])
         n = self.blocks
         if n == 0:
@@ -135,10 +111,10 @@ class Trends:
         return late
 
     def half_widths(self) -> dict[str, tuple[float, float]]:
-        """Errors by time steps and by sampling, as half widths (two sigma), of `SMOOTHED`, `SHAPES` and `RATES`."""
+        """Errors by time steps and by sampling, as half widths (two sigma), of `SMOOTHED`, `SLOPES` and `RATES`."""
         sampling = 2.0 * np.sqrt(self.gain * self.variance)
         late = np.abs(self._late())
-        found = {name: (float(late[k]), float(sampling[k])) for k, name in enumerate((*SMOOTHED, *SHAPES))}
+        found = {name: (float(late[k]), float(sampling[k])) for k, name in enumerate((*SMOOTHED, *SLOPES))}
         for k, name in enumerate(RATES):
             found[name] = abs(float(self.time_error[k])), 2.0 * float(np.sqrt(self.sampling[k]))
         return found

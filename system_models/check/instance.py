@@ -1,28 +1,22 @@
 """One instance of a co-simulation FMU, every call written down before it is made: after a crash the last one shows."""
 
+import logging
 import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from ctypes import byref, c_int, c_void_p, cdll
+from functools import partial
 from io import FileIO
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import fmpy
-from fmpy import calloc, free, freeLibrary
+from fmpy import freeLibrary
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import (
-    FMU2Slave,
-    fmi2CallbackAllocateMemoryTYPE,
-    fmi2CallbackFreeMemoryTYPE,
-    fmi2CallbackFunctions,
-    fmi2CallbackLoggerTYPE,
-    fmi2CoSimulation,
-    fmi2String,
-    fmi2ValueReference,
-)
-from fmpy.logging import addLoggerProxy
+from fmpy.fmi2 import fmi2String, fmi2ValueReference
 
+from ..fmu import messages
+from ..fmu.fmi2 import FMU2Library
 from .start import Start
 from .variables import base_type, clipped, magnitude
 
@@ -34,25 +28,18 @@ _LONGEST = 300  # characters of a message, its end: there a traceback says what 
 _FEW = 100.0  # steps in an experiment that names no step
 
 
-_MESSAGES: list[str] = []  # of errors
+class Complaints(logging.Handler):
+    """Keeps the messages of FMUs with a status worse than a warning."""
 
+    def __init__(self) -> None:
+        super().__init__()
+        self.texts: list[str] = []
 
-def _logged(component: int, name: bytes, status: int, category: bytes, message: bytes | None) -> None:
-    if status > 1 and message:
-        _MESSAGES.append(" ".join(message.decode("utf-8", "replace").split()))
-
-
-# fmpy hands the messages of all instances to the logger that was added last, even if that is gone: this one stays
-_LOGGER = fmi2CallbackLoggerTYPE(_logged)
-
-
-def _callbacks() -> fmi2CallbackFunctions:
-    callbacks = fmi2CallbackFunctions()
-    callbacks.logger = _LOGGER
-    callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
-    callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
-    addLoggerProxy(byref(callbacks))
-    return callbacks
+    def emit(self, record: logging.LogRecord) -> None:
+        """Keep the text of a message."""
+        status, text = vars(record)["status"], vars(record)["text"]
+        if status > 1 and text:
+            self.texts.append(" ".join(text.split()))
 
 
 def call_in(trace: bytes) -> str:
@@ -94,7 +81,7 @@ class Fmu:
         self.outputs = [v for v in variables if v.causality == "output"]
         self.inputs = [v for v in variables if v.causality == "input" and v.type == "Real"]
         self.start_time, self.step = _experiment(self.description.defaultExperiment)
-        _MESSAGES.clear()
+        self._complaints = _complaints()
         self.fault = ""  # the call that an instance has refused, and how
         self.where = ""  # what is unusual about the calls to come
         self.progress = ""  # what is known when the rule must end here
@@ -120,7 +107,8 @@ class Fmu:
 
     def complaint(self) -> str:
         """The end of the error that the FMU has told last."""
-        return _MESSAGES[-1][-_LONGEST:] if _MESSAGES else ""
+        texts = self._complaints.texts
+        return texts[-1][-_LONGEST:] if texts else ""
 
     @contextmanager
     def instance(self) -> Iterator["Instance"]:
@@ -153,21 +141,23 @@ def _experiment(experiment: Any) -> tuple[float, float]:
     return start, float(experiment.stepSize or length / _FEW)
 
 
-class FMU2SlaveOfCheck(FMU2Slave):  # fmpy takes the version of FMI from the name
-    """fmpy's slave, with calls that it does not make."""
+def _complaints() -> Complaints:
+    """Return the handler that takes the messages of FMUs from now on, in place of others: they are evidence only."""
+    messages.log.handlers[:] = [found := Complaints()]
+    messages.log.propagate = False
+    return found
+
+
+class FMU2Checked(FMU2Library):  # fmpy takes the version of FMI from the name
+    """The library of an FMU, with calls that only the check makes."""
 
     warned = False  # a call was answered with a warning since this was set to False
     dll: Any
-    arguments: list[Any]  # of fmi2Instantiate, without the last three
 
     def _call(self, name: str, *arguments: Any) -> Any:
         answer = super()._call(name, *arguments)
         self.warned |= self._functions[name].restype is c_int and _STATUS[answer] == "warning"
         return answer
-
-    def create(self) -> int | None:
-        """A new component, None if it is refused."""
-        return self.fmi2Instantiate(*self.arguments, byref(self.callbacks), False, True)
 
     def reload(self) -> None:
         """Unload the library, as far as it lets itself be unloaded, and load it again."""
@@ -187,16 +177,9 @@ class Instance:
         self.time = fmu.start_time
         description, identifier = fmu.description, fmu.capabilities.modelIdentifier
         fmu.note("fmi2Instantiate" + "".join(f" with {name} = {value}" for name, value in instead.items()))
-        self._fmu = FMU2SlaveOfCheck(guid=description.guid, modelIdentifier=identifier, unzipDirectory=str(fmu.folder))
-        arguments = {
-            "instanceName": identifier,
-            "fmuType": fmi2CoSimulation,
-            "fmuGUID": description.guid,
-            "fmuResourceLocation": Path(fmu.folder, "resources").absolute().as_uri(),
-        } | instead
-        self._fmu.arguments = [value.encode() if isinstance(value, str) else value for value in arguments.values()]
-        self._fmu.callbacks = _callbacks()
-        self._fmu.component = self._fmu.create()
+        self._fmu = FMU2Checked(description, str(fmu.folder))
+        self._create = partial(self._fmu.create, identifier, **instead)
+        self._fmu.component = self._create()
         if self._fmu.component is None:
             self._fmu.freeLibrary()
             raise RefusedError(f"It cannot be instantiated{fmu.where}.")
@@ -347,7 +330,7 @@ class Instance:
 
     def come_and_go(self) -> None:
         """Make another instance and free it."""
-        component = self._fmu.create()
+        component = self._create()
         if component:
             self._fmu.fmi2FreeInstance(component)
 

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from contact_core.scene.toml import did_you_mean
 
-from .control import StepControl, wrms
+from ..fmu.errors import CouplingError, NotFiniteError
+from ..numerics.control import StepControl, wrms
+from ..numerics.richardson import halves
 from .coupled import Coupled, Point
-from .errors import CouplingError, NotFiniteError
 from .recorder import Recorder
-from .richardson import halves
 from .stepping import Attempt, Stepper
 
 _MATTERS = 0.1  # of the error that a step may have: less says nothing about how it adds up

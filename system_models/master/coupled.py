@@ -11,17 +11,17 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 from numpy.typing import NDArray
 
-from . import hold
-from .control import wrms
-from .errors import CouplingError, NotFiniteError
-from .hold import History, Past
+from ..fmu.errors import CouplingError, NotFiniteError
+from ..fmu.instance import Instance
+from ..fmu.start import started
+from ..numerics import hold
+from ..numerics.control import wrms
+from ..numerics.hold import History, Past
+from ..numerics.iteration import METHODS, Method
 from .initial import initialise
-from .iteration import METHODS, Method
 from .linear import Correction
 from .sequence import Block, blocks, feedthrough_order
 from .settings import Settings
-from .slave import Slave
-from .start import started
 from .system import Port, System
 from .wiring import Wiring, real_inputs, real_outputs
 
@@ -72,8 +72,9 @@ class Coupled:
         self.system, self.settings = system, settings
         self.restores = all(model.restores for model in system.models.values())
         ports = real_inputs(system), real_outputs(system, list(recorded))
-        self.slaves = started(system, *ports, early_return=self.restores, exits=exits)
-        self.wiring = Wiring(system, self.slaves)
+        inputs, outputs = ({name: [port.variable for port in each[name]] for name in system.models} for each in ports)
+        self.instances = started(system.models, inputs, outputs, early_return=self.restores, exits=exits)
+        self.wiring = Wiring(system, self.instances)
         self.outputs = np.zeros(len(self.wiring.outputs))
         # of the outputs: their nominal, or what they have reached; and what those without either seem to be heading for
         self.magnitudes = np.array([system.port(name).nominal or 0.0 for name in self.wiring.outputs])
@@ -81,9 +82,9 @@ class Coupled:
         self.history = History(settings.order)
         self.iteration_tolerance = settings.converged
         self.time = 0.0
-        self._blocks = blocks(system, self.slaves, self.wiring.inputs, settings)
+        self._blocks = blocks(system, self.instances, self.wiring.inputs, settings)
         self._methods: list[Method] = [METHODS[settings.iterate]() for _ in self._blocks] if settings.iterate else []
-        self._feedthrough = feedthrough_order(system, self.slaves)
+        self._feedthrough = feedthrough_order(system, self.instances)
         self._correction = Correction(system, self.wiring)
         self._passed_on = [c for c in system.connections if c.target.name not in self.wiring.input_place]
         self._passed: list[Any] = [None] * len(self._passed_on)
@@ -93,14 +94,14 @@ class Coupled:
         """Bring all FMUs to consistent initial values at the time 0."""
         for name, value in self.system.parameters.items():
             self.set(name, value)
-        for slave in self.slaves.values():
-            with self._named(slave, "to be initialised"):
-                slave.enter_initialization(self.time, self.settings.stop_time, self.settings.tolerance)
+        for instance in self.instances.values():
+            with self._named(instance, "to be initialised"):
+                instance.enter_initialization(self.time, self.settings.stop_time, self.settings.tolerance)
         self.set_scheduled(lambda time: time <= self.time)
-        initialise(self.slaves, self.system.connections)
-        for slave in self.slaves.values():
-            with self._named(slave, "to be initialised"):
-                slave.exit_initialization()
+        initialise(self.instances, self.system.connections)
+        for instance in self.instances.values():
+            with self._named(instance, "to be initialised"):
+                instance.exit_initialization()
         self._try_feedthrough()
         self.meet()
 
@@ -110,36 +111,37 @@ class Coupled:
         Those that refuse are left alone: their outputs follow their inputs a step later.
         """
         for name in list(self._feedthrough):
-            slave = self.slaves[name]
-            state = slave.save() if slave.model.restores else None
+            instance = self.instances[name]
+            state = instance.save() if instance.model.restores else None
             try:
-                slave.read()
-                slave.inputs.values[:] = [slave.get(slave.model.variables[own]) for own in slave.inputs.names]
-                slave.set_inputs()
-                slave.read()
+                instance.read()
+                variables = [instance.model.variables[own] for own in instance.inputs.names]
+                instance.inputs.values[:] = [instance.get(variable) for variable in variables]
+                instance.set_inputs()
+                instance.read()
             except FMICallException as error:
                 if state is None:
-                    raise slave.failure("to give outputs after its inputs were set", error) from error
+                    raise instance.failure("to give outputs after its inputs were set", error) from error
                 log.info("The FMU '%s' refuses outputs before a step; they lag behind its inputs.", name)
-                slave.restore(state)
-                slave.feedthrough = False
+                instance.restore(state)
+                instance.feedthrough = False
                 self._feedthrough.remove(name)
             finally:
                 if state is not None:
-                    slave.release(state)
+                    instance.release(state)
 
     def set(self, name: str, value: Any) -> None:
         """Set one variable from outside."""
         port = self.system.port(name)
-        slave = self.slaves[port.model.name]
-        with self._named(slave, f"to take '{name}' = {value!r}"):
-            slave.set(port.variable, value)
+        instance = self.instances[port.model.name]
+        with self._named(instance, f"to take '{name}' = {value!r}"):
+            instance.set(port.variable, value)
 
     def get(self, port: Port) -> Any:
         """The value of a variable of any type."""
-        slave = self.slaves[port.model.name]
-        with self._named(slave, f"to give '{port.name}'"):
-            return slave.get(port.variable)
+        instance = self.instances[port.model.name]
+        with self._named(instance, f"to give '{port.name}'"):
+            return instance.get(port.variable)
 
     def set_scheduled(self, times: Callable[[float], bool]) -> bool:
         """Set the inputs whose schedule has values at such times, to the last of them, and say if there are any."""
@@ -150,13 +152,13 @@ class Coupled:
 
     def next_event(self) -> float:
         """The time [s] of the first event that an FMU has announced."""
-        announced = [slave.next_event for slave in self.slaves.values() if slave.next_event is not None]
+        announced = [instance.next_event for instance in self.instances.values() if instance.next_event is not None]
         return min((time for time in announced if time > self.time), default=math.inf)
 
     def meet(self) -> None:
         """Begin anew at this time: read all outputs, and forget what was before."""
-        for slave in self.slaves.values():
-            self._read(slave)
+        for instance in self.instances.values():
+            self._read(instance)
         self.history.clear()
         for method in self._methods:
             method.clear()
@@ -193,8 +195,8 @@ class Coupled:
         for again in range(repeats + 1):
             if again:
                 polynomial = self.history.interpolate(size, self.wiring.told(self.outputs))
-                for name in self.slaves:
-                    self._restore_slave(name, start)
+                for name in self.instances:
+                    self._restore_instance(name, start)
             ends = hold.value(polynomial, size)
             for block in self._blocks:
                 self._pass(block, size, polynomial, ends)
@@ -230,7 +232,7 @@ class Coupled:
                     if not np.isfinite(guess).all():
                         break
                     for name in block.names:
-                        self._restore_slave(name, start)
+                        self._restore_instance(name, start)
                 iteration += 1
                 ends[unknown] = guess
                 self._pass(block, size, self.history.interpolate(size, ends), ends)
@@ -249,29 +251,29 @@ class Coupled:
         """
         end = self.time + size
         for name, fresh in block.sequence:
-            slave, inputs = self.slaves[name], polynomial[:, self.wiring.input_of[name]]
+            instance, inputs = self.instances[name], polynomial[:, self.wiring.input_of[name]]
             if len(fresh):
                 own = self.wiring.input_of[name]
                 told = self.wiring.told(self.outputs, own)
                 ends[own][fresh] = told[fresh]
                 latest = self.history.interpolate(size, told, own)
-                inputs = latest if len(fresh) == slave.inputs.count else _with_columns(inputs, latest, fresh)
+                inputs = latest if len(fresh) == instance.inputs.count else _with_columns(inputs, latest, fresh)
             try:
-                reached = slave.step(self.time, size, inputs)
+                reached = instance.step(self.time, size, inputs)
                 if end - reached > _SAME_TIME * size:
                     raise StoppedEarly(name, reached)
-                slave.read()
+                instance.read()
             except FMICallException as error:
-                raise slave.failure(f"in the step from {self.time:g} s to {end:g} s", error) from error
-            self.outputs[self.wiring.output_of[name]] = slave.outputs.values
+                raise instance.failure(f"in the step from {self.time:g} s to {end:g} s", error) from error
+            self.outputs[self.wiring.output_of[name]] = instance.outputs.values
             if name in self._correction.owners:
-                self._to_end(slave, hold.value(inputs, size))
+                self._to_end(instance, hold.value(inputs, size))
 
-    def _to_end(self, slave: Slave, inputs: Array) -> None:
+    def _to_end(self, instance: Instance, inputs: Array) -> None:
         """Move the outputs of an FMU that belong to what it was told to its inputs at the end of the step."""
         change = np.zeros(len(self.wiring.inputs))
-        if not slave.interpolates:
-            change[self.wiring.input_of[slave.name]] = inputs - slave.inputs.values
+        if not instance.interpolates:
+            change[self.wiring.input_of[instance.name]] = inputs - instance.inputs.values
             self._correction.move(self.outputs, change)
 
     def _exchange(self, explicit: bool) -> None:
@@ -299,7 +301,7 @@ class Coupled:
                     self._passed[n] = value
                     told.add(connection.target.model.name)
             for name in told:
-                self._read(self.slaves[name])
+                self._read(self.instances[name])
             if not told:
                 return
         raise CouplingError(
@@ -311,30 +313,30 @@ class Coupled:
         if self._correction.owners and self._held is not None:
             self._correction.meet(self.outputs, self._held)
         for name in self._feedthrough:
-            slave = self.slaves[name]
-            slave.inputs.values[:] = self.wiring.told(self.outputs, self.wiring.input_of[name])
+            instance = self.instances[name]
+            instance.inputs.values[:] = self.wiring.told(self.outputs, self.wiring.input_of[name])
             try:
-                slave.set_inputs()
-                slave.read()
+                instance.set_inputs()
+                instance.read()
             except FMICallException as error:
-                raise slave.failure(f"at {self.time:g} s", error) from error
-            self.outputs[self.wiring.output_of[name]] = slave.outputs.values
+                raise instance.failure(f"at {self.time:g} s", error) from error
+            self.outputs[self.wiring.output_of[name]] = instance.outputs.values
 
-    def _read(self, slave: Slave) -> None:
-        with self._named(slave, f"at {self.time:g} s"):
-            slave.read()
-        self.outputs[self.wiring.output_of[slave.name]] = slave.outputs.values
+    def _read(self, instance: Instance) -> None:
+        with self._named(instance, f"at {self.time:g} s"):
+            instance.read()
+        self.outputs[self.wiring.output_of[instance.name]] = instance.outputs.values
 
     def save(self) -> Point:
         """The point of now. The FMUs can go back to it only if all of them can; `release` frees it."""
-        states = {name: slave.save() for name, slave in self.slaves.items()} if self.restores else {}
+        states = {name: instance.save() for name, instance in self.instances.items()} if self.restores else {}
         memories = [method.copy() for method in self._methods]
         return Point(self.time, self.outputs.copy(), self.history.copy(), list(self._passed), memories, states)
 
     def restore(self, point: Point) -> None:
         """Go back to a point."""
-        for name in self.slaves:
-            self._restore_slave(name, point)
+        for name in self.instances:
+            self._restore_instance(name, point)
         self.time = point.time
         self.outputs[:] = point.outputs
         self.history.restore(point.history)
@@ -342,25 +344,25 @@ class Coupled:
         for method, memory in zip(self._methods, point.memories, strict=True):
             method.restore(memory)
 
-    def _restore_slave(self, name: str, point: Point) -> None:
-        slave = self.slaves[name]
+    def _restore_instance(self, name: str, point: Point) -> None:
+        instance = self.instances[name]
         try:
-            slave.restore(point.states[name])
+            instance.restore(point.states[name])
         except FMICallException as error:
-            raise slave.failure(f"to go back to {point.time:g} s", error) from error
+            raise instance.failure(f"to go back to {point.time:g} s", error) from error
 
     def release(self, point: Point) -> None:
         """Free what a point holds of the FMUs."""
         for name, state in point.states.items():
-            self.slaves[name].release(state)
+            self.instances[name].release(state)
         point.states.clear()
 
     def stored(self) -> tuple[dict[str, bytes], dict[str, Any]]:
         """The states of the FMUs as bytes, and all else that is needed to go on from now in another process."""
         states = {}
-        for name, slave in self.slaves.items():
-            with self._named(slave, "to give its state"):
-                states[name] = slave.serialised()
+        for name, instance in self.instances.items():
+            with self._named(instance, "to give its state"):
+                states[name] = instance.serialised()
         return states, {
             "time": self.time,
             "outputs": self.outputs.copy(),
@@ -370,15 +372,15 @@ class Coupled:
             "magnitudes": self.magnitudes.copy(),
             "expected": self.expected.copy(),
             "held": self._held,
-            "counts": {name: [s.steps, s.seconds, s.events, s.told_order] for name, s in self.slaves.items()},
+            "counts": {name: [s.steps, s.seconds, s.events, s.told_order] for name, s in self.instances.items()},
         }
 
     def go_on(self, states: Mapping[str, bytes], memory: Mapping[str, Any]) -> None:
         """Go to what `stored` has given."""
-        for name, slave in self.slaves.items():
-            with self._named(slave, "to take the state of a checkpoint"):
-                slave.deserialise(states[name])
-            slave.steps, slave.seconds, slave.events, slave.told_order = memory["counts"][name]
+        for name, instance in self.instances.items():
+            with self._named(instance, "to take the state of a checkpoint"):
+                instance.deserialise(states[name])
+            instance.steps, instance.seconds, instance.events, instance.told_order = memory["counts"][name]
         self.time = memory["time"]
         self.outputs[:] = memory["outputs"]
         self.history.restore(memory["history"])
@@ -393,7 +395,7 @@ class Coupled:
         """Whether an output may belong to inputs that were held, and not be told those of the end."""
         port = self.system.port(self.wiring.outputs[place])
         direct = port.model.dependencies.get(port.variable.name, True)
-        return not direct and not self.slaves[port.model.name].interpolates
+        return not direct and not self.instances[port.model.name].interpolates
 
     def accept(self) -> None:
         """The last step stands."""
@@ -405,7 +407,7 @@ class Coupled:
 
     def event(self) -> bool:
         """Whether an FMU has met an event of its own in the last step."""
-        return any(slave.event for slave in self.slaves.values())
+        return any(instance.event for instance in self.instances.values())
 
     def scales(self) -> Array:
         """Magnitudes of the outputs that set inputs."""
@@ -427,11 +429,11 @@ class Coupled:
         return self.wiring.power_residuals(self.outputs, self._held)
 
     @contextmanager
-    def _named(self, slave: Slave, what: str) -> Iterator[None]:
+    def _named(self, instance: Instance, what: str) -> Iterator[None]:
         try:
             yield
         except FMICallException as error:
-            raise slave.failure(what, error) from error
+            raise instance.failure(what, error) from error
 
 
 def _positive(values: Array) -> Array:

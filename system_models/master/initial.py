@@ -12,12 +12,12 @@ import numpy as np
 from fmpy.fmi1 import FMICallException, fmi1Discard
 from numpy.typing import NDArray
 
-from .control import scale, wrms
-from .errors import CouplingError
-from .model import NUMBERS
-from .quasi_newton import QuasiNewton
+from ..fmu.errors import CouplingError
+from ..fmu.instance import Instance
+from ..fmu.model import NUMBERS
+from ..numerics.control import scale, wrms
+from ..numerics.quasi_newton import QuasiNewton
 from .sequence import sorted_loops
-from .slave import Slave
 from .system import Connection
 
 Edges = set[tuple[str, str]]
@@ -27,7 +27,7 @@ _MOST_PASSES = 20  # until discrete values around a loop come to rest
 
 
 def initialise(
-    slaves: Mapping[str, Slave], connections: Iterable[Connection], tolerance: float = 1e-10, most: int = 100
+    instances: Mapping[str, Instance], connections: Iterable[Connection], tolerance: float = 1e-10, most: int = 100
 ) -> int:
     """Set the connected inputs of FMUs that are being initialised, and return how many evaluations that took.
 
@@ -39,7 +39,7 @@ def initialise(
     edges = _edges(by_target)
     evaluations = 0
     for names in sorted_loops(sorted(by_target), sorted(edges)):
-        loop = _Loop(slaves, by_target, names, edges)
+        loop = _Loop(instances, by_target, names, edges)
         evaluations += loop.solve(tolerance, most)
     return evaluations
 
@@ -59,9 +59,9 @@ class _Loop:
     """Connections that depend on one another, or one alone."""
 
     def __init__(
-        self, slaves: Mapping[str, Slave], by_target: Mapping[str, Connection], names: list[str], edges: Edges
+        self, instances: Mapping[str, Instance], by_target: Mapping[str, Connection], names: list[str], edges: Edges
     ) -> None:
-        self._slaves, self._names = slaves, names
+        self._instances, self._names = instances, names
         discrete = {name for name in names if by_target[name].source.kind not in NUMBERS}
         cuts, order = _cut(names, edges, discrete)
         self._chain = [by_target[name] for name in order]
@@ -71,7 +71,8 @@ class _Loop:
     def solve(self, tolerance: float, most: int) -> int:
         """Set the inputs, and return how many times all of them were worked out."""
         evaluations = 0
-        values = np.array([self._slaves[c.target.model.name].get(c.target.variable) for c in self._reals], dtype=float)
+        targets = [connection.target for connection in self._reals]
+        values = np.array([self._instances[t.model.name].get(t.variable) for t in targets], dtype=float)
         discrete: list[Any] = []
         for _ in range(_MOST_PASSES):
             values, count = self._solved(values, tolerance, most)
@@ -127,14 +128,14 @@ class _Loop:
 
     def _result(self, connection: Connection) -> Any:
         """What a connection makes of its source."""
-        slave = self._slaves[connection.source.model.name]
-        with _named(slave, f"to give '{connection.source.name}'"):
-            return connection.result(slave.get(connection.source.variable))
+        instance = self._instances[connection.source.model.name]
+        with _named(instance, f"to give '{connection.source.name}'"):
+            return connection.result(instance.get(connection.source.variable))
 
     def _set(self, connection: Connection, value: Any) -> None:
-        slave = self._slaves[connection.target.model.name]
-        with _named(slave, f"to take '{connection.target.name}' = {value!r}"):
-            slave.set(connection.target.variable, value)
+        instance = self._instances[connection.target.model.name]
+        with _named(instance, f"to take '{connection.target.name}' = {value!r}"):
+            instance.set(connection.target.variable, value)
 
 
 class _UndefinedError(CouplingError):
@@ -142,11 +143,11 @@ class _UndefinedError(CouplingError):
 
 
 @contextmanager
-def _named(slave: Slave, what: str) -> Iterator[None]:
+def _named(instance: Instance, what: str) -> Iterator[None]:
     try:
         yield
     except FMICallException as error:
-        failure = slave.failure(f"{what} while it was initialised", error)
+        failure = instance.failure(f"{what} while it was initialised", error)
         raise (_UndefinedError(str(failure)) if error.status == fmi1Discard else failure) from error
 
 

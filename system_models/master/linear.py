@@ -9,7 +9,7 @@ u = L y (Andersson, C., Methods and Tools for Co-Simulation of Dynamic Systems w
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import CouplingError
+from ..fmu.errors import CouplingError
 from .system import System
 from .wiring import Wiring
 

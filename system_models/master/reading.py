@@ -25,6 +25,7 @@ Every key stands in a table, so the tables can come in any order: in TOML, a key
 
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -32,8 +33,8 @@ from contact_core.errors import ContactError
 from contact_core.scene import units
 from contact_core.scene.toml import did_you_mean
 
-from .errors import CouplingError
-from .iteration import METHODS
+from ..fmu.errors import CouplingError
+from .settings import Settings
 from .system import System
 
 _CHANGEABLE = ("parameters", "simulate")
@@ -229,19 +230,14 @@ _COUPLING: dict[str, Callable[[str, Any], Any]] = {
     "bonds": _bonds,
     "derivatives": _derivatives,
 }
-_SIMULATE: dict[str, Callable[[str, Any], Any]] = {
-    "stop_time": _seconds,
-    "step_size": _seconds,
-    "algorithm": _one_of("jacobi", "gauss_seidel"),
-    "order": _one_of(0, 1, 2),
-    "iterate": _one_of(*METHODS),
-    "tolerance": _number,
-    "iteration_tolerance": _number,
-    "min_step": _seconds,
-    "horizon": _seconds,
-    "max_step": _seconds,
-    "controlled": _names,
-    "points": _times,
-    "outputs": _names,
+_FORMS: dict[str, Callable[[str, Any], Any]] = {  # of settings
+    "seconds": _seconds,
+    "number": _number,
+    "names": _names,
+    "times": _times,
 }
+_SIMULATE: dict[str, Callable[[str, Any], Any]] = {
+    f.name: _one_of(*f.metadata["choices"]) if f.metadata["choices"] else _FORMS[f.metadata["read"]]
+    for f in fields(Settings)
+} | {"outputs": _names}
 _KEYS: dict[str, dict[str, Callable[[str, Any], Any]]] = {"coupling": _COUPLING, "simulate": _SIMULATE}

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ..results import to_dataset
+from ..store.results import to_dataset
 from .coupled import Coupled, Outcome
 from .system import Port
 

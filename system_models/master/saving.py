@@ -16,9 +16,11 @@ from typing import Any
 import numpy as np
 
 import contact_core
+from contact_core.errors import StateError
 
-from ..checkpoint import Checkpoint, alone
-from .errors import CouplingError
+from ..fmu.errors import CouplingError
+from ..fmu.instance import Instance
+from ..store.checkpoint import Checkpoint, alone
 from .system import Port, System
 
 
@@ -54,6 +56,16 @@ def check(system: System, outputs: Iterable[Port]) -> None:
             raise CouplingError(
                 f"'{port.name}' is text, which the rows of a checkpoint have no place for. "
                 "Leave it out of the outputs, or simulate without a checkpoint."
+            )
+
+
+def check_taken(instances: Mapping[str, Instance], states: Mapping[str, bytes], time: float) -> None:
+    """Raise StateError if an FMU has not taken its state of a checkpoint at `time` [s]."""
+    for name, instance in instances.items():
+        if instance.serialised() != states[name]:
+            raise StateError(
+                f"The FMU '{name}' does not take the state of the checkpoint at t = {time:g} s; its messages say why. "
+                "Use the FMU that the checkpoint was made with, or start from the beginning."
             )
 
 

@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from ..fmu.instance import Instance
+from ..numerics.algorithms import ALGORITHMS
 from .settings import Settings
-from .slave import Slave
 from .system import System
 
 
@@ -32,23 +33,23 @@ class Block:
         return [name for name, _ in self.sequence]
 
 
-def blocks(system: System, slaves: Mapping[str, Slave], inputs: list[str], settings: Settings) -> list[Block]:
+def blocks(system: System, instances: Mapping[str, Instance], inputs: list[str], settings: Settings) -> list[Block]:
     """The blocks in the order of the signals; all FMUs are in one unless loops are iterated."""
-    gauss_seidel, loops = settings.algorithm == "gauss_seidel", settings.iterate is not None
-    order = _gauss_seidel_order(system, slaves)
+    visible, loops = ALGORITHMS[settings.algorithm], settings.iterate is not None
+    order = _gauss_seidel_order(system, instances)
     source = {c.target.name: c.source.model.name for c in system.connections}
     groups = order if loops else [[name for group in order for name in group]]
     result, before = [], set[str]()
     for group in groups:
         within = [n for n, name in enumerate(inputs) if name.partition(".")[0] in group]
-        stepped, sequence, fresh_inputs = set(before) if loops or gauss_seidel else set[str](), [], set[str]()
+        stepped, sequence, fresh_inputs = list[str](), [], set[str]()
         for name in group:
-            own = [f"{name}.{variable}" for variable in slaves[name].inputs.names]
-            fresh = [n for n, target in enumerate(own) if source[target] in stepped]
+            own = [f"{name}.{variable}" for variable in instances[name].inputs.names]
+            seen = before.union(visible(stepped))
+            fresh = [n for n, target in enumerate(own) if source[target] in seen]
             fresh_inputs |= {own[n] for n in fresh}
             sequence.append((name, np.array(fresh, dtype=np.intp)))
-            if gauss_seidel:
-                stepped.add(name)
+            stepped.append(name)
         unknown = [n for n in within if inputs[n] not in fresh_inputs]
         outside = [n for n in within if source[inputs[n]] in before]
         result.append(Block(sequence, *(np.array(which, dtype=np.intp) for which in (unknown, outside))))
@@ -69,20 +70,20 @@ def direct_loops(system: System) -> list[list[str]]:
     return [loop for loop in loops if len(loop) > 1 or (loop[0], loop[0]) in edges]
 
 
-def feedthrough_order(system: System, slaves: Mapping[str, Slave]) -> list[str]:
+def feedthrough_order(system: System, instances: Mapping[str, Instance]) -> list[str]:
     """The FMUs with outputs that depend directly on coupled inputs, each after those that it depends on."""
-    return [name for group in _gauss_seidel_order(system, slaves) for name in group if slaves[name].feedthrough]
+    return [name for group in _gauss_seidel_order(system, instances) for name in group if instances[name].feedthrough]
 
 
-def _gauss_seidel_order(system: System, slaves: Mapping[str, Slave]) -> list[list[str]]:
+def _gauss_seidel_order(system: System, instances: Mapping[str, Instance]) -> list[list[str]]:
     """Loops of FMUs in the order of the signals; in a loop those first whose outputs do not wait for inputs.
 
     Of these, those first that the schedule sets, and next those that they set: a change arrives within the step.
     """
-    names, reached = list(slaves), _distances(system)
+    names, reached = list(instances), _distances(system)
     result = []
     for loop in sorted_loops(names, [(c.source.model.name, c.target.model.name) for c in system.connections]):
-        direct = [name for name in loop if slaves[name].feedthrough]
+        direct = [name for name in loop if instances[name].feedthrough]
         waits = [
             (c.source.model.name, c.target.model.name)
             for c in system.connections

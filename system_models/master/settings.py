@@ -1,14 +1,17 @@
-"""How a system is simulated: what may be asked for, and what its FMUs must be able to do for it."""
+"""How a system is simulated: the options, and what they require of its FMUs."""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Collection
+from dataclasses import MISSING, dataclass, field
 from itertools import pairwise
 from numbers import Real
+from typing import Any
 
 from contact_core.scene.toml import did_you_mean
 
-from .errors import CouplingError
-from .iteration import METHODS
+from ..fmu.errors import CouplingError
+from ..numerics.algorithms import ALGORITHMS
+from ..numerics.iteration import METHODS
 from .system import System
 
 _MIN_STEP = 1e-6  # of the step
@@ -16,25 +19,67 @@ _ITERATION_TOLERANCE = 1e-6
 _SAME = 1e-9  # of a step
 
 
+def _setting(read: str, default: Any = MISSING, choices: Collection[Any] = ()) -> Any:
+    """Declare a setting; `read`: its form in TOML, one of those of `reading`."""
+    return field(default=default, metadata={"read": read, "choices": tuple(choices)})
+
+
 @dataclass(frozen=True)
 class Settings:
-    """The arguments of `simulate` that say how. Raises CouplingError for a value that makes no sense."""
+    """How a system is simulated: the one statement of these options, for `simulate` and for TOML.
 
-    stop_time: float
-    step_size: float
-    algorithm: str = "jacobi"
-    order: int = 0
-    iterate: str | None = None
-    tolerance: float | None = None
-    iteration_tolerance: float | None = None
-    min_step: float | None = None
-    horizon: float | None = None
-    max_step: float | None = None
-    controlled: tuple[str, ...] = ()
-    points: tuple[float, ...] = ()
+    Raises CouplingError for a value that makes no sense.
+
+    stop_time, step_size [s]
+        End of the simulation, and the communication step; with a tolerance the first step, also after a change of a
+        schedule or an event.
+    algorithm
+        Which outputs of the running step the FMUs see: `numerics.algorithms`. The sequence of the FMUs follows from
+        the connections.
+    order
+        Of the polynomials that extrapolate inputs over a step, through derivatives where the FMU takes them; another
+        FMU holds their mean.
+    iterate
+        Repeat each step until the inputs at its end are those that follow from the outputs: `numerics.iteration`. A
+        step that does not converge stands, and is counted in `unconverged`.
+    iteration_tolerance
+        Of these inputs, relative to their magnitude; by default 1e-6, or what `tolerance` needs.
+    tolerance
+        Of the coupled outputs, relative to their magnitude: the larger of `nominal` and the largest value so far. The
+        estimated errors of all steps add up to it at most over the `horizon`. A system that amplifies errors, or whose
+        phase drifts, ends with larger errors. A step of `min_step` that is still too inaccurate stands, and is counted
+        in `below_min_step`.
+    min_step [s]
+        The smallest step, 1e-6 step_size by default. Events are located to it, unless two events of one output lie
+        between two rows.
+    horizon [s]
+        The time over which errors add up: the whole simulation, unless errors are known to decay sooner.
+    max_step [s]
+        The longest step, however accurate: where FMUs evolve slowly inside, rows stay close enough to show it.
+    controlled
+        The coupled outputs that must keep the tolerance, by default all. Where some follow others at once, as a
+        friction force its speed, name those with inertia or heat capacity.
+    points [s]
+        Communication points in place of the multiples of step_size.
+    """
+
+    stop_time: float = _setting("seconds")
+    step_size: float = _setting("seconds")
+    algorithm: str = _setting("choice", "jacobi", ALGORITHMS)
+    order: int = _setting("choice", 0, (0, 1, 2))
+    iterate: str | None = _setting("choice", None, METHODS)
+    tolerance: float | None = _setting("number", None)
+    iteration_tolerance: float | None = _setting("number", None)
+    min_step: float | None = _setting("seconds", None)
+    horizon: float | None = _setting("seconds", None)
+    max_step: float | None = _setting("seconds", None)
+    controlled: tuple[str, ...] = _setting("names", ())
+    points: tuple[float, ...] = _setting("times", ())
 
     def __post_init__(self) -> None:
-        _choose("algorithm", self.algorithm, ["jacobi", "gauss_seidel"])
+        for name in ("controlled", "points"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
+        _choose("algorithm", self.algorithm, list(ALGORITHMS))
         if self.iterate is not None:
             _choose("iterate", self.iterate, list(METHODS))
         if self.order not in (0, 1, 2) or isinstance(self.order, bool):

@@ -6,16 +6,16 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import ExitStack
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from ..checkpoint import Checkpoint
+from ..fmu.errors import CouplingError
+from ..store.checkpoint import Checkpoint
 from . import saving
 from .controlled import ControlledStepper
 from .coupled import Coupled
-from .errors import CouplingError
 from .interrupt import deferred
 from .recorder import Recorder
 from .sequence import direct_loops
@@ -32,50 +32,25 @@ def simulate(
     system: System,
     stop_time: float,
     step_size: float,
-    algorithm: Literal["jacobi", "gauss_seidel"] = "jacobi",
-    order: int = 0,
-    iterate: Literal["fixed_point", "aitken", "quasi_newton"] | None = None,
-    tolerance: float | None = None,
-    iteration_tolerance: float | None = None,
-    min_step: float | None = None,
-    checkpoint: str | Path | None = None,
-    resume: bool = False,
+    *,
     outputs: Iterable[str] | None = None,
-    horizon: float | None = None,
-    max_step: float | None = None,
-    controlled: Iterable[str] = (),
-    points: Iterable[float] = (),
+    checkpoint: str | Path | Checkpoint | None = None,
+    resume: bool = False,
     history: Mapping[str, Callable[[float], float]] | None = None,
     progress: Callable[[float], None] | None = None,
+    **options: Any,
 ) -> xr.Dataset:
-    """Simulate a system from the time 0 to `stop_time` [s].
+    """Simulate a system from the time 0 to `stop_time` [s] with the communication step `step_size` [s].
 
-    step_size [s]: the communication step; with a tolerance, the first one, also after a change of a schedule or event.
-    algorithm: whether the FMUs of a step see each other's past only, or those late in the sequence what the early ones
-    have reached; the sequence follows from the connections. order: of the polynomials by which inputs go on within a
-    step, through derivatives where the FMU takes them; another holds their mean.
+    options: the other fields of `Settings`: algorithm, order, iterate, tolerance and so on.
 
-    iterate: repeat each step until the inputs at its end are what the outputs make of them, to iteration_tolerance
-    (1e-6 of their magnitude); a step that does not get there stands, and is counted in `unconverged`.
+    outputs: the variables to record, by default all outputs. checkpoint: a folder in which the state is kept; with
+    `resume` the simulation continues from there, bit for bit. Or a Checkpoint of the caller, who knows what it belongs
+    to: its `saved` point, if any, is continued from. history: the course of coupled outputs before the time 0, f(t) by
+    name, for hold orders above 0. progress is called with the time reached.
 
-    tolerance: of the coupled outputs, over their magnitude: the larger of `nominal` and what they have reached. The
-    estimated errors of all steps add up to it at most over the `horizon` [s]: all of the simulation, unless errors are
-    known to die out sooner. A system that amplifies errors, or whose phase drifts, ends with larger ones. Where a step
-    of min_step (1e-6 step_size) is still too inaccurate it stands, and is counted in `below_min_step`. Events are found
-    to min_step, unless two of one output lie between two rows. max_step [s]: no step is longer, however accurate; where
-    FMUs evolve slowly inside, rows stay close enough to show it. controlled: the coupled outputs that are to meet the
-    tolerance, all if none are named; where some follow others at once, as a friction force its speed, it is enough to
-    name what has inertia or heat capacity.
-
-    points [s]: communication points in place of the multiples of step_size, as another simulation has had them, or
-    every second of those.
-
-    checkpoint: a folder in which the state is kept; with `resume` the simulation goes on from there, bit for bit.
-    outputs: the variables to record, all outputs if none are named. history: the course of coupled outputs before the
-    time 0, f(t) by name, for hold orders above 0. progress is called with the time reached.
-
-    Returns a Dataset along `time`: the recorded variables by name, with units; "master.*", how each step went;
-    "bond.*", by how much the powers differ that the two FMUs of a bond reckon with. Its attributes count steps,
+    Returns a Dataset along `time`: the recorded variables by name, with units; "master.*", statistics of each step;
+    "bond.*", the difference between the powers that the two FMUs of a bond compute. Its attributes count steps,
     iterations, unconverged, below_min_step, events and stopped_early among the steps that stand, and those rejected;
     ended_by is the FMU that has asked for the end, told_means those that take no derivatives of inputs, and `cost`
     gives, as JSON, all steps of each FMU and its seconds.
@@ -83,43 +58,39 @@ def simulate(
     Raises CouplingError for settings that make no sense or that the FMUs cannot serve, for an FMU that fails, and for
     values that are not finite; StateError for a checkpoint that is damaged or of another simulation.
     """
-    settings = Settings(
-        stop_time,
-        step_size,
-        algorithm,
-        order,
-        iterate,
-        tolerance,
-        iteration_tolerance,
-        min_step,
-        horizon,
-        max_step,
-        tuple(controlled),
-        tuple(points),
-    )
+    settings = Settings(stop_time, step_size, **options)
     settings.check(system)
     ports = system.outputs(outputs)
     with ExitStack() as exits:
-        store = None
-        if checkpoint is not None:
+        store = checkpoint if isinstance(checkpoint, Checkpoint) else None
+        if checkpoint is not None and store is None:
             past = {name: [float(course(time)) for time in settings.past] for name, course in (history or {}).items()}
             run = asdict(settings) | {"outputs": [port.name for port in ports], "history": past}
-            store = exits.enter_context(saving.kept(Path(checkpoint), system, ports, run, resume))
+            store = exits.enter_context(saving.kept(Path(str(checkpoint)), system, ports, run, resume))
+        check_interrupt = exits.enter_context(deferred())
         coupled = Coupled(system, ports, settings, exits)
         recorder = Recorder(coupled, ports)
         _warn_of_loops(system, settings)
         coupled.initialise()
+        check_interrupt()  # an FMU that it has reached gives no initial values
         if history:
             _remember(coupled, history)
-        stepper = Stepper(coupled, recorder) if tolerance is None else ControlledStepper(coupled, recorder, tolerance)
+        if settings.tolerance is None:
+            stepper = Stepper(coupled, recorder)
+        else:
+            stepper = ControlledStepper(coupled, recorder, settings.tolerance)
+        stepper.check_interrupt = check_interrupt
         if store and store.saved:
             states, master = saving.unpack(store.saved.state)
             coupled.go_on(states, master["coupled"])
+            if store is checkpoint:
+                saving.check_taken(coupled.instances, states, coupled.time)
             stepper.go_on(master["stepper"])
             recorder.restore(store.saved.rows)
         else:
             recorder.add(recorder.start())
-        check_interrupt = exits.enter_context(deferred())
+            if store:
+                _save(store, coupled, recorder, stepper)
         _run(coupled, recorder, stepper, progress or (lambda time: None), store, check_interrupt)
         _report(coupled, stepper.statistics)
         return recorder.dataset(_attributes(coupled, stepper))
@@ -214,8 +185,9 @@ def _report(coupled: Coupled, statistics: Statistics) -> None:
 
 
 def _attributes(coupled: Coupled, stepper: Stepper) -> dict[str, Any]:
-    costs = {name: {"steps": slave.steps, "seconds": slave.seconds} for name, slave in coupled.slaves.items()}
-    told_means = [slave.name for slave in coupled.slaves.values() if slave.inputs.count and not slave.interpolates]
+    instances = coupled.instances
+    costs = {name: {"steps": each.steps, "seconds": each.seconds} for name, each in instances.items()}
+    told_means = [each.name for each in instances.values() if each.inputs.count and not each.interpolates]
     if not coupled.settings.order:
         told_means = []
     return asdict(stepper.statistics) | {"told_means": ", ".join(told_means), "cost": json.dumps(costs)}

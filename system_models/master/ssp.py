@@ -28,8 +28,8 @@ from fmpy.model_description import ModelVariable
 
 import contact_core
 
-from .errors import CouplingError
-from .model import Model
+from ..fmu.errors import CouplingError
+from ..fmu.model import Model
 from .system import Connection, Port, System, Value
 
 _SPACES = {

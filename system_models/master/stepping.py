@@ -2,18 +2,18 @@
 
 import bisect
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..fmu.errors import CouplingError
+from ..numerics.richardson import Halves
 from .coupled import Coupled, Point, StoppedEarly
-from .errors import CouplingError
 from .events import Indicators, Values, changed
 from .recorder import Recorder, Row
-from .richardson import Halves
 
 
 class Attempt(NamedTuple):
@@ -54,6 +54,7 @@ class Stepper:
         self.coupled, self.recorder = coupled, recorder
         self.step_size, self.min_step = coupled.settings.step_size, coupled.settings.smallest_step
         self.statistics = Statistics()
+        self.check_interrupt: Callable[[], None] = lambda: None  # raises KeyboardInterrupt after Ctrl-C
         self._indicators = Indicators(coupled)
 
     def step(self, limit: float) -> list[Row]:
@@ -111,13 +112,14 @@ class Stepper:
             try:
                 return self._attempt(end, start)
             except StoppedEarly as stop:
+                self.check_interrupt()  # it may have reached the FMU, which then takes no step
                 end = self._shorter(stop, end, start)
 
     def _shorter(self, stop: StoppedEarly, end: float, start: Point) -> float:
         """Go back, and give the end of a step that the FMU which has stopped may make."""
         size, reached = end - start.time, stop.time - start.time
         goes_on = reached >= self.min_step and self.coupled.restores
-        if self.coupled.slaves[stop.name].terminated and not goes_on:
+        if self.coupled.instances[stop.name].terminated and not goes_on:
             self.statistics.ended_by = stop.name
             raise Ended
         self._require_return(f"The FMU '{stop.name}' stopped at {stop.time:g} s in a step to {end:g} s")
@@ -163,7 +165,7 @@ class Stepper:
         if event or attempt.event or coupled.event():
             statistics.events += 1
             self.begin_anew()
-        ended = [name for name, slave in coupled.slaves.items() if slave.terminated]
+        ended = [name for name, instance in coupled.instances.items() if instance.terminated]
         if ended:
             statistics.ended_by = ended[0]
 

@@ -11,9 +11,9 @@ from fmpy.model_description import ModelVariable
 
 from contact_core.scene.toml import did_you_mean
 
+from ..fmu.errors import CouplingError
+from ..fmu.model import NUMBERS, Model, kind
 from . import unit_checks
-from .errors import CouplingError
-from .model import NUMBERS, Model, kind
 
 Value = float | int | bool | str
 

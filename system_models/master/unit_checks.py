@@ -5,7 +5,7 @@ from fmpy.model_description import ModelDescription, ModelVariable
 from contact_core.errors import SceneError
 from contact_core.scene.units import unit as known_unit
 
-from .errors import CouplingError
+from ..fmu.errors import CouplingError
 
 _EXPONENTS = ("m", "kg", "s", "K", "A", "mol", "cd")  # rad is a number: tools write rad/s and 1/s for the same
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .slave import Reals, Slave
+from ..fmu.instance import Instance, Reals
 from .system import Port, System
 
 Array = NDArray[np.float64]
@@ -32,9 +32,9 @@ class Wiring:
     where the inputs of the FMU of each of these stand.
     """
 
-    def __init__(self, system: System, slaves: Mapping[str, Slave]) -> None:
-        self.output_of, self.outputs = _index({name: slave.outputs for name, slave in slaves.items()})
-        self.input_of, self.inputs = _index({name: slave.inputs for name, slave in slaves.items()})
+    def __init__(self, system: System, instances: Mapping[str, Instance]) -> None:
+        self.output_of, self.outputs = _index({name: instance.outputs for name, instance in instances.items()})
+        self.input_of, self.inputs = _index({name: instance.inputs for name, instance in instances.items()})
         self.output_place = {name: n for n, name in enumerate(self.outputs)}
         self.input_place = {name: n for n, name in enumerate(self.inputs)}
         by_target = {connection.target.name: connection for connection in system.connections}

@@ -13,10 +13,11 @@ from fmpy.fmi1 import FMICallException
 
 from benchmarks.models import build
 from benchmarks.models.description import inlet, output
-from system_models.master.errors import CouplingError
+from system_models.fmu.errors import CouplingError
+from system_models.fmu.fmi2 import Fmi2Instance
+from system_models.fmu.instance import Instance
+from system_models.fmu.start import started
 from system_models.master.initial import initialise
-from system_models.master.slave import Fmi2Slave, Slave
-from system_models.master.start import started
 from system_models.master.system import Connection, System
 
 Initialised = Callable[..., tuple[int, dict[str, float]]]
@@ -40,15 +41,15 @@ def initialised() -> Iterator[Initialised]:
         ) -> tuple[int, dict[str, Any]]:
             system = System(fmus=fmus, connections=connections)
             none: dict[str, list[Any]] = {name: [] for name in fmus}
-            slaves: dict[str, Slave] = started(system, none, none, False, exits)
-            for slave in slaves.values():
-                slave.enter_initialization(0.0, 1.0, None)
+            instances: dict[str, Instance] = started(system.models, none, none, False, exits)
+            for instance in instances.values():
+                instance.enter_initialization(0.0, 1.0, None)
             for name, value in (start or {}).items():
                 port = system.port(name)
-                slaves[port.model.name].set(port.variable, value)
-            evaluations = initialise(slaves, system.connections, **options)
+                instances[port.model.name].set(port.variable, value)
+            evaluations = initialise(instances, system.connections, **options)
             ports = [port for c in system.connections for port in (c.source, c.target)]
-            return evaluations, {p.name: slaves[p.model.name].get(p.variable) for p in ports}
+            return evaluations, {p.name: instances[p.model.name].get(p.variable) for p in ports}
 
         yield values_of
 
@@ -208,10 +209,10 @@ def test_a_loop_of_discrete_values_without_rest_is_refused(
 def test_an_fmu_that_cannot_give_a_value_is_named(
     initialised: Initialised, folder: Path, monkeypatch: pytest.MonkeyPatch, status: int
 ) -> None:
-    def refused(slave: Slave, variable: Any) -> None:
+    def refused(instance: Instance, variable: Any) -> None:
         raise FMICallException(function="fmi2GetReal", status=status)
 
-    monkeypatch.setattr(Fmi2Slave, "get", refused)
+    monkeypatch.setattr(Fmi2Instance, "get", refused)
     with pytest.raises(
         CouplingError, match=r"The FMU 'a' failed to give 'a.y' while it was initialised: .*fmi2GetReal"
     ):

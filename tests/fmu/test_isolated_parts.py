@@ -17,7 +17,7 @@ from benchmarks.hosts.native_host import ERROR, NONE, OK, WARNING, Fmu, Instance
 from benchmarks.hosts.processes import children
 from fmu_src.flavours import FLAVOURS
 from system_models.check import deep
-from system_models.cli import main
+from system_models.cli.main import main
 from system_models.parts.build import build
 from system_models.parts.part import Part
 from system_models.parts.shaft import Shaft

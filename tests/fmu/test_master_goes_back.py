@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from benchmarks.models import build, systems
-from system_models.checkpoint import Checkpoint
 from system_models.master import System, simulate
 from system_models.master.coupled import Coupled
 from system_models.master.stepping import Stepper
+from system_models.store.checkpoint import Checkpoint
 
 MODULE = sys.modules["system_models.master.simulate"]
 # what an attempt sets anew before it is used, or only counts
@@ -39,11 +39,12 @@ def plain(thing: Any) -> Any:
 def seen(coupled: Coupled) -> dict[str, Any]:
     """What the FMUs and the master are now."""
     names = ("terminated", "next_event", "steps", "events", "told_order")
-    slaves = {
-        name: {"state": slave.serialised()} | {key: getattr(slave, key) for key in names}
-        for name, slave in coupled.slaves.items()
+    instances = {
+        name: {"state": instance.serialised()} | {key: getattr(instance, key) for key in names}
+        for name, instance in coupled.instances.items()
     }
-    return {**plain(vars(coupled)), "slaves": slaves, "_methods": plain([each.copy() for each in coupled._methods])}
+    methods = plain([each.copy() for each in coupled._methods])
+    return {**plain(vars(coupled)), "instances": instances, "_methods": methods}
 
 
 def differing(one: Any, other: Any, where: str = "") -> list[str]:

@@ -16,11 +16,11 @@ from fmpy.validation import validate_fmu
 from fmu_host import Host, hosted, unpacked
 
 from contact_core.errors import SceneError
-from system_models.bearing.geometry import BEARING_209
-from system_models.bearing.part import BallBearing
-from system_models.gear.geometry import FZG_C
-from system_models.gear.mesh import GearMesh
-from system_models.gear.shafts import GearShafts
+from system_models.machines.ball_bearing.geometry import BEARING_209
+from system_models.machines.ball_bearing.part import BallBearing
+from system_models.machines.gear_pair.geometry import FZG_C
+from system_models.machines.gear_pair.mesh import GearMesh
+from system_models.machines.gear_pair.shafts import GearShafts
 from system_models.parts.build import build
 from system_models.parts.part import Part, Start, indexed
 from system_models.parts.timetable import Entry, Signal, Timetable

@@ -6,10 +6,10 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from system_models.bearing.equilibrium import RingLoads, solve
-from system_models.bearing.geometry import BEARING_209, BEARING_218
-from system_models.bearing.kinematics import motion
-from system_models.bearing.levels import classify
+from system_models.machines.ball_bearing.equilibrium import RingLoads, solve
+from system_models.machines.ball_bearing.geometry import BEARING_209, BEARING_218
+from system_models.machines.ball_bearing.kinematics import motion
+from system_models.machines.ball_bearing.load_classes import classify
 
 BEARINGS = st.sampled_from([BEARING_209, BEARING_218])
 

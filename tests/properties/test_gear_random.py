@@ -5,10 +5,10 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
-from system_models.gear.geometry import SpurGearPair
-from system_models.gear.mesh import GearMesh
-from system_models.gear.path import stations_of
-from system_models.gear.sharing import Sharing, loads, pair_stiffness
+from system_models.machines.gear_pair.geometry import SpurGearPair
+from system_models.machines.gear_pair.mesh import GearMesh
+from system_models.machines.gear_pair.path import stations_of
+from system_models.machines.gear_pair.sharing import Sharing, loads, pair_stiffness
 
 
 def involute(angle):

@@ -7,10 +7,10 @@ import pytest
 from comparison import approx
 from scipy.integrate import quad
 
-from system_models.bearing import kinematics
-from system_models.bearing.equilibrium import RingLoads, solve
-from system_models.bearing.geometry import BEARING_218
-from system_models.bearing.kernels import rolling
+from system_models.machines.ball_bearing import kinematics
+from system_models.machines.ball_bearing.equilibrium import RingLoads, solve
+from system_models.machines.ball_bearing.geometry import BEARING_218
+from system_models.machines.ball_bearing.kernels import rolling
 
 ANGLES = [(0.7, 0.7), (0.9, 0.3), (1.1, 0.05), (-0.6, -0.4), (0.0, 0.0)]
 RATIO, MUCH = 0.18, 1e9

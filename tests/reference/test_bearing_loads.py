@@ -7,9 +7,9 @@ import pytest
 from comparison import approx
 from scipy.optimize import brentq
 
-from system_models.bearing.equilibrium import RingLoads, solve
-from system_models.bearing.geometry import BEARING_209, BEARING_218
-from system_models.bearing.kinematics import motion
+from system_models.machines.ball_bearing.equilibrium import RingLoads, solve
+from system_models.machines.ball_bearing.geometry import BEARING_209, BEARING_218
+from system_models.machines.ball_bearing.kinematics import motion
 
 MM = 10**4.5  # N/m^1.5 per N/mm^1.5
 RPM = math.pi / 30.0

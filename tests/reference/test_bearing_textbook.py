@@ -5,9 +5,9 @@ import math
 import pytest
 from comparison import approx
 
-from system_models.bearing.equilibrium import RingLoads, solve
-from system_models.bearing.geometry import BallBearingGeometry
-from system_models.bearing.textbook import (
+from system_models.machines.ball_bearing.equilibrium import RingLoads, solve
+from system_models.machines.ball_bearing.geometry import BallBearingGeometry
+from system_models.machines.ball_bearing.textbook import (
     ANGULAR_CONTACT,
     CATALOGUE_209,
     CATALOGUE_218,

@@ -9,10 +9,10 @@ from scipy.integrate import quad
 
 from contact_core import Scene
 from contact_core.reference import hertz_line
-from system_models.gear.geometry import FZG_A, FZG_C, FZG_STAGES
-from system_models.gear.path import radius, stations_of, surface_speeds
-from system_models.gear.sharing import Sharing, loads
-from system_models.gear.textbook import blok_line, iso_14179_1, loss_factor, ohlendorf, schlenk
+from system_models.machines.gear_pair.geometry import FZG_A, FZG_C, FZG_STAGES
+from system_models.machines.gear_pair.path import radius, stations_of, surface_speeds
+from system_models.machines.gear_pair.sharing import Sharing, loads
+from system_models.machines.gear_pair.textbook import blok_line, iso_14179_1, loss_factor, ohlendorf, schlenk
 
 PINION = 2170.0 * 2.0 * math.pi / 60.0
 ELASTIC = Sharing("elastic")

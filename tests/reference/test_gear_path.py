@@ -7,9 +7,9 @@ import pytest
 from comparison import approx
 
 from contact_core.reference import hertz_line
-from system_models.gear.geometry import FZG_A, FZG_C, FZG_STAGES
-from system_models.gear.path import radius, slide_to_roll, stations_of, steps, surface_speeds
-from system_models.gear.sharing import Sharing, loads, mean_stiffness, pair_stiffness, single_stiffness
+from system_models.machines.gear_pair.geometry import FZG_A, FZG_C, FZG_STAGES
+from system_models.machines.gear_pair.path import radius, slide_to_roll, stations_of, steps, surface_speeds
+from system_models.machines.gear_pair.sharing import Sharing, loads, mean_stiffness, pair_stiffness, single_stiffness
 
 PAIRS = pytest.mark.parametrize("pair", [FZG_C, FZG_A])
 PINION = 2170.0 * 2.0 * math.pi / 60.0  # rad/s: 8.3 m/s at the pitch circle

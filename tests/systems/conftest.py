@@ -11,8 +11,8 @@ from pythonfmu.builder import FmuBuilder
 
 from contact_core import Scene
 from fmu_src.package.build import build
-from system_models.driven_contact import run
-from system_models.duty import Duty
+from system_models.run.contact import run
+from system_models.run.duty import Duty
 
 COARSE = {
     "film.points": "33",

@@ -11,11 +11,12 @@ from comparison import approx
 from matplotlib.image import imread
 
 from contact_core.reference import nijenbanning_venner_moes
-from system_models.bearing.geometry import BEARING_209, BEARING_218, RaceName
-from system_models.bearing.textbook import CATALOGUE_209, CATALOGUE_218, catalogue_of
-from system_models.machine import ball_bearing_report, reading, timeline
-from system_models.machine.assembly import Assembly
-from system_models.machine.ball_bearing_results import BearingRun
+from system_models.machines import reading, timeline
+from system_models.machines.assembly import Assembly
+from system_models.machines.ball_bearing import report as ball_bearing_report
+from system_models.machines.ball_bearing.geometry import BEARING_209, BEARING_218, RaceName
+from system_models.machines.ball_bearing.record import BearingRun
+from system_models.machines.ball_bearing.textbook import CATALOGUE_209, CATALOGUE_218, catalogue_of
 from system_models.master import simulate
 
 Result = tuple[Assembly, xr.Dataset]

@@ -13,7 +13,7 @@ from fmu_src.package.build import build
 from system_models.check import deep, report
 from system_models.check.package import opened
 from system_models.check.verdict import Finding, Verdict
-from system_models.cli import main
+from system_models.cli.main import main
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ from checking import deep_findings, edited, replaced, verdicts
 
 from system_models.check import deep, report
 from system_models.check.verdict import Verdict
-from system_models.cli import main
+from system_models.cli.main import main
 
 
 @pytest.fixture

@@ -14,9 +14,10 @@ import numpy as np
 import pytest
 
 from contact_core import Scene, StateError
-from system_models import checkpoint as module
-from system_models.checkpoint import Checkpoint, identity
-from system_models.duty import Duty
+from system_models.run.duty import Duty
+from system_models.run.origin import identity
+from system_models.store import checkpoint as module
+from system_models.store.checkpoint import Checkpoint
 
 RUN = {"version": "1", "film": {"points": 33, "model": "some"}, "steps": [1.0, 0.1]}
 RECORD = np.dtype([("third", "<f8"), ("number", "<i4"), ("odd", "?")])

@@ -8,9 +8,9 @@ import xarray as xr
 from comparison import approx
 
 from contact_core import OperatingPoint, Scene, shipped_scenes
-from system_models.cli import main
-from system_models.duty import Duty
-from system_models.machine.files import shipped
+from system_models.cli.main import main
+from system_models.machines.files import shipped
+from system_models.run.duty import Duty
 
 STILL = [  # nothing grows or wears: one solution serves for ever
     part for setting in ("tribofilm.model=none", "wear.model=none", "heat.model=none") for part in ("--set", setting)
@@ -20,18 +20,19 @@ STILL = [  # nothing grows or wears: one solution serves for ever
 def test_list_names_the_shipped_scenes_and_machines(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["list"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    scenes, gears = ["azam_case_a", "ball_209_inner", "fzg_flank", "mtm_zddp"], ["gear_fzg_a", "gear_fzg_c"]
+    scenes = ["azam_case_a", "ball_209_inner", "cam_tappet", "fzg_flank", "mtm_zddp"]
     bearings = ["bearing_209", "bearing_209_start_stop", "bearing_218"]
-    assert [line.split()[0] for line in lines] == [*scenes, *bearings, *gears, "mtm_rig"]
+    others = ["cam_follower", "gear_fzg_a", "gear_fzg_c", "mtm_rig"]
+    assert [line.split()[0] for line in lines] == [*scenes, *bearings, *others]
     texts = [*shipped_scenes().values(), *shipped().values()]
     assert all(text in line for text, line in zip(texts, lines, strict=True))
 
 
 def test_list_does_not_load_what_only_a_run_needs() -> None:
-    code = "import sys; from system_models.cli import main; main(['list']); print(*sys.modules)"
+    code = "import sys; from system_models.cli.main import main; main(['list']); print(*sys.modules)"
     run = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     loaded = set(run.stdout.split())
-    assert "system_models.cli" in loaded
+    assert "system_models.cli.main" in loaded
     assert not {"matplotlib", "xarray", "fmpy", "pythonfmu", "tqdm"} & loaded
 
 

@@ -16,11 +16,11 @@ from test_resume import KILLED, bits
 
 from benchmarks.models import build
 from contact_core import StateError
-from system_models import cosim_report
-from system_models.checkpoint import Checkpoint
-from system_models.cli import main
+from system_models.cli.main import main
 from system_models.master import CouplingError, System, saving, simulate
 from system_models.master.stepping import Stepper
+from system_models.run import cosim_report
+from system_models.store.checkpoint import Checkpoint
 
 CAR = """
 [fmus]

@@ -12,9 +12,9 @@ import pytest
 import xarray as xr
 from comparison import approx
 
-from system_models import cosim_report
-from system_models.cli import main
+from system_models.cli.main import main
 from system_models.master import reading
+from system_models.run import cosim_report
 
 PAGE = (Path(__file__).parents[2] / "docs" / "how-to" / "cosim.md").read_text("utf-8")
 

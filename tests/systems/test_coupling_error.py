@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 from comparison import approx
 
-from system_models.machine.coupling_error import ATTRIBUTE, coarser, differences, relative, settled, stated
+from system_models.machines.coupling_error import ATTRIBUTE, coarser, differences, relative, settled, stated
 
 SCHEDULE = {"a.setpoint": [(0.0, 1.0), (2.0, 3.0)]}
 

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 import xarray as xr
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave
 
 from contact_core import ContactError, OperatingPoint, Scene, advance, initial_state
-from system_models.driven_contact import communication_points, run
-from system_models.duty import Duty
+from system_models.fmu.fmi2 import Fmi2Instance
+from system_models.run.contact import communication_points, run
+from system_models.run.duty import Duty
 
 POINT = OperatingPoint(load=50.0, speed_1=0.1, speed_2=0.09, temperature=353.15)
 
@@ -102,18 +102,18 @@ def test_an_invalid_step_is_recorded_and_warned_about(fmu: Path, caplog: pytest.
 
 def test_an_fmu_that_fails_is_freed_and_the_time_is_told(fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     freed: list[bool] = []
-    free = FMU2Slave.freeInstance
+    free = Fmi2Instance.free
 
-    def fail(self: FMU2Slave, time: float, step: float) -> None:
+    def fail(self: Fmi2Instance, time: float, step: float) -> float:
         raise FMICallException(function="fmi2DoStep", status=3)
 
-    def note(self: FMU2Slave) -> None:
+    def note(self: Fmi2Instance) -> None:
         freed.append(True)
         free(self)
 
-    monkeypatch.setattr(FMU2Slave, "doStep", fail)
-    monkeypatch.setattr(FMU2Slave, "freeInstance", note)
-    with pytest.raises(ContactError, match=r"The FMU failed at t = 0 s: fmi2DoStep failed with status 3"):
+    monkeypatch.setattr(Fmi2Instance, "_do_step", fail)
+    monkeypatch.setattr(Fmi2Instance, "free", note)
+    with pytest.raises(ContactError, match=r"failed in the step from 0 s to 1 s: fmi2DoStep failed with status 3"):
         run(fmu, Duty.from_steps(POINT), 2.0, 1.0)
     assert freed == [True]
 

@@ -5,7 +5,7 @@ import pytest
 
 from contact_core import OperatingPoint, Scene, SceneError
 from contact_core.scene.toml import read_table
-from system_models.duty import Duty
+from system_models.run.duty import Duty
 
 REFERENCE = OperatingPoint(load=50.0, speed_1=0.1, speed_2=0.2, temperature=350.0)
 

@@ -9,11 +9,13 @@ import xarray as xr
 from comparison import approx
 from numpy.typing import NDArray
 
-from system_models.gear.mesh import GearMesh
-from system_models.gear.textbook import ohlendorf
-from system_models.machine import gear_pair_pictures, gear_pair_report, reading
-from system_models.machine.assembly import Assembly
-from system_models.machine.gear_pair_record import Record
+from system_models.machines import reading
+from system_models.machines.assembly import Assembly
+from system_models.machines.gear_pair import pictures as gear_pair_pictures
+from system_models.machines.gear_pair import report as gear_pair_report
+from system_models.machines.gear_pair.mesh import GearMesh
+from system_models.machines.gear_pair.record import Record
+from system_models.machines.gear_pair.textbook import ohlendorf
 from system_models.master import simulate
 
 STATIONS = 6

@@ -8,16 +8,16 @@ import pytest
 import xarray as xr
 from comparison import approx
 
-from system_models.bearing.geometry import BEARING_209
-from system_models.bearing.part import BallBearing
-from system_models.gear.mesh import GearMesh
-from system_models.machine import reading
-from system_models.machine.assembly import Assembly
+from system_models.machines import reading
+from system_models.machines.assembly import Assembly
+from system_models.machines.ball_bearing.geometry import BEARING_209
+from system_models.machines.ball_bearing.part import BallBearing
+from system_models.machines.gear_pair.mesh import GearMesh
 from system_models.master import simulate
 from system_models.parts.part import indexed
 from system_models.parts.thermal import ThermalNetwork
 
-MACHINES = ("mtm_rig", "bearing_209", "bearing_218", "gear_fzg_a")
+MACHINES = ("mtm_rig", "bearing_209", "bearing_218", "gear_fzg_a", "cam_follower")
 DUTY = "time [s],entrainment_speed [m/s],slide_roll_ratio [1]\n0,0.4,0.5\n4,0.4,0.5\n"
 
 
@@ -70,7 +70,7 @@ def test_every_input_is_set_once_and_no_heat_or_force_of_a_contact_is_lost_or_to
     assert not [port for port in unset if any(key in port for key in ("heat_", "friction", "rolling", "flash"))]
     sources = Counter(source for source, *_ in assembly.connections)
     used = {1: ("heat_flow_1", "heat_flow_2"), 2: ()}
-    if "mesh" in assembly.parts or "bearing" in assembly.parts:
+    if {"mesh", "bearing", "cam"} & set(assembly.parts):
         used[1] = (*used[1], "friction_force", "rolling_resistance")
     else:  # both bodies of the rig feel these
         used[2] = ("friction_force", "rolling_resistance")

@@ -18,11 +18,11 @@ from test_resume import KILLED, bits
 from test_ssp import SPACES, imported, structure
 
 from fmu_src.flavours import FLAVOURS
-from system_models.cli import main
-from system_models.machine import reading
-from system_models.machine.assembly import Assembly
-from system_models.machine.export import with_timetable
-from system_models.machine.files import shipped
+from system_models.cli.main import main
+from system_models.machines import reading
+from system_models.machines.assembly import Assembly
+from system_models.machines.export import with_timetable
+from system_models.machines.files import shipped
 from system_models.master import System, export_ssp, simulate
 from system_models.parts.load_arm import LoadArm
 

@@ -2,13 +2,13 @@
 
 import re
 import tomllib
-from importlib import import_module
 from pathlib import Path
 
 import pytest
 
-from system_models.machine import reading, timeline
-from system_models.machine.files import folder
+from system_models.machines import reading, timeline
+from system_models.machines.files import shipped_files
+from system_models.machines.registry import KINDS
 
 PAGE = Path(__file__).parents[2].joinpath("docs", "how-to", "machines.md").read_text("utf-8")
 ROWS = re.findall(r"^\| `(\w+)` \| (.+?) \| (.+?) \| (.+?) \|$", PAGE, re.MULTILINE)
@@ -16,17 +16,18 @@ TOML = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
 
 
 def test_the_page_names_every_kind_of_machine():
-    assert [kind for kind, *_ in ROWS] == list(reading._KINDS)
+    assert [kind for kind, *_ in ROWS] == list(KINDS)
 
 
 @pytest.mark.parametrize(("kind", "others", "contacts", "signals"), ROWS)
 def test_the_page_names_the_signals_of_a_kind(kind, others, contacts, signals):
-    assert re.findall(r"`(\w+)`", signals) == list(import_module(f"system_models.machine.{kind}").SIGNALS)
+    assert re.findall(r"`(\w+)`", signals) == list(KINDS[kind].signals)
 
 
 @pytest.mark.parametrize(("kind", "others", "contacts", "signals"), ROWS)
 def test_the_page_names_the_fmus_of_a_kind(kind, others, contacts, signals):
-    name = {"ball_on_disc": "mtm_rig", "ball_bearing": "bearing_209", "gear_pair": "gear_fzg_c"}[kind]
+    shipped = {"ball_on_disc": "mtm_rig", "ball_bearing": "bearing_209", "gear_pair": "gear_fzg_c"}
+    name = shipped.get(kind, kind)
     assembly = reading.assemble(reading.read(name))
     assert set(re.findall(r"`(\w+)`", others)) == set(assembly.parts)
     assert set(re.findall(r"`(\w+)`", contacts)) <= set(assembly.contacts)
@@ -35,7 +36,7 @@ def test_the_page_names_the_fmus_of_a_kind(kind, others, contacts, signals):
 @pytest.mark.parametrize("text", TOML)
 def test_the_duties_on_the_page_can_be_read(text):
     duty = tomllib.loads(text)["duty"]
-    found = timeline.read(duty, import_module("system_models.machine.ball_bearing").SIGNALS, Path(str(folder())))
+    found = timeline.read(duty, KINDS["ball_bearing"].signals, Path(str(shipped_files()["bearing_209"])).parent)
     assert found.end > 0.0
 
 

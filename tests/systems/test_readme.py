@@ -8,7 +8,7 @@ from comparison import approx
 
 from contact_core import Scene, advance, initial_state
 from contact_core.scene.toml import read_table
-from system_models.duty import Duty
+from system_models.run.duty import Duty
 
 README = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
 

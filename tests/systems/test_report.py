@@ -7,8 +7,8 @@ from comparison import approx
 
 from contact_core import RangeFlag
 from contact_core.quantities import TABLE
-from system_models import report
-from system_models.results import to_dataset
+from system_models.run import report
+from system_models.store.results import to_dataset
 
 
 @pytest.fixture

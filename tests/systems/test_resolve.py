@@ -11,9 +11,9 @@ from comparison import approx
 
 from contact_core import ContactState, OperatingPoint, Outputs, RangeFlag, advance, initial_state
 from contact_core.scene import Scene, tunables, with_values
-from system_models.machine import reading, resolve
-from system_models.machine.assembly import Assembly
-from system_models.machine.resolve import COMPARED, DEEP, FAST, Resolved, solved_again
+from system_models.machines import reading, resolve
+from system_models.machines.assembly import Assembly
+from system_models.machines.resolve import COMPARED, DEEP, FAST, Resolved, solved_again
 
 SMALL = {
     "contact.film.points": "17",

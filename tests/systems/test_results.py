@@ -8,8 +8,9 @@ import xarray as xr
 import contact_core
 from contact_core import Scene
 from contact_core.quantities import TABLE
-from system_models import results
-from system_models.duty import Duty
+from system_models.run import origin
+from system_models.run.duty import Duty
+from system_models.store import results
 
 
 def test_variables_have_the_names_units_and_texts_of_the_quantity_table(dataset: xr.Dataset) -> None:
@@ -27,14 +28,14 @@ def test_time_is_a_coordinate_in_seconds(dataset: xr.Dataset) -> None:
 
 
 def test_the_attributes_make_the_scene_again(dataset: xr.Dataset, scene: Scene, duty: Duty) -> None:
-    attributes = results.with_scene(dataset, scene, duty).attrs
+    attributes = origin.with_scene(dataset, scene, duty).attrs
     assert Scene.from_dict(json.loads(attributes["scene_json"])) == scene
     assert attributes["scene"] == "mtm_zddp"
     assert attributes["tribofmu_version"] == contact_core.__version__
 
 
 def test_netcdf_gives_back_what_was_written(dataset: xr.Dataset, scene: Scene, duty: Duty, tmp_path: Path) -> None:
-    described = results.with_scene(dataset, scene, duty)
+    described = origin.with_scene(dataset, scene, duty)
     netcdf, _ = results.write(described, tmp_path)
     with xr.open_dataset(netcdf, engine="h5netcdf") as read:
         xr.testing.assert_identical(read.load(), described)
@@ -51,7 +52,7 @@ def test_csv_names_units_and_keeps_every_digit(dataset: xr.Dataset, tmp_path: Pa
 
 
 def test_the_same_run_writes_the_same_bytes(dataset: xr.Dataset, scene: Scene, duty: Duty, tmp_path: Path) -> None:
-    described, folders = results.with_scene(dataset, scene, duty), (tmp_path / "a", tmp_path / "b")
+    described, folders = origin.with_scene(dataset, scene, duty), (tmp_path / "a", tmp_path / "b")
     written = []
     for folder in folders:
         folder.mkdir()

@@ -12,16 +12,17 @@ import numpy as np
 import pytest
 import xarray as xr
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave
 
 import fmu_src.runtime.slave
 from contact_core import ContactError, OperatingPoint, Scene, StateError, advance
 from fmu_src.package.build import build
-from system_models import report
-from system_models.checkpoint import Checkpoint, identity
-from system_models.cli import main
-from system_models.driven_contact import run
-from system_models.duty import Duty
+from system_models.cli.main import main
+from system_models.fmu.fmi2 import Fmi2Instance
+from system_models.run import report
+from system_models.run.contact import run
+from system_models.run.duty import Duty
+from system_models.run.origin import identity
+from system_models.store.checkpoint import Checkpoint
 
 STILL = [part for law in ("tribofilm", "wear", "heat") for part in ("--set", f"{law}.model=none")]
 NAMES = ["result.csv", "result.nc"]  # without a picture
@@ -104,18 +105,18 @@ def test_the_state_of_another_fmu_is_not_gone_on_from(fmu: Path, scene: Scene, d
 def test_rows_before_a_failure_are_kept(
     fmu: Path, scene: Scene, duty: Duty, dataset: xr.Dataset, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    step = FMU2Slave.doStep
+    step = Fmi2Instance._do_step
 
-    def fail(self: FMU2Slave, time: float, size: float) -> None:
+    def fail(self: Fmi2Instance, time: float, size: float) -> float:
         if time == 40.0:
             raise FMICallException(function="fmi2DoStep", status=3)
-        step(self, time, size)
+        return step(self, time, size)
 
     who = identity(scene, duty)
     with monkeypatch.context() as patch:
-        patch.setattr(FMU2Slave, "doStep", fail)
+        patch.setattr(Fmi2Instance, "_do_step", fail)
         patch.setattr(Checkpoint, "due", lambda self: True)
-        with pytest.raises(ContactError, match="The FMU failed at t = 40 s"):
+        with pytest.raises(ContactError, match="failed in the step from 40 s to 60 s"):
             run(fmu, duty, 72.0, 30.0, None, Checkpoint(tmp_path, who))
     assert Checkpoint.resume(tmp_path, who).count == 3
     assert bits(run(fmu, duty, 72.0, 30.0, None, Checkpoint.resume(tmp_path, who))) == bits(dataset)
@@ -125,8 +126,8 @@ def test_rows_before_a_failure_are_kept(
 KILLED = """
 import os, signal, sys
 from pathlib import Path
-from system_models.checkpoint import Checkpoint
-from system_models.cli import main
+from system_models.store.checkpoint import Checkpoint
+from system_models.cli.main import main
 
 where, last, *arguments = sys.argv[1:]
 calls = 0
@@ -181,14 +182,15 @@ def test_a_run_that_is_killed_again_and_again_writes_the_same_files(
 
 
 def interrupted(call: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let Ctrl-C reach the contact in its advance number `call`."""
+    """Let Ctrl-C, pressed twice, reach the contact in its advance number `call`."""
     calls = 0
 
     def advance_or_stop(*arguments: Any) -> Any:
         nonlocal calls
         calls += 1
         if calls == call:
-            raise KeyboardInterrupt
+            signal.raise_signal(signal.SIGINT)  # waits for the end of the step
+            signal.raise_signal(signal.SIGINT)  # acts at once
         return advance(*arguments)
 
     monkeypatch.setattr(fmu_src.runtime.slave, "advance", advance_or_stop)
@@ -224,13 +226,13 @@ def test_after_ctrl_c_the_command_says_how_to_go_on_and_does(
 def test_a_failure_says_how_to_go_on(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, coarse: list[str]
 ) -> None:
-    def fail(self: FMU2Slave, time: float, size: float) -> None:
+    def fail(self: Fmi2Instance, time: float, size: float) -> float:
         raise FMICallException(function="fmi2DoStep", status=3)
 
-    monkeypatch.setattr(FMU2Slave, "doStep", fail)
+    monkeypatch.setattr(Fmi2Instance, "_do_step", fail)
     assert main(["run", "mtm_zddp", *coarse, *STILL, "--out", str(tmp_path)]) == 2
     last = capsys.readouterr().err.splitlines()[-1]
-    assert "tribofmu: The FMU failed at t = 0 s" in last
+    assert "tribofmu: The FMU 'contact' failed in the step from 0 s" in last
     assert last.endswith("the same command with --resume goes on from there.")
 
 
@@ -245,7 +247,7 @@ def test_a_finished_run_is_not_computed_again(
     assert main(command) == 0
     capsys.readouterr()
     with monkeypatch.context() as patch:
-        patch.setattr("system_models.cli._simulate", None)
+        patch.setattr("system_models.cli.contact._simulate", None)
         assert main(command) == 0
     assert "This run is finished" in capsys.readouterr().err
     assert main([*command, "--hours", "0.005"]) == 0

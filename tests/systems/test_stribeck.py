@@ -12,10 +12,10 @@ from comparison import approx
 from contact_core import ContactState, ConvergenceError, OperatingPoint, Outputs, RangeFlag, Scene, advance
 from contact_core.errors import ContactError
 from contact_core.quantities import TABLE
-from system_models import stribeck, stribeck_report
-from system_models.cli import main
-from system_models.duty import Duty
-from system_models.stribeck import Curves, Plan, measure, rubbing, transition_speed
+from system_models.cli.main import main
+from system_models.run import stribeck, stribeck_report
+from system_models.run.duty import Duty
+from system_models.run.stribeck import Curves, Plan, measure, rubbing, transition_speed
 
 FAST, SLOW = 8.0, 0.008
 DRY = ["--set", "control.driver=dry"]  # costs next to nothing

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from comparison import approx
 
-from system_models.bearing.equilibrium import RingLoads, solve
-from system_models.bearing.geometry import BEARING_209, BEARING_218
-from system_models.bearing.kinematics import motion
-from system_models.bearing.levels import classify, gathered, track_lengths
+from system_models.machines.ball_bearing.equilibrium import RingLoads, solve
+from system_models.machines.ball_bearing.geometry import BEARING_209, BEARING_218
+from system_models.machines.ball_bearing.kinematics import motion
+from system_models.machines.ball_bearing.load_classes import classify, gathered, track_lengths
 
 LOADS = np.array([4526.6, 2840.6, 2840.6, 61.4, 61.4, 0.0, 0.0, 900.0, 1508.9])
 LEVELS = (1, 2, 3, 5, 9)

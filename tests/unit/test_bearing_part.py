@@ -8,9 +8,9 @@ from comparison import approx
 from contact_core.errors import ContactError, SceneError
 from contact_core.quantities import out_of_range
 from contact_core.scene import units
-from system_models.bearing.equilibrium import RingLoads, solve
-from system_models.bearing.geometry import BEARING_209, BEARING_218, BallBearingGeometry
-from system_models.bearing.part import BallBearing
+from system_models.machines.ball_bearing.equilibrium import RingLoads, solve
+from system_models.machines.ball_bearing.geometry import BEARING_209, BEARING_218, BallBearingGeometry
+from system_models.machines.ball_bearing.part import BallBearing
 from system_models.parts.part import indexed
 
 RACES = ("inner", "outer")

@@ -11,11 +11,11 @@ from scipy.integrate import quad
 
 from contact_core.errors import SceneError
 from contact_core.scene.toml import build, unbuild
-from system_models.gear.geometry import FZG_A, FZG_C
-from system_models.gear.mesh import GearMesh
-from system_models.gear.path import stations_of, steps, surface_speeds
-from system_models.gear.sharing import Sharing, loads
-from system_models.gear.textbook import ohlendorf
+from system_models.machines.gear_pair.geometry import FZG_A, FZG_C
+from system_models.machines.gear_pair.mesh import GearMesh
+from system_models.machines.gear_pair.path import stations_of, steps, surface_speeds
+from system_models.machines.gear_pair.sharing import Sharing, loads
+from system_models.machines.gear_pair.textbook import ohlendorf
 from system_models.parts.part import indexed
 
 PINION, TORQUE, MU = 227.24, 135.3, 0.05

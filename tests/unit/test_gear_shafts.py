@@ -10,9 +10,9 @@ from scipy.integrate import solve_ivp
 
 from contact_core.errors import SceneError
 from contact_core.scene.toml import build, unbuild
-from system_models.gear.geometry import FZG_C
-from system_models.gear.shafts import GearShafts
-from system_models.gear.sharing import mean_stiffness
+from system_models.machines.gear_pair.geometry import FZG_C
+from system_models.machines.gear_pair.shafts import GearShafts
+from system_models.machines.gear_pair.sharing import mean_stiffness
 
 STIFFNESS = mean_stiffness(FZG_C) * FZG_C.face_width
 SHAFTS = GearShafts(pair=FZG_C, inertia_1=0.01, inertia_2=0.03, stiffness=STIFFNESS, start_speed=200.0)

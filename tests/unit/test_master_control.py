@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from comparison import approx
 
-from system_models.master.control import StepControl, scale, wrms
+from system_models.numerics.control import StepControl, scale, wrms
 
 ORDERS = (1, 2, 3)
 

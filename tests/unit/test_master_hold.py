@@ -6,7 +6,7 @@ from comparison import approx
 from hypothesis import given
 from hypothesis import strategies as st
 
-from system_models.master.hold import History, mean, value
+from system_models.numerics.hold import History, mean, value
 
 ORDERS = (0, 1, 2)
 

@@ -8,9 +8,9 @@ from comparison import approx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from system_models.master.control import scale, wrms
-from system_models.master.iteration import METHODS, Aitken, FixedPoint
-from system_models.master.quasi_newton import QuasiNewton, multi_secant
+from system_models.numerics.control import scale, wrms
+from system_models.numerics.iteration import METHODS, Aitken, FixedPoint
+from system_models.numerics.quasi_newton import QuasiNewton, multi_secant
 
 MOST = 200
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from system_models.master.errors import CouplingError
+from system_models.fmu.errors import CouplingError
 from system_models.master.reading import read
 from system_models.master.system import System
 

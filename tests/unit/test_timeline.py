@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 from comparison import approx
 
-import system_models.machine
 from contact_core import SceneError
 from contact_core.quantities import Quantity
-from system_models.machine import timeline
-from system_models.machine.timeline import Timeline
+from system_models.machines import timeline
+from system_models.machines.files import shipped_files
+from system_models.machines.timeline import Timeline
 
 SIGNALS = {
     "speed": Quantity("speed", "n", "rad/s", "speed of the shaft", "input", display="rpm"),
@@ -108,7 +108,7 @@ def test_a_file_takes_the_place_of_steps_and_cycles(tmp_path: Path) -> None:
 
 
 def test_the_shipped_cycle_runs_ten_minutes_with_standstills() -> None:
-    folder = Path(system_models.machine.__file__).parent / "systems"
+    folder = Path(str(shipped_files()["bearing_209"])).parent
     duty = read('[duty]\nfile = "drive_cycle.csv"', folder)
     assert duty.end == 600.0
     speeds = duty.course("speed")

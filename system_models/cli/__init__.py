@@ -1,0 +1,14 @@
+"""The command `tribofmu`, a module for each of its commands.
+
+    main        the table of commands
+    listing     list: what is shipped
+    run         run: contact, one contact through its duty; machine, a machine
+    stribeck    stribeck: Stribeck curves
+    check       check: verdicts on an FMU
+    cosim       cosim: a system of FMUs
+    scenes      the scene and duty that commands are given
+    simulation  simulates a system with a checkpoint
+    console     notes, the folder of the results, --set
+
+Every module is light to import: what a command needs is loaded when it runs.
+"""

@@ -1,0 +1,121 @@
+"""Runs one contact through its duty: builds its FMU, simulates and reports."""
+
+import argparse
+import logging
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from contact_core.errors import ContactError, StateError
+from contact_core.scene import Scene
+
+from .console import note, output_folder
+from .scenes import contact, warn
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from ..run.duty import Duty
+    from ..store.checkpoint import Checkpoint
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run the contact of a scene and return the exit code."""
+    from ..store.checkpoint import alone
+
+    scene, duty = contact(arguments)
+    folder = output_folder(arguments.out, Path(arguments.scene).stem)
+    warn(scene)
+    with alone(folder):
+        return _run_in(folder, scene, duty, arguments.resume)
+
+
+def _run_in(folder: Path, scene: Scene, duty: "Duty", resume: bool) -> int:
+    checkpoint = _checkpoint(folder, scene, duty, resume)
+    if resume and not checkpoint.saved and (code := _finished(folder, scene, duty)) is not None:
+        return code
+    try:
+        code = _report(_simulate(scene, duty, checkpoint), scene, duty, folder)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(_how_to_go_on(checkpoint)) from None
+    except StateError:
+        raise
+    except ContactError as error:
+        raise ContactError(f"{error} {_how_to_go_on(checkpoint)}".rstrip()) from error
+    checkpoint.remove()
+    return code
+
+
+def _checkpoint(folder: Path, scene: Scene, duty: "Duty", resume: bool) -> "Checkpoint":
+    """Where the run goes on from, if it can and shall, said on stderr."""
+    from ..run.origin import identity
+    from ..store.checkpoint import Checkpoint
+
+    run = identity(scene, duty)
+    if not resume:
+        checkpoint = Checkpoint(folder, run)
+        if checkpoint.file.exists():
+            note(f"'{checkpoint.file}' of an unfinished run will be replaced; to go on from it, use --resume.")
+        return checkpoint
+    checkpoint = Checkpoint.resume(folder, run)
+    if checkpoint.saved:
+        note(f"Going on from '{checkpoint.file}' at {checkpoint.saved.time / 60.0:.1f} min.")
+    return checkpoint
+
+
+def _finished(folder: Path, scene: Scene, duty: "Duty") -> int | None:
+    """The exit code of this very run if its result is there already."""
+    from ..run import origin, report
+
+    dataset = origin.find(folder, scene, duty)
+    if dataset is None:
+        note(f"There is no checkpoint in '{folder}': the run starts from the beginning.")
+        return None
+    note(f"This run is finished, its result is in '{folder}'. Leave out --resume to compute it again.")
+    return 1 if report.invalid_rows(dataset) else 0
+
+
+def _how_to_go_on(checkpoint: "Checkpoint") -> str:
+    if not checkpoint.count:
+        return ""
+    return f"What was computed is kept in '{checkpoint.file}': the same command with --resume goes on from there."
+
+
+def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path) -> int:
+    """Print and write the result; return the exit code."""
+    from ..run import origin, report
+    from ..store import results
+
+    dataset = origin.with_scene(dataset, scene, duty)
+    print(scene.description, report.table(dataset), *report.closing_lines(dataset), sep="\n")
+    written = [*results.write(dataset, folder), report.write_overview(dataset, folder / "overview.png")]
+    print(f"Written: {', '.join(map(str, written))}")
+    return 1 if report.invalid_rows(dataset) else 0
+
+
+def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint") -> "xr.Dataset":
+    """Build the FMU and drive it, with a progress bar in minutes of test time."""
+    from tqdm import tqdm
+    from tqdm.contrib.logging import logging_redirect_tqdm
+
+    from fmu_src.package.build import build
+
+    from ..run.contact import run
+
+    logging.basicConfig(format="%(message)s")
+    bar = tqdm(
+        total=scene.operation.duration / 60.0,
+        initial=checkpoint.saved.time / 60.0 if checkpoint.saved else 0.0,
+        desc=scene.name,
+        bar_format="{desc} {percentage:3.0f} %|{bar}| {n:.1f}/{total:.1f} min [{elapsed}<{remaining}]",
+    )
+    with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder, bar, logging_redirect_tqdm():
+        fmu = build(scene, Path(folder) / f"{scene.name}.fmu", "embedded")
+        return run(
+            fmu,
+            duty,
+            scene.operation.duration,
+            scene.operation.interval,
+            lambda time: bar.update(time / 60.0 - bar.n),
+            checkpoint,
+        )

@@ -1,0 +1,76 @@
+"""The command `tribofmu cosim`: simulates a system of FMUs from a TOML file, or exports it."""
+
+import argparse
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from contact_core.errors import ContactError
+
+from .console import add_settings, note, output_folder
+from .simulation import EXIT_CODE, carry_out
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from ..master import System
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """What `run` wants to know."""
+    parser.add_argument("system", metavar="SYSTEM.toml", type=Path, help="FMUs, their connections and how to simulate")
+    parser.add_argument("--out", metavar="DIR", help="folder of the results (default: results/SYSTEM)")
+    add_settings(
+        parser, "change parameters and settings of the file, e.g. parameters.block.m=2 simulate.step_size='1 ms'"
+    )
+    instead = parser.add_mutually_exclusive_group()
+    instead.add_argument(
+        "--resume",
+        action="store_true",
+        help="go on from the checkpoint that a killed, interrupted or failed simulation has left in DIR, to the same "
+        "result, bit for bit; start from the beginning if there is none (without --resume always, and replace it)",
+    )
+    instead.add_argument("--ssp", metavar="FILE.ssp", help="export the system as SSP 1.0, do not simulate it")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Do what the command line asks for; return 0, or 1 if some steps have missed a tolerance.
+
+    Raises ContactError with a sentence if it cannot be done.
+    """
+    from ..master.reading import read
+
+    system, settings = read(arguments.system, arguments.settings)
+    if arguments.ssp:
+        return _export(system, arguments.ssp, settings)
+    for key in ("stop_time", "step_size"):
+        if key not in settings:
+            raise ContactError(
+                f"'{arguments.system}' does not say simulate.{key}. Add it, or --set simulate.{key}=VALUE."
+            )
+    folder = output_folder(arguments.out, arguments.system.stem)
+    return carry_out(system, settings, arguments.system.stem, folder, arguments.resume, _report)
+
+
+def _export(system: "System", path: str, settings: Mapping[str, Any]) -> int:
+    from ..master import export_ssp
+
+    left_out = [name for name in ("events", "bonds", "derivatives") if getattr(system, name)]
+    if left_out:
+        note(f"SSP has no place for {', '.join(left_out)}: importers do not learn of them.")
+    print(f"Written: {export_ssp(system, path, settings.get('stop_time'), settings.get('step_size'))}")
+    return 0
+
+
+def _report(dataset: "xr.Dataset", folder: Path) -> int:
+    """Print and write the result; return the exit code."""
+    from ..run import cosim_report
+    from ..store import results
+
+    print(cosim_report.table(dataset), "", cosim_report.costs(dataset), "", sep="\n")
+    print(*cosim_report.closing_lines(dataset), sep="\n")
+    code = 1 if cosim_report.missed_steps(dataset) else 0
+    dataset = dataset.assign_attrs({EXIT_CODE: code})
+    written = [*results.write(dataset, folder), cosim_report.write_overview(dataset, folder / "overview.png")]
+    print(f"Written: {', '.join(map(str, written))}")
+    return code

@@ -1,0 +1,115 @@
+"""What `tribofmu run` does with a machine: builds its FMUs, simulates and reports. Light to import."""
+
+import argparse
+from pathlib import Path
+from time import monotonic
+from typing import TYPE_CHECKING
+
+from contact_core.errors import ContactError
+
+from .console import note, output_folder
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from ..machines.assembly import Assembly
+    from ..master import System
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Do what the command line asks for; return the exit code. Raises ContactError with a sentence if it cannot."""
+    from ..machines import reading, timeline
+
+    machine = reading.read(arguments.scene, _changes(arguments))
+    if arguments.duty:
+        machine.table["duty"] = timeline.with_file(machine.table.get("duty", {}), Path(arguments.duty).absolute())
+    assembly = reading.assemble(machine)
+    if arguments.ssp:
+        return _export(assembly, arguments.ssp)
+    folder = output_folder(arguments.out, machine.name)
+    return _run_in(folder, assembly, machine.kind, arguments.resume, arguments.unchecked)
+
+
+def _changes(arguments: argparse.Namespace) -> dict[str, str]:
+    for option in ("hours", "grid", "duty", "out", "ssp"):
+        if getattr(arguments, option) == "":
+            raise ContactError(f"--{option} is empty. Give a value, or leave --{option} out.")
+    changes = dict(arguments.settings)
+    if arguments.hours:
+        changes["simulate.stop_time"] = f"{arguments.hours} h"
+    if arguments.grid:
+        changes["contact.film.points"] = arguments.grid
+    return changes
+
+
+def _export(assembly: "Assembly", path: str) -> int:
+    import tempfile
+
+    from ..machines.export import with_timetable
+    from ..master import export_ssp
+
+    with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder:
+        system = with_timetable(assembly).system(Path(folder), "isolated")
+        print(f"Written: {export_ssp(system, path, assembly.settings['stop_time'], assembly.settings['step_size'])}")
+    return 0
+
+
+def _run_in(folder: Path, assembly: "Assembly", kind: str, resume: bool, unchecked: bool) -> int:
+    import tempfile
+
+    from .simulation import carry_out
+
+    settings = {**assembly.settings, "outputs": assembly.outputs()}
+    attributes = {"title": assembly.description, "checks": "left out" if unchecked else "error_coupling, resolved.nc"}
+    with tempfile.TemporaryDirectory(prefix="tribofmu-") as files:
+        system = assembly.system(Path(files))
+
+        def report(dataset: "xr.Dataset", folder: Path) -> int:
+            code = _report(dataset, folder, assembly, kind)
+            return code if unchecked else _check(dataset, folder, assembly, system, code)
+
+        return carry_out(system, settings, assembly.name, folder, resume, report, **attributes)
+
+
+def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str) -> int:
+    """Print and write the result; return the exit code."""
+    from ..machines import report as machine_report
+    from ..machines.registry import KINDS
+    from ..run import cosim_report
+    from ..store import results
+    from .simulation import EXIT_CODE
+
+    print(assembly.description, "", *KINDS[kind].lines(assembly, dataset), "", sep="\n")
+    print(*machine_report.lines(assembly, dataset), "", *cosim_report.closing_lines(dataset), "", sep="\n")
+    code = 1 if cosim_report.missed_steps(dataset) or machine_report.invalid_rows(assembly, dataset) else 0
+    written = results.write(dataset.assign_attrs({EXIT_CODE: code}), folder)
+    print(f"Written: {', '.join(map(str, [*written, *KINDS[kind].pictures(assembly, dataset, folder)]))}", flush=True)
+    return code
+
+
+def _check(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", system: "System", code: int) -> int:
+    """Simulate with double steps and solve states again; write what that says of the result.
+
+    Return the exit code, which has been `code` so far.
+    """
+    from ..machines import coupling_error, resolve
+    from ..master import simulate
+    from ..store import results
+    from .simulation import EXIT_CODE
+
+    begin = monotonic()
+    settings = coupling_error.coarser(dataset, assembly.settings, assembly.schedule)
+    coarse = simulate(system, **settings, outputs=assembly.outputs())
+    dataset = coupling_error.stated(dataset, coarse, assembly.schedule)
+    print("", *coupling_error.lines(dataset, assembly.nominals()), sep="\n")
+    print(f"This took {monotonic() - begin:.0f} s.", "", sep="\n", flush=True)
+    begin = monotonic()
+    states = resolve.resolve(assembly, dataset, lambda done: note(f"Solved again: {done}."))
+    print(*resolve.lines(states), f"This took {monotonic() - begin:.0f} s.", sep="\n")
+    wrong = [state for state in states if state.solved and not state.valid]
+    if wrong:
+        note(f"The fast level's errors do not cover its deviation in {len(wrong)} of {len(states)} states: see 'NO'.")
+        code = 1
+    print(f"Written: {results.write(resolve.to_dataset(states), folder, 'resolved')[0]}")
+    results.write(resolve.marked(dataset, states).assign_attrs({EXIT_CODE: code}), folder)
+    return code

@@ -1,0 +1,65 @@
+"""The command `tribofmu`: its commands, each in a module of its own.
+
+Exit codes: 0 done; 1 some rows of the result are invalid, some rule failed, or some steps have missed a tolerance;
+2 refused or failed, with a sentence on stderr; 130 interrupted.
+"""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from typing import Protocol
+
+from contact_core.errors import ContactError
+from fmu_src.package import command as build
+
+from . import check, cosim, listing, run, stribeck
+
+
+class Command(Protocol):
+    """The module of a command."""
+
+    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
+        """Add the arguments of the command."""
+
+    def run(self, arguments: argparse.Namespace) -> int:
+        """Carry out the command and return the exit code."""
+
+
+# name: its module, and its line in the help
+COMMANDS: dict[str, tuple[Command, str]] = {
+    "list": (listing, "name the shipped scenes and machines"),
+    "run": (run, "run a scene's contact, or a machine, through its duty"),
+    "stribeck": (stribeck, "rub a scene's contact and measure its Stribeck curves"),
+    "build": (build, "build the FMU of a scene, for another tool"),
+    "check": (check, "give a verdict per rule on any FMU"),
+    "cosim": (cosim, "simulate a system of FMUs"),
+}
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit code."""
+    arguments = _parser().parse_args(argv)
+    try:
+        return int(arguments.command(arguments))
+    except ContactError as error:
+        print(f"tribofmu: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt as interrupt:
+        print(f"tribofmu: Interrupted. {interrupt}".rstrip(), file=sys.stderr)
+        return 130
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="tribofmu", description="Mixed lubrication, tribofilm and wear of a contact as an FMU."
+    )
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    for name, (module, text) in COMMANDS.items():
+        command = commands.add_parser(name, help=text)
+        module.add_arguments(command)
+        command.set_defaults(command=module.run)
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,49 @@
+"""The command `tribofmu run`: a scene's contact, or a machine, through its duty."""
+
+import argparse
+
+from contact_core.errors import ContactError
+from contact_core.scene.toml import did_you_mean, shipped_scenes
+
+from ..machines import files
+from . import contact, machine
+from .scenes import add_scene
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    add_scene(parser)
+    parser.add_argument(
+        "--resume",
+        action="store_true",
+        help="go on from the checkpoint that a killed, interrupted or failed run has left in DIR, to the same result, "
+        "bit for bit; start from the beginning if there is none (without --resume always, and replace it)",
+    )
+    parser.add_argument("--hours", metavar="H", help="duration of the test, instead of operation.duration")
+    parser.add_argument("--duty", metavar="FILE.csv", help="CSV of the duty, instead of operation.file")
+    parser.add_argument(
+        "--unchecked",
+        action="store_true",
+        help="leave out what checks a machine's result: a simulation with double steps, and states solved again",
+    )
+    parser.add_argument("--ssp", metavar="FILE.ssp", help="export a machine as SSP 1.0, do not run it")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Run what the command line names and return the exit code."""
+    if files.is_machine(arguments.scene):
+        return machine.run(arguments)
+    _check_name(arguments.scene)
+    if arguments.ssp is not None:
+        raise ContactError(f"'{arguments.scene}' is one contact, not a machine. Export it with `tribofmu build`.")
+    return contact.run(arguments)
+
+
+def _check_name(name: str) -> None:
+    """Raise ContactError if nothing that is shipped is called so, and it is no file."""
+    shipped = [*shipped_scenes(), *files.shipped()]
+    if not name.endswith(".toml") and name not in shipped:
+        raise ContactError(
+            f"There is no scene or machine '{name}'.{did_you_mean(name, shipped)} Shipped are {', '.join(shipped)}; or "
+            "give the path of a .toml file."
+        )

@@ -1,0 +1,58 @@
+"""The scene and duty that commands are given."""
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from contact_core.errors import ContactError
+from contact_core.scene import Scene
+
+from .console import add_settings
+
+if TYPE_CHECKING:
+    from ..run.duty import Duty
+
+
+def add_scene(command: argparse.ArgumentParser) -> None:
+    """Add the arguments that name the contact and the folder of the results."""
+    command.add_argument("scene", metavar="NAME", help="what is shipped (`tribofmu list`), or the path of a .toml file")
+    command.add_argument("--out", metavar="DIR", help="folder of the results (default: results/NAME)")
+    command.add_argument("--grid", metavar="N", help="nodes along x and y, instead of film.points")
+    add_settings(command, "change values of it, e.g. tribofilm.model=none surface_2.rq='50 nm'")
+
+
+def contact(arguments: argparse.Namespace) -> "tuple[Scene, Duty]":
+    """Return the scene, large enough for its duty, and the duty."""
+    from ..run.duty import Duty
+
+    scene = Scene.from_toml(arguments.scene, _overrides(arguments))
+    duty = Duty.of_scene(scene, _folder_of_duty(arguments))
+    return duty.sized(scene), duty
+
+
+def warn(scene: Scene) -> None:
+    """Print the warnings of a scene on stderr."""
+    for warning in scene.warnings():
+        print(f"tribofmu: warning: {warning}", file=sys.stderr)
+
+
+def _overrides(arguments: argparse.Namespace) -> dict[str, str]:
+    for option in ("hours", "grid", "duty", "out"):
+        if getattr(arguments, option, None) == "":
+            raise ContactError(f"--{option} is empty. Give a value, or leave --{option} out.")
+    settings = dict(arguments.settings)
+    if getattr(arguments, "hours", None):
+        settings["operation.duration"] = f"{arguments.hours} h"
+    if arguments.grid:
+        settings["film.points"] = arguments.grid
+    if getattr(arguments, "duty", None):
+        settings["operation.file"] = arguments.duty
+    return settings
+
+
+def _folder_of_duty(arguments: argparse.Namespace) -> Path:
+    """A path on the command line starts at the working folder, one in a scene's file at that file."""
+    if getattr(arguments, "duty", None) or not arguments.scene.endswith(".toml"):
+        return Path()
+    return Path(arguments.scene).parent

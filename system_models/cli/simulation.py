@@ -1,0 +1,138 @@
+"""Simulates a system with a checkpoint in the folder of its results, and hands the result to a report."""
+
+import json
+import logging
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from time import monotonic
+from typing import TYPE_CHECKING, Any
+
+from contact_core.errors import ContactError, StateError
+
+from .console import note
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from ..master import System
+
+EXIT_CODE = "exit_code"  # of the run, as an attribute of its result
+
+
+def carry_out(
+    system: "System",
+    settings: Mapping[str, Any],
+    name: str,
+    folder: Path,
+    resume: bool,
+    report: Callable[["xr.Dataset", Path], int],
+    **attributes: str,
+) -> int:
+    """Simulate with a checkpoint in the folder and hand the result to `report`, whose exit code is returned.
+
+    With `resume` go on from the checkpoint; if there is none, but the result of this very simulation, leave that. The
+    settings are the arguments of `master.simulate`. `report` writes the result with its exit code as the attribute
+    EXIT_CODE; `attributes` are others of it that tell it from results of another kind.
+    """
+    origin = _origin(system, settings, name) | attributes
+    checkpoint = _checkpoint(folder, system, settings, resume)
+    go_on = resume and checkpoint is not None and checkpoint.exists()
+    if resume and not go_on and (code := _finished(folder, origin)) is not None:
+        return code
+    begin = monotonic()
+    dataset = _simulated(system, settings, name, checkpoint, go_on)
+    if not go_on:
+        dataset.attrs["wall_seconds"] = monotonic() - begin
+    code = report(dataset.assign_attrs(origin), folder)
+    _remove_checkpoint(folder)
+    return code
+
+
+def _origin(system: "System", settings: Mapping[str, Any], name: str) -> dict[str, str]:
+    """What decides the result, for its attributes."""
+    from ..master.saving import identity
+
+    return {"title": name, "simulation_json": json.dumps(identity(system, settings))}
+
+
+def _checkpoint(folder: Path, system: "System", settings: Mapping[str, Any], resume: bool) -> Path | None:
+    """The file where the simulation stores the point it has reached, if its FMUs can be stored."""
+    from ..master import CouplingError
+    from ..master.saving import check
+    from ..store.checkpoint import Checkpoint
+
+    file = Checkpoint(folder, {}).file
+    try:
+        check(system, system.outputs(settings.get("outputs")))
+    except CouplingError as error:
+        if resume:
+            raise
+        note(f"There will be no checkpoint. {error}")
+        return None
+    if file.exists() and not resume:
+        note(f"'{file}' of an unfinished run will be replaced; to go on from it, use --resume.")
+    if file.exists() and resume:
+        note(f"Going on from '{file}'.")
+    return file
+
+
+def _finished(folder: Path, origin: Mapping[str, str]) -> int | None:
+    """The exit code of this very simulation if its result is there already."""
+    from ..store import results
+
+    dataset = results.find(origin, folder)
+    if dataset is None:
+        note(f"There is no checkpoint in '{folder}': the simulation starts from the beginning.")
+        return None
+    note(f"This simulation is finished, its result is in '{folder}'. Leave out --resume to compute it again.")
+    return int(dataset.attrs.get(EXIT_CODE, 0))
+
+
+def _simulated(
+    system: "System", settings: Mapping[str, Any], name: str, checkpoint: Path | None, resume: bool
+) -> "xr.Dataset":
+    """Simulate, with a progress bar in seconds; what ends it early says how to go on."""
+    from tqdm import tqdm
+    from tqdm.contrib.logging import logging_redirect_tqdm
+
+    from ..master import simulate
+
+    logging.basicConfig(format="%(message)s")
+    bar = tqdm(
+        total=settings["stop_time"],
+        desc=name,
+        bar_format="{desc} {percentage:3.0f} %|{bar}| {n:.4g}/{total:.4g} s [{elapsed}<{remaining}]",
+    )
+    folder, before = checkpoint and checkpoint.parent, _stamp(checkpoint)
+
+    def how_to_go_on() -> str:
+        if _stamp(checkpoint) == before and not resume:
+            return ""
+        return f"What was computed is kept in '{checkpoint}': the same command with --resume goes on from there."
+
+    try:
+        with bar, logging_redirect_tqdm():
+            return simulate(
+                system,
+                **settings,
+                checkpoint=folder,
+                resume=resume,
+                progress=lambda time: bar.update(time - bar.n),
+            )
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(how_to_go_on()) from None
+    except StateError:
+        raise
+    except ContactError as error:
+        raise ContactError(f"{error} {how_to_go_on()}".rstrip()) from error
+
+
+def _stamp(file: Path | None) -> int | None:
+    """When a file was written, if it is there."""
+    return file.stat().st_mtime_ns if file is not None and file.exists() else None
+
+
+def _remove_checkpoint(folder: Path) -> None:
+    from ..store.checkpoint import Checkpoint
+
+    Checkpoint(folder, {}).remove()

@@ -1,0 +1,123 @@
+"""The command `tribofmu stribeck`: rubs a scene's contact and measures its Stribeck curves."""
+
+import argparse
+import logging
+import re
+from collections.abc import Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from contact_core.errors import ContactError
+from contact_core.scene import Scene, units
+
+from .console import output_folder
+from .scenes import add_scene, contact, warn
+
+if TYPE_CHECKING:
+    from ..run.duty import Duty
+    from ..run.stribeck import Curves
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments of the command."""
+    add_scene(parser)
+    parser.add_argument(
+        "--times",
+        metavar="MIN",
+        nargs="+",
+        default=["0,5,15,30,60,120"],
+        help="rubbing times in minutes, after which speeds are swept (default: %(default)s)",
+    )
+    parser.add_argument("--fastest", metavar="U", default="10", help="entrainment speed in m/s (default: %(default)s)")
+    parser.add_argument("--slowest", metavar="U", default="0.003", help="the other end (default: %(default)s)")
+    parser.add_argument("--points", metavar="N", type=int, default=12, help="speeds of a sweep (default: %(default)s)")
+    parser.add_argument("--srr", metavar="R", help="slide-to-roll ratio (u1 - u2) / u_e, instead of the scene's own")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Measure, print and write the curves; return the exit code."""
+    from ..run.stribeck import Curves, Plan
+    from ..store.checkpoint import alone
+
+    scene, duty = contact(arguments)
+    plan = Plan.of(
+        duty,
+        _rubbing_times(arguments.times),
+        _plain_or_with_unit("--fastest", arguments.fastest, "m/s"),
+        _plain_or_with_unit("--slowest", arguments.slowest, "m/s"),
+        arguments.points,
+        None if arguments.srr is None else _plain_or_with_unit("--srr", arguments.srr, ""),
+    )
+    folder = output_folder(arguments.out, Path(arguments.scene).stem)
+    warn(scene)
+    curves = Curves(plan)
+    with alone(folder):
+        try:
+            _sweep(scene, duty, curves)
+        except KeyboardInterrupt:
+            raise KeyboardInterrupt(_kept(scene, duty, curves, folder)) from None
+        except ContactError as error:
+            raise ContactError(f"{error} {_kept(scene, duty, curves, folder)}".rstrip()) from error
+        return _report_curves(scene, duty, curves, folder)
+
+
+def _rubbing_times(words: Sequence[str]) -> list[float]:
+    """Minutes, apart from each other by commas or spaces, in seconds."""
+    try:
+        return [60.0 * float(word) for word in re.split(r"[,\s]+", " ".join(words)) if word]
+    except ValueError:
+        raise ContactError(f"--times = '{' '.join(words)}' must be numbers of minutes, such as 0,5,30.") from None
+
+
+def _plain_or_with_unit(option: str, text: str, unit: str) -> float:
+    with suppress(ValueError):
+        text = f"{float(text)!r} {unit}"
+    return units.parse(text, unit, option)
+
+
+def _sweep(scene: Scene, duty: "Duty", curves: "Curves") -> None:
+    """Measure the curves, with a progress bar in points."""
+    from tqdm import tqdm
+    from tqdm.contrib.logging import logging_redirect_tqdm
+
+    from ..run.stribeck import measure
+
+    logging.basicConfig(format="%(message)s")
+    bar = tqdm(
+        total=len(curves.plan.times) * len(curves.plan.speeds),
+        desc=scene.name,
+        bar_format="{desc} {percentage:3.0f} %|{bar}| {n}/{total} points [{elapsed}<{remaining}]",
+    )
+
+    def show(stage: str, count: int) -> None:
+        bar.set_description_str(f"{scene.name}, {stage}", refresh=False)
+        bar.update(count - bar.n)
+        bar.refresh()
+
+    with bar, logging_redirect_tqdm():
+        measure(scene, duty, curves, show)
+
+
+def _kept(scene: Scene, duty: "Duty", curves: "Curves", folder: Path) -> str:
+    """Write what there is of curves that are not finished, and say so."""
+    if not curves.count:
+        return ""
+    from ..store.results import write
+
+    netcdf, _ = write(curves.dataset(scene, duty), folder, "stribeck")
+    return f"The {curves.count} points measured so far are in '{netcdf}'."
+
+
+def _report_curves(scene: Scene, duty: "Duty", curves: "Curves", folder: Path) -> int:
+    """Print and write the curves; return the exit code."""
+    from ..run import stribeck_report
+    from ..store import results
+
+    dataset = curves.dataset(scene, duty)
+    print(scene.description, stribeck_report.table(dataset), sep="\n")
+    print(*stribeck_report.shift_lines(dataset), *stribeck_report.closing_lines(dataset), sep="\n")
+    written = results.write(dataset, folder, "stribeck")
+    written.append(stribeck_report.write_figure(dataset, folder / "stribeck.png"))
+    print(f"Written: {', '.join(map(str, written))}")
+    return 1 if stribeck_report.invalid_points(dataset) else 0

@@ -1,0 +1,12 @@
+"""A running FMU of FMI 2.0 or 3.0, on the host's side.
+
+    model      an FMU as its modelDescription.xml has it
+    instance   a running FMU: what is the same in both versions of FMI
+    fmi2, fmi3 the running FMU of each version
+    loading    unpacks FMUs and loads their libraries
+    start      starts an instance of each of several FMUs
+    messages   messages of FMUs go to `logging`
+    errors     errors of FMUs and of systems of them
+
+The master runs `Instance`s; `check` calls the library of FMI 2.0 itself, to write down every call before it is made.
+"""

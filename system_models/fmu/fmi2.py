@@ -1,0 +1,170 @@
+"""A running FMU of FMI 2.0."""
+
+from ctypes import byref, c_double
+from typing import Any
+
+import numpy as np
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import (
+    FMU2Slave,
+    fmi2CoSimulation,
+    fmi2Discard,
+    fmi2Integer,
+    fmi2LastSuccessfulTime,
+    fmi2Terminated,
+    fmi2ValueReference,
+)
+from fmpy.model_description import ModelDescription, ModelVariable
+from numpy.typing import NDArray
+
+from . import messages
+from .instance import Instance
+from .loading import load, resources_of
+from .model import kind
+
+_FACTORIALS = np.array([[1.0], [1.0], [2.0]])
+
+
+class FMU2Library(FMU2Slave):  # fmpy takes the version of FMI from the name
+    """The library of an unpacked FMU, whose messages go to `messages`."""
+
+    def __init__(self, description: ModelDescription, folder: str) -> None:
+        super().__init__(
+            guid=description.guid,
+            modelIdentifier=description.coSimulation.modelIdentifier,
+            unzipDirectory=folder,
+        )
+        self.callbacks = messages.callbacks()
+
+    def create(self, name: str, **instead: Any) -> int | None:
+        """Return a new component, None if it is refused; `instead` replaces arguments of fmi2Instantiate by name."""
+        arguments = {
+            "instanceName": name,
+            "fmuType": fmi2CoSimulation,
+            "fmuGUID": self.guid,
+            "fmuResourceLocation": resources_of(self.unzipDirectory),
+        } | instead
+        encoded = [value.encode() if isinstance(value, str) else value for value in arguments.values()]
+        return self.fmi2Instantiate(*encoded, byref(self.callbacks), False, True)
+
+
+class Fmi2Instance(Instance):
+    """An instance of an FMU of FMI 2.0."""
+
+    def _instantiate(self, folder: str) -> None:
+        try:
+            self._fmu = load(FMU2Library, self.model.description, folder)
+            self._fmu.component = self._fmu.create(self.name)
+        except Exception as error:
+            raise self.failure("to start", error) from error
+        if self._fmu.component is None:
+            raise self.failure("to start", Exception("Failed to instantiate model"))
+        self._component = self._fmu.component
+        self.interpolates = bool(self.model.capabilities.canInterpolateInputs)
+        self._no_return = not self.model.restores  # whether it is promised that no state before a step comes back
+        self._order = 0  # of the buffers for derivatives of the inputs
+
+    def _hold(self, polynomial: NDArray[np.float64], size: float) -> None:
+        super()._hold(polynomial, size)
+        order = len(polynomial) - 1
+        if self.interpolates:
+            self.told_order = max(order, self.told_order)
+            if self.told_order:
+                self._set_derivatives(self.told_order, polynomial)
+
+    def _set_derivatives(self, order: int, polynomial: NDArray[np.float64]) -> None:
+        """Set the derivatives up to the order up to which they were ever set: what is not set may stay."""
+        count = self.inputs.count * order
+        if order > self._order:
+            references = (fmi2ValueReference * count)(*(list(self.inputs.references) * order))
+            orders = (fmi2Integer * count)(*np.repeat(np.arange(1, order + 1), self.inputs.count).tolist())
+            self._slopes = np.zeros((order, self.inputs.count))
+            buffer = (c_double * count).from_buffer(self._slopes.data)
+            self._order, self._derivatives = order, (references, orders, buffer)
+        degree = len(polynomial) - 1
+        self._slopes[degree:] = 0.0
+        np.multiply(polynomial[1:], _FACTORIALS[1 : degree + 1], out=self._slopes[:degree])
+        references, orders, buffer = self._derivatives
+        self._fmu.fmi2SetRealInputDerivatives(self._component, references, count, orders, buffer)
+
+    def set_inputs(self) -> None:
+        """Give the FMU the values of `inputs`."""
+        self._fmu.fmi2SetReal(self._component, self.inputs.references, self.inputs.count, self.inputs.buffer)
+
+    def _get_outputs(self) -> None:
+        self._fmu.fmi2GetReal(self._component, self.outputs.references, self.outputs.count, self.outputs.buffer)
+
+    def _do_step(self, time: float, size: float) -> float:
+        try:
+            self._fmu.fmi2DoStep(self._component, time, size, self._no_return)
+        except FMICallException as error:
+            if error.status != fmi2Discard:
+                raise
+            return self._discarded(time)
+        return time + size
+
+    def _discarded(self, time: float) -> float:
+        """The time that a refused step has reached."""
+        self.terminated = self._status(self._fmu.getBooleanStatus, fmi2Terminated, False)
+        return max(time, self._status(self._fmu.getRealStatus, fmi2LastSuccessfulTime, time))
+
+    @staticmethod
+    def _status(get: Any, which: int, otherwise: Any) -> Any:
+        try:
+            return get(which)
+        except FMICallException:  # many cannot say
+            return otherwise
+
+    def get(self, variable: ModelVariable) -> Any:
+        """The value of a variable of any type."""
+        getter = getattr(self._fmu, _FMI2_NAMES[kind(variable)].format("get"))
+        value = getter([variable.valueReference])[0]
+        return bool(value) if kind(variable) == "boolean" else value.decode() if isinstance(value, bytes) else value
+
+    def set(self, variable: ModelVariable, value: Any) -> None:
+        """Set a variable of any type."""
+        getattr(self._fmu, _FMI2_NAMES[kind(variable)].format("set"))([variable.valueReference], [value])
+
+    def enter_initialization(self, time: float, stop: float, tolerance: float | None) -> None:
+        """From the start values to the initialisation."""
+        self._fmu.setupExperiment(tolerance=tolerance, startTime=time, stopTime=stop)
+        self._fmu.enterInitializationMode()
+
+    def exit_initialization(self) -> None:
+        """From the initialisation to the first step."""
+        self._fmu.exitInitializationMode()
+
+    def save(self) -> Any:
+        """The FMU's state, to be given to `restore` any number of times and to `release` once."""
+        return self._fmu.getFMUstate()
+
+    def restore(self, state: Any) -> None:
+        """Go back to a state."""
+        self._fmu.fmi2SetFMUstate(self._component, state)
+        self.terminated = False
+
+    def release(self, state: Any) -> None:
+        """Free a state."""
+        self._fmu.fmi2FreeFMUstate(self._component, byref(state))
+
+    def serialised(self) -> bytes:
+        """The FMU's state as bytes."""
+        state = self.save()
+        try:
+            return bytes(self._fmu.serializeFMUstate(state))
+        finally:
+            self.release(state)
+
+    def deserialise(self, data: bytes) -> None:
+        """Go to a state that `serialised` gave, also in another process."""
+        state = self._fmu.deSerializeFMUstate(data)
+        self.restore(state)
+        self.release(state)
+
+    def free(self) -> None:
+        """End the instance, whatever state it is in."""
+        self._fmu.freeInstance()
+
+
+_FMI2_NAMES = {"real": "{}Real", "float": "{}Real", "integer": "{}Integer"}
+_FMI2_NAMES |= {"boolean": "{}Boolean", "string": "{}String"}

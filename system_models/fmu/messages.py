@@ -1,0 +1,39 @@
+"""Messages of FMUs go to `logging`.
+
+The library by which fmpy formats the messages of FMI 2.0 holds one logger for the whole process, the last that it was
+given, and calls it for every FMU. So there is one logger, which is never freed, and an FMU is known by its name.
+"""
+
+import logging
+from ctypes import byref
+from typing import Any
+
+from fmpy.fmi2 import defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+from fmpy.logging import addLoggerProxy
+
+log = logging.getLogger(__name__)
+
+LEVELS = (logging.INFO, logging.WARNING, logging.WARNING, logging.ERROR, logging.CRITICAL)  # by FMI status
+
+
+def pass_on(name: str, status: int, message: bytes | None) -> None:
+    """Log the message of an FMU; a record has its FMI status and its text as attributes."""
+    text = (message or b"").decode("utf-8", "replace")
+    log.log(LEVELS[min(status, len(LEVELS) - 1)], "%s: %s", name, text, extra={"status": status, "text": text})
+
+
+def callbacks() -> fmi2CallbackFunctions:
+    """Return the callback functions for an instance."""
+    functions = fmi2CallbackFunctions()
+    functions.logger = _LOGGER
+    functions.allocateMemory = defaultCallbacks.allocateMemory
+    functions.freeMemory = defaultCallbacks.freeMemory
+    addLoggerProxy(byref(functions))
+    return functions
+
+
+def _on_message(environment: Any, instance: bytes | None, status: int, category: bytes, message: bytes | None) -> None:
+    pass_on((instance or b"an FMU").decode("utf-8", "replace"), status, message)
+
+
+_LOGGER = fmi2CallbackLoggerTYPE(_on_message)

@@ -1,0 +1,15 @@
+"""Machines of contacts and parts, from TOML to a report. Each kind is a folder; `registry` lists them.
+
+    ball_on_disc/, ball_bearing/, gear_pair/, cam_follower/   the kinds: wiring, own parts, report, shipped files
+    registry        the table of kinds; kind: what a kind must provide
+    files           which machines are shipped
+    reading         a TOML file as an Assembly; tables: its tables as records
+    timeline        the duty of a machine
+    assembly        a machine's contacts, parts, connections and schedule; builds the FMUs
+    report          costs, levels, invalid rows
+    resolve         contact states of a finished run, solved again deterministically
+    coupling_error  the error that the communication steps cause
+    export          a machine for tools that import SSP
+
+Parts that several kinds use are in `parts`, the time loop is in `master`.
+"""

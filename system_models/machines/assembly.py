@@ -1,0 +1,98 @@
+"""A machine as a co-simulation: its contacts, parts, connections, parameters and schedule; builds the FMUs."""
+
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from contact_core.quantities import TABLE
+from contact_core.scene import Scene
+from fmu_src.flavours import Flavour
+from fmu_src.package.build import build as build_contact
+
+from ..master import System
+from ..parts.build import build as build_part
+from ..parts.part import Part
+
+Value = float | int | bool | str
+Schedule = dict[str, Sequence[tuple[float, Value]]]  # by "part.variable": times [s] and values
+
+# outputs of contacts that a machine's result leaves out; all others of the table of quantities are recorded
+_NOT_RECORDED = {
+    "friction_solid", "friction_fluid", "spin_torque", "heat_flow_1", "heat_flow_2", "pressure_max", "approach",
+    "dfriction_dspeed_1", "dfriction_dspeed_2", "dfriction_dload", "dfriction_dtemperature",
+    "h_central", "h_min", "lambda_conventional", "temperature_1", "temperature_2",
+    "contact_area_ratio", "contact_area_ratio_disc", "contact_load_ratio_disc",
+    "tribofilm_roughness_1", "tribofilm_roughness_2", "tribofilm_covered_1", "tribofilm_covered_2",
+    "tribofilm_upper_1", "tribofilm_upper_2", "coverage_1", "coverage_2", "error_tribofilm",
+    "roughness_ra_1", "roughness_ra_2", "roughness_raw_1", "roughness_raw_2",
+    "iterations", "suggested_step", "unconverged", "blocks_dry", "blocks_mixed", "blocks_fallback",
+}  # fmt: skip
+RECORDED = tuple(q.name for q in TABLE.values() if q.role != "input" and q.name not in _NOT_RECORDED)
+
+
+@dataclass(frozen=True)
+class Contact:
+    """One contact of a machine: a scene, and the values that its FMU is given beside the connected inputs."""
+
+    scene: Scene
+    parameters: Mapping[str, Value] = field(default_factory=dict)
+    count: str = ""  # output with the number of contacts that it stands for, if that changes
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """Everything that decides a simulation of a machine.
+
+    Parts and contacts are given by name, connections as `master.System` takes them, parameters and schedule of parts by
+    "part.variable". Settings are the arguments of `master.simulate`.
+    """
+
+    name: str
+    description: str
+    parts: Mapping[str, Part]
+    contacts: Mapping[str, Contact]
+    connections: tuple[tuple[Any, ...], ...]
+    parameters: Mapping[str, Value]
+    schedule: Schedule
+    settings: Mapping[str, Any]
+
+    def outputs(self) -> list[str]:
+        """Return the recorded variables: all outputs of parts, those of contacts in `RECORDED`, connected inputs."""
+        found = [f"{name}.{q.name}" for name, part in self.parts.items() for q in part.responses]
+        found += [f"{name}.valid" for name in self.parts]
+        for name, contact in self.contacts.items():
+            lacks = contact.scene.geometry.lacks
+            found += [f"{name}.{key}" for key in RECORDED if key not in lacks]
+        return [*found, *(f"{name}.{key}" for name in self.contacts for key in self.inputs_of(name))]
+
+    def nominals(self) -> dict[str, float]:
+        """Return the nominal values of the recorded outputs."""
+        found = {f"{name}.{q.name}": q.nominal for name, part in self.parts.items() for q in part.responses}
+        return found | {f"{name}.{key}": TABLE[key].nominal for name in self.contacts for key in RECORDED}
+
+    def system(self, folder: Path, flavour: Flavour = "embedded") -> System:
+        """Build the FMUs into a folder and couple them; contacts of one scene share a file.
+
+        Raises ContactError for what does not go together.
+        """
+        proposed = {"duration": self.settings["stop_time"], "step_size": self.settings["step_size"]}
+        files = {
+            name: build_part(part, folder / f"{name}.fmu", flavour, **proposed) for name, part in self.parts.items()
+        }
+        scenes: dict[str, Path] = {}
+        for name, contact in self.contacts.items():
+            key = json.dumps(contact.scene.to_dict(), sort_keys=True)
+            if key not in scenes:
+                short = hashlib.sha256(key.encode()).hexdigest()[:8]
+                scenes[key] = build_contact(contact.scene, folder / f"contact_{short}.fmu", flavour)
+            files[name] = scenes[key]
+        own = {f"{name}.{key}": value for name, c in self.contacts.items() for key, value in c.parameters.items()}
+        return System(files, self.connections, {**self.parameters, **own}, self.schedule)
+
+    def inputs_of(self, contact: str) -> list[str]:
+        """Return the connected inputs of a contact."""
+        targets = (target.partition(".") for _, target, *_ in self.connections)
+        return [variable for owner, _, variable in targets if owner == contact]

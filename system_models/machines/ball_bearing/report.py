@@ -1,0 +1,121 @@
+"""What a run of a ball bearing says: its contacts, torque beside SKF's and Palmgren's, heat and motion."""
+
+import math
+from pathlib import Path
+
+import xarray as xr
+
+from ...run.cosim_report import aligned
+from ..assembly import Assembly
+from . import pictures as ball_bearing_pictures
+from .record import CAPPED, FEWEST, BearingRun
+
+_RPM = 30.0 / math.pi
+_CELSIUS = 273.15
+_NM, _NMM = 1e9, 1e3  # per m, per N m
+_NOTHING = 1e-3  # nm: less of a film or wear is none
+_UNLOADED = 0.5  # N: less is printed as none, and its film tells nothing
+_SOLIDS, _LAYERS = "contact_load_ratio", ("tribofilm_1", "tribofilm_2", "wear_depth_1", "wear_depth_2")
+
+
+def write(assembly: Assembly, dataset: xr.Dataset, folder: Path) -> list[Path]:
+    """The pictures, `overview.png` first."""
+    return ball_bearing_pictures.write(BearingRun(assembly, dataset), folder)
+
+
+def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
+    """Contacts, torque, heat and motion, at the last moment in which the shaft turns."""
+    run = BearingRun(assembly, dataset)
+    row = run.last
+    return [
+        f"At {run.time[row]:g} s: {run.speed[row] * _RPM:.0f} rpm, {run.radial[row]:g} N radial, "
+        f"{run.axial[row]:g} N axial, oil at {run.of('housing.temperature_oil')[row] - _CELSIUS:.1f} degC.",
+        "",
+        *_contacts(run, row),
+        "",
+        *_torques(run, row),
+        *_heat(run, row),
+        *_motion(run, row),
+        *_starts(run),
+    ]
+
+
+def _contacts(run: BearingRun, row: int) -> list[str]:
+    rows = [
+        ["contacts", "balls", "load", "p_max", "h_c", "lambda", "mu", "solids", "film b", "film r", "wear b", "wear r"],
+        ["", "", "N", "GPa", "nm", "", "", "", *4 * ["nm"]],
+    ]
+    for which in run.classes:
+        load, balls = (run.given(which, name)[row] for name in ("load", "count"))
+        if balls < FEWEST:
+            continue
+        h_c, ratio, mu, solids, *layers = (
+            run.told(which, name)[row] for name in ("h_c", "lambda_ratio", "friction_coefficient", _SOLIDS, *_LAYERS)
+        )
+        pressure = 1e-9 * run.pressure(which.race, load)
+        film = f"{ratio:.2f}" if ratio < CAPPED else "-"
+        carried = [f"{pressure:.2f}", f"{_NM * h_c:.0f}", film, f"{mu:.4f}", f"{solids:.1%}"]
+        told = carried if load >= _UNLOADED else len(carried) * ["-"]
+        rows.append([which.contact, f"{balls:.2f}", f"{load:.0f}", *told, *map(_nanometres, layers)])
+    return [
+        *aligned(rows, 1),
+        "balls: how many a class stands for; solids: load on asperities; film, wear: mean of tribofilm and wear depth "
+        "on ball (b) and ring (r).",
+    ]
+
+
+def _nanometres(length: float) -> str:
+    return f"{_NM * length:.3g}" if _NM * length >= _NOTHING else "0"
+
+
+def _torques(run: BearingRun, row: int) -> list[str]:
+    """Friction torque of the contacts and by the textbooks, in parts."""
+    if not run.runs[row]:
+        return ["The shaft does not turn: there is no friction torque to compare."]
+    found = []
+    for who, parts in (("the contacts", run.torque), ("SKF", run.skf), ("Palmgren", run.palmgren)):
+        values = {name: _NMM * float(part[row]) for name, part in parts.items()}
+        told = ", ".join(f"{name} {value:.3g}" for name, value in values.items())
+        found.append(f"{sum(values.values()):.3g} N mm by {who} ({told})")
+    return [f"Friction torque, without drag and seals: {'; '.join(found)}."]
+
+
+def _heat(run: BearingRun, row: int) -> list[str]:
+    """How far in and out are from each other, as heat flows now and as energies so far."""
+    loss, left = run.of("bearing.power_loss")[row], run.of("housing.heat_to_ambient")[row]
+    stored, gone = run.heat_stored, float(run.of("housing.energy_to_ambient")[-1])
+    lines = [f"Heat: {loss:.4g} W from friction, {left:.4g} W to the surroundings{_apart(left, loss)}."]
+    return [
+        *lines,
+        f"Energy to the end: {run.heat_in:.5g} J from friction; {stored:.5g} J are stored and {gone:.5g} J gone"
+        f"{_apart(stored + gone, run.heat_in)}.",
+    ]
+
+
+def _apart(value: float, reference: float) -> str:
+    if reference <= 0.0:
+        return ""
+    apart = round(value / reference - 1.0, 4)
+    return f", {apart:+.2%}" if apart else ", 0.00%"
+
+
+def _motion(run: BearingRun, row: int) -> list[str]:
+    if not run.runs[row]:
+        return []
+    cage, speed = run.of("bearing.cage_speed")[row], run.speed[row]
+    inner, outer = (run.of(f"bearing.contact_angle_{race}")[row] for race in ("inner", "outer"))
+    return [
+        f"Cage: {cage * _RPM:.0f} rpm, {cage / speed:.4f} of the shaft. Largest contact angles: inner "
+        f"{math.degrees(inner):.2f} deg, outer {math.degrees(outer):.2f} deg."
+    ]
+
+
+def _starts(run: BearingRun) -> list[str]:
+    peaks = run.start_peaks
+    if len(peaks) < 2:
+        return []
+    last = f", {_NMM * peaks[-1]:.3g} N mm in the last" if len(peaks) > 2 else ""
+    return [
+        f"{len(peaks)} starts: largest friction torque while the shaft turns {_NMM * peaks[1]:.3g} N mm in the second"
+        f"{last}. The first is not compared: the motor may be at its speed from the beginning."
+    ]

@@ -1,0 +1,107 @@
+"""The cam: lift over its angle, radius of curvature, contour, and the stations where contacts are solved."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_core.quantities import parameter
+
+Array = NDArray[np.float64]
+
+_ANGLES = 2001  # at which the profile is checked
+
+
+def _fixed(unit: str, text: str, **limits: Any) -> Any:
+    """Declare a number that an FMU keeps: the contacts are built for it."""
+    return parameter(unit, text, shapes_arrays=True, **limits)
+
+
+class Lift(NamedTuple):
+    """Lift of the follower and its derivatives by the angle of the cam."""
+
+    lift: Array  # s [m]
+    slope: Array  # s' [m]
+    curvature: Array  # s'' [m]
+
+
+class Station(NamedTuple):
+    """An angle of the cam that stands for a range of angles."""
+
+    angle: float  # from the nose [rad]
+    lift: float  # s [m]
+    slope: float  # s' [m]: distance of the contact from the axis of the cam, along the face of the follower
+    curvature: float  # s'' [m]
+    radius_x: float  # of the cam [m]
+    weight: float  # share of a turn
+
+
+@dataclass(frozen=True, kw_only=True)
+class CamProfile:
+    """A base circle r and a symmetric event of the follower, s = L (1 + c_2 x^2 + c_p x^p + c_q x^q), x = |angle| / B.
+
+    The coefficients make s, s' and s'' zero at the ends of the event, so that speed and acceleration have no jump. The
+    contour is the envelope of the flat face at the distance h = r + s from the axis. Its radius of curvature is
+    h + h'' = r + s + s'', which must be positive: a flat face cannot follow a hollow cam.
+    """
+
+    base_radius: float = _fixed("m", "r, radius of the base circle", above=0.0, most=1.0)
+    lift: float = _fixed("m", "L, largest lift", above=0.0, most=1.0)
+    half_event: float = _fixed("rad", "B, angle of the cam from the start of the lift to the nose", least=0.1, most=3.1)
+    power_p: int = _fixed("", "p, first high power of the lift", least=4, most=100, default=8)
+    power_q: int = _fixed("", "q, second high power of the lift", least=5, most=200, default=16)
+
+    def wrong(self) -> Iterator[str]:
+        """Yield a sentence for what does not go together."""
+        if self.power_q <= self.power_p:
+            yield f"lobe.power_q = {self.power_q} must be above lobe.power_p = {self.power_p}."
+            return
+        event = self.at(np.linspace(0.0, self.half_event, _ANGLES))
+        least = float((event.lift + event.curvature).min())
+        if self.base_radius + least <= 0.0:
+            yield (
+                f"lobe.base_radius = {self.base_radius:g} m leaves the cam hollow, where a flat follower cannot "
+                f"touch it. Use more than {-least:g} m, a smaller lift, or a longer event."
+            )
+
+    @cached_property
+    def _coefficients(self) -> tuple[float, float, float]:
+        p, q = self.power_p, self.power_q
+        return (-p * q / ((p - 2) * (q - 2)), 2 * q / ((p - 2) * (q - p)), -2 * p / ((q - 2) * (q - p)))
+
+    def at(self, angle: Array) -> Lift:
+        """Return lift, slope and curvature at angles [rad] from the nose, within half a turn."""
+        x, sign = np.abs(angle) / self.half_event, np.sign(angle)
+        within, x = x < 1.0, np.minimum(x, 1.0)
+        lift, slope, curvature = np.ones_like(x), np.zeros_like(x), np.zeros_like(x)
+        for c, n in zip(self._coefficients, (2, self.power_p, self.power_q), strict=True):
+            lift += c * x**n
+            slope += c * n * x ** (n - 1)
+            curvature += c * n * (n - 1) * x ** (n - 2)
+        scale = np.where(within, self.lift, 0.0)
+        return Lift(scale * lift, scale * sign * slope / self.half_event, scale * curvature / self.half_event**2)
+
+    def radius(self, angle: Array) -> Array:
+        """Return the radius of curvature [m]."""
+        found = self.at(angle)
+        return self.base_radius + found.lift + found.curvature
+
+    def contour(self, angle: Array) -> tuple[Array, Array]:
+        """Return the points [m] of the contour, in axes that turn with the cam, x through the nose."""
+        found = self.at(angle)
+        distance, along = self.base_radius + found.lift, found.slope
+        cosine, sine = np.cos(angle), np.sin(angle)
+        return distance * cosine - along * sine, distance * sine + along * cosine
+
+    def stations(self, count: int) -> tuple[Station, ...]:
+        """Return `count` stations in the middles of equal parts of the event, and one for the base circle."""
+        angles = self.half_event * (2.0 * (np.arange(count) + 0.5) / count - 1.0)
+        found, radius = self.at(angles), self.radius(angles)
+        event = self.half_event / math.pi
+        rows = zip(angles, *found, radius, np.full(count, event / count), strict=True)
+        rest = Station(math.pi, 0.0, 0.0, 0.0, self.base_radius, 1.0 - event)
+        return (*(Station(*map(float, row)) for row in rows), rest)

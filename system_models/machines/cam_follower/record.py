@@ -1,0 +1,90 @@
+"""The record of a cam's run: over the angle of the cam, and against time."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from contact_core.reference import hertz_line
+from contact_core.shapes import LineGeometry
+
+from ..assembly import Assembly
+from .part import CamFollower, contact_name
+
+Array = NDArray[np.float64]
+
+_TURNS = 1.0  # rad/s: less is standing still
+
+
+@dataclass(frozen=True)
+class Record:
+    """A run of a cam beside its assembly; rows are those of `time`."""
+
+    assembly: Assembly
+    dataset: xr.Dataset
+
+    @cached_property
+    def cam(self) -> CamFollower:
+        """The cam as it was built."""
+        cam = self.assembly.parts["cam"]
+        assert isinstance(cam, CamFollower)
+        return cam
+
+    @property
+    def time(self) -> Array:
+        """Time of the rows [s]."""
+        return np.asarray(self.dataset["time"].values)
+
+    @cached_property
+    def names(self) -> list[str]:
+        """Names of the contacts over the event; that of the base circle is the last."""
+        count = self.cam.stations
+        return [contact_name(k, count) for k in range(1, count + 2)]
+
+    @cached_property
+    def angles(self) -> Array:
+        """Angles of the stations of the event, from the nose [deg]."""
+        return np.degrees([station.angle for station in self.cam.contacts[:-1]])
+
+    @cached_property
+    def weights(self) -> Array:
+        """Shares of a turn, that of the base circle last."""
+        return np.array([station.weight for station in self.cam.contacts])
+
+    @cached_property
+    def last(self) -> int:
+        """The last row in which the cam turns; the last of all if it never does."""
+        rows = np.flatnonzero(np.abs(self.of("shaft.speed")) > _TURNS)
+        return int(rows[-1]) if len(rows) else len(self.time) - 1
+
+    def of(self, name: str) -> Array:
+        """Return a variable "part.output" by row."""
+        return np.asarray(self.dataset[name].values)
+
+    def along(self, quantity: str) -> Array:
+        """Return a quantity of the contacts by row and station, the base circle last."""
+        return np.stack([self.of(f"{name}.{quantity}") for name in self.names], axis=1)
+
+    def pressures(self, row: int) -> Array:
+        """Return Hertz's largest pressure [Pa] at the stations; 0 without load."""
+        scene = self.assembly.contacts[self.names[0]].scene
+        assert isinstance(scene.geometry, LineGeometry)
+        width, modulus = scene.geometry.face_width, scene.solids.reduced_modulus
+        rows = zip(self.along("load")[row], self.along("radius_x")[row], strict=True)
+        return np.array([hertz_line(load, r, width, modulus).pressure_max if load > 0.0 else 0.0 for load, r in rows])
+
+    def energies(self) -> dict[str, float]:
+        """Return the energies [J] since the start: of friction, from thermostats, stored, to the surroundings."""
+        head = self.assembly.parts["head"]
+        heaters = [str(name) for name in self.dataset if str(name).startswith("head.heater_energy_")]
+        return {
+            "friction": float(np.trapezoid(self.of("cam.power_loss"), self.time)),
+            "thermostats": float(sum(self.of(name)[-1] for name in heaters)),
+            "stored": sum(
+                node.heat_capacity * float(self.of(f"head.temperature_{node.name}")[-1] - node.temperature)
+                for node in head.nodes  # type: ignore[attr-defined]
+            ),
+            "to the surroundings": float(self.of("head.energy_to_ambient")[-1]),
+        }

@@ -1,0 +1,126 @@
+"""What the run of a gear pair says: load stages beside the textbook, wear along the flanks, where the heat went."""
+
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+from ...run.cosim_report import aligned
+from ..assembly import Assembly
+from . import pictures as gear_pair_pictures
+from .path import Array
+from .record import Record, Stage
+from .textbook import ohlendorf
+
+_MOST_ROWS = 16
+_HEADS = (
+    ("stage", ""), ("until", "min"), ("n1", "rpm"), ("T1", "N m"), ("p_H at C", "MPa"), ("lambda", ""),
+    ("mu_mz", ""), ("Schlenk", ""), ("ISO/TR-1", ""), ("loss", "W"), ("oil", "degC"), ("pinion", "degC"),
+    ("wheel", "degC"), ("flash", "K"), ("wear 1", "nm"), ("wear 2", "nm"),
+)  # fmt: skip
+
+
+def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
+    """A table of the load stages, and sentences."""
+    record = Record(assembly, dataset)
+    if not record.stages:
+        return ["The duty has no stretch in which the gears turn under load.", *_heat(record)]
+    return [*_table(record), "", *_notes(record), *_wear(record), *_heat(record)]
+
+
+def write(assembly: Assembly, dataset: xr.Dataset, folder: Path) -> list[Path]:
+    """Pictures: the run at a glance, all along the path of contact, all against time."""
+    record, written = Record(assembly, dataset), []
+    for name, draw in gear_pair_pictures.FIGURES.items():
+        figure = draw(record)
+        figure.suptitle(dataset.attrs.get("title", ""), fontsize="medium")
+        figure.savefig(folder / f"{name}.png", dpi=150)
+        written.append(folder / f"{name}.png")
+    return written
+
+
+def _table(record: Record) -> list[str]:
+    shown = record.shown(_MOST_ROWS)
+    rows = [[name for name, _ in _HEADS], [unit for _, unit in _HEADS], *(_row(record, stage) for stage in shown)]
+    left = len(record.stages) - len(shown)
+    return [*aligned(rows, 0), *([f"... and {left} stages more, in the files."] if left else [])]
+
+
+def _row(record: Record, stage: Stage) -> list[str]:
+    """What holds at the end of a stage; flash is the largest in it."""
+    row = stage.last
+    ratio, formula = record.along("lambda_ratio")[row], record.textbook(row)
+    warm = [record.of(f"gearbox.temperature_{node}")[row] - 273.15 for node in ("oil", "pinion", "wheel")]
+    worn = [1e9 * record.along(f"wear_depth_{body}")[row].max() for body in (1, 2)]
+    iso = f"{formula.iso_14179_1:.4f}"
+    return [
+        str(stage.number),
+        f"{stage.end / 60.0:.4g}",
+        f"{30.0 / np.pi * record.of('shafts.speed_1')[row]:.0f}",
+        f"{record.of('shafts.mesh_torque')[row]:.1f}",
+        f"{1e-6 * record.pressure_at_pitch_point(record.of('shafts.mesh_torque')[row]):.0f}",
+        f"{ratio.min():.2f}-{ratio.max():.2f}",
+        f"{record.friction[row]:.4f}",
+        f"{formula.schlenk:.4f}",
+        iso if formula.covered else f"({iso})",
+        f"{record.of('mesh.power_loss')[row]:.0f}",
+        *(f"{value:.1f}" for value in warm),
+        f"{record.of('mesh.flash_temperature_rise')[stage.rows].max():.1f}",
+        *(f"{depth:.3g}" for depth in worn),
+    ]
+
+
+def _notes(record: Record) -> list[str]:
+    row = record.stages[-1].last
+    return [
+        "At the end of each stage; flash: largest in it. Wear 1: largest depth on the pinion, 2: on the wheel. "
+        f"Schlenk: Ra = {1e6 * record.roughness:.2f} um, X_L = 1. ISO/TR 14179-1 in brackets: beyond its range.",
+        f"Loss factor H_V: {record.of('mesh.loss_factor')[row]:.4f} under the loads as they are, "
+        f"{ohlendorf(record.pair):.4f} by Ohlendorf.",
+    ]
+
+
+def _wear(record: Record) -> list[str]:
+    """Where most and least is worn."""
+    pitch, found = record.pair.pitch_point, []
+    for body, gear in ((1, "pinion"), (2, "wheel")):
+        depth = record.along(f"wear_depth_{body}")[-1]
+        most, least = (float(record.positions[k]) for k in (depth.argmax(), depth.argmin()))
+        found.append(
+            f"Wear of the {gear}: most at {1e3 * most:.2f} mm from T1 ({1e9 * depth.max():.3g} nm), least at "
+            f"{1e3 * least:.2f} mm ({1e9 * depth.min():.3g} nm); C is at {1e3 * pitch:.2f} mm."
+        )
+    return found
+
+
+def _heat(record: Record) -> list[str]:
+    """Heat now, and energy since the start."""
+    lost, given = record.of("mesh.power_loss"), _thermostats(record, "heater_power")
+    out = float(record.of("gearbox.heat_to_ambient")[-1])
+    now = float(lost[-1] + given[-1])
+    network = record.assembly.parts["gearbox"]
+    stored = sum(
+        node.heat_capacity * float(record.of(f"gearbox.temperature_{node.name}")[-1] - node.temperature)
+        for node in network.nodes  # type: ignore[attr-defined]
+    )
+    energies = {
+        "friction": float(np.trapezoid(lost, record.time)),
+        "thermostats": float(_thermostats(record, "heater_energy")[-1]),
+        "stored": stored,
+        "gone": float(record.of("gearbox.energy_to_ambient")[-1]),
+    }
+    inside = energies["friction"] + energies["thermostats"]
+    open_ = abs(inside - stored - energies["gone"]) / max(abs(energies["friction"]), 1e-9)
+    return [
+        f"Heat at the end: {lost[-1]:.1f} W from the mesh and {given[-1]:.1f} W from thermostats come in, {out:.1f} W "
+        f"leave: {abs(now - out) / max(abs(out), 1e-9):.2%} apart.",
+        f"Energy: {1e-6 * energies['friction']:.4g} MJ from the mesh, {1e-6 * energies['thermostats']:.4g} MJ from "
+        f"thermostats, {1e-6 * stored:.4g} MJ stored, {1e-6 * energies['gone']:.4g} MJ gone; {open_:.2%} of the "
+        "mesh's, which is summed over the rows, is left.",
+    ]
+
+
+def _thermostats(record: Record, quantity: str) -> Array:
+    """Sum over the thermostats of the gearbox, by row."""
+    names = [str(name) for name in record.dataset if str(name).startswith(f"gearbox.{quantity}_")]
+    return np.asarray(sum((record.of(name) for name in names), np.zeros(len(record.time))))

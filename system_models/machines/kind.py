@@ -1,0 +1,37 @@
+"""The contract of a kind of machine: what its folder must provide."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from contact_core.quantities import Quantity
+
+from ..parts.part import Part
+from .assembly import Assembly, Contact, Schedule
+from .timeline import Timeline
+
+
+@dataclass(frozen=True)
+class Design:
+    """The parts and contacts of a machine, their connections, and the schedule that its duty makes."""
+
+    parts: Mapping[str, Part]
+    contacts: Mapping[str, Contact]
+    connections: tuple[tuple[Any, ...], ...]
+    schedule: Schedule
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of machine. `registry.KINDS` lists them."""
+
+    name: str  # value of `kind` in a machine's file
+    tables: tuple[str, ...]  # of the file, beside contact, duty and simulate
+    signals: Mapping[str, Quantity]  # of the duty, by name
+    needed: tuple[str, ...]  # signals that the duty must give
+    design: Callable[[Mapping[str, Any], Timeline], Design]  # from the tables and the duty; raises SceneError
+    lines: Callable[[Assembly, xr.Dataset], list[str]]  # the printed report of a run
+    pictures: Callable[[Assembly, xr.Dataset, Path], list[Path]]  # written into a folder; overview.png first

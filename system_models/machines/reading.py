@@ -1,0 +1,134 @@
+"""Machines from TOML: the kind, its contacts and components, its duty, and how it is simulated.
+
+    kind = "ball_bearing"        # one of `registry.KINDS`
+    description = "..."
+
+    [contact]                    # a scene, and what is different from it
+    scene = "ball_209_inner"
+    film.model = "regression"
+
+    [drive]                      # the machine's components, by their names: see help of the kind's module
+    [duty]                       # signals against time: see `timeline`
+    [simulate]                   # the arguments of `master.simulate`
+
+Any contact can be deterministic: `deterministic = ["inner_1"]`.
+"""
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from contact_core.errors import SceneError
+from contact_core.quantities import LEVELS
+from contact_core.scene.toml import did_you_mean
+
+from ..master.reading import settings, value
+from . import timeline
+from .assembly import Assembly, Contact
+from .files import shipped, shipped_files
+from .kind import Kind
+from .registry import KINDS
+
+_VALUES = ("description", "deterministic")  # keys that are no tables
+
+
+class Machine(NamedTuple):
+    """A machine as its file has it."""
+
+    name: str
+    kind: str
+    table: dict[str, Any]
+    folder: Path  # from which the paths in it start
+
+
+def read(source: str, changes: Mapping[str, str] | None = None) -> Machine:
+    """Read a machine by name or by the path of a file; `changes` maps dotted keys to new values.
+
+    Raises SceneError with a sentence that says what is wrong and what would be right.
+    """
+    path = Path(source)
+    try:
+        file = path if source.endswith(".toml") else shipped_files().get(source, path)
+        table = tomllib.loads(file.read_text("utf-8"))
+    except OSError as error:
+        raise SceneError(
+            f"There is no machine '{source}' ({error.strerror}).{did_you_mean(source, list(shipped()))} Shipped are "
+            f"{', '.join(shipped())}; or give the path of a .toml file."
+        ) from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise SceneError(f"The machine's file '{source}' is not valid TOML: {error}.") from None
+    for key, text in (changes or {}).items():
+        _put(table, key, value(text))
+    table.setdefault("description", path.stem)
+    if changes:
+        table["description"] = f"{table['description']} (changed)"
+    kind = table.pop("kind", None)
+    if kind not in KINDS:
+        raise SceneError(f"kind = {kind!r} is not one of {', '.join(KINDS)}.{did_you_mean(str(kind), list(KINDS))}")
+    return Machine(path.stem, kind, table, file.parent)
+
+
+def _put(table: dict[str, Any], key: str, item: Any) -> None:
+    """Set a dotted key."""
+    *path, last = key.split(".")
+    for name in path:
+        table = table.setdefault(name, {})
+        if not isinstance(table, dict):
+            raise SceneError(f"'{key}' cannot be set: '{name}' is a value, not a table.")
+    table[last] = item
+
+
+def assemble(machine: Machine) -> Assembly:
+    """Return the co-simulation of a machine. Raises SceneError for what is missing, unknown or out of range."""
+    kind, table = KINDS[machine.kind], machine.table
+    _check_keys(machine, kind)
+    duty = timeline.read(table.get("duty", {}), kind.signals, machine.folder, kind.needed)
+    design = kind.design(table, duty)
+    return Assembly(
+        name=machine.name,
+        description=str(table["description"]),
+        parts=design.parts,
+        contacts=_at_levels(design.contacts, table),
+        connections=design.connections,
+        parameters={},
+        schedule=design.schedule,
+        settings=_simulation(table, duty.end),
+    )
+
+
+def _at_levels(contacts: Mapping[str, Contact], table: Mapping[str, Any]) -> dict[str, Contact]:
+    """Return the contacts at the level of their scene, those listed under `deterministic` at that level."""
+    deep = table.get("deterministic", [])
+    if not isinstance(deep, list):
+        raise SceneError(f'deterministic = {deep!r} must be a list of contacts, such as ["{next(iter(contacts))}"].')
+    for name in deep:
+        if name not in contacts:
+            raise SceneError(
+                f"deterministic names no contact: '{name}'.{did_you_mean(str(name), list(contacts))} Known are "
+                f"{', '.join(contacts)}."
+            )
+    level = {"fidelity": len(LEVELS)}
+    return {
+        name: replace(contact, parameters={**contact.parameters, **level}) if name in deep else contact
+        for name, contact in contacts.items()
+    }
+
+
+def _simulation(table: Mapping[str, Any], duration: float) -> dict[str, Any]:
+    """Return the arguments for `master.simulate`; without a stop time a duty of `duration` [s] runs to its end."""
+    given = settings(table.get("simulate", {}))
+    if "step_size" not in given:
+        raise SceneError('simulate.step_size is missing. Write for example step_size = "10 ms".')
+    return {"stop_time": duration, **given}
+
+
+def _check_keys(machine: Machine, kind: Kind) -> None:
+    """Raise SceneError for a table or key that the kind does not know, or a value in place of a table."""
+    known = ["description", *kind.tables, "contact", "deterministic", "duty", "simulate"]
+    for key, item in machine.table.items():
+        if key not in known:
+            raise SceneError(f"A {kind.name} has no '{key}'.{did_you_mean(key, known)} Known are {', '.join(known)}.")
+        if key not in _VALUES and not isinstance(item, Mapping):
+            raise SceneError(f"{key} = {item!r} must be a table: [{key}] with its keys, or --set {key}.KEY=VALUE.")

@@ -1,0 +1,76 @@
+"""What every machine's run says: its costs, the contact solutions by level, what was not valid, and its energy."""
+
+import json
+from collections import Counter
+
+import numpy as np
+import xarray as xr
+
+from contact_core.quantities import LEVELS
+
+from ..run.cosim_report import aligned
+from .assembly import Assembly
+
+
+def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
+    """A table of costs, and sentences."""
+    return [*_costs(assembly, dataset), "", *_solutions(assembly, dataset), *_invalid(assembly, dataset)]
+
+
+def invalid_rows(assembly: Assembly, dataset: xr.Dataset) -> int:
+    """Rows in which a contact or component could not use its inputs."""
+    return int((~_valid(assembly, dataset)).sum())
+
+
+def _valid(assembly: Assembly, dataset: xr.Dataset) -> np.ndarray:
+    columns = [dataset[f"{name}.valid"].values for name in (*assembly.parts, *assembly.contacts)]
+    return np.asarray(np.logical_and.reduce(columns))
+
+
+def _costs(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
+    """Seconds of each component and of all contacts of a scene, and what is left for the master."""
+    cost = json.loads(dataset.attrs["cost"])
+    groups: dict[str, list[str]] = {}
+    for name in assembly.parts:
+        groups[name] = [name]
+    for name, contact in assembly.contacts.items():
+        groups.setdefault(f"contacts, {contact.scene.name}", []).append(name)
+    wall = dataset.attrs.get("wall_seconds")
+    within = sum(entry["seconds"] for entry in cost.values())
+    total = within if wall is None else wall
+    rows = [["", "steps", "us per step", "s", "share"]]
+    for title, names in groups.items():
+        steps, seconds = (sum(cost[name][key] for name in names) for key in ("steps", "seconds"))
+        heading = title if len(names) == 1 else f"{len(names)} {title}"
+        rows.append(
+            [heading, f"{steps:,}", f"{1e6 * seconds / max(steps, 1):.0f}", f"{seconds:.2f}", f"{seconds / total:.0%}"]
+        )
+    if wall is not None:
+        rows.append(["master", "", "", f"{wall - within:.2f}", f"{1 - within / total:.0%}"])
+    return aligned(rows, 1)
+
+
+def _solutions(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
+    """How often contacts were solved at each level, and how fast that was."""
+    cost, counts = json.loads(dataset.attrs["cost"]), Counter[int]()
+    for name in assembly.contacts:
+        counts[int(dataset[f"{name}.fidelity_used"].values[-1])] += cost[name]["steps"]
+    told = ", ".join(f"{count:,} {LEVELS[level - 1]}" for level, count in sorted(counts.items()) if level)
+    sentence = f"Contact solutions, with those of steps tried or repeated: {told}."
+    wall = dataset.attrs.get("wall_seconds")
+    if wall is None:
+        return [f"{sentence} The real-time factor of a resumed run is not known."]
+    span = float(dataset["time"].values[-1])
+    return [sentence, f"{span:g} s in {wall:.1f} s: {span / wall:,.0f} times as fast as the machine."]
+
+
+def _invalid(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
+    count = invalid_rows(assembly, dataset)
+    if not count:
+        return []
+    names = [n for n in (*assembly.parts, *assembly.contacts) if not dataset[f"{n}.valid"].values.all()]
+    first = float(dataset["time"].values[np.flatnonzero(~_valid(assembly, dataset))[0]])
+    return [
+        f"WARNING: {count} rows are INVALID, the first at {first:g} s: {', '.join(names)} could not use the inputs and "
+        "stood still. The log has the reason."
+    ]

@@ -1,0 +1,10 @@
+"""One contact through its duty, Stribeck curves, and what simulations report.
+
+    duty, duty_table              load, speeds and temperature against time: constant, steps, or a CSV
+    contact                       a contact's FMU through a duty
+    report                        the printed table and the overview picture of a contact's run
+    stribeck, stribeck_report     Stribeck curves at given times of rubbing; their table and picture
+    cosim_report                  tables and picture of any simulated system
+
+A contact is a system of one FMU: the master drives it through its duty.
+"""

@@ -1,0 +1,212 @@
+"""The checkpoint of a run, in the folder of its results: all that is needed to go on after a kill.
+
+`checkpoint.tribofmu` is the point reached. It is replaced as a whole, never changed: magic, checksum of the rest,
+length of a JSON header, header, state of the FMU. `checkpoint.rows` holds the rows up to there, one binary record each,
+and only grows. The header says how many of its bytes count, and their checksum; what a kill leaves behind them is
+overwritten.
+"""
+
+import json
+import logging
+import math
+import os
+import struct
+import sys
+import zlib
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_core.errors import StateError
+
+log = logging.getLogger(__name__)
+
+_MAGIC = b"tribofmu run 2\n"
+_PAUSE = 2.0  # at least, between two checkpoints [s]
+_REST = 20.0  # at least this many times the time that a checkpoint takes lies between two
+_NAMED = 3  # differences told in full
+
+
+@contextmanager
+def alone(folder: Path) -> Iterator[None]:
+    """Hold a folder for one run, where the system has locks; a kill lets go of it.
+
+    Raises StateError if another run is at work in it.
+    """
+    if sys.platform == "win32":
+        yield
+        return
+    import fcntl
+
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise StateError(f"Another run is at work in '{folder}'. Wait for it, or use another --out.") from None
+        except OSError:  # a file system without locks
+            pass
+        yield
+    finally:
+        os.close(handle)
+
+
+@dataclass(frozen=True)
+class Saved:
+    """A point from which a run can go on."""
+
+    time: float  # [s]
+    state: bytes  # of the FMU, serialised
+    rows: NDArray[np.void]  # a record for every row so far
+
+
+class Checkpoint:
+    """Where a run stores the point it has reached; `saved` is where it goes on from."""
+
+    def __init__(self, folder: Path, run: Mapping[str, Any]) -> None:
+        self.file, self._rows = folder / "checkpoint.tribofmu", folder / "checkpoint.rows"
+        self._new = folder / "checkpoint.new"
+        self._run = run
+        self._next = -math.inf
+        self._size = self._checksum = 0  # of the rows that count
+        self._writable = True
+        self.count = 0  # rows stored so far
+        self.saved: Saved | None = None
+
+    @staticmethod
+    def resume(folder: Path, run: Mapping[str, Any]) -> "Checkpoint":
+        """The checkpoint of `folder`, with `saved` if there is one.
+
+        Raises StateError if it is damaged or belongs to another run than `run`.
+        """
+        checkpoint = Checkpoint(folder, run)
+        checkpoint._load()
+        return checkpoint
+
+    def due(self) -> bool:
+        """Whether the last checkpoint is old enough for another."""
+        return monotonic() >= self._next
+
+    def save(self, time: float, state: bytes, rows: NDArray[np.void]) -> None:
+        """Store the point reached at `time` [s]; `rows` are those since the last checkpoint that was stored.
+
+        A kill at any moment leaves this checkpoint or the one before. A disk that refuses is warned about: the run is
+        worth more than its checkpoint.
+        """
+        start = monotonic()
+        try:
+            self._write(time, state, rows)
+            self._writable = True
+        except OSError as error:
+            if self._writable:
+                log.warning(
+                    "The checkpoint '%s' cannot be written: %s. The run goes on and tries again.",
+                    self.file,
+                    error.strerror,
+                )
+            self._writable = False
+        self._next = monotonic() + max(_PAUSE, _REST * (monotonic() - start))
+
+    def remove(self) -> None:
+        """Remove what is stored."""
+        for path in (self.file, self._new, self._rows):  # the rows last: without them the file would be damaged
+            path.unlink(missing_ok=True)
+
+    def _write(self, time: float, state: bytes, rows: NDArray[np.void]) -> None:
+        if not self._size:
+            self.remove()  # another run's
+        data = rows.tobytes()
+        with self._rows.open("r+b" if self._size else "wb") as file:
+            file.seek(self._size)
+            file.write(data)
+            _flush(file)
+        size, checksum = self._size + len(data), zlib.crc32(data, self._checksum)
+        header = json.dumps(
+            {
+                "run": self._run,
+                "time": time,
+                "columns": [[name, rows.dtype[name].str] for name in rows.dtype.names or ()],
+                "size": size,
+                "checksum": checksum,
+            }
+        ).encode()
+        rest = b"".join([struct.pack("<I", len(header)), header, state])
+        with self._new.open("wb") as file:
+            file.write(_MAGIC + struct.pack("<I", zlib.crc32(rest)) + rest)
+            _flush(file)
+        self._new.replace(self.file)
+        self.count, self._size, self._checksum = self.count + len(rows), size, checksum
+
+    def _load(self) -> None:
+        try:
+            data = self.file.read_bytes()
+        except FileNotFoundError:
+            return
+        except OSError as error:
+            raise StateError(f"The checkpoint '{self.file}' cannot be read: {error.strerror}. {_WAY_OUT}") from None
+        header, state = self._parsed(data)
+        different = list(_differences(header["run"], self._run))
+        if different:
+            more = f" and {len(different) - _NAMED} more" if len(different) > _NAMED else ""
+            raise StateError(
+                f"The checkpoint '{self.file}' belongs to another run: {'; '.join(different[:_NAMED])}{more}. "
+                "Give the settings it was made with or another --out, or start from the beginning without --resume, "
+                "which replaces it."
+            )
+        rows = self._stored_rows(header)
+        self.count, self._size, self._checksum = len(rows), header["size"], header["checksum"]
+        self.saved = Saved(header["time"], state, rows)
+
+    def _parsed(self, data: bytes) -> tuple[dict[str, Any], bytes]:
+        """Header and state."""
+        start = len(_MAGIC) + 8
+        if len(data) < start or not data.startswith(_MAGIC):
+            raise self._damaged("it is not one of this version of tribofmu")
+        checksum, length = struct.unpack("<II", data[len(_MAGIC) : start])
+        if zlib.crc32(data[start - 4 :]) != checksum:
+            raise self._damaged("it was cut or changed")
+        return json.loads(data[start : start + length]), data[start + length :]
+
+    def _stored_rows(self, header: dict[str, Any]) -> NDArray[np.void]:
+        try:
+            with self._rows.open("rb") as file:
+                data = file.read(header["size"])
+        except OSError as error:
+            raise self._damaged(f"its rows '{self._rows}' cannot be read: {error.strerror}") from None
+        if len(data) != header["size"] or zlib.crc32(data) != header["checksum"]:
+            raise self._damaged(f"its rows '{self._rows}' were cut or changed")
+        return np.frombuffer(data, np.dtype([(name, kind) for name, kind in header["columns"]]))
+
+    def _damaged(self, reason: str) -> StateError:
+        return StateError(f"The checkpoint '{self.file}' cannot be used: {reason}. {_WAY_OUT}")
+
+
+_WAY_OUT = "Start from the beginning without --resume, which replaces it."
+
+
+def _flush(file: Any) -> None:
+    """To the disk: a checkpoint must not name rows that a power cut can lose."""
+    file.flush()
+    os.fsync(file.fileno())
+
+
+def _differences(there: dict[str, Any], here: Mapping[str, Any]) -> Iterator[str]:
+    before, now = dict(_leaves(there)), dict(_leaves(here))
+    for name in [*before, *(name for name in now if name not in before)]:
+        old, new = before.get(name, "nothing"), now.get(name, "nothing")
+        if old != new:
+            yield f"{name} = {old!r} there, {new!r} here"
+
+
+def _leaves(table: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, Any]]:
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            yield from _leaves(value, f"{path}{key}.")
+        else:
+            yield f"{path}{key}", value

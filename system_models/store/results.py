@@ -1,0 +1,51 @@
+"""Results as an xarray Dataset along `time` [s], as a netCDF file and as a CSV file."""
+
+import csv
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+
+def to_dataset(
+    times: ArrayLike,
+    columns: Mapping[str, ArrayLike],
+    units: Mapping[str, str],
+    texts: Mapping[str, str],
+) -> xr.Dataset:
+    """Return columns of values at `times` [s] as variables along `time`, with attributes `units` and `long_name`."""
+    variables = {
+        name: ("time", np.asarray(values), {"units": units[name] or "1", "long_name": texts[name]})
+        for name, values in columns.items()
+    }
+    time = ("time", np.asarray(times, dtype=float), {"units": "s", "long_name": "test time"})
+    return xr.Dataset(variables, coords={"time": time})
+
+
+def find(origin: Mapping[str, str], folder: Path) -> xr.Dataset | None:
+    """The result in `folder` that has these attributes, if there is one."""
+    try:
+        with xr.open_dataset(folder / "result.nc", engine="h5netcdf") as dataset:
+            same = origin.items() <= dataset.attrs.items()
+            return dataset.load() if same else None
+    except (OSError, ValueError):  # none, or cut
+        return None
+
+
+def write(dataset: xr.Dataset, folder: Path, name: str = "result") -> list[Path]:
+    """Write `name`.nc and `name`.csv into an existing folder and return their paths.
+
+    The CSV has a row for each point of the dataset's dimensions; what does not vary along one of them is repeated.
+    """
+    netcdf, table = folder / f"{name}.nc", folder / f"{name}.csv"
+    unfinished = netcdf.with_suffix(".new")
+    dataset.to_netcdf(unfinished, engine="h5netcdf")
+    unfinished.replace(netcdf)  # a kill leaves the old file or the new one
+    columns = xr.broadcast(*(dataset[column] for column in (*dataset.dims, *dataset.data_vars)))
+    with table.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(f"{column.name} [{column.attrs['units']}]" for column in columns)
+        writer.writerows(zip(*(column.values.ravel().tolist() for column in columns), strict=True))
+    return [netcdf, table]
