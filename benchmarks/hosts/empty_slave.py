@@ -1,4 +1,4 @@
-"""A slave that does nothing, as an FMU: what a step costs beside the model's own time.
+"""An FMU of an empty model: cost of a step without the model's own time.
 
 `pack` puts this very file into the FMU, as the script of its slave.
 """

@@ -1,4 +1,4 @@
-"""A C program as the host of FMUs: compiled once, told what to do line by line (c_host.c lists the commands)."""
+"""A C program as the host of FMUs: compiled once, controlled line by line (c_host.c lists the commands)."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def embedding_environment() -> dict[str, str] | None:
 
 @dataclass
 class Answer:
-    """What the host said to one command."""
+    """Answer of the host to one command."""
 
     status: int
     values: list[str] = field(default_factory=list)
