@@ -20,13 +20,14 @@ Sources: Yang & Wen, J. Tribol. 112 (1990) 631, doi:10.1115/1.2920308 (generalis
 Cusano, J. Tribol. 109 (1987) 648 (an Eyring oil, in closed form).
 """
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
+from ..laws.base import Rheology
 from .instant import Array, FilmSolution, FilmState, Instant
 
 _STIFFEST = 1e30  # Pa: no stress of a Newtonian oil above matters
@@ -34,20 +35,6 @@ _LEAST = (1e-4, 1e-3)  # pressed stress: share of the sheared one, and Pa. Below
 _LOG_STRESS = np.linspace(np.log(1e-2), np.log(1e11), 8193)  # Pa
 _SOLUTIONS = 20  # of a steady film, at most
 _SLOW = 0.9  # of the change before, above which the oil goes only half the way from then on
-
-
-class Rheology(Hashable, Protocol):
-    """A law of `laws.rheology`."""
-
-    @property
-    def thins(self) -> bool:
-        """Whether the viscosity falls with the stress."""
-
-    def __call__(self, newtonian: Array, pressure: Array) -> Array:
-        """Shear stress [Pa] of that of a Newtonian oil, under a pressure [Pa]."""
-
-    def ease(self, stress: Array) -> Array:
-        """How many times easier than a Newtonian one the oil shears at a stress [Pa]."""
 
 
 def thinned_fluidity(

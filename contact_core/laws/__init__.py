@@ -2,7 +2,8 @@
 documentation), its parameters and array functions.
 
 A slot's table in a scene says `model = "<name>"`; for a law without parameters the name alone will do. A new law is one
-class and one entry in its module's LAWS.
+class and one entry in its module's LAWS; it has what the Protocol of its slot in `base` asks for. A new tribofilm law is
+one file in `tribofilm`, one entry in its LAWS, and constants in data/tribofilms.toml.
 """
 
 from . import (
@@ -19,8 +20,9 @@ from . import (
     viscosity,
     wear,
 )
+from .base import Law
 
-SLOTS: dict[str, tuple[type, ...]] = {
+SLOTS: dict[str, tuple[type[Law], ...]] = {
     "viscosity": viscosity.LAWS,
     "density": density.LAWS,
     "rheology": rheology.LAWS,

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..quantities import parameter
+from .base import BoundaryFriction
 from .elementary import tanh
 from .equations import Equations
 
@@ -54,4 +55,4 @@ class FilmBlend:
         return self.coefficient(cover) * solid_pressure * self.grip_slope(sliding_speed)
 
 
-LAWS = (FilmBlend,)
+LAWS: tuple[type[BoundaryFriction], ...] = (FilmBlend,)

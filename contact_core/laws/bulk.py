@@ -6,6 +6,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..quantities import parameter
+from .base import Bulk
 from .equations import Equations
 
 Pair = tuple[float, float]
@@ -97,4 +98,4 @@ def _warmed(temperature: float, heat: float, capacity: float, conductance: float
     return temperature + (heat - conductance * (temperature - oil)) * dt / capacity * mean
 
 
-LAWS = (OilBulk, InputBulk, LumpedBulk)
+LAWS: tuple[type[Bulk], ...] = (OilBulk, InputBulk, LumpedBulk)

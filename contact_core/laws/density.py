@@ -6,6 +6,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from .base import Density
 from .equations import Equations
 
 
@@ -40,4 +41,4 @@ class Incompressible:
         return np.ones_like(pressure)
 
 
-LAWS = (DowsonHigginson, Incompressible)
+LAWS: tuple[type[Density], ...] = (DowsonHigginson, Incompressible)

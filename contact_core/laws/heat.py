@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from ..kernels.moving_source import MovingSurface, partition
 from ..quantities import parameter
-from .bulk import InputBulk, LumpedBulk, OilBulk
+from .base import Bulk, Heat
+from .bulk import OilBulk
 from .elementary import Numbers, sqrt
 from .equations import Equations
 
@@ -134,7 +135,19 @@ class NoHeat:
     inlet_shear: ClassVar[str] = "none"
     warms_film: ClassVar[bool] = False  # whether the oil in the contact is at another temperature than in the inlet
 
-    bulk: OilBulk | InputBulk | LumpedBulk = _AS_THE_OIL
+    bulk: Bulk = _AS_THE_OIL
+
+    def spot_rise(self, radius: Numbers, shear: Numbers, sliding_speed: Numbers) -> Numbers:
+        """Return the flash temperature rise [K] of spots: 0."""
+        return 0.0
+
+    def conductances(self, radius: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Return the heat flux per mean rise [W/(m2 K)]: infinite, no surface is warmer than its body."""
+        return np.full_like(radius, np.inf), np.full_like(radius, np.inf)
+
+    def strip_conductances(self, a: Array, b: float, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Return the heat flux per mean rise [W/(m2 K)]: infinite, as on a circle."""
+        return self.conductances(a, speeds)
 
     def temperatures(self, rubbing: Rubbing) -> Temperatures:
         """Temperatures and heat. Makes no array."""
@@ -151,7 +164,33 @@ class _Conductors:
     diffusivity_1: float = _diffusivity(1)
     diffusivity_2: float = _diffusivity(2)
     inlet_shear: str = _inlet_shear()
-    bulk: OilBulk | InputBulk | LumpedBulk = _AS_THE_OIL
+    bulk: Bulk = _AS_THE_OIL
+
+    def conductances(self, radius: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Heat flux per mean rise [W/(m2 K)] into each body, under an even source on a circle of `radius` [m].
+
+        A body at rest counts as one that creeps at a Peclet number of 1e-3, lest the conductance have a kink there.
+        """
+        first, second = (
+            _conductance(radius, np.hypot(speed, _CREEP * 2.0 * diffusivity / radius), conductivity, diffusivity)
+            for speed, conductivity, diffusivity in self._moving(speeds)
+        )
+        return first, second
+
+    def strip_conductances(self, a: Array, b: float, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+        """`conductances` of an even source on a strip of half width a and half length b [m]."""
+        first, second = (
+            _strip_conductance(a, b, np.hypot(speed, _CREEP * 2.0 * diffusivity / a), conductivity, diffusivity)
+            for speed, conductivity, diffusivity in self._moving(speeds)
+        )
+        return first, second
+
+    def _moving(self, speeds: tuple[Array, Array]) -> tuple[tuple[Array, float, float], ...]:
+        """Speed, conductivity and diffusivity of each body."""
+        return (
+            (speeds[0], self.conductivity_1, self.diffusivity_1),
+            (speeds[1], self.conductivity_2, self.diffusivity_2),
+        )
 
 
 @dataclass(frozen=True)
@@ -177,7 +216,7 @@ class FlashTemperature(_Conductors):
     )
     warms_film: ClassVar[bool] = False
 
-    def rise(self, radius: Array, shear: Array, sliding_speed: float) -> Array:
+    def spot_rise(self, radius: Numbers, shear: Numbers, sliding_speed: Numbers) -> Numbers:
         """Temperature rise [K] of spots of `radius` [m] under a mean |shear stress| [Pa]."""
         into_1, into_2 = self._conduction(radius, sliding_speed)
         return abs(shear * sliding_speed) / (into_1 + into_2)
@@ -207,7 +246,7 @@ class FlashTemperature(_Conductors):
             solved=True,
         )
 
-    def _conduction(self, radius: Array, sliding_speed: float) -> tuple[Array, Array]:
+    def _conduction(self, radius: Numbers, sliding_speed: Numbers) -> tuple[Numbers, Numbers]:
         """Heat flux per mean rise of a spot [W/(m2 K)] into each body."""
         first = _conductance(radius, sliding_speed, self.conductivity_1, self.diffusivity_1)
         return first, _conductance(radius, sliding_speed, self.conductivity_2, self.diffusivity_2)
@@ -237,31 +276,9 @@ class TemperatureField(_Conductors):
     )
     warms_film: ClassVar[bool] = True
 
-    def conductances(self, radius: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
-        """Heat flux per mean rise [W/(m2 K)] into each body, under an even source on a circle of `radius` [m].
-
-        A body at rest counts as one that creeps at a Peclet number of 1e-3, lest the conductance have a kink there.
-        """
-        first, second = (
-            _conductance(radius, np.hypot(speed, _CREEP * 2.0 * diffusivity / radius), conductivity, diffusivity)
-            for speed, conductivity, diffusivity in self._moving(speeds)
-        )
-        return first, second
-
-    def strip_conductances(self, a: Array, b: float, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
-        """`conductances` of an even source on a strip of half width a and half length b [m]."""
-        first, second = (
-            _strip_conductance(a, b, np.hypot(speed, _CREEP * 2.0 * diffusivity / a), conductivity, diffusivity)
-            for speed, conductivity, diffusivity in self._moving(speeds)
-        )
-        return first, second
-
-    def _moving(self, speeds: tuple[Array, Array]) -> tuple[tuple[Array, float, float], ...]:
-        """Speed, conductivity and diffusivity of each body."""
-        return (
-            (speeds[0], self.conductivity_1, self.diffusivity_1),
-            (speeds[1], self.conductivity_2, self.diffusivity_2),
-        )
+    def spot_rise(self, radius: Numbers, shear: Numbers, sliding_speed: Numbers) -> Numbers:
+        """Return the flash temperature rise [K] of spots: 0, the law has nodes and no spots."""
+        return 0.0
 
     def temperatures(self, rubbing: Rubbing) -> Temperatures:
         """Temperatures and heat."""
@@ -289,4 +306,4 @@ class TemperatureField(_Conductors):
         )
 
 
-LAWS = (NoHeat, FlashTemperature, TemperatureField)
+LAWS: tuple[type[Heat], ...] = (NoHeat, FlashTemperature, TemperatureField)

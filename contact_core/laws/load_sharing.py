@@ -279,4 +279,4 @@ class LineSharing(FittedSharing):
     oil_pressure_power: float = parameter("", "q, the more so of rougher bodies", least=0.0, most=5.0, default=0.0)
 
 
-LAWS = (FittedSharing, LineSharing)
+LAWS: tuple[type[FittedSharing], ...] = (FittedSharing, LineSharing)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..quantities import parameter
+from .base import Plasticity
 from .equations import Equations
 
 Array = NDArray[np.float64]
@@ -38,6 +39,16 @@ class ElasticPerfectlyPlastic:
         "", "plastic depth that hardens the tribofilms", choices=("none", "total"), default="none"
     )
 
+    @property
+    def error(self) -> str:
+        """Sentence on constants that contradict each other, or an empty text."""
+        if self.film_hardness <= self.hardness:
+            return ""
+        return (
+            f"plasticity.film_hardness = {self.film_hardness:g} Pa is above plasticity.hardness = "
+            f"{self.hardness:g} Pa; a tribofilm is taken to be softer than its solid."
+        )
+
     def limit(self, film_1: Array, film_2: Array, depth: Array | float, full_thickness: float) -> Array:
         """Largest pressure [Pa] between films [m] pressed in by a plastic `depth` [m]; full_thickness [m] is h_max.
 
@@ -52,4 +63,4 @@ class ElasticPerfectlyPlastic:
         return self.hardness - (self.hardness - self.film_hardness) * cover
 
 
-LAWS = (ElasticPerfectlyPlastic,)
+LAWS: tuple[type[Plasticity], ...] = (ElasticPerfectlyPlastic,)

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ..quantities import parameter
 from ..reference import logarithmic_drop, rounded_drop
+from .base import Profile
 from .equations import Equations
 
 Array = NDArray[np.float64]
@@ -50,4 +51,4 @@ class Logarithmic:
         return logarithmic_drop(y, length, self.depth)
 
 
-LAWS = (Rounded, Logarithmic)
+LAWS: tuple[type[Profile], ...] = (Rounded, Logarithmic)

@@ -13,6 +13,8 @@ import scipy
 from numpy.typing import NDArray
 
 from ..quantities import parameter
+from ..reference import bair_thinning_factor
+from .base import Rheology
 from .equations import Equations
 
 Array = NDArray[np.float64]
@@ -45,6 +47,10 @@ class _Limited(ABC):
         if self.limiting_coefficient > 0.0:
             stress = np.minimum(stress, self.limiting_coefficient * pressure)
         return np.copysign(stress, newtonian)
+
+    def film_factor(self, newtonian_film: float, speed: float, viscosity: float, slide_roll_ratio: float) -> float:
+        """Return the central film thickness over that of a Newtonian oil [m]: 1, no formula is known."""
+        return 1.0
 
     def slopes(self, newtonian: Array, pressure: Array) -> tuple[Array, Array]:
         """Derivatives of the stress by `newtonian` and by pressure (at fixed `newtonian`)."""
@@ -144,6 +150,14 @@ class Carreau(_Limited):
         root = np.hypot(1.0, newtonian / self.critical_stress)
         return root ** (self.exponent - 1.0) * (self.exponent + (1.0 - self.exponent) / root / root)
 
+    def film_factor(self, newtonian_film: float, speed: float, viscosity: float, slide_roll_ratio: float) -> float:
+        """Return the central film thickness over that of a Newtonian oil [m], by Bair's formula.
+
+        At an entrainment speed [m/s] and the viscosity [Pa s] at p = 0.
+        """
+        oil = (viscosity, self.critical_stress, self.exponent)
+        return bair_thinning_factor(newtonian_film, speed, *oil, slide_roll_ratio)
+
     def ease(self, stress: Array) -> Array:
         """How many times easier than a Newtonian one the oil shears at a stress [Pa].
 
@@ -162,4 +176,4 @@ class Carreau(_Limited):
         return np.exp(v)
 
 
-LAWS = (Newtonian, Eyring, Carreau)
+LAWS: tuple[type[Rheology], ...] = (Newtonian, Eyring, Carreau)

@@ -5,6 +5,7 @@ from typing import ClassVar
 
 from ..quantities import parameter
 from ..reference.starvation import film_behind_meniscus, supplied_film
+from .base import Supply
 from .equations import Equations
 
 
@@ -19,6 +20,7 @@ class Flooded:
         "The inlet is as full as the grid is wide.",
     )
 
+    starves: ClassVar[bool] = False
     layer: ClassVar[None] = None
     inlet: ClassVar[None] = None
 
@@ -39,6 +41,7 @@ class SupplyFilm:
         ("ρ h θ = ρ_0 h_{oil} where oil comes in",),
         "h oil is the thickness. Pressure begins where the gap is full.",
     )
+    starves: ClassVar[bool] = True
 
     thickness: float = parameter("m", "oil on both surfaces together before the contact", above=0.0, most=1e-2)
 
@@ -64,6 +67,7 @@ class Meniscus:
         ("p_f = 0 for x < −d",),
         "d is the distance. The gap is full from there on.",
     )
+    starves: ClassVar[bool] = True
 
     distance: float = parameter("m", "distance of the inlet meniscus before the centre", above=0.0, most=1.0)
 
@@ -79,4 +83,4 @@ class Meniscus:
         return film_behind_meniscus(flooded, self.distance, half_width, radius)
 
 
-LAWS = (Flooded, SupplyFilm, Meniscus)
+LAWS: tuple[type[Supply], ...] = (Flooded, SupplyFilm, Meniscus)

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..quantities import parameter
+from .base import Viscosity
 from .elementary import Numbers, exp, log, log10, maximum, minimum
 from .equations import Equations
 
@@ -205,4 +206,4 @@ class AstmD341:
         return exp(minimum(_LN_ETA_INF + exponent, _STIFF))
 
 
-LAWS = (Roelands, Barus, Modulus, AstmD341)
+LAWS: tuple[type[Viscosity], ...] = (Roelands, Barus, Modulus, AstmD341)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..quantities import parameter
+from .base import Wear
 from .equations import Equations
 
 Array = NDArray[np.float64]
@@ -84,4 +85,4 @@ class Archard:
         return self.coefficient(cover) * pressure * self.slide(speeds, body) / hardness
 
 
-LAWS = (NoWear, Archard)
+LAWS: tuple[type[Wear], ...] = (NoWear, Archard)
