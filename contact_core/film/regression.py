@@ -1,4 +1,4 @@
-"""The fast level: film formulas and curves of load sharing for the means of rough surfaces."""
+"""The regression level: film formulas and curves of load sharing for the means of rough surfaces."""
 
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
