@@ -1,7 +1,7 @@
 """One call each, without a scene.
 
-    point_contact   the film of a circular or elliptical contact
-    line_contact    the film of a line contact
-    dry_contact     rough bodies without a film
-    common          what the calls share
+point_contact   the film of a circular or elliptical contact
+line_contact    the film of a line contact
+dry_contact     rough bodies without a film
+common          what the calls share
 """

@@ -1,4 +1,4 @@
-"""What every law of a slot has: one Protocol per slot, so that nothing asks which law a scene has chosen.
+"""Protocols of the laws, one per slot, so that nothing asks which law a scene has chosen.
 
 Load sharing has no Protocol: its laws are `load_sharing.FittedSharing` with other constants.
 """
