@@ -2,10 +2,8 @@
 
 from dataclasses import dataclass, field
 
-from ..laws.density import DowsonHigginson, Incompressible
-from ..laws.rheology import Carreau, Eyring, Newtonian
-from ..laws.supply import Flooded, Meniscus, SupplyFilm
-from ..laws.viscosity import AstmD341, Barus, Modulus, Roelands
+from ..laws.base import Density, Rheology, Supply, Viscosity
+from ..laws.supply import Flooded
 from ..quantities import parameter
 
 SEEDS = 2**31  # of a surface: what FMI's integers can tell apart
@@ -36,9 +34,9 @@ class Surface:
 class Lubricant:
     """The oil."""
 
-    viscosity: Roelands | Barus | Modulus | AstmD341
-    density: DowsonHigginson | Incompressible
-    rheology: Newtonian | Eyring | Carreau
+    viscosity: Viscosity
+    density: Density
+    rheology: Rheology
     conductivity: float = parameter("W/(m K)", "thermal conductivity of the oil", above=0.0, most=10.0, default=0.14)
     flow: str = parameter(
         "",
@@ -54,7 +52,7 @@ class Lubricant:
         choices=("reynolds", "mass_conserving"),
         default="reynolds",
     )
-    supply: Flooded | SupplyFilm | Meniscus = field(default=Flooded())
+    supply: Supply = field(default=Flooded())
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from typing import Any, get_args, get_origin, get_type_hints
 from ..errors import SceneError
 from ..film import FILMS
 from ..laws import SLOTS
+from ..laws.base import Model
 from ..shapes import GEOMETRIES
 from . import units
 
@@ -52,7 +53,7 @@ def did_you_mean(word: str, choices: list[str]) -> str:
     return f" Did you mean '{close[0]}'?" if close else ""
 
 
-def models_of(path: str) -> tuple[type, ...]:
+def models_of(path: str) -> tuple[type[Model], ...]:
     """Return the records that a table at a dotted path may be, by its `model`; none if there is one kind only."""
     return {"film": FILMS, "geometry": GEOMETRIES}.get(path) or SLOTS.get(path.rpartition(".")[2], ())
 
@@ -111,14 +112,16 @@ def build(cls: type, table: Any, path: str) -> Any:
 
 def _elsewhere(cls: type, key: str, path: str) -> str:
     """Return which other models of a table have a key that `cls` does not have, or an empty text."""
-    others = [f"'{law.name}'" for law in models_of(path) if key in {f.name for f in fields(law)}]  # type: ignore[attr-defined]
-    return f" It belongs to model = {' or '.join(others)}, not to '{cls.name}'." if others else ""  # type: ignore[attr-defined]
+    models = models_of(path)
+    own = [law.name for law in models if law is cls]
+    others = [f"'{law.name}'" for law in models if key in {f.name for f in fields(law)}]
+    return f" It belongs to model = {' or '.join(others)}, not to '{own[0]}'." if others else ""
 
 
 def _value(hint: Any, raw: Any, full: str, f: "Field[Any]") -> Any:
     models = () if f.metadata else models_of(full)
     if models:
-        usual = models[0].name if full == "geometry" else getattr(f.default, "name", None)  # type: ignore[attr-defined]
+        usual = models[0].name if full == "geometry" else getattr(f.default, "name", None)
         if isinstance(raw, Mapping) and not {"model", "set"} & set(raw) and usual:
             raw = {"model": usual, **raw}
         return _build_law(models, raw, full)
@@ -140,12 +143,12 @@ def _value(hint: Any, raw: Any, full: str, f: "Field[Any]") -> Any:
     return raw
 
 
-def _build_law(models: tuple[type, ...], raw: Any, path: str) -> Any:
+def _build_law(models: tuple[type[Model], ...], raw: Any, path: str) -> Any:
     if isinstance(raw, str):
         raw = {"model": raw}
     if not isinstance(raw, Mapping):
         raise SceneError(f"[{path}] must be a table with a 'model', or the model's name.")
-    table, names = _with_named_set(dict(raw), path), {m.name: m for m in models}  # type: ignore[attr-defined]
+    table, names = _with_named_set(dict(raw), path), {m.name: m for m in models}
     model = table.pop("model", None)
     if model not in names:
         said = f"has no model '{model}'." + did_you_mean(str(model), list(names)) if model else "needs a 'model'."
@@ -178,7 +181,7 @@ def _with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
 
 def _for_model(table: Mapping[str, Any], path: str, model: str) -> dict[str, Any]:
     """Return the keys of a law's table that the law `model` has, too."""
-    shared = {f.name for law in models_of(path) if law.name == model for f in fields(law)}  # type: ignore[attr-defined]
+    shared = {f.name for law in models_of(path) if law.name == model for f in fields(law)}
     return {name: item for name, item in table.items() if name in shared}
 
 
@@ -194,7 +197,7 @@ def _merged(base: Mapping[str, Any], over: Mapping[str, Any], path: str) -> dict
 
 def _hint(f: "Field[Any]") -> str:
     if "unit" not in f.metadata:
-        models = ", ".join(law.name for law in models_of(f.name))  # type: ignore[attr-defined]
+        models = ", ".join(law.name for law in models_of(f.name))
         return f"Add the table, with a 'model': {models}." if models else "Add the table."
     return f"It is the {f.metadata['text']}" + (f" [{f.metadata['unit']}]." if f.metadata["unit"] else ".")
 
@@ -223,7 +226,7 @@ def _all_models() -> set[type]:
 
 def full_key(key: str, value: str) -> str:
     """Return the key that an override means: `heat.bulk=oil` is short for `heat.bulk.model=oil`."""
-    return f"{key}.model" if value in {law.name for law in models_of(key)} else key  # type: ignore[attr-defined]
+    return f"{key}.model" if value in {law.name for law in models_of(key)} else key
 
 
 def override_order(item: tuple[str, str]) -> int:
