@@ -64,7 +64,7 @@ class Empty(Fmi2Slave):
         self.phase = Phase.STEPPING
 
     def refresh(self) -> None:
-        """y stands until the next step."""
+        """y is constant until the next step."""
 
     def do_step(self, current_time: float, step_size: float) -> bool:
         self.values[OUTPUT] = self.values[PARAMETER] * self.values[INPUT]
