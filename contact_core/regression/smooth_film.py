@@ -12,7 +12,7 @@ from .oil import Law
 
 STEP, KELVIN = 1e-6, 1e-4  # of differences, relative and in temperature
 SLOWEST, LIGHTEST = 1e-30, 1e-9  # m/s, N: less is at rest, and without load: it would divide by zero
-_PROBE = 1e6  # Pa: pressure that tells the pressure coefficient
+_PROBE = 1e6  # Pa: pressure at which the pressure coefficient is taken
 _THICKEST = 0.01  # of the radius: bodies are no parabolas on the scale of a thicker film
 
 

@@ -22,8 +22,9 @@ class Solids:
 
 @dataclass(frozen=True)
 class Surface:
-    """Roughness of one body: Gaussian heights, autocorrelation rq^2 exp(-(r/correlation_length)^2). rq = 0 is
-    smooth.
+    """Roughness of one body: Gaussian heights of a Gaussian autocorrelation.
+
+    The autocorrelation is rq^2 exp(-(r/correlation_length)^2); rq = 0 is smooth.
     """
 
     rq: float = parameter("m", "rms roughness", least=0.0, most=1e-4)
@@ -69,7 +70,7 @@ class Control:
     input_change: float = parameter("", "relative change of an input that asks for a new solution", least=0.0, most=1.0)
     driver: str = parameter(
         "",
-        "whose pressures drive film and wear: mixed lubrication's, dry contact's, or by contact_load_ratio",
+        "pressures that drive tribofilm and wear: mixed lubrication's, dry contact's, or chosen by contact_load_ratio",
         choices=("auto", "mixed", "dry"),
         default="auto",
     )
@@ -84,8 +85,8 @@ class Control:
     longest: float = parameter("s", "longest block", above=0.0, most=1e9, default=120.0)
     inputs: str = parameter(
         "",
-        "what a change of load, speeds or radii finds: quasi_steady, a film that has long settled; transient, the one "
-        "that was there, which follows",
+        "film after a change of load, speeds or radii: quasi_steady, settled at once; transient, the film before, which "
+        "follows the change",
         choices=("quasi_steady", "transient"),
         default="quasi_steady",
     )
