@@ -121,7 +121,7 @@ def orders(folder: Path) -> Iterator[Order]:
                     errors = []
                     for step in STEPS:
                         data = simulate(
-                            system, STOP, step, algorithm, order, iterate,
+                            system, STOP, step, algorithm=algorithm, order=order, iterate=iterate,
                             iteration_tolerance=1e-11, history=history, outputs=STATES,
                         )  # fmt: skip
                         errors.append(max(abs(data[name].values[-1] - end[n]) for n, name in enumerate(STATES)))

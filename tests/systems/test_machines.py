@@ -183,7 +183,7 @@ def exported(machine: str, changes: dict[str, str]) -> Assembly:
 
 def marched(system: System, names: list[str], step: float, count: int) -> xr.Dataset:
     """In fixed steps with inputs held, as importers of SSP do it."""
-    return simulate(system, count * step, step, "jacobi", 0, outputs=names)
+    return simulate(system, count * step, step, algorithm="jacobi", order=0, outputs=names)
 
 
 COMPARED = {
