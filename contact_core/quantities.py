@@ -1,4 +1,4 @@
-"""THE table of what goes into a contact and what comes out: name, symbol, unit, text, range.
+"""The table of inputs and outputs of a contact: name, symbol, unit, text, range.
 
 It feeds the FMU's variables, the result files' attributes, the printed tables and the checks. Conventions of sign,
 averaging and direction are stated here, once. `parameter` does the same for the fields of a scene.
@@ -12,7 +12,7 @@ from typing import Any, Literal
 Role = Literal["input", "output", "diagnostic"]
 Kind = Literal["Real", "Integer", "Boolean"]
 # level: each instant has it (`deterministic.observed`), and the output is its smoothed mean over blocks; slope: the
-# surfaces have it, and its change per block tells the error of time steps; rate: so has its rate of change
+# surfaces have it, and its change per block gives the error of time steps; rate: so has its rate of change
 Trend = Literal["", "level", "slope", "rate"]
 
 LEVELS = ("regression", "deterministic")  # film models by rising fidelity: 1, 2
@@ -46,7 +46,7 @@ DIFFERENCE = "TemperatureDifference"
 
 
 def measured(unit: str, said: str = "") -> str:
-    """The kind of physical quantity of a variable: as said of it, else what its unit tells, else empty."""
+    """Return the kind of physical quantity of a variable: the given one, else that of its unit, else empty."""
     return said or _MEASURED_IN.get(unit, "")
 
 
@@ -98,7 +98,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("friction_force", "F", "N", "friction force on body 1 along +x", nominal=1.0, trend="level"),
     Quantity("friction_coefficient", "mu", "1", "|friction_force| / load, 0 at zero load", nominal=0.1, minimum=0.0),
     Quantity("rolling_resistance", "F_r", "N",
-             "integral of (h/2) dp/dx over the fluid film; each surface feels the opposite along +x; not in power_loss", nominal=0.1, trend="level"),
+             "integral of (h/2) dp/dx over the fluid film; the force on each surface is the opposite along +x; not in power_loss", nominal=0.1, trend="level"),
     Quantity("friction_solid", "F_s", "N", "part of friction_force where solids touch", nominal=1.0, trend="level"),
     Quantity("friction_fluid", "F_f", "N", "part of friction_force in the oil film", nominal=1.0),
     Quantity("spin_torque", "M_s", "N m", "friction torque on body 1 about the axis from x to y", nominal=1e-3, trend="level"),
@@ -173,7 +173,7 @@ def parameter(
     shapes_arrays: bool = False,
     quantity: str = "",
 ) -> Any:
-    """A dataclass field with its SI unit, text and allowed range.
+    """Return a dataclass field with its SI unit, text and allowed range.
 
     `above` excludes its bound, `least` and `most` include theirs. `shapes_arrays` marks what decides the size of an
     array (such a field cannot become a tunable FMU parameter). `quantity` says what is measured, where the unit alone
@@ -193,7 +193,7 @@ def parameter(
 
 
 def input_parameter(name: str, *, default: Any = ...) -> Any:
-    """A dataclass field for one of `INPUTS`, with its unit, text and range from the table."""
+    """Return a dataclass field for one of `INPUTS`, with its unit, text and range from the table."""
     q = TABLE[name]
     return parameter(q.unit, q.text, least=q.minimum, most=q.maximum, default=default)
 
@@ -224,7 +224,7 @@ def numbers(record: Any, path: str = "") -> Iterator[tuple[str, float | int, "Fi
 
 
 def with_numbers(record: Any, values: Mapping[str, float | int], path: str = "") -> Any:
-    """The dataclass with some of its `numbers` changed, unchecked."""
+    """Return the dataclass with some of its `numbers` changed, unchecked."""
     changes = {}
     for f in fields(record):
         value, name = getattr(record, f.name), f"{path}.{f.name}" if path else f.name
@@ -241,8 +241,8 @@ def value_out_of_range(q: Quantity, value: float) -> Iterator[str]:
     yield from _number_sentence(q.name, value, {"unit": q.unit, "text": q.text, "least": least, "most": most})
 
 
-def _number_sentence(name: str, value: float, told: Mapping[str, Any]) -> Iterator[str]:
-    above, least, most, unit = (told.get(key) for key in ("above", "least", "most", "unit"))
+def _number_sentence(name: str, value: float, limits: Mapping[str, Any]) -> Iterator[str]:
+    above, least, most, unit = (limits.get(key) for key in ("above", "least", "most", "unit"))
     inside = (above is None or value > above) and (least is None or value >= least) and (most is None or value <= most)
     if math.isfinite(value) and inside:
         return
@@ -252,4 +252,4 @@ def _number_sentence(name: str, value: float, told: Mapping[str, Any]) -> Iterat
         f"at most {most:g}" if most is not None else "",
     ]
     unit = f" {unit}" if unit else ""
-    yield f"{name} = {value:g}{unit} ({told['text']}) must be {' and '.join(b for b in bounds if b)}{unit}."
+    yield f"{name} = {value:g}{unit} ({limits['text']}) must be {' and '.join(b for b in bounds if b)}{unit}."

@@ -1,4 +1,4 @@
-"""How accurate the co-simulation master is: orders, asked and reached tolerances, a stiff contact.
+"""Accuracy of the co-simulation master: orders, requested and reached tolerances, a stiff contact.
 
     python -m benchmarks.coupling.accuracy
 
@@ -121,7 +121,7 @@ def orders(folder: Path) -> Iterator[Order]:
                     errors = []
                     for step in STEPS:
                         data = simulate(
-                            system, STOP, step, algorithm, order, iterate,
+                            system, STOP, step, algorithm=algorithm, order=order, iterate=iterate,
                             iteration_tolerance=1e-11, history=history, outputs=STATES,
                         )  # fmt: skip
                         errors.append(max(abs(data[name].values[-1] - end[n]) for n, name in enumerate(STATES)))
@@ -147,7 +147,7 @@ CASES = (
 
 
 class Run(NamedTuple):
-    """What was asked for, and what came out."""
+    """A run: requested tolerance and reached error."""
 
     case: str
     scheme: str
@@ -188,7 +188,7 @@ def runs(folder: Path) -> Iterator[Run]:
 
 
 class Contact(NamedTuple):
-    """Where the pressed mass is at the end, or why there is no end."""
+    """Position of the pressed mass at the end, or the reason why the run failed."""
 
     step: float
     scheme: str
@@ -199,7 +199,7 @@ class Contact(NamedTuple):
 
     @property
     def rests(self) -> bool:
-        """Whether it is at rest, and every step has converged."""
+        """Whether the mass is at rest and every step has converged."""
         return abs(self.place - 1.0) < 0.01 and not self.missed
 
 
@@ -234,7 +234,7 @@ def order_rows(found: list[Order]) -> Iterator[str]:
 
 
 def exponent(runs: list[Run]) -> float:
-    """Of the work over the tolerance, between the last two of them."""
+    """Return the exponent of the work over the tolerance, between the last two tolerances."""
     return float(-np.log(runs[-1].calls / runs[-2].calls) / np.log(runs[-1].tolerance / runs[-2].tolerance))
 
 
@@ -293,7 +293,7 @@ def shown(rows: Iterator[str]) -> list[str]:
 
 
 def findings(rates: list[Order], found: list[Run]) -> Iterator[str]:
-    """What the tables say, the misses first of all."""
+    """Yield the findings of the tables."""
     off = max(abs(o.found - o.order - 1) for o in rates if not o.iterated)
     ratios = [
         error / known
@@ -330,9 +330,9 @@ def main() -> None:
     ]
     plot(rates, found)
     lines = [
-        "# How accurate the co-simulation master is",
+        "# Accuracy of the co-simulation master",
         "",
-        "Written by `python -m benchmarks.coupling.accuracy`, which says what is measured.",
+        "Written by `python -m benchmarks.coupling.accuracy`, which describes the measurement.",
         "",
         "![Accuracy](accuracy.png)",
         "",
@@ -341,8 +341,8 @@ def main() -> None:
         "## Orders",
         "",
         f"Two-mass oscillator, errors at {STOP:g} s by step [s]. An iterated scheme interpolates; with order 0 it holds the",
-        "value at the end. The last column has the errors at the largest and the smallest step by a calculation of its own",
-        "with exact solvers; iterated schemes have none, for it stops after one pass.",
+        "value at the end. The last column has the errors at the largest and the smallest step by an independent calculation",
+        "with exact solvers; iterated schemes have none, because it stops after one pass.",
         "",
         f"| scheme | order of hold | {' | '.join(f'{step:g}' for step in STEPS)} | order | reference |",
         "|---|" + "---|" * (len(STEPS) + 3),
@@ -350,9 +350,8 @@ def main() -> None:
         "",
         "## Tolerances",
         "",
-        "Largest error over the asked tolerance, and calls of doStep in parentheses. The horizon [s] is that over which",
-        "errors may add up to the tolerance: first all of the run, as by default, then a shorter one. The work should grow",
-        "by the exponent in parentheses. The last column counts steps at min_step that are less accurate than they should be.",
+        "Largest error over the requested tolerance, with calls of doStep in parentheses. The horizon [s] is the time over which errors may add up to the tolerance: first the whole run, as by default, then a shorter one. The work should grow",
+        "by the exponent in parentheses. The last column counts steps at min_step whose error is larger than allowed.",
         "",
         f"| system | horizon | scheme | {' | '.join(f'{tolerance:g}' for tolerance in TOLERANCES)} | exponent | below min_step |",
         "|---|---|---|" + "---|" * (len(TOLERANCES) + 2),

@@ -1,4 +1,4 @@
-"""What the co-simulation master costs beyond the calls of the FMUs themselves.
+"""Cost of the co-simulation master beyond the calls of the FMUs.
 
     python -m benchmarks.coupling.cost
 
@@ -155,7 +155,7 @@ def repeated(system: System, settings: Mapping[str, Any], trace: Trace) -> float
 
 
 def cost(system: System, settings: Mapping[str, Any]) -> Cost:
-    """Of a scheme, the median of pairs of runs."""
+    """Cost of a scheme, the median of pairs of runs."""
     settings = {"outputs": []} | settings
     steps = max(20, CALLS // len(system.models))
     trace = Trace(system, settings, steps)
@@ -191,7 +191,7 @@ SYSTEMS = {"chain": chain, "pairs": pairs}
 
 
 def costs(folder: Path) -> Iterator[tuple[str, int, str, Cost]]:
-    """Of all systems and schemes; a chain has no loop and nothing to iterate."""
+    """Yield the costs of all systems and schemes; a chain has no loop and nothing to iterate."""
     for kind, counts in COUNTS.items():
         for count in counts:
             system = SYSTEMS[kind](folder, count)
@@ -225,7 +225,7 @@ def memory(folder: Path) -> Iterator[str]:
 
 
 def _grown(system: System, settings: Mapping[str, Any], keep: bool) -> dict[int, float]:
-    """By how many MB the resident set has grown since the first of the steps that are looked at."""
+    """Return the growth of the resident set since the first recorded step [MB]."""
     found: dict[int, float] = {}
     add = Recorder.add if keep else (lambda *_: None)
     with patch.object(Recorder, "add", add):
@@ -280,9 +280,9 @@ def main() -> None:
     fixed = [(c.beyond, kind, count) for kind, count, scheme, c in found if scheme in FIXED]
     above = [f"{scheme}, {kind} of {count}: {c.beyond:.1f}" for kind, count, scheme, c in found if c.beyond > LIMIT]
     lines = [
-        "# What the co-simulation master costs",
+        "# Cost of the co-simulation master",
         "",
-        "Written by `python -m benchmarks.coupling.cost`, which says what is measured. Microseconds of CPU time per FMU and",
+        "Written by `python -m benchmarks.coupling.cost`, which describes the measurement. Microseconds of CPU time per FMU and",
         f"pass (one doStep), median of {REPEATS} pairs of runs. Asked for: less than {LIMIT:.0f} us beyond the calls with fixed steps;",
         "the most that Jacobi needs is {:.1f} us ({} of {}).".format(*max(fixed)),
         "",
@@ -294,10 +294,9 @@ def main() -> None:
         "",
         f"Above {LIMIT:.0f} us: {'; '.join(above) or 'none'}.",
         "",
-        "A controlled step has two rows, and is made once whole and once in halves: 1.5 passes a row, and more where it is",
-        "repeated. Other programs on the machine move single figures by several microseconds.",
+        "A controlled step has two rows, and is made once as a whole and once in halves: 1.5 passes per row, and more where it is repeated. Other programs on the machine change single figures by several microseconds.",
         "",
-        "What it costs to record outputs, with Jacobi and order 0; a Real that is coupled is read anyway:",
+        "Cost of recording outputs, with Jacobi and order 0; a coupled Real is read in any case:",
         "",
         "| recorded | us per step | us per value |",
         "|---|---|---|",

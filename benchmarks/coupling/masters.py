@@ -1,4 +1,4 @@
-"""Our master beside others on the same FMUs: error against the number of calls of fmi2DoStep.
+"""The master beside other masters on the same FMUs: error against the number of calls of fmi2DoStep.
 
     pip install -e ".[importers]" && python -m benchmarks.coupling.masters [--python RIVAL=INTERPRETER ...]
 
@@ -216,18 +216,18 @@ def plot(results: dict[str, list[Curve]]) -> None:
     figure.savefig(DOCS / "masters.png", dpi=110)
 
 
-HEAD = """# Our master beside others
+HEAD = """# The co-simulation master beside others
 
 Written by `python -m benchmarks.coupling.masters --python CoFmuPy=INTERPRETER`; libcosimpy and PyCosimLibrary come with
-`pip install -e ".[importers]"`, CoFmuPy, which pins other versions, with `pip install CoFmuPy` into an environment of
-its own.{missing}
+`pip install -e ".[importers]"`, CoFmuPy, which requires other versions, with `pip install CoFmuPy` into a separate environment.{missing}
 
-The same FMUs (`benchmarks/models`, C, FMI 2.0, exact for the inputs they are given) under different masters. The error is
-the largest one at any communication point, of any of the signals looked at, over that signal's largest value, against
-a solution of the whole system by DOP853 with a relative tolerance of 1e-12. The work is the number of calls of
-fmi2DoStep of both FMUs together, with all that was iterated or rejected. Fixed steps were halved, tolerances taken ten
-times smaller from run to run; between two runs the tables interpolate in the logarithms, and "-" means that no run
-came so far. Our own runs end near 30 000 calls, with tolerances from 1e-1 to 1e-6; all else is as it comes.
+The same FMUs (`benchmarks/models`, C, FMI 2.0, exact for the inputs they are given) under different masters. The
+error is the largest one at any communication point, of any of the compared signals, over that signal's largest value,
+against a solution of the whole system by DOP853 with a relative tolerance of 1e-12. The work is the number of calls
+of fmi2DoStep of both FMUs together, including iterated and rejected steps. From run to run, fixed steps were halved
+and tolerances divided by ten. Between two runs the tables interpolate in the logarithms; "-" means that no run
+reached the error. Runs of this master end near 30 000 calls, with tolerances from 1e-1 to 1e-6; all other settings
+are defaults.
 
 | rival | version | what it can do |
 |---|---|---|
@@ -237,33 +237,34 @@ came so far. Our own runs end near 30 000 calls, with tolerances from 1e-1 to 1e
 
 ![Error against calls](masters.png)
 
-The best of ours beside the best rival. Ratio: calls of the rival over ours.
+The best run of this master beside the best of the others. Ratio: calls of the other master over those of this one.
 
 | case | error | ours | calls | rival | calls | ratio |
 |---|---|---|---|---|---|---|
 """
 
 FOUND = """
-**What was found.** With inputs held over the step and no iteration, ours and PyCosimLibrary make the same error with the
-same work. libcosim needs two to three times that: a force that depends directly on the position reaches the other FMU
-one step late. (Ours and PyCosimLibrary read such outputs again after they have set the inputs. FMI 2.0.5, section 4.2.4,
-does not provide for that without a step in between; these FMUs answer.) A rival that iterates stays at order 1, because
-it holds the inputs while it iterates: it pays for stability alone. Polynomials of order 1 and 2 are what counts on
-smooth systems; their first steps, which have no history, are repeated instead. Where the coupling
-is stiff, iteration decides: the quasi-Newton method reaches the equilibrium of the contact with steps longer than the
-period of its oscillation, 10 us, where fixed-point iterations and all explicit schemes fail, and passes from sticking to
-slipping with steps that are far too long for explicit ones. Inputs held to order 0 damp what the steps do not resolve,
-so that is the choice for an equilibrium, and order 1 or 2 for the course. Error control has its price where it resolves
-what nobody asks for: the oscillation of the first 0.2 ms of the contact, and every change between sticking and slipping,
-where it beats fixed steps for small errors only. Gauss-Seidel steps the FMUs in the order of their names, which need not
-be the better one: at order 0 the opposite order, in CoFmuPy, takes fewer calls on the oscillator.
+**Findings.** With inputs held over the step and no iteration, this master and PyCosimLibrary have the same error for
+the same work. libcosim needs two to three times that work: a force that depends directly on the position reaches the
+other FMU one step late. (This master and PyCosimLibrary read such outputs again after setting the inputs. FMI 2.0.5,
+section 4.2.4, does not provide for that without a step in between; these FMUs answer.) The other masters that iterate
+stay at order 1, because they hold the inputs while they iterate: iteration improves only stability. On smooth systems
+polynomials of order 1 and 2 decide; their first steps, which have no history, are repeated instead. Where the
+coupling is stiff, iteration decides: the quasi-Newton method reaches the equilibrium of the contact with steps longer
+than the period of its oscillation, 10 us, where fixed-point iterations and all explicit schemes fail, and passes from
+sticking to slipping with steps that are far too long for explicit schemes. Inputs held to order 0 damp motions that
+the steps do not resolve: order 0 suits an equilibrium, order 1 or 2 the course. Error control is expensive where it
+resolves irrelevant motions: the oscillation of the first 0.2 ms of the contact, and every change between sticking and
+slipping, where it needs less work than fixed steps for small errors only. Gauss-Seidel steps the FMUs in the order of
+their names, which may be the worse order: at order 0 the opposite order, in CoFmuPy, takes fewer calls on the
+oscillator.
 
-What one has to know to run the rivals. libcosim counts time in whole nanoseconds and may end one step late; with the
-default of `EccoParams.max_change_rate`, 0.2, a step can only shrink (here it is 1.5), and ECCO fails in its second step where
-nothing observes the inputs of a bond. PyCosimLibrary expects of fmpy a return value that it no longer gives. CoFmuPy
-starts inputs at 0 unless told otherwise, gives the values after a step the time at which the step began, takes the FMUs
-of a loop in an order that changes from process to process unless PYTHONHASHSEED is set, and reads every output of an
-FMU of FMI 2.0 as a Real: the contact has a Boolean one, so it does not run there.
+Notes on the other masters. libcosim counts time in whole nanoseconds and may end one step late; with the default of
+`EccoParams.max_change_rate`, 0.2, a step can only shrink (here it is 1.5), and ECCO fails in its second step if the
+inputs of a bond are not observed. PyCosimLibrary expects a return value that fmpy no longer gives. CoFmuPy starts
+inputs at 0 by default, labels the values after a step with the time at which the step began, takes the FMUs of a loop
+in an order that changes from process to process unless PYTHONHASHSEED is set, and reads every output of an FMU of FMI
+2.0 as a Real: the contact has a Boolean one, so it does not run there.
 """
 
 

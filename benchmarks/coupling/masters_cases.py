@@ -1,4 +1,4 @@
-"""Four systems of two FMUs each, with solutions that share nothing with the FMUs."""
+"""Four systems of two FMUs each, with solutions that are independent of the FMUs."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Other masters on the FMUs of masters.py, each in a process of its own: masters_rivals.py RIVAL REQUEST ANSWER.
+"""Other masters on the FMUs of masters.py, each in its own process: masters_rivals.py RIVAL REQUEST ANSWER.
 
 REQUEST (JSON) names the FMUs {name: path}, the connections [output, input], the values of the inputs at the start, the
 bond of ECCO as (output, input) of one FMU and then of the other, the outputs to give back, the stop time in s, and the

@@ -1,4 +1,4 @@
-"""The exported SSPs of all kinds of machines in every importer: whether they say what the master says.
+"""Exported SSP files of all kinds of machines in every importer, compared with the master.
 
     python -m benchmarks.coupling.ssp_importers
 
@@ -110,7 +110,7 @@ def ours(system: System, settings: dict[str, Any], case: Case) -> tuple[list[flo
 
 
 def answered(importer: str, file: Path, case: Case) -> Answer:
-    """What an importer makes of the file."""
+    """Return the values of an importer for the file."""
     begin = time.perf_counter()
     if importer == OMSIMULATOR:
         if omsimulator.program() is None:
@@ -168,7 +168,7 @@ def section(case: Case, folder: Path) -> tuple[list[str], dict[str, float]]:
 
 
 def versions() -> str:
-    """Of the importers in the environment."""
+    """Return the versions of the importers."""
     found = []
     for name in IMPORTERS:
         try:
@@ -188,7 +188,7 @@ def largest(done: Sequence[tuple[list[str], dict[str, float]]], wanted: Callable
 
 
 def fed(importer: str) -> bool:
-    """Whether an importer's first step has the inputs that the outputs give."""
+    """Return whether the first step of an importer has the inputs that the outputs give."""
     return importer != STARTS_AT_ZERO
 
 
@@ -197,24 +197,17 @@ def page(done: Sequence[tuple[list[str], dict[str, float]]]) -> str:
     lines = [
         "# Exported machines in importers of SSP",
         "",
-        "Written by `python -m benchmarks.coupling.ssp_importers`, which says what is compared: the file that `tribofmu run MACHINE",
+        "Written by `python -m benchmarks.coupling.ssp_importers`, which describes the comparison: the file that `tribofmu run MACHINE",
         "--ssp FILE` writes, in",
         f"{versions()}.",
-        "`took`: with the start of all FMUs, on a machine that others used as well.",
+        "`took`: including the start of all FMUs, on a shared machine.",
         "",
-        "`master` is the master with the importers' algorithm, fixed steps and Jacobi of order 0. Beside it the coupling's",
-        "error: how far its answers with these steps, with double ones, and with the machine's own settings are apart, at",
-        "least a millionth of the value. In brackets is by how many of these errors an importer is off: by",
-        f"{largest(done, fed):.2g} at most, and fmpy by {largest(done, lambda name: not fed(name)):.2g}.",
+        "`master` is the master with the importers' algorithm, fixed steps and Jacobi of order 0. Beside it is the error of the coupling: the range of its results with these steps, with double steps, and with the machine's own settings, at least a millionth of the value. The deviation of an importer is given in brackets, in units of this error:",
+        f"{largest(done, fed):.2g} at most, for fmpy {largest(done, lambda name: not fed(name)):.2g}.",
         "",
-        "fmpy tells the FMUs none of the file's parameters, and sets every connected input to zero for its first step. Each",
-        "FMU of the file has the machine's parameters as its own start values, so that nothing is lost by the one. The other",
-        "leaves a mark: a contact refuses that step, as 0 K is no temperature, but the other components take it, such as the",
-        "shafts of the gears, which follow a drive at rest. The mark is proportional to the step. It lies within the coupling's",
-        "error where that is large, and shows where all else has settled: `gear_fzg_a`, twice, with steps of half the size.",
+        "fmpy passes none of the file's parameters to the FMUs, and sets every connected input to zero for its first step. Each FMU of the file has the machine's parameters as its own start values, so the missing parameters have no effect. The zero inputs do: a contact refuses that step, as 0 K is no valid temperature, but other components accept it, such as the shafts of the gears, which follow a drive at rest. The deviation is proportional to the step. It lies within the error of the coupling where that is large, and is visible where everything else has settled: `gear_fzg_a`, twice, with steps of half the size.",
         "",
-        "In fmpy, libcosimpy and ecospy an output that depends on an input at once reaches the next FMU a step later than in",
-        "the master, which evaluates such outputs in their order; OMSimulator does that, too, and solves loops of them.",
+        "In fmpy, libcosimpy and ecospy an output that depends directly on an input reaches the next FMU one step later than in the master, which evaluates such outputs in their order. OMSimulator does so as well, and solves loops of such outputs.",
         "",
         *(line for lines, _ in done for line in lines),
     ]

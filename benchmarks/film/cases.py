@@ -99,7 +99,7 @@ def domain_of(case: MoesCase, width: Sequence[float]) -> tuple[float, ...]:
 
 
 def instant_of_call(arguments: dict[str, Any], heights: Array, hardness: float = 1e12) -> Instant:
-    """What `point_contact` makes of its arguments; heights [ny, nx]."""
+    """Return the instant that `point_contact` makes of its arguments; heights [ny, nx]."""
     laws = {"barus": Barus, "roelands": Roelands, "none": Incompressible, "dowson_higginson": DowsonHigginson}
     viscosity = laws[arguments.get("viscosity_law", "roelands")]
     return Instant(

@@ -1,4 +1,4 @@
-"""What the deterministic core is worth: right, robust, fast. One part a call, each a few minutes on one thread.
+"""Accuracy, robustness and cost of the deterministic core. One part per call, each a few minutes on one thread.
 
     OMP_NUM_THREADS=1 NUMBA_NUM_THREADS=1 python -m benchmarks.film.core smooth|cost|accuracy|lambda|starts|summary
 

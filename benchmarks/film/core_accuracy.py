@@ -1,4 +1,4 @@
-"""The headline: error against cost, from full film to boundary lubrication, over grids and tolerances."""
+"""Error against cost, from full film to boundary lubrication, over grids and tolerances."""
 
 from dataclasses import dataclass
 
@@ -50,7 +50,7 @@ class Row:
 def outputs(
     case: RoughCase, grid: Grid, gap: np.ndarray, fluid: np.ndarray, solid: np.ndarray, numbers: dict[str, float]
 ) -> dict[str, float]:
-    """What errors are taken of. Friction: Newtonian up to a limit, and solids, over the load."""
+    """The quantities whose errors are compared. Friction: Newtonian up to a limit, and solids, over the load."""
     viscosity = Roelands(case.viscosity, 300.0, case.alpha, 0.0)(fluid, 300.0)
     shear = np.minimum(viscosity * SLIP * case.speed / gap, LIMIT * fluid) + SOLID * solid
     return {
@@ -83,7 +83,7 @@ def study(report: Page, name: str, units: dict[int, float]) -> tuple[list[Row], 
     report.say(
         f"### {name.capitalize()}\n\n{load:g} N, u = {speed:g} m/s, M = {case.smooth.moes_parameters[0]:.0f}, film by formula "
         f"{case.film * 1e9:.0f} nm, lambda {case.film / case.rq:.2f}. Reference: {levels[-1].nodes} nodes, {film.algorithm}, "
-        f"pressure change {film.pressure_change:.1g}, imbalance {film.imbalance:.1g}, {levels[-1].seconds:.1f} s, short of: {film.shortfall or 'nothing'}. Its "
+        f"pressure change {film.pressure_change:.1g}, imbalance {film.imbalance:.1g}, {levels[-1].seconds:.1f} s, not met: {film.shortfall or 'nothing'}. Its "
         + ", ".join(f"{key} {value:.3g}" for key, value in reference.items())
         + "."
     )
@@ -141,10 +141,9 @@ def run() -> None:
     units = {nodes: unit_of(nodes) for nodes in GRIDS}
     report.say(
         "Ball of 10 mm, E' 230 GPa, 0.04 Pa s, 15 1/GPa, Rq 100 nm, correlation length 20 um, the same surface and domain "
-        "on every grid. `point_contact` as it is, its error estimate (a second film on half the nodes) included: CPU seconds, "
-        "least of two where short; the error of 513 nodes is that of the iteration alone. Errors against the finest grid, relative, of W_c absolute. 1/h: mean over r < 2a/3. Friction: "
-        f"slip {100 * SLIP:g} %, Newtonian up to {LIMIT:g} p, {SOLID:g} for solids. Rows `cascade`: every grid from the one before, "
-        "to the tolerance of the reference, 400 iterations at most, the time of the coarser ones included. One work unit: "
+        "on every grid. `point_contact` with its defaults, including its error estimate (a second film on half the nodes): CPU seconds, "
+        "least of two where short; the error of 513 nodes is that of the iteration alone. Errors against the finest grid, relative, for W_c absolute. 1/h: mean over r < 2a/3. Friction: "
+        f"slip {100 * SLIP:g} %, Newtonian up to {LIMIT:g} p, {SOLID:g} for solids. Rows `cascade`: every grid started from the coarser one, to the tolerance of the reference, 400 iterations at most, including the time of the coarser ones. One work unit: "
         + ", ".join(f"{1e3 * unit:.3g} ms on {nodes}" for nodes, unit in units.items())
         + "."
     )

@@ -1,4 +1,4 @@
-"""What solutions cost: smooth films cold, a warm step of moving roughness, the same cold."""
+"""Cost of solutions: smooth films cold, a warm step of moving roughness, the same cold."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -58,9 +58,7 @@ SETTINGS = Settings(1e-9, 1e-3, 2000, "pyfftw")
 def smooth(report: Page) -> None:
     report.say(
         "### Smooth, cold\n\nM = 200, L = 10, Roelands, Dowson-Higginson, [-4.5, 1.5] x [-3, 3] a, by cycles on the "
-        "finest grid. Algebraic error: off the converged film of the same grid. Grid error: that film off the one "
-        "extrapolated from 257 and 513 nodes. Cost: from the physical problem to the film, least of 7 runs, plans and "
-        "compiled code at hand. In [%]."
+        "finest grid. Algebraic error: against the converged film of the same grid. Grid error: that film against the one extrapolated from 257 and 513 nodes. Cost: from the physical problem to the film, least of 7 runs, with plans and compiled code ready. In [%]."
     )
     report.header(
         "nodes",
@@ -111,8 +109,7 @@ def converged(nodes: int) -> np.ndarray:
 def case_a(report: Page) -> None:
     report.say(
         f"### Case A, smooth\n\nM = 3757, L = 3.32; the film is {FILM_A * 1e9:.1f} nm. CPU seconds of the first call and of a "
-        "second one. `extrapolated`: from the two finest levels of one multigrid solution on the same, fitted grid, which "
-        "takes one cycle more."
+        "second one. `extrapolated`: from the two finest grid levels of one multigrid solution on the same, fitted grid, which takes one more cycle."
     )
     report.header("nodes", "by", "h_central [nm]", "off [%]", "first [s]", "again [s]", "how", "error estimate [nm]")
     smooth_contact = SmoothContact(77.85, 0.25, 0.004, 14.94e-9, 10e-3, 10e-3, 230.47e9)
@@ -201,9 +198,8 @@ def first_below(costs: list[float], errors: list[float]) -> float:
 def rough(report: Page) -> None:
     report.say(
         "### Moving roughness\n\nCase B (`mtm_zddp`) at u = 0.25 m/s, slip 5 %, 129 nodes, new surfaces. Warm: one step of one "
-        f"node from the same film before, after {LEAD} steps, mean of {STEPS} steps; reference {MANY} iterations. Cold: "
-        "the same step from the dry contact, and the steady film of the same surfaces as `film/routes.py` has it by tolerance, "
-        "everything included; reference of that: 1000 iterations. Error: sum |p - p_ref| / sum p_ref."
+        f"node from the same previous film, after {LEAD} steps, mean of {STEPS} steps; reference {MANY} iterations. Cold: "
+        "the same step from the dry contact, and the steady film of the same surfaces by `contact_core/film/routes.py` to the tolerance, everything included; reference of that: 1000 iterations. Error: sum |p - p_ref| / sum p_ref."
     )
     figure = Figure(figsize=(7.2, 4.4), layout="constrained")
     axes = figure.add_subplot()
@@ -252,8 +248,8 @@ def steps(report: Page, scene: Scene, correlation: str, unit: float) -> dict[str
         state = scaled.solution(reference, "mixed", "").state
     unit = min(unit, unit_of(scene.film.points))
     report.say(
-        f"One step, correlation {correlation}: W_c {np.mean(shares):.3f}. One work unit was {1e3 * unit:.3f} ms. The reference is "
-        f"{100 * independent:.3f} % off what `kernels/mixed/direct.py` finds from the dry contact."
+        f"One step, correlation {correlation}: W_c {np.mean(shares):.3f}. One work unit was {1e3 * unit:.3f} ms. The reference "
+        f"deviates by {100 * independent:.3f} % from the solution of `contact_core/kernels/mixed/direct.py` started from the dry contact."
     )
     report.header("start", "iterations", "ms", "WU", "WU / iteration", "error [%]", "largest [%]")
     found = {}
@@ -291,10 +287,10 @@ def cold_films(report: Page, scene: Scene, correlation: str, unit: float) -> tup
 
 def shapes(report: Page) -> None:
     report.say(
-        "### Shapes\n\nSteady films from nothing by `film/routes.py`, tolerance 1e-3, 129 nodes along the shorter side of a "
+        "### Shapes\n\nSteady films without a start by `contact_core/film/routes.py`, tolerance 1e-3, 129 nodes along the shorter side of a "
         "grid that fits the film. Smooth: Moes' M = 100, L = 10 on R_x. Rough: case A (77.85 N, R_x 10 mm, 4 mPa s, "
         "cap 6 GPa) at 1 m/s under waves of Rq 30 nm and correlation 40 um. Lines and rollers: case A's load on its "
-        "diameter, at 1 m/s; lines on a single row or 64 that repeat, rollers of 2 mm. A work unit here is that of "
+        "diameter, at 1 m/s; lines on a single row or on 64 repeated rows, rollers of 2 mm. A work unit here is that of "
         "129 x 129 nodes, times nodes / 129^2."
     )
     report.header("shape", "bodies", "nodes [ny, nx]", "ms", "WU", "ns / node", "converged", "algorithm")

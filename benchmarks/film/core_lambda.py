@@ -43,9 +43,9 @@ def run() -> None:
     report = Page("film/core", "Contact over lambda, grid, floor and criterion", "lambda")
     report.say(
         f"Load, ball and oil of case B, one Gaussian surface of Rq {BASE.rq * 1e9:.1f} nm and correlation length "
-        f"{BASE.correlation * 1e6:.0f} um, the same on every grid; speed makes lambda, the formula film of smooth bodies over "
-        "Rq. The domain fits the film, so that nodes lie closer for thin films. The coarsest grid is solved as "
-        f"`film/routes.py` has it, finer ones by at most {ITERATIONS} hybrid iterations from the one before, to a pressure "
+        f"{BASE.correlation * 1e6:.0f} um, the same on every grid; the speed sets the lambda ratio, the formula film of smooth bodies over "
+        "Rq. The domain fits the film, so nodes are closer for thin films. The coarsest grid is solved by "
+        f"`contact_core/film/routes.py`, finer ones by at most {ITERATIONS} hybrid iterations from the one before, to a pressure "
         "change of 1e-3; from lambda 2.5 on (split) by Newton's method, to 257 nodes. W_c: load share of the solids; A_c: their area over Hertz's; gap: mean over r < 2a/3, in Rq."
     )
     report.header("criterion, floor", "lambda", "u [m/s]", "nodes", "W_c", "A_c", "gap", "imbalance", "converged")
@@ -109,7 +109,7 @@ def judge(report: Page, table: dict[tuple[str, int, float], dict[str, float]]) -
         inside = all(0.8 < share < 0.9 for shares in each.values() for share in shares)
         report.verdict(f"Zhu & Wang's 0.8 < W_c < 0.9 at lambda 0.05 and 0.1, beside {name}", text, inside)
     report.say(
-        "### What is a number of the grid\n\nChange from the second finest to the finest grid, floor 1 nm, split:"
+        "### Dependence on the grid\n\nChange from the second finest to the finest grid, floor 1 nm, split:"
     )
     report.header("lambda", "nodes", "W_c", "A_c", "gap [%]")
     for ratio in LAMBDAS:
@@ -121,16 +121,15 @@ def judge(report: Page, table: dict[tuple[str, int, float], dict[str, float]]) -
 
 
 STATEMENT = """**Independent of the grid:** the mean gap, to about 15 % from 129 nodes on; and all of W_c, A_c and gap where the
-floor is thicker than the film that the oil would build (lambda 0.005 with a floor of 1 nm or more): there the answer is the
-dry one.
+floor is thicker than the film without it (lambda 0.005 with a floor of 1 nm or more): there the solution is the dry one.
 
-**Not independent of it:** W_c and A_c by the split criterion from lambda 0.02 to 0.6. They fall with every refinement, in the
-end to nothing. The likely reason: an asperity slides in on oil that it presses together before itself, and a grid that
-does not resolve that inlet lets it touch. The floor moves them too where it is not far below the film on the asperities. So in
-this range W_c belongs to a grid and a floor, and has to be told with them. Below lambda 0.3 many of these films are short of the
-stopping rule, too: their mass balance is off by what the table says.
+**Not independent of it:** W_c and A_c by the split criterion from lambda 0.02 to 0.6. They fall with every refinement
+and finally vanish. Likely reason: an asperity enters on oil that it compresses ahead of itself, and a grid that does not resolve this
+inlet lets it touch. The floor also changes them where it is not far below the film on the asperities. In this range W_c depends on grid
+and floor, which must be stated with it. Below lambda 0.3 many of these films have not converged: the table has the error of their
+mass balance.
 
-**The lumped criterion** puts the pressure of the solids into the oil's flow. Solids then seal the oil off and keep themselves in
+**The lumped criterion** puts the pressure of the solids into the oil's flow. Solids then seal off the oil and remain in
 contact: W_c stays about 0.94 up to lambda 0.1 on every grid, and up to lambda 0.3 to 1.2 by the grid, and its mass balance does
 not close. That is on the side of the published band (0.8 to 0.9 at lambda 0.05 to 0.1; Zhu & Wang 2012,
 doi:10.1177/1350650112461867); the split criterion is far below it, the more so the finer the grid. By these figures the band is

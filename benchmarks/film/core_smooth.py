@@ -1,4 +1,4 @@
-"""Smooth films: grid convergence, formula, rigid limit, and what a hardness does to a film."""
+"""Smooth films: grid convergence, formula, rigid limit, and the effect of a hardness."""
 
 from dataclasses import replace
 
@@ -37,8 +37,7 @@ def cut_off(case: MoesCase, width: tuple[float, ...], nodes: int) -> tuple[float
 def convergence(report: Page) -> None:
     report.say(
         "### Grid convergence\n\nBarus, incompressible, L = 10; Moes' units. Domain [-4.5, 1.5] x [-3, 3] a, for M = 1000 "
-        "[-2.5, 1.5] x [-2, 2] a, p = 0 at its edge, as the targets have it. The last columns are `point_contact` on the "
-        "same domain: it carries the pressure on beyond the edge where M < 30."
+        "[-2.5, 1.5] x [-2, 2] a, p = 0 at its edge, as for the targets. The last columns are `point_contact` on the same domain, which continues the pressure beyond the edge where M < 30."
     )
     names = [f"{what} {nodes}" for what in ("H_c", "H_min") for nodes in (*GRIDS, "Richardson")]
     report.header("M", *names, "order of H_c", "order of H_min", "point_contact 257: H_c", "H_min")
@@ -66,8 +65,7 @@ def convergence(report: Page) -> None:
 def formula(report: Page) -> None:
     report.say(
         "### Beside the formula of Nijenbanning, Venner and Moes\n\nBarus, incompressible, 257 nodes, the domain that "
-        "`point_contact` chooses. H_c is extrapolated from 129 and 257 nodes. Seconds are of both calls; what multigrid does not "
-        "solve takes much longer."
+        "`point_contact` chooses. H_c is extrapolated from 129 and 257 nodes. Seconds are of both calls; contacts that multigrid does not solve take much longer."
     )
     report.header("M", "L", "H_c", "formula", "off [%]", "H_c of 257 nodes", "extrapolated by [%]", "algorithm", "s")
     off = []
@@ -151,8 +149,7 @@ def hardness(report: Page) -> None:
         bool(capped) and deeper,
     )
     report.say(
-        "Where the pressure is at the hardness, the film is what elasticity leaves of the gap: mass is not balanced there "
-        "and the film thins on its way through."
+        "Where the pressure is at the hardness, the film is the gap that elasticity leaves: mass is not balanced there, and the film thins along the contact."
     )
     report.verdict(
         "with a hardness the film is flattened in the middle",

@@ -1,4 +1,4 @@
-"""Whether a film depends on where its solution began, and the limits of no and much speed."""
+"""Dependence of films on their start, and the limits of zero and high speed."""
 
 from dataclasses import replace
 
@@ -64,9 +64,7 @@ def run() -> None:
     scene = Scene.from_toml("mtm_zddp")
     grid, settings = scene.grid(scene.film.points), Settings(scene.film.floor, 1e-3, 400, "pyfftw")
     report.say(
-        "Case B, its surfaces as new, 129 nodes, steady films to a pressure change of 1e-3, begun with the dry contact and with a "
-        "Hertz-like pressure under a film that clears the asperities, by algorithms each on its own. (`point_contact` picks "
-        "its start by itself.) Marched: in time, surfaces standing still, 120 steps of three nodes and 15 iterations. Gap: mean over r < 2a/3. Pairs: from dry, from thick."
+        "Case B, fresh surfaces, 129 nodes, steady films to a pressure change of 1e-3, started from the dry contact and from a Hertz-like pressure under a film that clears the asperities, each algorithm by itself. (`point_contact` chooses its start.) Marched: in time, surfaces standing still, 120 steps of three nodes and 15 iterations. Gap: mean over r < 2a/3. Pairs: from dry, from thick."
     )
     report.header(
         "u [m/s]",

@@ -1,4 +1,4 @@
-"""Smooth films of elliptical contacts: beside formulas, and how they converge with the grid.
+"""Smooth films of elliptical contacts: comparison with formulas, and grid convergence.
 
     OMP_NUM_THREADS=1 NUMBA_NUM_THREADS=1 python -m benchmarks.film.elliptical
 
@@ -27,13 +27,11 @@ COARSE, FINE = 129, 257  # nodes along the shorter side
 ORDERS = ((0.2, 100), (0.5, 100), (2.0, 100), (5.0, 100))  # ellipticity and M
 BAR = 5.0  # percent
 STATEMENT = """\
-Across the long axis (b/a >= 1) the formula of Nijenbanning, Venner and Moes is as good as for circles; where M = 20 is
-a light load (b/a = 5: as near to rigid as a circle of M = 5) it is 30 % too high, as it is there for circles. Along the
+Across the long axis (b/a >= 1) the formula of Nijenbanning, Venner and Moes is as accurate as for circles; where M = 20 is
+a light load (b/a = 5: equivalent to a circle of M = 5) it is 30 % too high, as for circles. Along the
 long axis (b/a < 1) it is too low, by a sixth at b/a = 0.5 and by a third and more at 0.2: it takes the smaller of the
 films of rigid and of elastic bodies in piezoviscous oil, and for slim contacts that of rigid bodies is the smaller one
-up to M = 10^6, far into elastic contacts. The films found lie between both. Their ratio to that of the circle ought to
-tend to (p_H / sqrt(a))^(-1/2), in units of the circle, at heavy loads: there the inlet is short, oil no longer leaks
-round the tip, and the gap before it opens like p_H / sqrt(a) d^(3/2)."""
+up to M = 10^6, far into elastic contacts. The computed films lie between both. Their ratio to that of the circle should tend to (p_H / sqrt(a))^(-1/2), in units of the circle, at heavy loads: there the inlet is short, oil no longer flows around the tip, and the gap before it opens like p_H / sqrt(a) d^(3/2)."""
 
 
 def radius_ratio(ellipticity: float) -> float:
@@ -163,8 +161,7 @@ def main() -> None:
         "",
         "## Beside formulas",
         "",
-        f"H_c and H_min extrapolated (Richardson) from grids of {COARSE} and {FINE} nodes along the shorter side that fit "
-        "the film; formulas against that.",
+        f"H_c and H_min are extrapolated (Richardson) from grids of {COARSE} and {FINE} nodes along the shorter side that fit the film; formulas are compared with these values.",
         "",
         *table,
         "",

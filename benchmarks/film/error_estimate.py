@@ -1,4 +1,4 @@
-"""Whether the error estimate of `point_contact` is true: random points against grids of twice and four times the nodes.
+"""Error estimate of `point_contact` against true errors, from grids of twice and four times the nodes.
 
     python -m benchmarks.film.error_estimate [--points 200] [--seconds 1800] [--shape ellipse]
 
@@ -51,7 +51,7 @@ def main() -> None:
             reported[name].append(found[0].error_estimate[name])
             true[name].append(max(abs(value - best), TOLERANCE * abs(value)))
     lines = [
-        "# Is the error estimate true?",
+        "# Error estimate against true error",
         "",
         f"Written by `python -m benchmarks.film.error_estimate --points {args.points} --shape {args.shape}`: {tried} random "
         f"points on 65 nodes{' along the shorter side' if args.shape == 'ellipse' else ''}, "

@@ -1,4 +1,4 @@
-"""The first block of a scene, on fresh surfaces, against the grid: what is a number of the grid and what is not.
+"""The first block of a scene, on fresh surfaces, against the grid: which outputs depend on the grid.
 
     python -m benchmarks.film.grid [SCENE]
 

@@ -1,4 +1,4 @@
-"""Hard cases: random operating points and the rows of a list, each held against the equations written once more.
+"""Hard cases: random operating points and listed ones, each checked by an independent implementation of the equations.
 
     python -m benchmarks.film.hard_cases random [--shape circle|ellipse|line] [--from N] [--to N] [--part K/N] [--nodes N]
     python -m benchmarks.film.hard_cases rows [--nodes N]

@@ -1,4 +1,4 @@
-"""The page of the hard cases: tables and a map of what is kept in results/hard_cases."""
+"""The page of the hard cases: tables and a map of the rows in results/hard_cases."""
 
 import sys
 from collections import Counter
@@ -32,7 +32,7 @@ def _failures(line: dict[str, str]) -> list[str]:
 def _check_table(good: list[dict[str, str]]) -> list[str]:
     text = [
         "",
-        "The check, of those that are called converged:",
+        "The check of the converged points:",
         "",
         "| | median | 99 % | worst | limit |",
         "|---|---|---|---|---|",
@@ -53,7 +53,7 @@ def _random_tables(lines: list[dict[str, str]]) -> list[str]:
     share = 100.0 * converged.mean()
     text = [
         f"{len(lines)} points, {dropped} more were dropped. **{int(converged.sum())} ({share:.2f} %) "
-        f"meet the stopping rule{f'; {len(wrong)} of them fail the check' if checked else ''}.**",
+        f"have converged{f'; {len(wrong)} of them fail the check' if checked else ''}.**",
         "",
         "| Moes' M | points | converged | median ms | 90 % ms | iterations | found by (points) |",
         "|---|---|---|---|---|---|---|",
@@ -90,7 +90,7 @@ def _random_tables(lines: list[dict[str, str]]) -> list[str]:
 
 
 def _map(lines: list[dict[str, str]], path: Path) -> None:
-    """Where the points lie, by Moes' M and formula film over Rq, and what found them."""
+    """Plot the points by Moes' M and formula film over Rq, with the algorithms that solved them."""
     lines = [line for line in lines if float(line["speed"]) != 0.0]
     load, rq = _numbers(lines, "moes_load"), _numbers(lines, "rq")
     clearance = np.where(rq > 0.0, _numbers(lines, "formula_film") / np.maximum(rq, 1e-300), 1e5)
@@ -144,7 +144,7 @@ def report() -> None:
     text = [
         "# Hard cases",
         "",
-        "Written by `python -m benchmarks.film.hard_cases report` from what its other two commands found.",
+        "Written by `python -m benchmarks.film.hard_cases report` from the results of its other two commands.",
         "",
     ]
     if drawn:
@@ -177,23 +177,22 @@ RANDOM_NOTE = f"""
 `point_contact` on {NODES}x{NODES} nodes, tolerance {TOLERANCE:g}. Log-uniform: R 1-100 mm, load 0.1-1000 N,
 speed 1e-6-20 m/s of either sign (5 % stand still), viscosity 1e-4-10 Pa s, Rq 1 nm-1.5 um (20 % smooth); correlation
 length 20 um or two nodes, 15 GPa^-1, cap 6 GPa. Dropped: p_H above 4 GPa, or a formula film above R / 100. Times are of
-one thread and hold both grids of the error estimate.
+one thread and include both grids of the error estimate.
 
-The check solves nothing: it computes deformation, mass balance and load of the answer a second time, in SI, by other
-code, and looks at bounds. force: on the grid and beyond it (limit: and 5 % of what lies beyond). imbalance: mass
-gained or lost in l / u by the film, weighted by pressure. cavity: load that nodes without pressure would carry if
-their inflow were dammed up. complementarity: distance of contacts from the floor, overlap of others, in floors.
-beneath: as imbalance, of the fluid under contacts, per floor. gap: between the film reported and that of the pressure,
-in floors. bounds: 0 <= fluid <= total <= hardness, fluid = total off contact, in Hertz pressures."""
+The check solves nothing. It computes deformation, mass balance and load of the solution a second time, in SI, by
+independent code, and tests bounds. force: on the grid and beyond it (limit: plus 5 % of the part beyond). imbalance:
+mass gained or lost in l / u by the film, weighted by pressure. cavity: load that nodes without pressure would carry
+if their inflow were dammed up. complementarity: distance of contacts from the floor, overlap of others, in floors.
+beneath: as imbalance, of the fluid under contacts, per floor. gap: between the film reported and that of the
+pressure, in floors. bounds: 0 <= fluid <= total <= hardness, fluid = total off contact, in Hertz pressures."""
 ELLIPSE_NOTE = """
 The same points with the radius along y in a ratio of 0.1 to 10, log-uniform, to the one along x, on grids of {nodes}
 nodes along the shorter side. M is that of R_x."""
 LINE_NOTE = f"""
 The same points as line contacts without ends, of the same radius and largest pressure, by `line_contact` on {ROWS} rows
-of {NODES} nodes that repeat themselves across. M is that of the circular contact as near to rigid. Nothing checks the
-answers here."""
+of {NODES} nodes that repeat across. M is that of the equivalent circular contact. These solutions are not checked."""
 ROWS_NOTE = """
 Case A of the thesis (77.85 N, R 10 mm, 4 mPa s, 15 GPa^-1, 0.25 m/s, Rq 127 nm, cap 6 GPa) unless the row says
-otherwise; steady rows by `point_contact`, those in time by `solve` with `Transient` (the scene azam_case_a; W_c and h_c
-of the last step, ms the mean of the steps). imbalance and floors (complementarity) are the worst of all grids and steps
-by the check; a time step may owe more, because the next one makes up for it."""
+otherwise; steady rows by `point_contact`, those in time by `solve` with `Transient` (the scene azam_case_a; W_c and
+h_c of the last step, ms the mean of the steps). imbalance and floors (complementarity) are the worst of all grids and
+steps by the check; a time step may have a larger imbalance, because the residual carries over to the next step."""

@@ -1,4 +1,4 @@
-"""The equations of a film written once more, solving nothing: how far an answer is from fulfilling them."""
+"""An independent implementation of the equations of a film: residuals of a solution, without solving."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -21,7 +21,7 @@ Array = np.ndarray
 
 @dataclass(frozen=True)
 class Answer:
-    """What a solver says about a contact, in SI, entrained along +x. Arrays [ny, nx]."""
+    """A solution of a contact, in SI, entrained along +x. Arrays [ny, nx]."""
 
     x: Array
     y: Array
@@ -56,7 +56,7 @@ def limit(name: str, beyond: float) -> float:
 
 @dataclass(frozen=True)
 class Judgement:
-    """How far an answer is from solving the equations: 0 for the exact one."""
+    """Residuals of a solution: 0 for the exact one."""
 
     force: float  # force on the grid and beyond it, relative
     beyond: float  # share of it beyond the grid
@@ -69,7 +69,7 @@ class Judgement:
 
     @property
     def failures(self) -> list[str]:
-        """Which limits it is not within."""
+        """Names of the limits that are exceeded."""
         return [name for name in LIMITS if not abs(getattr(self, name)) < limit(name, self.beyond)]
 
 
@@ -183,7 +183,7 @@ def film_of(given: dict[str, Any]) -> tuple[float, float]:
 
 
 def answer(given: dict[str, Any], found: PointContact) -> Answer:
-    """What `point_contact` found of its arguments."""
+    """Return the solution of `point_contact` for its arguments."""
     load, radius, radius_y, modulus = (given[name] for name in ("load", "radius_x", "radius_y", "reduced_modulus"))
     size = np.sqrt(hertz_point(load, radius, radius_y, modulus).a ** 2 + 1.4 * radius * film_of(given)[1])
     return Answer(

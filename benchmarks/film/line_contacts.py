@@ -1,4 +1,4 @@
-"""Line contacts: films of smooth lines against formulas, what rough lines cost, rollers with ends.
+"""Line contacts: films of smooth lines against formulas, cost of rough lines, rollers with ends.
 
 python -m benchmarks.film.line_contacts
 """
@@ -43,8 +43,8 @@ def of_moes(load: float, lubricant: float) -> tuple[dict[str, Any], float]:
 def lines(report: Page) -> None:
     report.say(
         "### Smooth lines\n\nBarus, incompressible, the domain that `line_contact` chooses; films in Moes' units, "
-        f"extrapolated from the two finest of {', '.join(map(str, GRIDS))} nodes, at M = 1000 of twice as many, as its "
-        f"inlet is that short. Order: of the three. Cost: of {GRIDS[0]} nodes and of half of them, which the error "
+        f"extrapolated from the two finest of {', '.join(map(str, GRIDS))} nodes, at M = 1000 from twice as many because of its "
+        f"short inlet. Order: of the three. Cost: of {GRIDS[0]} nodes and of half of them, which the error "
         "estimate needs; WU: a convolution of one row."
     )
     report.header(
@@ -163,7 +163,7 @@ def rollers(report: Page) -> None:
 
     profile = profiles["rounded, radius 10 mm"]
     report.say(
-        "The least film lies where the end is rounded and is a number of the grid for longer than that of the middle. "
+        "The smallest film thickness lies where the end is rounded, and depends on the grid for longer than that of the middle. "
         "Rounded with 10 mm:"
     )
     report.header("nodes", "middle [nm]", "least [nm]")
@@ -176,8 +176,8 @@ def rollers(report: Page) -> None:
     report.verdict("both films of a roller converge, order >= 1.2", f"{order[0]:.2f}, {order[1]:.2f}", min(order) > 1.2)
 
     report.say(
-        f"With the load the least film falls more steeply than that of the middle, as finite elements have it ({SOURCE}; "
-        "its abstract names the trend, its numbers are not at hand). 129 nodes; power of the load between rows."
+        f"With the load the smallest film thickness falls more steeply than that of the middle, as found with finite elements ({SOURCE}; "
+        "its abstract states the trend; its numbers were not available). 129 nodes; power of the load between rows."
     )
     report.header("load [kN/m]", "middle [nm]", "least [nm]", "least / middle", "power of the middle", "of the least")
     films = [roller(load, profile, 129)[0] for load in ROLLER_LOADS]

@@ -1,4 +1,4 @@
-"""Dry rough contact beside open peers: time, and whether the answers agree.
+"""Dry rough contact beside other open solvers: time, and agreement of the results.
 
     pip install -e ".[peers]" && pip install --no-deps slippy tinydb
     python -m benchmarks.film.peers [--sizes 128 129 ...] [--repeats 3]
@@ -106,7 +106,7 @@ class Case:
 
     @cached_property
     def heights(self):
-        """Of both bodies [m]."""
+        """Heights of both bodies [m]."""
         nodes = max(self.ny, self.nx) // 2 * 2 + 1
         z = generate(Surface(RQ, LENGTH, seed=1), nodes, self.spacing * (nodes - 1), 1)
         return np.ascontiguousarray(np.concatenate([z, z[:, :1]], axis=1)[: self.ny, : self.nx])
@@ -119,7 +119,7 @@ class Case:
 
     @cached_property
     def gap(self):
-        """Of the undeformed bodies [m]."""
+        """Gap of the undeformed bodies [m]."""
         return self.radius_2 / (2.0 * RADIUS) - self.heights
 
     @cached_property
@@ -297,14 +297,14 @@ def plot(sizes: list[int], times: list[dict[str, float]]) -> None:
     figure.savefig(DOCS / "peers.png", dpi=130)
 
 
-HEAD = """# Dry rough contact beside open peers
+HEAD = """# Dry rough contact beside other open solvers
 
 Written by `python -m benchmarks.film.peers`; peers come with `pip install -e ".[peers]"`. {missing}
 
 A rough ball on a flat: R = 10 mm, E* = 115.235 GPa, 77.85 N, a domain of four Hertz radii, Rq 0.1 um, Gaussian heights
 of correlation length 20.1 um, free space (no periodic images). One process, one thread, CPU time, minimum of {repeats}
-runs in turns, with everything that a first call has to set up; "again" is a second call on the same grid.
-Each solver begins where it does by itself and runs to its own tolerance of 1e-8. "p_max off" and "nodes off" (contact
+alternating runs, including everything that a first call sets up; "again" is a second call on the same grid.
+Each solver uses its default start and runs to its own tolerance of 1e-8. "p_max off" and "nodes off" (contact
 nodes that differ) are against the plain Polonsky-Keer solver at 1e-12; complementarity, the mean |gap| under pressure
 in Rq, is by one kernel for all. "plain Polonsky-Keer" is the short scipy.fft solver in the benchmark: two convolutions
 an iteration, padded to a fast length, from Hertz's pressure. Ratio: time over that of the fastest other solver; of a
@@ -325,10 +325,8 @@ With a hardness of {hardness:g} GPa (tamaas bounds pressures in periodic contact
 
 SLIPPY = """
 slippy 0.5.2 asks for NumPy below 1.21, which Python 3.11 does not have: only its `slippy.core` is run here, installed by
-`pip install --no-deps slippy tinydb`. Its influence matrix it leaves to its caller to keep; "again" has it at hand. By an
-earlier comparison, on another surface of the same Rq, it took 0.87, 0.42 and 0.48 times the time of a plain Polonsky-Keer
-solver on 128, 256 and 512 nodes a side, and 3.1, 1.55 and 0.84 times on 129, 257 and 513: the fastest peer where the number
-of nodes suits its transforms.
+`pip install --no-deps slippy tinydb`. Its caller keeps the influence matrix; "again" reuses it. In an earlier comparison, on another surface of the same Rq, it took 0.87, 0.42 and 0.48 times the time of a plain Polonsky-Keer
+solver on 128, 256 and 512 nodes a side, and 3.1, 1.55 and 0.84 times on 129, 257 and 513: the fastest peer for numbers of nodes that suit its transforms.
 """
 
 

@@ -1,4 +1,4 @@
-"""Operating points drawn at random, far beyond what a machine sees, and the surfaces that go with them.
+"""Random operating points, far beyond those of a machine, and their surfaces.
 
 Not a program: `hard_cases.py` and `error_estimate.py` draw from here.
 """
@@ -39,7 +39,7 @@ class Point:
 
     @property
     def contact(self) -> SmoothContact:
-        """As the film formulas take it."""
+        """The contact in the terms of the film formulas."""
         speed = abs(self.speed)
         radii = self.shape.radius_x, self.shape.radius_y
         return SmoothContact(self.load, speed, self.viscosity, ALPHA, *radii, MODULUS)

@@ -77,8 +77,7 @@ def sinking() -> list[str]:
         "## A rigid ball sinks through oil at rest",
         "",
         "W = 6 pi eta R^2 V / h for a ball near a plane, so h = h0 exp(-t / tau), tau = 6 pi eta R^2 / W. Error of h "
-        "after tau, the time step extrapolated to zero; `width` is half the grid's side over sqrt(2 R h0). The pressure "
-        "goes on beyond the grid like 1 / h^2 (`kernels/far_field.py`), which is why the width does not matter.",
+        "after tau, the time step extrapolated to zero; `width` is half the grid's side over sqrt(2 R h0). The pressure continues beyond the grid like 1 / h^2 (`contact_core/kernels/far_field.py`), so the width does not matter.",
         "",
         "| nodes along x and y | width | error of h |",
         "|---|---|---|",
@@ -119,7 +118,7 @@ def flank() -> tuple[Scene, OperatingPoint, ContactState]:
 
 
 def duties(scene: Scene, op: OperatingPoint) -> dict[str, Callable[[float], OperatingPoint]]:
-    """What changes, by name."""
+    """The changes, by name."""
     radius = scene.radii(op)[0]
 
     def part(time: float) -> float:
@@ -147,9 +146,8 @@ def orders() -> list[str]:
     lines = [
         "## Orders in time",
         "",
-        f"Changes within {RAMP:g} s (about a passage of the oil), films at the end. Errors are against the second order "
-        "with 128 steps, extrapolated; the order is that between the coarsest and the finest step. Rough: a ball slides "
-        "over a disc of 40 nm at rest, so that the step is free; its sets of cavities and the tolerance (1e-4) limit it. "
+        f"Changes within {RAMP:g} s (about a passage of the oil), films at the end. Errors are against second order with 128 steps, extrapolated; the order is that between the coarsest and the finest step. Rough: a ball slides "
+        "over a disc of 40 nm at rest, so the time step is free; changing sets of cavities and the tolerance (1e-4) limit the order. "
         "Smooth line: the flank of `fzg_flank` without roughness, one row of 129 nodes.",
         "",
         "| change | bodies | scheme | steps | error of h_c | of h_min | of friction | order by h_c |",
@@ -197,8 +195,7 @@ def trapped() -> list[str]:
     lines = [
         "## An elastic ball falls on a plane",
         "",
-        "30 N on the ball of `mtm_zddp`, 2 um above the disc, nothing rolls: oil is trapped in a dimple, which drains "
-        "through the ring that closes first. Smallest gap and where it is, over Hertz's half width.",
+        "30 N on the ball of `mtm_zddp`, 2 um above the disc, without rolling: oil is trapped in a dimple, which drains through the ring that closes first. Smallest gap and its position over Hertz's half width.",
         "",
         "| time [s] | h_central [nm] | h_min [nm] | at r / a | p_max / p_H |",
         "|---|---|---|---|---|",
@@ -252,7 +249,7 @@ def meshes(rough: bool) -> tuple[list[str], dict[str, list[Moment]]]:
         "",
         "`fzg_flank` (a line contact) from A to E on the line of action: radius, both speeds and load change; the load is "
         f"shared by two pairs of teeth up to B and from D on, taken over within {1e3 * SHARED:g} mm (assumed). "
-        f"Quasi-steady: a steady film at each station. Instants: {spent}; instants short of the stopping rule: "
+        f"Quasi-steady: a steady film at each station. Instants: {spent}; instants not converged: "
         + ", ".join(f"{name} {sum(not m.fields.converged for m in found[name])}" for name in cost)
         + ".",
         "",
@@ -349,7 +346,7 @@ def main() -> None:
         "# Films that follow load, speeds and radii in time",
         "",
         f"Written by `python -m benchmarks.film.transient{' --rough' if args.rough else ''}`. `contact_core.march` yields the "
-        "instants, `contact_core.run_cycle` takes a sampled cycle for many; `advance` follows its inputs in time where "
+        "instants, `contact_core.run_cycle` repeats a sampled cycle; `advance` follows its inputs in time where "
         '`control.inputs = "transient"`.',
         "",
         *sinking(),
@@ -359,17 +356,14 @@ def main() -> None:
         "![mesh of a tooth](transient.png)",
         "",
         *steps_of_callers(),
-        "## What falls short",
+        "## Limits",
         "",
-        "- Rough surfaces move by whole nodes: a march makes an instant for each node of a rough body, and steps below "
-        "that sample the same jumps. Only a rough body at rest lets the time step go to zero.",
-        "- Nothing at rest that had no film before gets one: a contact that starts at rest is dry (`route`).",
-        "- Without a load the contact is open and its film forgotten; so it is where a film is too wide for the grid. The "
-        "next load begins with a steady film, as wide as that may be.",
-        "- A load that jumps by ten within a step is solved, but where the oil goes in that step is of first order.",
-        "- What lies beyond the grid of a light point contact is a formula of rigid bodies (closing and rolling); there "
-        "is none for lines.",
-        "- Bodies have no mass: a load is met at every instant.",
+        "- Rough surfaces move by whole nodes: a march makes one instant for each node of a rough body, and shorter steps sample the same jumps. The time step can tend to zero only with a rough body at rest.",
+        "- A contact at rest without an earlier film has none: a contact that starts at rest is dry (`route`).",
+        "- Without a load the contact is open and loses its film; likewise where a film is too wide for the grid. The next load begins with a steady film of any width.",
+        "- A load that jumps by ten within a step is solved, but the flow of the oil in that step is of first order.",
+        "- The pressure beyond the grid of a light point contact is a formula of rigid bodies (closing and rolling); there is none for lines.",
+        "- Bodies have no mass: the load balance holds at every instant.",
         "",
     ]
     (DOCS / "transient.md").write_text("\n".join(lines))

@@ -1,10 +1,10 @@
-"""What the isolated flavour stands: instances that come and go, long runs, lost processes.
+"""Endurance of the isolated flavour: many instances, long runs, lost processes.
 
     python -m benchmarks.fmu.endurance
 
 Writes docs/measured/fmu/endurance.md: growth of memory over 5000 instances made and freed and over 100000 steps, in the host, the
 supervisor and the worker; how long a start takes, and how long a lost worker and a lost supervisor keep a host from going
-on, with the model at its fast level and on the shipped grid. The host is a C program that knows nothing of Python. Needs
+on, with the model at its regression level and on the shipped grid. The host is a C program that knows nothing of Python. Needs
 Linux and gcc.
 """
 
@@ -86,7 +86,7 @@ def starts(program: Path, folder: Path, model: str) -> Iterator[str]:
 
 
 def losses(program: Path, folder: Path, model: str) -> Iterator[str]:
-    """From the kill to a restored instance that is ready to step, the killed process's last moments not counted."""
+    """Return the times from a kill to a restored instance that is ready to step."""
     with NativeHost(program, plain_environment()) as host:
         instance = started(host, folder)
         instance.ask("save", 0)
@@ -117,9 +117,9 @@ def restored(instance: Instance, victim: Callable[[], int]) -> float:
 
 def main() -> None:
     lines = [
-        "# What the isolated FMU stands",
+        "# Endurance of the isolated FMU",
         "",
-        "Written by `python -m benchmarks.fmu.endurance`, which says what is measured.",
+        "Written by `python -m benchmarks.fmu.endurance`, which describes the measurement.",
         "",
         "| what | process | growth |",
         "|---|---|---|",
@@ -134,7 +134,7 @@ def main() -> None:
         folder, program = Path(name), compiled(Path(name))
         quick = Flavour("isolated", plain_environment).contact(folder)
         shipped = unpacked(build(SHIPPED, folder / "shipped.fmu"))
-        models = ((quick, "fast level"), (shipped, "129 x 129 nodes"))
+        models = ((quick, "regression level"), (shipped, "129 x 129 nodes"))
         add(cycles(program, quick))
         add(steps(program, quick))
         lines += [

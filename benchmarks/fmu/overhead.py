@@ -1,16 +1,16 @@
-"""What an FMU costs over a direct call: a step, and many instances at once.
+"""Cost of an FMU over a direct call: a step, and many instances at once.
 
     python -m benchmarks.fmu.overhead
 
 Writes docs/measured/fmu/overhead.md. All of it in one run, for each flavour: the median and the 90 % range of the time of one
-round trip (set one input, step, get five outputs) of an empty slave and of mtm_zddp at the fast level, called directly,
+round trip (set one input, step, get five outputs) of an empty slave and of mtm_zddp at the regression level, called directly,
 through fmpy, and from a host in C that knows nothing of Python, all on one CPU; the same in C with the state saved before
 each step, and restored and freed after it ("taken back"), and with processes that may change their CPU; of three passes
 that with the smallest median. "direct call, other process between" times the direct call only, each after a byte went
 to another process and back: the change of processes makes the model itself slower, whose caches and predictions the
 CPU has lost meanwhile. Then how long it takes until the instances in the host in C have made their first step, and the
 memory of all processes by then (PSS: a page that n processes share counts 1/n in each). Last, the contact's state
-(ContactState) after a step at the fast level, of fresh surfaces and of such as the deterministic level has left: its size,
+(ContactState) after a step at the regression level, of fresh surfaces and of such as the deterministic level has left: its size,
 and the medians of the times to make its parts, which a saved state is, and to make a state of its bytes. Needs gcc, and a
 shared library of Python for the embedded flavour in C.
 """
@@ -47,7 +47,7 @@ SCENE = Scene.from_toml("mtm_zddp").at_level("regression")
 
 @dataclass(frozen=True)
 class Flavour:
-    """How to build an FMU and to run it in the host in C."""
+    """Recipe to build an FMU and to run it in the host in C."""
 
     name: Literal["embedded", "isolated"]
     environment: Callable[[], dict[str, str] | None]
@@ -69,7 +69,7 @@ os.environ["TRIBOFMU_PYTHON"] = sys.executable
 
 @dataclass(frozen=True)
 class Duty:
-    """What a round trip sets, in turn, and gets."""
+    """Variables that a round trip sets, in turn, and gets."""
 
     input: str
     values: tuple[float, float]
@@ -278,9 +278,9 @@ def shown(rows: Iterator[str]) -> list[str]:
 
 def main() -> None:
     lines = [
-        "# What an FMU costs over a direct call",
+        "# Cost of an FMU step over a direct call",
         "",
-        "Written by `python -m benchmarks.fmu.overhead`, which says what is measured.",
+        "Written by `python -m benchmarks.fmu.overhead`, which describes the measurement.",
         "",
         "| slave | called by | median [us] | 5 % [us] | 95 % [us] | over the direct call [us] |",
         "|---|---|---|---|---|---|",

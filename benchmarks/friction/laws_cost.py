@@ -1,4 +1,4 @@
-"""What each law costs per contact solve, in milliseconds and work units.
+"""Cost of each law per contact solution, in milliseconds and work units.
 
     python -m benchmarks.friction.laws_cost [friction] [flow] [heat] [tribofilm]
 
@@ -88,7 +88,7 @@ def friction(points: int) -> Iterator[Row]:
 
 
 def flow(points: int) -> Iterator[Row]:
-    """What flow = "local" adds to an instant of a march, and the march itself."""
+    """Yield the additional cost of flow = "local" in an instant of a march, and the cost of the march."""
     local = {"lubricant.flow": "local"}
     for name, more in (
         ("newtonian", {}),
@@ -144,10 +144,10 @@ PARTS: dict[str, Callable[[int], Iterator[Row]]] = {
 
 def main() -> None:
     lines = [
-        "# What laws cost",
+        "# Cost of the laws",
         "",
         "Written by `python -m benchmarks.friction.laws_cost`: case A on fresh surfaces, slide-to-roll ratio 50 %. A work unit is one",
-        'deformation convolution on the same grid. A law that is "none" is not called at all, but for its zeros.',
+        'deformation convolution on the same grid. A law "none" is called only for its zeros.',
         "",
         cells(HEADER),
         "|" + "---|" * len(HEADER),

@@ -86,7 +86,7 @@ def traction() -> tuple[list[str], dict[str, np.ndarray]]:
     lines = [
         "## Traction at full film",
         "",
-        f"Case A's ball and oil, smooth, {LOAD:g} N, {SPEED:g} m/s, isothermal. `slope`: mu / SRR at SRR = 1e-9; beside it the sum of",
+        f"Case A's ball and oil, smooth, {LOAD:g} N, {SPEED:g} m/s, isothermal. `slope`: mu / SRR at SRR = 1e-9; besides, the sum of",
         "eta u_e / (h W) over the solved film, and that of Hertz's pressure under an even central film (by quadrature,",
         "an approximation). `limit`: mu at SRR = 2 against Lambda times the share of the load on the grid.",
         "",
@@ -163,7 +163,7 @@ def held_and_total() -> list[str]:
     lines = [
         "## Derivatives: held film against total",
         "",
-        "d ln F / d ln input (temperature: per 50 K). `held`: outputs of the deterministic level, film and shares held;",
+        "d ln F / d ln input (temperature: per 50 K). `held`: outputs of the deterministic level, at a held film and held shares;",
         "`total`: outputs of the regression level; `solved again`: the deterministic level at the input 20 % (10 K) to",
         "either side, fresh surfaces; it scatters by a few hundredths.",
         "",

@@ -1,4 +1,4 @@
-"""A slave that does nothing, as an FMU: what a step costs beside the model's own time.
+"""An FMU of an empty model: cost of a step without the model's own time.
 
 `pack` puts this very file into the FMU, as the script of its slave.
 """
@@ -64,7 +64,7 @@ class Empty(Fmi2Slave):
         self.phase = Phase.STEPPING
 
     def refresh(self) -> None:
-        """y stands until the next step."""
+        """y is constant until the next step."""
 
     def do_step(self, current_time: float, step_size: float) -> bool:
         self.values[OUTPUT] = self.values[PARAMETER] * self.values[INPUT]

@@ -1,4 +1,4 @@
-"""A C program as the host of FMUs: compiled once, told what to do line by line (c_host.c lists the commands)."""
+"""A C program as the host of FMUs: compiled once, controlled line by line (c_host.c lists the commands)."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def compiled(folder: Path) -> Path:
 
 
 def plain_environment() -> dict[str, str]:
-    """Environment that says nothing of Python but which interpreter a worker takes."""
+    """Environment without settings of Python except the interpreter of workers."""
     kept = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "LD_", "VIRTUAL_ENV"))}
     return kept | {"TRIBOFMU_PYTHON": sys.executable}
 
@@ -62,7 +62,7 @@ def embedding_environment() -> dict[str, str] | None:
 
 @dataclass
 class Answer:
-    """What the host said to one command."""
+    """Answer of the host to one command."""
 
     status: int
     values: list[str] = field(default_factory=list)
@@ -147,7 +147,7 @@ class NativeHost:
         return self.answer("together")
 
     def load(self, folder: Path, uri: str | None = None, guid: str | None = None) -> Fmu:
-        """The FMU that lies unpacked in `folder`."""
+        """The FMU unpacked in `folder`."""
         description = fmpy.read_model_description(str(folder), validate=False)
         identifier = description.coSimulation.modelIdentifier
         library = folder / "binaries" / "linux64" / f"{identifier}.so"
@@ -159,7 +159,7 @@ class NativeHost:
 
 @dataclass
 class Fmu:
-    """An FMU in a host, and how loading it went."""
+    """An FMU in a host, and the result of loading it."""
 
     host: NativeHost
     number: int
@@ -187,7 +187,7 @@ class Instance:
         return answer
 
     def _keep_time(self, command: str, words: tuple[object, ...]) -> None:
-        """Time goes with steps and states, as in every host."""
+        """Update the time after steps and restored states."""
         if command == "step":
             self.time = words[0] + words[1]
         elif command == "setup":
@@ -216,7 +216,7 @@ class Instance:
         return answer.values if first == "String" else [int(value) for value in answer.values]
 
     def step(self, dt: float, **inputs: float) -> int:
-        """Status of a step under new inputs; time goes on."""
+        """Status of a step under new inputs; time advances."""
         self.set(**inputs)
         return self.ask("step", self.time, dt).status
 

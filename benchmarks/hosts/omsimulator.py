@@ -44,7 +44,7 @@ def last_row(file: str | Path, stop_time: float) -> dict[str, float]:
 
 
 def end_values(file: str | Path, stop_time: float, names: list[str]) -> list[float]:
-    """Those called "component.variable" or "variable" at the end of a simulation, whatever OMSimulator puts before."""
+    """Return the values of "component.variable" or "variable" at the end of a simulation, with any prefix of OMSimulator."""
     row = last_row(file, stop_time)
     found = {name: [value for key, value in row.items() if f".{key}".endswith(f".{name}")] for name in names}
     for name, values in found.items():

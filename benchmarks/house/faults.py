@@ -1,4 +1,4 @@
-"""Faults put into a copy of the code, one at a time or all at once: do the tests notice?
+"""Faults put into a copy of the code, one at a time or all at once, to see whether the tests notice them.
 
     python -m benchmarks.house.faults [PART_OF_A_NAME ...]    each fault by itself
     python -m benchmarks.house.faults --at-once               all in one copy
@@ -55,7 +55,7 @@ class Fault:
 
     @property
     def key(self) -> str:
-        """What the finding depends on, so far as it is worth a new run."""
+        """Fingerprint of everything that makes a new run necessary."""
         parts = [repr((self.changes, self.tests))]
         files = [*self.files, *sorted({test.partition("::")[0] for test in self.tests})]
         parts += [(ROOT / file).read_text(encoding="utf-8") for file in files]

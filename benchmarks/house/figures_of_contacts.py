@@ -6,11 +6,11 @@ from benchmarks.house.tables import Pages, link, number, range_of
 
 
 def bars(pages: Pages) -> list[tuple[str, ...]]:
-    """How many of the bars of the core are met."""
+    """Return how many requirements of the core are met."""
     rows = pages.rows("film/core.md", "met?")
     met = sum(row["met?"] == "yes" for row in rows if "no bar given" not in row["asked"])
     asked = sum("no bar given" not in row["asked"] for row in rows)
-    return [("accuracy and cost that were asked of the core", f"{met} of {asked} met", f"{asked - met} not", link("film/core.md"))]
+    return [("requirements on accuracy and cost of the core", f"{met} of {asked} met", f"{asked - met} not met", link("film/core.md"))]
 
 
 def finest(pages: Pages) -> list[tuple[str, ...]]:
@@ -79,7 +79,7 @@ def dry_contact(pages: Pages) -> list[tuple[str, ...]]:
 
 
 def estimates(pages: Pages) -> list[tuple[str, ...]]:
-    """Whether the error estimates of single calls are true."""
+    """Return how often the error estimates of single calls cover the true error."""
     page = "film/error_estimate.md"
     text = (pages.folder / page).read_text(encoding="utf-8")
     points, left = map(int, re.findall(r"(\d+) random points on .*?, (\d+) of them left out", text)[0])
@@ -92,12 +92,12 @@ def estimates(pages: Pages) -> list[tuple[str, ...]]:
             *(high, low),
             link(page),
         ),
-        ("and is so many times as large, median", small, large, link(page)),
+        ("ratio of estimate and true error, median", small, large, link(page)),
     ]
 
 
 def grids(pages: Pages) -> list[tuple[str, ...]]:
-    """What a finer grid than the shipped one changes."""
+    """Return the change by a finer grid than the shipped one."""
     shipped, finest = (pages.row("film/grid.md", "nodes", nodes=nodes) for nodes in ("129", "193"))
     names = {"h_c": "h_c", "friction_coefficient": "friction", "contact_load_ratio": "W_c", "contact_area_ratio": "A_c"}
     change = {name: number(finest[key]) / number(shipped[key]) - 1.0 for key, name in names.items()}
@@ -108,5 +108,5 @@ def grids(pages: Pages) -> list[tuple[str, ...]]:
     shares = range_of((row["contact_load_ratio"] for row in pages.rows("film/grid.md", "nodes")), "{:.2f}".format)
     return [
         ("mtm_zddp on fresh surfaces, from 129 to 193 nodes", *ends, link("film/grid.md")),
-        ("its W_c on 65 to 193 nodes", f"{shares[1]} to {shares[0]}", "it belongs to a grid", link("film/grid.md")),
+        ("W_c of mtm_zddp on 65 to 193 nodes", f"{shares[1]} to {shares[0]}", "depends on the grid", link("film/grid.md")),
     ]

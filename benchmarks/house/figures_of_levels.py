@@ -20,11 +20,11 @@ def random_points(pages: Pages) -> list[tuple[str, ...]]:
     for name, column in (("friction", "mu [rel.]"), ("h_c", "h_c [rel.]"), ("W_c (of 1)", "W_c [1]")):
         found = []
         for kind in ("median", "90 %"):
-            rows = pages.rows("regression/curves.md", f"{column}, {kind}", "The fast level")
+            rows = pages.rows("regression/curves.md", f"{column}, {kind}", "The regression level")
             found.append(range_of((row[f"{column}, {kind}"] for row in rows), per_cent))
         ends = (f"{half}; {most}" for half, most in zip(*found, strict=True))
         lines.append(
-            (f"{name} on random points of the shipped circles, half; nine of ten within", *ends, link("regression/curves.md"))
+            (f"deviation of {name} at random points of the shipped circular contacts: median; 90 %", *ends, link("regression/curves.md"))
         )
     return lines
 
@@ -44,19 +44,19 @@ def two_hours(pages: Pages) -> list[tuple[str, ...]]:
         lines.append((f"{name} at 0, 20, 60 and 120 min of rubbing", best, when, link("regression/curves.md")))
     times = [slow / fast for slow, fast in (pair(row["CPU s"]) for row in rows if row["min"] == "120")]
     lines.append(
-        ("their CPU time, times less", f"{max(times):.0f}", f"{min(times):.0f}", link("regression/curves.md"))
+        ("ratio of their CPU times", f"{max(times):.0f}", f"{min(times):.0f}", link("regression/curves.md"))
     )
     return lines
 
 
 def covered(rows: list[Row], column: str) -> tuple[int, int]:
-    """How many points of how many, of cells such as "97 % of 34"."""
+    """Return covered points and all points, from cells such as "97 % of 34"."""
     counts = [(round(number(row[column]) / 100.0 * int(row[column].split(" of ")[1])), row[column]) for row in rows]
     return sum(count for count, _ in counts), sum(int(cell.split(" of ")[1]) for _, cell in counts)
 
 
 def error_outputs(pages: Pages) -> list[tuple[str, ...]]:
-    """How often the error outputs cover the deviation where nothing was fitted."""
+    """Return how often the error outputs cover the deviation where nothing was fitted."""
     page, lines = "regression/shapes.md", []
     rows = pages.rows(page, "solved well", points="check")
     for name in ("friction", "film"):
@@ -70,7 +70,7 @@ def error_outputs(pages: Pages) -> list[tuple[str, ...]]:
             which = "points solved well" if sure else "points, solved well or not,"
             lines.append(
                 (
-                    f"`error_{name}` covers {hit} of {count} {which} of gears, bearings and an MTM that nothing was fitted to",
+                    f"`error_{name}` covers {hit} of {count} {which} of gears, bearings and an MTM, not used in any fit",
                     *("{1} of {2} ({0}s)".format(shape, *by_shape[shape]) for shape in (best, worst)),
                     link(page),
                 )
@@ -82,12 +82,12 @@ def error_outputs(pages: Pages) -> list[tuple[str, ...]]:
     ranked = sorted(within, key=lambda shape: sum(within[shape]) / len(within[shape]), reverse=True)
     every = [held for shape in ranked for held in within[shape]]
     ends = (f"{sum(within[shape])} of {len(within[shape])} ({shape}s)" for shape in (ranked[0], ranked[-1]))
-    lines.append((f"both cover {sum(every)} of {len(every)} surfaces that have rubbed", *ends, link(page)))
+    lines.append((f"both cover {sum(every)} of {len(every)} rubbed surfaces", *ends, link(page)))
     return lines
 
 
 def fast_step(pages: Pages) -> list[tuple[str, ...]]:
-    """What a step costs."""
+    """Return the time of a step."""
     page = "regression/cost.md"
     lines = []
     for name, shipped in (("as shipped", True), ("with other laws", False)):
@@ -98,7 +98,7 @@ def fast_step(pages: Pages) -> list[tuple[str, ...]]:
             f"({row['scene'] if shipped else row['laws']})"
             for row in (ranked[0], ranked[-1])
         )
-        lines.append((f"a step {name}: 5 % are faster; median; 5 % are slower", *ends, link(page)))
+        lines.append((f"time of a step {name}: 5 %; median; 95 %", *ends, link(page)))
     return lines
 
 
@@ -133,7 +133,7 @@ def drivers(pages: Pages) -> list[str]:
 
 
 def half_widths(pages: Pages) -> list[tuple[str, ...]]:
-    """At which share of the times the error is within the reported half widths."""
+    """Return the share of the times at which the error is within the stated half widths."""
     lines = []
     for row in pages.rows("surfaces/evolution.md", "blocks", "The shipped control"):
         shares = {name: float(cell[cell.index("(") + 1 : -1]) for name, cell in row.items() if cell.endswith(")")}
@@ -144,7 +144,7 @@ def half_widths(pages: Pages) -> list[tuple[str, ...]]:
         lines.append(
             (
                 f"azam_case_a driven {row['driver']}: share of the times at which `uncertainty(state)` covers the error; "
-                f"nine of ten in {held} of {len(shares)} outputs",
+                f"at least 90 % in {held} of {len(shares)} outputs",
                 per_cent(max(shares.values())),
                 f"{per_cent(shares[worst])} ({worst})",
                 link("surfaces/evolution.md"),

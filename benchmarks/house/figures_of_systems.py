@@ -6,10 +6,10 @@ from benchmarks.house.tables import Pages, link, number, range_of
 
 
 def fmu(pages: Pages) -> list[tuple[str, ...]]:
-    """What the isolated FMU costs over its model."""
+    """Return the cost of the isolated FMU over its model."""
     page, over = "fmu/overhead.md", "over the direct call [us]"
     lines = []
-    for slave, what in (("empty", "an empty model"), ("mtm_zddp", "the fast level of mtm_zddp")):
+    for slave, what in (("empty", "an empty model"), ("mtm_zddp", "the regression level of mtm_zddp")):
         rows = [row for row in pages.rows(page, over, slave=slave) if row["called by"].startswith("isolated, host in C")]
         rows = [row for row in rows if not row["called by"].endswith("taken back")]
         found = range_of((row[over] for row in rows), "{:.0f} us".format)
@@ -28,7 +28,7 @@ def fmu(pages: Pages) -> list[tuple[str, ...]]:
         f"{row['restored after, median [ms]']} ms ({row['lost process']}, {row['model']})"
         for row in (restored[0], restored[-1])
     )
-    lines.append(("a lost process replaced and its state restored", *ends, link(page)))
+    lines.append(("time to replace a lost process and restore its state", *ends, link(page)))
     return lines
 
 
@@ -37,28 +37,28 @@ def coupling(pages: Pages) -> list[tuple[str, ...]]:
     text = (pages.folder / "coupling/accuracy.md").read_text(encoding="utf-8")
     shares = [tuple(map(float, pair)) for pair in re.findall(r"horizon .* s: ([\d.]+) to ([\d.]+) of the tolerance", text)]
     least, most = min(low for low, _ in shares), max(high for _, high in shares)
-    lines = [("error over the tolerance asked for, 1e-2 to 1e-6", f"{least:g}", f"{most:g}", link("coupling/accuracy.md"))]
+    lines = [("error over the requested tolerance, 1e-2 to 1e-6", f"{least:g}", f"{most:g}", link("coupling/accuracy.md"))]
     rows = pages.rows("coupling/masters.md", "ratio")
     low, high = range_of((row["ratio"] for row in rows), "{:.1f}".format)
-    lines.append(("steps of the best of three other masters over the best of ours", high, low, link("coupling/masters.md")))
+    lines.append(("steps of the best of three other masters over those of this one", high, low, link("coupling/masters.md")))
     rows = pages.rows("coupling/cost.md", "beyond")
     for name, newton in (("explicit schemes and fixed-point iteration", False), ("quasi-Newton", True)):
         kept = [row["beyond"] for row in rows if ("quasi-Newton" in row["scheme"]) == newton]
         found = range_of(kept, "{:.0f} us".format)
-        lines.append((f"a step per FMU beyond the calls, {name}", *found, link("coupling/cost.md")))
+        lines.append((f"time of a step per FMU beyond the calls, {name}", *found, link("coupling/cost.md")))
     return lines
 
 
 def machines(pages: Pages) -> list[tuple[str, ...]]:
-    """How often the error of the coupling that a machine states covers what far shorter steps change."""
+    """Return how often the stated error of the coupling covers the change by far shorter steps."""
     rows = pages.rows("machines/tolerance.md", "not covered")
     ranked = sorted(rows, key=lambda row: number(row["not covered"]) / number(row["outputs"]))
     ends = (f"{row['not covered']} of {row['outputs']} ({row['machine']})" for row in (ranked[0], ranked[-1]))
-    return [("`error_coupling` of a machine: outputs that it does not cover", *ends, link("machines/tolerance.md"))]
+    return [("`error_coupling` of a machine: outputs not covered", *ends, link("machines/tolerance.md"))]
 
 
 def thesis(pages: Pages) -> list[tuple[str, ...]]:
-    """How many claims of the thesis come out, and how many of the others are explained."""
+    """Return how many claims of the thesis agree, and how many of the others are explained."""
     page = "thesis/validation.md"
     (row,) = (row for row in pages.rows(page, "cannot be judged") if row[""] == "ours")
     total = sum(int(row[name]) for name in ("agree", "disagree", "cannot be judged", "not run"))
@@ -74,14 +74,14 @@ def thesis(pages: Pages) -> list[tuple[str, ...]]:
     return [
         (
             "claims of the thesis about the shipped cases",
-            f"{row['agree']} of {total} come out",
-            f"{row['disagree']} do not, {row['cannot be judged']} cannot be judged",
+            f"{row['agree']} of {total} agree",
+            f"{row['disagree']} disagree, {row['cannot be judged']} cannot be judged",
             link(page),
         ),
         (
-            f"of the {wrong} that do not",
-            f"an experiment beside {mended} makes them agree",
-            f"none tried does for {unknown}; {none} have none, {short} lack some",
+            f"of the {wrong} that disagree",
+            f"{mended} agree in an experiment",
+            f"{unknown} in none of those tried; {none} without experiment, {short} incomplete",
             link(page),
         ),
     ]

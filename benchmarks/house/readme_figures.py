@@ -1,9 +1,8 @@
-"""README's section "How good, how fast", written from the tables of docs/: the best figure beside the worst.
+"""Write the README's section "How good, how fast" from the tables of docs/measured: the best figure beside the worst.
 
     python -m benchmarks.house.readme_figures
 
-No figure of that section is typed by hand: each is looked up in a table that a benchmark wrote. To be run again when a
-page has changed; a test compares.
+Each figure is looked up in a table that a benchmark wrote. Run this again when a page has changed; a test compares.
 """
 
 from collections.abc import Callable
@@ -24,25 +23,25 @@ from benchmarks.house.tables import Pages, line_of
 
 HEAD = "## How good, how fast\n"
 INTRODUCTION = """
-`python -m benchmarks.house.readme_figures` writes this section from the pages named, and the benchmarks named there write
-the pages. One thread; CPU seconds on a shared machine; a work unit (WU) is one deformation convolution on the same grid.
+`python -m benchmarks.house.readme_figures` writes this section from the linked pages, and the benchmarks named there write the
+pages. One thread; CPU seconds on a shared machine; a work unit (WU) is one deformation convolution on the same grid.
 """
 
 
 SECTIONS: tuple[tuple[str, tuple[Callable[[Pages], list[tuple[str, ...]]], ...]], ...] = (
-    ("The fast level against the deterministic one", (random_points, two_hours, error_outputs, fast_step)),
+    ("The regression level against the deterministic level", (random_points, two_hours, error_outputs, fast_step)),
     ("Two hours at the deterministic level", (half_widths, grids, thesis)),
     ("One contact at one instant", (bars, finest, smooth_contact, rough_contact, estimates, dry_contact)),
     ("FMU and coupling", (fmu, coupling, machines)),
 )
 DRIVERS = """
-Rms over time on 129 x 129 nodes, of both bodies the larger, unless named. Time and iteration alone: the grid comes below.
-The groove-free roughness of the smooth ball (4 to 6 nm) is where sampling shows ([surfaces/evolution](docs/measured/surfaces/evolution.md)).
+Rms over time on 129 x 129 nodes, the larger of both bodies unless named. Errors of time and iteration only; the grid follows below.
+Sampling affects mainly the groove-free roughness of the smooth ball (4 to 6 nm, [surfaces/evolution](docs/measured/surfaces/evolution.md)).
 """
 
 
 def section(pages: Pages) -> str:
-    """README's section, from its heading to the end of its last table."""
+    """Return the section, from its heading to the end of its last table."""
     lines = [HEAD.rstrip(), *INTRODUCTION.rstrip().splitlines(), ""]
     for title, parts in SECTIONS:
         lines += [f"**{title}**", ""]
@@ -55,7 +54,7 @@ def section(pages: Pages) -> str:
 
 
 def section_of(text: str) -> str:
-    """The section as a README has it."""
+    """Return the section of a README's text."""
     start = text.index(HEAD)
     return text[start : text.index("\n## ", start) + 1]
 

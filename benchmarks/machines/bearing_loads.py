@@ -1,4 +1,4 @@
-"""Ball bearings: loads against textbook figures, where the equilibrium converges and what it costs, error of classes.
+"""Ball bearings: loads against textbook figures, convergence and cost of the equilibrium, error of load classes.
 
 python -m benchmarks.machines.bearing_loads
 """
@@ -36,8 +36,7 @@ def textbook(report: Page) -> None:
     report.say(
         "### Textbook figures\n\nThe examples of Harris' Rolling Bearing Analysis: deep groove bearing 209 (9 balls of "
         "12.7 mm on 65 mm, grooves of 0.52, clearance 15 um) and angular contact bearing 218 (16 balls of 22.225 mm on "
-        "125.26 mm, grooves of 0.5232, 40 degrees), E 206.84 GPa, at rest. Expected: computed from these inputs by "
-        "other hands."
+        "125.26 mm, grooves of 0.5232, 40 degrees), E 206.84 GPa, at rest. Expected: independent calculations from these inputs."
     )
     report.header("bearing", "load", "quantity", "expected", "found", "off [%]")
     off = []
@@ -96,11 +95,11 @@ def integrals(report: Page) -> None:
 
 def convergence(report: Page) -> None:
     report.say(
-        f"### Where it converges\n\nAll combinations of n = {', '.join(map(str, SPEEDS))} rpm, F_r = "
+        f"### Convergence\n\nAll combinations of n = {', '.join(map(str, SPEEDS))} rpm, F_r = "
         f"{', '.join(f'{f:g}' for f in RADIAL)} N, F_a = {', '.join(f'{f:g}' for f in AXIAL)} N, M = "
-        f"{', '.join(f'{m:g}' for m in MOMENTS)} N m across the radial load, from nowhere ('cold'). Residual: largest "
+        f"{', '.join(f'{m:g}' for m in MOMENTS)} N m across the radial load, without a start ('cold'). Residual: largest "
         "force out of balance over the largest force, at least 1 N; converged: below 1e-9. 'Warm': each load changed "
-        "by 1 % and solved again from there. Times with NumPy's and Python's share, on the machine this was written on."
+        "by 1 % and solved again from there. Times include NumPy and Python, on the machine that wrote this page."
     )
     report.header(
         "bearing", "n [rpm]", "cases", "converged", "worst residual", "median [ms]", "99 % below [ms]", "warm [ms]",
@@ -131,9 +130,7 @@ def convergence(report: Page) -> None:
     median = float(np.median(warm_times))
     report.verdict("a warm solution in less than 1 ms", f"median {median:.2f} ms", median < 1.0)
     report.say(
-        "A 218 without enough thrust leaves its contact: the ring goes back until the balls touch the grooves' middle, "
-        "and at speed balls and grooves meet at angles of up to 90 degrees and more, where real grooves have ended. "
-        "The equilibrium is that of grooves that go on; `contact_angle_inner` tells."
+        "A 218 without enough thrust loses its contact angle: the ring moves back until the balls touch the middle of the grooves, and at speed the contact angles reach 90 degrees and more, beyond the end of real grooves. The equilibrium assumes grooves without end; see `contact_angle_inner`."
     )
 
 
@@ -147,8 +144,7 @@ def _timed(
 
 def inertia(report: Page) -> None:
     report.say(
-        "### One orbit for all balls\n\nThe balls' inertia is that of the cage's speed, the mean of their own. Spread: "
-        "of the orbits that their contact angles ask for, rms weighted with the inner load, and largest where the load "
+        "### Common orbit of all balls\n\nThe balls' inertia is that of the cage's speed, the mean of their own. Spread: of the orbits that follow from their contact angles, rms weighted with the inner load, and largest where the load "
         "is at least a tenth of the largest; the centrifugal force of a single ball would be off by twice that. The "
         "tilt of the ring is held."
     )
@@ -174,8 +170,7 @@ def inertia(report: Page) -> None:
             100.0 * force / found.load_outer.max(),
         )  # fmt: skip
     report.say(
-        "Where they differ by several percent, balls press on the cage's pockets or slip on the inner race, which is "
-        "not in the model: each still rolls at its own orbit in its contacts."
+        "Where they differ by several percent, balls press on the cage's pockets or slip on the inner race. This is not modelled: each ball still rolls at its own orbit in its contacts."
     )
 
 
@@ -193,8 +188,8 @@ CASES = (
 def levels(report: Page) -> list[tuple[str, list[float]]]:
     scene = Scene.from_toml("ball_209_inner").at_level("regression")
     report.say(
-        "### Classes of contacts in place of balls\n\nSums over the classes of both races against the sums over all "
-        "balls: of Q^(4/3), which friction of spin goes with; of the power that the contacts of the scene "
+        "### Load classes in place of balls\n\nSums over the classes of both races against the sums over all "
+        "balls: of Q^(4/3), to which friction of spin is proportional; of the power that the contacts of the scene "
         "`ball_209_inner` lose when new, with sliding and spin of each ball, and with those of each class; of their "
         "rolling resistance; and of the mean of their film, weighted with the load. In percent. The tilt of the ring is "
         "held."

@@ -1,4 +1,4 @@
-"""Start-stop cycles of ball bearing 209 with the memory of its surfaces and without.
+"""Start-stop cycles of ball bearing 209 with and without changes of its surfaces.
 
 python -m benchmarks.machines.bearing_memory
 """
@@ -40,14 +40,13 @@ def torque_at(found: BearingRun, rpm: float) -> Array:
 
 
 def of_starts(found: BearingRun, contact: str, name: str) -> Array:
-    """What a contact tells at the end of each start."""
+    """Outputs of a contact at the end of each start."""
     return np.array([found.of(f"{contact}.{name}")[rows[-1]] for rows in found.starts])
 
 
 def tables(report: Page, runs: dict[str, BearingRun]) -> None:
     report.say(
-        "### Friction torque of the starts\n\nN mm, at speeds on the way up. The first start is a jerk, as the motor is at "
-        "its speed from the beginning; those that follow are alike but for the surfaces, and are compared."
+        "### Friction torque of the starts\n\nN mm, at speeds on the way up. The first start is abrupt, as the motor has its speed from the beginning; the later ones differ in their surfaces only and are compared."
     )
     report.header("start", *(f"{kind}, {rpm:g} rpm" for rpm in SPEEDS for kind in runs))
     columns = [1e3 * torque_at(found, rpm) for rpm in SPEEDS for found in runs.values()]
@@ -123,15 +122,12 @@ def picture(report: Page, runs: dict[str, BearingRun]) -> None:
 
 
 def main() -> None:
-    report = Page("machines/bearing_memory", "Memory of a ball bearing from start to start")
+    report = Page("machines/bearing_memory", "Run-in surfaces of a ball bearing from start to start")
     runs = {"memory": run(FEW), "no film": run(FEW | NO_FILM), "none": run(FEW | MEMORYLESS)}
     runs["memory, half the steps"] = run(FEW | {"simulate.max_step": "0.25 s"})
     report.say(
-        f"`{MACHINE}`: 209 under 4 kN with thin oil at 90 degC, from standstill to 200 rpm and back, {CYCLES} times. 'no film': wear, "
-        "but no tribofilm; 'none': neither. Which mechanisms act here: the tribofilm lowers the solids' own friction, from "
-        "0.13 to 0.115 under a full film, and wear with it; it also makes the surfaces rougher, as it lies on their "
-        "heights, so that solids carry more at a speed, which raises friction in mixed lubrication and outweighs the "
-        "first. Wear of less than a nanometre smooths: the torque falls, but by little. Plastic smoothing is not in the fast level."
+        f"`{MACHINE}`: 209 under 4 kN with thin oil at 90 degC, from standstill to 200 rpm and back, {CYCLES} times. 'no film': wear, but no tribofilm; 'none': neither. Mechanisms: the tribofilm lowers the solids' own friction, from "
+        "0.13 to 0.115 under a full film, and wear with it; it also makes the surfaces rougher, as it lies on their heights. The solids then carry more load at a given speed, which raises friction in mixed lubrication and outweighs the first effect. Wear of less than a nanometre smooths: the torque falls slightly. The regression level has no plastic smoothing."
     )
     picture(report, runs)
     tables(report, runs)

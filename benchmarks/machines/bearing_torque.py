@@ -1,4 +1,4 @@
-"""Friction torque of ball bearing 209 over speed, load and temperature beside SKF and Palmgren, and by levels of load.
+"""Friction torque of ball bearing 209 over speed, load and temperature beside SKF and Palmgren, and by load classes.
 
 python -m benchmarks.machines.bearing_torque
 """
@@ -79,9 +79,7 @@ def over_speed(report: Page) -> dict:  # type: ignore[type-arg]
     bearing, scene = machine(FINEST)
     _, plain = machine(FINEST, "none")
     report.say(
-        "### Over speed\n\nN mm. The bearing at rest under a radial load, oil FVA 3 in a bath, no axial load, 9 levels of "
-        "load, roughness of the shipped machine. SKF without replenishment: its factor for oil that the balls push away "
-        "and that does not come back is left out. No drag, no seals anywhere."
+        "### Over speed\n\nN mm. The bearing at rest under a radial load, oil FVA 3 in a bath, no axial load, 9 load classes, roughness of the shipped machine. SKF without replenishment: without its factor for oil that the balls displace and that does not return. All values without drag and seals."
     )
     report.header(
         "load [N]", "oil [degC]", "rpm", "rolling", "sliding", "sum", "isothermal inlet", "SKF rolling",
@@ -114,23 +112,13 @@ def over_speed(report: Page) -> dict:  # type: ignore[type-arg]
 def explained(report: Page) -> None:
     bearing, scene = machine(FINEST)
     report.say(
-        "### Where the differences are from\n\n"
+        "### Causes of the differences\n\n"
         "- *Sliding, slow.* SKF weights a friction coefficient of 0.12 in mixed lubrication with 0.05 in a full film, by "
-        "speed and viscosity only: at 100 rpm it has its sliding torque doubled. Here roughness decides: these surfaces "
-        "(63 nm together) leave the solids the share in the table.\n"
-        "- *Sliding, full film.* SKF's coefficient of 0.05 for mineral oil is that of the oil's limiting stress and more; the "
-        "most loaded contact here has half of it. At 0.05 the same motion would lose what the table's fourth column has. What "
-        "is left is motion that is not in the model: cage, skidding and steered balls; it knows the curved ellipse "
-        "(Heathcote) and spin, and a radial load has none.\n"
-        "- *Load.* SKF's sliding grows with F^(5/3), ours with about F^2: both load and the ellipse's own sliding grow, and "
-        "the coefficient with the pressure.\n"
-        "- *Rolling.* Ours is the work of flooded oil in the inlet of each contact, SKF's a fit to whole bearings, as "
-        "(viscosity x speed)^0.6. At high speed SKF's falls behind by its factors for inlet heating and replenishment. The "
-        "first we have by the formula of Gupta et al. (the column of the isothermal inlet is without); of the second "
-        "there is nothing here, the columns without it compare like with like. The balls outside the load zone roll too, "
-        "pressed to the outer ring by inertia: the column of idle balls.\n"
-        "- *Palmgren.* M_0 counts all of the oil, drag included, at f_0 = 2 for an oil bath, and has no inlet heating: it lies "
-        "above both.\n"
+        "speed and viscosity only: at 100 rpm its sliding torque is doubled. Here roughness decides: with these surfaces (63 nm composite) the solids carry the share in the table.\n"
+        "- *Sliding, full film.* SKF's coefficient of 0.05 for mineral oil is at least that of the oil's limiting stress; the most loaded contact here has half of it. At 0.05 the same motion would have the loss in the fourth column of the table. The remainder is motion that is not modelled: cage, skidding and steered balls. The model includes the curved ellipse (Heathcote) and spin; a radial load causes no spin.\n"
+        "- *Load.* SKF's sliding torque grows with F^(5/3), that of the model with about F^2: load, the sliding within the ellipse, and, with the pressure, the coefficient grow.\n"
+        "- *Rolling.* The model has the work of flooded oil in the inlet of each contact, SKF a fit to whole bearings, as (viscosity x speed)^0.6. At high speed SKF's value is reduced by its factors for inlet heating and replenishment. The model includes the first by the formula of Gupta et al. (not in the column of the isothermal inlet). It does not include the second; compare with the columns without it. The balls outside the load zone roll as well, pressed to the outer ring by inertia: the column of idle balls.\n"
+        "- *Palmgren.* M_0 includes all effects of the oil, also drag, at f_0 = 2 for an oil bath, without inlet heating: it lies above both.\n"
         "- *In no column:* drag of balls and cage in the oil bath, seals, the cage on its guide."
     )
     report.header(
@@ -149,11 +137,8 @@ def explained(report: Page) -> None:
 
 def by_levels(report: Page) -> None:
     report.say(
-        "### Levels of load\n\nContacts stand for balls of about one load. 2 kN, 3000 rpm, 60 degC. Film and wear are those of "
-        "the inner ring in its most loaded class after 1 h. Three balls carry, at two loads: from three levels on the torque "
-        "has no error of the classes left. The film of the inner ring has: its points meet all balls, but each class "
-        "knows the tribofilm of its own passes only, and the more classes there are, the fewer passes are in each. Wear depths of the classes add up, films do not; here, with a full film, "
-        "there is no wear to tell."
+        "### Load classes\n\nEach contact represents balls of about one load. 2 kN, 3000 rpm, 60 degC. Film and wear are those of "
+        "the inner ring in its most loaded class after 1 h. Three balls carry, at two loads: from three classes on the torque has no error of the classes. The tribofilm of the inner ring has one: its points meet all balls, but each class has the tribofilm of its own passes only, and with more classes each has fewer passes. Wear depths of the classes add up, tribofilms do not; here, with a full film, there is no wear."
     )
     report.header(
         "levels", "rolling [N mm]", "sliding [N mm]", "sum [N mm]", "off the finest [%]", "film [nm]", "wear [nm]"

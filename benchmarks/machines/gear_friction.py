@@ -74,7 +74,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Found:
-    """What holds at the end of each stage of a record; arrays [stages]."""
+    """Values at the end of each stage of a record; arrays [stages]."""
 
     friction: Array
     schlenk: Array
@@ -86,7 +86,7 @@ class Found:
 
     @staticmethod
     def of(records: Sequence[Record]) -> "Found":
-        """From the last row of each stage of all records."""
+        """Build from the last row of each stage of all records."""
         return Found(*np.array([_end(record, stage.last) for record in records for stage in record.stages]).T)
 
 
@@ -174,7 +174,7 @@ def curves(report: Page) -> None:
 
 
 def explain(report: Page, by_load: dict[str, Found], by_speed: dict[str, Found]) -> None:
-    """What the variations say about the differences."""
+    """Return the findings of the variations about the differences."""
     machine, smooth, cold = by_load["machine"], by_load["smooth, Rq 20 nm"], by_load["film not warmed"]
     slow = by_speed["machine"]
     at = STAGES.index(STAGE)
@@ -182,17 +182,15 @@ def explain(report: Page, by_load: dict[str, Found], by_speed: dict[str, Found])
     high, *_, low = machine.friction / machine.schlenk
     stressed, limited = by_load["Eyring stress 10 MPa"].friction[at], over_load(LOW_LIMIT).friction[at]
     report.say(
-        f"### Why they differ\n\nAt load stage {STAGE} the machine has {machine.friction[at]:.4f}, Schlenk {formula:.4f}, "
+        f"### Causes of the differences\n\nAt load stage {STAGE} the machine has {machine.friction[at]:.4f}, Schlenk {formula:.4f}, "
         f"ISO/TR 14179-1 {machine.iso[at]:.4f}. Over Schlenk's it is {high:.2f} at load stage {STAGES[0]}, {low:.2f} at "
         f"{STAGES[-1]}.\n\n"
         f"- *Solids.* Smooth flanks have {oil:.4f}; roughness adds {solid:.4f}, with {machine.solids[at]:.1%} of the load "
         f"on solids, whose coefficient is 0.13. Light loads flatten the roughness less: at load stage {STAGES[0]} solids "
         f"carry {machine.solids[0]:.1%}, and the machine lies highest above both formulas; at {STAGES[-1]} it is "
-        f"{machine.solids[-1]:.1%}. That is why new flanks in hot oil lose friction with load, as ISO/TR 14179-1 has it, "
-        f"while smooth ones go up from {smooth.friction[0]:.4f} to {smooth.friction[-1]:.4f}, as Schlenk's formula does. "
-        "How many solids touch is what the fast level knows least; the deterministic level finds the same fall (below).\n"
-        f"- *Temperature.* Without the heat of friction in the film it would be {cold.friction[at]:.4f}: the more load and "
-        "sliding, the warmer and thinner the oil that is sheared, which levels the curve of the smooth flanks. Oil and "
+        f"{machine.solids[-1]:.1%}. Therefore the friction of new flanks in hot oil falls with load, as in ISO/TR 14179-1, while that of smooth flanks rises from {smooth.friction[0]:.4f} to {smooth.friction[-1]:.4f}, as in Schlenk's formula.  "
+        "The load ratio is the least accurate output of the regression level; the deterministic level shows the same fall (below).\n"
+        f"- *Temperature.* Without the heat of friction in the film it would be {cold.friction[at]:.4f}: with more load and sliding the sheared oil is warmer and thinner, which flattens the curve of the smooth flanks. Oil and "
         f"gears at 60 degC instead of 90 have {by_load['oil at 60 degC'].friction[at]:.4f}: thicker films part the flanks. "
         "Both formulas fall with viscosity as well, by powers of 0.05 and 0.22.\n"
         f"- *Rheology.* An Eyring stress of 10 MPa instead of 6.5, which is assumed, makes it {stressed:.4f}. The limiting "
@@ -201,7 +199,7 @@ def explain(report: Page, by_load: dict[str, Found], by_speed: dict[str, Found])
         f"{slow.friction[-1]:.4f}, Schlenk from {slow.schlenk[0]:.4f} to {slow.schlenk[-1]:.4f} (power -0.2), ISO/TR "
         f"14179-1 from {slow.iso[0]:.4f} to {slow.iso[-1]:.4f} (power -0.7): solids carry {slow.solids[0]:.1%} and "
         f"{slow.solids[-1]:.1%} of the load. Smooth flanks hardly depend on speed.\n"
-        "- *What it is a mean of.* mu_mz is the lost power over transmitted power times Ohlendorf's H_V, which has rigid "
+        "- *The mean.* mu_mz is the lost power over transmitted power times Ohlendorf's H_V, which has rigid "
         "teeth. Elastic ones unload the ends of the path, where sliding is fast, by 2.6 %."
     )
 
@@ -209,8 +207,7 @@ def explain(report: Page, by_load: dict[str, Found], by_speed: dict[str, Found])
 def stations(report: Page) -> None:
     report.say(
         f"### Stations and sharing\n\nLoad stage {STAGE} at {SPEED:.0f} rpm, 10 min with tribofilm and wear. H_V is the loss "
-        "factor under the loads as they are; Ohlendorf's is 0.1950. Largest wear is that of the outermost station, which "
-        "lies half a stretch from the end of the path: it goes on growing with their number."
+        "factor under the loads as they are; Ohlendorf's is 0.1950. The largest wear is that of the outermost station, half a stretch from the end of the path: it keeps growing with the number of stations."
     )
     report.header("sharing", "stations", "H_V", "mu_mz", "loss [W]", "wear of pinion [nm]", "wear of wheel [nm]",
                   "mean wear of pinion [nm]")  # fmt: skip
@@ -232,11 +229,10 @@ def stations(report: Page) -> None:
 
 
 def solved_deterministically(report: Page) -> None:
-    """Flanks at the fast level, and what the deterministic level finds in the same states."""
+    """Flanks at the regression level, and what the deterministic level finds in the same states."""
     record = Case().record([torque_of(stage) for stage in STAGES], SPEED)
     report.say(
-        f"### Stations solved deterministically\n\nStates of the machine over the load stages at {SPEED:.0f} rpm, new flanks: "
-        "the fast level, the deterministic level, and what the former states as its error."
+        f"### Stations at the deterministic level\n\nStates of the machine over the load stages at {SPEED:.0f} rpm, new flanks: the regression level, the deterministic level, and the stated error of the former."
     )
     report.header("stage", "station", "SRR", "load [N]", "mu fast", "solved", "off", "stated", "solids' share fast", "solved",
                   "h_c fast [nm]", "solved", "off", "stated", "within tolerance")  # fmt: skip

@@ -1,4 +1,4 @@
-"""FZG test gears along their path of contact, how their teeth share the load, and what stations cost in accuracy.
+"""FZG test gears along their path of contact: load sharing of the teeth, and accuracy by number of stations.
 
 python -m benchmarks.machines.gear_path
 """
@@ -99,8 +99,7 @@ def along(report: Page) -> None:
 
 def stages(report: Page) -> None:
     report.say(
-        "### Load stages\n\nLever of 0.5 m. Hertz's pressure under the whole force, as it is tabulated for type A at C "
-        "(ISO 14635-1, 1841 MPa at stage 12), where in fact two pairs carry it."
+        "### Load stages\n\nLever of 0.5 m. Hertz's pressure under the whole force, as tabulated for type A at C (ISO 14635-1, 1841 MPa at stage 12), where actually two pairs carry it."
     )
     report.header("stage", "T1 [N m]", "C: at B [MPa]", "C: at C [MPa]", "A: at B [MPa]", "A: at C [MPa]")
     for stage, torque in enumerate(FZG_STAGES[0.5], 1):
@@ -115,8 +114,7 @@ def stages(report: Page) -> None:
 def losses(report: Page) -> None:
     report.say(
         "### Loss factors\n\nAdaptive quadrature. Ohlendorf's formula is the integral under rigid sharing where a single "
-        "pair carries at C; for type A it is not. Relief takes load from the ends of the path, where sliding is fast, and "
-        "more of a light load. Arana, Larranaga & Ulacia, [doi:10.1177/1350650118778655]"
+        "pair carries at C; for type A it is not. Relief removes load from the ends of the path, where sliding is fast, and relatively more of a light load. Arana, Larranaga & Ulacia, [doi:10.1177/1350650118778655]"
         "(https://doi.org/10.1177/1350650118778655), have 0.168 for type C with a tip relief."
     )
     report.header("type", "stage", "Ohlendorf", *SHARINGS)
@@ -132,7 +130,7 @@ def losses(report: Page) -> None:
 
 
 def errors_of(pair: SpurGearPair, sharing: Sharing) -> Array:
-    """Of the loss factor by stations, relative, for all counts."""
+    """Return the relative error of the loss factor for all numbers of stations."""
     force = force_of(pair, STAGE)
     exact = exact_factor(pair, sharing, force)
     return np.array([abs(factor(pair, sharing, force, count) / exact - 1.0) for count in COUNTS])
@@ -154,7 +152,7 @@ def fading(pair: SpurGearPair) -> Array:
 def convergence(report: Page) -> None:
     report.say(
         f"### Stations\n\nError of the loss factor, and so of the loss of a constant coefficient of friction, in percent; "
-        f"load stage {STAGE}. Rigid sharing is met exactly by any number of stations. Fading: the loss of a coefficient that "
+        f"load stage {STAGE}. For rigid sharing any number of stations is exact. Fading: the loss of a coefficient that "
         f"falls as tanh of the sliding speed over {FADES:g} m/s, under rigid sharing."
     )
     report.header("type", "sharing", *COUNTS, "order")

@@ -1,4 +1,4 @@
-"""The MTM rig at both levels over a whole run, side by side: how far they are apart, what they state, what they cost.
+"""The MTM rig at both fidelity levels over a whole run: differences, stated errors, cost.
 
     OMP_NUM_THREADS=1 NUMBA_NUM_THREADS=1 python -m benchmarks.machines.rig_levels
 
@@ -126,9 +126,8 @@ def page(fast: xr.Dataset, deep: xr.Dataset) -> str:
         [
             "# The MTM rig at both levels",
             "",
-            "Written by `python -m benchmarks.machines.rig_levels`, which says what is run: the machine `mtm_rig` over two hours of",
-            f"rubbing with {len(RUBBED)} sweeps, its contact once at the fast and once at the deterministic level, on the",
-            "scene's own grid. All else is the same. One process, one thread, on a machine that others used as well.",
+            "Written by `python -m benchmarks.machines.rig_levels`, which describes the run: the machine `mtm_rig` over two hours of",
+            f"rubbing with {len(RUBBED)} sweeps, its contact once at the regression and once at the deterministic level, on the scene's own grid. Everything else is equal. One process, one thread, on a shared machine.",
             "",
             "![Both levels against time](rig_levels.png)",
             "",
@@ -136,10 +135,10 @@ def page(fast: xr.Dataset, deep: xr.Dataset) -> str:
             "|---|---|---|---|---|",
             *costs,
             "",
-            "Steps count those that were tried too; a deterministic one solves as many blocks as its time needs.",
+            "Steps include rejected ones; a deterministic step solves as many blocks as its time needs.",
             "",
             "Differences over the whole run: their mean over the mean of the deterministic value, the largest over its",
-            "largest value, and that at the end. Stated: median half width of the fast level's error output; covered: share",
+            "largest value, and that at the end. Stated: median half width of the error output of the regression level; covered: share",
             "of the time in which the errors of both levels cover the difference.",
             "",
             "| | mean | largest | at the end | stated | covered |",
@@ -162,7 +161,7 @@ def friction(dataset: xr.Dataset) -> np.ndarray:
 
 
 def figure(fast: xr.Dataset, deep: xr.Dataset) -> Figure:
-    """Both levels: the Stribeck curves, and all of SHOWN against time; the fast level's stated errors as bands."""
+    """Both levels: the Stribeck curves, and all of SHOWN against time; the regression level's stated errors as bands."""
     drawn = Figure(figsize=(10.0, 12.0), layout="constrained")
     axes = drawn.subplots(5, 2).ravel()
     for axis, (name, text, factor, unit, error) in zip(axes, SHOWN, strict=False):

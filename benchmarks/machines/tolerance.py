@@ -1,4 +1,4 @@
-"""The error of the coupling that machines state, beside what simulations with far shorter steps change.
+"""The stated error of the coupling of machines, compared with simulations with far shorter steps.
 
     OMP_NUM_THREADS=1 NUMBA_NUM_THREADS=1 python -m benchmarks.machines.tolerance [MACHINE ...]
 
@@ -97,25 +97,25 @@ def page() -> str:
     there = [name for name in MACHINES if (KEPT / f"{name}_fine.nc").exists()]
     missing = [name for name in MACHINES if name not in there]
     pairs = [rows(name) for name in there]
-    lacks = f"\n\nNot compared so far: {', '.join(missing)}." if missing else ""
+    lacks = f"\n\nNot compared yet: {', '.join(missing)}." if missing else ""
     return f"""# Error of the coupling
 
 Written by `python -m benchmarks.machines.tolerance`.
 
-`tribofmu run` simulates each machine a second time, at every second of its communication points. The coupling is of
-first order, so the difference would be the error of the result if steps were short enough. Two step sizes do not tell
-that: three times the difference is stated for each output (`system_models.machines.coupling_error`), the largest at any
-time, and no less than a jump of the output in one step by less than a tenth of its largest value, as finer steps may
-have it in another one. It is the attribute `error_coupling` in result.nc.
+`tribofmu run` simulates each machine a second time, with every second of its communication points. The coupling is of
+first order, so the difference would be the error of the result if steps were short enough. Two step sizes cannot
+prove this. Therefore three times the difference is stated for each output (`system_models.machines.coupling_error`),
+the largest at any time, and at least any jump of the output in one step by less than a tenth of its largest value,
+since finer steps may have it in another step. It is the attribute `error_coupling` in result.nc.
 
-Nothing is stated of the first three of the double steps after a change of the duty, and of three on either side of
-where an output jumps by more than a tenth of its largest value: where in a step such a jump lies is not resolved, and
-there the error may be all of the output.
+The first three double steps after a change of the duty are left out, and three on either side of a jump of an output
+by more than a tenth of its largest value: the time of such a jump within a step is not resolved, and the error there
+may be as large as the output.
 
-Does it hold? Each machine is simulated again with every step cut into four or eight, as the table says; what that
-changes is the error but for a quarter or an eighth of it. Errors and changes are relative to the output's largest value
-or, if that is more, a hundredth of its nominal (temperatures in degC). An output counts as not covered from
-{SMALL:.1%} on. The last column counts those that would not be covered by a tenth of what is stated.{lacks}
+Test: each machine is simulated again with every step divided by four or eight, as given in the table. The change is
+the error except for a quarter or an eighth of it. Errors and changes are relative to the output's largest value or,
+if that is more, a hundredth of its nominal (temperatures in degC). An output counts as not covered from {SMALL:.1%}
+on. The last column counts those that a tenth of the stated error would not cover.{lacks}
 
 | machine | steps: double, as shipped, shortest | cut | outputs | stated, median | largest | largest change | not covered | worst ratio: stated, change | not covered by a tenth |
 |---|---|---|---|---|---|---|---|---|---|

@@ -1,4 +1,4 @@
-"""FMUs on which a co-simulation master is tested: C compiled by gcc for FMI 2 and FMI 3, and one by pythonfmu.
+"""FMUs for tests of a co-simulation master: C compiled by gcc for FMI 2 and FMI 3, and one by pythonfmu.
 
     from benchmarks.models import build
     path = build("mass_1_force", folder, fmi=2, rollback=False, start={"k": 20.0})

@@ -1,4 +1,4 @@
-"""From a model's table and C source to its FMU."""
+"""Build a model's FMU from its table and C source."""
 
 from __future__ import annotations
 
@@ -124,7 +124,7 @@ def _compiled(source: str, header: str, fmi: int) -> bytes:
 
 @functools.cache
 def _objects() -> Path:
-    """What all models share, compiled once in a process."""
+    """Compile the sources that all models share, once per process."""
     folder = tempfile.TemporaryDirectory()
     atexit.register(folder.cleanup)
     sources = [SOURCES / f"{name}.c" for name in sorted({name for names in COMMON.values() for name in names})]

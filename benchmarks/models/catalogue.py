@@ -1,4 +1,4 @@
-"""The tables of the models by name; __init__.py says what each is for."""
+"""The tables of the models by name; __init__.py describes each."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Solutions of the coupled systems, from their equations as a whole: nothing here knows the FMUs."""
+"""Solutions of the coupled systems, from their equations as a whole, independent of the FMUs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Linear systems in the form the C source wants: matrices whose entries are numbers or expressions in parameters."""
+"""Linear systems in the form of the C source: matrices whose entries are numbers or expressions in parameters."""
 
 from __future__ import annotations
 

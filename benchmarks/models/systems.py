@@ -1,4 +1,4 @@
-"""The coupled systems that exact.py solves, as the master takes them; columns of states in the order of their names."""
+"""The coupled systems of exact.py as systems of the master; columns of states in the order of their names."""
 
 from __future__ import annotations
 

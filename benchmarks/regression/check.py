@@ -1,4 +1,4 @@
-"""The fast level against the deterministic one on random points of the shipped scenes."""
+"""The regression level against the deterministic level on random points of the shipped scenes."""
 
 import time
 from collections.abc import Callable
@@ -33,7 +33,7 @@ def deterministic() -> Columns:
 
 
 def fast() -> Columns:
-    """The same points by the fast level, solved anew each time."""
+    """Return the same points at the regression level, solved again each time."""
     found = [observe(point, {"film.model": "regression"}) for name in SCENES for point in random_points(name, COUNT)]
     return {name: np.array([row[name] for row in found]) for name in found[0]}
 
@@ -58,7 +58,7 @@ def curves_page(law: FittedSharing, solved: Columns) -> list[str]:
     return [
         "## Curves on random points",
         "",
-        f"{COUNT} points of each scene that the fit has not seen: load 0.3 to 1.3 of the reference, speed log-uniform over the same lambda, "
+        f"{COUNT} points of each scene that were not used in the fit: load 0.3 to 1.3 of the reference, speed log-uniform over the same lambda, "
         "temperature within 5 K, slide-roll ratio 0.5 to 100 % of either sign, log-uniform; roughness as shipped and fresh. "
         f"{refused} were refused by the deterministic solver.",
         *each_scene(solved, rows),
@@ -66,7 +66,7 @@ def curves_page(law: FittedSharing, solved: Columns) -> list[str]:
 
 
 def level_page(solved: Columns) -> list[str]:
-    """The fast level's outputs on the same points."""
+    """Return the page's part on the outputs of the regression level on the same points."""
     quick = fast()
     errors = {
         name: (quick[key] - solved[key]) / (1.0 if name == "W_c" else solved[key]) for name, key in COMPARED.items()
@@ -77,7 +77,7 @@ def level_page(solved: Columns) -> list[str]:
         return by_range(solved["lambda"][kept], {name: error[kept] for name, error in named.items()})
 
     return [
-        "## The fast level against the deterministic one",
+        "## The regression level against the deterministic level",
         "",
         'The same points by `film.model = "regression"`.',
         *each_scene(solved, rows),
@@ -89,7 +89,7 @@ def hours_page() -> list[str]:
     lines = [
         "## Two hours of rubbing",
         "",
-        "Deterministic / fast. The curves were fitted to fresh surfaces only.",
+        "Deterministic / regression level. The curves were fitted to fresh surfaces only.",
         "",
         f"| scene | min | {' | '.join(RUN)} | CPU s |",
         "|---" * (len(RUN) + 3) + "|",

@@ -1,4 +1,4 @@
-"""Cost of a step of the fast level, film.model = "regression".
+"""Cost of a step at the regression level, film.model = "regression".
 
     python -m benchmarks.regression.cost
 
@@ -54,7 +54,7 @@ def duty(op: OperatingPoint, warmth: float, seed: int = 1) -> list[OperatingPoin
 
 
 def times(name: str, changes: dict[str, str], warmth: float) -> tuple[list[float], list[float]]:
-    """Microseconds of each step of a scene at the fast level, and of array operations in between."""
+    """Microseconds of each step of a scene at the regression level, and of array operations in between."""
     scene = Scene.from_toml(name, changes).at_level("regression")
     points = duty(scene.operation.point, warmth)
     state, found, units = advance(scene, points[0], initial_state(scene), 60.0)[0], [], []
@@ -79,7 +79,7 @@ def unit() -> list[float]:
 
 def main() -> None:
     lines = [
-        "# What a step of the fast level costs",
+        "# Cost of a step at the regression level",
         "",
         "Written by `python -m benchmarks.regression.cost`.",
         "",

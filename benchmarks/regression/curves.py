@@ -1,7 +1,7 @@
-"""The fast level's curves of load sharing: the sweep they are fitted to, the fit, and the fast level against the full one.
+"""Load-sharing curves of the regression level: fitted points, fit, and comparison with the deterministic level.
 
     python -m benchmarks.regression.curves sweep                         # solve the sweep: 6 min
-    python -m benchmarks.regression.curves fit                           # fit the curves: the page without the fast level
+    python -m benchmarks.regression.curves fit                           # fit the curves: the page without the regression level
     python -m benchmarks.regression.curves check [--deterministic-only]  # both levels on 100 random points of each scene, and over two hours: 10 min
 
 Solved points stay in results/regression. `fit` and `check` write docs/measured/regression/curves.md, docs/measured/regression/curves.png and
@@ -63,7 +63,7 @@ def write_page(*, fast: bool) -> None:
     fit = Fit(FittedSharing(), tables["sweep"], others, tables["dry"], tables["pass"])
     draw(fit).savefig(MEASURED / "regression" / "curves.png", dpi=130)
     lines = [
-        "# The fast level: load-sharing curves and their errors",
+        "# The regression level: load-sharing curves and their errors",
         "",
         f"Written by `python -m benchmarks.regression.curves {'check' if fast else 'fit'}`.",
         "",

@@ -227,7 +227,7 @@ def reduced_clearance(table: Table) -> Array:
 
 
 def predicted(law: FittedSharing, table: Table) -> Columns:
-    """What the law makes of lambda, flattening and resolution; h_c in sigma."""
+    """Return the outputs of the law for lambda, flattening and resolution; h_c in sigma."""
     share = law.load_ratio(table.clearance, table.flattening, table.resolution, table.floors)
     return {
         "W_c": share,
@@ -237,7 +237,7 @@ def predicted(law: FittedSharing, table: Table) -> Columns:
 
 
 def free_exponents(sweep: Table) -> tuple[float, float]:
-    """Of s and r beside lambda to the power of one."""
+    """Return the exponents of s and r beside lambda to the power of one."""
     found, _, _ = fitted(
         lambda p: (
             np.exp(-p[0] * (sweep.clearance * sweep.flattening ** p[2] * sweep.resolution ** p[3]) ** p[1])
@@ -297,7 +297,7 @@ def by_range(clearance: Array, errors: Columns) -> list[str]:
 
 
 def errors_of(law: FittedSharing, data: Table) -> Columns:
-    """Of the curves against solved points: W_c absolute, A_c absolute, h_c relative."""
+    """Return the errors of the curves against solved points: W_c absolute, A_c absolute, h_c relative."""
     found = predicted(law, data)
     return {
         "W_c [1]": found["W_c"] - data.load_ratio,
@@ -352,16 +352,16 @@ def constants_page(fit: Fit) -> list[str]:
         f"{sweep.clearance.size} first blocks on fresh surfaces, {' and '.join(SCENES)} on their own grids (129 nodes over 0.5 mm), "
         "sliding as shipped; speed, load (0.3 to 1.3 of the reference), temperature (40 K below to 20 K above, for the viscosity), "
         "34 of each scene with the roughness as shipped, 14 with 0.3 to 1 of its amplitude, 12 with 1.25 to 3 times its correlation length. "
-        f"{rows.clearance.size - sweep.clearance.size} more circles and ellipses over the ranges of a rig and of a ball bearing (regression_shapes.md). "
+        f"{rows.clearance.size - sweep.clearance.size} more circles and ellipses over the ranges of a rig and of a ball bearing (shapes.md). "
         f"Covered: {span}. {dry.clearance.size} dry contacts for the area, {whole.clearance.size} blocks of a whole pass for the exposure. "
-        f"Refused by the solver: {fit.refused}. {many} blocks of the sweep had more than a tenth of their instants short of the tolerance; they are kept.",
+        f"Refused by the solver: {fit.refused}. {many} blocks of the sweep had more than a tenth of their instants not converged; they are kept.",
         "",
         "## Constants",
         "",
         "Names as in `contact_core/laws/load_sharing.py`; half widths of 95 % intervals from the covariance, points taken as independent. "
         f"Chosen, not fitted: {', '.join(sorted(FittedSharing.CHOSEN))}.",
         *table(("constant", "fitted", "half width", "shipped"), constants(fit)),
-        "Standard deviations about the curves, A_c and h_c with W_c from its own curve, the friction of the oil with the solved W_c and h_c; relative but for W_c:",
+        "Standard deviations about the curves, A_c and h_c with W_c from its own curve, the friction of the oil with the solved W_c and h_c; relative except for W_c:",
         *table(("name", "found"), [(k, f"{v:.3f}") for k, v in fit.scatter.items()]),
         f"With the solved W_c: A_c {np.std(area_off):.3f}, h_c {np.std(film_off):.3f} (relative). "
         f"Friction of the oil if it had Hertz's pressure everywhere: {plain.std():.2f} (relative). "
@@ -369,22 +369,21 @@ def constants_page(fit: Fit) -> list[str]:
         "",
         "Exposed share of each body's track |y| < b in a whole pass:",
         *table(("body", "scatter", "largest error"), exposed),
-        "## What W_c depends on",
+        "## Variables of W_c",
         "",
-        "lambda alone does not collapse it: at the same lambda a shallower, longer or harder pressed roughness carries less. "
+        "W_c does not depend on lambda alone: at the same lambda, roughness of a smaller slope or under a higher pressure carries less. "
         "s = p_m / (E* slope), slope = rms gradient of both roughnesses; r = correlation length / distance of the nodes; a = Hertz's half width.",
         *table(
             ("form", "constants", "scatter", "largest error"),
             [(n, k, f"{a:.3f}", f"{b:.3f}") for n, k, a, b in alternatives(sweep)],
         ),
-        "**r says it: W_c at a given lambda is a number of the grid** (core_lambda.md, grid.md), so these constants hold for the grids of the shipped scenes. "
-        f"Left free, the exponents of s and r beside lambda come out at {m:.2f} and {q:.2f}; 2 and 1 do as well.",
+        "**The variable r shows that W_c at a given lambda depends on the grid** (film/core_lambda.md, film/grid.md), so these constants hold for the grids of the shipped scenes. "
+        f"Left free, the exponents of s and r beside lambda come out at {m:.2f} and {q:.2f}; 2 and 1 fit as well.",
         "",
-        "## Where the curve falls short",
+        "## Deviations of the curve",
         "",
         f"Below 0.015 in the reduced lambda the solved W_c is {np.median(early.load_ratio):.3f} "
-        f"(median of {early.clearance.size}), the curve {np.median(curve(early)):.3f}; the film is then thinner than the floor of 1 nm, or little thicker. "
-        f"And s counts for less where the bodies hardly touch: above lambda 1 and below s = 0.17 the solved W_c is {np.median(light.load_ratio):.3f} "
+        f"(median of {early.clearance.size}), the curve {np.median(curve(early)):.3f}; the film is then thinner than the floor of 1 nm, or little thicker. The variable s has less effect where the bodies hardly touch: above lambda 1 and below s = 0.17 the solved W_c is {np.median(light.load_ratio):.3f} "
         f"(median of {light.clearance.size}), the curve {np.median(curve(light)):.3f}.",
         "",
         "## Curves against the sweep they were fitted to",

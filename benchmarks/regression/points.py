@@ -1,4 +1,4 @@
-"""Operating points on fresh surfaces and what a level of the film makes of them, as columns of numbers."""
+"""Operating points on fresh surfaces and their outputs at a fidelity level, as columns of numbers."""
 
 import time
 from collections.abc import Callable, Iterable
@@ -126,7 +126,7 @@ def observe_dry(point: Point, overrides: Overrides) -> dict[str, float]:
 
 
 def numbers_of(scene: Scene, op: OperatingPoint) -> dict[str, float]:
-    """What the laws may depend on."""
+    """Variables that the laws may depend on."""
     sigma, hertz, shape = composite_roughness(scene), scene.hertz(op.load), scene.shape()
     rq, lengths = zip(*((s.rq, s.correlation_length) for s in (scene.surface_1, scene.surface_2)), strict=True)
     film = smooth_film(scene, op.load, op.entrainment_speed, op.temperature)
@@ -191,7 +191,7 @@ def with_numbers(points: list[Any], overrides: Overrides) -> Columns:
 
 
 def _hold(stored: Columns, points: list[Point]) -> bool:
-    """Whether the columns belong to these points, up to round-off."""
+    """Return whether the columns belong to these points, up to rounding."""
     asked = {f.name: np.array([getattr(point, f.name) for point in points]) for f in fields(Point)}
 
     def same(a: np.ndarray, b: np.ndarray) -> bool:

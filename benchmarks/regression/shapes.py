@@ -1,4 +1,4 @@
-"""The fast level on the shapes of systems: flanks of gears, balls of a bearing, the ball of a rig.
+"""The regression level on the shapes of machines: flanks of gears, balls of a bearing, the ball of a rig.
 
     python -m benchmarks.regression.shapes solve   # the points by the deterministic level: 20 min
     python -m benchmarks.regression.shapes rub     # a few contacts that have rubbed for ten minutes: 15 min
@@ -64,7 +64,7 @@ class Compared:
         self.sure = np.isin(np.arange(int(kept.sum())), told_so)
 
     def column(self, name: str) -> np.ndarray:
-        """An output of the fast level."""
+        """An output of the regression level."""
         return np.array([getattr(out, name) for out in self.fast], dtype=np.float64)
 
     def deviations(self) -> Columns:
@@ -82,12 +82,12 @@ class Compared:
 
     @property
     def outside(self) -> np.ndarray:
-        """Which the fast level says are outside its fit."""
+        """Points that the regression level flags as outside its fit."""
         return (self.column("range_flags").astype(int) & RangeFlag.OUTSIDE_FIT) > 0
 
 
 def fast(point: ShapePoint) -> Outputs:
-    """The point by the fast level."""
+    """The point at the regression level."""
     scene = point.build().at_level("regression")
     return advance(scene, point.operating_point, initial_state(scene), 0.0)[1]
 
@@ -125,7 +125,7 @@ def deviation_page(all_compared: dict[tuple[str, int], Compared]) -> list[str]:
 
 
 def coverage_page(all_compared: dict[tuple[str, int], Compared]) -> list[str]:
-    """How often the error outputs cover the deviation."""
+    """Return how often the error outputs cover the deviation."""
     rows = []
     for (shape, seed), part in all_compared.items():
         for sure in (True, False):
@@ -283,14 +283,14 @@ def draw(all_compared: dict[tuple[str, int], Compared]) -> Figure:
 
 
 def _softly(all_compared: dict[tuple[str, int], Compared]) -> str:
-    """How much more the solids of soft lines carry."""
+    """Return the additional load on the solids of soft lines."""
     parts = [all_compared["soft line", seed] for seed in NAMES]
     off = np.concatenate([part.deviations()["W_c"][part.sure & (part.solved["lambda"] < 1.0)] for part in parts])
     return f"Soft lines below lambda 1: mean deviation of W_c {off.mean():+.3f}, from {off.min():+.2f} to {off.max():+.2f}."
 
 
 def _lines() -> Columns:
-    """What the constants of lines are fitted to."""
+    """Return the points that the constants of lines are fitted to."""
     return shared([solved(shape, FIT, COUNTS[shape]) for shape in ("line", "soft line")])
 
 
@@ -302,39 +302,39 @@ def page() -> None:
     span = ", ".join(f"{name} {low:.3g} to {high:.3g}" for name, (low, high) in ends(lines.all).items())
     refused = ", ".join(f"{shape} {sum(found[shape, seed].refused for seed in NAMES)}" for shape in ORIGIN)
     text = [
-        "# The fast level on lines, ellipses and circles of systems",
+        "# The regression level on lines, ellipses and circles of machines",
         "",
         "Written by `python -m benchmarks.regression.shapes page`.",
         "",
-        'Random contacts on fresh surfaces, by the deterministic level and by `film.model = "regression"`:',
+        'Random contacts on fresh surfaces, at the deterministic level and at the regression level:',
         "",
         *(f"* {shape}: {said}." for shape, said in TOLD.items()),
         "",
-        "Three seeds: `fit` makes the constants of the curves, `fit` and `widths` their half widths, `check` only tells whether these hold. "
+        "Three seeds: `fit` determines the constants of the curves, `fit` and `widths` their half widths, `check` only tests them. "
         f"Refused by the deterministic solver: {refused}.",
         "",
         "## Deviation by shape and film",
         "",
-        "Deterministic over fast less one, of W_c the difference; points of all seeds that were solved well: "
+        "Deterministic over regression level minus one, for W_c the difference. Points of all seeds that were solved well: "
         "the film iterations reached the tolerance and, of ellipses, the grid resolves the inlet (RangeFlag NOT_CONVERGED, INLET_UNRESOLVED). "
         "Circles keep the grid of the scene, which does not resolve the inlet of films below 0.1 um: the curves are of that grid.",
         *deviation_page(found),
         "## How often the error outputs cover it",
         "",
-        f"Share of points with |deviation| <= error output, both relative to the fast level's answer. Wear: of W_c, with which it goes; points with error_wear = {UNKNOWN:g} "
-        "say that the fast level does not know, and are left out.",
+        f"Share of points with |deviation| <= error output, both relative to the value of the regression level. Wear: deviation of W_c, to which wear is proportional; points with error_wear = {UNKNOWN:g} "
+        "have no stated error and are left out.",
         *coverage_page(found),
-        "Where the deterministic film is a number of its grid or short of the tolerance (solved well: no), the two answers are both unsure, and the deviation says nothing about the fast level alone.",
+        "Where the deterministic film depends on its grid or has not converged (solved well: no), both values are uncertain, and the deviation does not characterise the regression level alone.",
         "",
-        f"{_softly(found)} The curves know no hardness: asperities that yield before the oil has pressed them flat touch more than those of steel. Error outputs are up to 1.6 times as wide where a tribofilm has grown; these points have none.",
+        f"{_softly(found)} The curves do not depend on hardness: asperities that yield before the oil has pressed them flat have more contact than those of steel. Error outputs are up to 1.6 times as wide where a tribofilm has grown; these points have none.",
         "",
         "## Surfaces that have rubbed for ten minutes",
         "",
-        "Deterministic / fast on the same surfaces; deviation within error output.",
+        "Deterministic / regression level on the same surfaces; deviation within error output.",
         *rubbed_page(),
         "## Constants of lines",
         "",
-        f"Those of points are in regression.md. Covered: {span}. Chosen, not fitted: {', '.join(sorted(LineSharing.CHOSEN))}; the exposures are those of points.",
+        f"Those of points are in curves.md. Covered: {span}. Chosen, not fitted: {', '.join(sorted(LineSharing.CHOSEN))}; the exposures are those of points.",
         *table(("constant", "fitted", "half width", "shipped"), constants(lines)),
         "Standard deviations about the curves: "
         + ", ".join(f"{name} {value:.3f}" for name, value in lines.scatter.items())
@@ -342,10 +342,9 @@ def page() -> None:
         "",
         "## Rolling resistance",
         "",
-        "Integral of (h/2) dp/dx of solved smooth films in pure rolling, over the closed form of Biboulet & Houpert. The formula is that of an inlet full as far as the bodies are parabolas. "
-        "A grid ends before: of lines 12 eta0 u_e R / X lie beyond a distance X, which the last column adds; of points the rest falls as slowly as a logarithm.",
+        "Integral of (h/2) dp/dx of solved smooth films in pure rolling, over the closed form of Biboulet & Houpert. The formula assumes an inlet that is full as far as the bodies are parabolas. The grid ends earlier: for lines 12 eta0 u_e R / X lie beyond a distance X, which the last column adds; of points the rest falls as slowly as a logarithm.",
         *rolling_page(),
-        "The rough points of `check`, deterministic over fast, on their grids:",
+        "The rough points of `check`, deterministic over regression level, on their grids:",
         *scenes_page(found),
         "![friction by both levels; deviation of friction and of film over their error outputs](shapes.png)",
     ]

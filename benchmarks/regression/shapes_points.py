@@ -1,4 +1,4 @@
-"""Contacts as gears, ball bearings and rigs have them, solved by the deterministic level, as columns of numbers."""
+"""Contacts of gears, ball bearings and rigs, solved at the deterministic level, as columns of numbers."""
 
 import math
 import time
@@ -91,7 +91,7 @@ class ShapePoint:
         return Scene.from_toml(ORIGIN[self.shape], made | (changes or {}))
 
     def _grid(self, shipped: Scene) -> dict[str, str]:
-        """Of an ellipse: as wide as the film needs, and as fine as resolves its inlet if that can be."""
+        """Grid of an ellipse: as wide as the film needs, and fine enough for its inlet if possible."""
         hertz, inlet, need = self._film(shipped)
         length = shipped.surface_1.correlation_length
         domain = max(2.0 * min(need.left, 1.15 * hertz.a + 5.0 * inlet), 2.8 * hertz.a, 5.5 * length)
@@ -108,12 +108,12 @@ class ShapePoint:
 
     @property
     def resolved(self) -> bool:
-        """Whether a grid of theirs resolves an ellipse's inlet: else its film is a number of the grid."""
+        """Whether the grid resolves the inlet of an ellipse; otherwise its film depends on the grid."""
         return self.shape != "ellipse" or self._grid(Scene.from_toml(ORIGIN[self.shape]))["film.points"] != "0"
 
     @property
     def squashed(self) -> bool:
-        """Whether the bodies are pressed together all but as hard as they can bear."""
+        """Whether the pressure is close to the hardness."""
         return self.hardness < STEEL and self.build().hertz(self.load).pressure_max > PRESSED * self.hardness
 
     @property
@@ -211,7 +211,7 @@ def _stored(file: Path, asked: list[ShapePoint]) -> list[dict[str, float]]:
 
 
 def rubbed(shape: str) -> Iterator[tuple[Outputs, Outputs]]:
-    """A few contacts that the deterministic level has rubbed: its outputs, and those of the fast level on the same
+    """A few contacts that the deterministic level has rubbed: its outputs, and those of the regression level on the same
     surfaces. States stay in the store.
     """
     for k, drawn in enumerate(points(shape, RUBBED, RUNS)):

@@ -1,4 +1,4 @@
-"""What the deterministic level says of a few contacts, for tests of the fast level's error outputs.
+"""Solutions of a few contacts at the deterministic level, for tests of the error outputs of the regression level.
 
     python -m benchmarks.regression.truths    # 20 min
 
@@ -48,7 +48,7 @@ def solved(point: ShapePoint, changes: dict[str, str], rubbed: float) -> dict[st
 
 
 def changed(scene: Scene) -> dict[str, Any]:
-    """What differs from the shipped scene of this name, by dotted names."""
+    """Differences from the shipped scene of this name, by dotted names."""
     shipped = flat(Scene.from_toml(scene.name).to_dict())
     return {name: value for name, value in flat(scene.to_dict()).items() if shipped.get(name) != value}
 

@@ -1,4 +1,4 @@
-"""Two hours of rubbing: what they cost, how sure they are, and what they depend on.
+"""Two hours of rubbing: cost, errors and their causes.
 
     python -m benchmarks.surfaces.evolution                run what is not yet in results/evolution, then write the page
     python -m benchmarks.surfaces.evolution grid driver    these parts only
@@ -137,7 +137,7 @@ def control() -> list[str]:
             rows.append([f"{driver}, 10x finer", *cost(reference), *("" for _ in NAMES)])
     lines += [
         "Rms error over 13 times from 5 to 119 min in per cent, and in brackets the share of these times at which the error is",
-        "within the reported half widths (time and sampling). `auto` is held against the fine mixed-driven run.",
+        "within the reported half widths (time and sampling). `auto` is compared with the fine mixed-driven run.",
         "",
         *table(["driver", *COST, *NAMES.values()], rows),
         "",
@@ -155,7 +155,7 @@ def control() -> list[str]:
 
 
 def judged(driver: str, found: dict[str, tuple[float, float]]) -> list[list[str]]:
-    """What was asked of a run against its control, and whether it is met."""
+    """Return the requirement on a run against its control, and whether it is met."""
     most, names = (0.03, list(NAMES)) if driver == "dry" else (0.05, [n for n in NAMES if n[:4] in ("fric", "h_c", "trib", "wear")])
     above = [f"{NAMES[n]} {100 * found[n][0]:.1f} %" for n in names if found[n][0] > most]
     worst = max(found[n][0] for n in names if f"{NAMES[n]} {100 * found[n][0]:.1f} %" not in above)
@@ -231,8 +231,7 @@ def grid() -> list[str]:
             rows.append([str(points), driver, text, *cost(found), f"{100 * smooth_error(points):.0f}", *values(found, 120)])
     return [
         f"After two hours, at t = 120 min; {UNITS}. `smooth`: error of h_central of smooth bodies on that grid in per cent, against",
-        "the value extrapolated from 257 and 513 nodes: what the oil's own film is worth there. 257 nodes",
-        "mixed-driven without the additive are left out for their ten minutes.",
+        "the value extrapolated from 257 and 513 nodes, the accuracy of a film without roughness on that grid. 257 nodes mixed-driven without the additive are left out, as they take ten minutes.",
         "",
         *table(["nodes", "driver", "additive", *COST, "smooth", *NAMES.values()], rows),
     ]
@@ -301,8 +300,7 @@ def driver() -> list[str]:
             two_hours.append([case, name, *cost(found), f"{found['blocks_dry'][-1]:.0f}", *(f"{100 * e:.1f}" for e, _ in errors(found, mixed).values())])
     return [
         "The same surfaces, solved three ways: a mixed march over one pass, 32 dry instants, and 32 dry instants whose solids carry",
-        "the share of the mixed march under oil that carries the rest like smooth bodies. The last is what drives blocks above",
-        "`control.dry_above`.",
+        "the share of the mixed march under oil that carries the rest as between smooth bodies. The last one drives blocks above `control.dry_above`.",
         "",
         *lines,
         "",
@@ -337,9 +335,8 @@ def memory() -> list[str]:
                                  *(f"{m[n]:.3f}" for n in ("contact_load_ratio", "contact_area_ratio")), f"{m['h_c'] * 1e9:.1f}", f"{abs(m['friction_force']) / op.load:.4f}", *(f"{touched(scene, sweep, i):.2f}" for i in (0, 1))])  # fmt: skip
     return [
         "One block, the same surfaces: a march of the moving roughness over one pass, and 8 steady films at offsets of low discrepancy.",
-        "In near rolling the pattern of the film moves with the roughness, which a steady film cannot know. Without jumps the two",
-        "bodies meet the same points of each other all the way. `touched`: share of the track |y| < a that any instant of the pass",
-        "touched; with jumps a pass stands for the many real ones of a block, in which the ball meets ever other asperities.",
+        "In near rolling the pattern of the film moves with the roughness, which a steady film does not represent. Without jumps the same points of the two bodies stay in contact over the whole pass. `touched`: share of the track |y| < a that any instant of the pass",
+        "touched; with jumps a pass represents the many real passes of a block, in which the ball keeps meeting new asperities.",
         "",
         *table(["case", "correlation length", "min", "film", "not converged", "W_c", "A_c", "h_c [nm]", "mu", "touched, ball", "touched, disc"], rows),
     ]
@@ -367,7 +364,7 @@ def main() -> None:
     for name in args.parts or PARTS:
         (KEPT / f"{name}.md").write_text("\n".join(PARTS[name]()) + "\n")
     page = [
-        f"# Two hours of rubbing: cost, error and what it depends on ({CASE})",
+        f"# Two hours of rubbing: cost, error and its causes ({CASE})",
         "",
         "Written by `python -m benchmarks.surfaces.evolution`. One thread; CPU seconds on a shared machine; one work unit (WU) is a",
         "deformation convolution on the same grid. Outputs are explained in `contact_core/quantities.py`.",

@@ -1,4 +1,4 @@
-"""Stribeck curves of the shipped scenes after two hours of rubbing, with and without tribofilm: do they shift?
+"""Shift of the Stribeck curves of the shipped scenes after two hours of rubbing, with and without tribofilm.
 
     python -m benchmarks.surfaces.stribeck                      what is not yet in results/stribeck, then the page
     python -m benchmarks.surfaces.stribeck mtm_zddp --again     this scene only, and anew, after a change of the core
@@ -162,8 +162,7 @@ def page(all_curves: dict[tuple[str, str], xr.Dataset], options: str) -> list[st
         "# Stribeck curves while the tribofilm grows",
         "",
         f"Written by `python -m benchmarks.surfaces.stribeck{options}`; one scene alone: `tribofmu stribeck SCENE`. The contact is rubbed at its "
-        "duty and stopped at each of the times; its surfaces as they are then meet every speed, at the duty's slide-to-roll "
-        "ratio, load and temperature, without changing. The transition is the speed at which the solids carry half of the "
+        "duty and stopped at each of the times; its surfaces then pass through all speeds unchanged, at the duty's slide-to-roll ratio, load and temperature. The transition is the speed at which the solids carry half of the "
         "load; for friction, the speed at which it is midway between the extremes of all curves of that contact.",
         "",
         "Measured Stribeck curves of ZDDP oils shift to higher speed as the film roughens (Dawczyk, Morgan, Russo and Spikes, "
@@ -173,12 +172,11 @@ def page(all_curves: dict[tuple[str, str], xr.Dataset], options: str) -> list[st
         "",
         "![transition speed against roughness](stribeck.png)",
         "",
-        "## How the shift follows the roughness",
+        "## Shift and roughness",
         "",
         "n: of transition speed ~ roughness^n, fitted to the curves of one contact; m: of h_c ~ speed^m at the transition of "
         "the fresh surfaces, 0.67 only where no solids hold the gap open. If W_c depended on the film ratio alone, n would be "
-        "1/m and lambda at the transition the same in all rows of the tables below; where it is higher, the tribofilm holds "
-        "the surfaces apart by its shape, too.",
+        "1/m and lambda at the transition the same in all rows of the tables below; where it is higher, the shape of the tribofilm also holds the surfaces apart.",
         "",
         "| scene | tribofilm | n | m | 1/m | CPU s |",
         "|---|---|---|---|---|---|",

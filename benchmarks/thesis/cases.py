@@ -1,4 +1,4 @@
-"""The runs that `thesis.py` judges: which scenes, in which numerics, and their results on disk."""
+"""The runs that `validation.py` judges: scenes, numerics, and their results on disk."""
 
 import hashlib
 import json
@@ -47,23 +47,23 @@ Array = np.ndarray
 
 
 class Missing(Exception):  # noqa: N818
-    """What a judgement needs and nobody has computed yet."""
+    """A run that a judgement needs has not been made."""
 
 
 @dataclass(frozen=True)
 class Trial:
-    """Which version of the runs: the shipped scenes for two hours, or something quicker to try the way."""
+    """Version of the runs: the shipped scenes for two hours, or a shorter trial."""
 
     hours: float = 2.0
     points: int = 0  # 0: those of the scene
 
     @property
     def real(self) -> bool:
-        """Whether it may be shown as the result."""
+        """Whether the runs are full results."""
         return self == Trial()
 
     def changes(self) -> dict[str, str]:
-        """To the scene."""
+        """Changes of the scene."""
         if not self.points:
             return {}
         return {"film.points": str(self.points), "film.tolerance": "1e-2", "film.iterations": "60"}
@@ -98,7 +98,7 @@ class Case:
         return Scene.from_toml(self.scene, changes)
 
     def file(self, numerics: str, trial: Trial) -> Path:
-        """Where its results are: the name has a fingerprint of all that was put in."""
+        """File of the results; its name contains a fingerprint of all inputs."""
         put_in = json.dumps(
             [self.in_numerics(numerics, trial).to_dict(), trial.hours, INTERVAL, self.rubs], sort_keys=True
         )
@@ -290,7 +290,7 @@ class Book:
         return self._runs[key]
 
     def has(self, name: str, numerics: str) -> bool:
-        """Whether the run of a case is there. A scene that this version of the core refuses has none."""
+        """Return whether the run of a case exists. A scene that this version of the core refuses has none."""
         try:
             return numerics in CASES[name].numerics and CASES[name].file(numerics, self.trial).exists()
         except ContactError:

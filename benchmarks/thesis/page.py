@@ -1,4 +1,4 @@
-"""docs/measured/thesis/validation.md: summary, claims by chapter with their causes, tables."""
+"""The page docs/measured/thesis/validation.md: summary, claims by chapter with their causes, tables."""
 
 import re
 from collections import Counter
@@ -20,35 +20,33 @@ CHAPTERS = (
 KINDS = ("thesis", "ours")  # in the order of the columns
 NAMES = {"thesis": "thesis numerics", "ours": "ours"}
 HOW = """\
-Written by `python -m benchmarks.thesis.validation`, which runs what is missing in results/thesis; `--report` writes this page from
-what is there, `--list` tells what is. No verdict is typed by hand: each follows from its numbers by the criterion
-beside it. The thesis: A. Azam, PhD thesis, University of Leeds, 2018; it prints most results as plots only, so shapes
-and orders are compared, and numbers where its text gives them.
+Written by `python -m benchmarks.thesis.validation`, which runs the cases missing in results/thesis; `--report` writes this page from the existing ones, `--list` lists them. Each verdict follows from its numbers by the
+criterion beside it. The thesis: A. Azam, PhD thesis, University of Leeds, 2018. It prints most results as plots only, so shapes and
+orders are compared, and numbers where its text gives them.
 
-Each case is two hours of rubbing, a row a minute, in two numerics. **Ours**: the scene as shipped (fluid and solid pressure
-apart, floor 1 nm). **Thesis numerics**: 129x129 nodes on 0.5 mm, one pressure for fluid and solid (`film.criterion =
-lumped`), floor 0.47 nm, all blocks driven by mixed lubrication. Time steps and sampling of the moving surfaces are ours in both.
+Each case is two hours of rubbing, one row per minute, in two numerics. **Ours**: the scene as shipped (separate fluid and solid pressure,
+floor 1 nm). **Thesis numerics**: 129x129 nodes on 0.5 mm, one pressure for fluid and solid (`film.criterion =
+lumped`), floor 0.47 nm, all blocks driven by mixed lubrication. Time steps and sampling of the moving surfaces are equal in both.
 
-Set A: `azam_case_a` (u_e 0.25 m/s, 90 °C, SRR -2 % unless said). Set B: `mtm_zddp` (0.1 m/s, 80 °C, SRR +5 %). Body 1 is the
+Set A: `azam_case_a` (u_e 0.25 m/s, 90 °C, SRR -2 % unless stated). Set B: `mtm_zddp` (0.1 m/s, 80 °C, SRR +5 %). Body 1 is the
 ball, body 2 the disc; SRR = 2 (u_ball - u_disc) / (u_ball + u_disc). h_c: mean gap over r < 2a/3. λ = h_c / composite rms
 roughness; conventional λ: with Hamrock and Dowson's film. A_c: real contact area / Hertz area; W_c: load on solids / load.
-Mean films and depths: over the track |y| < a; covered: nodes with more than 1 nm. Roughness: over |y| < 2a/3, free of the
-groove's shape unless said. Start: the fresh surfaces; end: after 2 h.
+Mean films and depths: over the track |y| < a; covered: nodes with more than 1 nm. Roughness: over |y| < 2a/3, free of the groove's shape unless stated. Start: the fresh surfaces; end: after 2 h.
 
-With `control.driver = auto`, as shipped, a dry contact under oil drives the blocks while W_c is above `control.dry_above`; h_c, λ and
-p_max are then that contact's and may step by some per cent where the driver changes. A peak at such a place is not judged.
+With `control.driver = auto`, as shipped, a dry contact under oil drives the blocks while W_c is above `control.dry_above`; h_c, λ and p_max
+are then those of that contact, and may jump by some per cent where the driver changes. A peak at such a time is not judged.
 """
 
 BOOKS = """\
-A point of the ball passes the contact more often than one of the disc: by the ratio of cycles. A pass lasts by the ratio of
-speeds longer on the slower body, so that both feeling the same film would wear as their track lengths. The thesis: "almost 4".
-V: wear volume; of the two bodies the worse. Archard's volume: of the ball."""
+A point of the ball passes the contact more often than a point of the disc, by the ratio of cycles. A pass lasts longer on the slower body,
+by the ratio of speeds. Under the same film both would wear in the ratio of their track lengths. The thesis: "almost 4". V: wear volume,
+the worse of the two bodies. Archard's volume: that of the ball."""
 
 
 def page(book: Book, pictures: Sequence[str]) -> str:
     """The whole page."""
     judged = [(title, shown, _judged(claims, book)) for title, claims, shown in CHAPTERS]
-    lines = ["# Azam's thesis, run again", "", HOW, *_trial_note(book), *_summary(judged), ""]
+    lines = ["# Comparison with Azam's thesis", "", HOW, *_trial_note(book), *_summary(judged), ""]
     for k, (title, shown, found) in enumerate(judged, 5):
         lines += [f"## {title}", "", *_claims(k, found), "", *_causes(k, found), ""]
         lines += [line for name in shown if name in pictures for line in (f"![{title}]({name})", "")]
@@ -77,7 +75,7 @@ def _summary(judged: Sequence[tuple[str, Sequence[str], Found]]) -> Lines:
         lines.append(cells((NAMES[kind], *(count[verdict] for verdict in VERDICTS))))
     run = [verdicts for verdicts in everything if all(entry.verdict != "not run" for entry in verdicts.values())]
     differ = sum(len({entry.verdict for entry in verdicts.values()}) > 1 for verdicts in run)
-    lines += ["", f"Of {len(run)} claims that both have been asked, they come to different verdicts in {differ}."]
+    lines += ["", f"Of {len(run)} claims judged in both, the verdicts differ in {differ}."]
     for kind in KINDS:
         named = {
             f"{chapter}.{k}": verdicts[kind]
@@ -142,12 +140,12 @@ def _causes(chapter: int, found: Found) -> Lines:
             lines += [f"- **{chapter}.{k}** {claim.shows}. {claim.remark}".rstrip(), *said]
     if not lines:
         return []
-    note = "Experiments: the same measure on runs in which one thing differs, or another measure on the same runs."
-    return ["### Why not", "", note, "", *lines]
+    note = "Experiments: the same measure on runs with one difference, or another measure on the same runs."
+    return ["### Causes of disagreement", "", note, "", *lines]
 
 
 def _tables(book: Book) -> Lines:
-    lines = ["## Does it add up", "", *balances(book), "", BOOKS, ""]
+    lines = ["## Balances", "", *balances(book), "", BOOKS, ""]
     lines += ["## Decay of h_c towards the smooth contact", "", *smooth_limit(book), ""]
     for film, bare in PAIRS:
         for kind in KINDS:
@@ -160,7 +158,7 @@ def _tables(book: Book) -> Lines:
     for kind in KINDS:
         lines += [f"## Scatter over five pairs of surfaces, {NAMES[kind]}", ""]
         lines += [
-            "Mean ± standard deviation; in brackets the mean of the program's own half width (time steps and sampling).",
+            "Mean ± standard deviation; in brackets the mean of the stated half width (time steps and sampling).",
             "",
         ]
         lines += [*scatter(book, kind), ""]

@@ -1,4 +1,4 @@
-"""How a claim of the thesis is judged: a measure gives a text and whether the claim holds; the verdict follows from that.
+"""Judgement of a claim of the thesis: a measure gives a text and whether the claim holds; the verdict follows.
 
 Where a claim does not hold, experiments look for the cause: the same measure on runs in which one thing is different,
 or another measure on the same runs.
@@ -81,7 +81,7 @@ def judge(claim: Claim, book: Book, numerics: str) -> Judged:
 
 
 def _causes(claim: Claim, get: Get) -> Iterator[str]:
-    """What the experiments say: numbers of those that make the claim hold, names of the others."""
+    """Yield the numbers of the experiments that make the claim hold, and the names of the others."""
     tried = [(entry, found) for entry in claim.experiments if (found := _tried(entry, claim, get))]
     for entry, found in tried:
         if found.holds:
@@ -151,7 +151,7 @@ def overshoot(run: Run, name: str) -> float:
 
 
 def rising(numbers: Sequence[float]) -> bool:
-    """Whether each is above the one before."""
+    """Return whether each value is above the previous one."""
     return bool(np.all(np.diff(numbers) > 0.0))
 
 

@@ -1,4 +1,4 @@
-"""Tables beside the claims: books that must balance, scatter of the surfaces, film against no film, smooth limit."""
+"""Tables beside the claims: balances, scatter of the surfaces, with and without tribofilm, smooth limit."""
 
 from collections.abc import Callable, Iterator
 
@@ -30,7 +30,7 @@ def table(*names: str) -> Lines:
 
 
 def balances(book: Book) -> Lines:
-    """What must add up by itself."""
+    """Return the balances."""
     lines = table(*BALANCES)
     for name, numerics in ((name, kind) for pair in PAIRS for name in pair for kind in NUMERICS):
         try:
@@ -177,7 +177,7 @@ def orderings(book: Book, film: str, bare: str, numerics: str) -> Lines:
 
 
 def smooth_limit(book: Book) -> Lines:
-    """How far h_c goes towards that of the smooth contact on the same grid."""
+    """Return h_c beside that of the smooth contact on the same grid."""
     lines = table(
         "run", "sliding in Archard's law", "smooth contact, same grid", "h_c after 2 h", "ratio", "last 20 min"
     )
@@ -208,7 +208,7 @@ def _limits() -> Iterator[tuple[str, str, str]]:
 
 
 def runs(book: Book) -> Lines:
-    """What was run: how long it took, and how sure it is of itself."""
+    """Return the runs with their time and stated errors."""
     lines = table(
         "case",
         "what",

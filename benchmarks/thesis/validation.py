@@ -1,4 +1,4 @@
-"""Every figure of Azam's thesis (University of Leeds 2018, chapters 5 to 7), run again and judged by its numbers.
+"""Every figure of Azam's thesis (University of Leeds 2018, chapters 5 to 7), compared by its numbers.
 
     python -m benchmarks.thesis.validation                 run what is not yet in results/thesis, then write the page
     python -m benchmarks.thesis.validation --list          the cases and which of them are there

@@ -4,4 +4,6 @@
     line_contact    the film of a line contact
     dry_contact     rough bodies without a film
     common          what the calls share
+
+Each call takes SI numbers and returns a record with the convergence of its solution.
 """

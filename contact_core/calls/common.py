@@ -1,4 +1,4 @@
-"""What calls that solve one film have in common: checks of their arguments, the solution, and what they give back."""
+"""Common parts of the calls that solve one film: checks of arguments, solution, result."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -21,7 +21,7 @@ from ..shapes import Shape
 Array = NDArray[np.float64]
 
 UNLIMITED = 1e12  # Pa
-_REFERENCE = 300.0  # K: the laws of temperature play no part here
+_REFERENCE = 300.0  # K: any; temperatures are constant here
 _THICKEST = 0.01  # film over the smaller radius
 _VISCOSITY = {law.name: law for law in (Roelands, Barus)}
 _DENSITY = {law.name: law for law in (DowsonHigginson, Incompressible)}
@@ -36,7 +36,7 @@ _CHOICES = {
 
 @dataclass(frozen=True)
 class FilmContact(Convergence):
-    """What a call found, in SI. Arrays [ny, nx], x along entrainment of positive speed."""
+    """Result of a call, in SI. Arrays [ny, nx], x along entrainment of positive speed."""
 
     x: Array  # [nx]
     y: Array  # [ny]
@@ -44,7 +44,7 @@ class FilmContact(Convergence):
     fluid_pressure: Array
     solid_pressure: Array
     film: Array  # gap, at least the floor
-    oil: Array  # density ratio times thickness of the oil in the gap: less than that of the gap in cavities
+    oil: Array  # density ratio times thickness of the oil in the gap: less than the gap in cavities
     h_central: float
     h_c: float
     h_min: float
@@ -52,8 +52,8 @@ class FilmContact(Convergence):
     contact_load_ratio: float
     pressure_max: float
     approach: float
-    error_estimate: dict[str, float]  # half width for each number above that is an output, in its unit; by two grids
-    warnings: tuple[str, ...]  # what makes the answer less sure
+    error_estimate: dict[str, float]  # half width of each output above, in its unit, by two grids
+    warnings: tuple[str, ...]  # reasons why the answer is less reliable
 
 
 Found = TypeVar("Found", bound=FilmContact)
@@ -86,7 +86,7 @@ Given = TypeVar("Given", bound=Numbers)
 
 
 def numbers_of(cls: type[Given], given: Mapping[str, Any]) -> Given:
-    """The numbers of a call, checked; those that are None keep their defaults."""
+    """Return the checked numbers of a call; those that are None keep their defaults."""
     values = {name: value for name, value in given.items() if value is not None}
     refuse(no_numbers(values))
     whole = {name: int(value) if name == "iterations" else float(value) for name, value in values.items()}
@@ -96,7 +96,7 @@ def numbers_of(cls: type[Given], given: Mapping[str, Any]) -> Given:
 
 
 def check_choices(given: Mapping[str, Any]) -> None:
-    """Refuse what is not among the choices of an argument."""
+    """Raise OperatingPointError for a value that is not among the choices of its argument."""
     refuse(
         [
             f"{name} = {value!r} is not one of {', '.join(_CHOICES[name])}."
@@ -114,8 +114,9 @@ def refuse(sentences: list[str]) -> None:
 
 
 def film_of(shape: Shape, load: float, numbers: Numbers, supply: float | None) -> float:
-    """Film [m] of smooth bodies by formula, behind an oil layer [m] or flooded, 0 at rest; refused if it is too thick
-    for bodies of that shape.
+    """Return the film [m] of smooth bodies by formula, behind an oil layer [m] or flooded; 0 at rest.
+
+    Raises OperatingPointError if it is too thick for the bodies' shape.
     """
     if numbers.entrainment_speed == 0.0:
         return 0.0
@@ -131,7 +132,7 @@ def film_of(shape: Shape, load: float, numbers: Numbers, supply: float | None) -
         refuse(
             [
                 f"The oil film would be about {film:.2g} m, over {_THICKEST:g} of {least} = {radius:g} m: "
-                "the bodies are no parabolas on its scale. Raise load, or lower speed_1, speed_2 or viscosity."
+                "the parabolic shape does not hold on its scale. Raise load, or lower speed_1, speed_2 or viscosity."
             ]
         )
     return film
@@ -147,8 +148,11 @@ def solve_call(
     supply: tuple[float | None, float | None],
     options: Mapping[str, str],
 ) -> Found:
-    """Solve one steady film. `load` [N] of the whole shape; `supply`: oil layer and distance of the meniscus [m]."""
-    from ..film.estimate import solve_with_estimate  # the kernels: loaded where a film is solved
+    """Solve for one steady film.
+
+    `load` [N] of the whole shape; `supply`: oil layer and distance of the meniscus [m].
+    """
+    from ..film.estimate import solve_with_estimate  # kernels are loaded when a film is solved
 
     hertz = shape.hertz(load, numbers.reduced_modulus)
     if supply[1] is not None and supply[1] <= hertz.a:
@@ -159,7 +163,7 @@ def solve_call(
             ]
         )
     if supply[0] is not None and options["cavitation"] != "mass_conserving":
-        refuse([f"supply = {supply[0]:g} m needs cavitation = 'mass_conserving': else every gap counts as full."])
+        refuse([f"supply = {supply[0]:g} m needs cavitation = 'mass_conserving'; otherwise every gap counts as full."])
     now = Instant(
         load=load,
         entrainment_speed=numbers.entrainment_speed,
@@ -194,7 +198,7 @@ def solve_call(
 
 
 def heights_of(first: ArrayLike | None, second: ArrayLike | None) -> Array | None:
-    """Heights of both bodies together, or None for smooth ones."""
+    """Return the heights of both bodies together, or None for smooth ones."""
     given = []
     for name, values in (("heights_1", first), ("heights_2", second)):
         if values is None:
@@ -202,7 +206,7 @@ def heights_of(first: ArrayLike | None, second: ArrayLike | None) -> Array | Non
         try:
             array = np.array(values, dtype=np.float64)
         except (TypeError, ValueError):
-            refuse([f"{name} is no array of real numbers; it must be an array [ny, nx] of heights in metres."])
+            refuse([f"{name} is not an array of real numbers; it must be an array [ny, nx] of heights in metres."])
         if array.ndim != 2:
             refuse([f"{name} has {array.ndim} dimensions; it must be an array [ny, nx] of heights in metres."])
         if not np.isfinite(array).all():
@@ -218,7 +222,7 @@ def heights_of(first: ArrayLike | None, second: ArrayLike | None) -> Array | Non
 
 
 def asked(grid: int | tuple[int, int] | None) -> tuple[int | None, int | None]:
-    """Nodes (ny, nx) that `grid` names; None where it leaves them open."""
+    """Return the nodes (ny, nx) that `grid` gives; None where it leaves them open."""
     if grid is None:
         return None, None
     try:
@@ -231,7 +235,7 @@ def asked(grid: int | tuple[int, int] | None) -> tuple[int | None, int | None]:
 
 
 def no_numbers(given: dict[str, Any]) -> list[str]:
-    """One sentence for each value that is not a real number."""
+    """Return one sentence for each value that is not a real number."""
     return [
         f"{name} = {value!r} is not a number. Give it as one, in SI units without a unit string."
         for name, value in given.items()
@@ -240,19 +244,19 @@ def no_numbers(given: dict[str, Any]) -> list[str]:
 
 
 def _warnings(found: FilmSolution, grid: Grid, a: float) -> list[str]:
-    """Sentences on what makes an answer less sure."""
-    sentences = [] if found.converged else [f"The solution is short of its stopping rule: {found.shortfall}."]
+    """Return sentences on what makes an answer less reliable."""
+    sentences = [] if found.converged else [f"The solution has not converged: {found.shortfall}."]
     if found.route == "fallback":
-        sentences.append("The dry contact stands in for a film that was not found.")
+        sentences.append("No film was found; the dry contact replaces it.")
     if found.route == "mixed" and found.inlet_nodes < 3.0:
         sentences.append(
-            f"The film builds up across {found.inlet_nodes:.1f} nodes of the grid: it is a number of this grid. "
-            "Use more nodes or a smaller domain for its own value."
+            f"The film builds up across {found.inlet_nodes:.1f} nodes: its thickness depends on this grid. "
+            "Use more nodes or a smaller domain."
         )
     if found.load_beyond > 0.1:
         sentences.append(
             f"{found.load_beyond:.0%} of the load are carried beyond the grid, by the formula of a rigid inlet. "
-            "Integrals over the grid miss that part."
+            "Integrals over the grid do not include that part."
         )
     pressure = found.state.pressure
     near = np.zeros(pressure.shape, np.bool_)  # the edge

@@ -22,14 +22,14 @@ class DryContact:
 
     pressure: Array  # [Pa]
     gap: Array  # [m], 0 in contact
-    overlap: Array  # [m] what is missing to a gap of 0 where the pressure is at the hardness; else 0
+    overlap: Array  # [m] overlap beyond a gap of 0 where the pressure is at the hardness; else 0
     approach: float  # [m] of the bodies, from first touching of their shapes without heights
     contact_area: float  # [m2] of the nodes under pressure
     contact_area_ratio: float  # to the area of Hertz's contact; to that of the array if the radius is infinite
     pressure_max: float  # [Pa]
-    reaches_edge: bool  # the contact reaches the edge of the array, where the bodies are taken to end
+    reaches_edge: bool  # the contact reaches the edge of the array, where the bodies end
     converged: bool
-    iterations: int  # on the grid itself, not the coarser ones it begins on
+    iterations: int  # on the grid itself, without the coarser ones
     error: float  # estimate of sum |pressure - exact pressure| / sum pressure
     load_error: float  # (sum of the pressure on its cells) / load - 1
     complementarity: float  # mean |gap| under pressures below the hardness, by pressure, in rms heights (see below)
@@ -37,7 +37,7 @@ class DryContact:
 
 @dataclass(frozen=True)
 class _Numbers:
-    """What has to be a number in its range."""
+    """Numbers of a call, with their ranges."""
 
     spacing: float = parameter("m", "distance between nodes along x and y", above=0.0, most=1.0)
     radius: float = parameter("m", "combined radius of curvature, inf for flat bodies", above=0.0, most=1e3)
@@ -66,17 +66,35 @@ def dry_contact(
     The gap at (x, y) from the centre of the array is x^2 / (2 radius) + y^2 / (2 radius_y) - heights + deformation -
     approach.
 
-    heights: [ny, nx] of both bodies together [m], positive toward the other body, any sizes from 2 on.
-    spacing: distance between nodes along x and y [m].
-    radius: combined radius of curvature [m], 1 / (1/R1 + 1/R2); inf for flat bodies that end with the array.
-    radius_y: that along y [m] where it differs; then both are finite.
-    load: [N]. reduced_modulus: E' = 2 / [(1 - v1^2)/E1 + (1 - v2^2)/E2] [Pa].
-    hardness: largest pressure [Pa]; None for elastic bodies.
-    tolerance: largest relative error of the pressure, sum |p - exact p| / sum p, by estimate.
-    fft: "pyfftw" or "scipy"; FFTW is under the GPL.
+    Without rms height, complementarity is in terms of the approach. A tolerance that was missed is reported by
+    `converged`.
 
-    Without rms height, complementarity is in terms of the approach. Raises OperatingPointError for input that cannot
-    be used; a tolerance that was missed is reported by `converged`.
+    Parameters
+    ----------
+    heights
+        Heights [ny, nx] of both bodies together [m], positive toward the other body, any sizes from 2 on.
+    spacing
+        Distance between nodes along x and y [m].
+    radius
+        Combined radius of curvature [m], 1 / (1/R1 + 1/R2); inf for flat bodies that end with the array.
+    load
+        Normal load [N].
+    reduced_modulus
+        E' = 2 / [(1 - v1^2)/E1 + (1 - v2^2)/E2] [Pa].
+    hardness
+        Largest pressure [Pa]; None for elastic bodies.
+    tolerance
+        Largest relative error of the pressure, sum |p - exact p| / sum p, by estimate.
+    radius_y
+        Radius along y [m] where it differs; then both are finite.
+    fft
+        "pyfftw" or "scipy"; FFTW is under the GPL.
+
+    Raises
+    ------
+    OperatingPointError
+        For values that cannot be used.
+
     """
     from ..film.scaled import half_space  # the kernels: loaded where a contact is solved
     from ..kernels.dry import dry_solution
@@ -167,7 +185,7 @@ def _numbers(
     flat = given["radius"] == given["radius_y"] == math.inf
     numbers = _Numbers(**(given | ({"radius": 1.0, "radius_y": 1.0} if flat else {})), fft=fft)
     sentences = list(out_of_range(numbers, ""))
-    if radius_y is None:  # the same fault once
+    if radius_y is None:  # report one fault once
         sentences = [sentence for sentence in sentences if not sentence.startswith("radius_y")]
     if sentences:
         raise OperatingPointError(" ".join(sentences))

@@ -1,4 +1,4 @@
-"""One call, SI, arrays in and arrays out: a lubricated line contact at one instant, without ends or with them."""
+"""Lubricated line contact at one instant in one call, with or without ends. SI, arrays in and out."""
 
 from dataclasses import dataclass, fields
 
@@ -30,7 +30,7 @@ _BESIDE = 1.02  # grid over length of a line with ends
 
 
 class LineContact(FilmContact):
-    """What `line_contact` found. Without ends ny rows repeat themselves across, one for smooth bodies."""
+    """Result of `line_contact`. Without ends ny rows repeat across, one for smooth bodies."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,18 +69,47 @@ def line_contact(
     iterations: int = 2000,
     fft: str = "pyfftw",
 ) -> LineContact:
-    """Steady mixed lubrication of a line contact, from full film to dry.
+    """Solve for steady mixed lubrication of a line contact, from full film to dry.
 
-    load per length [N/m]; radius of combined curvature along x [m]; length [m] of the line. Without a `profile` it has
-    no ends: the rows repeat themselves across, and the length decides the approach alone (1 m if not given), which is
-    that of an even load on such a length. With one, such as `Rounded` or `Logarithmic`, it is a roller of that length.
-    heights_1, heights_2 [ny, nx] of each body [m], positive toward the other one, centred on the contact, `spacing` [m]
-    apart, their first row follows their last without ends: an even number of rows, or one. grid of smooth bodies: nodes
-    along x (257 if not given), for a roller (ny, nx), too; domain: (x_min, x_max) [m] about the contact instead of the
-    one that fits the film; cells are square. The rest is as in `point_contact`.
+    Loads are per length. Without a `profile` the line has no ends: the rows repeat across, and the length decides the
+    approach only, which is that of an even load on such a length. With one it is a roller of that length. Forces are
+    not in the result; the integral of a stress per length is its sum over the nodes times spacing / ny.
 
-    Forces are not in the result; the integral of a stress per length is its sum over the nodes times spacing / ny.
-    Raises OperatingPointError for values that cannot be used and ConvergenceError if no solution was found.
+    Parameters
+    ----------
+    load
+        Normal load per length [N/m].
+    radius
+        Radius of combined curvature along x [m].
+    reduced_modulus
+        E' = 2 / [(1 - v1^2)/E1 + (1 - v2^2)/E2] [Pa].
+    speed_1, speed_2
+        Surface speeds along x relative to the contact [m/s].
+    viscosity, pressure_viscosity
+        Viscosity [Pa s] and pressure coefficient [1/Pa] at p = 0.
+    length
+        Length of the line [m]; 1 m if not given.
+    profile
+        Ends of a roller, such as `Rounded` or `Logarithmic`.
+    viscosity_law, density_law, hardness, floor, cavitation, supply, meniscus, tolerance, iterations, fft
+        As in `point_contact`.
+    heights_1, heights_2
+        Heights [ny, nx] of each body [m], positive toward the other one, centred on the contact. Without ends their
+        first row follows their last: an even number of rows, or one.
+    spacing
+        Distance between the nodes of the heights [m].
+    grid
+        Nodes along x of smooth bodies (257 if not given), for a roller (ny, nx), too.
+    domain
+        (x_min, x_max) [m] about the contact instead of the one that fits the film; cells are square.
+
+    Raises
+    ------
+    OperatingPointError
+        For values that cannot be used.
+    ConvergenceError
+        If no solution is found.
+
     """
     numbers = numbers_of(
         _Numbers,
@@ -119,7 +148,7 @@ def line_contact(
 
 
 def _no_profile(profile: Profile, length: float) -> list[str]:
-    """What is wrong with a profile for a roller of a length [m]."""
+    """Return sentences on what is wrong with a profile for a roller of a length [m]."""
     if isinstance(profile, type) or not isinstance(profile, (Rounded, Logarithmic)):
         return [f"profile = {profile!r} must be a Rounded(straight, radius) or a Logarithmic(depth), in metres."]
     values = {f"profile.{f.name}": getattr(profile, f.name) for f in fields(profile)}
@@ -139,7 +168,7 @@ def _grid(
     grid: int | tuple[int, int] | None,
     domain: tuple[float, float] | None,
 ) -> Grid:
-    """The nodes that the arguments ask for."""
+    """Return the nodes that the arguments ask for."""
     from ..film.fitted import line_extent, rows_over
 
     ny, nx = asked(grid)

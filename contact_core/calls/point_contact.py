@@ -1,4 +1,4 @@
-"""One call, SI, arrays in and arrays out: a lubricated, circular or elliptical point contact at one instant."""
+"""Lubricated circular or elliptical point contact at one instant in one call. SI, arrays in and out."""
 
 from dataclasses import dataclass
 
@@ -16,7 +16,7 @@ _SLIMMEST = 30.0  # ratio of the radii, either way
 
 
 class PointContact(FilmContact):
-    """What `point_contact` found."""
+    """Result of `point_contact`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,23 +55,63 @@ def point_contact(
     iterations: int = 2000,
     fft: str = "pyfftw",
 ) -> PointContact:
-    """Steady mixed lubrication of a point contact, from full film to dry.
+    """Solve for steady mixed lubrication of a point contact, from full film to dry.
 
-    load [N]; radius_x, radius_y [m], combined, radius_y = radius_x if not given; reduced_modulus E' [Pa]; speed_1,
-    speed_2 [m/s] along x relative to the contact; viscosity [Pa s] and pressure_viscosity [1/Pa] at p = 0;
-    viscosity_law "roelands" or "barus"; density_law "dowson_higginson" or "none"; heights_1, heights_2 [ny, nx] of each
-    body [m], positive toward the other one, centred on the contact, `spacing` [m] apart; hardness [Pa]: no pressure is
-    above it (None: no limit); grid of smooth bodies: nodes along x, as many along y as the film needs (the same for a
-    circle), or (ny, nx), 129 along the shorter side if not given; domain: (x_min, x_max, y_min, y_max) [m] about the
-    contact instead of the grid that fits the film; cells are square; floor [m]: gap at which solids touch; criterion:
-    "split" for fluid and solid pressure apart, "lumped" for one pressure as in Azam et al. 2019 (with floor = 0.47e-9);
-    cavitation: "reynolds", a gap without pressure counts as full, or "mass_conserving", it holds what flows in; supply
-    [m]: oil on both surfaces together before the contact (None: flooded); meniscus [m]: distance before the centre at
-    which the inlet begins to fill (None: at the edge of the grid).
+    A solution that has not converged says so (`converged`, `shortfall`). At rest the dry contact is the answer; the gap
+    of solids is the floor then, too, so that `approach` is a floor less than that of `dry_contact`.
 
-    Raises OperatingPointError for values that cannot be used and ConvergenceError if no solution was found. A solution
-    short of the tolerance says so (`converged`, `shortfall`). At rest the dry contact is the answer; the gap of solids
-    is the floor then, too, so that `approach` is a floor less than that of `dry_contact`.
+    Parameters
+    ----------
+    load
+        Normal load [N].
+    radius_x, radius_y
+        Combined radii of curvature [m]; radius_y = radius_x if not given.
+    reduced_modulus
+        E' = 2 / [(1 - v1^2)/E1 + (1 - v2^2)/E2] [Pa].
+    speed_1, speed_2
+        Surface speeds along x relative to the contact [m/s].
+    viscosity, pressure_viscosity
+        Viscosity [Pa s] and pressure coefficient [1/Pa] at p = 0.
+    viscosity_law
+        "roelands" or "barus".
+    density_law
+        "dowson_higginson" or "none".
+    heights_1, heights_2
+        Heights [ny, nx] of each body [m], positive toward the other one, centred on the contact.
+    spacing
+        Distance between the nodes of the heights [m].
+    hardness
+        Largest pressure [Pa]; None: no limit.
+    grid
+        Nodes along x of smooth bodies, with as many along y as the film needs (the same for a circle), or (ny, nx);
+        129 along the shorter side if not given.
+    domain
+        (x_min, x_max, y_min, y_max) [m] about the contact instead of the grid that fits the film; cells are square.
+    floor
+        Gap at which solids touch [m].
+    criterion
+        "split" for fluid and solid pressure apart, "lumped" for one pressure as in Azam et al. 2019 (with
+        floor = 0.47e-9).
+    cavitation
+        "reynolds": a gap without pressure counts as full; "mass_conserving": it holds what flows in.
+    supply
+        Oil on both surfaces together before the contact [m]; None: flooded.
+    meniscus
+        Distance [m] before the centre at which the inlet begins to fill; None: at the edge of the grid.
+    tolerance
+        Relative pressure change of a converged solution.
+    iterations
+        Largest number of iterations.
+    fft
+        "pyfftw" or "scipy"; FFTW is under the GPL.
+
+    Raises
+    ------
+    OperatingPointError
+        For values that cannot be used.
+    ConvergenceError
+        If no solution is found.
+
     """
     numbers = numbers_of(
         _Numbers,
@@ -113,7 +153,7 @@ def _grid(
     grid: int | tuple[int, int] | None,
     domain: tuple[float, float, float, float] | None,
 ) -> Grid:
-    """The nodes that the arguments ask for."""
+    """Return the nodes that the arguments ask for."""
     ny, nx = asked(grid)
     if heights is not None:
         if heights.shape[0] < 17 or heights.shape[1] < 17:

@@ -103,7 +103,7 @@ def derivatives(case: Case, film: Film) -> dict[str, float]:
     """
     oil, boundary, grid = case.scene.lubricant, case.scene.boundary_friction, film.grid
     speed, along_x, along_y = sliding(case.op, grid)
-    speed = np.maximum(speed, _STEP * boundary.slip_speed)  # at rest, too, the limit tells the slope
+    speed = np.maximum(speed, _STEP * boundary.slip_speed)  # at rest the slope is that of the limit
     viscosity = oil.viscosity(film.fluid, film.temperature)
     newtonian = viscosity * speed / film.gap
     grip, grip_slope = boundary.grip(speed), boundary.grip_slope(speed)

@@ -1,4 +1,4 @@
-"""One instant of a scene in a state: geometry, film, friction and flash temperature, node by node."""
+"""One instant of a case in a state: geometry, film, friction and flash temperature, node by node."""
 
 from dataclasses import dataclass, replace
 
@@ -25,9 +25,9 @@ class Transient:
     dt: float  # time since then [s]
     moved: int  # nodes by which the rougher surface has moved along +x since then
     iterations: int  # at most
-    heated: bool = True  # False: nobody asks for temperatures; the film stays as warm as it was
+    heated: bool = True  # False: temperatures are not needed; the film keeps its last ones
     order: int = 1  # of the squeeze term in time, 1 or 2
-    thorough: bool = False  # True: each algorithm has its turn; False: what the film lacks, the next instant pays
+    thorough: bool = False  # True: try all algorithms; False: the residual carries over to the next instant
 
 
 @dataclass(frozen=True)
@@ -160,7 +160,7 @@ def solve_instant(
 
 
 def instant_of(case: Case, heights: Array, limit: Array) -> Instant:
-    """An instant of a scene with heights and largest pressures as given, [ny, nx]."""
+    """Return an instant of a case with heights and largest pressures as given, [ny, nx]."""
     return Instant(
         load=case.op.load,
         entrainment_speed=case.op.entrainment_speed,
@@ -179,7 +179,7 @@ def instant_of(case: Case, heights: Array, limit: Array) -> Instant:
 
 
 def _open(case: Case, grid: Grid, heights: Array) -> FilmSolution:
-    """No load: the bodies just touch and nothing presses."""
+    """Return the film without a load: the bodies just touch and nothing presses."""
     bodies = case.shape
     shape = bodies.gap(grid.x, grid.y, 1.0) / bodies.radius_x - heights
     rigid = case.scene.film.floor - float(shape.min())

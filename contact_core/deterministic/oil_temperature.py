@@ -1,4 +1,4 @@
-"""The oil at work: what heat and shear make of it in the contact, and how much more easily it then flows.
+"""Temperature and shear thinning of the oil in the contact, and the flow that follows from them.
 
 Warm oil shears more easily and so warms less; thinned or warm oil flows more easily, so that less of it is drawn in.
 Where `lubricant.flow` is "newtonian" Reynolds' equation sees the viscosity at the inlet's temperature and the local
@@ -21,13 +21,13 @@ from .friction import Film, Shear, shear, sliding
 Array = NDArray[np.float64]
 
 _ROUNDS = 30  # of shear and temperature of a steady film, at most
-_TAKEN = 0.7  # share of a change of temperature that is taken over, lest the rounds swing
+_UNDER_RELAXATION = 0.7  # of a change of temperature
 _ENOUGH = 1e-3  # change of temperature that ends them, of the highest rise
 _FILM_OF_VISCOSITY = 0.67  # power of the viscosity in the film of smooth bodies (Hamrock & Dowson)
 
 
 def sheared(grid: Grid, found: FilmSolution, cover: Array, temperature: float) -> Film:
-    """What friction needs to know of a film solution, its oil at one temperature [K]."""
+    """Return a film solution as friction needs it, its oil at one temperature [K]."""
     state = found.state
     solid = np.where(state.solid, state.pressure - state.fluid, 0.0)
     return Film(grid, state.fluid, solid, found.gap, cover, temperature)
@@ -36,10 +36,10 @@ def sheared(grid: Grid, found: FilmSolution, cover: Array, temperature: float) -
 def warmed(
     case: Case, film: Film, before: FilmState | None, *, heated: bool = True
 ) -> tuple[Film, Shear, Temperatures, str]:
-    """A film at its temperature, its shear, the temperatures, and why they do not belong together if so.
+    """Return a film at its temperature, its shear, the temperatures, and why they are not converged, if so.
 
-    A march goes on from the warmth of the instant before; a steady film (`before` None) repeats until its temperature
-    stands still. Not `heated`, it stays at that warmth.
+    A march continues from the warmth of the instant before; a steady film (`before` None) repeats until its temperature
+    does not change. Not `heated`, it keeps that warmth.
     """
     inlet = case.op.inlet_temperature
     law = case.scene.heat if heated else NoHeat()
@@ -63,21 +63,21 @@ def warmed(
         if not law.warms_film:
             return film, stress, warm, ""
         change = float(np.abs(warm.film - film.temperature).max())
-        film = replace(film, temperature=film.temperature + _TAKEN * (warm.film - film.temperature))
+        film = replace(film, temperature=film.temperature + _UNDER_RELAXATION * (warm.film - film.temperature))
         if before is not None or change <= _ENOUGH * (1.0 + float(np.abs(warm.film - inlet).max())):
             return film, stress, warm, "" if warm.solved else "the partition of heat was not solved"
     return film, stress, warm, f"the film's temperature still changes by {change:.2g} K"
 
 
 def inlet_ease(case: Case) -> float:
-    """How many times more easily the oil flows for the heat of shear in the inlet (`heat.inlet_shear`)."""
+    """Return the factor by which the oil flows more easily for the heat of shear in the inlet (`heat.inlet_shear`)."""
     if case.scene.heat.inlet_shear == "none" or not case.loaded or not case.entrained:
         return 1.0
     return inlet_factor(case) ** (-1.0 / _FILM_OF_VISCOSITY)
 
 
 def inlet_factor(case: Case) -> float:
-    """Film with the heat of shear in the inlet over that without."""
+    """Return the film with the heat of shear in the inlet over that without."""
     oil, inlet = case.scene.lubricant, case.op.inlet_temperature
     viscosity, warmer, colder = (float(oil.viscosity(np.zeros(1), inlet + step)[0]) for step in (0.0, 0.5, -0.5))
     speed, pressure = abs(case.op.entrainment_speed), case.hertz.pressure_max
@@ -101,9 +101,9 @@ def solve_flow(
     solve: Callable[[Instant, FilmState | None], FilmSolution],
     tolerance: float,
 ) -> FilmSolution:
-    """The film of an instant with the flow that the scene asks for; `solve` is the solution for one state of the oil.
+    """Return the film of an instant with the flow that the scene asks for; `solve` solves it for one state of the oil.
 
-    A march takes the oil as the instant before has left it, a steady film (`before` None) repeats until both fit.
+    A march takes the oil as the instant before has left it; a steady film (`before` None) repeats until both agree.
     """
     inlet = inlet_ease(case)
     if inlet != 1.0:
@@ -121,7 +121,7 @@ def solve_flow(
 
 
 def _worked(case: Case, now: Instant, found: FilmSolution, film: Film) -> Instant:
-    """An instant with the oil as a film `found` has left it."""
+    """Return an instant with the oil as a film `found` has left it."""
     inlet, viscosity = inlet_ease(case), None
     if inlet != 1.0 or case.scene.heat.warms_film:
         viscosity = case.scene.lubricant.viscosity(film.fluid, film.temperature) / inlet
@@ -130,7 +130,7 @@ def _worked(case: Case, now: Instant, found: FilmSolution, film: Film) -> Instan
 
 
 def left_behind(case: Case, now: Instant, found: FilmSolution, film: Film) -> FilmState:
-    """The state of a film with its oil as the next instant of a march takes it over."""
+    """Return the state of a film with its oil as the next instant of a march starts from it."""
     if case.scene.lubricant.flow == "local" and found.route == "mixed":
         found = remembering(found, _worked(case, now, found, film))
     return replace(found.state, warmth=np.atleast_2d(film.temperature - case.op.inlet_temperature))

@@ -1,4 +1,7 @@
-"""The fidelities of the film: which object sits in `scene.film`."""
+"""The fidelity levels of the film, and the record of its convergence.
+
+`FILMS`: the records that `scene.film` may be.
+"""
 
 from ..kernels.convergence import Convergence
 from .deterministic import Deterministic

@@ -3,7 +3,9 @@
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from ..laws.base import Rheology, Tribofilm
 from ..laws.equations import Equations, OfShape
+from ..laws.load_sharing import FittedSharing
 from ..quantities import parameter
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 
@@ -119,11 +121,11 @@ class Deterministic:
         """Distance between nodes [m]."""
         return self.domain / (self.points - 1)
 
-    def with_sharing(self, sharing: object) -> "Deterministic":
+    def with_sharing(self, sharing: FittedSharing) -> "Deterministic":
         """Return itself: this level shares the load node by node."""
         return self
 
-    def warnings(self, lubricant: object, tribofilm: object) -> list[str]:
+    def warnings(self, flow: str, rheology: Rheology, tribofilm: Tribofilm) -> list[str]:
         """Return no sentence: this level resolves every law."""
         return []
 

@@ -1,4 +1,4 @@
-"""Grids that fit a film: wide enough for the oil to come in and go out, and no wider, so that the nodes are close."""
+"""Grids that fit a film: wide enough for oil to flow in and out, and no wider, so that the nodes are close."""
 
 from dataclasses import dataclass
 from math import ceil
@@ -10,15 +10,15 @@ from .instant import Grid
 from .scaled import film_size, inlet_length
 
 _LEFT, _RIGHT, _SIDES = 4.5, 2.5, 3.5  # half widths of a thick film, in its size
-_LEFT_OF_LINE = 16.0  # nothing flows aside, and the far field of points does not help
+_LEFT_OF_LINE = 16.0  # no side flow, and no far field as of points
 _INLETS_BEFORE, _INLETS_AROUND = 10.0, 6.0  # inlet lengths about Hertz's contact that a thin film needs
-_NODES = 129  # along the shorter side if nothing else is asked for
-_COARSEST, _HALVINGS = 6.5, 2  # multigrid: intervals along the shorter side of its coarsest level; least halvings
+_NODES = 129  # along the shorter side by default
+_COARSEST, _HALVINGS = 6.5, 2  # multigrid: intervals along the shorter side of its coarsest grid level; least halvings
 
 
 @dataclass(frozen=True)
 class Extent:
-    """How far a film reaches about the contact [m]; oil comes in along +x."""
+    """Extent of the grid about the contact [m]; oil flows in along +x."""
 
     left: float
     right: float
@@ -26,7 +26,7 @@ class Extent:
 
     @staticmethod
     def of(shape: Point, load: float, reduced_modulus: float, film: float) -> "Extent":
-        """What a film [m] of smooth bodies needs. SI."""
+        """Return the extent that a film [m] of smooth bodies needs. SI."""
         hertz, turned = shape.hertz(load, reduced_modulus), Point(shape.radius_y, shape.radius_x)
         a, b = hertz.a, hertz.b
         size, inlet = film_size(a, shape.radius_x, film), inlet_length(a, shape, film)
@@ -43,8 +43,9 @@ class Extent:
         return 2.0 * self.side / (self.left + self.right)
 
     def shape(self, nx: int | None = None, *, shorter: int = _NODES) -> tuple[int, int]:
-        """Nodes (ny, nx) of about square cells that halve for multigrid: for `nx` along x, or for those along the
-        shorter side.
+        """Return the nodes (ny, nx) of about square cells that can be halved for multigrid.
+
+        For `nx` nodes along x, or for `shorter` nodes along the shorter side.
         """
         if nx is not None:
             return _partner(nx, self.ratio, mirror=True), nx
@@ -53,7 +54,7 @@ class Extent:
         return shorter, _partner(shorter, 1.0 / self.ratio, mirror=False)
 
     def grid(self, ny: int, nx: int) -> Grid:
-        """Grid of [ny, nx] nodes; the centre of the contact is a node for even nx - 1.
+        """Return a grid of [ny, nx] nodes; the centre of the contact is a node for even nx - 1.
 
         The wider of the two needs, along x and along y, gives the spacing.
         """
@@ -64,15 +65,17 @@ class Extent:
 
 
 def line_extent(shape: Line, load: float, reduced_modulus: float, film: float) -> tuple[float, float]:
-    """How far before and behind the contact [m] a film [m] of smooth bodies needs a grid. SI."""
+    """Return the extent before and behind the contact [m] that a film [m] of smooth bodies needs. SI."""
     a = shape.hertz(load, reduced_modulus).a
     size, inlet = film_size(a, shape.radius_x, film), inlet_length(a, shape, film)
     return min(_LEFT_OF_LINE * size, 1.1 * a + _INLETS_BEFORE * inlet), min(_RIGHT * size, 1.25 * a + inlet)
 
 
 def rows_over(depth: float, spacing: float, nx: int) -> int:
-    """Rows of square cells that reach over a depth [m], beside `nx` nodes along x: as many more as halve as often down
-    to multigrid's coarsest level and keep a row in the middle.
+    """Return the rows of square cells that reach over a depth [m], beside `nx` nodes along x.
+
+    There are as many more as can be halved as often down to multigrid's coarsest grid level and keep a row in the
+    middle.
     """
     step = 2
     while (nx - 1) % step == 0 and (nx - 1) // step >= _COARSEST:
@@ -81,8 +84,9 @@ def rows_over(depth: float, spacing: float, nx: int) -> int:
 
 
 def _partner(nodes: int, ratio: float, *, mirror: bool) -> int:
-    """Nodes of a side `ratio` times as long as one of `nodes`, nearest of those that halve as often. `mirror`: its
-    middle node stays a node.
+    """Return the nodes of a side `ratio` times as long as one of `nodes`, nearest of those that halve as often.
+
+    `mirror`: its middle node stays a node.
     """
     intervals, wanted, halvings = nodes - 1, ratio * (nodes - 1), 0
     shorter = min(intervals, wanted)
@@ -93,5 +97,5 @@ def _partner(nodes: int, ratio: float, *, mirror: bool) -> int:
 
 
 def fitted_grid(shape: Point, load: float, reduced_modulus: float, film: float, ny: int, nx: int) -> Grid:
-    """Grid of [ny, nx] nodes for a film [m] of smooth bodies. SI; oil comes in along +x."""
+    """Return a grid of [ny, nx] nodes for a film [m] of smooth bodies. SI; oil flows in along +x."""
     return Extent.of(shape, load, reduced_modulus, film).grid(ny, nx)

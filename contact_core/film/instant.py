@@ -1,4 +1,4 @@
-"""What a film has to be solved for and what comes of it, in SI. Arrays [ny, nx], x along entrainment."""
+"""One instant of a film and its solution, in SI. Arrays [ny, nx], x along entrainment."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -15,16 +15,16 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class Grid:
-    """Nodes of the contact, equally spaced and as far apart along y as along x. Zero is where the bodies touch."""
+    """Nodes of the contact on a square lattice. The bodies touch at zero."""
 
     x: Array  # [nx] [m]
     y: Array  # [ny] [m]
     periodic: bool = False  # along y: the row after the last is the first
-    repeats: float = 1.0  # how many times the grid lies in the contact, side by side along y
+    repeats: float = 1.0  # number of times the grid lies in the contact, side by side along y
 
     @staticmethod
     def centred(ny: int, nx: int, spacing: float, *, periodic: bool = False, repeats: float = 1.0) -> "Grid":
-        """A grid about the contact."""
+        """Return a grid about the contact."""
         x, y = ((np.arange(n, dtype=np.float64) - 0.5 * (n - 1)) * spacing for n in (nx, ny))
         return Grid(x, y, periodic, repeats)
 
@@ -50,7 +50,7 @@ class Grid:
         return distance_2
 
     def mirrored(self) -> "Grid":
-        """The grid of the contact seen from the other side: x becomes -x."""
+        """Return the grid mirrored along x: x becomes -x."""
         return replace(self, x=-self.x[::-1])
 
 
@@ -68,16 +68,16 @@ class Instant:
     heights: Array  # of both bodies together, positive into the gap
     limit: Array  # largest pressure
     hardness: float  # no limit is above it
-    dry: bool = False  # leave the film out
-    solid_share: float = 1.0  # of the load of such a contact; the rest lies on oil, spread as in Hertz's contact
-    ease: Array | None = None  # how many times easier oil flows at a node than `viscosity` says: by warmth
+    dry: bool = False  # without a film
+    solid_share: float = 1.0  # of the load of a dry contact; oil carries the rest, spread as in Hertz's contact
+    ease: Array | None = None  # `viscosity` over that at a node's temperature
     thinned: Array | None = None  # fluidity [1/(Pa s)] that shear adds to that at a node
     conserving: bool = False  # cavities hold the oil that flows into them; else they count as full
-    supply: float | None = None  # oil film [m] on both surfaces together before the contact; None: all it can take
-    meniscus: float | None = None  # distance [m] before the centre at which the inlet begins to fill; None: nowhere
+    supply: float | None = None  # oil film [m] on both surfaces together before the contact; None: flooded
+    meniscus: float | None = None  # distance [m] of the inlet meniscus before the centre; None: beyond the grid
 
     def mirrored(self) -> "Instant":
-        """The instant seen from the other side: entrained the other way."""
+        """Return the instant mirrored along x: entrained the other way."""
         heights, limit = np.ascontiguousarray(self.heights[:, ::-1]), np.ascontiguousarray(self.limit[:, ::-1])
         ease, thinned = (None if f is None else np.ascontiguousarray(f[:, ::-1]) for f in (self.ease, self.thinned))
         back = replace(self, entrainment_speed=-self.entrainment_speed, heights=heights, limit=limit)
@@ -86,21 +86,21 @@ class Instant:
 
 @dataclass(frozen=True)
 class Step:
-    """How an instant follows from the film solution that it starts from."""
+    """Time step from the film solution at which an instant starts."""
 
     dt: float  # time since then [s]
     moved: int = 0  # nodes by which the rough surfaces have moved along +x since then
     order: int = 1  # of the squeeze term in time: 1, backward Euler; 2, backward differences over two steps
-    thorough: bool = False  # True: each algorithm has its turn; False: what a film lacks, the next instant pays
+    thorough: bool = False  # True: every algorithm is tried; False: the residual carries over to the next instant
 
     def mirrored(self) -> "Step":
-        """The step seen from the other side."""
+        """Return the step mirrored along x."""
         return replace(self, moved=-self.moved)
 
 
 @dataclass(frozen=True)
 class Settings:
-    """How it is to be solved."""
+    """Settings of a solution."""
 
     floor: float  # gap at which solids touch [m]
     tolerance: float  # pressure change at which a solution counts as converged
@@ -111,7 +111,7 @@ class Settings:
 
 @dataclass(frozen=True)
 class FilmState:
-    """A film solution from which the next may start."""
+    """A film solution from which the next one may start."""
 
     pressure: Array
     fluid: Array
@@ -133,7 +133,7 @@ class FilmState:
         return self.pressure, self.fluid, self.mass, self.ease, self.thinned, self.warmth, self.mass_before
 
     def mirrored(self) -> "FilmState":
-        """The state seen from the other side."""
+        """Return the state mirrored along x."""
         solid = np.ascontiguousarray(self.solid[:, ::-1])
         pressure, fluid, mass, ease, thinned, warmth, before = (np.ascontiguousarray(f[:, ::-1]) for f in self._fields)
         return FilmState(pressure, fluid, solid, mass, self.rigid_gap, ease, thinned, warmth, before, self.dt)
@@ -141,8 +141,9 @@ class FilmState:
 
 @dataclass(frozen=True)
 class FilmSolution(Convergence):
-    """The film of one instant. `gap` is at least the floor; `overlap` is what is missing to it and yields
-    plastically.
+    """The film of one instant.
+
+    `gap` is at least the floor; `overlap` is the shortfall below the floor, which yields plastically.
     """
 
     state: FilmState
@@ -150,6 +151,6 @@ class FilmSolution(Convergence):
     overlap: Array
 
     def mirrored(self) -> "FilmSolution":
-        """The solution seen from the other side."""
+        """Return the solution mirrored along x."""
         gap, overlap = np.ascontiguousarray(self.gap[:, ::-1]), np.ascontiguousarray(self.overlap[:, ::-1])
         return replace(self, state=self.state.mirrored(), gap=gap, overlap=overlap)

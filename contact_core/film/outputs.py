@@ -1,4 +1,4 @@
-"""The numbers of a film, from its fields. Which mean each is stands in `quantities`."""
+"""The outputs of a film, from its fields. `quantities` says which mean each of them is."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,7 @@ Mask = NDArray[np.bool_]
 
 
 def disc(grid: Grid, hertz: Hertz) -> Mask:
-    """Nodes that h_c is a mean over, within 2/3 of Hertz's half widths; at least the nearest ones."""
+    """Return the nodes that h_c is a mean over: within 2/3 of Hertz's half widths, at least the nearest ones."""
     radius_2 = grid.radius_2
     nearest = radius_2 <= radius_2.min() * (1.0 + 1e-9)
     inside: Mask = nearest | hertz.inside(grid.x, grid.y, 2.0 / 3.0)
@@ -19,7 +19,7 @@ def disc(grid: Grid, hertz: Hertz) -> Mask:
 
 
 def at_centre(grid: Grid, field: Array) -> float:
-    """Bilinear interpolation of a field [ny, nx] at the centre of the contact; a mean along a line."""
+    """Return a field [ny, nx] at the centre of the contact by bilinear interpolation; a mean along a line."""
     if grid.periodic:  # all rows are alike
         return float(np.interp(0.0, grid.x, field.mean(axis=0)))
     i, j = (min(max(int(np.searchsorted(axis, 0.0, "right")) - 1, 0), axis.size - 2) for axis in (grid.x, grid.y))
@@ -29,7 +29,10 @@ def at_centre(grid: Grid, field: Array) -> float:
 
 
 def film_outputs(grid: Grid, state: FilmState, gap: Array, load: float, hertz: Hertz) -> dict[str, float]:
-    """h_central, h_c, h_min, contact_area_ratio, contact_load_ratio, pressure_max and approach of a loaded contact."""
+    """Return film thicknesses, contact ratios, largest pressure and approach of a loaded contact.
+
+    They are h_central, h_c, h_min, contact_area_ratio, contact_load_ratio, pressure_max and approach.
+    """
     solid_pressure = np.where(state.solid, state.pressure - state.fluid, 0.0)
     cell = grid.cell
     return {
@@ -45,7 +48,7 @@ def film_outputs(grid: Grid, state: FilmState, gap: Array, load: float, hertz: H
 
 
 def open_outputs(grid: Grid, state: FilmState, gap: Array) -> dict[str, float]:
-    """The same of bodies that just touch: h_c is the gap at the centre."""
+    """Return the same for bodies that just touch: h_c is the gap at the centre."""
     centre = at_centre(grid, gap)
     ratios = dict.fromkeys(("contact_area_ratio", "contact_load_ratio", "pressure_max"), 0.0)
     return {"h_central": centre, "h_c": centre, "h_min": float(gap.min()), "approach": -state.rigid_gap} | ratios

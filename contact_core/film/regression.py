@@ -1,10 +1,11 @@
-"""The fast level: film formulas and curves of load sharing for the means of rough surfaces."""
+"""The regression level: film formulas and curves of load sharing for the means of rough surfaces."""
 
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
+from ..laws.base import Rheology, Tribofilm
 from ..laws.equations import Equations, OfShape
-from ..laws.load_sharing import FittedSharing, LineSharing
+from ..laws.load_sharing import FittedSharing
 from ..quantities import parameter
 
 
@@ -54,7 +55,7 @@ class Regression:
         default=0.0,
         shapes_arrays=True,
     )
-    sharing: FittedSharing | LineSharing = field(default=FittedSharing())
+    sharing: FittedSharing = field(default=FittedSharing())
     smoothing: float = parameter(
         "",
         "mean height of what touches, over composite roughness: wear takes it away",
@@ -70,14 +71,14 @@ class Regression:
         """Distance between nodes [m]."""
         return self.domain / (self.points - 1)
 
-    def with_sharing(self, sharing: FittedSharing | LineSharing) -> "Regression":
+    def with_sharing(self, sharing: FittedSharing) -> "Regression":
         """Return the record with other curves of load sharing."""
         return replace(self, sharing=sharing)
 
-    def warnings(self, lubricant: Any, tribofilm: Any) -> list[str]:
+    def warnings(self, flow: str, rheology: Rheology, tribofilm: Tribofilm) -> list[str]:
         """Return sentences on laws of a scene that this level approximates."""
         found = []
-        if lubricant.flow == "local" and lubricant.rheology.name == "eyring":
+        if flow == "local" and rheology.thins and rheology.inlet_thinning is None:
             found.append("film.model = 'regression' thins films by shear for the rheology 'carreau' only.")
         if tribofilm.abrades:
             found.append(

@@ -1,8 +1,8 @@
-"""Which algorithm solves which contact: a table, and the little that carries it out.
+"""Choice of the algorithm for a contact: a table, and its execution.
 
-A steady film goes to the first row of REGIMES that it fits; the algorithms of that row are tried in turn until one
-meets the stopping rule (`kernels.mixed.stopping_rule`). An instant that follows from another one is marched from it,
-and that film serves if it can be used at all, unless the step is to be thorough.
+A steady film belongs to the first row of REGIMES that it fits; the algorithms of that row are tried in turn until one
+satisfies the stopping rule (`kernels.mixed.stopping_rule`). An instant that follows from another one starts from it,
+and the film found is used if it is usable at all, unless the step is thorough.
 """
 
 import math
@@ -25,27 +25,29 @@ from .scaled import LOAD_ACCEPTED, Scaled, inlet_length
 
 _ALL = (0.0, math.inf)
 _SEVERAL = (2, math.inf)
-_LASTING = 4 * (("hybrid", "last"),)  # contacts that a log law ties together far across settle slowly
-_FULL_FILM = 3.0  # formula film over rms roughness from which on a dry contact means nothing
+_LASTING = 4 * (("hybrid", "last"),)  # lines couple contacts over long distances: they converge slowly
+_FULL_FILM = 3.0  # formula film over rms roughness, above which a dry contact is no substitute
 _MOST_BEYOND = 0.3  # share of the load that may lie beyond the grid
-_NESTED_FROM = 65  # nodes along an axis from which on a film begins on the grid of half of them
+_NESTED_FROM = 65  # nodes along an axis, from which on a film starts on the grid of half of them
 _HYBRID_ITERATIONS, _DIRECT_ITERATIONS = 150, 80  # of one try at a steady film
 _CYCLES, _NEWTON_STEPS = 15, 30
 _DAMPED = ((0.5, 15), (0.25, 40))  # multigrid's next tries, and cycles: nearly rigid bodies under thickening oil
-# film of smooth bodies over rms roughness of a line, from which on Newton's method is the surer one: without side
-# flow, what the hybrid lacks in the inlet stays in the film
+# film of smooth bodies over rms roughness of a line, from which on Newton's method is more reliable: without side
+# flow, a residual of the hybrid in the inlet stays in the film
 _CLEAR_LINE = 1.5
-_RESOLVED_INLET = 2.0  # nodes: an inlet that the grid does not see makes that method slow, and no film
-_OWED = 10.0  # times the stopping rule's limits, by which a thorough step over roughness may miss them
-_CLOSINGS = 4  # solutions of a light film, at most, until what lies beyond the grid goes with how the bodies lie
-# a film short of its tolerance is still better than the dry contact within these
+_RESOLVED_INLET = 2.0  # nodes: on an inlet that the grid does not resolve that method is slow and finds no film
+_EXCESS = 10.0  # of the stopping rule's limits, that a thorough step over roughness may have
+_CLOSINGS = (
+    4  # solutions of a light film, at most, until the pressure beyond the grid is consistent with the bodies' gap
+)
+# a film that has not converged is still better than the dry contact within these
 _CHANGE_ACCEPTED = 0.1
 _COMPLEMENTARITY_ACCEPTED = 20.0
 
 
 @dataclass(frozen=True)
 class Regime:
-    """A row of the table: what a contact has to be like, and its algorithms, as (method, start), in turn."""
+    """A row of the table: conditions on a contact, and its algorithms as (method, start), in turn."""
 
     name: str
     algorithms: tuple[tuple[str, str], ...]
@@ -54,10 +56,10 @@ class Regime:
     load: tuple[float, float] = _ALL  # Moes' M, as `Scaled.moes_load`
     rows: tuple[float, float] | None = None  # of a periodic grid; None: any grid
     by_flux: tuple[tuple[str, str], ...] = ()  # algorithms for cavities that conserve mass or a meniscus, if not those
-    ends: bool = False  # whether it is for rollers alone
+    ends: bool = False  # for lines with ends only
 
     def holds(self, scaled: Scaled) -> bool:
-        """Whether a contact belongs to this row."""
+        """Return True if a contact belongs to this row."""
         load, film = scaled.moes_load, scaled.film
         clearance = film / scaled.roughness if scaled.roughness > 0.0 else math.inf
         if self.rows is not None and not scaled.grid.periodic:
@@ -183,10 +185,27 @@ def solve_film(
 ) -> FilmSolution:
     """Solve one instant on a grid.
 
-    start: a solution nearby, or None. step: how the instant follows from it in time, or None for a steady film.
-    Entrainment along -x is solved in the mirror; without any, only a film that was there before can be one, squeezed
-    out. What is called converged carries the load. A film that cannot be had is replaced by the dry contact, which says
-    so (`route`); raises ConvergenceError if that has no solution, or no meaning because the film clears the roughness.
+    Entrainment along -x is solved in the mirror. Without entrainment there is only a film that was there before and is
+    squeezed out. A converged solution carries the load. If no film is found, the dry contact replaces it (`route`).
+
+    Parameters
+    ----------
+    now
+        The instant.
+    grid
+        Its nodes.
+    settings
+        Accuracy and algorithms.
+    start
+        A solution nearby, or None.
+    step
+        Time step from `start`, or None for a steady film.
+
+    Raises
+    ------
+    ConvergenceError
+        If the dry contact has no solution, or is no substitute as the film is thicker than the roughness.
+
     """
     if now.entrainment_speed < 0.0:
         back = start and start.mirrored(), step and step.mirrored()
@@ -195,7 +214,7 @@ def solve_film(
         return Scaled(now, grid, settings).dry("dry", now.solid_share)
     step = step if start else None
     at_rest = now.entrainment_speed == 0.0
-    closing, pull = float(at_rest), now.entrainment_speed * grid.spacing  # at rest its amount does not matter
+    closing, pull = float(at_rest), now.entrainment_speed * grid.spacing  # at rest its size does not matter
     apart: float | None = None
     for _ in range(_CLOSINGS):
         scaled = Scaled(now, grid, settings, start, step, closing, apart)
@@ -215,16 +234,16 @@ def solve_film(
 
 
 def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSolution:
-    """The film of an instant, entrained along +x or not at all."""
+    """Return the film of an instant, entrained along +x or not at all."""
     grid, settings = scaled.grid, scaled.settings
     regime = next(row for row in REGIMES if row.holds(scaled))
     by_flux = scaled.now.conserving or scaled.now.meniscus is not None
     algorithms = regime.by_flux if by_flux and regime.by_flux else regime.algorithms
-    tries = (*_begun(scaled, step), *algorithms) if step else algorithms
+    tries = (*_first_tries(scaled, step), *algorithms) if step else algorithms
     solver, used, spent, least = _Solver(scaled, start, step), "", 0, (True, True, math.inf)
     apart = _stays_apart(scaled, start, step)
     for method, begin in tries:
-        if settings.lumped and method != "hybrid":  # the others know the split criterion alone
+        if settings.lumped and method != "hybrid":  # the other methods have the split criterion only
             continue
         found = solver.run(method, begin)
         if found is None:
@@ -237,32 +256,33 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
             solver.best, used, least = found, f"{regime.name}: {method} from {begin}", rank
         if touches:
             continue
-        if found.converged or (step and solver.best is found and worst < _owing(scaled, step)):
+        if found.converged or (step and solver.best is found and worst < _accepted_excess(scaled, step)):
             break
     best = solver.best
     if best is not None and 1.0 - float(best.iterate.pressure.sum()) / scaled.load < _MOST_BEYOND:
         return scaled.solution(replace(best, iterations=spent), "mixed", used)
-    if scaled.film > _FULL_FILM * scaled.roughness:  # no dry contact can stand in for that
+    if scaled.film > _FULL_FILM * scaled.roughness:  # the dry contact is no substitute
         width, depth = (n * grid.spacing for n in reversed(grid.shape))
         raise (FilmTooWideError if scaled.is_light else ConvergenceError)(
             f"No solution was found for an oil film of about {scaled.film:.2g} m on a grid of {width:.3g} m by "
             f"{depth:.3g} m. Lower speed or viscosity, or enlarge the domain (film.domain) for a film that thick."
         )
-    why = "no mixed solution was found; the dry contact stands in"
+    why = "no mixed solution was found; the dry contact replaces it"
     return replace(scaled.dry("fallback"), converged=False, shortfall=why, iterations=spent)
 
 
 def _stays_apart(scaled: Scaled, start: FilmState | None, step: Step | None) -> bool:
-    """Whether bodies that an oil film keeps apart will do so in the next instant, so that a solution in which they
-    touch is the last one to believe: a film that lost its way.
+    """Return True if bodies that an oil film separates stay apart in the next instant.
+
+    A solution in which they touch is then accepted only as a last resort.
     """
     if start is None or step is None or not step.thorough or start.solid.any():
         return False
     return scaled.film > _FULL_FILM * max(scaled.roughness, scaled.settings.floor)
 
 
-def _begun(scaled: Scaled, step: Step) -> tuple[tuple[str, str], ...]:
-    """What an instant that follows from another one tries before its row of the table."""
+def _first_tries(scaled: Scaled, step: Step) -> tuple[tuple[str, str], ...]:
+    """Return the algorithms that a time step tries before its row of the table."""
     hybrid, direct, newton = (("hybrid", "before"),), (("direct", "before"),), (("newton", "before"),)
     inlet = inlet_length(scaled.a, scaled.now.shape, scaled.film) / scaled.grid.spacing
     clear_line = scaled.grid.periodic and scaled.film > _CLEAR_LINE * scaled.roughness and inlet > _RESOLVED_INLET
@@ -271,15 +291,15 @@ def _begun(scaled: Scaled, step: Step) -> tuple[tuple[str, str], ...]:
     return (*newton, *hybrid, *direct) if scaled.is_light or clear_line else (*hybrid, *direct, *newton)
 
 
-def _owing(scaled: Scaled, step: Step) -> float:
-    """How many times above the limits of the stopping rule a time step may stay: the next one pays its debt."""
+def _accepted_excess(scaled: Scaled, step: Step) -> float:
+    """Return the accepted excess of a time step over the limits of the stopping rule: the next step corrects it."""
     if not step.thorough:
         return math.inf
-    return _OWED if scaled.roughness > 0.0 else 0.0
+    return _EXCESS if scaled.roughness > 0.0 else 0.0
 
 
 class _Solver:
-    """The algorithms and the starts of the table, for one instant."""
+    """Algorithms and starts of the table, for one instant."""
 
     def __init__(self, scaled: Scaled, start: FilmState | None, step: Step | None) -> None:
         self.scaled, self.state, self.step = scaled, start, step
@@ -287,7 +307,7 @@ class _Solver:
         self.problem = scaled.problem()
 
     def run(self, method: str, begin: str) -> Solution | None:
-        """What a method finds from a start; None where they do not apply."""
+        """Return the solution of a method from a start; None where they do not apply."""
         scaled, settings, steady = self.scaled, self.scaled.settings, self.step is None
         if method == "multigrid":
             if not (steady and is_applicable(self.problem)):
@@ -332,7 +352,7 @@ class _Solver:
         return starts[name]() if name in starts else None
 
     def _above_smooth(self) -> Iterate | None:
-        """The film of smooth bodies, which are one row, in every row of rough ones."""
+        """Return the film of smooth bodies, which is one row, in every row of rough ones."""
         scaled, now = self.scaled, self.scaled.now
         ny, nx = scaled.grid.shape
         ease, thinned = (None if field is None else field.mean(axis=0)[None] for field in (now.ease, now.thinned))
@@ -347,24 +367,24 @@ class _Solver:
 
 
 def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:
-    """The same instant on a grid of half the nodes."""
+    """Return the same instant on a grid of half the nodes."""
     ease, thinned = (None if field is None else restrict(field) for field in (now.ease, now.thinned))
     instant = replace(now, heights=restrict(now.heights), limit=restrict(now.limit), ease=ease, thinned=thinned)
-    alone = grid.periodic and grid.shape[0] == 1  # such a row stands for twice as much of a line
+    alone = grid.periodic and grid.shape[0] == 1  # such a row represents twice as much of a line
     repeats = 0.5 * grid.repeats if alone else grid.repeats
     return instant, replace(grid, x=restrict(grid.x), y=restrict(grid.y), repeats=repeats)
 
 
 def _is_nested(grid: Grid) -> bool:
-    """Whether a film on the grid begins on that of half its nodes."""
+    """Return True if a film on the grid starts from that on half its nodes."""
     ny, nx = grid.shape
-    if grid.periodic and ny % 2:  # only a row alone has half its period
+    if grid.periodic and ny % 2:  # only a single row has half its period
         return ny == 1 and nx >= _NESTED_FROM
     return min(ny, nx) >= _NESTED_FROM
 
 
 def prolonged(state: FilmState, shape: tuple[int, int]) -> FilmState:
-    """A film state of the coarser grid on one of `shape` nodes [ny, nx]."""
+    """Return a film state of the coarser grid on one of `shape` nodes [ny, nx]."""
     pressure, fluid, mass = (prolong(field, shape) for field in (state.pressure, state.fluid, state.mass))
     solid = prolong(state.solid.astype(np.float64), shape) > 0.5
     ease, thinned = (field if field.size == 1 else prolong(field, shape) for field in (state.ease, state.thinned))
@@ -372,7 +392,7 @@ def prolonged(state: FilmState, shape: tuple[int, int]) -> FilmState:
 
 
 def _usable(solution: Solution) -> bool:
-    """Whether a film short of its tolerance is still better than the dry contact."""
+    """Return True if a film that has not converged is still better than the dry contact."""
     finite = np.isfinite(solution.pressure_change) and np.isfinite(solution.iterate.rigid)
     settled = solution.pressure_change < _CHANGE_ACCEPTED and solution.complementarity < _COMPLEMENTARITY_ACCEPTED
     return bool(finite and settled and abs(solution.load_error) < LOAD_ACCEPTED)

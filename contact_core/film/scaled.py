@@ -28,38 +28,38 @@ _TABLE_TOP = 2e10  # Pa: no oil flows above
 _DRY_TOLERANCE = 1e-6
 _DRY_ITERATIONS = 1000
 _START_TOLERANCE = 1e-2
-_SOLID_SHARE = 0.85  # of the load in `shared_start`: the best of 0.03 to 0.95 from light contact to nearly dry
-_LEAST_EASE = 1e-6  # what flows less does not flow
-_FAR_FIELD_BELOW = 30.0  # Moes' M: above, what lies beyond a film-sized grid changes the film by less than 1 %
-_SLOWEST = 0.25  # unit of speeds, in nodes per time step: entrained more slowly, a film is a matter of squeezing
-LOAD_ACCEPTED = 1e-3  # relative error of the load, above which a film is none
-_BEYOND_KNOWN = 0.05  # relative error of the formula for what lies beyond the grid
+_SOLID_SHARE = 0.85  # of the load in `shared_start`: the best of 0.03 to 0.95, from light contact to nearly dry
+_LEAST_EASE = 1e-6  # below it, oil does not flow
+_FAR_FIELD_BELOW = 30.0  # Moes' M: above it, the pressure beyond a film-sized grid changes the film by less than 1 %
+_SLOWEST = 0.25  # unit of speeds, in nodes per time step: below it, squeezing dominates
+LOAD_ACCEPTED = 1e-3  # relative error of the load, up to which a film is accepted
+_BEYOND_KNOWN = 0.05  # relative error of the formula for the load beyond the grid
 _FASTEST_CHANGE = 2.0  # of a film in a step, up to which it is of second order
 
 
 @dataclass(frozen=True)
 class LoadBalance:
-    """What a solution carries against the load that was asked of it."""
+    """Load that a solution carries, compared with the load it should carry."""
 
     error: float  # relative
     beyond: float  # share of the load beyond the grid
-    apart: float | None  # film [m] of rigid bodies whose gap opens as beyond the grid's edge, None: nothing lies there
+    apart: float | None  # film [m] of rigid bodies with the gap beyond the grid's edge; None: no load there
 
     @property
     def holds(self) -> bool:
-        """Whether the solution carries its load, as well as it can be known."""
+        """True if the solution carries its load within the known accuracy."""
         return abs(self.error) <= LOAD_ACCEPTED + _BEYOND_KNOWN * abs(self.beyond)
 
 
 class Scaled:
     """An instant in units of l (lengths), l^2 / radius_x (gaps) and p_H (a / l)^n (pressures; n = 2, for lines 1).
 
-    l^2 = a^2 + 1.4 radius_x h is the size of what carries the load: a of Hertz's contact along x, or the extent of a
-    film of smooth bodies h that is thicker than that contact is deep. Both keep the solution of order one. What the
-    kernels get of a periodic grid has an image of its last row before the first, and of its first after the last.
+    l^2 = a^2 + 1.4 radius_x h is the size of the loaded zone: a of Hertz's contact along x, or the extent of a
+    film of smooth bodies h that is thicker than that contact is deep. Both keep the solution of order one. On a
+    periodic grid the kernels get an image of its last row before the first, and of its first after the last.
     The unit of speeds is that of entrainment; in a time `step` from a film `start` it is at least a quarter of a node
-    per step, so that the film of slow bodies and of bodies at rest is of order one, too. For what lies beyond the grid:
-    `closing`, the speed [m/s] at which the bodies come closer, and `apart`, their film [m]; None: that of smooth ones.
+    per step, so that the film of slow bodies and of bodies at rest is of order one, too. For the film beyond the grid:
+    `closing`, the speed [m/s] at which the bodies approach, and `apart`, their film [m]; None: that of smooth ones.
     """
 
     def __init__(
@@ -88,7 +88,7 @@ class Scaled:
         self.compliance = shape.softness(hertz, now.reduced_modulus) * thin ** (shape.order + 1)
         scale = self.compliance * 2.0 / np.pi**2 * self.dx
         self.half_space = half_space(grid.shape, scale, settings.fft)
-        if grid.periodic:  # displacements are counted from those a grid's length away: the same on coarser grids
+        if grid.periodic:  # displacements are relative to those a grid's length away: the same on coarser grids
             self.half_space = half_space(grid.shape, scale, settings.fft, float(grid.shape[1] - 1))
         self.cap = now.limit / self.p_unit
         if self.cap.sum() <= 1.01 * self.load:
@@ -109,7 +109,7 @@ class Scaled:
 
     @cached_property
     def contact(self) -> SmoothContact | SmoothLine:
-        """The smooth contact in the terms of film formulas."""
+        """Smooth contact in the terms of film formulas."""
         now, shape = self.now, self.now.shape
         smooth = shape.smooth(now.load, now.entrainment_speed, now.viscosity, now.temperature, now.reduced_modulus)
         if (now.ease is None and now.thinned is None) or now.entrainment_speed == 0.0:
@@ -120,8 +120,9 @@ class Scaled:
         return replace(smooth, viscosity=smooth.viscosity / float(ease[at] * (1.0 + thinned[at])))
 
     def _oil(self, viscosity: float) -> tuple[Array, Array]:
-        """Ease of every node, at least a little, and what shear adds to the fluidity, relative to the eased one at p =
-        0, whose viscosity [Pa s] is given.
+        """Return the ease of every node, and the fluidity that shear adds to it.
+
+        The latter is relative to the eased fluidity at p = 0, whose viscosity [Pa s] is given.
         """
         ease, thinned = self.now.ease, self.now.thinned
         ease = np.ones(self.grid.shape) if ease is None else np.maximum(ease, _LEAST_EASE)
@@ -129,7 +130,7 @@ class Scaled:
 
     @cached_property
     def smooth_film(self) -> float:
-        """Film [m] that smooth bodies would have, by formula; zero if there is none."""
+        """Central film thickness [m] of smooth bodies by formula; zero without entrainment."""
         now = self.now
         if now.dry or now.entrainment_speed == 0.0:
             return 0.0
@@ -140,27 +141,27 @@ class Scaled:
 
     @property
     def moes_load(self) -> float:
-        """Moes' M; of ellipses and lines that of the circular contact that is as near to rigid. Infinite at rest."""
+        """Moes' M; for ellipses and lines that of the circular contact which is as close to rigid. Infinite at rest."""
         return self.contact.circular_load if self.now.entrainment_speed > 0.0 else math.inf
 
     @property
     def curvature(self) -> float:
-        """Of the undeformed gap along y, over that along x."""
+        """Curvature of the undeformed gap along y over that along x."""
         return self.now.shape.curvature_ratio
 
     @cached_property
     def film(self) -> float:
-        """Film [m] of smooth bodies: by formula, or that of a start from which they have not come so close yet."""
+        """Film [m] of smooth bodies: by formula, or the thicker one of a start that is still further apart."""
         return max(self.smooth_film, self._gap_before)
 
     @property
     def _gap_before(self) -> float:
-        """Gap [m] of undeformed bodies from which a thorough step starts, 0 where there is none or they overlap."""
+        """Gap [m] of undeformed bodies at the start of a thorough step, 0 without one or if they overlap."""
         return max(self.start.rigid_gap, 0.0) if self.start and self.step and self.step.thorough else 0.0
 
     @property
     def is_light(self) -> bool:
-        """Whether the film is so thick that what lies beyond the grid matters."""
+        """True if the film is so thick that the pressure beyond the grid matters."""
         return self.moes_load < _FAR_FIELD_BELOW or self._gap_before > 0.0
 
     @cached_property
@@ -170,12 +171,12 @@ class Scaled:
 
     @cached_property
     def roughness(self) -> float:
-        """Rms height [m] of both bodies together where they meet."""
+        """Rms height [m] of both bodies together in the contact."""
         inside = self.hertz.inside(self.grid.x, self.grid.y, 1.5 * self.size / self.a)
         return float(self.now.heights[inside].std()) if inside.any() else 0.0
 
     def _history(self) -> tuple[float, Array]:
-        """1 / time step, and the mass [m] from which the film has come in it, [ny, nx].
+        """Return 1 / time step, and the mass [m] at its start, [ny, nx].
 
         A second-order step replaces both by those of the backward difference over this step and the one before
         (Hairer & Wanner, Solving Ordinary Differential Equations II, 1996, doi:10.1007/978-3-642-05221-7, V.1).
@@ -191,7 +192,7 @@ class Scaled:
         return own * per_dt, np.clip(old, mass / _FASTEST_CHANGE, mass * _FASTEST_CHANGE)
 
     def problem(self) -> Problem:
-        """What the kernels solve."""
+        """Return the problem that the kernels solve."""
         now, (per_dt, mass) = self.now, self._history()
         top = min(now.hardness, _TABLE_TOP)
         fluidity, density, viscosity = _tables(now.viscosity, now.density, now.temperature, top)
@@ -227,16 +228,16 @@ class Scaled:
         )
 
     def _with_images(self, field: NDArray[Any]) -> NDArray[Any]:
-        """A field [ny, nx], on a periodic grid with an image of the last row before and one of the first row after."""
+        """Return a field [ny, nx]; on a periodic grid with images of the last row before and the first after."""
         return np.concatenate([field[-1:], field, field[:1]]) if self.grid.periodic else field
 
     def with_images(self, start: Iterate) -> Iterate:
-        """An iterate on the rows of the kernels."""
+        """Return an iterate on the rows of the kernels."""
         images = self._with_images
         return Iterate(images(start.pressure), images(start.fluid), images(start.solid), start.rigid)
 
     def without_images(self, found: Solution) -> Solution:
-        """A solution of the kernels on the rows of the grid."""
+        """Return a solution of the kernels on the rows of the grid."""
         if not self.grid.periodic:
             return found
         it, own = found.iterate, np.s_[1:-1]
@@ -256,7 +257,7 @@ class Scaled:
         return self._far_field(self.film if self.apart is None else self.apart)
 
     def _far_field(self, film: float) -> tuple[Array, Array]:
-        """What lies beyond the grid of bodies that far apart [m], as `far_field`; nothing if that does not matter."""
+        """Return `far_field` for bodies with that film [m]; zeros and ones if the field does not matter."""
         starved = self._first > 0 or self.now.supply is not None
         if self.is_light and self.now.shape.has_far_field and not starved:
             by_wedge = (3.0 + 2.0 * self.curvature) / (2.0 + 2.0 * self.curvature)  # see `far_field`
@@ -266,7 +267,10 @@ class Scaled:
         return np.zeros_like(self.cap), np.ones_like(self.cap)
 
     def balance(self, found: FilmSolution) -> LoadBalance:
-        """The load of a solution, summed anew: its pressure on the grid, and what goes on beyond from its own gap."""
+        """Return the load of a solution, summed anew.
+
+        The pressure beyond the grid follows from the gap of the solution itself.
+        """
         pressure, per_load = found.state.pressure, self.grid.cell / self.now.load
         beyond = (self._beyond[1] - 1.0) * pressure
         if not beyond.any():
@@ -283,8 +287,9 @@ class Scaled:
         )
 
     def iterate(self, state: FilmState) -> Iterate:
-        """A film state in these units, scaled to carry the load. Bodies that have carried none are taken to begin as
-        rigid ones that sink through oil do.
+        """Return a film state in these units, scaled to carry the load.
+
+        Bodies that have carried none start like rigid ones that sink through oil.
         """
         begun = state.pressure if state.pressure.any() else self.p_unit * (state.mass.min() / state.mass) ** 2
         total = begun.sum() / self.p_unit
@@ -294,14 +299,14 @@ class Scaled:
         return Iterate(pressure, fluid, state.solid.copy(), state.rigid_gap / self.h_unit)
 
     def dry_start(self) -> Iterate:
-        """The dry contact, its fluid still to come."""
+        """Return the dry contact, without fluid."""
         return self._shared(1.0, _DRY_TOLERANCE)[0]
 
     def lifted_start(self) -> Iterate:
-        """A Hertz-like pressure under the film of smooth bodies and the highest asperities.
+        """Return a Hertz-like pressure under the film of smooth bodies and the highest asperities.
 
-        Ends of a roller take their part of the load: a pressure that gave them another one would change the gap in the
-        middle by many films, so that of the dry, smooth roller is taken.
+        The ends of a roller carry their part of the load. Another share would change the gap in the middle by many
+        films, so the pressure of the dry, smooth roller is used.
         """
         pressure = np.minimum(self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300)), self.cap)
         lift = self.smooth_film + 0.5 * max(float(self.now.heights.max()), 0.0)
@@ -311,20 +316,21 @@ class Scaled:
             pressure, rigid, _, _ = solve_dry(self.half_space, smooth, self.cap, *limits)
             return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid + lift / self.h_unit)
         settled = self.compliance if self.now.shape.circular else float(self.half_space.deform(pressure).max())
-        rigid = lift / self.h_unit - settled  # what that pressure deforms the centre by
+        rigid = lift / self.h_unit - settled  # less the deformation of the centre by that pressure
         return Iterate(pressure, pressure.copy(), np.zeros(pressure.shape, np.bool_), rigid)
 
     def shared_start(self) -> Iterate:
-        """Solids that carry most of the load, above oil that carries the rest.
+        """Return solids that carry most of the load, above oil that carries the rest.
 
-        Filled valleys drain faster than dry ones fill: from a dry contact, the oil has to break every seal. The
-        contact then settles to a share of its own, which is far lower.
+        Filled valleys drain faster than dry ones fill: from a dry contact, the oil has to open every seal. The solids'
+        share of the solution is far lower.
         """
         return self._shared(_SOLID_SHARE, _START_TOLERANCE)[0]
 
     def _shared(self, share: float, tolerance: float) -> tuple[Iterate, bool, int]:
-        """Solids that carry `share` of the load in dry contact, above oil that carries the rest like smooth bodies;
-        whether they converged, and iterations.
+        """Return solids that carry `share` of the load in dry contact, above oil; convergence, iterations.
+
+        The oil carries the rest with the pressure of smooth bodies.
         """
         fluid, gap = np.zeros_like(self.cap), self.undeformed
         if share < 1.0:
@@ -338,10 +344,11 @@ class Scaled:
         return Iterate(solid + fluid, fluid, solid > 0.0, rigid + self.floor), converged, iterations
 
     def dry(self, route: str, share: float = 1.0) -> FilmSolution:
-        """The contact without a film: its gap is the floor where solids touch. They carry `share` of the load, oil
-        under a pressure like Hertz's the rest.
+        """Return the contact without a film: its gap is the floor where solids touch.
+
+        Solids carry `share` of the load, oil under a pressure like Hertz's the rest.
         """
-        tolerance = 0.1 * self.settings.tolerance  # conjugate gradients are cheap, and nothing corrects them
+        tolerance = 0.1 * self.settings.tolerance  # conjugate gradients are cheap, and no later step corrects them
         iterate, converged, iterations = self._shared(share, tolerance)
         gap = iterate.rigid + self.undeformed + self.half_space.deform(iterate.pressure)
         load_error = float(iterate.pressure.sum()) / self.load - 1.0
@@ -364,7 +371,7 @@ class Scaled:
         return self.solution(found, route, "conjugate gradients")
 
     def solution(self, found: Solution, route: str, algorithm: str) -> FilmSolution:
-        """A solution in SI."""
+        """Return a solution in SI."""
         it = found.iterate
         state = FilmState(
             it.pressure * self.p_unit,
@@ -392,20 +399,20 @@ class Scaled:
         )
 
     def _inlet_nodes(self, gap: Array) -> float:
-        """Nodes across the zone before the contact in which the film builds up."""
+        """Return the nodes across the zone before the contact in which the film builds up."""
         film = float(gap[disc(self.grid, self.hertz)].mean())
-        if self.now.entrainment_speed > 0.0:  # roughness holds the gap open, yet it is the oil's own film that comes in
+        if self.now.entrainment_speed > 0.0:  # roughness holds the gap open, but the inlet is that of the oil's film
             film = min(film, self.smooth_film)
         return inlet_length(self.a, self.now.shape, film) / self.grid.spacing
 
 
 def film_size(a: float, radius: float, film: float) -> float:
-    """Half width [m] of what carries the load under a film [m] of smooth bodies; a [m] of Hertz's contact if thin."""
+    """Return the half width [m] of the loaded zone under a film [m] of smooth bodies; Hertz's a [m] if thin."""
     return float(np.sqrt(a**2 + 1.4 * radius * film))
 
 
 def inlet_length(a: float, shape: Shape, film: float) -> float:
-    """Distance d [m] before Hertz's contact at which its gap, opening (d/a)^1.5 a^2 / R, is the film [m]."""
+    """Return the distance d [m] before Hertz's contact at which its gap, (d/a)^1.5 a^2 / R opening, is the film [m]."""
     return float(a * (film * shape.radius_x / a**2 / shape.opening) ** (2.0 / 3.0))
 
 
@@ -413,7 +420,7 @@ _LOCAL = threading.local()  # plans and scratch may not be shared between thread
 
 
 def half_space(shape: tuple[int, int], scale: float, library: str, reference: float | None = None) -> HalfSpace:
-    """The half space of a grid, with plans kept from before; with a reference [nodes] that of a periodic grid."""
+    """Return the half space of a grid, with stored plans; with a `reference` [nodes] that of a periodic grid."""
     store: dict[tuple[tuple[int, int], float, str, float | None], HalfSpace]
     store = _LOCAL.__dict__.setdefault("half_spaces", {})
     key = (shape, scale, library, reference)
@@ -429,7 +436,7 @@ def half_space(shape: tuple[int, int], scale: float, library: str, reference: fl
 def _tables(
     viscosity: Callable[[Array, float], Array], density: Callable[[Array], Array], temperature: float, top: float
 ) -> tuple[Array, Array, float]:
-    """1 / viscosity relative to that at p = 0, density ratio, and the viscosity at p = 0."""
+    """Return tables of 1 / viscosity over that at p = 0 and of the density ratio, and the viscosity at p = 0."""
     pressure = np.linspace(0.0, top, _TABLE)
     values = viscosity(pressure, temperature)
     return values[0] / values, density(pressure), float(values[0])

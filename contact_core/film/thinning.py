@@ -1,13 +1,13 @@
-"""How oil flows through a film that thins it by shear, or warms it.
+"""Flow of oil through a film in which shear thins it or heat warms it.
 
 A generalised Newtonian oil is sheared by sliding and by its pressure gradient together. Across a film of thickness h
 the stress is tau_m + z grad p, |z| < h/2, and the rate of shear E(|tau|) tau / eta. The sliding speed, integral of
 the rate, and the pressure flow, integral of -z times the rate, determine tau_m and grad p. The oil flows as if its
 fluidity were 1/eta times that flow over what the same gradient drives at constant viscosity, -(h^3 / 12 eta) grad p.
 
-Two choices let repeated solutions settle. The flow is that of the film at hand, not its gradient: continuity holds the
-flow, whatever the oil, and stresses stay finite where pressures jump. And what shear adds to the fluidity is kept, not
-its ratio to 1/eta: sheared hard, an oil flows nearly as if its pressure did not matter (Eyring's: tau_E h / sliding
+Two choices let repeated solutions converge. The flow is that of the present film, not its gradient: continuity fixes
+the flow, whatever the oil, and stresses stay finite where pressures jump. And the fluidity that shear adds is kept, not
+its ratio to 1/eta: under high shear, an oil flows nearly independently of its pressure (Eyring's: tau_E h / sliding
 speed for its viscosity), so that the sum stays right where pressures change by the next solution.
 
 One fluidity serves both directions: that of a gradient along the sliding speed, with the size of grad p. It is exact in
@@ -20,34 +20,21 @@ Sources: Yang & Wen, J. Tribol. 112 (1990) 631, doi:10.1115/1.2920308 (generalis
 Cusano, J. Tribol. 109 (1987) 648 (an Eyring oil, in closed form).
 """
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable
 from dataclasses import replace
 from functools import lru_cache
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
+from ..laws.base import Rheology
 from .instant import Array, FilmSolution, FilmState, Instant
 
 _STIFFEST = 1e30  # Pa: no stress of a Newtonian oil above matters
 _LEAST = (1e-4, 1e-3)  # pressed stress: share of the sheared one, and Pa. Below, the oil yields as at a vanishing one
 _LOG_STRESS = np.linspace(np.log(1e-2), np.log(1e11), 8193)  # Pa
 _SOLUTIONS = 20  # of a steady film, at most
-_SLOW = 0.9  # of the change before, above which the oil goes only half the way from then on
-
-
-class Rheology(Hashable, Protocol):
-    """A law of `laws.rheology`."""
-
-    @property
-    def thins(self) -> bool:
-        """Whether the viscosity falls with the stress."""
-
-    def __call__(self, newtonian: Array, pressure: Array) -> Array:
-        """Shear stress [Pa] of that of a Newtonian oil, under a pressure [Pa]."""
-
-    def ease(self, stress: Array) -> Array:
-        """How many times easier than a Newtonian one the oil shears at a stress [Pa]."""
+_SLOW = 0.9  # of the change before, above which under-relaxation halves the steps
 
 
 def thinned_fluidity(
@@ -59,8 +46,9 @@ def thinned_fluidity(
     viscosity: Array,
     flowing: Array | None = None,
 ) -> Array:
-    """What shear adds to the fluidity of the oil at every node [1/(Pa s)]: `Instant.thinned`. Arrays [ny, nx]. Zero
-    where no pressure drives a flow.
+    """Return the fluidity that shear adds to the oil at every node [1/(Pa s)]: `Instant.thinned`.
+
+    Arrays [ny, nx]. Zero where no pressure drives a flow.
 
     sliding [m/s]; gap [m]; fluid pressure [Pa]; spacing of the nodes [m]; Newtonian viscosity [Pa s] at the pressures
     and temperatures of the film; `flowing`: fluidity that the film was solved with, None for 1 / viscosity.
@@ -94,7 +82,7 @@ def eased(
     spacing: float,
     viscosity: Array | None = None,
 ) -> Instant:
-    """The instant with the ease and the thinning of a film `found` for it, or for one before.
+    """Return the instant with the ease and the thinning of a film `found` for it, or for one before.
 
     sliding [m/s]; spacing of the nodes [m]; `viscosity`: of the Newtonian oil at the pressures of the film and its
     temperatures [Pa s], None: at that of the instant. An oil that neither thins nor is warmer leaves the instant as it
@@ -113,21 +101,23 @@ def eased(
 
 
 def remembering(found: FilmSolution, then: Instant) -> FilmSolution:
-    """A film whose state keeps the oil of the instant `then` that is to follow."""
+    """Return a film whose state holds the oil of the next instant, `then`."""
     ease = np.ones((1, 1)) if then.ease is None else then.ease
     thinned = np.zeros((1, 1)) if then.thinned is None else then.thinned
     return replace(found, state=replace(found.state, ease=ease, thinned=thinned))
 
 
 def recalled(now: Instant, state: FilmState) -> Instant:
-    """The instant with the oil that a film state keeps."""
+    """Return the instant with the oil that a film state holds."""
     ease, thinned = (field if field.size > 1 else None for field in (state.ease, state.thinned))
     return replace(now, ease=ease, thinned=thinned)
 
 
 def _steepness(pressure: Array, spacing: float) -> Array:
-    """Size of the pressure gradient of every node [Pa/m], root mean square of the slopes to its neighbours: a central
-    difference would not see the flow between the node of a peak and its neighbours.
+    """Return the size of the pressure gradient of every node [Pa/m].
+
+    It is the root mean square of the slopes to the neighbours: a central difference would miss the flow between the
+    node of a peak and its neighbours.
     """
     square = np.zeros_like(pressure)
     for axis in range(2):
@@ -150,11 +140,13 @@ def solve_thinning(
     ease: Callable[[Instant, FilmSolution], Instant],
     tolerance: float,
 ) -> FilmSolution:
-    """Steady film whose ease and thinning fit it: solved anew with those of the film before until it stands still.
+    """Return the steady film whose ease and thinning are consistent with it.
+
+    It is solved again with those of the film before until it no longer changes.
 
     `solve` an instant from a film state, or from nothing; `ease`: the instant with what a film of it makes of the oil,
-    itself if nothing, as by `eased`; `tolerance`: relative change of the film, weighted by pressure. What is returned
-    holds what it was solved with, and the iterations of all solutions. Without a film it is the first solution.
+    itself if nothing, as by `eased`; `tolerance`: relative change of the film, weighted by pressure. The result
+    holds the oil it was solved with, and the iterations of all solutions. Without a film it is the first solution.
     """
     found = solve(now, None)
     spent, change, part = found.iterations, np.inf, 1.0
@@ -175,7 +167,7 @@ def solve_thinning(
 
 
 def _between(now: Instant, then: Instant, part: float) -> Instant:
-    """An instant a part of the way to the oil of another one."""
+    """Return an instant a `part` of the change to the oil of another one."""
     ease, thinned = then.ease, then.thinned
     if now.ease is not None and ease is not None:
         ease = now.ease + part * (ease - now.ease)
@@ -185,6 +177,6 @@ def _between(now: Instant, then: Instant, part: float) -> Instant:
 
 
 def _change(before: FilmSolution, found: FilmSolution) -> float:
-    """Relative change of the film from one solution to the next, weighted by pressure."""
+    """Return the relative change of the film from one solution to the next, weighted by pressure."""
     weight = found.state.pressure
     return float((weight * np.abs(found.gap - before.gap)).sum() / (weight * found.gap).sum())

@@ -17,7 +17,7 @@ _LARGEST = 3.0  # sum of the magnitudes of the mixing weights
 
 @jit
 def _dot(a, b):  # type: ignore[no-untyped-def]
-    """Four sums side by side, so that one need not wait for the other."""
+    """Return the dot product, as four sums side by side: no addition waits for the one before."""
     s0, s1, s2, s3 = 0.0, 0.0, 0.0, 0.0
     whole = a.size - a.size % 4
     for i in range(0, whole, 4):
@@ -32,7 +32,7 @@ def _dot(a, b):  # type: ignore[no-untyped-def]
 
 @jit
 def _remember(x, images, residuals, gram, slot, used):  # type: ignore[no-untyped-def]
-    """Residual of the newest image, and its products with all that are held."""
+    """Compute the residual of the newest image and its products with all residuals that are held."""
     for k in range(used):
         gram[slot, k] = 0.0
     for first in range(0, x.size, _CHUNK):
@@ -48,7 +48,10 @@ def _remember(x, images, residuals, gram, slot, used):  # type: ignore[no-untype
 
 @jit
 def _weights(gram, slot, used):  # type: ignore[no-untyped-def]
-    """Weights of the images, adding up to 1, that make the residual least; all on the newest where mixing is unsafe."""
+    """Return the weights of the images, with sum 1, that minimise the residual.
+
+    Where mixing is unsafe, all weight is on the newest image.
+    """
     rows, n = gram.shape[0], used - 1
     at = np.empty(used, np.int64)  # oldest first
     for k in range(used):
@@ -108,12 +111,12 @@ class Anderson:
         self._stored = 0
 
     def clear(self) -> None:
-        """Forget everything."""
+        """Discard all stored images."""
         self._stored = 0
 
     @property
     def image(self) -> Array:
-        """Where the next image g(x) goes."""
+        """Array that takes the next image g(x)."""
         return self._images[self._slot]
 
     @property

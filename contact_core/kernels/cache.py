@@ -1,4 +1,6 @@
-"""Where numba keeps the compiled kernels: beside the sources or in the user's cache, as it does by itself; else apart.
+"""Folder of the compiled kernels: numba's own choice if it can be written, else a private temporary one.
+
+numba keeps compiled code beside the sources or in the user's cache.
 
 Service accounts and containers often can write neither, and numba then refuses to compile what is to be kept.
 """
@@ -15,10 +17,10 @@ from ..errors import ContactError
 
 
 def ensure() -> str:
-    """Choose a private folder for compiled kernels where numba would find none that can be written.
+    """Choose a private folder for compiled kernels if numba can write none of its own.
 
-    Return the sentence that says so, and warn with it; empty if there was no need. Raises ContactError if there is no
-    such folder either. Loads no compiler: the fast level needs none.
+    Return the sentence of the warning, or an empty text if there was no need. Raises ContactError if there is no
+    such folder either. Loads no compiler: the regression level needs none.
     """
     if os.environ.get("NUMBA_CACHE_DIR") or any(map(_can_be_written, _places())):
         return ""
@@ -40,7 +42,7 @@ def ensure() -> str:
 
 
 def _places() -> list[Path]:
-    """Where numba keeps what it has compiled of this folder's functions, if it can."""
+    """Return the folders in which numba keeps the compiled functions of this folder, by preference."""
     beside = Path(__file__).with_name("__pycache__")
     if sys.platform == "win32":
         return [beside, Path(os.environ.get("LOCALAPPDATA", tempfile.gettempdir()))]
@@ -60,7 +62,7 @@ def _can_be_written(folder: Path) -> bool:
 
 
 def _private_folder() -> Path:
-    """A folder of this user alone among the temporary ones: what lies in it is executed."""
+    """Return a temporary folder of this user alone: its contents are executed."""
     if not hasattr(os, "getuid"):  # Windows: temporary folders are the user's own
         folder = Path(tempfile.gettempdir(), "tribofmu-kernels")
         folder.mkdir(exist_ok=True)

@@ -1,4 +1,4 @@
-"""How a solution went: the record that the results of kernels, films, instants and calls have in common."""
+"""The record of how a solution converged, shared by the results of kernels, films, instants and calls."""
 
 from dataclasses import dataclass, fields
 from typing import Any
@@ -6,7 +6,7 @@ from typing import Any
 
 @dataclass(frozen=True, kw_only=True)
 class SolverConvergence:
-    """What an algorithm knows of its solution."""
+    """Convergence as an algorithm reports it."""
 
     converged: bool
     shortfall: str  # why it is not converged, empty if it is
@@ -24,7 +24,7 @@ class SolverConvergence:
 
 @dataclass(frozen=True, kw_only=True)
 class Convergence(SolverConvergence):
-    """How the film of one contact at one instant was found, and how good it is."""
+    """Route, algorithm and convergence of the film of one contact at one instant."""
 
     route: str  # "mixed", "dry" (asked for, or no entrainment), "fallback" (dry, no film was found) or "open" (no load)
     algorithm: str  # row of `film.routes.REGIMES` and its algorithm that found the film: "smooth: multigrid from none"

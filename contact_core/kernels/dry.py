@@ -1,12 +1,13 @@
 """Frictionless contact of rough, elastic-perfectly-plastic bodies without a fluid.
 
-The pressure makes the elastic energy p K p / 2 + gap p least under 0 <= p <= cap and sum p = load. The nodes strictly
+The pressure minimises the elastic energy p K p / 2 + gap p under 0 <= p <= cap and sum p = load. The nodes strictly
 between their bounds are a face. On a face conjugate gradients run, preconditioned by the inverse of the half space on a
-periodic plane; then the face changes: pressures beyond a bound go to it, and nodes whose gap has the wrong sign leave
-theirs. Faces and projected gradients are those of Moré & Toraldo, SIAM J. Optim. 1 (1991) 93, doi:10.1137/0801008, the
-preconditioner that of Vollebregt, J. Comput. Phys. 257 (2014) 333, doi:10.1016/j.jcp.2013.10.005. Coarse grids give the
-start, and the transforms span only the window that holds the contact. On a half space that is periodic along y windows
-span all rows, and coarse grids of odd numbers of rows two periods.
+periodic plane; then the face changes: pressures beyond a bound are set to it, and nodes whose gap has the wrong sign
+leave their bound. Faces and projected gradients are those of Moré & Toraldo, SIAM J. Optim. 1 (1991) 93,
+doi:10.1137/0801008, the preconditioner that of Vollebregt, J. Comput. Phys. 257 (2014) 333,
+doi:10.1016/j.jcp.2013.10.005. Coarse grids give the start, and the transforms span only the window that holds the
+contact. On a half space that is periodic along y windows span all rows, and coarse grids of odd numbers of rows two
+periods.
 """
 
 from collections.abc import Sequence
@@ -33,7 +34,7 @@ class DrySolution(NamedTuple):
 
     pressure: Array
     gap: Array  # deformed: 0 in contact, above 0 beside it, below 0 where the pressure is at its cap
-    rigid: float  # what the undeformed gap and the deformation lack to `gap`
+    rigid: float  # `gap` less undeformed gap and deformation
     converged: bool
     iterations: int  # on the grid itself
     error: float  # estimate of sum |p - exact p| / load
@@ -42,7 +43,7 @@ class DrySolution(NamedTuple):
 def solve_dry(
     half_space: HalfSpace, gap: Array, cap: Array, load: float, start: Array, tolerance: float, iterations: int
 ) -> tuple[Array, float, bool, int]:
-    """Pressure, rigid gap, whether it converged, and iterations of `dry_solution`."""
+    """Return pressure, rigid gap, convergence and iterations of `dry_solution`."""
     found = dry_solution(half_space, gap, cap, load, start, tolerance, iterations)
     return found.pressure, found.rigid, found.converged, found.iterations
 
@@ -50,7 +51,7 @@ def solve_dry(
 def dry_solution(
     half_space: HalfSpace, gap: Array, cap: Array, load: float, start: Array, tolerance: float, iterations: int
 ) -> DrySolution:
-    """Pressure [ny, nx] that carries `load` (its sum) with 0 <= p <= cap, and the gap that goes with it.
+    """Return the pressure [ny, nx] of sum `load` with 0 <= p <= cap, and its gap.
 
     gap [ny, nx] is that of the undeformed bodies up to a constant; start is any pressure of about the right place. The
     caps must carry more than the load. `tolerance` is the largest error of the pressure, sum |p - exact p| / load.
@@ -93,7 +94,7 @@ class _Grid(NamedTuple):
 
 
 def _grids(gap: Array, cap: Array, load: float, periodic: bool) -> list[_Grid]:
-    """The grid and ever coarser ones."""
+    """Return the grid and coarser ones, each of half the nodes of the one before."""
     grids = [_Grid(gap, cap, load, gap)]
     while True:
         gap, cap, load, lowest = grids[-1]
@@ -121,7 +122,7 @@ def _halved(a: Array, join, periodic: bool) -> Array:  # type: ignore[no-untyped
 
 
 def _coarse_solution(half_space: HalfSpace, grids: list[_Grid], start: Array, iterations: int) -> tuple[Window, Array]:
-    """A window that should hold the contact, and a pressure to begin with."""
+    """Return a window that should hold the contact, and a first pressure."""
     shape = grids[0].gap.shape
     depth = len(grids) - 1
     if depth == 0:
@@ -147,7 +148,10 @@ def _coarse_solution(half_space: HalfSpace, grids: list[_Grid], start: Array, it
 
 
 def _roomy(ends: Sequence[int], shape: tuple[int, ...], periodic: bool) -> Window:
-    """A window around `ends`, of lengths that are fast to transform; of all rows if they repeat."""
+    """Return a window around `ends` with lengths that are fast to transform.
+
+    On a half space that is periodic it holds all rows.
+    """
     found: list[int] = []
     for first, end, n, whole in ((ends[0], ends[1], shape[0], periodic), (ends[2], ends[3], shape[1], False)):
         length = 2 * scipy.fft.next_fast_len((end - first + 1) // 2)
@@ -160,7 +164,7 @@ def _roomy(ends: Sequence[int], shape: tuple[int, ...], periodic: bool) -> Windo
 
 
 def _ends(chosen: NDArray[np.bool_]) -> Window:
-    """The window that just holds all chosen nodes."""
+    """Return the smallest window that holds all chosen nodes."""
     rows, columns = np.flatnonzero(chosen.any(axis=1)), np.flatnonzero(chosen.any(axis=0))
     return int(rows[0]), int(rows[-1]) + 1, int(columns[0]), int(columns[-1]) + 1
 
@@ -175,7 +179,10 @@ _OPERATORS = WeakKeyDictionary()
 
 
 def _contact(half_space: HalfSpace, grid: _Grid, window: Window, width: int) -> Contact:
-    """A window of a grid whose cells are `width` nodes of the half space wide; operators are kept for the next call."""
+    """Return the contact on a window of a grid whose cells are `width` nodes of the half space wide.
+
+    Operators are kept for the next call.
+    """
     gap, cap = np.ascontiguousarray(_cut(grid.gap, window)), np.ascontiguousarray(_cut(grid.cap, window))
     store = _OPERATORS.setdefault(half_space, {})
     ny, nx = gap.shape
@@ -191,7 +198,10 @@ def _contact(half_space: HalfSpace, grid: _Grid, window: Window, width: int) -> 
 
 
 def _periodic_inverse(half_space: HalfSpace) -> Convolution:
-    """The inverse of the half space on the smallest periodic plane; its kernel falls like 1 / r^3."""
+    """Return the inverse of the half space on the smallest periodic plane.
+
+    Its kernel falls like 1 / r^3.
+    """
     ny, nx = half_space.shape
     spectrum = half_space.spectrum(half_space.plane(ny, nx))
     spectrum[0, 0] = spectrum[0, 1]  # the mean belongs to the load

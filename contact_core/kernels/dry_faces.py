@@ -16,15 +16,15 @@ States = NDArray[np.int8]
 
 # a pressure is 0, between its bounds, or at its cap; or the node is shut, as its cap is 0
 _LOW, _FREE, _HIGH, _SHUT = range(4)
-_EARLY = 3.0  # the face changes once the error on it is below this many times what is wrong with it,
-_EARLIEST = 0.01  # down to which that number falls when changes do not help
-_MISSES = 3  # changes in a row that do not help, after which each has to lower the energy
-_HUGE = 10.0  # loads: pressures so far out of bounds say nothing but the direction
+_EARLY = 3.0  # the face changes once the error on it is below this many times its violation of bounds and gaps
+_EARLIEST = 0.01  # least value of that factor, which falls when changes do not help
+_MISSES = 3  # useless changes in a row, after which each has to lower the energy
+_HUGE = 10.0  # loads: pressures so far out of bounds give a direction only
 _STALL = 20  # iterations without progress after which rounding is cleared away
 
 
 class Part(NamedTuple):
-    """What `Contact.solve` finds."""
+    """Solution on one window."""
 
     pressure: Array
     gap: Array
@@ -42,9 +42,9 @@ class Contact:
         self.give = 1.0 / float(self.half_space.near[0, 0])  # pressure that closes the gap of a node alone
 
     def solve(self, start: Array, tolerance: float, iterations: int) -> Part:
-        """Conjugate gradients on ever better faces."""
+        """Run conjugate gradients on one face after another."""
         p = np.clip(start, 0.0, self.cap)
-        if not p.any():  # a contact smaller than the spacing begins at the node that touches first
+        if not p.any():  # a contact smaller than the spacing starts at the node that touches first
             p.flat[np.argmin(np.where(self.cap > 0.0, self.gap, np.inf))] = 1.0
         p, g = self.allowed(p)
         faces = _Faces(self, p, g)
@@ -79,19 +79,19 @@ class Contact:
         return Part(p, g - level, level, error, n)
 
     def press(self, r: Array) -> Array:
-        """Approximate pressure behind a gap."""
+        """Return the approximate pressure that causes a gap."""
         nx = r.shape[1]
         self.inverse.field[:, :nx] = r
         return self.inverse.run()[:, :nx].copy()
 
     def allowed(self, p: Array) -> tuple[Array, Array]:
-        """A pressure within the bounds made to carry the load, and its gap."""
+        """Bring a pressure within its bounds and to the load; return it and its gap."""
         if not _scale(p, self.cap, self.load):
             p = _project(p, self.cap, self.load)
         return p, self.gap + self.half_space.deform(p)
 
     def downhill(self, p: Array, g: Array, level: float) -> tuple[Array, Array]:
-        """A step along the projected gradient that lowers the energy."""
+        """Return pressure and gap after a step along the projected gradient that lowers the energy."""
         step = self.give
         for _ in range(2):
             q = _project(p - step * (g - level), self.cap, self.load)
@@ -105,15 +105,18 @@ class Contact:
 
 
 class _Faces:
-    """When and how the face changes."""
+    """Changes of the face."""
 
     def __init__(self, contact: Contact, p: Array, g: Array) -> None:
         self.contact = contact
-        self.p, self.g = p.copy(), g.copy()  # where the face was entered
+        self.p, self.g = p.copy(), g.copy()  # at the start of the face
         self.early, self.least, self.misses, self.safe = _EARLY, np.inf, 0, False
 
     def change(self, p: Array, g: Array, state: States, level: float, wrong: float) -> tuple[Array, Array]:
-        """The pressure on the next face, and its gap; `wrong` is what bounds and gaps of this face lack, in loads."""
+        """Return the pressure on the next face, and its gap.
+
+        `wrong`: violation of bounds and of the signs of gaps on this face, in loads.
+        """
         if wrong < 0.9 * self.least:
             self.least, self.misses = wrong, 0
         else:
@@ -131,7 +134,7 @@ class _Faces:
         return p, g
 
     def _lower(self, p: Array, g: Array, state: States, level: float) -> tuple[Array, Array]:
-        """Toward p as far as the energy falls, else along the projected gradient."""
+        """Step toward p as far as the energy falls, else along the projected gradient."""
         contact = self.contact
         for part in (1.0, 0.25, 0.0625):
             toward = self.p + part * (p - self.p)
@@ -156,7 +159,10 @@ def _place(p, cap, state):  # type: ignore[no-untyped-def]
 
 @jit
 def _level(g, state):  # type: ignore[no-untyped-def]
-    """Gap at which the bodies touch: the mean over the face, or between what must be shut and what must be open."""
+    """Return the gap at which the bodies touch.
+
+    It is the mean over the face, or lies between the gaps of nodes that must be shut and of those that must be open.
+    """
     total, count, shut, opened = 0.0, 0, -np.inf, np.inf
     for j in range(g.shape[0]):
         for i in range(g.shape[1]):
@@ -176,7 +182,7 @@ def _level(g, state):  # type: ignore[no-untyped-def]
 
 @jit
 def _residual(p, g, cap, state, level, r):  # type: ignore[no-untyped-def]
-    """Put the gap on the face into r. Returns the overlap off the face and the pressure beyond bounds on it."""
+    """Put the gap on the face into r; return the overlap off the face and the excess of bounds on it."""
     overlap, excess = 0.0, 0.0
     for j in range(p.shape[0]):
         for i in range(p.shape[1]):
@@ -193,7 +199,7 @@ def _residual(p, g, cap, state, level, r):  # type: ignore[no-untyped-def]
 
 @jit
 def _restrict(z, r, state):  # type: ignore[no-untyped-def]
-    """Take its mean on the face from z, and zero it off the face. Returns sum |z| and sum z r."""
+    """Subtract from z its mean on the face, zero it off the face; return sum |z| and sum z r."""
     total, count = 0.0, 0
     for j in range(z.shape[0]):
         for i in range(z.shape[1]):
@@ -233,7 +239,7 @@ def _move(p, g, r, t, bent):  # type: ignore[no-untyped-def]
 
 @jit
 def _bound(p, g, cap, state, level, give):  # type: ignore[no-untyped-def]
-    """Within bounds, and a first pressure for nodes that come to the face."""
+    """Return p within its bounds, with a first pressure on nodes that join the face."""
     q = np.empty_like(p)
     for j in range(p.shape[0]):
         for i in range(p.shape[1]):
@@ -246,7 +252,7 @@ def _bound(p, g, cap, state, level, give):  # type: ignore[no-untyped-def]
 
 @jit
 def _scale(p, cap, load):  # type: ignore[no-untyped-def]
-    """Scale what is below its cap to meet the load; False if that cannot be."""
+    """Scale the pressures below their caps to the load; return False if that is impossible."""
     for _ in range(50):  # scaling may push further nodes to the cap
         free, held = 0.0, 0.0
         for j in range(p.shape[0]):
@@ -278,7 +284,7 @@ def _clipped_sum(y, cap, shift):  # type: ignore[no-untyped-def]
 
 @jit
 def _project(y, cap, load):  # type: ignore[no-untyped-def]
-    """Nearest pressure to y that is within bounds and carries the load: y shifted and clipped, by bisection."""
+    """Return the pressure nearest to y within the bounds and of sum `load`: y shifted and clipped, by bisection."""
     low, high = np.inf, -np.inf
     for j in range(y.shape[0]):
         for i in range(y.shape[1]):
@@ -305,7 +311,7 @@ def _project(y, cap, load):  # type: ignore[no-untyped-def]
 
 @jit
 def _descent(p, g, q, gq, level):  # type: ignore[no-untyped-def]
-    """First and second derivative of the energy from p to q: (-slope, curvature)."""
+    """Return first and second derivative of the energy from p to q: (-slope, curvature)."""
     down, curve = 0.0, 0.0
     for j in range(p.shape[0]):
         for i in range(p.shape[1]):

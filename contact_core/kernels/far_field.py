@@ -1,4 +1,4 @@
-"""What lies beyond the edge of the grid: the decay of the inlet pressure and the load it still carries.
+"""Pressure and load beyond the edge of the grid: the decay of the inlet pressure.
 
 Far in the inlet the film is rigid, h = h0 + (x^2 + k y^2) / 2, and the pressure goes like g = -x / h^2 for x < 0 and is
 zero behind: p ~ -x / h^2 is Kapitza's exact solution of the rigid, isoviscous half-flooded ellipsoid. Where bodies come
@@ -19,7 +19,7 @@ _THINNEST = 1e-9  # film beside which that at the edge is infinite
 def far_field(
     x: Array, y: Array, film: float, curvature: float = 1.0, wedge: float = 1.0, closing: float = 0.0
 ) -> tuple[Array, Array]:
-    """Ratio of the pressure of an edge node to that of its inner neighbour, and the weight of each node in the load.
+    """Return the ratio of each edge pressure to that of its inner neighbour, and each node's weight in the load.
 
     x [nx], y [ny] equally spaced; film: h0, central film of smooth bodies, below zero where their shapes overlap (but
     not at the edge); curvature: k, that along y over that along x; wedge, closing: u and c V R in the same unit.

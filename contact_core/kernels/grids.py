@@ -1,4 +1,7 @@
-"""Between a grid and that of half its nodes: every other node of an odd number, means of pairs of an even one."""
+"""Transfer between a grid and that of half its nodes.
+
+Every other node of an odd number, means of pairs of an even one.
+"""
 
 from typing import Any
 
@@ -9,7 +12,7 @@ Array = NDArray[np.float64]
 
 
 def restrict(field: NDArray[Any]) -> NDArray[Any]:
-    """A field [ny, nx], or coordinates [n], on the coarser grid."""
+    """Return a field [ny, nx], or coordinates [n], on the coarser grid."""
     for axis in range(field.ndim):
         field = np.moveaxis(field, axis, 0)
         even = field[0::2]
@@ -18,7 +21,7 @@ def restrict(field: NDArray[Any]) -> NDArray[Any]:
 
 
 def prolong(field: NDArray[Any], shape: tuple[int, int]) -> Array:
-    """A field of the coarser grid on one of `shape` [ny, nx], linear in between."""
+    """Return a field of the coarser grid on one of `shape` [ny, nx], by linear interpolation."""
     for axis, n in enumerate(shape):
         if field.shape[axis] == n:
             continue

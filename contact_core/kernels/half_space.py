@@ -1,4 +1,4 @@
-"""Elastic half space under a pressure that is constant on square cells, alone or repeated for ever along y.
+"""Elastic half space under a pressure that is constant on square cells, single or periodic along y.
 
 Source of the coefficients: Love, Phil. Trans. R. Soc. A 228 (1929) 377, doi:10.1098/rsta.1929.0009; of the zero-padded
 convolution: Liu, Wang & Liu, Wear 243 (2000) 101, doi:10.1016/S0043-1648(00)00427-0; of the line load: Johnson, Contact
@@ -18,13 +18,13 @@ Array = NDArray[np.float64]
 _MARGIN = 16
 _LOVE_UP_TO = 64  # cells, from where on two terms of the expansion of a cell's potential are as exact
 _PERIODS = 12  # on either side that are summed one by one
-# datum of `near`: in periods, that with which the images of a node displace it by nothing; and at least so many nodes
+# datum of `near`: in periods, the one for which the images of a node do not displace it; and its least nodes
 _LOCAL, _LEAST_LOCAL = 2.0 * np.exp(-np.euler_gamma), 3.0
 
 
 @lru_cache(maxsize=16)
 def influence(ny: int, nx: int) -> Array:
-    """Love's coefficients for unit square cells: C[j, i] at the distance (j, i) from a cell under unit pressure.
+    """Return Love's coefficients C[j, i] of unit square cells at the distance (j, i) from a unit pressure.
 
     The displacement of a half space is 2 / (pi E') * spacing * sum C p, E' = 2 / sum (1 - v^2)/E.
     """
@@ -46,7 +46,7 @@ def influence(ny: int, nx: int) -> Array:
 
 @lru_cache(maxsize=16)
 def periodic_influence(ny: int, nx: int) -> Array:
-    """Coefficients [ny // 2 + 1, nx] as those of `influence` for cells that are repeated every ny rows.
+    """Return the coefficients [ny // 2 + 1, nx] of `influence` for cells that repeat every ny rows.
 
     The sum over all rows is that of a line load, the integral of -2 ln |x| over a cell: displacements, which have no
     limit far away, are counted from that at the distance of one cell from a line. The periods that are not summed one
@@ -64,7 +64,7 @@ def periodic_influence(ny: int, nx: int) -> Array:
 
 
 def _cells(rows: NDArray[Any], nx: int) -> NDArray[Any]:
-    """Rows of `influence` at any whole distances."""
+    """Return rows of `influence` at any whole distances."""
     x, y = np.arange(nx)[None, :], rows[:, None]
     far = y[:, 0] >= _LOVE_UP_TO
     out = np.empty((rows.size, nx))
@@ -75,9 +75,10 @@ def _cells(rows: NDArray[Any], nx: int) -> NDArray[Any]:
 
 
 def _rest(distance: NDArray[Any], nx: int, period: int) -> NDArray[Any]:
-    """Sums [m, nx] of g = 1 / r + 1 / (24 r^3) over rows that lie 1/2, 3/2, ... periods beyond a `distance` [m]:
-    integral, first and third derivative. They grow like the logarithm of where they end; ln(twice that) / period is
-    left out.
+    """Return sums [m, nx] of g = 1 / r + 1 / (24 r^3) over all periods beyond a `distance` [m].
+
+    The rows lie 1/2, 3/2, ... periods beyond it; the sums are integral, first and third derivative. They grow like the
+    logarithm of where they end; ln(twice that) / period is left out.
     """
     x, y = np.arange(nx)[None, :], distance[:, None]
     r = np.hypot(x, y)
@@ -119,16 +120,16 @@ class HalfSpace:
         self._deform = Convolution(ny, self.spectrum(self._padded), library)
 
     def window(self, ny: int, nx: int, width: int) -> "HalfSpace":
-        """That of a part of the grid, or of one whose cells are `width` of its nodes wide."""
+        """Return the half space of a window of the grid, in cells of `width` nodes."""
         scale = width * self.near[0, 0] / influence(1, 1)[0, 0]
         return HalfSpace(ny, nx, scale, self.library)
 
     def plane(self, ny: int, nx: int) -> tuple[int, int]:
-        """Sides of a periodic plane for at least ny rows and nx columns, fast to transform."""
+        """Return the sides of a periodic plane of at least ny rows and nx columns, fast to transform."""
         return _even_fast_length(ny), _even_fast_length(nx)
 
     def spectrum(self, plane: tuple[int, int]) -> Array:
-        """Transform [my, mx // 2 + 1] of the kernel up to half the sides of a plane; real, since it is even."""
+        """Return the transform [my, mx // 2 + 1] of the even kernel up to half the sides of a plane; it is real."""
         my, mx = plane
         return _spectrum(self._coefficients(my // 2 + 1, mx // 2 + 1), plane)
 
@@ -139,24 +140,25 @@ class HalfSpace:
         return influence(*self.shape)[:9, :9]
 
     def deform(self, pressure: Array) -> Array:
-        """Deformation [ny, nx] under a pressure [ny, nx]."""
+        """Return the deformation [ny, nx] under a pressure [ny, nx]."""
         return self.deform_padded(pressure)[:, : self.shape[1]].copy()
 
     def deform_padded(self, pressure: Array) -> Array:
-        """Deformation under a pressure [ny, nx] in the first nx columns of scratch [ny, mx] that the next call uses."""
+        """Return the deformation in the first nx columns of scratch [ny, mx], which the next call overwrites."""
         self._deform.field[:, : self.shape[1]] = pressure
         return self._deform.run()
 
     def press(self, gap: Array) -> Array:
-        """Pressure that would open a small gap [ny, nx] on the padded, periodic plane: an approximate inverse of
-        `deform`.
+        """Return the pressure that would open a small gap [ny, nx] on the padded, periodic plane.
+
+        It is an approximate inverse of `deform`.
         """
         nx = self.shape[1]
         self._press.field[:, :nx] = gap
         return self._press.run()[:, :nx].copy()
 
     def press_part(self, height: int, width: int) -> Convolution:
-        """The inverse for gaps that vanish outside height x width nodes.
+        """Return the inverse for gaps that vanish outside height x width nodes.
 
         The inverse kernel falls like 1 / r^3: the images on a periodic plane half as wide do no harm if they stay
         `_MARGIN` nodes away. `field` is all of that plane, or that of `press` if the gap does not fit.
@@ -174,7 +176,7 @@ class HalfSpace:
 
 
 class PeriodicHalfSpace(HalfSpace):
-    """The same, repeated along y with the period of its rows and free along x.
+    """A half space that is periodic along y with the rows of the grid, and free along x.
 
     A pressure has these rows [ny, nx], or two more [ny + 2, nx] that are images: the first of the last but one and the
     last of the second; so has its deformation. A line load displaces by -(4 / (pi E')) ln(r / d) per unit, zero at the
@@ -190,15 +192,15 @@ class PeriodicHalfSpace(HalfSpace):
         self._wrapped = np.empty((ny + 2, self._padded[1]))
 
     def window(self, ny: int, nx: int, width: int) -> "PeriodicHalfSpace":
-        """That of columns of the grid, or of one whose cells are `width` of its nodes wide."""
+        """Return the half space of a window of columns, in cells of `width` nodes."""
         return PeriodicHalfSpace(ny, nx, width * self.scale, self.library, self.reference / width)
 
     def plane(self, ny: int, nx: int) -> tuple[int, int]:
-        """Sides of a periodic plane for at least nx columns: its rows are the period."""
+        """Return the sides of a periodic plane of at least nx columns; its rows are the period."""
         return self.shape[0], _even_fast_length(nx)
 
     def deform_padded(self, pressure: Array) -> Array:
-        """Deformation under a pressure in the first nx columns of scratch of as many rows that the next call uses."""
+        """Return the deformation in the first nx columns of scratch, which the next call overwrites."""
         if pressure.shape[0] == self.shape[0]:
             return super().deform_padded(pressure)
         self._wrapped[1:-1] = super().deform_padded(pressure[1:-1])
@@ -210,7 +212,7 @@ class PeriodicHalfSpace(HalfSpace):
         return self.scale * (periodic_influence(rows, nx)[:ny] + 2.0 / rows * np.log(self.reference))
 
     def _nearest(self) -> Array:
-        """Coefficients of the nodes around one, such that sums over a patch count none twice."""
+        """Return the coefficients of the nodes around one; sums over a patch count each node once."""
         ny = self.shape[0]
         near, rows = np.zeros((9, 9)), min(ny // 2 + 1, 9)
         near[:rows] = periodic_influence(ny, 9)[:rows] + 2.0 / ny * np.log(max(_LOCAL * ny, _LEAST_LOCAL))
@@ -224,7 +226,7 @@ def _even_fast_length(least: int) -> int:
 
 
 def _spectrum(quarter: Array, plane: tuple[int, int]) -> Array:
-    """Real transform on a periodic plane of an even kernel, given up to half its sides."""
+    """Return the real transform on a periodic plane of an even kernel, given up to half its sides."""
     my, mx = plane
     ny, nx = quarter.shape
     kernel = np.zeros((my, mx))
@@ -241,7 +243,7 @@ def _inverse(spectrum: Array) -> Array:
 
 
 def _with_fftw(ny: int, mx: int, factor: Array) -> tuple[Array, Callable[[], Array]]:
-    """Scratch [ny, mx] and what filters it by a factor [mx // 2 + 1, my].
+    """Return scratch [ny, mx] and a function that filters it by a factor [mx // 2 + 1, my].
 
     Rows of zeros are not transformed, and columns lie contiguous between their two transforms.
     """
@@ -271,7 +273,7 @@ def _with_fftw(ny: int, mx: int, factor: Array) -> tuple[Array, Callable[[], Arr
 
 
 def _with_scipy(ny: int, mx: int, factor: Array) -> tuple[Array, Callable[[], Array]]:
-    """The same by scipy."""
+    """Return the same as `_with_fftw`, by scipy."""
     field, rows = np.zeros((ny, mx)), np.ascontiguousarray(factor.T)
 
     def run() -> Array:

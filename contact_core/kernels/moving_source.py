@@ -1,5 +1,6 @@
-"""Surface temperature of a half space that moves through heat, constant on square cells, steady; and of two of them
-with oil between.
+"""Steady surface temperature of half spaces that move through a heat source.
+
+The source is constant on square cells; one half space alone, or two with oil between them.
 
 Sources: Jaeger, Proc. R. Soc. N. S. W. 76 (1942) 203; Carslaw & Jaeger, Conduction of Heat in Solids, 1959, section
 10.7. A point that takes up heat at the rate Q warms the surface by Q exp[-u (r - x) / (2 k)] / (2 pi K r), x along the
@@ -29,8 +30,9 @@ _WAVES = 2  # of one that is wider: exp[-(3 pi)^2] = 3e-39
 
 
 def moving_influence(ny: int, nx: int, peclet: float) -> Array:
-    """Coefficients [ny, 2 nx - 1] of unit square cells: rows at the distances 0 ... ny - 1 across the motion, columns
-    at the distances -(nx - 1) ... nx - 1 along x.
+    """Return coefficients [ny, 2 nx - 1] of unit square cells.
+
+    Rows are at the distances 0 ... ny - 1 across the motion, columns at -(nx - 1) ... nx - 1 along x.
 
     They are the integrals of exp[-peclet (r - x)] / r over the cell, peclet = u spacing / (2 k); the rise is
     spacing / (2 pi K) times their sum with the flux. Heat taken up a time t ago has moved by u t and spread to a
@@ -52,11 +54,12 @@ def moving_influence(ny: int, nx: int, peclet: float) -> Array:
 
 
 def periodic_moving_influence(ny: int, nx: int, peclet: float, face: float) -> Array:
-    """The same, repeated along y with the period of ny rows over a `face` of so many nodes: rows at the distances
-    0 ... ny - 1 in the middle of it.
+    """Return the coefficients of cells that repeat along y with the period of ny rows.
+
+    They repeat over a `face` of so many nodes; rows at the distances 0 ... ny - 1 in the middle of it.
 
     The integral across is that of all images of a cell, times the share erf(face / (2 s)) of the Gaussian that lies on
-    the face: exact as long as the images merge before the ends are felt. A face without end has no steady temperature
+    the face: exact as long as the images merge before the ends matter. A face without end has no steady temperature
     at rest.
     """
     if peclet < 0.0:
@@ -71,7 +74,7 @@ def periodic_moving_influence(ny: int, nx: int, peclet: float, face: float) -> A
 
 
 def _images(ny: int, s: Array) -> Array:
-    """Sum over all k of erf((y + 1/2) / s) - erf((y - 1/2) / s), y = j + k ny: [n, ny] for s [n, 1].
+    """Return the sum over all k of erf((y + 1/2) / s) - erf((y - 1/2) / s), y = j + k ny: [n, ny] for s [n, 1].
 
     Where the Gaussian is narrower than the period, image by image; where it is wider, by its Fourier series.
     """
@@ -88,7 +91,10 @@ def _images(ny: int, s: Array) -> Array:
 
 
 def _quadrature(nx: int, peclet: float) -> Iterator[tuple[Array, Array]]:
-    """Gauss nodes and weights [n, 1] in panels of s: the error functions change over s itself or over 1 / peclet."""
+    """Yield Gauss nodes and weights [n, 1] in panels of s.
+
+    The error functions change over s itself or over 1 / peclet.
+    """
     end, widest = _FAR, np.inf
     if peclet > _STILL:
         end = min((_DEEP + np.sqrt(_DEEP**2 + 2.0 * peclet * nx)) / peclet, _FAR)
@@ -104,7 +110,7 @@ def _quadrature(nx: int, peclet: float) -> Iterator[tuple[Array, Array]]:
 
 @lru_cache(maxsize=8)
 def _spectrum(ny: int, nx: int, peclet: float, face: float | None) -> Spectrum:
-    """Transform of the coefficients on a plane padded by zeros.
+    """Return the transform of the coefficients on a plane padded by zeros.
 
     Across the motion they are even, so that 2 (ny - 1) rows keep all distances apart; along it that takes 2 nx - 1.
     Rows on a `face` are those of their period.
@@ -141,7 +147,7 @@ class MovingSurface:
 
     @property
     def rise_of_cell(self) -> float:
-        """Rise of a cell per flux into itself, and its images, alone [K m2/W]."""
+        """Rise of a cell, with its images, per flux into itself alone [K m2/W]."""
         if self._face is None:
             return self._scale * float(moving_influence(1, 1, self._peclet)[0, 0])
         return self._scale * float(periodic_moving_influence(self.shape[0], 1, self._peclet, self._face)[0, 0])
@@ -159,12 +165,12 @@ class MovingSurface:
         return 0.5 * self.speed * self.spacing / self.diffusivity
 
     def rise(self, flux: Array) -> Array:
-        """Steady temperature rise [K] under a heat flux [W/m2], both [ny, nx]."""
+        """Return the steady temperature rise [K] under a heat flux [W/m2], both [ny, nx]."""
         return _filtered(flux, self.spectrum)
 
 
 def _filtered(field: Array, spectrum: Spectrum) -> Array:
-    """Zero-padded convolution of a field [ny, nx]; rows of zeros are not transformed."""
+    """Return the zero-padded convolution of a field [ny, nx]; rows of zeros are not transformed."""
     ny, nx = field.shape
     my, mx = spectrum.shape[0], _row_length(nx)
     rows = scipy.fft.fft(scipy.fft.rfft(field, mx, axis=1), my, axis=0, overwrite_x=True)
@@ -179,7 +185,7 @@ def _row_length(nx: int) -> int:
 
 @dataclass(frozen=True)
 class Partition:
-    """How two surfaces share the heat of the film between them. Arrays [ny, nx]."""
+    """Heat of the film shared between two surfaces. Arrays [ny, nx]."""
 
     into_1: Array  # heat flux into each body [W/m2]
     into_2: Array
@@ -198,7 +204,7 @@ def partition(
     tolerance: float = 1e-7,
     iterations: int = 200,
 ) -> Partition:
-    """Share the heat that a film evenly over its thickness h dissipates [W/m2], so that both surfaces fit it.
+    """Share the heat [W/m2] that a film dissipates evenly over its thickness h so that both surfaces match it.
 
     `resistance` is h / (conductivity of the film) [m2 K/W], `difference` that of the bodies, T_2 - T_1 [K]. Body 1
     takes up q_1 = q/2 + d and body 2 q_2 = q/2 - d with d = (T_2 - T_1) / resistance of the surfaces where `inside`,

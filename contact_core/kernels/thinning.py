@@ -1,4 +1,4 @@
-"""Oil that thins under shear, flowing between sliding walls under a pressure gradient: one node at a time."""
+"""Flow of an oil that thins under shear, between sliding walls under a pressure gradient: node by node."""
 
 import numpy as np
 
@@ -12,7 +12,7 @@ _TANGENT = 1e-2  # pressure flow over sliding flow below which the first guess i
 
 @jit
 def stress_of_flow(sheared, pressed, mean, half, log_least, log_step, log_ease):  # type: ignore[no-untyped-def]
-    """Shear stresses mean + s half, s = -1...1 across the film, that go with a sliding and a pressure flow.
+    """Compute the shear stresses mean + s half, s = -1...1 across the film, of a sliding and a pressure flow.
 
     All fields are flat, stresses in Pa. sheared, pressed: what a Newtonian oil of the same viscosity would need for
     the same sliding (uniform) and for the same pressure flow (at the walls). `mean` and `half` hold the first guess,

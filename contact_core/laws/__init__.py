@@ -1,8 +1,19 @@
-"""Physics in slots: each law is a frozen dataclass with a `name`, its `source`, its `equations` (for
-documentation), its parameters and array functions.
+"""Physics in slots: one law per slot of a scene.
 
-A slot's table in a scene says `model = "<name>"`; for a law without parameters the name alone will do. A new law is one
-class and one entry in its module's LAWS.
+    base                Protocols: the attributes and methods of every law of a slot
+    viscosity, density, rheology, supply    the oil
+    plasticity, boundary_friction, wear     the solids
+    heat, bulk          temperatures in the contact, and of the bodies
+    tribofilm/          growth and removal of the tribofilm
+    load_sharing        load on solids and oil at the regression level
+    profile             ends of rollers
+    equations           text of a law's equations, for documentation
+    elementary          elementary functions of numbers and arrays
+
+Each law is a frozen dataclass with a `name`, its `source`, its `equations`, its parameters and array functions. A
+slot's table in a scene says `model = "<name>"`; for a law without parameters the name alone is enough. A new law is one
+class that follows the Protocol of its slot, and one entry in its module's LAWS. A new tribofilm law is one file in
+`tribofilm`, one entry in its LAWS, and constants in data/tribofilms.toml.
 """
 
 from . import (
@@ -19,8 +30,9 @@ from . import (
     viscosity,
     wear,
 )
+from .base import Law
 
-SLOTS: dict[str, tuple[type, ...]] = {
+SLOTS: dict[str, tuple[type[Law], ...]] = {
     "viscosity": viscosity.LAWS,
     "density": density.LAWS,
     "rheology": rheology.LAWS,

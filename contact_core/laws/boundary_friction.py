@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..quantities import parameter
+from .base import BoundaryFriction
 from .elementary import tanh
 from .equations import Equations
 
@@ -34,24 +35,27 @@ class FilmBlend:
     slip_speed: float = parameter("m/s", "sliding speed over which friction changes sign", above=0.0, most=1.0)
 
     def coefficient(self, cover: Array) -> Array:
-        """Friction coefficient of sliding solids under tribofilms of a mean cover, 0 to 1."""
+        """Return the friction coefficient of sliding solids under tribofilms of a mean cover, 0 to 1."""
         return self.bare + (self.film - self.bare) * cover
 
     def __call__(self, solid_pressure: Array, cover: Array, sliding_speed: Array | float) -> Array:
-        """Shear stress [Pa], with the sign of the sliding speed [m/s], for cover 0 to 1 and solid pressure [Pa]."""
+        """Return the shear stress [Pa], with the sign of the sliding speed [m/s].
+
+        For cover 0 to 1 and a solid pressure [Pa].
+        """
         return self.coefficient(cover) * solid_pressure * self.grip(sliding_speed)
 
     def grip(self, sliding_speed: Array | float) -> Array:
-        """Share of full friction at a sliding speed [m/s], with its sign."""
+        """Return the share of full friction at a sliding speed [m/s], with its sign."""
         return tanh(sliding_speed / self.slip_speed)
 
     def grip_slope(self, sliding_speed: Array | float) -> Array:
-        """Derivative of `grip` by the sliding speed [s/m]."""
+        """Return the derivative of `grip` by the sliding speed [s/m]."""
         return (1.0 - self.grip(sliding_speed) ** 2) / self.slip_speed
 
     def slope(self, solid_pressure: Array, cover: Array, sliding_speed: Array | float) -> Array:
-        """Derivative of the shear stress by the sliding speed [Pa s/m]."""
+        """Return the derivative of the shear stress by the sliding speed [Pa s/m]."""
         return self.coefficient(cover) * solid_pressure * self.grip_slope(sliding_speed)
 
 
-LAWS = (FilmBlend,)
+LAWS: tuple[type[BoundaryFriction], ...] = (FilmBlend,)

@@ -1,4 +1,4 @@
-"""Bulk temperature of the two bodies: what the heat of the contact comes on top of."""
+"""Bulk temperatures of the two bodies, above which the contact heats their surfaces."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -6,6 +6,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..quantities import parameter
+from .base import Bulk
 from .equations import Equations
 
 Pair = tuple[float, float]
@@ -13,7 +14,7 @@ Pair = tuple[float, float]
 
 @dataclass(frozen=True)
 class OilBulk:
-    """Both bodies are as warm as the oil."""
+    """Both bodies have the temperature of the oil."""
 
     name: ClassVar[str] = "oil"
     source: ClassVar[str] = "assumed: bodies in thermal equilibrium with the oil"
@@ -25,17 +26,17 @@ class OilBulk:
     )
 
     def bodies(self, oil: float, inputs: tuple[float | None, float | None], stored: Pair | None) -> Pair:
-        """Bulk temperatures (T_1, T_2) [K] at an oil temperature [K]."""
+        """Return the bulk temperatures (T_1, T_2) [K]: the oil's."""
         return oil, oil
 
     def after(self, temperatures: Pair, heat: Pair, oil: float, dt: float) -> Pair:
-        """Bulk temperatures [K] at the end of a step: the oil's."""
+        """Return the bulk temperatures [K] at the end of a step: the oil's."""
         return oil, oil
 
 
 @dataclass(frozen=True)
 class InputBulk:
-    """The inputs body_temperature_1 and _2; a body without one is as warm as the oil."""
+    """The inputs body_temperature_1 and _2; a body without one has the temperature of the oil."""
 
     name: ClassVar[str] = "inputs"
     source: ClassVar[str] = "given by the inputs"
@@ -48,19 +49,20 @@ class InputBulk:
     )
 
     def bodies(self, oil: float, inputs: tuple[float | None, float | None], stored: Pair | None) -> Pair:
-        """Bulk temperatures (T_1, T_2) [K] at an oil temperature and inputs [K]."""
+        """Return the bulk temperatures (T_1, T_2) [K] for an oil temperature and inputs [K]."""
         first, second = inputs
         return oil if first is None else first, oil if second is None else second
 
     def after(self, temperatures: Pair, heat: Pair, oil: float, dt: float) -> Pair:
-        """Bulk temperatures [K] at the end of a step: as they were given."""
+        """Return the bulk temperatures [K] at the end of a step: those given."""
         return temperatures
 
 
 @dataclass(frozen=True)
 class LumpedBulk:
-    """Each body is one heat capacity C that takes up the contact's heat Q and passes it on to the oil:
-    C dT/dt = Q - G (T - T_oil). Both bodies start as warm as the oil.
+    """Each body is one heat capacity C: C dT/dt = Q - G (T - T_oil).
+
+    It takes up the contact's heat Q and passes it on to the oil. Both bodies start at the temperature of the oil.
     """
 
     name: ClassVar[str] = "lumped"
@@ -79,11 +81,14 @@ class LumpedBulk:
     conductance_2: float = parameter("W/K", "G, thermal conductance from body 2 to the oil", least=0.0, most=1e6)
 
     def bodies(self, oil: float, inputs: tuple[float | None, float | None], stored: Pair | None) -> Pair:
-        """Bulk temperatures (T_1, T_2) [K]: those stored, or the oil's if there are none yet."""
+        """Return the bulk temperatures (T_1, T_2) [K]: those stored, or the oil's if there are none yet."""
         return (oil, oil) if stored is None else stored
 
     def after(self, temperatures: Pair, heat: Pair, oil: float, dt: float) -> Pair:
-        """Bulk temperatures [K] after `dt` [s] under constant heat [W] and oil temperature [K]; exact for any `dt`."""
+        """Return the bulk temperatures [K] after `dt` [s] under constant heat [W] and oil temperature [K].
+
+        Exact for any `dt`.
+        """
         first, second = temperatures
         return (
             _warmed(first, heat[0], self.heat_capacity_1, self.conductance_1, oil, dt),
@@ -97,4 +102,4 @@ def _warmed(temperature: float, heat: float, capacity: float, conductance: float
     return temperature + (heat - conductance * (temperature - oil)) * dt / capacity * mean
 
 
-LAWS = (OilBulk, InputBulk, LumpedBulk)
+LAWS: tuple[type[Bulk], ...] = (OilBulk, InputBulk, LumpedBulk)

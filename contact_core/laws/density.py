@@ -6,6 +6,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from .base import Density
 from .equations import Equations
 
 
@@ -20,7 +21,7 @@ class DowsonHigginson:
     )
 
     def __call__(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Density ratio at pressures [Pa] (any shape)."""
+        """Return the density ratio at pressures [Pa] (any shape)."""
         return (5.9e8 + 1.34 * pressure) / (5.9e8 + pressure)
 
 
@@ -36,8 +37,8 @@ class Incompressible:
     )
 
     def __call__(self, pressure: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Ones in the shape of `pressure`."""
+        """Return ones in the shape of `pressure`."""
         return np.ones_like(pressure)
 
 
-LAWS = (DowsonHigginson, Incompressible)
+LAWS: tuple[type[Density], ...] = (DowsonHigginson, Incompressible)

@@ -1,4 +1,4 @@
-"""Temperatures of the surfaces and of the film between them, and where the heat of friction goes.
+"""Temperatures of the surfaces and of the film between them, and the heat flows into the bodies.
 
 All laws answer to `temperatures` of a `Rubbing`.
 """
@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from ..kernels.moving_source import MovingSurface, partition
 from ..quantities import parameter
-from .bulk import InputBulk, LumpedBulk, OilBulk
+from .base import Bulk, Heat
+from .bulk import OilBulk
 from .elementary import Numbers, sqrt
 from .equations import Equations
 
@@ -28,7 +29,7 @@ _MATCHED = 1e-6  # mismatch up to which temperatures count as solved; the solver
 
 @dataclass(frozen=True)
 class Rubbing:
-    """What heats a contact, and what the heat meets. Arrays [ny, nx]."""
+    """Heat of a contact, and the contact that it warms. Arrays [ny, nx]."""
 
     dissipation: Array  # heat of friction per area [W/m2]
     gap: Array  # [m]
@@ -42,7 +43,7 @@ class Rubbing:
 
     @property
     def total(self) -> float:
-        """All heat [W]."""
+        """Heat of the whole contact [W]."""
         return float(self.dissipation.sum()) * self.spacing**2
 
 
@@ -60,12 +61,12 @@ class Temperatures:
 
 
 def _flat(bodies: Pair, into_1: float, into_2: float) -> Temperatures:
-    """The surfaces have the temperatures of their bodies."""
+    """Return surfaces with the temperatures of their bodies."""
     return Temperatures(*bodies, 0.5 * (bodies[0] + bodies[1]), into_1, into_2, 0.0, True)
 
 
 def _spots(solid: Nodes, *, periodic: bool) -> tuple[NDArray[np.int32], int]:
-    """Number of the connected set that each node belongs to, from 1 (0: none), and how many there are."""
+    """Return the number of the connected set of each node, from 1 (0: none), and their count."""
     spots, count = scipy.ndimage.label(solid)
     meeting = (spots[0] > 0) & (spots[-1] > 0)
     if not (periodic and meeting.any()):
@@ -73,12 +74,14 @@ def _spots(solid: Nodes, *, periodic: bool) -> tuple[NDArray[np.int32], int]:
     links = (np.ones(int(meeting.sum())), (spots[0][meeting], spots[-1][meeting]))
     joined = scipy.sparse.coo_array(links, shape=(count + 1, count + 1))
     found, numbers = scipy.sparse.csgraph.connected_components(joined, directed=False)
-    order = (numbers - numbers[0]) % found  # what is no spot stays 0
+    order = (numbers - numbers[0]) % found  # nodes outside spots keep 0
     return order[spots].astype(spots.dtype), found - 1
 
 
 def _conductance(radius: Numbers, speed: Numbers, conductivity: float, diffusivity: float) -> Numbers:
-    """Heat flux per mean rise [W/(m2 K)] under an even source on a circle of `radius` [m] that moves at `speed`.
+    """Return the heat flux per mean rise [W/(m2 K)] under an even source on a moving circle.
+
+    It has a `radius` [m] and moves at `speed` [m/s].
 
     Source: Tian & Kennedy 1994, doi:10.1115/1.2927035.
     """
@@ -87,9 +90,11 @@ def _conductance(radius: Numbers, speed: Numbers, conductivity: float, diffusivi
 
 
 def _strip_conductance(a: Numbers, b: float, speed: Numbers, conductivity: float, diffusivity: float) -> Numbers:
-    """Heat flux per mean rise [W/(m2 K)] under an even source on a strip |x| < a, |y| < b [m], b >> a, that moves along
-    x at `speed`: at rest pi K / {2 a [ln(2 b / a) + 1/2]}, fast 3/4 K sqrt(pi u / (2 k a)), both from Jaeger's sources;
-    between them as Tian & Kennedy join those of a circle, up to 11 % too cool.
+    """Return the heat flux per mean rise [W/(m2 K)] under an even source on a moving strip.
+
+    The strip is |x| < a, |y| < b [m], b >> a, and moves along x at `speed`: at rest pi K / {2 a [ln(2 b / a) + 1/2]},
+    fast 3/4 K sqrt(pi u / (2 k a)), both from Jaeger's sources; between them as Tian & Kennedy join those of a circle,
+    up to 11 % too cool.
     """
     rest = 0.5 * math.pi / (a * (np.log(2.0 * b / a) + 0.5))
     return conductivity * sqrt(rest * rest + 9.0 / 32.0 * math.pi * abs(speed) / (diffusivity * a))
@@ -123,7 +128,7 @@ _INLET_SHEAR = {
 
 @dataclass(frozen=True)
 class NoHeat:
-    """The surfaces are as warm as their bodies, and these share the heat in halves."""
+    """The surfaces have the temperatures of their bodies, and these share the heat in halves."""
 
     name: ClassVar[str] = "none"
     source: ClassVar[str] = ""
@@ -132,26 +137,64 @@ class NoHeat:
         "The surfaces have the temperatures of their bodies.",
     )
     inlet_shear: ClassVar[str] = "none"
-    warms_film: ClassVar[bool] = False  # whether the oil in the contact is at another temperature than in the inlet
+    warms_film: ClassVar[bool] = False  # the oil in the contact is at another temperature than in the inlet
 
-    bulk: OilBulk | InputBulk | LumpedBulk = _AS_THE_OIL
+    bulk: Bulk = _AS_THE_OIL
+
+    def spot_rise(self, radius: Numbers, shear: Numbers, sliding_speed: Numbers) -> Numbers:
+        """Return the flash temperature rise [K] of spots: 0."""
+        return 0.0
+
+    def conductances(self, radius: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Return the heat flux per mean rise [W/(m2 K)]: infinite, no surface is warmer than its body."""
+        return np.full_like(radius, np.inf), np.full_like(radius, np.inf)
+
+    def strip_conductances(self, a: Array, b: float, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Return the heat flux per mean rise [W/(m2 K)]: infinite, as on a circle."""
+        return self.conductances(a, speeds)
 
     def temperatures(self, rubbing: Rubbing) -> Temperatures:
-        """Temperatures and heat. Makes no array."""
+        """Return the temperatures and the heat flows. Makes no array."""
         half = 0.5 * rubbing.total
         return _flat(rubbing.bodies, half, half)
 
 
 @dataclass(frozen=True)
 class _Conductors:
-    """What laws need to know of two bodies that conduct heat."""
+    """Two bodies that conduct heat."""
 
     conductivity_1: float = _conductivity(1)
     conductivity_2: float = _conductivity(2)
     diffusivity_1: float = _diffusivity(1)
     diffusivity_2: float = _diffusivity(2)
     inlet_shear: str = _inlet_shear()
-    bulk: OilBulk | InputBulk | LumpedBulk = _AS_THE_OIL
+    bulk: Bulk = _AS_THE_OIL
+
+    def conductances(self, radius: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Return the heat flux per mean rise [W/(m2 K)] into each body under an even source on a circle [m].
+
+        A body at rest counts as one that creeps at a Peclet number of 1e-3, so that the conductance has no kink there.
+        """
+        first, second = (
+            _conductance(radius, np.hypot(speed, _CREEP * 2.0 * diffusivity / radius), conductivity, diffusivity)
+            for speed, conductivity, diffusivity in self._moving(speeds)
+        )
+        return first, second
+
+    def strip_conductances(self, a: Array, b: float, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Return the `conductances` of an even source on a strip of half width a and half length b [m]."""
+        first, second = (
+            _strip_conductance(a, b, np.hypot(speed, _CREEP * 2.0 * diffusivity / a), conductivity, diffusivity)
+            for speed, conductivity, diffusivity in self._moving(speeds)
+        )
+        return first, second
+
+    def _moving(self, speeds: tuple[Array, Array]) -> tuple[tuple[Array, float, float], ...]:
+        """Return speed, conductivity and diffusivity of each body."""
+        return (
+            (speeds[0], self.conductivity_1, self.diffusivity_1),
+            (speeds[1], self.conductivity_2, self.diffusivity_2),
+        )
 
 
 @dataclass(frozen=True)
@@ -162,7 +205,7 @@ class FlashTemperature(_Conductors):
     dT = 1.22 r q / { sqrt(pi) [ K1 sqrt(0.6575 + u_s r/(2 k1)) + K2 sqrt(0.6575 + u_s r/(2 k2)) ] }, q = tau u_s.
     The equation takes u_s for both bodies; `TemperatureField` takes each body's own speed. A spot is a connected set of
     contact nodes, r the radius of the circle of its area. The two terms in brackets also say how the bodies share its
-    heat; the heat of the oil goes to them in halves, and the film is as warm as the bodies are in the mean.
+    heat; the heat of the oil goes to them in halves, and the film has the mean temperature of the bodies.
     """
 
     name: ClassVar[str] = "flash"
@@ -177,13 +220,13 @@ class FlashTemperature(_Conductors):
     )
     warms_film: ClassVar[bool] = False
 
-    def rise(self, radius: Array, shear: Array, sliding_speed: float) -> Array:
-        """Temperature rise [K] of spots of `radius` [m] under a mean |shear stress| [Pa]."""
+    def spot_rise(self, radius: Numbers, shear: Numbers, sliding_speed: Numbers) -> Numbers:
+        """Return the flash temperature rise [K] of spots of `radius` [m] under a mean |shear stress| [Pa]."""
         into_1, into_2 = self._conduction(radius, sliding_speed)
         return abs(shear * sliding_speed) / (into_1 + into_2)
 
     def temperatures(self, rubbing: Rubbing) -> Temperatures:
-        """Temperatures and heat."""
+        """Return the temperatures and the heat flows."""
         total, bodies, solid = rubbing.total, rubbing.bodies, rubbing.solid
         if total == 0.0 or not solid.any():
             return _flat(bodies, 0.5 * total, 0.5 * total)
@@ -207,21 +250,21 @@ class FlashTemperature(_Conductors):
             solved=True,
         )
 
-    def _conduction(self, radius: Array, sliding_speed: float) -> tuple[Array, Array]:
-        """Heat flux per mean rise of a spot [W/(m2 K)] into each body."""
+    def _conduction(self, radius: Numbers, sliding_speed: Numbers) -> tuple[Numbers, Numbers]:
+        """Return the heat flux per mean rise of a spot [W/(m2 K)] into each body."""
         first = _conductance(radius, sliding_speed, self.conductivity_1, self.diffusivity_1)
         return first, _conductance(radius, sliding_speed, self.conductivity_2, self.diffusivity_2)
 
 
 @dataclass(frozen=True)
 class TemperatureField(_Conductors):
-    """Temperature of both surfaces node by node, each moving at its own speed through the heat it takes up, steady.
+    """Steady temperature of both surfaces node by node, each moving at its own speed through the heat it takes up.
 
     The film dissipates evenly over its thickness and conducts across it, so the surfaces' temperatures fit its own at
     every node; where solids touch the gap is the film's floor, which conducts so well that they are nearly equal. Only
-    nodes under pressure conduct. Around them the gap is not sure to be full of oil, and what bodies of different
+    nodes under pressure conduct. Around them the gap may not be full of oil, and the heat that bodies of different
     temperature exchange there would depend on where the grid ends. Such nodes give the heat of their oil to the bodies
-    in halves. Steady means that the heat stands still in the contact while the surfaces pass.
+    in halves. Steady means that the source is fixed in the contact while the surfaces pass.
     """
 
     name: ClassVar[str] = "field"
@@ -237,34 +280,12 @@ class TemperatureField(_Conductors):
     )
     warms_film: ClassVar[bool] = True
 
-    def conductances(self, radius: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
-        """Heat flux per mean rise [W/(m2 K)] into each body, under an even source on a circle of `radius` [m].
-
-        A body at rest counts as one that creeps at a Peclet number of 1e-3, lest the conductance have a kink there.
-        """
-        first, second = (
-            _conductance(radius, np.hypot(speed, _CREEP * 2.0 * diffusivity / radius), conductivity, diffusivity)
-            for speed, conductivity, diffusivity in self._moving(speeds)
-        )
-        return first, second
-
-    def strip_conductances(self, a: Array, b: float, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
-        """`conductances` of an even source on a strip of half width a and half length b [m]."""
-        first, second = (
-            _strip_conductance(a, b, np.hypot(speed, _CREEP * 2.0 * diffusivity / a), conductivity, diffusivity)
-            for speed, conductivity, diffusivity in self._moving(speeds)
-        )
-        return first, second
-
-    def _moving(self, speeds: tuple[Array, Array]) -> tuple[tuple[Array, float, float], ...]:
-        """Speed, conductivity and diffusivity of each body."""
-        return (
-            (speeds[0], self.conductivity_1, self.diffusivity_1),
-            (speeds[1], self.conductivity_2, self.diffusivity_2),
-        )
+    def spot_rise(self, radius: Numbers, shear: Numbers, sliding_speed: Numbers) -> Numbers:
+        """Return the flash temperature rise [K] of spots: 0, the law has nodes and no spots."""
+        return 0.0
 
     def temperatures(self, rubbing: Rubbing) -> Temperatures:
-        """Temperatures and heat."""
+        """Return the temperatures and the heat flows."""
         bodies, solid, spacing = rubbing.bodies, rubbing.solid, rubbing.spacing
         difference = bodies[1] - bodies[0]
         if not rubbing.dissipation.any() and (difference == 0.0 or not rubbing.inside.any()):
@@ -289,4 +310,4 @@ class TemperatureField(_Conductors):
         )
 
 
-LAWS = (NoHeat, FlashTemperature, TemperatureField)
+LAWS: tuple[type[Heat], ...] = (NoHeat, FlashTemperature, TemperatureField)

@@ -1,4 +1,4 @@
-"""How rough bodies share the load between solids and oil: curves fitted to deterministic solutions."""
+"""Load shared between solids and oil of rough bodies: curves fitted to deterministic solutions."""
 
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
@@ -14,7 +14,7 @@ _THICKEST, _FLATTEST, _STEEPEST = 1e30, 1e3, 10.0
 
 
 def rms_slope(rq_1: Numbers, length_1: Numbers, rq_2: Numbers, length_2: Numbers) -> Numbers:
-    """Rms gradient of the composite roughness of two bodies with rms roughness and correlation length [m].
+    """Return the rms gradient of the composite roughness of two bodies, from rms roughness and correlation length [m].
 
     A surface with the autocorrelation rq^2 exp(-(r/l)^2) has the rms gradient 2 rq / l.
     """
@@ -22,7 +22,9 @@ def rms_slope(rq_1: Numbers, length_1: Numbers, rq_2: Numbers, length_2: Numbers
 
 
 def flattening_of(mean_pressure: Numbers, reduced_modulus: float, slope: Numbers) -> Numbers:
-    """Mean Hertz pressure over what would press the roughness flat, p_m / (E* slope), E* = reduced_modulus / 2.
+    """Return the mean Hertz pressure over that which presses the roughness flat, p_m / (E* slope).
+
+    E* = reduced_modulus / 2.
 
     The number that decides the real area of dry contact: Persson, J. Chem. Phys. 115 (2001) 3840,
     doi:10.1063/1.1388626.
@@ -31,7 +33,7 @@ def flattening_of(mean_pressure: Numbers, reduced_modulus: float, slope: Numbers
 
 
 class Widths(NamedTuple):
-    """Half widths of 95 % of what the deterministic level finds about the law, on points that it was not fitted to.
+    """Half widths of 95 % of the deterministic solutions about the law, on points that it was not fitted to.
 
     Of W_c it is load W_c^power; of h_c, relative, film (1 + lambda)^-film_fall but at least film_least; of the oil's
     friction, relative, [plastic (1 - n) + newtonian n] [1 + exp(-4 lambda)], which grows with the sliding speed to n.
@@ -46,15 +48,18 @@ class Widths(NamedTuple):
     newtonian: float
 
     def of_load(self, load_ratio: float) -> float:
-        """Of contact_load_ratio, absolute."""
+        """Return the half width of contact_load_ratio, absolute."""
         return self.load * load_ratio**self.power
 
     def of_film(self, clearance: float) -> float:
-        """Of h_c, relative."""
+        """Return the half width of h_c, relative."""
         return max(self.film * (1.0 + clearance) ** -self.film_fall, self.film_least)
 
     def of_oil(self, clearance: float, slope: float) -> float:
-        """Of the oil's friction, relative; `slope` is d ln(friction) / d ln(sliding speed)."""
+        """Return the half width of the oil's friction, relative.
+
+        `slope` is d ln(friction) / d ln(sliding speed).
+        """
         newtonian = minimum(maximum(slope, 0.0), 1.0)
         return float(self.plastic + (self.newtonian - self.plastic) * newtonian) * (1.0 + exp(-4.0 * clearance))
 
@@ -164,7 +169,7 @@ class FittedSharing:
     )
 
     def load_ratio(self, clearance: Numbers, flattening: Numbers, resolution: Numbers, floors: Numbers) -> Numbers:
-        """contact_load_ratio at lambda = `clearance`, of a film of smooth bodies that is `floors` floors thick."""
+        """Return contact_load_ratio at lambda = `clearance`, for a film of smooth bodies `floors` floors thick."""
         flat, film = flattening / _FLATTENING, minimum(clearance * resolution / _RESOLUTION, _THICKEST)
         flat = minimum(flat, _FLATTEST)
         steep = flat ** (self.load_flattening * self.load_exponent)
@@ -174,11 +179,11 @@ class FittedSharing:
         return rough + layers - rough * layers
 
     def area_ratio(self, load_ratio: Numbers, flattening: Numbers) -> Numbers:
-        """contact_area_ratio where the solids carry `load_ratio` of the load."""
+        """Return contact_area_ratio where the solids carry `load_ratio` of the load."""
         return -expm1(-self.area_factor * flattening) * load_ratio**self.area_exponent
 
     def film_ratio(self, dense: Numbers, load_ratio: Numbers, flattening: Numbers, resolution: Numbers) -> Numbers:
-        """h_c / sigma at lambda / rho = `dense` where the solids carry `load_ratio` of the load."""
+        """Return h_c / sigma at lambda / rho = `dense` where the solids carry `load_ratio` of the load."""
         share, flat = load_ratio, flattening / _FLATTENING
         flat = flat**-0.75
         dry = self.film_dry * log1p(self.film_parted * (flat * flat)) / self.film_parted
@@ -189,8 +194,9 @@ class FittedSharing:
         return share * dry + (1.0 - share) * larger * (1.0 + ratio**self.film_exponent) ** (1.0 / self.film_exponent)
 
     def oil_pressure(self, clearance: Numbers, flattening: Numbers, thick_x: Numbers, thick_y: Numbers) -> Numbers:
-        """Pressure at which oil carries load / Hertz's: [1 + K z exp(-d lambda z^q)] / sqrt[(1 + S X) (1 + S Y)], with
-        z = 0.2 / s.
+        """Return the pressure at which oil carries load, over Hertz's.
+
+        It is [1 + K z exp(-d lambda z^q)] / sqrt[(1 + S X) (1 + S Y)], with z = 0.2 / s.
 
         Between rough bodies the oil carries its load in spots, on the part (1 - W_c) / `oil_pressure` of Hertz's area;
         at the pressure of a load spread over all that the solids leave, it would be too thin to shear. A film h that is
@@ -203,19 +209,20 @@ class FittedSharing:
         return raised / sqrt((1.0 + self.oil_spread * thick_x) * (1.0 + self.oil_spread * thick_y))
 
     def covers(self, clearance: float, flattening: float, resolution: float) -> bool:
-        """Whether the point lies within those of the fit."""
+        """Return True if the point lies within those of the fit."""
         (low, high), (flat, flatter), (coarse, fine) = self.FITTED.values()
         return low <= clearance <= high and flat <= flattening <= flatter and coarse <= resolution <= fine
 
     def nearest(self, flattening: float, resolution: float) -> tuple[float, float]:
-        """The nearest flattening and resolution for which the curves mean something: those of the fit, and roughness
-        that is pressed flatter than there.
+        """Return the nearest flattening and resolution in the range of validity of the curves.
+
+        It is that of the fit, and roughness that is pressed flatter than there.
         """
         _, (flat, _), (coarse, fine) = self.FITTED.values()
         return max(flattening, flat), min(max(resolution, coarse), fine)
 
     def exposed(self, area_ratio: Numbers, *, rougher: bool, dry: bool = False) -> Numbers:
-        """Share of a body's points within Hertz's width that touch the other body in a pass through the contact.
+        """Return the share of a body's points within Hertz's width that touch the other body in one pass.
 
         `dry`: where the solids carry so much that dry contact drives the blocks (control.dry_above).
         """
@@ -228,7 +235,7 @@ class FittedSharing:
 
 @dataclass(frozen=True)
 class LineSharing(FittedSharing):
-    """The same law with the constants of lines and rollers, whose roughness was the flanks' of gears."""
+    """The law of `FittedSharing` with the constants of lines and rollers, fitted to the roughness of gear flanks."""
 
     name: ClassVar[str] = "fitted_lines"
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
@@ -279,4 +286,4 @@ class LineSharing(FittedSharing):
     oil_pressure_power: float = parameter("", "q, the more so of rougher bodies", least=0.0, most=5.0, default=0.0)
 
 
-LAWS = (FittedSharing, LineSharing)
+LAWS: tuple[type[FittedSharing], ...] = (FittedSharing, LineSharing)

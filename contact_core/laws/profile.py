@@ -1,4 +1,4 @@
-"""How the ends of a roller are taken back, so that its pressure does not peak there."""
+"""Profiles of rollers: their ends are relieved, so that the pressure does not peak there."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ..quantities import parameter
 from ..reference import logarithmic_drop, rounded_drop
+from .base import Profile
 from .equations import Equations
 
 Array = NDArray[np.float64]
@@ -28,7 +29,7 @@ class Rounded:
     radius: float = parameter("m", "radius along the axis beyond the straight part", above=0.0, most=1e4)
 
     def drop(self, y: Array, length: float) -> Array:
-        """Material taken away [m] at y [m] from the middle of a face of a length [m]; inf beyond its ends."""
+        """Return the material taken away [m] at y [m] from the middle of a face [m]; inf beyond its ends."""
         return rounded_drop(y, length, self.straight, self.radius)
 
 
@@ -46,8 +47,8 @@ class Logarithmic:
     depth: float = parameter("m", "factor on ln[1 / (1 - (2 y / length)^2)]", above=0.0, most=1e-3)
 
     def drop(self, y: Array, length: float) -> Array:
-        """Material taken away [m] at y [m] from the middle of a face of a length [m]; inf beyond its ends."""
+        """Return the material taken away [m] at y [m] from the middle of a face [m]; inf beyond its ends."""
         return logarithmic_drop(y, length, self.depth)
 
 
-LAWS = (Rounded, Logarithmic)
+LAWS: tuple[type[Profile], ...] = (Rounded, Logarithmic)

@@ -13,6 +13,8 @@ import scipy
 from numpy.typing import NDArray
 
 from ..quantities import parameter
+from ..reference import bair_thinning_factor
+from .base import Rheology
 from .equations import Equations
 
 Array = NDArray[np.float64]
@@ -25,8 +27,10 @@ def _limiting_coefficient() -> Any:
 
 
 class _Limited(ABC):
-    """What all laws share: odd in the shear, cut at the limiting stress (Bair & Winer, J. Lubr. Technol. 101 (1979)
-    258). A law gives its `_stress` [Pa] of a Newtonian stress >= 0 and the `_slope` of that.
+    """Laws that are odd in the shear and cut at the limiting stress.
+
+    Bair & Winer, J. Lubr. Technol. 101 (1979) 258. A law gives its `_stress` [Pa] of a Newtonian stress >= 0 and the
+    `_slope` of that.
     """
 
     inlet_thinning: ClassVar[Equations | None] = None  # of the film by shear in the inlet, where a formula is known
@@ -40,14 +44,21 @@ class _Limited(ABC):
     def _slope(self, newtonian: Array) -> Array: ...
 
     def __call__(self, newtonian: Array, pressure: Array) -> Array:
-        """Shear stress [Pa] with the sign of `newtonian` = viscosity times shear rate [Pa], under a pressure [Pa]."""
+        """Return the shear stress [Pa] with the sign of `newtonian`, under a pressure [Pa].
+
+        `newtonian` is viscosity times shear rate [Pa].
+        """
         stress = self._stress(np.abs(newtonian))
         if self.limiting_coefficient > 0.0:
             stress = np.minimum(stress, self.limiting_coefficient * pressure)
         return np.copysign(stress, newtonian)
 
+    def film_factor(self, newtonian_film: float, speed: float, viscosity: float, slide_roll_ratio: float) -> float:
+        """Return the central film thickness over that of a Newtonian oil [m]: 1, no formula is known."""
+        return 1.0
+
     def slopes(self, newtonian: Array, pressure: Array) -> tuple[Array, Array]:
-        """Derivatives of the stress by `newtonian` and by pressure (at fixed `newtonian`)."""
+        """Return the derivatives of the stress by `newtonian` and by pressure (at fixed `newtonian`)."""
         size = np.abs(newtonian)
         slope = self._slope(size)
         if self.limiting_coefficient == 0.0:
@@ -77,7 +88,7 @@ class Newtonian(_Limited):
         return np.ones_like(newtonian)
 
     def ease(self, stress: Array) -> Array:
-        """How many times easier than a Newtonian one the oil shears at a stress [Pa]: 1."""
+        """Return the shear rate at a stress [Pa] over that of a Newtonian oil: 1."""
         return np.ones_like(stress)
 
 
@@ -105,7 +116,7 @@ class Eyring(_Limited):
         return 1.0 / np.hypot(1.0, newtonian / self.eyring_stress)
 
     def ease(self, stress: Array) -> Array:
-        """How many times easier than a Newtonian one the oil shears at a stress [Pa]."""
+        """Return the shear rate at a stress [Pa] over that of a Newtonian oil."""
         x = np.minimum(np.abs(stress) / self.eyring_stress, _EASIEST)
         return np.where(x > 1e-4, np.sinh(x) / np.maximum(x, 1e-300), 1.0 + x * x / 6.0)
 
@@ -144,8 +155,16 @@ class Carreau(_Limited):
         root = np.hypot(1.0, newtonian / self.critical_stress)
         return root ** (self.exponent - 1.0) * (self.exponent + (1.0 - self.exponent) / root / root)
 
+    def film_factor(self, newtonian_film: float, speed: float, viscosity: float, slide_roll_ratio: float) -> float:
+        """Return the central film thickness over that of a Newtonian oil [m], by Bair's formula.
+
+        At an entrainment speed [m/s] and the viscosity [Pa s] at p = 0.
+        """
+        oil = (viscosity, self.critical_stress, self.exponent)
+        return bair_thinning_factor(newtonian_film, speed, *oil, slide_roll_ratio)
+
     def ease(self, stress: Array) -> Array:
-        """How many times easier than a Newtonian one the oil shears at a stress [Pa].
+        """Return the shear rate at a stress [Pa] over that of a Newtonian oil.
 
         With y = x (1 + x^2)^((n - 1) / 2), v = ln(x / y) solves v = (1 - n) / 2 ln(1 + x^2), x = y e^v. The slope of
         ln y by ln x falls from 1 to n as x rises, so that Newton's method from v = 0 rises to the root of any y.
@@ -162,4 +181,4 @@ class Carreau(_Limited):
         return np.exp(v)
 
 
-LAWS = (Newtonian, Eyring, Carreau)
+LAWS: tuple[type[Rheology], ...] = (Newtonian, Eyring, Carreau)

@@ -1,16 +1,17 @@
-"""How much oil waits before the contact."""
+"""Oil supply before the contact."""
 
 from dataclasses import dataclass
 from typing import ClassVar
 
 from ..quantities import parameter
 from ..reference.starvation import film_behind_meniscus, supplied_film
+from .base import Supply
 from .equations import Equations
 
 
 @dataclass(frozen=True)
 class Flooded:
-    """As much oil as the contact can take, from the edge of the grid on."""
+    """All the oil that the contact can take, from the edge of the grid on."""
 
     name: ClassVar[str] = "flooded"
     source: ClassVar[str] = "assumed: the inlet is full as far as it makes pressure"
@@ -19,19 +20,18 @@ class Flooded:
         "The inlet is as full as the grid is wide.",
     )
 
+    starves: ClassVar[bool] = False
     layer: ClassVar[None] = None
     inlet: ClassVar[None] = None
 
     def film(self, flooded: float, half_width: float, radius: float, resistance: float) -> float:
-        """Central film [m] of smooth bodies with this supply, from that of a flooded contact [m], the half width of
-        Hertz's contact and the radius along entrainment [m], and the resistance to side flow (`supplied_film`).
-        """
+        """Return the central film thickness [m] of smooth bodies: the flooded one."""
         return flooded
 
 
 @dataclass(frozen=True)
 class SupplyFilm:
-    """A layer of oil that comes in with the surfaces: the flow of oil is that thickness times the entrainment speed."""
+    """A layer of oil on the surfaces: the flow of oil is its thickness times the entrainment speed."""
 
     name: ClassVar[str] = "film"
     source: ClassVar[str] = "Chevalier et al. 1998, doi:10.1115/1.2834175"
@@ -39,6 +39,7 @@ class SupplyFilm:
         ("ρ h θ = ρ_0 h_{oil} where oil comes in",),
         "h oil is the thickness. Pressure begins where the gap is full.",
     )
+    starves: ClassVar[bool] = True
 
     thickness: float = parameter("m", "oil on both surfaces together before the contact", above=0.0, most=1e-2)
 
@@ -50,13 +51,13 @@ class SupplyFilm:
         return self.thickness
 
     def film(self, flooded: float, half_width: float, radius: float, resistance: float) -> float:
-        """Central film [m] of smooth bodies with this supply, from that of a flooded contact [m]."""
+        """Return the central film thickness [m] of smooth bodies, from that of a flooded contact [m]."""
         return supplied_film(flooded, self.thickness, resistance=resistance)
 
 
 @dataclass(frozen=True)
 class Meniscus:
-    """The gap is full from the inlet meniscus on; before it nothing presses."""
+    """The gap is full from the inlet meniscus on; before it there is no pressure."""
 
     name: ClassVar[str] = "meniscus"
     source: ClassVar[str] = "Hamrock & Dowson 1977, doi:10.1115/1.3453285"
@@ -64,6 +65,7 @@ class Meniscus:
         ("p_f = 0 for x < −d",),
         "d is the distance. The gap is full from there on.",
     )
+    starves: ClassVar[bool] = True
 
     distance: float = parameter("m", "distance of the inlet meniscus before the centre", above=0.0, most=1.0)
 
@@ -75,8 +77,8 @@ class Meniscus:
         return self.distance
 
     def film(self, flooded: float, half_width: float, radius: float, resistance: float) -> float:
-        """Central film [m] of smooth bodies with this supply, from that of a flooded contact [m]."""
+        """Return the central film thickness [m] of smooth bodies, from that of a flooded contact [m]."""
         return film_behind_meniscus(flooded, self.distance, half_width, radius)
 
 
-LAWS = (Flooded, SupplyFilm, Meniscus)
+LAWS: tuple[type[Supply], ...] = (Flooded, SupplyFilm, Meniscus)

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..quantities import parameter
+from .base import Viscosity
 from .elementary import Numbers, exp, log, log10, maximum, minimum
 from .equations import Equations
 
@@ -50,7 +51,7 @@ class Roelands:
     temperature_coefficient: float = parameter("K^-1", "-d ln(eta)/dT at p = 0", least=0.0, most=0.2)
 
     def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
-        """Viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
+        """Return the viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
         scale, z, s0 = self._constants
         exponent = scale * (temperature - 138.0) ** -s0 * (pressure + _P0) ** z
         return exp(minimum(_LN_ETA_INF + exponent, _STIFF))
@@ -81,7 +82,7 @@ class Barus:
     temperature_coefficient: float = parameter("K^-1", "-d ln(eta)/dT", least=0.0, most=0.2)
 
     def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
-        """Viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
+        """Return the viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
         exponent = self.pressure_coefficient * pressure
         exponent = exponent - self.temperature_coefficient * (temperature - self.reference_temperature)
         return self.viscosity * exp(minimum(exponent, _STIFF))
@@ -119,7 +120,7 @@ class Modulus:
     bend_slope: float = parameter("K^-1", "b2, rise of that with temperature", least=-1e-2, most=1e-2)
 
     def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
-        """Viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
+        """Return the viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
         modulus = self.modulus + self.modulus_slope * temperature
         bent = modulus + (self.bend + self.bend_slope * temperature) * pressure
         modulus = np.where(modulus > 0.0, bent, 0.0)
@@ -178,14 +179,14 @@ class AstmD341:
         )
 
     def _log_viscosity(self, temperature: Numbers) -> Numbers:
-        """ln(viscosity / eta_inf) at p = 0."""
+        """Return ln(viscosity / eta_inf) at p = 0."""
         at_40, slope = self._chart
         double_log = minimum(at_40 - slope * log10(temperature / 313.15), _STIFFEST_DOUBLE_LOG)
         kinematic = 1e-6 * (10.0 ** (10.0**double_log) - 0.7)
         return log(kinematic * self.density_at(temperature)) - _LN_ETA_INF
 
     def density_at(self, temperature: Numbers) -> Numbers:
-        """Density [kg/m3] at p = 0."""
+        """Return the density [kg/m3] at p = 0."""
         return self.density * maximum(1.0 - self.expansion * (temperature - 288.15), 0.1)  # far beyond any oil
 
     @cached_property
@@ -200,9 +201,9 @@ class AstmD341:
         return float(self.pressure_coefficient * _P0 / self._log_viscosity(self.reference_temperature))
 
     def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
-        """Viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
+        """Return the viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
         exponent = self._log_viscosity(temperature) * (1.0 + pressure / _P0) ** self._z
         return exp(minimum(_LN_ETA_INF + exponent, _STIFF))
 
 
-LAWS = (Roelands, Barus, Modulus, AstmD341)
+LAWS: tuple[type[Viscosity], ...] = (Roelands, Barus, Modulus, AstmD341)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..quantities import parameter
+from .base import Wear
 from .equations import Equations
 
 Array = NDArray[np.float64]
@@ -26,15 +27,15 @@ class NoWear:
     wears: ClassVar[bool] = False
 
     def coefficient(self, cover: Array) -> Array:
-        """Zeros in the shape of `cover`."""
+        """Return zeros in the shape of `cover`."""
         return np.zeros_like(cover)
 
     def slide(self, speeds: Speeds, body: int) -> float:
-        """No sliding wears."""
+        """Return 0: no sliding wears."""
         return 0.0
 
     def rate(self, pressure: Array, cover: Array, speeds: Speeds, body: int, hardness: float) -> Array:
-        """Zeros in the shape of `pressure`."""
+        """Return zeros in the shape of `pressure`."""
         return np.zeros_like(pressure)
 
 
@@ -65,23 +66,23 @@ class Archard:
 
     @property
     def of_sliding(self) -> bool:
-        """Whether the bodies' relative sliding wears them, and spin with it; else each one's own speed does."""
+        """True if the bodies' relative sliding wears them, and spin with it; else each one's own speed does."""
         return self.sliding == "difference"
 
     def coefficient(self, cover: Array) -> Array:
-        """Dimensionless wear coefficient K under a tribofilm of `cover` (0 to 1) of its full thickness."""
+        """Return the dimensionless wear coefficient K under a tribofilm of `cover` (0 to 1) of its full thickness."""
         return self.bare + (self.film - self.bare) * cover
 
     def slide(self, speeds: Speeds, body: int) -> Any:
-        """Speed [m/s] that wears body 1 (`body` = 0) or 2 (1) at the surface speeds (u1, u2) [m/s]."""
+        """Return the speed [m/s] that wears body 1 (`body` = 0) or 2 (1) at the surface speeds (u1, u2) [m/s]."""
         return abs(speeds[body]) if self.sliding == "surface_speed" else abs(speeds[0] - speeds[1])
 
     def rate(self, pressure: Array, cover: Array, speeds: Speeds, body: int, hardness: float) -> Array:
-        """Wear depth per second [m/s] of body 1 (`body` = 0) or 2 (1) under a solid pressure [Pa].
+        """Return the wear depth per second [m/s] of body 1 (`body` = 0) or 2 (1) under a solid pressure [Pa].
 
         `cover` is 0 to 1, `speeds` are (u1, u2) [m/s], `hardness` [Pa] is the solids'.
         """
         return self.coefficient(cover) * pressure * self.slide(speeds, body) / hardness
 
 
-LAWS = (NoWear, Archard)
+LAWS: tuple[type[Wear], ...] = (NoWear, Archard)

@@ -1,4 +1,4 @@
-"""Closed forms, as library code: what solvers are tested against and what engineers compare with.
+"""Closed forms and formulas, to test solvers against and to compare with.
 
     hertz         dry contact of smooth bodies: points, lines
     point_films   film of smooth point contacts by formula

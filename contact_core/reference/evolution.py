@@ -14,7 +14,7 @@ def ghanbarzadeh_thickness(
     removal_thickness: float,
     removal_rate: float,
 ) -> NDArray[np.float64]:
-    """Tribofilm [m] on a point rubbed for `time` [s] from bare: h_max (1 - e^-kt) - C3 (1 - e^-C4 t).
+    """Return the tribofilm [m] on a point rubbed for `time` [s] from bare: h_max (1 - e^-kt) - C3 (1 - e^-C4 t).
 
     k = (k_B T / h) rate_factor [1/s] at `temperature` [K]; h_max and C3 [m]; C4 = removal_rate [1/s].
     Source: Ghanbarzadeh et al., Tribol. Int. 93 (2016) 573, doi:10.1016/j.triboint.2014.12.018.
@@ -25,7 +25,9 @@ def ghanbarzadeh_thickness(
 
 
 def archard_depth(coefficient: float, hardness: float, pressure: float, sliding_distance: float) -> float:
-    """Wear depth [m], K p s / H, under a pressure [Pa] over a sliding distance [m]; K dimensionless, H [Pa].
+    """Return the wear depth [m], K p s / H, under a pressure [Pa] over a sliding distance [m].
+
+    K is dimensionless, H in Pa.
 
     Source: Archard, J. Appl. Phys. 24 (1953) 981, doi:10.1063/1.1721448.
     """
@@ -33,5 +35,8 @@ def archard_depth(coefficient: float, hardness: float, pressure: float, sliding_
 
 
 def load_cycles(speed: float, time: float, track_length: float) -> float:
-    """Passes of a surface point through the contact in `time` [s]: |speed| [m/s] time / track length [m]."""
+    """Return the passes of a surface point in `time` [s]: |speed| [m/s] time / track length [m].
+
+    |speed| [m/s] time / track length [m].
+    """
     return abs(speed) * time / track_length

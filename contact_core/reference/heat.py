@@ -5,7 +5,9 @@ import scipy  # its parts are loaded at their first use
 
 
 def jaeger_circle(peclet: float) -> tuple[float, float]:
-    """Largest and mean steady rise of a half space that moves at a speed u under a circle of uniform flux q.
+    """Return largest and mean steady rise of a half space moving at a speed u under a circle of uniform flux q.
+
+    It moves at a speed u.
 
     In units of q r / K, K conductivity; peclet = u r / (2 k) >= 0, k diffusivity. At rest 1 and 8 / (3 pi). By
     quadrature of Jaeger's point source, in polar coordinates around the point that is warmed.
@@ -32,7 +34,7 @@ def jaeger_circle(peclet: float) -> tuple[float, float]:
 
 
 def tian_kennedy_circle(peclet: float) -> tuple[float, float]:
-    """Largest and mean rise as in `jaeger_circle`, by formulas that are exact at rest and at high speed.
+    """Return the rises of `jaeger_circle` by formulas that are exact at rest and at high speed.
 
     Source: Tian & Kennedy, J. Tribol. 116 (1994) 167, doi:10.1115/1.2927035.
     """
@@ -40,7 +42,9 @@ def tian_kennedy_circle(peclet: float) -> tuple[float, float]:
 
 
 def jaeger_band(x: float, peclet: float) -> float:
-    """Steady rise at x, in half widths downstream of the centre, under a band of uniform flux q, without end across.
+    """Return the steady rise under a band of uniform flux q, endless across, at x in half widths downstream.
+
+    At x, in half widths downstream of the centre.
 
     In units of q b / K, b half width; peclet = u b / (2 k). Source: Jaeger, Proc. R. Soc. N. S. W. 76 (1942) 203.
     """

@@ -1,4 +1,4 @@
-"""Hertz: dry contact of smooth elastic bodies."""
+"""Dry contact of smooth elastic bodies: Hertz."""
 
 import math
 from dataclasses import dataclass
@@ -67,12 +67,12 @@ class Hertz:
         return self.mean_share * self.pressure_max
 
     def inside(self, x: Array, y: Array, share: float) -> NDArray[np.bool_]:
-        """Which nodes at x [nx], y [ny] about the centre [m] lie within `share` of the half widths, [ny, nx]."""
+        """Return the nodes within `share` of the half widths, [ny, nx], at x [nx], y [ny] about the centre [m]."""
         within: NDArray[np.bool_] = (x[None, :] / self.a) ** 2 + (y[:, None] / self.b) ** 2 < share**2
         return within
 
     def chords(self, y: Array) -> Array:
-        """Length along x of the contact's rows at y [m] over 2 a."""
+        """Return the length along x of the contact's rows at y [m] over 2 a."""
         return np.sqrt(np.maximum(1.0 - (y / self.b) ** 2, 0.0))
 
     @cached_property
@@ -84,8 +84,9 @@ class Hertz:
 
     @cached_property
     def turn_share(self) -> float:
-        """Sliding speed over spin b at which the friction of sliding is as large as that of no spin, if friction is in
-        proportion to pressure whatever the speed, carried on from slow sliding: 1 / mean of b x^2 / r^3.
+        """Sliding speed over spin b at which sliding friction equals its value without spin.
+
+        For friction in proportion to pressure at any speed, extrapolated from slow sliding: 1 / mean of b x^2 / r^3.
         """
         slim = (self.a / self.b) ** 2
         return 2.0 / (slim * float(scipy.special.elliprd(0.0, 1.0, slim)))
@@ -98,16 +99,16 @@ class Hertz:
         return bodies.conductances(np.sqrt(areas / math.pi), speeds)
 
     def growth(self, times: float) -> tuple[float, float]:
-        """By how much `times` the load makes a and the pressure larger, and b."""
+        """Return the factors on a and the pressure, and on b, under `times` the load."""
         root = times ** (1 / 3)
         return root, root
 
     def approach_beyond(self, distance: float) -> float:
-        """Part of the approach [m] from beyond a distance [m] of the contact that a line makes: none of a point."""
+        """Return the part of the approach [m] from beyond a distance [m] of the contact: 0 for a point."""
         return 0.0
 
     def approach_at(self, times: float) -> float:
-        """Approach [m] under `times` this load."""
+        """Return the approach [m] under `times` this load."""
         root = times ** (1 / 3)
         return self.approach * root * root
 
@@ -126,12 +127,12 @@ class HertzLine(Hertz):
         return 4.0 * self.a * self.b
 
     def inside(self, x: Array, y: Array, share: float) -> NDArray[np.bool_]:
-        """Which nodes at x [nx], y [ny] about the centre [m] lie within `share` of the half widths, [ny, nx]."""
+        """Return the nodes within `share` of the half widths, [ny, nx], at x [nx], y [ny] about the centre [m]."""
         within: NDArray[np.bool_] = (np.abs(x) < share * self.a)[None, :] & (np.abs(y) < share * self.b)[:, None]
         return within
 
     def chords(self, y: Array) -> Array:
-        """Length along x of the contact's rows at y [m] over 2 a."""
+        """Return the length along x of the contact's rows at y [m] over 2 a."""
         return np.where(np.abs(y) < self.b, 1.0, 0.0)
 
     @cached_property
@@ -141,7 +142,7 @@ class HertzLine(Hertz):
 
     @cached_property
     def turn_share(self) -> float:
-        """As of a point, for a strip much longer than wide: the part within this distance slides with the others."""
+        """The ratio of a point, for a strip much longer than wide: the part within it slides with the others."""
         return 1.0
 
     def conductances(self, bodies: Conductors, areas: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
@@ -149,15 +150,15 @@ class HertzLine(Hertz):
         return bodies.strip_conductances(0.25 * areas / self.b, self.b, speeds)
 
     def growth(self, times: float) -> tuple[float, float]:
-        """By how much `times` the load makes a and the pressure larger, and b."""
+        """Return the factors on a and the pressure, and on b, under `times` the load."""
         return math.sqrt(times), 1.0
 
     def approach_beyond(self, distance: float) -> float:
-        """Part of the approach [m] that an unending line makes beyond a distance [m] and up to its length."""
+        """Return the part of the approach [m] of an endless line from a distance [m] up to its length."""
         return self.approach * math.log(2.0 * self.b / distance) / (math.log(4.0 * self.b / self.a) + 0.5)
 
     def approach_at(self, times: float) -> float:
-        """Approach [m] under `times` this load: the logarithm of `hertz_line` falls with a."""
+        """Return the approach [m] under `times` this load: the logarithm of `hertz_line` falls with a."""
         if times == 0.0:
             return 0.0
         slower = math.log(times) / (2.0 * math.log(4.0 * self.b / self.a) + 1.0)
@@ -165,7 +166,7 @@ class HertzLine(Hertz):
 
 
 def hertz_point(load: float, radius_x: float, radius_y: float, reduced_modulus: float) -> Hertz:
-    """Hertz's point contact, circular or elliptical.
+    """Return Hertz's point contact, circular or elliptical.
 
     load [N] > 0, radii of combined curvature [m], reduced_modulus E' = 2 / sum (1 - v^2)/E [Pa].
     Source: Johnson, Contact Mechanics, 1985, doi:10.1017/CBO9781139171731, section 4.2.
@@ -186,8 +187,9 @@ def hertz_point(load: float, radius_x: float, radius_y: float, reduced_modulus: 
 
 @lru_cache(maxsize=64)
 def _ellipse(ratio: float) -> tuple[float, float, float]:
-    """Short over long half width of Hertz's ellipse, and the complete elliptic integrals K and E of its eccentricity,
-    for a ratio > 1 of the radii.
+    """Return k, K and E of Hertz's ellipse, for a ratio > 1 of the radii.
+
+    k: short over long half width; K, E: complete elliptic integrals of its eccentricity.
     """
     special = scipy.special
 
@@ -201,7 +203,7 @@ def _ellipse(ratio: float) -> tuple[float, float, float]:
 
 
 def hertz_line(load: float, radius: float, length: float, reduced_modulus: float) -> HertzLine:
-    """Hertz's line contact under a load [N] > 0 that is spread evenly over a length [m].
+    """Return Hertz's line contact under a load [N] > 0 that is spread evenly over a length [m].
 
     radius of combined curvature [m], reduced_modulus E' = 2 / sum (1 - v^2)/E [Pa]. The approach is that of points far
     below the middle of the length, 2 w / (pi E') [2 ln(2 length / a) + 1] with the load per length w, up to terms of
@@ -216,7 +218,7 @@ def hertz_line(load: float, radius: float, length: float, reduced_modulus: float
 
 
 def palmgren_approach(load: float, length: float, reduced_modulus: float) -> float:
-    """Approach [m] of a crowned roller and a raceway under a load [N], 1.36 (2 load / E')^0.9 / length^0.8.
+    """Return the approach [m] of a crowned roller and a raceway, 1.36 (2 load / E')^0.9 / length^0.8, load in N.
 
     A fit to measurements, in which the radii do not appear; for steel it is 3.84e-5 load^0.9 / length^0.8 in mm.
     Source: Palmgren, Ball and Roller Bearing Engineering, 3rd ed., 1959, in the form of Eschmann, Hasbargen & Weigand,
@@ -226,7 +228,7 @@ def palmgren_approach(load: float, length: float, reduced_modulus: float) -> flo
 
 
 def brewe_hamrock(load: float, radius_x: float, radius_y: float, reduced_modulus: float) -> Hertz:
-    """`hertz_point` by powers and logarithms in place of elliptic integrals, to check with.
+    """Return the contact of `hertz_point` by powers and logarithms in place of elliptic integrals, as a check.
 
     For radii in a ratio of up to 100 half widths are within 4.5 % of the exact ones, the pressure within 2.5 %, the
     approach within 5.5 %, least sure near the circle; half widths and pressure are within 2 % from 1.3 to 50.

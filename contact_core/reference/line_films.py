@@ -30,7 +30,7 @@ class SmoothLine:
         radius: float,
         reduced_modulus: float,
     ) -> "SmoothLine":
-        """The contact with an oil whose `viscosity` [Pa s] is a law of pressures [Pa] and a temperature [K]."""
+        """Return the contact with an oil whose `viscosity` [Pa s] is a law of pressures [Pa] and a temperature [K]."""
         low, rise = at_no_pressure(viscosity, temperature)
         return SmoothLine(load, abs(entrainment_speed), low, rise, radius, reduced_modulus)
 
@@ -42,18 +42,18 @@ class SmoothLine:
 
     @property
     def circular_load(self) -> float:
-        """Moes' M of the circular point contact whose Hertz contact is as deep, a^2 / R, in units of U^0.5 R."""
+        """Moes' M of the circular contact whose Hertz contact is as deep, a^2 / R, in units of U^0.5 R."""
         load, _ = self.moes_parameters
         return float((8.0 * load / np.pi) ** 1.5 / 1.5)
 
     @property
     def film(self) -> float:
-        """Central film [m] by `moes_line`."""
+        """Central film thickness [m] by `moes_line`."""
         return moes_line(self)
 
 
 def dowson_line(contact: SmoothLine) -> tuple[float, float]:
-    """Central and minimum film thickness [m] of a line contact in the elastic-piezoviscous regime.
+    """Return central and minimum film thickness [m] of a line contact in the elastic-piezoviscous regime.
 
     Source: central Dowson & Toyoda, Proc. 5th Leeds-Lyon Symposium on Tribology (1979) 60; minimum Dowson, Proc. IMechE
     182 (1967) 151.
@@ -67,7 +67,7 @@ def dowson_line(contact: SmoothLine) -> tuple[float, float]:
 
 
 def moes_line(contact: SmoothLine) -> float:
-    """Central film thickness [m] of a line contact, over all regimes as `moes_line_film`."""
+    """Return the central film thickness [m] of a line contact, over all regimes as `moes_line_film`."""
     c = contact
     return line_film(c.load, c.entrainment_speed, c.viscosity, c.pressure_coefficient, c.radius, c.reduced_modulus)
 
@@ -80,7 +80,7 @@ def line_film(
     radius: float,
     reduced_modulus: float,
 ) -> float:
-    """`moes_line` of plain numbers, as in `SmoothLine`: no record to make."""
+    """Return the film of `moes_line` for plain numbers, as in `SmoothLine`, without a record."""
     m, lubricant, speed = _moes_numbers(
         load, entrainment_speed, viscosity, pressure_coefficient, radius, reduced_modulus
     )
@@ -90,13 +90,13 @@ def line_film(
 def _moes_numbers(
     load: float, speed: float, viscosity: float, pressure_coefficient: float, radius: float, modulus: float
 ) -> tuple[float, float, float]:
-    """Moes' load M, lubricant L and speed U of line contacts, on the sum of surface speeds."""
+    """Return Moes' load M, lubricant L and speed U of line contacts, on the sum of surface speeds."""
     u = 2.0 * viscosity * speed / (modulus * radius)
     return load / (modulus * radius) * u**-0.5, pressure_coefficient * modulus * u**0.25, u
 
 
 def moes_line_film(load: float, lubricant: float) -> float:
-    """Central film thickness of a line contact in Moes' units, (h / radius) U^-0.5, of Moes' M and L.
+    """Return the central film thickness in Moes' units, (h / radius) U^-0.5, of Moes' M and L.
 
     Of an incompressible oil whose viscosity rises by Barus' law: `line_contact` finds it within 3 %. The flow of oil is
     the same if it can be compressed, and the film is the thinner by its density.

@@ -1,4 +1,4 @@
-"""What heat and shear of the oil make of a film."""
+"""Effect of heat and shear of the oil on the film thickness."""
 
 
 def inlet_shear_factor(
@@ -10,7 +10,7 @@ def inlet_shear_factor(
     pressure_max: float,
     reduced_modulus: float,
 ) -> float:
-    """Film thickness of a contact whose inlet is heated by shear, relative to the isothermal one; 0.01 to 1.
+    """Return the film thickness with shear heating of the inlet over the isothermal one; 0.01 to 1.
 
     (1 - 13.2 (p_H / E') Q^0.42) / [1 + 0.213 (1 + 2.23 |SRR|^0.83) Q^0.64], Q = eta0 beta u_e^2 / k, with viscosity
     eta0 [Pa s] and its temperature_coefficient beta = -d ln(eta)/dT [1/K] at the inlet, conductivity k of the oil
@@ -32,7 +32,7 @@ def bair_thinning_factor(
     exponent: float,
     slide_roll_ratio: float = 0.0,
 ) -> float:
-    """Central film thickness of a Carreau oil relative to the newtonian_film h_N [m]; 0 to 1.
+    """Return the central film thickness of a Carreau oil over the newtonian_film h_N [m]; 0 to 1.
 
     {1 + 0.79 [(1 + S) u_e eta0 / (h_N G)]^[1 / (1 + 0.2 S)]}^[-3.6 (1 - n)^1.7], viscosity eta0 [Pa s] at p = 0,
     critical_stress G [Pa] and exponent n of Carreau's law, S = |u1 - u2| / u_e; fitted for n from 0.3 to 0.8.

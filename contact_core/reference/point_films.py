@@ -14,7 +14,10 @@ from .hertz import hertz_point
 def at_no_pressure(
     viscosity: Callable[[NDArray[np.float64], float], NDArray[np.float64]], temperature: float
 ) -> tuple[float, float]:
-    """Viscosity [Pa s] and pressure coefficient [1/Pa] at p = 0 of a law of pressures [Pa] and a temperature [K]."""
+    """Return viscosity [Pa s] and pressure coefficient [1/Pa] at p = 0 of a law.
+
+    It is a law of pressures [Pa] and a temperature [K].
+    """
     low, high = viscosity(np.array([0.0, 1e6]), temperature)
     return float(low), max(float(np.log(high / low)) * 1e-6, 1e-12)
 
@@ -41,7 +44,7 @@ class SmoothContact:
         radius_y: float,
         reduced_modulus: float,
     ) -> "SmoothContact":
-        """The contact with an oil whose `viscosity` [Pa s] is a law of pressures [Pa] and a temperature [K]."""
+        """Return the contact with an oil whose `viscosity` [Pa s] is a law of pressures [Pa] and a temperature [K]."""
         low, rise = at_no_pressure(viscosity, temperature)
         return SmoothContact(load, abs(entrainment_speed), low, rise, radius_x, radius_y, reduced_modulus)
 
@@ -53,8 +56,9 @@ class SmoothContact:
 
     @property
     def circular_load(self) -> float:
-        """Moes' M of the circular contact that is as near to rigid: films of rigid and of elastic, isoviscous bodies
-        differ by the same factor.
+        """Moes' M of the circular contact that is as close to rigid.
+
+        Films of rigid and of elastic, isoviscous bodies differ by the same factor.
         """
         rigid, elastic, *_ = _moes_factors(self.radius_x / self.radius_y)
         rigid_circle, elastic_circle, *_ = _moes_factors(1.0)
@@ -62,12 +66,12 @@ class SmoothContact:
 
     @property
     def film(self) -> float:
-        """Central film [m] by `nijenbanning_venner_moes`."""
+        """Central film thickness [m] by `nijenbanning_venner_moes`."""
         return nijenbanning_venner_moes(self)
 
 
 def hamrock_dowson(contact: SmoothContact) -> tuple[float, float]:
-    """Central and minimum film thickness [m].
+    """Return central and minimum film thickness [m].
 
     Source: Hamrock & Dowson, J. Lubr. Technol. 99 (1977) 264, doi:10.1115/1.3453074. Fitted to circles
     and to ellipses with the long axis across the entrainment; the ellipticity is that of Hertz's contact.
@@ -83,7 +87,7 @@ def hamrock_dowson(contact: SmoothContact) -> tuple[float, float]:
 
 
 def chittenden(contact: SmoothContact) -> tuple[float, float]:
-    """Central and minimum film thickness [m] of ellipses with either axis along the entrainment.
+    """Return central and minimum film thickness [m] of ellipses with either axis along the entrainment.
 
     Source: Chittenden, Dowson, Dunn & Taylor, Proc. R. Soc. A 397 (1985) 245 and 271.
     """
@@ -99,7 +103,7 @@ def chittenden(contact: SmoothContact) -> tuple[float, float]:
 
 
 def nijenbanning_venner_moes(contact: SmoothContact) -> float:
-    """Central film thickness [m], over all regimes from rigid-isoviscous to elastic-piezoviscous.
+    """Return the central film thickness [m], over all regimes from rigid-isoviscous to elastic-piezoviscous.
 
     Source: Nijenbanning, Venner & Moes, Wear 176 (1994) 217, doi:10.1016/0043-1648(94)90150-3.
     """
@@ -118,7 +122,7 @@ def nvm_film(
     radius_y: float,
     reduced_modulus: float,
 ) -> float:
-    """`nijenbanning_venner_moes` of plain numbers, as in `SmoothContact`: no record to make."""
+    """Return the film of `nijenbanning_venner_moes` for plain numbers, as in `SmoothContact`, without a record."""
     m, lubricant, speed = _moes_numbers(
         load, entrainment_speed, viscosity, pressure_coefficient, radius_x, reduced_modulus
     )
@@ -128,13 +132,15 @@ def nvm_film(
 def _moes_numbers(
     load: float, speed: float, viscosity: float, pressure_coefficient: float, radius: float, modulus: float
 ) -> tuple[float, float, float]:
-    """Moes' load M, lubricant L and speed U, on the sum of surface speeds and radius_x."""
+    """Return Moes' load M, lubricant L and speed U, on the sum of surface speeds and radius_x."""
     u = 2.0 * viscosity * speed / (modulus * radius)
     return load / (modulus * radius**2) * u**-0.75, pressure_coefficient * modulus * u**0.25, u
 
 
 def moes_film(load: float, lubricant: float, ratio: float = 1.0) -> float:
-    """Central film thickness in Moes' units, (h / radius_x) U^-0.5, of Moes' M, L and radius_x / radius_y.
+    """Return the central film thickness in Moes' units, (h / radius_x) U^-0.5.
+
+    Of Moes' M, L and radius_x / radius_y.
 
     Source: as `nijenbanning_venner_moes`.
     """
@@ -150,7 +156,12 @@ def moes_film(load: float, lubricant: float, ratio: float = 1.0) -> float:
 
 @lru_cache(maxsize=64)
 def _moes_factors(ratio: float) -> tuple[float, float, float, float, float]:
-    """Films of the rigid and of the elastic, isoviscous and piezoviscous contact at M = L = 1, and of one unloaded."""
+    """Return the films of the asymptotic contacts at M = L = 1.
+
+    They are those of the rigid and of the elastic, isoviscous and piezoviscous contact, and of an unloaded one.
+
+    Rigid and elastic, isoviscous and piezoviscous, and of one unloaded.
+    """
     shape = 1.0 + 0.006 * math.log(ratio) + 0.63 * ratio ** (4 / 7)
     return (
         145.0 * (1.0 + 0.796 * ratio ** (14 / 15)) ** (-15 / 7) / ratio,

@@ -1,4 +1,4 @@
-"""Profiles of rollers: how far [m] their surface lies below the cylinder, at y [m] from the middle of their length.
+"""Profiles of rollers: depth [m] of their surface below the cylinder, at y [m] from the middle of their length.
 
 Beyond the ends, where there is no roller, the drop is infinite.
 """
@@ -12,7 +12,9 @@ from numpy.typing import ArrayLike, NDArray
 def logarithmic_drop(
     y: ArrayLike, length: float, depth: float, crowned: float = 1.0, end_drop: float = math.inf
 ) -> NDArray[np.float64]:
-    """The drop depth ln{1 / [1 - (1 - exp(-end_drop / depth)) s^2]}, s = 0 to 1 over the crowned part of either half.
+    """Return the drop depth ln{1 / [1 - (1 - exp(-end_drop / depth)) s^2]}.
+
+    s = 0 to 1 over the crowned part of either half.
 
     `crowned` is the share of the length [m] that is crowned, the middle is straight; end_drop [m] is that of the ends.
     Crowned throughout and with an infinite end_drop it is Lundberg's depth ln{1 / [1 - (2 y / length)^2]}, under which
@@ -29,12 +31,15 @@ def logarithmic_drop(
 
 
 def lundberg_depth(load: float, length: float, reduced_modulus: float) -> float:
-    """Depth [m] of the logarithmic drop under which a load [N] is spread evenly, 2 load / (pi E' length)."""
+    """Return the depth [m] of the logarithmic drop that spreads a load [N] evenly, 2 load / (pi E' length)."""
     return 2.0 * load / (math.pi * reduced_modulus * length)
 
 
 def rounded_drop(y: ArrayLike, length: float, straight: float, radius: float) -> NDArray[np.float64]:
-    """Of a straight middle [m] and ends that are circular arcs [m], tangent to it; without a middle, of a crown."""
+    """Return the drop of a straight middle [m] and ends of circular arcs [m] tangent to it.
+
+    Without a middle, of a crown.
+    """
     y = np.abs(np.asarray(y, dtype=np.float64))
     beyond = np.clip(y - 0.5 * straight, 0.0, radius)
     drop = beyond * beyond / (radius + np.sqrt(radius * radius - beyond * beyond))

@@ -1,4 +1,4 @@
-"""Closed forms of rolling resistance: what the pressure flow of the oil takes from both surfaces in pure rolling."""
+"""Rolling resistance in closed form: power loss of the oil's pressure flow in pure rolling."""
 
 import math
 
@@ -8,7 +8,11 @@ from .hertz import hertz_point
 def rolling_line(
     load: float, entrainment_speed: float, viscosity: float, radius: float, reduced_modulus: float
 ) -> float:
-    """Integral of (h/2) dp/dx per length [N/m] of a smooth, flooded line contact under a load per length [N/m] > 0.
+    """Return the integral of (h/2) dp/dx per length [N/m] of a smooth, flooded line contact.
+
+    The load per length [N/m] is above zero.
+
+    Under a load per length [N/m] > 0.
 
     With U = 2 eta0 u_e / (E' R), W = w / (E' R) and M = W / sqrt(U), it is E' R 1.42 sqrt(U W) / [1 + (0.966
     sqrt(M))^10]^0.1: that of rigid bodies for small M, 1.47 U^0.75 E' R, whatever the load, for large ones. Exact of
@@ -30,7 +34,11 @@ def rolling_point(
     radius_y: float,
     reduced_modulus: float,
 ) -> float:
-    """Integral of (h/2) dp/dx [N] over a smooth, flooded point contact under a load [N] > 0, circular or wider across.
+    """Return the integral of (h/2) dp/dx [N] over a smooth, flooded point contact, circular or wider across.
+
+    The load [N] is above zero.
+
+    Under a load [N] > 0.
 
     With U = 2 eta0 u_e / (E' R_x), k = a / b, beta = E' a / (pi p_H R_x) and M = beta^(1/4) k W / (E' R_x^2) U^(-3/4)
     it is 2 b E' R_x U^(3/4) [(rigid - elastic) / (1 + M / 6.6) + elastic], rigid = 0.77 beta^(-1/3) k^0.12 U^(-1/12),

@@ -30,7 +30,9 @@ class ParabolicSlider:
     def supplied(
         supply: float, gap: float, radius: float, viscosity: float, entrainment_speed: float
     ) -> "ParabolicSlider":
-        """The slider whose surfaces bring a layer of oil [m], both together: thicker than gap, thinner than flooded.
+        """Return the slider whose surfaces bring a layer of oil [m], both together.
+
+        It is thicker than gap, thinner than flooded.
 
         The oil that comes is the oil that leaves, so the outlet is known, and the inlet is where the pressure is zero.
         """
@@ -61,16 +63,16 @@ class ParabolicSlider:
 
     @property
     def outlet(self) -> float:
-        """Where the film breaks [m]."""
+        """Position of the film rupture [m]."""
         return self._length * math.tan(self._end)
 
     @property
     def film(self) -> float:
-        """Flow of oil over u_e [m]: the gap where the pressure is largest and where the film breaks."""
+        """Flow of oil over u_e [m]: the gap at the largest pressure and at the film rupture."""
         return self.gap / math.cos(self._end) ** 2
 
     def pressure(self, x: ArrayLike) -> NDArray[np.float64]:
-        """Pressure [Pa] at x [m]."""
+        """Return the pressure [Pa] at x [m]."""
         x = np.asarray(x)
         t = np.clip(np.arctan(x / self._length), self._start, self._end)
         scale = 12.0 * self.viscosity * self.entrainment_speed * self._length / self.gap**2
@@ -78,7 +80,7 @@ class ParabolicSlider:
         return np.where((x > self.inlet) & (x < self.outlet), pressure, 0.0)
 
     def oil(self, x: ArrayLike) -> NDArray[np.float64]:
-        """Thickness [m] of the oil in the gap at x [m]: the gap where it is full, `film` elsewhere."""
+        """Return the thickness [m] of the oil in the gap at x [m]: the gap where it is full, `film` elsewhere."""
         x = np.asarray(x)
         full = (x >= self.inlet) & (x <= self.outlet)
         return np.where(full, self.gap + x * x / (2.0 * self.radius), self.film)
@@ -93,13 +95,13 @@ class ParabolicSlider:
 
 
 def _integral(t: Any, end: float) -> Any:
-    """Of cos^2 - cos^4 / cos(end)^2 from 0 to t."""
+    """Return the integral of cos^2 - cos^4 / cos(end)^2 from 0 to t."""
     second = 0.5 * t + 0.25 * np.sin(2.0 * t)
     fourth = 0.375 * t + 0.25 * np.sin(2.0 * t) + np.sin(4.0 * t) / 32.0
     return second - fourth / np.cos(end) ** 2
 
 
 def _moment(t: float, end: float) -> float:
-    """Of tan (cos^2 - cos^4 / cos(end)^2) from pi/2 to t."""
+    """Return the integral of tan (cos^2 - cos^4 / cos(end)^2) from pi/2 to t."""
     c2 = math.cos(t) ** 2
     return -0.5 * c2 + 0.25 * c2 * c2 / math.cos(end) ** 2

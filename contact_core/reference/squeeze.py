@@ -8,7 +8,9 @@ import math
 
 
 def squeeze_point(speed: float, gap: float, radius_x: float, radius_y: float, viscosity: float) -> float:
-    """Force [N] that opposes an approach at a speed [m/s] at a smallest gap [m]; radii [m], viscosity eta [Pa s].
+    """Return the force [N] that opposes an approach at a speed [m/s] at a smallest gap [m].
+
+    Radii [m], viscosity eta [Pa s].
 
     12 pi eta V sqrt(R_x R_y) / [(1 / R_x + 1 / R_y) h_0]; of a ball on a plane 6 pi eta V R^2 / h_0.
     Source: ball: Brenner, Chem. Eng. Sci. 16 (1961) 242, doi:10.1016/0009-2509(61)80035-3, near the wall.
@@ -18,16 +20,24 @@ def squeeze_point(speed: float, gap: float, radius_x: float, radius_y: float, vi
 
 
 def squeeze_line(speed: float, gap: float, radius: float, viscosity: float) -> float:
-    """Force per length [N/m] that opposes the approach of a cylinder to a plane, 3 sqrt(2) pi eta V (R / h_0)^1.5."""
+    """Return the force per length [N/m] that opposes the approach of a cylinder to a plane.
+
+    It is 3 sqrt(2) pi eta V (R / h_0)^1.5.
+    """
     return 3.0 * math.sqrt(2.0) * math.pi * viscosity * speed * (radius / gap) ** 1.5
 
 
 def squeezed_point(time: float, gap: float, load: float, radius_x: float, radius_y: float, viscosity: float) -> float:
-    """Smallest gap [m] after a time [s] under a constant load [N], from `gap` [m] on: it falls exponentially."""
+    """Return the smallest gap [m] after a time [s] under a constant load [N], from `gap` [m] on: an exponential."""
     return gap * math.exp(-load * time / (gap * squeeze_point(1.0, gap, radius_x, radius_y, viscosity)))
 
 
 def squeezed_line(time: float, gap: float, load: float, radius: float, viscosity: float) -> float:
-    """Smallest gap [m] under a cylinder after a time [s] under a constant load per length [N/m], from `gap` [m] on."""
+    """Return the smallest gap [m] under a cylinder after a time [s], from `gap` [m] on.
+
+    The load per length [N/m] is constant.
+
+    Under a constant load per length [N/m].
+    """
     speed = load / squeeze_line(1.0, gap, radius, viscosity)
     return gap / (1.0 + 0.5 * speed * time / gap) ** 2

@@ -1,4 +1,4 @@
-"""Closed forms of starved films: how much of the flooded film is left when oil is short before the contact."""
+"""Starved films in closed form, over the flooded ones."""
 
 import math
 
@@ -7,7 +7,7 @@ _NEAREST = 1e-9  # of a meniscus before Hertz's contact, in its half width: what
 
 
 def supplied_film(flooded: float, supply: float, density: float = 1.0, resistance: float = _SIDE_FLOW) -> float:
-    """Central film [m] of a contact before which an oil layer [m] lies evenly on both surfaces together.
+    """Return the central film thickness [m] behind an even oil layer [m] on both surfaces together.
 
     h / h_flooded = r / (1 + r^g)^(1/g) with r = supply / (density h_flooded), density that at the centre relative to
     p = 0, g the resistance to side flow: about 3 for circular contacts (2 to 5), up to 15 for wide ellipses. It is
@@ -26,7 +26,7 @@ def supplied_film(flooded: float, supply: float, density: float = 1.0, resistanc
 
 
 def film_behind_meniscus(flooded: float, distance: float, half_width: float, radius: float) -> float:
-    """Central film [m] of a contact whose inlet begins to be full at a distance [m] before its centre.
+    """Return the central film thickness [m] of a contact whose inlet is full from a distance [m] before its centre.
 
     h / h_flooded = [(m - 1) / (m* - 1)]^0.29 below m* = 1 + 3.06 [(R/a)^2 h_flooded/R]^0.58, with m = distance / a; a
     [m] is the half width of Hertz's contact and R [m] the radius along entrainment.

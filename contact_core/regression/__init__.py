@@ -9,6 +9,8 @@
     outputs        outputs and their errors
     evolution      `advance`: the track means over time
     warming        what a process loads before its first step
+
+Imports run from the bottom of this list to its top.
 """
 
 from .evolution import advance

@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..laws.heat import FlashTemperature, TemperatureField
 from ..scene import Case
 from .load_sharing import UNFITTED, Fit, Shares, Surfaces, shared, surfaces_of
 from .oil import Law, MeanHeat, oil_shear
@@ -190,7 +189,7 @@ def _oil_friction(case: Case, points: list[_Point], further: float) -> tuple[lis
     def friction(warm: Array) -> Array:
         return oily * oil_shear(scene, hertz, pressures, rates, grips, warm)
 
-    if not isinstance(scene.heat, TemperatureField):
+    if not scene.heat.warms_film:
         return friction(start).tolist(), None
     solid, rubbing, areas, gaps = np.array([(p.solid, p.rubbing, p.area, p.shares.gap) for p in points]).T
     first, second = np.full(6, op.speed_1, np.float64), np.full(6, op.speed_2, np.float64)
@@ -205,11 +204,11 @@ def _oil_friction(case: Case, points: list[_Point], further: float) -> tuple[lis
 
 def _flash_rise(case: Case, shear: float, sliding: float) -> float:
     """Return the flash temperature rise [K] of a spot as wide as the rougher body's correlation length."""
-    heat = case.scene.heat
-    if not isinstance(heat, FlashTemperature) or shear == 0.0:
+    if shear == 0.0:
         return 0.0
-    rise: Law = heat.rise
-    return float(rise(0.5 * case.sides[case.scene.rougher].surface.correlation_length, shear, sliding))
+    return float(
+        case.scene.heat.spot_rise(0.5 * case.sides[case.scene.rougher].surface.correlation_length, shear, sliding)
+    )
 
 
 def _faster(case: Case) -> float:

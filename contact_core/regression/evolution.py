@@ -22,7 +22,7 @@ from .surfaces import Means, Tribofilms, composite_roughness, mean_cover, regres
 
 _SAME = 1e-4  # a contact evaluated before the surfaces changed by less, relative, is the contact after it
 _AGREED = 0.05  # of control.change: contacts before and after a step may differ by so much in the surfaces they make
-_TRIAL = 1.0  # s: step that tells how fast the surfaces change
+_TRIAL = 1.0  # s: step from which the speed of the surfaces' change is taken
 
 
 def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:

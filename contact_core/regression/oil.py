@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ConvergenceError
-from ..laws.heat import TemperatureField
+from ..laws.base import Heat
 from ..reference import Hertz
 from ..scene import Scene
 
@@ -45,7 +45,7 @@ class MeanHeat(NamedTuple):
 
     @staticmethod
     def of(
-        law: TemperatureField,
+        law: Heat,
         hertz: Hertz,
         speeds: Pair,
         bodies: Pair,

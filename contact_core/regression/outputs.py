@@ -18,7 +18,7 @@ _BLANK = Outputs()
 # share of the roughness or more, for curves of fresh surfaces
 _BEYOND, _RUN_IN, _CHANGED = 2.0, 1.6, 0.1
 _UNKNOWN = 1e3  # relative, of wear where next to no solids touch: nobody knows
-_LOCAL = 1.0  # error of tribofilms that feel local stresses, of which this level knows the mean
+_LOCAL = 1.0  # error of tribofilms that depend on local stresses, of which this level knows the mean
 
 
 def outputs_of(

@@ -4,15 +4,13 @@ import math
 from functools import lru_cache
 from typing import NamedTuple
 
-from ..laws.rheology import Carreau
-from ..laws.supply import Flooded
-from ..reference import bair_thinning_factor, inlet_shear_factor
+from ..reference import inlet_shear_factor
 from ..scene import Case, Scene
 from .oil import Law
 
 STEP, KELVIN = 1e-6, 1e-4  # of differences, relative and in temperature
 SLOWEST, LIGHTEST = 1e-30, 1e-9  # m/s, N: less is at rest, and without load: it would divide by zero
-_PROBE = 1e6  # Pa: pressure that tells the pressure coefficient
+_PROBE = 1e6  # Pa: pressure at which the pressure coefficient is taken
 _THICKEST = 0.01  # of the radius: bodies are no parabolas on the scale of a thicker film
 
 
@@ -38,7 +36,7 @@ def smooth_film(case: Case, further: float) -> SmoothFilm:
     oil, warm = _oil(scene.lubricant.viscosity, inlet)
     largest, modulus, supply = hertz.pressure_max, scene.solids.reduced_modulus, scene.lubricant.supply
     thins = speed > 0.0 and (scene.heat.inlet_shear != "none" or scene.lubricant.flow == "local")
-    starves = not isinstance(supply, Flooded)
+    starves = supply.starves
 
     def film(speed: float, load: float, slide: float, oil: tuple[float, float], temperature: float) -> float:
         newtonian = shape.film(max(load, LIGHTEST), max(speed, SLOWEST), *oil, modulus)
@@ -84,13 +82,13 @@ def _thinned(
 
     For a speed above zero and Hertz's largest pressure [Pa].
     """
-    factor, law = 1.0, scene.lubricant.rheology
+    factor = 1.0
     if scene.heat.inlet_shear != "none":
         modulus = scene.solids.reduced_modulus
         beta, oil = _thinning(scene, temperature), scene.lubricant.conductivity
         factor = inlet_shear_factor(viscosity, beta, speed, slide / speed, oil, pressure, modulus)
-    if scene.lubricant.flow == "local" and isinstance(law, Carreau):
-        factor *= bair_thinning_factor(newtonian, speed, viscosity, law.critical_stress, law.exponent, slide / speed)
+    if scene.lubricant.flow == "local":
+        factor *= scene.lubricant.rheology.film_factor(newtonian, speed, viscosity, slide / speed)
     return factor
 
 

@@ -9,6 +9,8 @@
     toml        TOML to records and back
     tunables    numbers that may be changed in a scene
     units       "1.26 GPa" to SI
+
+A scene is checked when it is read; an operating point when it is bound in a case.
 """
 
 from .case import Case, Side

@@ -47,7 +47,7 @@ class Case:
 
         Parameters
         ----------
-        stored : bulk temperatures [K] of a state, from which heat.bulk = "lumped" goes on; None: none yet.
+        stored : bulk temperatures [K] of a state, from which heat.bulk = "lumped" continues; None: none yet.
 
         Raises
         ------

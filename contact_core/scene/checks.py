@@ -99,12 +99,8 @@ def _shape_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
                 f"geometry.{name} = {getattr(scene.geometry, name):g} m is shorter than film.domain = "
                 f"{scene.film.domain:g} m: a point would be in the contact twice at once. Use a longer track.",
             )
-    if plasticity.film_hardness > plasticity.hardness:
-        yield (
-            "hardness",
-            f"plasticity.film_hardness = {plasticity.film_hardness:g} Pa is above plasticity.hardness = "
-            f"{plasticity.hardness:g} Pa; a tribofilm is taken to be softer than its solid.",
-        )
+    if plasticity.error:
+        yield "hardness", plasticity.error
 
 
 def _roughness_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
@@ -187,4 +183,4 @@ def warnings(scene: SceneFields) -> list[str]:
     given = (scene.operation.body_temperature_1, scene.operation.body_temperature_2)
     if given != (None, None) and not scene.heat.bulk.from_inputs:
         found.append(f"heat.bulk = '{scene.heat.bulk.name}' does not use operation.body_temperature_1 and _2.")
-    return [*found, *scene.film.warnings(scene.lubricant, scene.tribofilm)]
+    return [*found, *scene.film.warnings(scene.lubricant.flow, scene.lubricant.rheology, scene.tribofilm)]

@@ -9,11 +9,7 @@ from typing import Any
 
 from ..film import Deterministic, Regression
 from ..film.instant import Grid
-from ..laws.boundary_friction import FilmBlend
-from ..laws.heat import FlashTemperature, NoHeat, TemperatureField
-from ..laws.plasticity import ElasticPerfectlyPlastic
-from ..laws.tribofilm import Andersson, Combined, Ghanbarzadeh, Gosvami, NoTribofilm, ZhangSpikes
-from ..laws.wear import Archard, NoWear
+from ..laws.base import BoundaryFriction, Heat, Plasticity, Tribofilm, Wear
 from ..reference import Hertz
 from ..shapes import LineGeometry, PointGeometry, RollerGeometry, Shape
 from .operation import OperatingPoint, Operation
@@ -34,11 +30,11 @@ class SceneFields:
     surface_1: Surface
     surface_2: Surface
     lubricant: Lubricant
-    plasticity: ElasticPerfectlyPlastic
-    boundary_friction: FilmBlend
-    heat: NoHeat | FlashTemperature | TemperatureField
-    tribofilm: NoTribofilm | Ghanbarzadeh | Andersson | ZhangSpikes | Gosvami | Combined
-    wear: NoWear | Archard
+    plasticity: Plasticity
+    boundary_friction: BoundaryFriction
+    heat: Heat
+    tribofilm: Tribofilm
+    wear: Wear
     film: Deterministic | Regression
     control: Control
     operation: Operation

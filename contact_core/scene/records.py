@@ -2,10 +2,8 @@
 
 from dataclasses import dataclass, field
 
-from ..laws.density import DowsonHigginson, Incompressible
-from ..laws.rheology import Carreau, Eyring, Newtonian
-from ..laws.supply import Flooded, Meniscus, SupplyFilm
-from ..laws.viscosity import AstmD341, Barus, Modulus, Roelands
+from ..laws.base import Density, Rheology, Supply, Viscosity
+from ..laws.supply import Flooded
 from ..quantities import parameter
 
 SEEDS = 2**31  # of a surface: what FMI's integers can tell apart
@@ -22,8 +20,9 @@ class Solids:
 
 @dataclass(frozen=True)
 class Surface:
-    """Roughness of one body: Gaussian heights, autocorrelation rq^2 exp(-(r/correlation_length)^2). rq = 0 is
-    smooth.
+    """Roughness of one body: Gaussian heights of a Gaussian autocorrelation.
+
+    The autocorrelation is rq^2 exp(-(r/correlation_length)^2); rq = 0 is smooth.
     """
 
     rq: float = parameter("m", "rms roughness", least=0.0, most=1e-4)
@@ -35,9 +34,9 @@ class Surface:
 class Lubricant:
     """The oil."""
 
-    viscosity: Roelands | Barus | Modulus | AstmD341
-    density: DowsonHigginson | Incompressible
-    rheology: Newtonian | Eyring | Carreau
+    viscosity: Viscosity
+    density: Density
+    rheology: Rheology
     conductivity: float = parameter("W/(m K)", "thermal conductivity of the oil", above=0.0, most=10.0, default=0.14)
     flow: str = parameter(
         "",
@@ -53,7 +52,7 @@ class Lubricant:
         choices=("reynolds", "mass_conserving"),
         default="reynolds",
     )
-    supply: Flooded | SupplyFilm | Meniscus = field(default=Flooded())
+    supply: Supply = field(default=Flooded())
 
 
 @dataclass(frozen=True)
@@ -69,7 +68,7 @@ class Control:
     input_change: float = parameter("", "relative change of an input that asks for a new solution", least=0.0, most=1.0)
     driver: str = parameter(
         "",
-        "whose pressures drive film and wear: mixed lubrication's, dry contact's, or by contact_load_ratio",
+        "pressures that drive tribofilm and wear: mixed lubrication's, dry contact's, or chosen by contact_load_ratio",
         choices=("auto", "mixed", "dry"),
         default="auto",
     )
@@ -84,8 +83,8 @@ class Control:
     longest: float = parameter("s", "longest block", above=0.0, most=1e9, default=120.0)
     inputs: str = parameter(
         "",
-        "what a change of load, speeds or radii finds: quasi_steady, a film that has long settled; transient, the one "
-        "that was there, which follows",
+        "film after a change of load, speeds or radii: quasi_steady, settled at once; transient, the last film, which "
+        "follows the change",
         choices=("quasi_steady", "transient"),
         default="quasi_steady",
     )

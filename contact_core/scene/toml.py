@@ -1,4 +1,4 @@
-"""Reading a scene: TOML to records, with a sentence for everything that does not fit, and back."""
+"""TOML to records, with a sentence for everything that does not fit, and back."""
 
 import difflib
 import tomllib
@@ -11,6 +11,7 @@ from typing import Any, get_args, get_origin, get_type_hints
 from ..errors import SceneError
 from ..film import FILMS
 from ..laws import SLOTS
+from ..laws.base import Model
 from ..shapes import GEOMETRIES
 from . import units
 
@@ -18,7 +19,7 @@ _SHARING = {film.name for film in FILMS if "sharing" in {f.name for f in fields(
 
 
 def shipped_scenes() -> dict[str, str]:
-    """Names and descriptions of the scenes that come with the package."""
+    """Return names and descriptions of the scenes that come with the package."""
     folder = files("contact_core") / "data" / "scenes"
     tables = {p.name.removesuffix(".toml"): p for p in folder.iterdir() if p.name.endswith(".toml")}
     return {name: str(tomllib.loads(tables[name].read_text("utf-8"))["description"]) for name in sorted(tables)}
@@ -52,14 +53,15 @@ def did_you_mean(word: str, choices: list[str]) -> str:
     return f" Did you mean '{close[0]}'?" if close else ""
 
 
-def models_of(path: str) -> tuple[type, ...]:
-    """The records that a table at a dotted path may be, told apart by its `model`; none if there is one kind only."""
+def models_of(path: str) -> tuple[type[Model], ...]:
+    """Return the records that a table at a dotted path may be, by its `model`; none if there is one kind only."""
     return {"film": FILMS, "geometry": GEOMETRIES}.get(path) or SLOTS.get(path.rpartition(".")[2], ())
 
 
 def override(table: dict[str, Any], key: str, value: str) -> None:
-    """Set a dotted key; a new `model` keeps what it has in common with the old one and drops the rest, a new `set`
-    drops what stood beside the old.
+    """Set a dotted key.
+
+    A new `model` keeps the keys it shares with the old one and drops the others; a new `set` drops all other keys.
     """
     *path, last = key.split(".")
     where = ".".join(path)
@@ -79,7 +81,7 @@ def override(table: dict[str, Any], key: str, value: str) -> None:
 
 
 def flat(table: Mapping[str, Any], path: str = "") -> dict[str, Any]:
-    """Values of nested tables by dotted key."""
+    """Return the values of nested tables by dotted key."""
     found: dict[str, Any] = {}
     for key, value in table.items():
         found |= flat(value, f"{path}{key}.") if isinstance(value, Mapping) else {f"{path}{key}": value}
@@ -87,7 +89,7 @@ def flat(table: Mapping[str, Any], path: str = "") -> dict[str, Any]:
 
 
 def build(cls: type, table: Any, path: str) -> Any:
-    """Make a record of `cls` from a table; every complaint names the table and the key."""
+    """Return a record of `cls` from a table; every error names the table and the key."""
     if not isinstance(table, Mapping):
         raise SceneError(f"[{path}] must be a table.")
     table = _with_named_set(dict(table), path)
@@ -109,15 +111,17 @@ def build(cls: type, table: Any, path: str) -> Any:
 
 
 def _elsewhere(cls: type, key: str, path: str) -> str:
-    """Which other models of a table have a key that `cls` does not have."""
-    others = [f"'{law.name}'" for law in models_of(path) if key in {f.name for f in fields(law)}]  # type: ignore[attr-defined]
-    return f" It belongs to model = {' or '.join(others)}, not to '{cls.name}'." if others else ""  # type: ignore[attr-defined]
+    """Return which other models of a table have a key that `cls` does not have, or an empty text."""
+    models = models_of(path)
+    own = [law.name for law in models if law is cls]
+    others = [f"'{law.name}'" for law in models if key in {f.name for f in fields(law)}]
+    return f" It belongs to model = {' or '.join(others)}, not to '{own[0]}'." if others else ""
 
 
 def _value(hint: Any, raw: Any, full: str, f: "Field[Any]") -> Any:
     models = () if f.metadata else models_of(full)
     if models:
-        usual = models[0].name if full == "geometry" else getattr(f.default, "name", None)  # type: ignore[attr-defined]
+        usual = models[0].name if full == "geometry" else getattr(f.default, "name", None)
         if isinstance(raw, Mapping) and not {"model", "set"} & set(raw) and usual:
             raw = {"model": usual, **raw}
         return _build_law(models, raw, full)
@@ -139,12 +143,12 @@ def _value(hint: Any, raw: Any, full: str, f: "Field[Any]") -> Any:
     return raw
 
 
-def _build_law(models: tuple[type, ...], raw: Any, path: str) -> Any:
+def _build_law(models: tuple[type[Model], ...], raw: Any, path: str) -> Any:
     if isinstance(raw, str):
         raw = {"model": raw}
     if not isinstance(raw, Mapping):
         raise SceneError(f"[{path}] must be a table with a 'model', or the model's name.")
-    table, names = _with_named_set(dict(raw), path), {m.name: m for m in models}  # type: ignore[attr-defined]
+    table, names = _with_named_set(dict(raw), path), {m.name: m for m in models}
     model = table.pop("model", None)
     if model not in names:
         said = f"has no model '{model}'." + did_you_mean(str(model), list(names)) if model else "needs a 'model'."
@@ -176,13 +180,13 @@ def _with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
 
 
 def _for_model(table: Mapping[str, Any], path: str, model: str) -> dict[str, Any]:
-    """The keys of a law's table that the law `model` in its place has, too."""
-    shared = {f.name for law in models_of(path) if law.name == model for f in fields(law)}  # type: ignore[attr-defined]
+    """Return the keys of a law's table that the law `model` has, too."""
+    shared = {f.name for law in models_of(path) if law.name == model for f in fields(law)}
     return {name: item for name, item in table.items() if name in shared}
 
 
 def _merged(base: Mapping[str, Any], over: Mapping[str, Any], path: str) -> dict[str, Any]:
-    """`base` with the keys of `over`, table by table; another `model` keeps what it has in common with the old one."""
+    """Return `base` with the keys of `over`, table by table; another `model` keeps the keys both have."""
     model = over.get("model", base.get("model"))
     merged = dict(base) if model == base.get("model") else _for_model(base, path, model)
     for key, value in over.items():
@@ -193,13 +197,13 @@ def _merged(base: Mapping[str, Any], over: Mapping[str, Any], path: str) -> dict
 
 def _hint(f: "Field[Any]") -> str:
     if "unit" not in f.metadata:
-        models = ", ".join(law.name for law in models_of(f.name))  # type: ignore[attr-defined]
+        models = ", ".join(law.name for law in models_of(f.name))
         return f"Add the table, with a 'model': {models}." if models else "Add the table."
     return f"It is the {f.metadata['text']}" + (f" [{f.metadata['unit']}]." if f.metadata["unit"] else ".")
 
 
 def unbuild(record: Any) -> dict[str, Any]:
-    """Nested tables of a record, with SI units, from which `build` makes an equal one."""
+    """Return nested tables of a record, with SI units, from which `build` makes an equal one."""
     table: dict[str, Any] = {"model": record.name} if type(record) in _all_models() else {}
     for f in fields(record):
         value = getattr(record, f.name)
@@ -222,7 +226,7 @@ def _all_models() -> set[type]:
 
 def full_key(key: str, value: str) -> str:
     """Return the key that an override means: `heat.bulk=oil` is short for `heat.bulk.model=oil`."""
-    return f"{key}.model" if value in {law.name for law in models_of(key)} else key  # type: ignore[attr-defined]
+    return f"{key}.model" if value in {law.name for law in models_of(key)} else key
 
 
 def override_order(item: tuple[str, str]) -> int:

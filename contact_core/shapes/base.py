@@ -12,6 +12,7 @@ from typing import ClassVar, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..laws.base import Law
 from ..laws.equations import Equations
 from ..laws.load_sharing import FittedSharing
 from ..quantities import input_parameter, parameter
@@ -124,11 +125,9 @@ class Bodies:
     track_length_2: float = parameter("m", "travel of a point of body 2 between two passes", above=0.0, most=1e3)
 
 
-class Geometry(Protocol):
+class Geometry(Law, Protocol):
     """The record of a shape in a scene."""
 
-    name: ClassVar[str]
-    source: ClassVar[str]
     lacks: ClassVar[frozenset[str]]  # quantities that have no meaning for it
     sharing: ClassVar[type[FittedSharing]]  # curves of load sharing fitted to its like
     equations: ClassVar[Equations]  # gap; these and the next four for documentation

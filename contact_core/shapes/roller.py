@@ -2,13 +2,13 @@
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar, Protocol
+from typing import ClassVar
 
 import numpy as np
 
+from ..laws.base import Profile
 from ..laws.equations import Equations
 from ..laws.load_sharing import FittedSharing, LineSharing
-from ..laws.profile import Logarithmic, Rounded
 from ..quantities import parameter
 from ..reference import Hertz
 from .base import Array, Bodies, GridRecord, Shape
@@ -17,13 +17,6 @@ from .line import ROLLING_LINE, SMOOTH_LINE, Line, no_radius_y
 
 _DEEPEST = 0.1  # drop of an end, in radii: no deformation reaches that far
 _BESIDE = 1.02  # depth of the grid over the length of a roller, at least
-
-
-class Profile(Protocol):
-    """How the ends of a roller are taken back; a law of `laws.profile`."""
-
-    def drop(self, y: Array, length: float) -> Array:
-        """Return the material taken away [m] at y [m] from the middle of a face [m]; inf beyond the ends."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +61,7 @@ class RollerGeometry(Bodies):
     lumped: ClassVar[bool] = True
 
     face_width: float = parameter("m", "length of the roller, ends included", above=0.0, most=10.0, shapes_arrays=True)
-    profile: Rounded | Logarithmic
+    profile: Profile
 
     def shape(self, radius_x: float | None = None, radius_y: float | None = None) -> Shape:
         """Return the shape with this radius [m], or with the geometry's own."""

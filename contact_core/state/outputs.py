@@ -10,7 +10,7 @@ _TYPES = {"Real": float, "Integer": int}
 
 
 class RangeFlag(IntFlag):
-    """Why an answer is less sure than usual, in words by `text`; `Outputs.range_flags` is the sum of what applies."""
+    """Reasons why an answer is less sure than usual, in words by `text`; `Outputs.range_flags` is their sum."""
 
     text: str
 
@@ -20,17 +20,17 @@ class RangeFlag(IntFlag):
         flag._value_, flag.text = value, text
         return flag
 
-    LAMBDA_CAPPED = 1, "no roughness or no load: lambda_ratio stands at its cap or at zero"
+    LAMBDA_CAPPED = 1, "no roughness or no load: lambda_ratio is at its cap or zero"
     TRIBOFILM_TEMPERATURE = 2, "outside the temperatures at which the constants of the tribofilm hold"
-    INLET_UNRESOLVED = 4, "the grid is too coarse for the film in the inlet: the film is a number of this grid"
-    NOT_CONVERGED = 8, "over a tenth of the block's film solutions missed the tolerance and were used as they were"
-    FALLBACK = 16, "the dry solution stood in for a film solution in part of the block"
+    INLET_UNRESOLVED = 4, "the grid is too coarse for the film in the inlet: the film depends on this grid"
+    NOT_CONVERGED = 8, "over a tenth of the block's film solutions did not converge and were used as they were"
+    FALLBACK = 16, "the dry solution replaced a film solution in part of the block"
     DOMAIN_EDGE = 32, "the contact or the wear scar reaches the edge of the grid"
     FEW_NODES = 64, "fewer than 8 nodes across the Hertz contact at this load"
-    SLOW_BODY = 128, "the slower body shows a block only part of its track: its film and wear are uneven along it"
-    STIFF_WEAR = 256, "blocks are longer than wear stays stable for: fine roughness and A_c are less sure"
-    OUTSIDE_FIT = 512, "outside the points to which the curves of the fast level were fitted"
-    OTHER_LEVEL = 1024, "outputs that only the deterministic level can tell stand as it last left them, or at zero"
+    SLOW_BODY = 128, "only part of the slower body's track passes through the contact in one block: its tribofilm and wear are uneven"
+    STIFF_WEAR = 256, "blocks are longer than the limit of stable wear: fine roughness and A_c are less sure"
+    OUTSIDE_FIT = 512, "outside the points to which the curves of the regression level were fitted"
+    OTHER_LEVEL = 1024, "outputs of the deterministic level alone keep their last values, or are zero"
 
 
 if TYPE_CHECKING:

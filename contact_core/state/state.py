@@ -40,8 +40,8 @@ class Body:
     removal: Array  # tribofilm removed [m]
     wear: Array  # depth worn [m]
     plastic: Array  # permanent depth pressed in [m]
-    pressure: Array  # solid pressure a point feels, mean over its track [Pa]; what wear needs of the last solution
-    exposure: Array  # per test time, what the tribofilm law needs of the last solution
+    pressure: Array  # of the solids on a point, mean over its track [Pa], of the last solution: for wear
+    exposure: Array  # per test time, of the last solution: for the tribofilm law
     abrasion: Array  # rate [1/s], per test time, at which rubbing removes the tribofilm; zero for laws without it
     since: Array  # passes through the contact since a point was last exposed
     offset: float  # how far the patch has moved along x in the solved steps [m], within one patch length
@@ -102,11 +102,9 @@ class ContactState:
     dry_blocks_left: int  # blocks until the share of the solids is measured again
     share: float  # of the load on the solids of a dry contact
     trends: Trends
-    temperatures: (
-        tuple[float, float] | None
-    )  # of the bodies [K], which heat.bulk = "lumped" goes on from; None: none yet
+    temperatures: tuple[float, float] | None  # of the bodies [K], for heat.bulk = "lumped"; None: none yet
     outputs: Outputs
-    means: tuple[Mean, Mean] | None = None  # of the regression level, newer than the patches; None: the patches are current
+    means: tuple[Mean, Mean] | None = None  # of the regression level, newer than the patches; None: these are current
 
     @property
     def rows(self) -> int:

@@ -76,7 +76,7 @@ def _little_endian(array: NDArray[Any]) -> NDArray[Any]:
 
 
 def _one_value(array: NDArray[Any]) -> int | None:
-    """The bits of an array's value, if it has no other."""
+    """Return the bits of an array's value, if it has no other."""
     bits = array.reshape(-1).view(_bits(array.dtype))
     if bits.size and bits[0] == bits[-1] and (bits == bits[0]).all():
         return int(bits[0])
@@ -89,7 +89,7 @@ def _bits(dtype: np.dtype[Any]) -> str:
 
 @lru_cache(maxsize=16)
 def _filled(dtype: str, shape: tuple[int, ...], value: int) -> NDArray[Any]:
-    """An array of the value with these bits: one object for all records that have it."""
+    """Return an array of the value with these bits: one object for all records that have it."""
     kind = np.dtype(dtype)
     array = np.full(shape, value, _bits(kind)).view(kind)
     array.setflags(write=False)
@@ -100,23 +100,23 @@ class Reader:
     """Reads what was stored, in the same order. Raises ValueError or struct.error where the bytes do not fit."""
 
     def __init__(self, data: bytes, start: int, end: int) -> None:
-        """`data` has the numbers from `start` to `end`, and then the memory of the arrays."""
+        """Read `data`: the numbers from `start` to `end`, and then the memory of the arrays."""
         self._data = data
         self._at, self._stop, self._end = start, end, end
 
     def values(self, layout: struct.Struct) -> tuple[Any, ...]:
-        """The next values, of a layout."""
+        """Return the next values, of a layout."""
         found = layout.unpack_from(self._data, self._at)
         self._at += layout.size
         return found
 
     def text(self, size: int) -> str:
-        """The next text."""
+        """Return the next text."""
         self._at += size
         return self._data[self._at - size : self._at].decode()
 
     def numbers(self, record: type) -> dict[str, Any]:
-        """The next numbers, by the names of their fields."""
+        """Return the next numbers, by the names of their fields."""
         kind = _kind(record)
         found = dict(zip(kind.numbers, self.values(kind.layout), strict=True))
         for name in kind.maybe:
@@ -125,7 +125,7 @@ class Reader:
         return found
 
     def record(self, record: Any) -> Any:
-        """The next record of a class with nothing but numbers and arrays."""
+        """Return the next record of a class with nothing but numbers and arrays."""
         values = self.numbers(record)
         return record(**values, **{name: self._array() for name in _kind(record).arrays})
 

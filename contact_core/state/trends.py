@@ -3,8 +3,8 @@
 The column `trend` of the quantity table says which outputs are followed, and how.
 
 A block samples the moving surfaces at a few instants, so its means scatter; and they drift, as the surfaces change.
-A fading-memory filter of level and slope follows each quantity from block to block. What it misses tells the
-sampling error, its slope the error of time steps, apart from each other.
+A fading-memory filter of level and slope follows each quantity from block to block. Its residuals give the sampling
+error, its slope the error of time steps, apart from each other.
 """
 
 from collections.abc import Mapping
@@ -47,18 +47,20 @@ class Trends:
 
     @staticmethod
     def fresh() -> "Trends":
-        """Nothing seen yet."""
+        """Return a filter before its first block."""
         n, rates = len(NAMES), np.zeros(len(RATES))
         return Trends(np.zeros(n), np.zeros(n), np.zeros(n), 1.0, 0.5, 0, rates, rates)
 
     def restarted(self) -> "Trends":
-        """Forget levels and slopes: the contact works at another point now. Errors made stay made."""
+        """Return the filter without levels and slopes, for another operating point. Errors so far remain."""
         known = np.divide(self.variance, self.level**2, out=np.zeros_like(self.level), where=self.level != 0.0)
         return replace(Trends.fresh(), variance=known, time_error=self.time_error, sampling=self.sampling)
 
     def followed(self, seen: Mapping[str, float], spread: Mapping[str, float], memory: float, lag: float) -> "Trends":
-        """The filter after one more block's means; `spread` is their standard deviation as the block itself shows it,
-        `memory` (0 to 1) how slowly the filter forgets, `lag` by how many blocks what is seen is late.
+        """Return the filter after one more block's means `seen`.
+
+        `spread` is their standard deviation within the block, `memory` (0 to 1) how slowly the filter forgets, `lag` by
+        how many blocks the means are late.
 
         Gains as in Morrison, Introduction to Sequential Smoothing and Prediction, McGraw-Hill 1969: least squares
         over all blocks at first, fading memory later.
@@ -85,10 +87,10 @@ class Trends:
         )
 
     def over(self, step: float, block: float) -> "Trends":
-        """With the errors that a step [s] of a block that is `block` [s] old makes, if rates stand still in it.
+        """Return the filter with the errors of a step [s] of a block that is `block` [s] old, if rates are held in it.
 
-        What is late by some blocks is wrong by the slope times these. The rate's own
-        scatter adds up within a block and at random between blocks.
+        A mean that is late by some blocks is wrong by the slope times these. The rate's own scatter adds up within a
+        block and at random between blocks.
         """
         n = len(NAMES) - len(RATES)
         return replace(
@@ -98,20 +100,20 @@ class Trends:
         )
 
     def slope_of(self, name: str) -> float:
-        """Change of one of `SMOOTHED` from block to block."""
+        """Return the change of one of `SMOOTHED` from block to block."""
         return float(self.slope[SMOOTHED.index(name)])
 
     def values(self) -> dict[str, float]:
-        """The smoothed outputs."""
+        """Return the smoothed outputs."""
         return {name: float(value) for name, value in zip(SMOOTHED, self.level, strict=False)}
 
     def _late(self) -> Array:
-        """What is missing to the present of what is seen, [NAMES]."""
+        """Return by how much the means lag behind the present, [NAMES]."""
         late: Array = self.lag * self.slope if self.blocks > 1 else _UNKNOWN * self.level
         return late
 
     def half_widths(self) -> dict[str, tuple[float, float]]:
-        """Errors by time steps and by sampling, as half widths (two sigma), of `SMOOTHED`, `SLOPES` and `RATES`."""
+        """Return the errors by time steps and by sampling, as half widths (two sigma), of all names followed."""
         sampling = 2.0 * np.sqrt(self.gain * self.variance)
         late = np.abs(self._late())
         found = {name: (float(late[k]), float(sampling[k])) for k, name in enumerate((*SMOOTHED, *SLOPES))}

@@ -4,4 +4,6 @@
     patches       body-fixed patches: heights now, place under the contact, rubbing track
     track_means   from patches to the track means of the regression level and back
     profiles      the rubbed surfaces laid end to end, for profiles and pictures
+
+Heights are metres above the mean plane of a body, positive toward the other body.
 """

@@ -26,12 +26,26 @@ _LIBRARIES = (".so", ".dll", ".dylib")
 def build(
     scene: Scene, out: Path, flavour: Flavour = "isolated", *, python: str | None = None, reference: bool = False
 ) -> Path:
-    """Write the FMU of `scene` to `out` and return the path. Equal arguments and versions give equal bytes.
+    """Write the FMU of a scene and return its path. Equal arguments and versions give equal bytes.
 
-    `flavour` "isolated": any host can load the FMU; the model runs in a process of its own, in the interpreter `python`
-    (default: the one that the FMU finds, see `licences.VARIABLES`). "embedded": the model runs inside a host in Python.
-    `reference`: with reference data, for which the contact is solved at five operating points. Raises OSError if the
-    file cannot be written, or the binaries or a licence are missing.
+    Parameters
+    ----------
+    scene
+        The contact.
+    out
+        Path of the FMU.
+    flavour
+        "isolated": any host can load the FMU; the model runs in a process of its own. "embedded": the model runs inside
+        a host in Python.
+    python
+        Interpreter of an isolated FMU; default: the one that the FMU finds, see `licences.VARIABLES`.
+    reference
+        Add reference data, for which the contact is solved at five operating points.
+
+    Raises
+    ------
+    OSError
+        The file cannot be written, or the binaries or a licence are missing.
     """
     own = {
         "model.png": icon.png(),

@@ -1,4 +1,4 @@
-"""Rules on what an FMU answers: outputs that repeat, that can be gone back to, and that are numbers."""
+"""Rules on the answers of an FMU: outputs are finite, repeatable, and restored with a state."""
 
 import json
 import math
@@ -17,10 +17,10 @@ _SPLIT = 1e-3  # of the magnitude: a difference by the size of the step that is 
 
 
 class FirstRun(NamedTuple):
-    """What `run` leaves in the notebook for rules that need no run of their own."""
+    """Notes of `run` in the notebook, for rules that need no run of their own."""
 
     rows: list[Row]
-    has_child: bool | None  # the host has a process that it did not start; None where that cannot be told
+    has_child: bool | None  # the host has a process that it did not start; None where that is unknown
 
     def write(self, notebook: Path) -> None:
         """Leave it."""
@@ -28,7 +28,7 @@ class FirstRun(NamedTuple):
 
     @classmethod
     def read(cls, notebook: Path) -> "FirstRun":
-        """What was left."""
+        """Return the notes of the first run."""
         return cls(*json.loads((notebook / "first_run.json").read_text()))
 
 
@@ -52,7 +52,7 @@ def _has_child() -> bool | None:
 
 
 def finite(fmu: Fmu, notebook: Path) -> Answer:
-    """No output of the run was NaN or infinite."""
+    """Check that no output of the run was NaN or infinite."""
     reals = [v.name for v in fmu.outputs if v.type == "Real"]
     for number, row in enumerate(FirstRun.read(notebook).rows):
         if broken := sorted(name for name in reals if not math.isfinite(float.fromhex(row[name]))):
@@ -61,14 +61,14 @@ def finite(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def replay(fmu: Fmu, notebook: Path) -> Answer:
-    """The same calls in another process give the same bits."""
+    """Check that the same calls in another process give the same bits."""
     if wrong := difference(rows_alone(fmu), FirstRun.read(notebook).rows):
         return failed(f"The same calls in another process: {wrong}.")
     return passed("The same calls in another process give the same bits.")
 
 
 def rollback(fmu: Fmu, notebook: Path) -> Answer:
-    """A state set twice gives the same steps twice."""
+    """Check that a state set twice gives the same steps twice."""
     if not fmu.capabilities.canGetAndSetFMUstate:
         return not_applicable("canGetAndSetFMUstate is false.")
     with fmu.started() as instance:
@@ -85,7 +85,7 @@ def rollback(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def _onward(fmu: Fmu, instance: Instance, count: int = 3) -> list[Row]:
-    """Outputs as they stand, after a step with the inputs as they stand, and after one with others."""
+    """Return outputs as they stand, after a step with the inputs as they stand, and after one with others."""
     rows = [instance.row()]
     for inputs in ({}, fmu.stimulus(4))[: count - 1]:
         instance.step(inputs=inputs)
@@ -94,7 +94,7 @@ def _onward(fmu: Fmu, instance: Instance, count: int = 3) -> list[Row]:
 
 
 def save(fmu: Fmu, notebook: Path) -> Answer | None:
-    """First half of `resume`."""
+    """Prepare `resume`: store the state of a run."""
     if not fmu.capabilities.canSerializeFMUstate:
         return not_applicable("canSerializeFMUstate is false.")
     with fmu.started() as instance:
@@ -105,7 +105,7 @@ def save(fmu: Fmu, notebook: Path) -> Answer | None:
 
 
 def resume(fmu: Fmu, notebook: Path) -> Answer:
-    """Bytes of a state, restored in another process, give the same steps."""
+    """Check that the bytes of a state, restored in another process, give the same steps."""
     data = (notebook / "state").read_bytes()
     time, expected = json.loads((notebook / "onward.json").read_text())
     with fmu.started() as instance:
@@ -117,7 +117,7 @@ def resume(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def splitting(fmu: Fmu, notebook: Path) -> Answer:
-    """A step in two halves ends where the whole one ends."""
+    """Check that a step in two halves ends where the whole step ends."""
     if not fmu.capabilities.canHandleVariableCommunicationStepSize:
         return not_applicable("canHandleVariableCommunicationStepSize is false.")
     with again(fmu) as get:
@@ -145,7 +145,7 @@ def _distance(first: dict, second: dict, name: str) -> float:
 
 
 def sweep(fmu: Fmu, notebook: Path) -> Answer:
-    """Every input at both ends of its range and at zero."""
+    """Check the FMU with every input at both ends of its range and at zero."""
     settings = [(v.name, x) for v in fmu.inputs if v.variability == "continuous" for x in extremes(v)]
     if not settings:
         return not_applicable("There is no continuous input with a range.")
@@ -165,12 +165,12 @@ def _broken_after(instance: Instance, inputs: dict[str, float]) -> set[str]:
 
 
 def unusable(fmu: Fmu, notebook: Path) -> Answer:
-    """An input that is NaN or infinite does no harm, and is told where the outputs stand still."""
+    """Check that an input that is NaN or infinite does no harm, and is reported where the outputs stay as they were."""
     if not fmu.inputs:
         return not_applicable("There is no Real input.")
     settings = [(v.name, x) for v in fmu.inputs for x in (math.nan, math.inf)]
     spoilt: list[str] = []
-    still: dict[str, list[str]] = {}  # settings by what told that they are not used
+    still: dict[str, list[str]] = {}  # settings by the sign that they are not used
     refused = 0
     with again(fmu) as get:
         instance = get()
@@ -199,7 +199,7 @@ def unusable(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def feedthrough(fmu: Fmu, notebook: Path) -> Answer:
-    """An output that moves with an input before the next step declares that it depends on it."""
+    """Check that an output that changes with an input before the next step declares this dependency."""
     settings = [(v.name, x) for v in fmu.inputs if v.variability == "continuous" for x in elsewhere(v)]
     declared = {
         u.variable.name: {v.name for v in u.dependencies}
@@ -226,7 +226,7 @@ def feedthrough(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def reset(fmu: Fmu, notebook: Path) -> Answer:
-    """The run after a reset is the first run."""
+    """Check that the run after a reset is the first run."""
     with fmu.started() as instance:
         expected = rows_of(fmu, instance)
         instance.reset()
@@ -238,7 +238,7 @@ def reset(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def interleaved(fmu: Fmu, notebook: Path) -> Answer:
-    """Two instances in one process, step by step in turn, do not touch each other."""
+    """Check that two instances in one process, stepped in turn, do not affect each other."""
     if fmu.capabilities.canBeInstantiatedOnlyOncePerProcess:
         return not_applicable("canBeInstantiatedOnlyOncePerProcess is true.")
     if wrong := disturbed(fmu, reload=False):
@@ -247,7 +247,7 @@ def interleaved(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def disturbed(fmu: Fmu, reload: bool) -> str:
-    """What differs when two instances are stepped in turn; the library loaded again before the second if `reload`."""
+    """Return what differs if two instances are stepped in turn; `reload`: load the library again before the second."""
     alone = [rows_alone(fmu, first) for first in (0, STEPS)]
     together: list[list[Row]] = [[], []]
     with fmu.started() as first:

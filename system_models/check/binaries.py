@@ -10,7 +10,7 @@ from fmu_src.isolated.native import image
 from .package import Package
 from .verdict import Answer, failed, not_applicable, noted, passed, some
 
-# FMI 2.0.4, section 2.1 and 4.2: what a library exports
+# FMI 2.0.4, section 2.1 and 4.2: functions that a library exports
 # fmt: off
 _CO_SIMULATION = [
     "GetTypesPlatform", "GetVersion", "SetDebugLogging", "Instantiate", "FreeInstance", "SetupExperiment",
@@ -22,7 +22,7 @@ _CO_SIMULATION = [
 _STATE = ["GetFMUstate", "SetFMUstate", "FreeFMUstate"]
 _BYTES = ["SerializedFMUstateSize", "SerializeFMUstate", "DeSerializeFMUstate"]
 
-# FMI 3's names of what the folders of FMI 2 may hold: they name no processor
+# FMI 3's names of the platforms in the folders of FMI 2, which name no processor
 _FOLDERS = {
     "linux64": {"x86_64-linux", "aarch64-linux"},
     "win64": {"x86_64-windows", "aarch64-windows"},
@@ -41,7 +41,7 @@ _PYTHON_LIBRARY = re.compile(r"(lib)?python\d.*", re.IGNORECASE)
 
 
 def platforms(package: Package) -> Answer:
-    """A whole binary of the right name and kind for every platform that has a folder."""
+    """Check that every platform that has a folder has a whole binary of the right name and kind."""
     folders = {name.split("/")[1] for name in package.names if re.match(r"binaries/[^/]+/.*\.(so|dll|dylib)$", name)}
     found = package.binaries
     unnamed = sorted(folders - set(found))
@@ -57,7 +57,7 @@ def platforms(package: Package) -> Answer:
 
 
 def _unfit(package: Package) -> str:
-    """What is wrong with the first binary that is damaged, or that is for a platform other than its folder's."""
+    """Return a sentence on the first binary that is damaged or not for the platform of its folder."""
     for folder, name in sorted(package.binaries.items()):
         allowed = _FOLDERS.get(folder, {folder})
         try:
@@ -74,7 +74,7 @@ def _unfit(package: Package) -> str:
 
 
 def functions(package: Package) -> Answer:
-    """The binaries export what FMI 2.0 co-simulation calls."""
+    """Check that the binaries export the functions of FMI 2.0 co-simulation."""
     description = package.description
     if description is None or description.coSimulation is None or package.version != "2.0":
         return not_applicable("The list is that of FMI 2.0 co-simulation.")
@@ -91,7 +91,7 @@ def functions(package: Package) -> Answer:
 
 
 def host_needs(package: Package) -> Answer:
-    """What a plain host must supply before it can load the binaries."""
+    """Check what a plain host must supply before it can load the binaries."""
     libraries, unread = _libraries(package)
     if not libraries:
         return not_applicable(f"No binary could be read. {unread}".rstrip())
@@ -115,7 +115,7 @@ def host_needs(package: Package) -> Answer:
 
 
 def _beyond_the_system(library: image.Image, beside: set[str]) -> tuple[list[str], list[str], list[str]]:
-    """What of Python it needs, which libraries that neither the system nor the FMU has, and which symbols of none."""
+    """Return needs of Python, libraries that neither system nor FMU has, and symbols that no library supplies."""
     foreign = [name for name in library.libraries if not (_LINUX.match(name) or _WINDOWS.match(name) or name in beside)]
     python = [name for name in library.unbound if name.lstrip("_").startswith("Py")]
     python += [name for name in foreign if _PYTHON_LIBRARY.match(name)]
@@ -126,7 +126,7 @@ def _beyond_the_system(library: image.Image, beside: set[str]) -> tuple[list[str
 
 
 def _libraries(package: Package) -> tuple[dict[str, image.Image], str]:
-    """The binaries by platform, and a sentence about those that were not read."""
+    """Return the binaries by platform, and a sentence about those that were not read."""
     libraries, unread = {}, []
     for platform, name in sorted(package.binaries.items()):
         try:

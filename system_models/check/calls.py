@@ -18,14 +18,14 @@ _FOREIGN = b"\xff\xfe \xc3( \x80"  # no UTF-8
 
 
 def guid(fmu: Fmu, notebook: Path) -> Answer:
-    """The binary takes no description that is not its own."""
+    """Check that the binary refuses a guid that is not its own."""
     if _refused(fmu, fmuGUID=_OTHER_GUID):
         return passed("It refuses to be instantiated with another guid.")
     return noted("It is instantiated with another guid, too: nothing shows that description and binary do not match.")
 
 
 def interface(fmu: Fmu, notebook: Path) -> Answer:
-    """An interface that it does not have cannot be had."""
+    """Check that an interface that the FMU does not have is refused."""
     if fmu.description.modelExchange is not None:
         return not_applicable("It has both interfaces.")
     if _refused(fmu, fmuType=fmi2ModelExchange):
@@ -34,7 +34,7 @@ def interface(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def resources(fmu: Fmu, notebook: Path) -> Answer:
-    """A host that names no folder of resources comes to no harm."""
+    """Check that a missing resource location does no harm."""
     if _refused(fmu, fmuResourceLocation=None):
         return passed("Without a resource location it refuses to be instantiated.")
     return passed("It is instantiated without a resource location.")
@@ -50,7 +50,7 @@ def _refused(fmu: Fmu, **instead: object) -> bool:
 
 
 def stop_time(fmu: Fmu, notebook: Path) -> Answer:
-    """A step up to the stop time is taken, and none beyond it."""
+    """Check that a step up to the stop time is made, and none beyond it."""
     stop = math.nextafter(fmu.start_time + fmu.step, -math.inf)  # hosts that add up their steps are as far beyond it
     fmu.where = f", with {stop!r} s as stop time"
     with fmu.instance() as instance:
@@ -65,7 +65,7 @@ def stop_time(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def communication_point(fmu: Fmu, notebook: Path) -> Answer:
-    """A step that does not begin where the last one has ended is noticed."""
+    """Check that a step is noticed that does not begin where the last one has ended."""
     with fmu.started() as instance:
         instance.step()
         ended = instance.time
@@ -78,7 +78,7 @@ def communication_point(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def order(fmu: Fmu, notebook: Path) -> Answer:
-    """Calls out of their turn are refused, and change nothing."""
+    """Check that calls out of order are refused and change nothing."""
     accepted: list[str] = []
 
     def ask(instance: Instance, name: str, call: Callable[[], None]) -> None:
@@ -107,34 +107,34 @@ def order(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def _onward(fmu: Fmu, instance: Instance) -> Iterator[Row]:
-    """Outputs as they stand, and after another step."""
+    """Yield outputs as they stand, and after another step."""
     yield reals_of(fmu, instance)
     instance.step()
     yield reals_of(fmu, instance)
 
 
 def long_text(fmu: Fmu, notebook: Path) -> Answer | None:
-    """A String may be long. The next stage goes on with other bytes."""
+    """Check that a String may be long. The next stage continues with other bytes."""
     if not _settable_texts(fmu):
         return not_applicable("There is no String to be set.")
     return _set_texts(fmu, _LONG)
 
 
 def foreign_text(fmu: Fmu, notebook: Path) -> Answer:
-    """A String may be no UTF-8, by a host's mistake."""
+    """Check that a String that is not UTF-8, by a mistake of the host, does no harm."""
     names = some(_settable_texts(fmu))
     return _set_texts(fmu, _FOREIGN) or passed(f"{names}: {len(_LONG)} bytes, and bytes that are no UTF-8, do no harm.")
 
 
 def _settable_texts(fmu: Fmu) -> list[str]:
-    """Strings that may be set before initialisation."""
+    """Return Strings that may be set before initialisation."""
     variables = fmu.description.modelVariables
     settable = [v for v in variables if v.causality in ("input", "parameter") and v.variability != "constant"]
     return [v.name for v in settable if v.type == "String"]
 
 
 def _set_texts(fmu: Fmu, text: bytes) -> Answer | None:
-    """Set each String, get it again and initialise; what is refused is left. An answer if that was fatal."""
+    """Set each String, get it again and initialise; refusals are allowed. An answer if one was fatal."""
     with fmu.instance() as instance:
         attempts: list[Callable[[], None]] = [
             partial(_set_and_get, instance, name, text) for name in _settable_texts(fmu)

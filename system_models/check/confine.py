@@ -1,4 +1,4 @@
-"""Where a process may write, as Linux's Landlock limits it (5.13 and later)."""
+"""Limits the folders that a process may write to, by Linux's Landlock (5.13 and later)."""
 
 import ctypes
 import os
@@ -24,7 +24,7 @@ class _Beneath(ctypes.Structure):
 
 
 def confine(folders: Iterable[str]) -> bool:
-    """From now on, this process and what it starts can write in `folders` only; False where the system cannot do it."""
+    """Limit writing of this process and its children to `folders`; return False where the system cannot do it."""
     libc = ctypes.CDLL(None, use_errno=True)
     version = libc.syscall(_CREATE_RULESET, None, ctypes.c_size_t(0), _VERSION)
     if version < 1:

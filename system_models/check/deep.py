@@ -52,7 +52,7 @@ UNFINISHED = "Not finished"  # begins the evidence of a rule whose time was used
 _START = 60.0  # s until the first call at most
 _PATIENT = {"TRIBOFMU_START_TIMEOUT": "1000000"}  # our own FMUs leave it to the watch here when a start takes too long
 _POLL = 0.1  # s between two looks at a process
-_LONGEST = 300  # characters of what a process has printed
+_LONGEST = 300  # characters of the output of a process
 
 
 def findings(
@@ -61,7 +61,7 @@ def findings(
     """Run every rule, at the FMU's lowest level where `settings` of start values do not say otherwise.
 
     A rule of which a call takes longer than `limit` [s], or which takes longer than `budget` [s], is left with a note:
-    no clock tells a call that hangs from one on a busy machine. But `run` may take as long as its calls.
+    no clock distinguishes a call that hangs from one on a busy machine. But `run` may take as long as its calls.
     """
     reason = _reason_not_to_run(package)
     start: Start = {}
@@ -108,7 +108,7 @@ def _answer(folder: Path, stages: tuple[str, ...], notebook: Path, start: Start,
 
 
 def _stage(folder: Path, stage: str, notebook: Path, start: Start, watch: "_Watch") -> Answer | None:
-    """The answer of a stage; None if the next one gives it."""
+    """Return the answer of a stage; None if the next one gives it."""
     command = [sys.executable, "-m", f"{__package__}.stages", str(folder), stage, str(notebook), json.dumps(start)]
     trace, words = notebook / "call", notebook / "printed.txt"
     trace.unlink(missing_ok=True)
@@ -142,14 +142,14 @@ def _stage(folder: Path, stage: str, notebook: Path, start: Start, watch: "_Watc
 
 
 def _environment() -> dict[str, str]:
-    """The new process finds the packages where this one found them."""
+    """Return the environment in which the new process finds the packages where this one found them."""
     root = str(Path(__file__).parents[2])
     paths = os.pathsep.join(filter(None, [root, os.environ.get("PYTHONPATH", "")]))
     return _PATIENT | os.environ | {"PYTHONPATH": paths}
 
 
 class _End(Enum):
-    """How the time of a process ends."""
+    """End of the time of a process."""
 
     BY_ITSELF = auto()
     LATE = auto()
@@ -182,7 +182,7 @@ class _Watch:
 
 
 def _kill(process: "subprocess.Popen[bytes]") -> None:
-    """End a process that still runs, and what it has started."""
+    """End a process that still runs, and its children."""
     if process.poll() is not None:
         return
     if os.name == "posix":
@@ -193,7 +193,7 @@ def _kill(process: "subprocess.Popen[bytes]") -> None:
 
 
 def _last_line(printed: Path) -> str:
-    """What the process printed last, if anything."""
+    """Return the last line that the process printed, if any."""
     lines = printed.read_text("utf-8", "replace").split("\n")
     said = [line.strip() for line in lines if line.strip()]
     return f"; it printed: {said[-1][:_LONGEST]}" if said else ""

@@ -1,4 +1,4 @@
-"""Rules on what an FMU does to the process and the machine of its host. FMI is silent on most of it.
+"""Rules on effects of an FMU on the process and the machine of its host. FMI says nothing on most of them.
 
 Each changes the process that it runs in: never ask them in one that is still needed.
 """
@@ -28,7 +28,7 @@ _NOWHERE = "/dev/null/home"  # a home folder that cannot be made
 
 
 def memory(fmu: Fmu, notebook: Path) -> Answer:
-    """Instances come and go, and leave little behind."""
+    """Check that instances that are made and freed leave little behind."""
     single = fmu.capabilities.canBeInstantiatedOnlyOncePerProcess
     with nullcontext() if single else fmu.instance():  # which keeps loaded what they share
         before = _memory_after(fmu, _SETTLED)
@@ -41,7 +41,7 @@ def memory(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def _memory_after(fmu: Fmu, count: int) -> float:
-    """Memory that is this process's own, in kB, after so many instances; NaN where it cannot be told."""
+    """Return the memory [kB] of this process after so many instances; NaN where the system does not tell it."""
     for _ in range(count):
         with fmu.instance():
             pass
@@ -55,7 +55,7 @@ def _memory_after(fmu: Fmu, count: int) -> float:
 
 
 def reloading(fmu: Fmu, notebook: Path) -> Answer:
-    """The library may be unloaded and loaded again while an instance lives."""
+    """Check that the library may be unloaded and loaded again while an instance lives."""
     if fmu.capabilities.canBeInstantiatedOnlyOncePerProcess:
         return not_applicable("canBeInstantiatedOnlyOncePerProcess is true.")
     if wrong := disturbed(fmu, reload=True):
@@ -64,7 +64,7 @@ def reloading(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def home(fmu: Fmu, notebook: Path) -> Answer:
-    """It runs for a user without a home who can write temporary files only."""
+    """Check that the FMU runs for a user without a home who can write temporary files only."""
     if sys.platform != "linux":
         return not_applicable("It is asked on Linux only.")
     os.environ["HOME"] = _NOWHERE
@@ -80,7 +80,7 @@ def home(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def children(fmu: Fmu, notebook: Path) -> Answer:
-    """In the run, the host had no child process that it did not start itself."""
+    """Check that in the run the host had no child process that it did not start itself."""
     has_child = FirstRun.read(notebook).has_child
     if has_child is None:
         return not_applicable("It is asked on Linux only.")
@@ -93,7 +93,7 @@ def children(fmu: Fmu, notebook: Path) -> Answer:
 
 
 def fork(fmu: Fmu, notebook: Path) -> Answer:
-    """A host may fork while its other threads make instances, free them and call them."""
+    """Check that a host may fork while its other threads make instances, free them and call them."""
     if sys.platform != "linux":
         return not_applicable("It is asked on Linux only.")
     if fmu.capabilities.canBeInstantiatedOnlyOncePerProcess:
@@ -112,7 +112,7 @@ def fork(fmu: Fmu, notebook: Path) -> Answer:
             thread.start()
         try:
             for number in range(_FORKS):
-                fmu.progress = f"{number} of {_FORKS} children forked while other threads worked with it have gone on"
+                fmu.progress = f"{number} of {_FORKS} children forked while other threads worked with it have survived"
                 time.sleep(1e-3 * (number % 3))  # here and there in the life of the other instance
                 if ending := _ending_of_child(fmu, instance):
                     return noted(f"A child forked while other threads made, freed and called instances {ending}.")
@@ -120,11 +120,11 @@ def fork(fmu: Fmu, notebook: Path) -> Answer:
             over.set()
             for thread in threads:
                 thread.join()
-    return passed(f"{_FORKS} children forked while other threads made, freed and called instances: all go on.")
+    return passed(f"{_FORKS} children forked while other threads made, freed and called instances: all survive.")
 
 
 def _ending_of_child(fmu: Fmu, instance: Instance) -> str:
-    """What becomes of a forked child that calls the FMU; nothing if it returns."""
+    """Return how a forked child that calls the FMU ends; an empty text if it returns."""
     fmu.note("fork")
     child = os.fork()
     if not child:

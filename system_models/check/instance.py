@@ -24,7 +24,7 @@ Value = float | int | bytes
 Row = dict[str, str]  # outputs as text that differs where bits differ
 
 _STATUS = ("OK", "warning", "discard", "error", "fatal", "pending")
-_LONGEST = 300  # characters of a message, its end: there a traceback says what it was
+_LONGEST = 300  # characters of a message, from its end, where a traceback names the error
 _FEW = 100.0  # steps in an experiment that names no step
 
 
@@ -43,12 +43,12 @@ class Complaints(logging.Handler):
 
 
 def call_in(trace: bytes) -> str:
-    """The call that was made last, in a trace."""
+    """Return the call that was made last, in a trace."""
     return trace.decode("utf-8", "replace").partition("\n")[0].partition(" ")[2]
 
 
 def progress_in(trace: bytes) -> str:
-    """How far the rule had come by then."""
+    """Return the progress of the rule, in a trace."""
     return trace.decode("utf-8", "replace").partition("\n")[2]
 
 
@@ -57,7 +57,7 @@ class RefusedError(Exception):
 
 
 class Objection(NamedTuple):
-    """What an FMU does about a wrong call: its status refuses it, or something else says so, or nothing does."""
+    """Answer of an FMU to a wrong call: its status refuses it, or something else says so, or nothing does."""
 
     refused: bool
     said: str
@@ -83,8 +83,8 @@ class Fmu:
         self.start_time, self.step = _experiment(self.description.defaultExperiment)
         self._complaints = _complaints()
         self.fault = ""  # the call that an instance has refused, and how
-        self.where = ""  # what is unusual about the calls to come
-        self.progress = ""  # what is known when the rule must end here
+        self.where = ""  # circumstances of the next calls, if unusual
+        self.progress = ""  # finding so far, if the rule must end here
         self._trace = trace
         self._calls = 0
 
@@ -97,7 +97,7 @@ class Fmu:
         self._trace.truncate()
 
     def last_call(self) -> str:
-        """What was written down last, by a forked child, too."""
+        """Return the call written down last, also by a forked child."""
         return call_in(Path(self._trace.name).read_bytes())
 
     def refused(self, call: str, status: int) -> None:
@@ -106,13 +106,13 @@ class Fmu:
         self.fault = f"{call}{self.where} was answered with {_STATUS[status]}{f' ({said})' if said else ''}"
 
     def complaint(self) -> str:
-        """The end of the error that the FMU has told last."""
+        """Return the end of the last error that the FMU has reported."""
         texts = self._complaints.texts
         return texts[-1][-_LONGEST:] if texts else ""
 
     @contextmanager
     def instance(self) -> Iterator["Instance"]:
-        """A new instance, freed in the end."""
+        """Make a new instance, and free it in the end."""
         instance = Instance(self)
         try:
             yield instance
@@ -121,13 +121,13 @@ class Fmu:
 
     @contextmanager
     def started(self) -> Iterator["Instance"]:
-        """A new instance, initialised with its start values."""
+        """Make a new instance, initialised with its start values."""
         with self.instance() as instance:
             instance.initialise()
             yield instance
 
     def stimulus(self, number: int) -> dict[str, float]:
-        """Continuous inputs at their start values, moved by a hundredth per number, within their ranges."""
+        """Return continuous inputs at their start values, moved by a hundredth per number, within their ranges."""
         moving = [v for v in self.inputs if v.variability == "continuous"]
         return {v.name: clipped(v, float(v.start or 0.0) + 0.01 * number * magnitude(v)) for v in moving}
 
@@ -195,7 +195,7 @@ class Instance:
             raise
 
     def objection(self, call: Callable[[], None]) -> Objection:
-        """What the FMU says to a call that is wrong: its status, or a Boolean output that turns false."""
+        """Return the FMU's answer to a wrong call: its status, or a Boolean output that turns false."""
         truths = self._truths()
         self._fmu.warned = False
         try:
@@ -209,7 +209,7 @@ class Instance:
         return Objection(False, f"{gone[0]} = false" if gone else "")
 
     def _truths(self) -> set[str]:
-        """Boolean outputs that are true."""
+        """Return Boolean outputs that are true."""
         names = [v.name for v in self._owner.outputs if v.type == "Boolean"]
         return {name for name, value in self.read(names).items() if value}
 
@@ -252,7 +252,7 @@ class Instance:
         self._call("fmi2SetString", self._fmu.component, byref(reference), 1, byref(value), about=about)
 
     def read(self, names: list[str]) -> dict[str, Value]:
-        """Values of variables by name."""
+        """Return values of variables by name."""
         found = {}
         for name in names:
             variable = self._owner.variables[name]
@@ -268,27 +268,27 @@ class Instance:
         self.time += size
 
     def outputs(self) -> dict[str, Value]:
-        """All outputs."""
+        """Return all outputs."""
         return self.read([v.name for v in self._owner.outputs])
 
     def row(self) -> Row:
-        """All outputs as comparable text."""
+        """Return all outputs as comparable text."""
         return {name: x.hex() if isinstance(x, float) else repr(x) for name, x in self.outputs().items()}
 
     def broken(self) -> set[str]:
-        """The outputs that are not finite."""
+        """Return the outputs that are not finite."""
         return {name for name, x in self.outputs().items() if isinstance(x, float) and not math.isfinite(x)}
 
     def reset(self) -> None:
-        """Back to what it was after instantiation."""
+        """Go back to the state after instantiation."""
         self._call("reset")
 
     def save(self) -> tuple[c_void_p, float]:
-        """The FMU's state and its time."""
+        """Return the FMU's state and its time."""
         return self._call("getFMUstate"), self.time
 
     def restore(self, saved: tuple[c_void_p, float]) -> None:
-        """Back to a saved state, which stays."""
+        """Go back to a saved state, which stays."""
         self._call("setFMUstate", saved[0])
         self.time = saved[1]
 
@@ -297,7 +297,7 @@ class Instance:
         self._call("freeFMUstate", saved[0])
 
     def stored(self) -> bytes:
-        """The state as bytes."""
+        """Return the state as bytes."""
         saved = self.save()
         data = self._call("serializeFMUstate", saved[0])
         self.forget(saved)
@@ -314,7 +314,7 @@ class Instance:
         self._call("terminate")
 
     def reload(self) -> None:
-        """Have the library unloaded and loaded again, and go on through what was loaded."""
+        """Unload and load the library again, and continue with the loaded one."""
         self._owner.note("dlclose and dlopen")
         self._fmu.reload()
 
@@ -325,7 +325,7 @@ class Instance:
     # for threads that run beside: not written down
 
     def be_quiet_unwritten(self) -> None:
-        """The same."""
+        """Switch logging off."""
         self._fmu.fmi2SetDebugLogging(self._fmu.component, False, 0, None)
 
     def come_and_go(self) -> None:

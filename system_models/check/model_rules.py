@@ -30,7 +30,7 @@ def described(rule: Callable[[ModelDescription], Answer]) -> Rule:
 
 @described
 def nominals(description: ModelDescription) -> Answer:
-    """Every Real has a nominal, finite and above zero."""
+    """Check that every Real has a nominal, finite and above zero."""
     reals = reals_of(description)
     bare = [v.name for v in reals if attribute(v, "nominal") is None]
     if bare:
@@ -47,7 +47,7 @@ def is_positive(text: str) -> bool:
 
 
 def reals_of(description: ModelDescription) -> list[ModelVariable]:
-    """All Reals but time, which is in seconds by FMI."""
+    """Return all Reals but time, which is in seconds by FMI."""
     return [v for v in description.modelVariables if is_real(v) and v.causality != "independent"]
 
 
@@ -76,7 +76,7 @@ def _range(variable: ModelVariable) -> tuple[float, float]:
 
 @described
 def aliases(description: ModelDescription) -> Answer:
-    """Variables of one value reference have one unit, and at most one of them can be set."""
+    """Check that variables of one value reference have one unit, and that at most one of them can be set."""
     groups: dict[tuple[str, int], list[ModelVariable]] = {}
     for v in description.modelVariables:
         if v.alias is None:
@@ -94,7 +94,7 @@ def aliases(description: ModelDescription) -> Answer:
 
 @described
 def outputs(description: ModelDescription) -> Answer:
-    """ModelStructure/Outputs lists every output once, and nothing else."""
+    """Check that ModelStructure/Outputs lists every output once, and nothing else."""
     listed = Counter(u.variable.name for u in description.outputs)
     expected = {v.name for v in description.modelVariables if v.causality == "output" and v.alias is None}
     missing = sorted(expected - set(listed))
@@ -111,7 +111,7 @@ def outputs(description: ModelDescription) -> Answer:
 
 @described
 def dependencies(description: ModelDescription) -> Answer:
-    """Every output says what it depends on."""
+    """Check that every output declares its dependencies."""
     silent = [u.variable.name for u in description.outputs if u.dependencies is None]
     if silent:
         return failed(f"Without dependencies: {some(silent)}; a host must suppose that every input counts.")
@@ -121,7 +121,7 @@ def dependencies(description: ModelDescription) -> Answer:
 
 @described
 def initial_unknowns(description: ModelDescription) -> Answer:
-    """Every calculated output is in InitialUnknowns."""
+    """Check that every calculated output is in InitialUnknowns."""
     listed = {u.variable.name for u in description.initialUnknowns}
     calculated = [
         v.name
@@ -136,7 +136,7 @@ def initial_unknowns(description: ModelDescription) -> Answer:
 
 @described
 def experiment(description: ModelDescription) -> Answer:
-    """A default experiment that goes forward in time."""
+    """Check that there is a default experiment that goes forward in time."""
     default = description.defaultExperiment
     if default is None:
         return noted("There is no DefaultExperiment: a host must know the step that suits.")
@@ -152,7 +152,7 @@ def experiment(description: ModelDescription) -> Answer:
 
 @described
 def capabilities(description: ModelDescription) -> Answer:
-    """What the FMU can do for a master that iterates or goes back."""
+    """Check the capabilities that a master needs to iterate or go back."""
     able = description.coSimulation
     if able is None:
         return not_applicable("There is no interface for co-simulation.")

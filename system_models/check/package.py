@@ -43,7 +43,7 @@ class Package:
 
     @property
     def platform(self) -> str:
-        """What FMI calls this machine: the folder of its binaries."""
+        """FMI's name of this machine: the folder of its binaries."""
         return fmpy.platform_tuple if self.version.startswith("3") else fmpy.platform
 
     @property
@@ -95,5 +95,5 @@ def _package(path: Path, archive: zipfile.ZipFile) -> Package:
         raise FmuError(f"{DESCRIPTION} in '{path}' cannot be read: {error}. Build the FMU again.") from None
     try:
         return Package(path, archive, root, fmpy.read_model_description(str(path), validate=False))
-    except Exception as error:  # fmpy meets whatever is wrong with the document in its own way
+    except Exception as error:  # fmpy raises many errors for a wrong document
         return Package(path, archive, root, None, f"{type(error).__name__}: {error}")

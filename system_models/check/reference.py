@@ -19,7 +19,7 @@ _TRUTH = {"true": 1.0, "false": 0.0}
 
 
 def reference(fmu: Fmu, notebook: Path) -> Answer:
-    """The reference results that the FMU carries come out again."""
+    """Check that the reference results that the FMU carries are reproduced."""
     fmu.start = {}  # they are of the FMU as it is
     files = sorted(fmu.folder.rglob("*ref.csv"))
     if not files:
@@ -65,7 +65,7 @@ def _number(cell: str) -> float:
 
 
 def _tolerance(file: Path) -> float:
-    """Relative tolerance of reference results: of their experiment (fmi-ls-ref), or RelTol in their .opt file."""
+    """Return the relative tolerance of reference results: of their experiment (fmi-ls-ref), or RelTol in their .opt."""
     for path in file.parent.glob("*.exp"):
         for experiment in etree.parse(path).iter("Experiment"):
             about = {element.get("source") for element in experiment.iter("References")}
@@ -77,13 +77,13 @@ def _tolerance(file: Path) -> float:
 
 
 def _allowed(fmu: Fmu, results: _Table, rtol: float) -> dict[str, float]:
-    """Differences that a tolerance allows: it is one of a column's largest magnitude, or of the nominal if all is 0."""
+    """Return allowed differences: a tolerance times a column's largest magnitude, or times the nominal if all is 0."""
     largest = {name: max(abs(row[name]) for row in results.rows) for name in results.names}
     return {name: rtol * (size or magnitude(fmu.variables[name])) for name, size in largest.items()}
 
 
 def _replayed(fmu: Fmu, results: _Table, stimuli: _Table) -> Iterator[dict[str, float]]:
-    """The variables at the times of `results`; inputs hold from their row to the next, parameters start as they do."""
+    """Return the variables at the times of `results`; inputs hold from row to row, parameters start as they do."""
     fmu.start_time = results.times[0]
 
     def inputs(time: float) -> dict[str, float]:

@@ -13,7 +13,9 @@ _WIDTH = max(map(len, [*static.RULES, *deep.RULES]))
 def findings(
     package: Package, thorough: bool, limit: float, budget: float, settings: Iterable[tuple[str, str]] = ()
 ) -> Iterator[Finding]:
-    """The static rules, and where `thorough` those that run the FMU: `limit` [s] is a call's, `budget` [s] a rule's.
+    """Yield the answers of the static rules and, if `thorough`, of those that run the FMU.
+
+    `limit` [s] is for a call, `budget` [s] for a rule.
 
     `settings` are start values of the run.
     """
@@ -28,12 +30,12 @@ def findings(
 
 
 def line(finding: Finding) -> str:
-    """Name, verdict and evidence."""
+    """Return the name, verdict and evidence."""
     return f"{finding.rule:{_WIDTH}}  {finding.verdict:4}  {finding.evidence}"
 
 
 def summary(found: Iterable[Finding]) -> str:
-    """How many of each verdict, and how many of the notes are of rules that were not finished."""
+    """Return the number of each verdict, and of the rules that were not finished."""
     listed = list(found)
     count = Counter(finding.verdict for finding in listed)
     text = ", ".join(f"{count[verdict]} {verdict}" for verdict in Verdict)
@@ -42,7 +44,7 @@ def summary(found: Iterable[Finding]) -> str:
 
 
 def exit_code(found: Iterable[Finding]) -> int:
-    """0: no rule failed; 1: some did; 3: none did, but it has not been seen to run."""
+    """Return 0 if no rule failed, 1 if some did, 3 if none did but the FMU has not been seen to run."""
     listed = list(found)
     if any(finding.verdict is Verdict.FAIL for finding in listed):
         return 1

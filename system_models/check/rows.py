@@ -10,7 +10,7 @@ STEPS = 3
 
 
 def rows_of(fmu: Fmu, instance: Instance, first: int = 0) -> list[Row]:
-    """Outputs after initialisation and after each of a few steps; inputs move on from number `first`."""
+    """Return outputs after initialisation and after each of a few steps; inputs move on from number `first`."""
     rows = [instance.row()]
     for number in range(first, first + STEPS):
         instance.step(inputs=fmu.stimulus(number))
@@ -19,19 +19,19 @@ def rows_of(fmu: Fmu, instance: Instance, first: int = 0) -> list[Row]:
 
 
 def rows_alone(fmu: Fmu, first: int = 0) -> list[Row]:
-    """The same of a new instance, which is freed."""
+    """Return the same of a new instance, which is freed."""
     with fmu.started() as instance:
         return rows_of(fmu, instance, first)
 
 
 def reals_of(fmu: Fmu, instance: Instance) -> Row:
-    """The Real outputs alone: others may tell what is wrong."""
+    """Return the Real outputs alone: others may show what is wrong."""
     row = instance.row()
     return {v.name: row[v.name] for v in fmu.outputs if v.type == "Real"}
 
 
 def difference(rows: list[Row], expected: list[Row]) -> str:
-    """The first output that differs, with both values, or nothing."""
+    """Return the first output that differs, with both values, or nothing."""
     for number, (row, wanted) in enumerate(zip(rows, expected, strict=True)):
         for name in wanted:
             if row[name] != wanted[name]:
@@ -48,7 +48,7 @@ def _shown(text: str) -> str:
 
 @contextmanager
 def again(fmu: Fmu, steps: int = 0) -> Iterator[Callable[[], Instance]]:
-    """A way to get an instance at its start values, as often as wanted: set back, or reset where it cannot be.
+    """Yield a function that returns an instance at its start values: set back, or reset where it cannot be.
 
     It has made so many steps. After a fatal status it is a new one.
     """

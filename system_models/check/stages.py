@@ -35,7 +35,7 @@ STAGES: dict[str, Stage] = {
 
 
 def answer(folder: Path, stage: str, notebook: Path, start: Start) -> Answer | None:
-    """Answer one stage, of an FMU that starts with these values; what it raises is an answer, too."""
+    """Answer one stage, of an FMU that starts with these values; an exception is an answer, too."""
     with (notebook / "call").open("wb", buffering=0) as trace:
         fmu = Fmu(folder, trace, start)
         try:

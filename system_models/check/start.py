@@ -14,7 +14,7 @@ _TRUTH = {"true": 1, "1": 1, "false": 0, "0": 0}
 
 
 def asked(description: ModelDescription, settings: Iterable[tuple[str, str]]) -> Start:
-    """What a user has asked for, as values. Raises FmuError for what cannot be set."""
+    """Return the start values that a user has given. Raises FmuError for what cannot be set."""
     variables = {v.name: v for v in description.modelVariables}
     found = {}
     for name, text in settings:
@@ -36,7 +36,7 @@ def _value(variable: ModelVariable, text: str) -> float | int | str:
 
 
 def cheapest(description: ModelDescription) -> Start:
-    """The lowest level of an FMU that has several and starts at a higher one."""
+    """Return the lowest level of an FMU that has several and starts at a higher one."""
     for variable in description.modelVariables:
         if variable.name == _LEVEL and variable.causality == "parameter" and base_type(variable) == "Integer":
             try:
@@ -48,7 +48,7 @@ def cheapest(description: ModelDescription) -> Start:
 
 
 def sentence(description: ModelDescription, start: Start, wanted: Start) -> str:
-    """What is run by the user's wish, and by the check's own choice; nothing if the FMU starts so."""
+    """Return a sentence on start values given by the user and chosen by the check; empty if there are none."""
     own = {v.name: v.start for v in description.modelVariables}
     said = [
         f"{name} = {value} (--set)"

@@ -23,7 +23,7 @@ _SCHEMATA = {
 
 
 def archive(package: Package) -> Answer:
-    """Every file whole, no path that leaves the folder, no file twice."""
+    """Check that every file is whole, stays in the folder and is there once."""
     try:
         damaged = package.archive.testzip()
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, OSError) as error:
@@ -44,7 +44,7 @@ def _leaves(name: str) -> bool:
 
 
 def schema(package: Package) -> Answer:
-    """Valid against the XSD of its FMI version."""
+    """Check the model description against the XSD of its FMI version."""
     file = _SCHEMATA.get(package.version[:1])
     if file is None:
         return failed(f"fmiVersion = '{package.version}' is none of 1.0, 2.0, 3.0.")
@@ -56,7 +56,7 @@ def schema(package: Package) -> Answer:
 
 
 def validation(package: Package) -> Answer:
-    """Nothing that the validation of fmpy finds."""
+    """Check the FMU with the validation of fmpy."""
     problems = validate_fmu(str(package.path))
     if problems:
         return failed(f"{len(problems)} problem(s), the first: {' '.join(problems[0].split())}")
@@ -64,7 +64,7 @@ def validation(package: Package) -> Answer:
 
 
 def documentation(package: Package) -> Answer:
-    """A page for people."""
+    """Check that there is a page for people."""
     page = "documentation/index.html"
     if page in package.names:
         return passed(f"{page}, {package.archive.getinfo(page).file_size / 1024:.0f} kB.")
@@ -72,14 +72,14 @@ def documentation(package: Package) -> Answer:
 
 
 def icon(package: Package) -> Answer:
-    """A picture for the host's canvas."""
+    """Check that there is a picture for the host's canvas."""
     places = ("model.png", "terminalsAndIcons/icon.png", "terminalsAndIcons/icon.svg")
     found = [name for name in places if name in package.names]
     return passed(f"{found[0]}.") if found else noted("There is no icon (model.png).")
 
 
 def licence(package: Package) -> Answer:
-    """Who may use it."""
+    """Check that a licence is stated."""
     files = [name for name in package.names if re.match(r"documentation/licenses/.+", name)]
     declared = package.root.get("license") or package.root.get("copyright")
     if files or declared:
@@ -88,7 +88,7 @@ def licence(package: Package) -> Answer:
 
 
 def reference_data(package: Package) -> Answer:
-    """Results with which an importer can check itself."""
+    """Check that there are results with which an importer can check itself."""
     found = [name for name in package.names if name.endswith("ref.csv")]
     if found:
         return passed(f"{some(found)}; --deep replays it.")

@@ -16,7 +16,7 @@ _ROUNDED = 1e-5  # relative difference of a conversion for display that was writ
 
 @described
 def unit_of_reals(description: ModelDescription) -> Answer:
-    """Every Real has a unit, and the unit a base unit."""
+    """Check that every Real has a unit, and the unit a base unit."""
     reals = reals_of(description)
     bare = [v.name for v in reals if attribute(v, "unit") is None]
     if bare:
@@ -33,7 +33,7 @@ def unit_of_reals(description: ModelDescription) -> Answer:
 
 @described
 def unit_audit(description: ModelDescription) -> Answer:
-    """A unit with the name of an SI unit is that unit, and one for display is converted to what it is called."""
+    """Check that units with names of SI units are these units, and that display units convert as they are named."""
     known = count = 0
     without_rad = []
     for unit in description.unitDefinitions:
@@ -65,7 +65,7 @@ def unit_audit(description: ModelDescription) -> Answer:
 
 
 def _misconverted(base: BaseUnit, shown: DisplayUnit, meant: BaseUnit) -> str:
-    """What is wrong with display = factor * value + offset, where the display's unit is `meant`."""
+    """Return the error of display = factor * value + offset, where the display's unit is `meant`."""
     if _dimension(base) != _dimension(meant):
         return f"is by its name {_base(meant)}, and cannot show {_base(base)}"
     factor, offset = base.factor / meant.factor, (base.offset - meant.offset) / meant.factor
@@ -77,7 +77,7 @@ def _misconverted(base: BaseUnit, shown: DisplayUnit, meant: BaseUnit) -> str:
 
 
 def _si(name: str | None) -> BaseUnit | None:
-    """What a unit is by its name, if that is known here."""
+    """Return the unit that a name means, if it is known here."""
     if name in ("degC", "°C"):
         return BaseUnit(K=1, offset=273.15)
     try:
@@ -88,7 +88,7 @@ def _si(name: str | None) -> BaseUnit | None:
 
 
 def _dimension(base: BaseUnit) -> tuple[int, ...]:
-    """Exponents of the base units but rad, which is a number."""
+    """Return exponents of the base units but rad, which is a number."""
     return base.kg, base.m, base.s, base.A, base.K, base.cd
 
 

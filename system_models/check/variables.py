@@ -1,4 +1,4 @@
-"""What a variable of fmpy's model description says of itself."""
+"""Attributes of a variable in fmpy's model description."""
 
 import math
 from typing import Literal
@@ -10,23 +10,23 @@ _MILLION = 1e6
 
 
 def is_real(variable: ModelVariable) -> bool:
-    """True for variables of floating-point type."""
+    """Return True for variables of floating-point type."""
     return variable.type in _REALS
 
 
 def base_type(variable: ModelVariable) -> Literal["Real", "Integer", "Boolean", "String"]:
-    """The type by whose functions a variable of FMI 2 is reached; value references count within it."""
+    """Return the type by whose functions a variable of FMI 2 is reached; value references count within it."""
     return "Integer" if variable.type == "Enumeration" else variable.type
 
 
 def attribute(variable: ModelVariable, name: str) -> str | None:
-    """`unit`, `nominal`, `min` or `max` of a variable, its declared type's where it has none of its own."""
+    """Return `unit`, `nominal`, `min` or `max` of a variable, its declared type's where it has none of its own."""
     own = getattr(variable, name)
     return getattr(variable.declaredType, name) if own is None and variable.declaredType is not None else own
 
 
 def magnitude(variable: ModelVariable) -> float:
-    """Nominal value of a Real, else that of its start value, else 1."""
+    """Return the nominal value of a Real, else its start value, else 1."""
     for text in (attribute(variable, "nominal"), variable.start):
         value = abs(float(text or 0.0))
         if value and math.isfinite(value):
@@ -35,7 +35,7 @@ def magnitude(variable: ModelVariable) -> float:
 
 
 def clipped(variable: ModelVariable, value: float) -> float:
-    """`value` within the declared range."""
+    """Return `value` within the declared range."""
     low, high = attribute(variable, "min"), attribute(variable, "max")
     if low is not None:
         value = max(value, float(low))
@@ -43,13 +43,13 @@ def clipped(variable: ModelVariable, value: float) -> float:
 
 
 def elsewhere(variable: ModelVariable) -> list[float]:
-    """The start value moved by the magnitude, up and down, within the declared range."""
+    """Return the start value moved by the magnitude, up and down, within the declared range."""
     start = float(variable.start or 0.0)
     return sorted({clipped(variable, start + step) for step in (-magnitude(variable), magnitude(variable))} - {start})
 
 
 def extremes(variable: ModelVariable) -> list[float]:
-    """Both ends of the declared range, at most a million times the magnitude away from zero, and zero if within."""
+    """Return both ends of the declared range, at most a million magnitudes from zero, and zero if within."""
     far = _MILLION * magnitude(variable)
     ends = [attribute(variable, "min"), attribute(variable, "max")]
     values = [clipped(variable, min(max(float(end), -far), far)) for end in ends if end is not None]

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 
 class Verdict(StrEnum):
-    """What a rule says about an FMU."""
+    """Verdict of a rule on an FMU."""
 
     PASS = "pass"
     FAIL = "fail"
@@ -31,26 +31,26 @@ class Finding:
 
 
 def passed(evidence: str) -> Answer:
-    """The rule holds."""
+    """Return the answer of a rule that holds."""
     return Answer(Verdict.PASS, evidence)
 
 
 def failed(evidence: str) -> Answer:
-    """The rule is broken."""
+    """Return the answer of a rule that is broken."""
     return Answer(Verdict.FAIL, evidence)
 
 
 def noted(evidence: str) -> Answer:
-    """The rule is not broken, but a user should know."""
+    """Return the answer of a rule that is not broken, but of which a user should know."""
     return Answer(Verdict.NOTE, evidence)
 
 
 def not_applicable(evidence: str) -> Answer:
-    """The rule says nothing about this FMU."""
+    """Return the answer of a rule that does not apply to this FMU."""
     return Answer(Verdict.NOT_APPLICABLE, evidence)
 
 
 def some(names: list[str], count: int = 3) -> str:
-    """The first few names, and how many more there are."""
+    """Return the first few names, and how many more there are."""
     more = len(names) - count
     return ", ".join(names[:count]) + (f" and {more} more" if more > 0 else "")

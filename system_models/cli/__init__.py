@@ -2,7 +2,7 @@
 
     main        the table of commands
     listing     list: what is shipped
-    run         run: contact, one contact through its duty; machine, a machine
+    run         run: a contact or a machine through its duty; contact: one contact; machine: a machine
     stribeck    stribeck: Stribeck curves
     check       check: verdicts on an FMU
     cosim       cosim: a system of FMUs

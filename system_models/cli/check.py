@@ -11,25 +11,25 @@ from .console import add_settings
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
     parser.add_argument("fmu", metavar="FILE.fmu", type=Path)
-    parser.add_argument("--deep", action="store_true", help="run it, too: replay, rollback, range of the inputs, ...")
+    parser.add_argument("--deep", action="store_true", help="also run the FMU: replay, rollback, input range, ...")
     parser.add_argument(
         "--limit",
         metavar="S",
         type=float,
         default=120.0,
-        help="with --deep: seconds after which a call of the FMU is not waited for any more (default: %(default)g)",
+        help="with --deep: time limit of a call of the FMU in seconds (default: %(default)g)",
     )
     parser.add_argument(
         "--budget",
         metavar="S",
         type=float,
         default=20.0,
-        help="with --deep: seconds after which a rule is left with a note on what it has found (default: %(default)g); "
-        "the first run may take as long as it needs",
+        help="with --deep: time limit of a rule in seconds, after which it ends with a note on its findings "
+        "(default: %(default)g); the first run has no limit",
     )
     add_settings(
         parser,
-        "with --deep: start values of the run, e.g. fidelity=2; without, an FMU of several levels runs at its cheapest",
+        "with --deep: start values of the run, e.g. fidelity=2; by default an FMU runs at its cheapest level",
     )
 
 

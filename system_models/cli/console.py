@@ -1,4 +1,4 @@
-"""What the commands of `tribofmu` share: notes on stderr, the folder of the results, and --set."""
+"""Parts that the commands share: notes on stderr, the folder of the results, and --set."""
 
 import argparse
 import os
@@ -9,12 +9,12 @@ from contact_core.errors import ContactError
 
 
 def note(sentence: str) -> None:
-    """Tell something that is no result."""
+    """Print a sentence that is no result on stderr."""
     print(f"tribofmu: note: {sentence}", file=sys.stderr)
 
 
 def add_settings(command: argparse.ArgumentParser, text: str) -> None:
-    """The argument --set: pairs of key and value."""
+    """Add the argument --set: pairs of key and value."""
     command.add_argument(
         "--set",
         dest="settings",
@@ -28,7 +28,7 @@ def add_settings(command: argparse.ArgumentParser, text: str) -> None:
 
 
 def _assignment(text: str) -> tuple[str, str]:
-    """KEY=VALUE of --set."""
+    """Return key and value of KEY=VALUE."""
     key, equals, value = text.partition("=")
     if not key or not equals:
         raise argparse.ArgumentTypeError(f"'{text}' is not KEY=VALUE, such as tribofilm.model=none")
@@ -36,7 +36,7 @@ def _assignment(text: str) -> tuple[str, str]:
 
 
 def output_folder(out: str | None, name: str) -> Path:
-    """--out, or results/NAME; made before the run, so that nothing computed is lost for want of a place."""
+    """Return the folder of --out, or results/NAME; it is made before the run, so that no result is lost."""
     folder = Path(out or Path("results") / name)
     try:
         folder.mkdir(parents=True, exist_ok=True)

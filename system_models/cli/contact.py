@@ -47,7 +47,7 @@ def _run_in(folder: Path, scene: Scene, duty: "Duty", resume: bool) -> int:
 
 
 def _checkpoint(folder: Path, scene: Scene, duty: "Duty", resume: bool) -> "Checkpoint":
-    """Where the run goes on from, if it can and shall, said on stderr."""
+    """Return the checkpoint of the run; say on stderr whether the run continues from it."""
     from ..run.origin import identity
     from ..store.checkpoint import Checkpoint
 
@@ -55,16 +55,16 @@ def _checkpoint(folder: Path, scene: Scene, duty: "Duty", resume: bool) -> "Chec
     if not resume:
         checkpoint = Checkpoint(folder, run)
         if checkpoint.file.exists():
-            note(f"'{checkpoint.file}' of an unfinished run will be replaced; to go on from it, use --resume.")
+            note(f"'{checkpoint.file}' of an unfinished run will be replaced; to continue from it, use --resume.")
         return checkpoint
     checkpoint = Checkpoint.resume(folder, run)
     if checkpoint.saved:
-        note(f"Going on from '{checkpoint.file}' at {checkpoint.saved.time / 60.0:.1f} min.")
+        note(f"Continuing from '{checkpoint.file}' at {checkpoint.saved.time / 60.0:.1f} min.")
     return checkpoint
 
 
 def _finished(folder: Path, scene: Scene, duty: "Duty") -> int | None:
-    """The exit code of this very run if its result is there already."""
+    """Return the exit code of this very run if its result is there already."""
     from ..run import origin, report
 
     dataset = origin.find(folder, scene, duty)
@@ -78,7 +78,7 @@ def _finished(folder: Path, scene: Scene, duty: "Duty") -> int | None:
 def _how_to_go_on(checkpoint: "Checkpoint") -> str:
     if not checkpoint.count:
         return ""
-    return f"What was computed is kept in '{checkpoint.file}': the same command with --resume goes on from there."
+    return f"What was computed is kept in '{checkpoint.file}': the same command with --resume continues from there."
 
 
 def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path) -> int:

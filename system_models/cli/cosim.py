@@ -17,8 +17,9 @@ if TYPE_CHECKING:
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """What `run` wants to know."""
-    parser.add_argument("system", metavar="SYSTEM.toml", type=Path, help="FMUs, their connections and how to simulate")
+    """Add the arguments of the command."""
+    text = "FMUs, their connections and options of the simulation"
+    parser.add_argument("system", metavar="SYSTEM.toml", type=Path, help=text)
     parser.add_argument("--out", metavar="DIR", help="folder of the results (default: results/SYSTEM)")
     add_settings(
         parser, "change parameters and settings of the file, e.g. parameters.block.m=2 simulate.step_size='1 ms'"
@@ -27,14 +28,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     instead.add_argument(
         "--resume",
         action="store_true",
-        help="go on from the checkpoint that a killed, interrupted or failed simulation has left in DIR, to the same "
-        "result, bit for bit; start from the beginning if there is none (without --resume always, and replace it)",
+        help="continue from the checkpoint that a killed, interrupted or failed simulation has left in DIR, to the "
+        "same result, bit for bit; start from the beginning if there is none (without --resume always, and replace it)",
     )
     instead.add_argument("--ssp", metavar="FILE.ssp", help="export the system as SSP 1.0, do not simulate it")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Do what the command line asks for; return 0, or 1 if some steps have missed a tolerance.
+    """Carry out the command; return 0, or 1 if some steps have missed a tolerance.
 
     Raises ContactError with a sentence if it cannot be done.
     """

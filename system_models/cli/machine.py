@@ -1,4 +1,4 @@
-"""What `tribofmu run` does with a machine: builds its FMUs, simulates and reports. Light to import."""
+"""Runs a machine: builds its FMUs, simulates and reports. Light to import."""
 
 import argparse
 from pathlib import Path
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Do what the command line asks for; return the exit code. Raises ContactError with a sentence if it cannot."""
+    """Carry out the command and return the exit code. Raises ContactError with a sentence if it cannot."""
     from ..machines import reading, timeline
 
     machine = reading.read(arguments.scene, _changes(arguments))
@@ -88,7 +88,7 @@ def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str
 
 
 def _check(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", system: "System", code: int) -> int:
-    """Simulate with double steps and solve states again; write what that says of the result.
+    """Simulate with double steps and solve states again; write both findings.
 
     Return the exit code, which has been `code` so far.
     """
@@ -108,7 +108,8 @@ def _check(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", system: "S
     print(*resolve.lines(states), f"This took {monotonic() - begin:.0f} s.", sep="\n")
     wrong = [state for state in states if state.solved and not state.valid]
     if wrong:
-        note(f"The fast level's errors do not cover its deviation in {len(wrong)} of {len(states)} states: see 'NO'.")
+        count = f"{len(wrong)} of {len(states)} states"
+        note(f"The errors of the regression level do not cover its deviation in {count}: see 'NO'.")
         code = 1
     print(f"Written: {results.write(resolve.to_dataset(states), folder, 'resolved')[0]}")
     results.write(resolve.marked(dataset, states).assign_attrs({EXIT_CODE: code}), folder)

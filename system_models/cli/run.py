@@ -16,15 +16,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--resume",
         action="store_true",
-        help="go on from the checkpoint that a killed, interrupted or failed run has left in DIR, to the same result, "
-        "bit for bit; start from the beginning if there is none (without --resume always, and replace it)",
+        help="continue from the checkpoint that a killed, interrupted or failed run has left in DIR, to the same "
+        "result, bit for bit; start from the beginning if there is none (without --resume always, and replace it)",
     )
-    parser.add_argument("--hours", metavar="H", help="duration of the test, instead of operation.duration")
-    parser.add_argument("--duty", metavar="FILE.csv", help="CSV of the duty, instead of operation.file")
+    parser.add_argument("--hours", metavar="H", help="duration of the test: replaces operation.duration")
+    parser.add_argument("--duty", metavar="FILE.csv", help="CSV of the duty: replaces operation.file")
     parser.add_argument(
         "--unchecked",
         action="store_true",
-        help="leave out what checks a machine's result: a simulation with double steps, and states solved again",
+        help="leave out the checks of a machine's result: a simulation with double steps, and states solved again",
     )
     parser.add_argument("--ssp", metavar="FILE.ssp", help="export a machine as SSP 1.0, do not run it")
 

@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
 def add_scene(command: argparse.ArgumentParser) -> None:
     """Add the arguments that name the contact and the folder of the results."""
-    command.add_argument("scene", metavar="NAME", help="what is shipped (`tribofmu list`), or the path of a .toml file")
+    command.add_argument("scene", metavar="NAME", help="a shipped name (`tribofmu list`), or the path of a .toml file")
     command.add_argument("--out", metavar="DIR", help="folder of the results (default: results/NAME)")
-    command.add_argument("--grid", metavar="N", help="nodes along x and y, instead of film.points")
-    add_settings(command, "change values of it, e.g. tribofilm.model=none surface_2.rq='50 nm'")
+    command.add_argument("--grid", metavar="N", help="nodes along x and y: replaces film.points")
+    add_settings(command, "change values of the scene or machine, e.g. tribofilm.model=none surface_2.rq='50 nm'")
 
 
 def contact(arguments: argparse.Namespace) -> "tuple[Scene, Duty]":
@@ -52,7 +52,7 @@ def _overrides(arguments: argparse.Namespace) -> dict[str, str]:
 
 
 def _folder_of_duty(arguments: argparse.Namespace) -> Path:
-    """A path on the command line starts at the working folder, one in a scene's file at that file."""
+    """Return the folder of a duty file: the working folder, or that of the scene's file."""
     if getattr(arguments, "duty", None) or not arguments.scene.endswith(".toml"):
         return Path()
     return Path(arguments.scene).parent

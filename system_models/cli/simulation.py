@@ -30,9 +30,9 @@ def carry_out(
 ) -> int:
     """Simulate with a checkpoint in the folder and hand the result to `report`, whose exit code is returned.
 
-    With `resume` go on from the checkpoint; if there is none, but the result of this very simulation, leave that. The
+    With `resume` continue from the checkpoint; if there is none, but the result of this simulation, keep that. The
     settings are the arguments of `master.simulate`. `report` writes the result with its exit code as the attribute
-    EXIT_CODE; `attributes` are others of it that tell it from results of another kind.
+    EXIT_CODE; `attributes` are others of it that distinguish it from results of another kind.
     """
     origin = _origin(system, settings, name) | attributes
     checkpoint = _checkpoint(folder, system, settings, resume)
@@ -49,14 +49,14 @@ def carry_out(
 
 
 def _origin(system: "System", settings: Mapping[str, Any], name: str) -> dict[str, str]:
-    """What decides the result, for its attributes."""
+    """Return the identity of the result, as attributes."""
     from ..master.saving import identity
 
     return {"title": name, "simulation_json": json.dumps(identity(system, settings))}
 
 
 def _checkpoint(folder: Path, system: "System", settings: Mapping[str, Any], resume: bool) -> Path | None:
-    """The file where the simulation stores the point it has reached, if its FMUs can be stored."""
+    """Return the file where the simulation stores the point it has reached, if its FMUs can be stored."""
     from ..master import CouplingError
     from ..master.saving import check
     from ..store.checkpoint import Checkpoint
@@ -70,14 +70,14 @@ def _checkpoint(folder: Path, system: "System", settings: Mapping[str, Any], res
         note(f"There will be no checkpoint. {error}")
         return None
     if file.exists() and not resume:
-        note(f"'{file}' of an unfinished run will be replaced; to go on from it, use --resume.")
+        note(f"'{file}' of an unfinished run will be replaced; to continue from it, use --resume.")
     if file.exists() and resume:
-        note(f"Going on from '{file}'.")
+        note(f"Continuing from '{file}'.")
     return file
 
 
 def _finished(folder: Path, origin: Mapping[str, str]) -> int | None:
-    """The exit code of this very simulation if its result is there already."""
+    """Return the exit code of this very simulation if its result is there already."""
     from ..store import results
 
     dataset = results.find(origin, folder)
@@ -91,7 +91,7 @@ def _finished(folder: Path, origin: Mapping[str, str]) -> int | None:
 def _simulated(
     system: "System", settings: Mapping[str, Any], name: str, checkpoint: Path | None, resume: bool
 ) -> "xr.Dataset":
-    """Simulate, with a progress bar in seconds; what ends it early says how to go on."""
+    """Simulate, with a progress bar in seconds; an early end says how to continue."""
     from tqdm import tqdm
     from tqdm.contrib.logging import logging_redirect_tqdm
 
@@ -108,7 +108,7 @@ def _simulated(
     def how_to_go_on() -> str:
         if _stamp(checkpoint) == before and not resume:
             return ""
-        return f"What was computed is kept in '{checkpoint}': the same command with --resume goes on from there."
+        return f"What was computed is kept in '{checkpoint}': the same command with --resume continues from there."
 
     try:
         with bar, logging_redirect_tqdm():
@@ -128,7 +128,7 @@ def _simulated(
 
 
 def _stamp(file: Path | None) -> int | None:
-    """When a file was written, if it is there."""
+    """Return the time at which a file was written, if it is there."""
     return file.stat().st_mtime_ns if file is not None and file.exists() else None
 
 

@@ -27,12 +27,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="MIN",
         nargs="+",
         default=["0,5,15,30,60,120"],
-        help="rubbing times in minutes, after which speeds are swept (default: %(default)s)",
+        help="rubbing times in minutes, after each of which speeds are swept (default: 0,5,15,30,60,120)",
     )
-    parser.add_argument("--fastest", metavar="U", default="10", help="entrainment speed in m/s (default: %(default)s)")
-    parser.add_argument("--slowest", metavar="U", default="0.003", help="the other end (default: %(default)s)")
+    parser.add_argument("--fastest", metavar="U", default="10", help="fastest entrainment speed in m/s (default: 10)")
+    parser.add_argument(
+        "--slowest", metavar="U", default="0.003", help="slowest entrainment speed in m/s (default: 0.003)"
+    )
     parser.add_argument("--points", metavar="N", type=int, default=12, help="speeds of a sweep (default: %(default)s)")
-    parser.add_argument("--srr", metavar="R", help="slide-to-roll ratio (u1 - u2) / u_e, instead of the scene's own")
+    parser.add_argument("--srr", metavar="R", help="slide-to-roll ratio (u1 - u2) / u_e (default: that of the scene)")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -63,7 +65,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _rubbing_times(words: Sequence[str]) -> list[float]:
-    """Minutes, apart from each other by commas or spaces, in seconds."""
+    """Return minutes, apart from each other by commas or spaces, in seconds."""
     try:
         return [60.0 * float(word) for word in re.split(r"[,\s]+", " ".join(words)) if word]
     except ValueError:
@@ -100,7 +102,7 @@ def _sweep(scene: Scene, duty: "Duty", curves: "Curves") -> None:
 
 
 def _kept(scene: Scene, duty: "Duty", curves: "Curves", folder: Path) -> str:
-    """Write what there is of curves that are not finished, and say so."""
+    """Write the points of unfinished curves, and return a sentence on it."""
     if not curves.count:
         return ""
     from ..store.results import write

@@ -1,7 +1,7 @@
 """A running FMU of FMI 2.0 or 3.0, on the host's side.
 
     model      an FMU as its modelDescription.xml has it
-    instance   a running FMU: what is the same in both versions of FMI
+    instance   a running FMU: the common part of both versions of FMI
     fmi2, fmi3 the running FMU of each version
     loading    unpacks FMUs and loads their libraries
     start      starts an instance of each of several FMUs

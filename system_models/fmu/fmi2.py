@@ -68,12 +68,12 @@ class Fmi2Instance(Instance):
         super()._hold(polynomial, size)
         order = len(polynomial) - 1
         if self.interpolates:
-            self.told_order = max(order, self.told_order)
-            if self.told_order:
-                self._set_derivatives(self.told_order, polynomial)
+            self.derivative_order = max(order, self.derivative_order)
+            if self.derivative_order:
+                self._set_derivatives(self.derivative_order, polynomial)
 
     def _set_derivatives(self, order: int, polynomial: NDArray[np.float64]) -> None:
-        """Set the derivatives up to the order up to which they were ever set: what is not set may stay."""
+        """Set the derivatives up to the highest order that was ever set: an FMU may keep old ones."""
         count = self.inputs.count * order
         if order > self._order:
             references = (fmi2ValueReference * count)(*(list(self.inputs.references) * order))
@@ -104,7 +104,7 @@ class Fmi2Instance(Instance):
         return time + size
 
     def _discarded(self, time: float) -> float:
-        """The time that a refused step has reached."""
+        """Return the time that a refused step has reached."""
         self.terminated = self._status(self._fmu.getBooleanStatus, fmi2Terminated, False)
         return max(time, self._status(self._fmu.getRealStatus, fmi2LastSuccessfulTime, time))
 
@@ -116,7 +116,7 @@ class Fmi2Instance(Instance):
             return otherwise
 
     def get(self, variable: ModelVariable) -> Any:
-        """The value of a variable of any type."""
+        """Return the value of a variable of any type."""
         getter = getattr(self._fmu, _FMI2_NAMES[kind(variable)].format("get"))
         value = getter([variable.valueReference])[0]
         return bool(value) if kind(variable) == "boolean" else value.decode() if isinstance(value, bytes) else value
@@ -126,16 +126,16 @@ class Fmi2Instance(Instance):
         getattr(self._fmu, _FMI2_NAMES[kind(variable)].format("set"))([variable.valueReference], [value])
 
     def enter_initialization(self, time: float, stop: float, tolerance: float | None) -> None:
-        """From the start values to the initialisation."""
+        """Go from the start values to the initialisation."""
         self._fmu.setupExperiment(tolerance=tolerance, startTime=time, stopTime=stop)
         self._fmu.enterInitializationMode()
 
     def exit_initialization(self) -> None:
-        """From the initialisation to the first step."""
+        """Go from the initialisation to the first step."""
         self._fmu.exitInitializationMode()
 
     def save(self) -> Any:
-        """The FMU's state, to be given to `restore` any number of times and to `release` once."""
+        """Return the FMU's state, to be given to `restore` any number of times and to `release` once."""
         return self._fmu.getFMUstate()
 
     def restore(self, state: Any) -> None:
@@ -148,7 +148,7 @@ class Fmi2Instance(Instance):
         self._fmu.fmi2FreeFMUstate(self._component, byref(state))
 
     def serialised(self) -> bytes:
-        """The FMU's state as bytes."""
+        """Return the FMU's state as bytes."""
         state = self.save()
         try:
             return bytes(self._fmu.serializeFMUstate(state))

@@ -22,7 +22,7 @@ _MOST_UPDATES = 100  # of the discrete states at one time
 
 
 class State(NamedTuple):
-    """A saved state, and what its FMU had announced then."""
+    """A saved state, and the event that its FMU had announced then."""
 
     memory: Any
     next_event: float | None
@@ -144,7 +144,7 @@ class Fmi3Instance(Instance):
         return reached
 
     def _is_due(self, time: float) -> bool:
-        """Whether the event that the FMU has announced is at `time` or before."""
+        """Return True if the event that the FMU has announced is at `time` or before."""
         event = self.next_event
         return event is not None and (time >= event or isclose(time, event, rel_tol=1e-12))
 
@@ -173,7 +173,7 @@ class Fmi3Instance(Instance):
             self._fmu.fmi3EnterStepMode(self._component)
 
     def get(self, variable: ModelVariable) -> Any:
-        """The value of a variable of any type."""
+        """Return the value of a variable of any type."""
         self._end_event()
         return self._value(variable)
 
@@ -189,17 +189,17 @@ class Fmi3Instance(Instance):
         getattr(self._fmu, f"set{_access(variable)}")([variable.valueReference], [value])
 
     def enter_initialization(self, time: float, stop: float, tolerance: float | None) -> None:
-        """From the start values to the initialisation."""
+        """Go from the start values to the initialisation."""
         self._fmu.enterInitializationMode(tolerance=tolerance, startTime=time, stopTime=stop)
 
     def exit_initialization(self) -> None:
-        """From the initialisation to the first step."""
+        """Go from the initialisation to the first step."""
         self._fmu.exitInitializationMode()
         self._stepping = self._in_event_mode = self._has_event_mode
         self._end_event()
 
     def save(self) -> Any:
-        """The FMU's state, to be given to `restore` any number of times and to `release` once."""
+        """Return the FMU's state, to be given to `restore` any number of times and to `release` once."""
         self._end_event()
         return State(self._fmu.getFMUState(), self.next_event)
 
@@ -214,7 +214,7 @@ class Fmi3Instance(Instance):
         self._fmu.fmi3FreeFMUState(self._component, byref(state.memory))
 
     def serialised(self) -> bytes:
-        """The FMU's state as bytes."""
+        """Return the FMU's state as bytes."""
         state = self.save()
         try:
             head = struct.pack("<d", nan if state.next_event is None else state.next_event)
@@ -236,5 +236,5 @@ class Fmi3Instance(Instance):
 
 
 def _access(variable: ModelVariable) -> str:
-    """The type by which a variable is got and set."""
+    """Return the type by which a variable is got and set."""
     return "Int64" if variable.type == "Enumeration" else str(variable.type)

@@ -1,4 +1,4 @@
-"""A running FMU: what is the same in FMI 2.0 and 3.0."""
+"""A running FMU: the common part of FMI 2.0 and 3.0."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
@@ -42,7 +42,7 @@ class Instance(ABC):
         self.feedthrough = any(dependencies.get(v.name, names) & names for v in outputs)
         self.seconds, self.steps = 0.0, 0  # spent in doStep, and how many
         self.terminated = False  # it has asked for the end of the simulation
-        self.told_order = 0  # up to which derivatives of the inputs have been set
+        self.derivative_order = 0  # up to which derivatives of the inputs have been set
         self.event, self.events = False, 0  # handled in the last step or after it, and how many: from FMI 3 on
         self.next_event: float | None = None  # its time [s], where the FMU announces it
         self.interpolates = False  # whether it takes derivatives of its inputs, or asks for them within a step
@@ -78,7 +78,7 @@ class Instance(ABC):
         self.set_inputs()
 
     def failure(self, what: str, error: Exception) -> CouplingError:
-        """What to raise where the FMU has failed to do something."""
+        """Return the error to raise where the FMU has failed to do something."""
         return CouplingError(f"The FMU '{self.name}' failed {what}: {str(error).rstrip('.')}. Its messages say why.")
 
     @abstractmethod
@@ -96,7 +96,7 @@ class Instance(ABC):
 
     @abstractmethod
     def get(self, variable: ModelVariable) -> Any:
-        """The value of a variable of any type."""
+        """Return the value of a variable of any type."""
 
     @abstractmethod
     def set(self, variable: ModelVariable, value: Any) -> None:
@@ -104,15 +104,15 @@ class Instance(ABC):
 
     @abstractmethod
     def enter_initialization(self, time: float, stop: float, tolerance: float | None) -> None:
-        """From the start values to the initialisation."""
+        """Go from the start values to the initialisation."""
 
     @abstractmethod
     def exit_initialization(self) -> None:
-        """From the initialisation to the first step."""
+        """Go from the initialisation to the first step."""
 
     @abstractmethod
     def save(self) -> Any:
-        """The FMU's state, to be given to `restore` any number of times and to `release` once."""
+        """Return the FMU's state, to be given to `restore` any number of times and to `release` once."""
 
     @abstractmethod
     def restore(self, state: Any) -> None:
@@ -124,7 +124,7 @@ class Instance(ABC):
 
     @abstractmethod
     def serialised(self) -> bytes:
-        """The FMU's state as bytes."""
+        """Return the FMU's state as bytes."""
 
     @abstractmethod
     def deserialise(self, data: bytes) -> None:

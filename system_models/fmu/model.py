@@ -31,7 +31,7 @@ class Model:
 
     @property
     def fmi3(self) -> bool:
-        """Whether it is of FMI 3.0, not 2.0."""
+        """True for FMI 3.0, False for FMI 2.0."""
         return bool(self.description.fmiVersion.startswith("3"))
 
     @property
@@ -41,12 +41,12 @@ class Model:
 
     @property
     def restores(self) -> bool:
-        """Whether it can go back to a saved state."""
+        """True if it can go back to a saved state."""
         return bool(self.capabilities.canGetAndSetFMUstate)
 
     @property
     def serialises(self) -> bool:
-        """Whether a saved state can outlive the process."""
+        """True if a saved state can outlive the process."""
         return self.restores and bool(self.capabilities.canSerializeFMUstate)
 
     @cached_property
@@ -68,7 +68,7 @@ class Model:
         return self.dependencies | self._declared(self.description.initialUnknowns, inputs)
 
     def _complete(self) -> None:
-        """Add to the variables what fmpy leaves out: some attributes, and those of their declared types."""
+        """Add attributes to the variables that fmpy leaves out, and those of their declared types."""
         with ZipFile(self.path) as archive:
             root = ElementTree.fromstring(archive.read("modelDescription.xml"))
         for element in root.iterfind("ModelVariables/*"):
@@ -94,7 +94,7 @@ class Model:
 
 
 def kind(variable: ModelVariable) -> str:
-    """Which of the types that can be connected a variable has: real, float, integer, boolean or string.
+    """Return the kind of a variable: real, float, integer, boolean or string.
 
     A real one is continuous; those that keep their value between communication points count as float.
     """

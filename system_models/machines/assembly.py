@@ -76,7 +76,7 @@ class Assembly:
     def system(self, folder: Path, flavour: Flavour = "embedded") -> System:
         """Build the FMUs into a folder and couple them; contacts of one scene share a file.
 
-        Raises ContactError for what does not go together.
+        Raises ContactError for parts that do not fit together.
         """
         proposed = {"duration": self.settings["stop_time"], "step_size": self.settings["step_size"]}
         files = {

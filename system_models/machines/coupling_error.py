@@ -1,7 +1,7 @@
-"""The error of the coupling: what steps of double size change in what is recorded.
+"""The coupling error: the change of the recorded outputs with steps of double size.
 
 The coarser simulation has every second communication point of the result. Of first order, as all machines are, it has
-twice the error; hence the difference is the error of the finer one. Two step sizes do not tell whether they are short
+twice the error; hence the difference is the error of the finer one. Two step sizes do not show whether they are short
 enough for that, so three times the difference is stated, and no less than a jump of the output itself: finer steps may
 have it in another one.
 """
@@ -17,37 +17,37 @@ from ..run.cosim_report import recorded
 from .assembly import Schedule
 
 ATTRIBUTE = "error_coupling"  # of each Real output of a result, in the output's unit
-_CHOOSING = ("tolerance", "horizon", "max_step", "controlled")  # what chooses steps
+_CHOOSING = ("tolerance", "horizon", "max_step", "controlled")  # settings that choose steps
 _ZERO = 273.15  # K: temperatures are read in degC
-_STATED = ".error_"  # what a contact says of its own errors
+_STATED = ".error_"  # in names of outputs: errors that a contact states
 _SAFETY = 3.0  # of two grids: Roache, J. Fluids Eng. 116 (1994) 405; measured: benchmarks/machines/tolerance.py
-_TOLD = 5
-_SMALL = 0.01  # of the nominal: what stays below is nothing
+_SHOWN = 5
+_SMALL = 0.01  # of the nominal: smaller values count as zero
 _FIRST = 3  # steps after a change of the duty, or beside a jump of an output: where in a step it lies is no error
 _JUMP = 0.1  # of its largest value: an output that changes by more in a step is not resolved there
-_ALONE = 3.0  # times what it changes in the steps before and after: a smaller jump
+_ALONE = 3.0  # times the changes in the steps before and after: a smaller jump
 
 
 def coarser(dataset: xr.Dataset, settings: Mapping[str, Any], schedule: Schedule) -> dict[str, Any]:
-    """Settings of the simulation with steps twice as large as those of a result."""
+    """Return settings of the simulation with steps twice as large as those of a result."""
     times = dataset["time"].values[1:]
     points = [float(time) for part in np.split(times, _after_changes(times, schedule)) for time in _every_second(part)]
     return {key: value for key, value in settings.items() if key not in _CHOOSING} | {"points": points}
 
 
 def _every_second(times: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The second, the fourth and so on, and the last."""
+    """Return the second, the fourth and so on, and the last."""
     return np.union1d(times[1::2], times[-1:])
 
 
 def _after_changes(times: NDArray[np.float64], schedule: Schedule) -> NDArray[np.int_]:
-    """Indices of the first times [s] after each change of the schedule."""
+    """Return indices of the first times [s] after each change of the schedule."""
     changes = sorted({float(time) for steps in schedule.values() for time, _ in steps if time < times[-1]})
     return np.unique(np.searchsorted(times, changes, "right"))
 
 
 def stated(dataset: xr.Dataset, coarse: xr.Dataset, schedule: Schedule) -> xr.Dataset:
-    """The result with the error of each Real as its attribute."""
+    """Return the result with the error of each Real as its attribute."""
     found = dataset.copy()
     own = np.isin(dataset["time"].values[1:], settled(dataset, schedule, 2 * _FIRST))
     for name, error in differences(dataset, coarse, settled(coarse, schedule)).items():
@@ -56,8 +56,9 @@ def stated(dataset: xr.Dataset, coarse: xr.Dataset, schedule: Schedule) -> xr.Da
 
 
 def _jump(values: NDArray[np.float64], told: NDArray[np.bool_]) -> float:
-    """The largest change of values in one of the steps that are `told`, where it is far larger than those beside it,
-    but for jumps that `differences` leaves out.
+    """Return the largest isolated change of values in one of the steps that are `told`.
+
+    It is far larger than the changes beside it. Jumps that `differences` leaves out do not count.
     """
     change = np.abs(np.diff(values))
     beside = np.maximum(np.append(change[1:], 0.0), np.append(0.0, change[:-1]))
@@ -66,8 +67,9 @@ def _jump(values: NDArray[np.float64], told: NDArray[np.bool_]) -> float:
 
 
 def differences(dataset: xr.Dataset, other: xr.Dataset, times: NDArray[np.float64]) -> dict[str, float]:
-    """Largest difference of each Real between two results, in its unit, at those of some times [s] that lie three steps
-    or more from its jumps.
+    """Return the largest difference of each Real between two results, in its unit.
+
+    At those of some times [s] that lie three steps or more from its jumps.
     """
     found = {}
     for name in recorded(dataset):
@@ -82,14 +84,15 @@ def differences(dataset: xr.Dataset, other: xr.Dataset, times: NDArray[np.float6
 
 
 def settled(dataset: xr.Dataset, schedule: Schedule, first: int = _FIRST) -> NDArray[np.float64]:
-    """The times [s] of a result without the first ones after each change of the schedule, and after the start."""
+    """Return the times [s] of a result without the first ones after the start and after each change of the schedule."""
     times = dataset["time"].values[1:]
     return np.concatenate([part[first:] for part in np.split(times, _after_changes(times, schedule))])
 
 
 def relative(dataset: xr.Dataset, nominals: Mapping[str, float]) -> dict[str, float]:
-    """The errors stated in a result, each over the largest value of its output or, if that is more, a hundredth of its
-    nominal; temperatures in degC.
+    """Return the stated errors, each over the largest value of its output; temperatures in degC.
+
+    Where it is larger, a hundredth of the nominal takes the place of the largest value.
     """
     found = {}
     for name in recorded(dataset):
@@ -103,9 +106,9 @@ def relative(dataset: xr.Dataset, nominals: Mapping[str, float]) -> dict[str, fl
 
 
 def lines(dataset: xr.Dataset, nominals: Mapping[str, float]) -> list[str]:
-    """The largest errors stated in a result, and the middle one."""
+    """Return the largest errors stated in a result, and the middle one."""
     found = relative(dataset, nominals)
-    worst = sorted(found, key=lambda name: -found[name])[:_TOLD]
+    worst = sorted(found, key=lambda name: -found[name])[:_SHOWN]
     return [
         f"Error of the coupling, from steps of double size, relative to the output's largest value: "
         f"{100.0 * float(np.median([*found.values()])):.2g} % in the middle of {len(found)} outputs, at most",

@@ -1,6 +1,6 @@
 """A machine for tools that import SSP: its duty as a component, because SSP knows no schedule.
 
-Not every importer tells the FMUs the parameters of the system: each starts with its own.
+Not every importer gives the FMUs the parameters of the system: each starts with its own.
 """
 
 from dataclasses import fields, replace
@@ -19,7 +19,7 @@ _DUTY = "duty"
 
 
 def with_timetable(assembly: Assembly) -> Assembly:
-    """The machine with a component `duty` in place of its schedule; what never changes becomes a parameter."""
+    """Return the machine with a component `duty` in place of its schedule; constant signals become parameters."""
     units = {f"{name}.{q.name}": q.unit for name, part in assembly.parts.items() for q in part.inputs}
     constant: dict[str, Value] = {}
     signals, links = [], []
@@ -33,7 +33,7 @@ def with_timetable(assembly: Assembly) -> Assembly:
         entries = tuple(Entry(float(time), float(value)) for time, value in steps)
         signals.append(Signal(signal, units[name], entries))
         links.append((f"{_DUTY}.{signal}", name))
-    for name, part in assembly.parts.items():  # so that the file tells them
+    for name, part in assembly.parts.items():  # so that the file has them
         constant |= {f"{name}.{key}": value for key, value, _ in numbers(part) if isinstance(value, float)}
     started = {name: replace(part, starts=_starts(name, assembly.schedule)) for name, part in assembly.parts.items()}
     return replace(
@@ -47,13 +47,13 @@ def with_timetable(assembly: Assembly) -> Assembly:
 
 
 def _starts(part: str, schedule: Schedule) -> tuple[Start, ...]:
-    """The inputs of a part that the duty sets, as it does at first."""
+    """Return the inputs of a part that the duty sets, as it does at first."""
     first = ((name.partition("."), steps[0][1]) for name, steps in schedule.items())
     return tuple(Start(variable, float(value)) for (owner, _, variable), value in first if owner == part)
 
 
 def _as_told(contact: Contact) -> Scene:
-    """The scene with what its FMU is told."""
+    """Return the scene with the values that its FMU is given."""
     told: dict[str, Any] = dict(contact.parameters)
     scene = contact.scene.at_level(LEVELS[int(told.pop(FIDELITY)) - 1]) if FIDELITY in told else contact.scene
     inputs: dict[str, Any] = {f.name: told.pop(f.name) for f in fields(OperatingPoint) if f.name in told}

@@ -1,4 +1,4 @@
-"""The contract of a kind of machine: what its folder must provide."""
+"""The contract of a kind of machine."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

@@ -3,7 +3,7 @@
     kind = "ball_bearing"        # one of `registry.KINDS`
     description = "..."
 
-    [contact]                    # a scene, and what is different from it
+    [contact]                    # a scene, and changes of it
     scene = "ball_209_inner"
     film.model = "regression"
 
@@ -46,7 +46,7 @@ class Machine(NamedTuple):
 def read(source: str, changes: Mapping[str, str] | None = None) -> Machine:
     """Read a machine by name or by the path of a file; `changes` maps dotted keys to new values.
 
-    Raises SceneError with a sentence that says what is wrong and what would be right.
+    Raises SceneError with a sentence on the error and its remedy.
     """
     path = Path(source)
     try:

@@ -1,4 +1,4 @@
-"""What every machine's run says: its costs, the contact solutions by level, what was not valid, and its energy."""
+"""The part of the report that all machines have: costs, contact solutions by level, invalid rows."""
 
 import json
 from collections import Counter
@@ -13,12 +13,12 @@ from .assembly import Assembly
 
 
 def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
-    """A table of costs, and sentences."""
+    """Return a table of costs, and sentences."""
     return [*_costs(assembly, dataset), "", *_solutions(assembly, dataset), *_invalid(assembly, dataset)]
 
 
 def invalid_rows(assembly: Assembly, dataset: xr.Dataset) -> int:
-    """Rows in which a contact or component could not use its inputs."""
+    """Return rows in which a contact or component could not use its inputs."""
     return int((~_valid(assembly, dataset)).sum())
 
 
@@ -28,7 +28,7 @@ def _valid(assembly: Assembly, dataset: xr.Dataset) -> np.ndarray:
 
 
 def _costs(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
-    """Seconds of each component and of all contacts of a scene, and what is left for the master."""
+    """Return seconds of each component, of all contacts of a scene, and of the master."""
     cost = json.loads(dataset.attrs["cost"])
     groups: dict[str, list[str]] = {}
     for name in assembly.parts:
@@ -51,7 +51,7 @@ def _costs(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
 
 
 def _solutions(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
-    """How often contacts were solved at each level, and how fast that was."""
+    """Return the number of contact solutions at each level, and their speed."""
     cost, counts = json.loads(dataset.attrs["cost"]), Counter[int]()
     for name in assembly.contacts:
         counts[int(dataset[f"{name}.fidelity_used"].values[-1])] += cost[name]["steps"]

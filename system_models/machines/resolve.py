@@ -1,6 +1,6 @@
-"""Contacts of a finished run, solved again deterministically, so that the fast level's errors are put to the test.
+"""Contacts of a finished run, solved again deterministically, to test the errors of the regression level.
 
-A contact is led once more through the inputs that the run has recorded, at the fast level, and at chosen rows its state
+A contact goes once more through the inputs that the run has recorded, at the regression level; at chosen rows its state
 goes to the deterministic level, on its own shape and surfaces.
 """
 
@@ -23,7 +23,7 @@ from .assembly import Assembly
 
 FAST, DEEP = LEVELS
 _IDLE = 0.1  # of the mean load and speed
-_ENOUGH = 5  # states to tell something of a machine
+_ENOUGH = 5  # states needed to judge a machine
 _TRIES = 3  # contacts at a time
 _UNSURE = RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK | RangeFlag.DOMAIN_EDGE
 COMPARED = {"friction_coefficient": "error_friction", "h_c": "error_film"}  # and the error output of each
@@ -38,39 +38,40 @@ class Resolved:
     time: float  # [s]
     fast: Outputs
     deep: Outputs | None  # None: there is no solution
-    replayed: float  # by how much the fast level is off from the run's row, relative
+    replayed: float  # relative deviation of the regression level from the run's row
     reason: str = ""
 
     def deviation(self, name: str) -> float:
-        """Of the fast level, relative to its own value."""
+        """Return the deviation of the regression level, relative to its own value."""
         value, solved = getattr(self.fast, name), getattr(self.deep, name) if self.deep else math.nan
         return abs(value - solved) / abs(value) if value else math.inf
 
     def allowed(self, name: str) -> float:
-        """Relative half width of the error that the fast level states."""
+        """Return the relative half width of the error that the regression level states."""
         return float(getattr(self.fast, COMPARED[name]))
 
     @property
     def solved(self) -> bool:
-        """Whether the deterministic level has an answer that can judge: one that met its tolerance."""
+        """True if the deterministic level has an answer that can judge: one that has converged."""
         return self.deep is not None and not RangeFlag(self.deep.range_flags) & _UNSURE
 
     @property
     def valid(self) -> bool:
-        """Whether all errors cover the deviations, as far as there is a solution to tell."""
+        """True if all errors cover the deviations, as far as there is a solution."""
         return self.solved and all(self.deviation(name) <= self.allowed(name) for name in COMPARED)
 
     @property
     def verdict(self) -> str:
-        """One word for it, and why there is none."""
+        """Verdict in one word, and the reason if there is none."""
         if self.deep is None:
             return f"no solution: {self.reason}"
-        return ("yes" if self.valid else "NO") if self.solved else "not decided: the solution missed its tolerance"
+        return ("yes" if self.valid else "NO") if self.solved else "not decided: not converged"
 
 
 def resolve(assembly: Assembly, dataset: xr.Dataset, progress: Callable[[str], None], count: int = 6) -> list[Resolved]:
-    """Solve states again, spread over the contacts and over the time of the run: `count` of them that can be judged, or
-    twice as many tries. `progress` is told each.
+    """Solve states again, spread over the contacts and over the time of the run.
+
+    It ends with `count` states that can be judged, or after twice as many tries. `progress` is called with each.
     """
     found: list[Resolved] = []
     usable = {name: _usable(dataset, name, assembly.contacts[name].count) for name in _spread(assembly, dataset, count)}
@@ -88,8 +89,9 @@ def resolve(assembly: Assembly, dataset: xr.Dataset, progress: Callable[[str], N
 
 
 def _windows(times: NDArray[np.float64], count: int) -> Iterator[Sequence[int]]:
-    """Rows from which one state is to be taken, best from the front: all; and those of `count` - 1 equal times, from
-    their ends.
+    """Yield rows from which one state is to be taken, best first.
+
+    First all rows; then those of `count` - 1 equal parts of the time, each from its end.
     """
     yield range(1, len(times))
     edges = np.searchsorted(times, np.linspace(0.0, times[-1], count), "right")
@@ -100,8 +102,9 @@ def _windows(times: NDArray[np.float64], count: int) -> Iterator[Sequence[int]]:
 def _candidates(
     rows: Sequence[int], usable: Mapping[str, NDArray[np.bool_]], tried: Mapping[str, int]
 ) -> list[tuple[str, int]]:
-    """A contact and a row that may tell something, and some more in case that it has no solution: of other contacts,
-    those that were tried least, and if there are none, of other rows.
+    """Return a contact and a row to try, and more for the case that it has no solution.
+
+    Those are of other contacts, the least tried ones first, and if there are none, other rows.
     """
     working = {name: [row for row in rows if at_work[row]] for name, at_work in usable.items()}
     turn = sorted((name for name, its in working.items() if its), key=lambda name: tried.get(name, 0))
@@ -114,7 +117,7 @@ def _candidates(
 
 
 def solved_again(assembly: Assembly, dataset: xr.Dataset, contact: str, row: int) -> Resolved:
-    """The state of a contact at a row of its run, at both levels."""
+    """Return the state of a contact at a row of its run, at both levels."""
     replay = _replayed(assembly, dataset, contact, row)
     time, deep, reason = float(dataset["time"].values[row]), None, ""
     try:
@@ -125,7 +128,7 @@ def solved_again(assembly: Assembly, dataset: xr.Dataset, contact: str, row: int
 
 
 def _spread(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[str]:
-    """The contacts that the run has at the fast level: first `count` that lie far apart, then those beside them."""
+    """Return the contacts that the run has at the regression level: first `count` far apart, then those beside them."""
     level = 1 + LEVELS.index(FAST)
     names = [name for name in sorted(assembly.contacts) if (dataset[f"{name}.fidelity_used"].values == level).all()]
     stride = max(1, len(names) // count)
@@ -133,8 +136,9 @@ def _spread(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[str]:
 
 
 def _usable(dataset: xr.Dataset, name: str, count: str) -> NDArray[np.bool_]:
-    """The rows in which a contact works: at more than a tenth of its mean load and speed, now and before, and where it
-    stands for something.
+    """Return the rows in which a contact works.
+
+    It is above a tenth of its mean load and speed, now and before, and stands for some contact of the machine.
     """
     load, speed = (dataset[f"{name}.{key}"].values for key in ("load", "speed_1"))
     speed = np.abs(speed + dataset[f"{name}.speed_2"].values)
@@ -153,13 +157,14 @@ class _Replay(NamedTuple):
     point: OperatingPoint
     state: ContactState
     fast: Outputs
-    off: float  # largest relative difference from what the run has recorded
+    off: float  # largest relative difference from the recorded run
 
 
 def _replayed(assembly: Assembly, dataset: xr.Dataset, name: str, last: int) -> _Replay:
-    """The contact at a row, by the fast level, under the inputs recorded at the end or at the beginning of each step,
-    or their mean: the master has told it one of them, as its place in the sequence and the hold order are, and that is
-    the one that gives the same.
+    """Return the contact at a row, by the regression level.
+
+    Its inputs in each step were those recorded at its end, at its beginning, or their mean, by its place in the
+    sequence and the hold order. The choice that reproduces the record is the right one.
     """
     return min((_led(assembly, dataset, name, last, share) for share in (0.0, 1.0, 0.5)), key=lambda replay: replay.off)
 
@@ -186,38 +191,38 @@ def _difference(one: float, other: float) -> float:
 
 
 def marked(dataset: xr.Dataset, states: Sequence[Resolved]) -> xr.Dataset:
-    """The run with `valid` false in the rows where a contact's errors do not cover its deviation, or nothing tells."""
+    """Return the run with `valid` false where a contact's errors do not cover its deviation, or nothing can judge."""
     found = dataset.copy(deep=True)
     for state in states:
         if not state.valid:
             valid = found[f"{state.contact}.valid"]
             valid.values[state.row] = False
-            valid.attrs["comment"] = "also false where errors do not cover a state solved again, or nothing tells"
+            valid.attrs["comment"] = "also false where errors do not cover a state solved again, or no solution judges"
     return found
 
 
 def to_dataset(states: Sequence[Resolved]) -> xr.Dataset:
-    """The comparison along `state`."""
+    """Return the comparison along `state`."""
     columns: dict[str, Any] = {
         "resolved.contact": ("state", [s.contact for s in states], {"units": "1", "long_name": "contact"}),
         "resolved.time": ("state", [s.time for s in states], {"units": "s", "long_name": "time of the state"}),
         "resolved.solved": (
             "state",
             [s.solved for s in states],
-            {"units": "1", "long_name": "whether the deterministic solution met its tolerance"},
+            {"units": "1", "long_name": "true if the deterministic solution has converged"},
         ),
         "resolved.valid": (
             "state",
             [s.valid for s in states],
-            {"units": "1", "long_name": "whether the fast level's errors cover its deviations"},
+            {"units": "1", "long_name": "true if the errors of the regression level cover its deviations"},
         ),
     }
     for name, error in COMPARED.items():
         for suffix, values, text in (
-            (FAST, [getattr(s.fast, name) for s in states], "by the fast level"),
+            (FAST, [getattr(s.fast, name) for s in states], "by the regression level"),
             (DEEP, [getattr(s.deep, name) if s.deep else np.nan for s in states], "solved deterministically"),
-            ("deviation", [s.deviation(name) for s in states], "relative to the fast level's"),
-            (error, [s.allowed(name) for s in states], "relative half width that the fast level states"),
+            ("deviation", [s.deviation(name) for s in states], "relative to the regression level's"),
+            (error, [s.allowed(name) for s in states], "relative half width that the regression level states"),
         ):
             unit = "m" if name == "h_c" and suffix in LEVELS else "1"
             columns[f"resolved.{name}.{suffix}"] = ("state", np.array(values), {"units": unit, "long_name": text})
@@ -226,9 +231,9 @@ def to_dataset(states: Sequence[Resolved]) -> xr.Dataset:
 
 
 def lines(states: Sequence[Resolved]) -> Iterator[str]:
-    """A table, and how well the contacts were led again."""
+    """Yield a table, and the accuracy of the replay."""
     if not states:
-        yield "No contact was at the fast level, so there is none to solve again."
+        yield "No contact was at the regression level, so there is none to solve again."
         return
     heads = f"{'fast':>9} {'solved':>9} {'off':>7} {'stated':>7}"
     yield f"{'state':>24}  mu: {heads}  h_c: {heads}  valid"
@@ -245,6 +250,6 @@ def lines(states: Sequence[Resolved]) -> Iterator[str]:
         )
     judged = sum(s.solved for s in states)
     if judged < _ENOUGH:
-        yield f"WARNING: only {judged} states could be JUDGED; elsewhere nothing tells how far off the fast level is."
+        yield f"WARNING: only {judged} states could be JUDGED; elsewhere the regression level's deviation is unknown."
     worst = max(s.replayed for s in states)
-    yield f"The states were led to once more by the inputs recorded, and are those of the run to {worst:.1g}."
+    yield f"The states were computed once more from the recorded inputs; they agree with the run to {worst:.1g}."

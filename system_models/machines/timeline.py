@@ -1,6 +1,6 @@
 """The duty of a machine: its signals against time, each held from one change to the next.
 
-Constant, or in steps; what a step does not name stays:
+Constant, or in steps; signals that a step does not name stay:
 
     [duty]
     duration = "20 min"
@@ -60,30 +60,30 @@ class Timeline:
     rows: tuple[Row, ...]
 
     def course(self, name: str) -> list[tuple[float, float]]:
-        """Times [s] and values of a signal, from 0 on, where it changes."""
+        """Return times [s] and values of a signal, from 0 on, where it changes."""
         given = [(time, values[name]) for time, values in self.rows if name in values]
         return given[:1] + [later for before, later in pairwise(given) if later[1] != before[1]]
 
     def schedule(self, inputs: Mapping[str, str] | None = None) -> dict[str, list[tuple[float, float]]]:
-        """The schedule for `master.System`; `inputs` has the "part.variable" that a signal sets, if not called so."""
+        """Return the schedule for `master.System`; `inputs` maps signals to "part.variable" where the names differ."""
         names = inputs or {}
         return {names.get(name, name): self.course(name) for name in self.rows[0][1]}
 
     def filled(self) -> list[Row]:
-        """The rows with all signals in each, for signals that make others."""
+        """Return the rows with all signals in each, for signals that make others."""
         now: dict[str, float] = {}
         return [(time, now := now | values) for time, values in self.rows]
 
 
 def with_file(table: Mapping[str, Any], path: str | Path) -> dict[str, Any]:
-    """The table [duty] with a file in place of its steps or cycles."""
+    """Return the table [duty] with a file in place of its steps or cycles."""
     return {key: value for key, value in table.items() if key not in _KEYS} | {"file": str(path)}
 
 
 def read(
     table: Mapping[str, Any], signals: Mapping[str, Quantity], folder: Path, needed: Iterable[str] = ()
 ) -> Timeline:
-    """The duty that the table [duty] describes; a relative path of a file starts from `folder`.
+    """Return the duty that the table [duty] describes; a relative path of a file starts from `folder`.
 
     Raises SceneError with a sentence if a signal is unknown, out of range, or one of those `needed` is missing.
     """
@@ -161,7 +161,7 @@ def _of_file(
         raise SceneError(f"The duty file '{path}' has one row only. Add one at the end of the duty, or duty.duration.")
     if end < last:
         raise SceneError(
-            f"duty.duration = {end:g} s, but the duty file '{path}' goes on to {last:g} s. Make it longer, or leave it "
+            f"duty.duration = {end:g} s, but the duty file '{path}' lasts to {last:g} s. Make it longer, or leave it "
             "out."
         )
     return [(0.0, start | rows[0][1]), *((time, values) for time, values in rows[1:] if time < end)], end
@@ -177,7 +177,7 @@ def _repeated(rows: Sequence[Row], end: float, repeat: Any) -> Timeline:
 
 
 def _values(table: Mapping[str, Any], signals: Mapping[str, Quantity], where: str) -> dict[str, float]:
-    """SI values of signals from a table, whose names with dots TOML may have nested."""
+    """Return SI values of signals from a table, whose names with dots TOML may have nested."""
     found = {}
     for name, value in flat(table).items():
         if name not in signals:

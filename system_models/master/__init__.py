@@ -1,12 +1,12 @@
 """A master for co-simulation: couples any FMUs and controls its own error.
 
-What it couples:
+The system:
 
     system        FMUs, connections, parameters, schedules, events, power bonds; reading: from TOML; ssp: to SSP 1.0
     unit_checks   conversion from the unit of one variable to that of another
-    settings      how to simulate, and what the FMUs must be able to do for it
+    settings      the options of a simulation, and what they require of the FMUs
 
-How it runs:
+The simulation:
 
     simulate      the time loop; recorder: rows, and the Dataset made of them; saving: contents of a checkpoint
     interrupt     Ctrl-C waits for the end of a step

@@ -20,7 +20,7 @@ _MATTERS = 0.1  # of the error that a step may have: less says nothing about how
 _LEAST_SHARE = 1e-5  # of the tolerance: a hundred thousand such steps use it up
 _ROUNDING = 1e-12  # no iteration is asked for more
 _EVIDENCE = 3  # repeated steps in a row
-_ITERATED = 0.05  # of the error that a step may have: what is left to the iteration
+_ITERATED = 0.05  # of the allowed error of a step: the iteration's part
 
 
 class ControlledStepper(Stepper):
@@ -43,18 +43,18 @@ class ControlledStepper(Stepper):
         self._may_lag = np.array([coupled.may_lag(place) for place in coupled.wiring.coupled], dtype=bool)
 
     def begin_anew(self) -> None:
-        """What was before an event says nothing about what follows."""
+        """Forget the past: after an event it says nothing about the future."""
         super().begin_anew()
         self.control.after_event()
         self.size = min(self.size, self.step_size)
 
     def stored(self) -> dict[str, Any]:
-        """All that is needed to go on from now in another process."""
+        """Return all that is needed to continue from now in another process."""
         own = {"size": self.size, "control": self.control.copy(), "lags": self.lags}
         return super().stored() | own
 
     def go_on(self, memory: Mapping[str, Any]) -> None:
-        """Go to what `stored` has given."""
+        """Go to a point that `stored` has returned."""
         super().go_on(memory)
         self.size, self.lags = memory["size"], memory["lags"]
         self.control.restore(memory["control"])
@@ -126,7 +126,7 @@ class ControlledStepper(Stepper):
         return Attempt(size, rows, seen, ratio, errors, gains, of_halves, event)
 
     def _gains(self, changes: NDArray[np.float64], of_inputs: NDArray[np.float64]) -> NDArray[np.float64]:
-        """What changed in the coupled outputs over what changed in the inputs of their FMUs."""
+        """Return the changes of the coupled outputs over those of the inputs of their FMUs."""
         norms = np.array([np.linalg.norm(of_inputs[beside]) for beside in self.coupled.wiring.beside])
         return np.divide(changes, norms, out=np.zeros(len(changes)), where=norms > 0.0)
 
@@ -136,7 +136,7 @@ class ControlledStepper(Stepper):
         return np.asarray((self.lags >= _EVIDENCE) & self._may_lag)
 
     def _share(self, size: float) -> float:
-        """Of the tolerance, what a step may use up: in proportion, but no less than what cannot be told from noise."""
+        """Return the share of the tolerance for a step: in proportion to it, but no less than the level of noise."""
         return min(1.0, max(_LEAST_SHARE, size / self.horizon))
 
     def _ratio(self, errors: NDArray[np.float64], size: float) -> float:
@@ -154,21 +154,21 @@ class ControlledStepper(Stepper):
 
     @staticmethod
     def _follows_at_once(earlier: Attempt, attempt: Attempt) -> NDArray[np.bool_]:
-        """Whether an output follows the inputs of its FMU at once, or integrated, the more the longer the step.
+        """Return True if an output follows the inputs of its FMU at once, or integrated, the more the longer the step.
 
-        What the halves change in the inputs is known, so that kinks in these do not matter.
+        The changes of the inputs over the halves are known, so kinks in them do not matter.
         """
         return np.asarray(earlier.gains < attempt.gains * math.sqrt(earlier.size / attempt.size))
 
     @staticmethod
     def _order_is_reduced(earlier: Attempt, attempt: Attempt) -> NDArray[np.bool_]:
-        """Whether an error falls too slowly with the step to add up: as that of a stiff force, soon forgotten."""
+        """Return True if an error falls too slowly with the step to add up: as that of a stiff force, soon gone."""
         expected = earlier.halves.error / attempt.halves.error * math.sqrt(attempt.size / earlier.size)
         return np.asarray(earlier.errors < expected * attempt.errors)
 
 
 def _mask(coupled: Coupled) -> NDArray[np.bool_]:
-    """Which coupled outputs are to meet the tolerance. Raises CouplingError for a name that is none of them."""
+    """Return True for the coupled outputs that must keep the tolerance. Raises CouplingError for other names."""
     names = [coupled.wiring.outputs[place] for place in coupled.wiring.coupled]
     chosen = coupled.settings.controlled
     for name in chosen:

@@ -35,7 +35,7 @@ _MOST_PASSES = 20  # until discrete values at a communication point come to rest
 
 
 class Outcome(NamedTuple):
-    """How a step went."""
+    """Iterations and residual of a step."""
 
     iterations: int  # passes through the FMUs of the loop that needed most
     residual: float  # of the iteration, up to 1 it has converged; 0 without one
@@ -76,7 +76,7 @@ class Coupled:
         self.instances = started(system.models, inputs, outputs, early_return=self.restores, exits=exits)
         self.wiring = Wiring(system, self.instances)
         self.outputs = np.zeros(len(self.wiring.outputs))
-        # of the outputs: their nominal, or what they have reached; and what those without either seem to be heading for
+        # of the outputs: their nominal or largest value; and the expected value of those that have neither
         self.magnitudes = np.array([system.port(name).nominal or 0.0 for name in self.wiring.outputs])
         self.expected = np.zeros(len(self.outputs))
         self.history = History(settings.order)
@@ -88,7 +88,7 @@ class Coupled:
         self._correction = Correction(system, self.wiring)
         self._passed_on = [c for c in system.connections if c.target.name not in self.wiring.input_place]
         self._passed: list[Any] = [None] * len(self._passed_on)
-        self._held: Array | None = None  # inputs at the end of the last step, as the FMUs were told them
+        self._held: Array | None = None  # inputs at the end of the last step, as the FMUs received them
 
     def initialise(self) -> None:
         """Bring all FMUs to consistent initial values at the time 0."""
@@ -103,7 +103,7 @@ class Coupled:
             with self._named(instance, "to be initialised"):
                 instance.exit_initialization()
         self._try_feedthrough()
-        self.meet()
+        self.restart()
 
     def _try_feedthrough(self) -> None:
         """Find out which FMUs give outputs for inputs that are newly set, without a step between: FMI 2 leaves it open.
@@ -138,7 +138,7 @@ class Coupled:
             instance.set(port.variable, value)
 
     def get(self, port: Port) -> Any:
-        """The value of a variable of any type."""
+        """Return the value of a variable of any type."""
         instance = self.instances[port.model.name]
         with self._named(instance, f"to give '{port.name}'"):
             return instance.get(port.variable)
@@ -151,12 +151,12 @@ class Coupled:
         return bool(due)
 
     def next_event(self) -> float:
-        """The time [s] of the first event that an FMU has announced."""
+        """Return the time [s] of the first event that an FMU has announced."""
         announced = [instance.next_event for instance in self.instances.values() if instance.next_event is not None]
         return min((time for time in announced if time > self.time), default=math.inf)
 
-    def meet(self) -> None:
-        """Begin anew at this time: read all outputs, and forget what was before."""
+    def restart(self) -> None:
+        """Begin anew at this time: read all outputs, and forget the past."""
         for instance in self.instances.values():
             self._read(instance)
         self.history.clear()
@@ -169,10 +169,10 @@ class Coupled:
         """Take outputs before now, (time, values) from the oldest on, as the history of the extrapolation."""
         self.history.clear()
         for time, outputs in [*past, (self.time, self.outputs)]:
-            self.history.push(time, self.wiring.told(outputs))
+            self.history.push(time, self.wiring.inputs_from(outputs))
 
     def advance(self, end: float, start: Point) -> Outcome:
-        """One communication step to the time `end` from `start`, which is now.
+        """Make one communication step to the time `end` from `start`, which is now.
 
         Raises StoppedEarly if an FMU does not get to its end: then the system must go back.
         """
@@ -184,7 +184,7 @@ class Coupled:
 
     @property
     def repeats(self) -> bool:
-        """Whether the next step goes back to its start: to iterate, or for want of the past that its order needs."""
+        """True if the next step goes back to its start: to iterate, or for want of the past that its order needs."""
         short = self.restores and len(self.history) <= self.settings.order
         return self.settings.iterate is not None or short
 
@@ -194,7 +194,7 @@ class Coupled:
         repeats = self.settings.order if self.repeats else 0
         for again in range(repeats + 1):
             if again:
-                polynomial = self.history.interpolate(size, self.wiring.told(self.outputs))
+                polynomial = self.history.interpolate(size, self.wiring.inputs_from(self.outputs))
                 for name in self.instances:
                     self._restore_instance(name, start)
             ends = hold.value(polynomial, size)
@@ -213,11 +213,11 @@ class Coupled:
         return worst
 
     def _solve(self, block: Block, method: Method, size: float, start: Point, ends: Array) -> Outcome:
-        """Pass through a block until the inputs at the end of the step are what comes out of it.
+        """Pass through a block until the inputs at the end of the step are those that its outputs give.
 
         ends: a guess of these inputs, of the whole system.
         """
-        ends[block.outside] = self.wiring.told(self.outputs, block.outside)
+        ends[block.outside] = self.wiring.inputs_from(self.outputs, block.outside)
         unknown = block.unknown
         if not len(unknown):  # no loop
             self._pass(block, size, self.history.interpolate(size, ends), ends)
@@ -236,7 +236,7 @@ class Coupled:
                 iteration += 1
                 ends[unknown] = guess
                 self._pass(block, size, self.history.interpolate(size, ends), ends)
-                result = self.wiring.told(self.outputs, unknown)
+                result = self.wiring.inputs_from(self.outputs, unknown)
                 scale = self.iteration_tolerance * _positive(np.maximum(floor, np.maximum(abs(result), abs(guess))))
                 residual = wrms(result - guess, scale)
                 residual = math.inf if math.isnan(residual) else residual
@@ -245,7 +245,7 @@ class Coupled:
         return Outcome(iteration, residual)
 
     def _pass(self, block: Block, size: float, polynomial: Array, ends: Array) -> None:
-        """Step the FMUs of a block; those late in a Gauss-Seidel sequence see what the early ones have reached.
+        """Step the FMUs of a block; those late in a Gauss-Seidel sequence see the results of the early ones.
 
         ends: the inputs at the end of the step, of the whole system; those that turn out others are changed.
         """
@@ -254,9 +254,9 @@ class Coupled:
             instance, inputs = self.instances[name], polynomial[:, self.wiring.input_of[name]]
             if len(fresh):
                 own = self.wiring.input_of[name]
-                told = self.wiring.told(self.outputs, own)
-                ends[own][fresh] = told[fresh]
-                latest = self.history.interpolate(size, told, own)
+                now = self.wiring.inputs_from(self.outputs, own)
+                ends[own][fresh] = now[fresh]
+                latest = self.history.interpolate(size, now, own)
                 inputs = latest if len(fresh) == instance.inputs.count else _with_columns(inputs, latest, fresh)
             try:
                 reached = instance.step(self.time, size, inputs)
@@ -270,14 +270,14 @@ class Coupled:
                 self._to_end(instance, hold.value(inputs, size))
 
     def _to_end(self, instance: Instance, inputs: Array) -> None:
-        """Move the outputs of an FMU that belong to what it was told to its inputs at the end of the step."""
+        """Move the outputs of an FMU from the inputs that it received to those at the end of the step."""
         change = np.zeros(len(self.wiring.inputs))
         if not instance.interpolates:
             change[self.wiring.input_of[instance.name]] = inputs - instance.inputs.values
             self._correction.move(self.outputs, change)
 
     def _exchange(self, explicit: bool) -> None:
-        """Pass on what the FMUs have reached; outputs that depend directly on inputs follow these at once."""
+        """Exchange the values of the FMUs; outputs that depend directly on inputs follow these at once."""
         if self._passed_on:
             self._pass_on()
         if explicit:
@@ -288,21 +288,21 @@ class Coupled:
                 f"'{self.wiring.outputs[place]}' is {self.outputs[place]} at {self.time:g} s. "
                 "Take smaller steps, iterate, or look into its FMU."
             )
-        self.history.push(self.time, self.wiring.told(self.outputs))
+        self.history.push(self.time, self.wiring.inputs_from(self.outputs))
 
     def _pass_on(self) -> None:
         """Set the inputs that hold their values over a step, until nothing changes any more."""
         for _ in range(_MOST_PASSES):
-            told = set()
+            changed = set()
             for n, connection in enumerate(self._passed_on):
                 value = self.get(connection.source)
                 if value != self._passed[n]:
                     self.set(connection.target.name, connection.result(value))
                     self._passed[n] = value
-                    told.add(connection.target.model.name)
-            for name in told:
+                    changed.add(connection.target.model.name)
+            for name in changed:
                 self._read(self.instances[name])
-            if not told:
+            if not changed:
                 return
         raise CouplingError(
             f"Discrete values change again and again at {self.time:g} s: "
@@ -311,10 +311,10 @@ class Coupled:
 
     def _refresh(self) -> None:
         if self._correction.owners and self._held is not None:
-            self._correction.meet(self.outputs, self._held)
+            self._correction.settle(self.outputs, self._held)
         for name in self._feedthrough:
             instance = self.instances[name]
-            instance.inputs.values[:] = self.wiring.told(self.outputs, self.wiring.input_of[name])
+            instance.inputs.values[:] = self.wiring.inputs_from(self.outputs, self.wiring.input_of[name])
             try:
                 instance.set_inputs()
                 instance.read()
@@ -328,7 +328,7 @@ class Coupled:
         self.outputs[self.wiring.output_of[instance.name]] = instance.outputs.values
 
     def save(self) -> Point:
-        """The point of now. The FMUs can go back to it only if all of them can; `release` frees it."""
+        """Return the point of now. The FMUs can go back to it only if all of them can; `release` frees it."""
         states = {name: instance.save() for name, instance in self.instances.items()} if self.restores else {}
         memories = [method.copy() for method in self._methods]
         return Point(self.time, self.outputs.copy(), self.history.copy(), list(self._passed), memories, states)
@@ -352,13 +352,13 @@ class Coupled:
             raise instance.failure(f"to go back to {point.time:g} s", error) from error
 
     def release(self, point: Point) -> None:
-        """Free what a point holds of the FMUs."""
+        """Free the states of FMUs that a point holds."""
         for name, state in point.states.items():
             self.instances[name].release(state)
         point.states.clear()
 
     def stored(self) -> tuple[dict[str, bytes], dict[str, Any]]:
-        """The states of the FMUs as bytes, and all else that is needed to go on from now in another process."""
+        """Return the states of the FMUs as bytes, and all else that another process needs to continue."""
         states = {}
         for name, instance in self.instances.items():
             with self._named(instance, "to give its state"):
@@ -372,15 +372,15 @@ class Coupled:
             "magnitudes": self.magnitudes.copy(),
             "expected": self.expected.copy(),
             "held": self._held,
-            "counts": {name: [s.steps, s.seconds, s.events, s.told_order] for name, s in self.instances.items()},
+            "counts": {name: [s.steps, s.seconds, s.events, s.derivative_order] for name, s in self.instances.items()},
         }
 
     def go_on(self, states: Mapping[str, bytes], memory: Mapping[str, Any]) -> None:
-        """Go to what `stored` has given."""
+        """Go to a point that `stored` has returned."""
         for name, instance in self.instances.items():
             with self._named(instance, "to take the state of a checkpoint"):
                 instance.deserialise(states[name])
-            instance.steps, instance.seconds, instance.events, instance.told_order = memory["counts"][name]
+            instance.steps, instance.seconds, instance.events, instance.derivative_order = memory["counts"][name]
         self.time = memory["time"]
         self.outputs[:] = memory["outputs"]
         self.history.restore(memory["history"])
@@ -392,40 +392,40 @@ class Coupled:
         self._held = memory["held"]
 
     def may_lag(self, place: int) -> bool:
-        """Whether an output may belong to inputs that were held, and not be told those of the end."""
+        """Return True if an output may belong to inputs that were held, and not have seen those of the end."""
         port = self.system.port(self.wiring.outputs[place])
         direct = port.model.dependencies.get(port.variable.name, True)
         return not direct and not self.instances[port.model.name].interpolates
 
     def accept(self) -> None:
-        """The last step stands."""
+        """Accept the last step."""
         np.maximum(self.magnitudes, np.abs(self.outputs), out=self.magnitudes)
 
     def expect(self) -> None:
-        """Take for the magnitude of outputs that start at zero, and have no nominal, what they are now."""
+        """Take the present values as magnitudes of outputs that start at zero and have no nominal."""
         np.copyto(self.expected, np.abs(self.outputs), where=(self.magnitudes == 0.0) & (self.expected == 0.0))
 
     def event(self) -> bool:
-        """Whether an FMU has met an event of its own in the last step."""
+        """Return True if an FMU has had an event of its own in the last step."""
         return any(instance.event for instance in self.instances.values())
 
     def scales(self) -> Array:
-        """Magnitudes of the outputs that set inputs."""
+        """Return magnitudes of the outputs that set inputs."""
         largest = np.maximum(np.maximum(self.magnitudes, self.expected), np.abs(self.outputs))
         return _positive(largest[self.wiring.coupled])
 
     def ends(self) -> Array:
-        """The inputs at the end of the last step, as the FMUs were told them, over their magnitudes."""
+        """Return the inputs at the end of the last step, as the FMUs have received them, over their magnitudes."""
         assert self._held is not None  # there has been one
         return self._held / _positive(np.abs(self.wiring.factor * self.magnitudes[self.wiring.source]))
 
     def nodes(self, size: float) -> list[float]:
-        """The times [s], from now, at which the inputs of a step of a size are those of the outputs."""
+        """Return the times [s], from now, at which the inputs of a step of a size are those of the outputs."""
         ages = [-age for age in self.history.ages()]
         return ([size, *ages] if self.repeats else ages)[: self.settings.order + 1]
 
     def power_residuals(self) -> list[float]:
-        """What the coupling has added to each bond at the end of the last step [W]."""
+        """Return the power that the coupling has added to each bond at the end of the last step [W]."""
         return self.wiring.power_residuals(self.outputs, self._held)
 
     @contextmanager
@@ -437,12 +437,12 @@ class Coupled:
 
 
 def _positive(values: Array) -> Array:
-    """Magnitudes; of what has none yet, the 1 that FMI gives to what names no nominal."""
+    """Return magnitudes; where there is none yet, 1, FMI's default of nominal."""
     return np.where(values > 0.0, values, 1.0)
 
 
 def _with_columns(old: Array, new: Array, columns: NDArray[np.intp]) -> Array:
-    """Polynomials with some columns from others, which may be of higher degree."""
+    """Return polynomials with some columns from others, which may be of higher degree."""
     mixed = np.zeros_like(new)
     mixed[: len(old)] = old
     mixed[:, columns] = new[:, columns]

@@ -10,7 +10,7 @@ Values = tuple[list[float], list[Any]]
 
 
 class Indicators:
-    """The outputs that tell of events: a Real one by being above zero or not, any other by its value."""
+    """The outputs that indicate events: a Real one by being above zero or not, any other by its value."""
 
     def __init__(self, coupled: Coupled) -> None:
         self._coupled = coupled
@@ -18,16 +18,16 @@ class Indicators:
         self._others = [port for port in coupled.system.events if port.kind != "real"]
 
     def values(self) -> Values:
-        """What they are now."""
+        """Return their values now."""
         return [float(self._coupled.outputs[n]) for n in self._reals], [self._coupled.get(p) for p in self._others]
 
     def at_start(self) -> Values:
-        """What they are before the first step: a zero there has no sign yet."""
+        """Return their values before the first step: a zero there has no sign yet."""
         reals, others = self.values()
         return [value or math.nan for value in reals], others
 
     def locate(self, to: Callable[[float], Values], low: float, before: Values, high: float, width: float) -> float:
-        """A time at most `width` behind an event between `low` and `high` [s]; the values at `high` are those of now.
+        """Return a time at most `width` after an event between `low` and `high` [s]; now are the values at `high`.
 
         `to` goes to a time between them and returns the values there.
         """
@@ -46,13 +46,13 @@ class Indicators:
 
 
 def changed(before: Values, after: Values) -> bool:
-    """Whether there is an event between two sets of values; after one that is no number there is none."""
+    """Return True if there is an event between two sets of values; after a NaN there is none."""
     signs = any(one == one and (one > 0.0) != (other > 0.0) for one, other in zip(before[0], after[0], strict=True))
     return signs or before[1] != after[1]
 
 
 def _secant(low: float, before: Values, high: float, after: Values) -> float:
-    """Where the first Real that changes its sign is zero on a straight line; the middle if none does."""
+    """Return the zero, on a straight line, of the first Real that changes its sign; the middle if none does."""
     zeros = [
         low + (high - low) * one / (one - other)
         for one, other in zip(before[0], after[0], strict=True)

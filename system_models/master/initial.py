@@ -1,4 +1,4 @@
-"""Consistent initial values: each connected input has the value of what sets it, while the FMUs are being initialised.
+"""Consistent initial values: each connected input has the value of its source, while the FMUs are being initialised.
 
 The connections are worked through in the order of the initial dependencies. Around a loop there is no such order: it is
 cut at as few connections as a simple rule finds, and the inputs there are solved for.
@@ -45,7 +45,7 @@ def initialise(
 
 
 def _edges(by_target: Mapping[str, Connection]) -> Edges:
-    """Pairs of connected inputs, by name, of which the first must be known to work out the second."""
+    """Return pairs of connected inputs, by name, of which the first must be known to work out the second."""
     edges = set()
     for name, connection in by_target.items():
         model = connection.source.model
@@ -88,7 +88,7 @@ class _Loop:
         )
 
     def _solved(self, values: Array, tolerance: float, most: int) -> tuple[Array, int]:
-        """The inputs at the cuts, from a guess, and how many evaluations they took."""
+        """Return the inputs at the cuts, from a guess, and how many evaluations they took."""
         nominal = np.array([connection.target.nominal or 1.0 for connection in self._reals])
         method = QuasiNewton()
         method.start(scale(tolerance, nominal, values))
@@ -114,7 +114,7 @@ class _Loop:
         return ", ".join(f"'{connection.target.name}' = {value:.9g}" for connection, value in pairs)
 
     def _evaluated(self, values: Array) -> Array:
-        """What inputs at the cuts lead to there, NaN where an FMU cannot say."""
+        """Return the inputs at the cuts that follow from inputs there, NaN where an FMU cannot say."""
         try:
             for connection, value in zip(self._reals, values, strict=True):
                 self._set(connection, float(value))
@@ -127,7 +127,7 @@ class _Loop:
             return np.full(len(values), np.nan)
 
     def _result(self, connection: Connection) -> Any:
-        """What a connection makes of its source."""
+        """Return the value of a connection for its source."""
         instance = self._instances[connection.source.model.name]
         with _named(instance, f"to give '{connection.source.name}'"):
             return connection.result(instance.get(connection.source.variable))
@@ -152,7 +152,7 @@ def _named(instance: Instance, what: str) -> Iterator[None]:
 
 
 def _cut(names: list[str], edges: Edges, discrete: set[str]) -> tuple[list[str], list[str]]:
-    """Inputs without which the others depend on one another in an order, and these in that order.
+    """Return inputs without which the others depend on one another in an order, and these in that order.
 
     Discrete ones are cut first, then those through which most pairs of others hang together.
     """

@@ -9,7 +9,7 @@ from typing import Any
 
 @contextmanager
 def deferred() -> Iterator[Callable[[], None]]:
-    """Keep Ctrl-C back; what is yielded raises KeyboardInterrupt if it has been pressed. A second press acts at once.
+    """Defer Ctrl-C; the yielded function raises KeyboardInterrupt if it has been pressed. A second press acts at once.
 
     Only where Python's own handler is in place, in the main thread; elsewhere nothing changes.
     """

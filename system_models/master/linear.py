@@ -31,14 +31,14 @@ class Correction:
         """Move the outputs by a change [all inputs] of the inputs that they belong to."""
         np.add.at(outputs, self._of, outputs[self._slope] * change[self._by])
 
-    def meet(self, outputs: Array, held: Array) -> None:
+    def settle(self, outputs: Array, held: Array) -> None:
         """Move the outputs, which belong to the inputs `held`, to those that go with all of them."""
         wiring = self._wiring
         slopes = np.zeros((len(outputs), len(held)))
         np.add.at(slopes, (self._of, self._by), outputs[self._slope])
         loop = wiring.factor[:, None] * slopes[wiring.source]
         try:
-            change = np.linalg.solve(np.eye(len(held)) - loop, wiring.told(outputs) - held)
+            change = np.linalg.solve(np.eye(len(held)) - loop, wiring.inputs_from(outputs) - held)
         except np.linalg.LinAlgError:
             raise CouplingError("The derivatives of the system's outputs close a loop that has no solution.") from None
         self.move(outputs, np.asarray(change, dtype=float))

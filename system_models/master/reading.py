@@ -41,10 +41,10 @@ _CHANGEABLE = ("parameters", "simulate")
 
 
 def read(path: str | Path, changes: Iterable[tuple[str, str]] = ()) -> tuple[System, dict[str, Any]]:
-    """The system of a TOML file, and the arguments for `simulate` that it names.
+    """Return the system of a TOML file, and the arguments for `simulate` that it names.
 
     changes: keys "parameters.FMU.VARIABLE" or "simulate.NAME" with values as TOML has them, or as plain text; they win
-    over the file. Raises CouplingError for what cannot be read or coupled.
+    over the file. Raises CouplingError for a file that cannot be read or coupled.
     """
     path = Path(path)
     try:
@@ -57,7 +57,7 @@ def read(path: str | Path, changes: Iterable[tuple[str, str]] = ()) -> tuple[Sys
 
 
 def _tables(path: Path) -> dict[str, dict[str, Any]]:
-    """All tables, without what nests in those whose keys are variables."""
+    """Return all tables, flat where the keys are variables."""
     try:
         file = tomllib.loads(path.read_text("utf-8"))
     except OSError as error:
@@ -85,7 +85,7 @@ def _unknown(where: str, name: str, known: list[str], what: str) -> CouplingErro
 
 
 def _flat(name: str, table: Mapping[str, Any], path: str = "") -> dict[str, Any]:
-    """Values by variable: `a.b = 1`, `"a.b" = 1` and `a = { b = 1 }` are the same."""
+    """Return values by variable: `a.b = 1`, `"a.b" = 1` and `a = { b = 1 }` are the same."""
     found: dict[str, Any] = {}
     for key, value in table.items():
         entries = _flat(name, value, f"{path}{key}.") if isinstance(value, dict) else {f"{path}{key}": value}
@@ -108,7 +108,7 @@ def _change(tables: dict[str, dict[str, Any]], key: str, text: str) -> None:
 
 
 def value(text: str) -> Any:
-    """As TOML has it, else plain text: 0.5, true, ["a.x"], 10 ms, jacobi."""
+    """Return the value that TOML gives for a text, else the text: 0.5, true, ["a.x"], 10 ms, jacobi."""
     try:
         parsed = tomllib.loads(f"value = {text}")
     except tomllib.TOMLDecodeError:
@@ -135,7 +135,7 @@ def _fmu(name: str, path: Any) -> str:
 
 
 def settings(table: Mapping[str, Any]) -> dict[str, Any]:
-    """The arguments for `simulate` from a table; those that are "none" are left at what they are by themselves.
+    """Return the arguments for `simulate` from a table; those that are "none" keep their default.
 
     Raises CouplingError for one that is unknown or of the wrong type.
     """

@@ -18,7 +18,7 @@ STATISTICS = {
     "master.step_size": ("s", "communication step that ends here"),
     "master.iterations": ("1", "passes through the FMUs of a loop in this step, at most"),
     "master.residual": ("1", "of the iteration over its tolerance: up to 1 it has converged"),
-    "master.error": ("1", "estimated error of this step over what it may be; 0 without error control"),
+    "master.error": ("1", "estimated error of this step over the allowed error; 0 without error control"),
 }
 
 
@@ -38,7 +38,7 @@ class Recorder:
         self._statistics = [array("d") for _ in self._extras]
 
     def row(self, size: float, outcome: Outcome, error: float = 0.0) -> Row:
-        """What there is to record now."""
+        """Return the row of now."""
         outputs = self._coupled.outputs
         values = [
             outputs[place] if place is not None else self._coupled.get(port)
@@ -48,7 +48,7 @@ class Recorder:
         return self._coupled.time, values, statistics
 
     def start(self) -> Row:
-        """The row of the initial values."""
+        """Return the row of the initial values."""
         return self.row(0.0, Outcome(0, 0.0))
 
     def add(self, row: Row) -> None:
@@ -66,7 +66,7 @@ class Recorder:
         return len(self._times)
 
     def table(self, first: int) -> NDArray[np.void]:
-        """The rows from `first` on as records, exactly."""
+        """Return the rows from `first` on as records, exactly."""
         columns = {"time": self._times, **self._named()}
         arrays = {name: np.asarray(column[first:]) for name, column in columns.items()}
         table = np.empty(self.count - first, np.dtype([(name, values.dtype) for name, values in arrays.items()]))
@@ -81,7 +81,7 @@ class Recorder:
             column.extend(table[name].tolist())
 
     def dataset(self, attributes: Mapping[str, Any]) -> xr.Dataset:
-        """All rows, along `time`."""
+        """Return all rows, along `time`."""
         units = {port.name: port.variable.unit or "1" for port in self._ports}
         texts = {port.name: port.variable.description or port.name for port in self._ports}
         units |= {name: unit for name, (unit, _) in self._extras.items()}

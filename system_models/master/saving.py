@@ -1,4 +1,4 @@
-"""What the checkpoint of a simulation holds: whose it is, and the states of all FMUs and of the master as bytes.
+"""Contents of the checkpoint of a simulation: its identity, and the states of all FMUs and of the master as bytes.
 
 These bytes are the length of a JSON header, the header, and the raw memory of arrays and states that it refers to. They
 give back every number bit for bit, and nothing in them is ever executed.
@@ -28,10 +28,10 @@ from .system import Port, System
 def kept(
     folder: Path, system: System, outputs: Iterable[Port], settings: Mapping[str, Any], resume: bool
 ) -> Iterator[Checkpoint]:
-    """The checkpoint of a simulation, in a folder that is its own as long as it runs.
+    """Hold the checkpoint of a simulation, in a folder of its own as long as it runs.
 
-    `saved` is where it goes on from, if it shall and there is something. Raises CouplingError if the simulation cannot
-    be stored, and StateError if the folder is in use or holds another simulation.
+    `saved` is the point from which it continues, if there is one and `resume` is set. Raises CouplingError if the
+    simulation cannot be stored, and StateError if the folder is in use or holds another simulation.
     """
     check(system, outputs)
     try:
@@ -44,7 +44,7 @@ def kept(
 
 
 def check(system: System, outputs: Iterable[Port]) -> None:
-    """Raises CouplingError if a simulation of the system that records `outputs` cannot be stored."""
+    """Raise CouplingError if a simulation of the system that records `outputs` cannot be stored."""
     for name, model in system.models.items():
         if not (model.restores and model.capabilities.canSerializeFMUstate):
             raise CouplingError(
@@ -70,7 +70,7 @@ def check_taken(instances: Mapping[str, Instance], states: Mapping[str, bytes], 
 
 
 def identity(system: System, settings: Mapping[str, Any]) -> dict[str, Any]:
-    """Everything that decides the result of a simulation, as JSON has it; settings are the arguments of `simulate`."""
+    """Return everything that decides a result, as JSON has it; settings are the arguments of `simulate`."""
     parts = {
         "versions": {"tribofmu": contact_core.__version__, "numpy": np.__version__},
         "sha256": {name: hashlib.sha256(model.path.read_bytes()).hexdigest() for name, model in system.models.items()},
@@ -86,14 +86,14 @@ def identity(system: System, settings: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def pack(states: Mapping[str, bytes], master: Mapping[str, Any]) -> bytes:
-    """The serialised states of the FMUs by name, and the master's: nested dicts, lists and tuples."""
+    """Return the serialised states of the FMUs by name, and the master's: nested dicts, lists and tuples."""
     parts: list[bytes] = []
     header = json.dumps(_described({"states": states, "master": master}, parts)).encode()
     return b"".join([struct.pack("<Q", len(header)), header, *parts])
 
 
 def unpack(data: bytes) -> tuple[dict[str, bytes], dict[str, Any]]:
-    """What `pack` was given."""
+    """Return the arguments of `pack`."""
     stream = BytesIO(data)
     (length,) = struct.unpack("<Q", stream.read(8))
     found = _restored(json.loads(stream.read(length)), stream)
@@ -101,7 +101,7 @@ def unpack(data: bytes) -> tuple[dict[str, bytes], dict[str, Any]]:
 
 
 def _described(value: Any, parts: list[bytes]) -> Any:
-    """`value` as JSON; what has raw memory goes to `parts`, and its size is said in its place."""
+    """Return `value` as JSON; raw memory goes to `parts`, and its size stands in its place."""
     if isinstance(value, np.ndarray):
         parts.append(value.tobytes())
         return {"array": [value.dtype.str, list(value.shape), value.nbytes]}
@@ -122,7 +122,7 @@ def _described(value: Any, parts: list[bytes]) -> Any:
 
 
 def _restored(value: Any, stream: BytesIO) -> Any:
-    """What a description stands for; its memory is the next in the stream."""
+    """Return the value of a description; its memory is the next in the stream."""
     if isinstance(value, list):
         return [_restored(item, stream) for item in value]
     if not isinstance(value, dict):

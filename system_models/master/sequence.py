@@ -34,7 +34,7 @@ class Block:
 
 
 def blocks(system: System, instances: Mapping[str, Instance], inputs: list[str], settings: Settings) -> list[Block]:
-    """The blocks in the order of the signals; all FMUs are in one unless loops are iterated."""
+    """Return the blocks in the order of the signals; all FMUs are in one unless loops are iterated."""
     visible, loops = ALGORITHMS[settings.algorithm], settings.iterate is not None
     order = _gauss_seidel_order(system, instances)
     source = {c.target.name: c.source.model.name for c in system.connections}
@@ -58,7 +58,7 @@ def blocks(system: System, instances: Mapping[str, Instance], inputs: list[str],
 
 
 def direct_loops(system: System) -> list[list[str]]:
-    """Coupled Real inputs around a loop of outputs that depend on them directly, as the FMUs declare it."""
+    """Return coupled Real inputs around a loop of outputs that depend on them directly, as the FMUs declare it."""
     source = {c.target.name: c.source for c in system.connections if c.source.kind == "real"}
     edges = [
         (f"{port.model.name}.{known}", target)
@@ -71,12 +71,12 @@ def direct_loops(system: System) -> list[list[str]]:
 
 
 def feedthrough_order(system: System, instances: Mapping[str, Instance]) -> list[str]:
-    """The FMUs with outputs that depend directly on coupled inputs, each after those that it depends on."""
+    """Return the FMUs with outputs that depend directly on coupled inputs, each after those that it depends on."""
     return [name for group in _gauss_seidel_order(system, instances) for name in group if instances[name].feedthrough]
 
 
 def _gauss_seidel_order(system: System, instances: Mapping[str, Instance]) -> list[list[str]]:
-    """Loops of FMUs in the order of the signals; in a loop those first whose outputs do not wait for inputs.
+    """Return loops of FMUs in the order of the signals; in a loop those first whose outputs do not wait for inputs.
 
     Of these, those first that the schedule sets, and next those that they set: a change arrives within the step.
     """
@@ -95,7 +95,7 @@ def _gauss_seidel_order(system: System, instances: Mapping[str, Instance]) -> li
 
 
 def _distances(system: System) -> dict[str, int]:
-    """Over how many connections what the schedule sets reaches each FMU."""
+    """Return the number of connections over which the schedule reaches each FMU."""
     found: dict[str, int] = {}
     front = {target.partition(".")[0] for target in system.schedule}
     while front:
@@ -106,7 +106,7 @@ def _distances(system: System) -> dict[str, int]:
 
 
 def sorted_loops(names: list[str], edges: list[tuple[str, str]]) -> list[list[str]]:
-    """Strongly connected components in topological order; where that leaves a choice, by name."""
+    """Return strongly connected components in topological order; where that leaves a choice, by name."""
     number = {name: n for n, name in enumerate(names)}
     if not names:
         return []

@@ -1,4 +1,4 @@
-"""How a system is simulated: the options, and what they require of its FMUs."""
+"""The options of a simulation, and what they require of its FMUs."""
 
 import math
 from collections.abc import Collection
@@ -26,7 +26,7 @@ def _setting(read: str, default: Any = MISSING, choices: Collection[Any] = ()) -
 
 @dataclass(frozen=True)
 class Settings:
-    """How a system is simulated: the one statement of these options, for `simulate` and for TOML.
+    """The options of a simulation: their one statement, for `simulate` and for TOML.
 
     Raises CouplingError for a value that makes no sense.
 
@@ -98,7 +98,7 @@ class Settings:
         if self.max_step is not None and self.max_step < self.step_size:
             raise CouplingError(f"max_step = {self.max_step:g} s is below step_size = {self.step_size:g} s. Raise it.")
         if self.controlled and self.tolerance is None:
-            raise CouplingError(f"controlled = {list(self.controlled)} are to meet a tolerance. Give one as well.")
+            raise CouplingError(f"controlled = {list(self.controlled)} must keep a tolerance. Give one as well.")
         if self.max_step is not None and self.tolerance is None:
             raise CouplingError(f"max_step = {self.max_step:g} s limits steps chosen by a tolerance. Give one as well.")
 
@@ -123,7 +123,7 @@ class Settings:
         return _ITERATION_TOLERANCE if self.iteration_tolerance is None else self.iteration_tolerance
 
     def check(self, system: System) -> None:
-        """Raise CouplingError if an FMU of the system cannot do what these settings need."""
+        """Raise CouplingError if an FMU of the system lacks a capability that these settings need."""
         reasons = {
             f"iterate = '{self.iterate}'": self.iterate is not None,
             f"tolerance = {self.tolerance}": self.tolerance is not None,

@@ -25,7 +25,7 @@ from .system import System
 
 log = logging.getLogger(__name__)
 
-_MISJUDGED = 10.0  # times what an output has reached: a magnitude that loosens the tolerance
+_MISJUDGED = 10.0  # times the largest value of an output: such a magnitude loosens the tolerance
 
 
 def simulate(
@@ -156,10 +156,10 @@ def _remember(coupled: Coupled, history: Mapping[str, Callable[[float], float]])
 
 
 def _report(coupled: Coupled, statistics: Statistics) -> None:
-    """Warn of what makes a result doubtful."""
+    """Warn of doubtful results."""
     if statistics.unconverged:
         log.warning(
-            "The iteration has not converged in %d of %d steps; `master.residual` tells in which. Take smaller steps, "
+            "The iteration has not converged in %d of %d steps; `master.residual` shows in which. Take smaller steps, "
             "or another method.",
             statistics.unconverged,
             statistics.steps,
@@ -175,7 +175,7 @@ def _report(coupled: Coupled, statistics: Statistics) -> None:
     for place in np.flatnonzero(coupled.expected > _MISJUDGED * coupled.magnitudes):
         log.warning(
             "The tolerance was taken relative to %g for '%s', which has reached %g only: it names no nominal, and the "
-            "first step was too long to tell. Take a smaller step_size.",
+            "first step was too long to judge it. Take a smaller step_size.",
             coupled.expected[place],
             coupled.wiring.outputs[place],
             coupled.magnitudes[place],

@@ -1,12 +1,12 @@
 """Export of a system as SSP 1.0, the exchange format for systems of FMUs [1].
 
-What the format can say is in the file: the FMUs, their connections with units and factors, parameters and start values.
-How the system is to be simulated, and what is only watched, stays out of it: algorithm, tolerances, events, power bonds
+The file has all that the format can express: FMUs, connections with units and factors, parameters and start values.
+Options of the simulation and observations are left out: algorithm, tolerances, events, power bonds
 and derivatives. Inputs that change by a schedule would change what is simulated, so they are refused.
 
 A step size has no place in SSP 1.0. It is proposed in an annotation of OMSimulator, which reads no file without it [2].
 
-Where a connection converts units, the conversion is written into its transformation, and importers are told to do none
+Where a connection converts units, the conversion is written into its transformation, and importers are asked to do none
 (suppressUnitConversion): many of them do none anyway, and would give a wrong result without a word.
 
 FMI 3.0 came after SSP 1.0. Its variables are written with the nearest type; not every importer takes such FMUs.
@@ -67,7 +67,7 @@ def export_ssp(
 
 
 def _sources(models: Iterable[Model]) -> dict[Path, str]:
-    """Where in the archive each FMU lies: every file once, under a name that no URI needs to escape."""
+    """Return the place of each FMU in the archive: every file once, under a name that needs no escape in a URI."""
     found: dict[Path, str] = {}
     for model in models:
         name = re.sub(r"[^\w.-]", "_", model.path.stem, flags=re.ASCII)
@@ -120,14 +120,14 @@ def _tag(name: str) -> str:
 
 
 def _ports(system: System, model: Model) -> list[Port]:
-    """The outputs that can be recorded and whatever is connected; importers stumble over inputs that are not."""
+    """Return the outputs that can be recorded and whatever is connected; importers stumble over inputs that are not."""
     ends = [port for c in system.connections for port in (c.source, c.target)]
     ports = {port.name: port for port in (*system.outputs(None), *ends) if port.model is model}
     return [ports[name] for name in sorted(ports)]
 
 
 def _constant(name: str, steps: list[tuple[float, Value]]) -> Value:
-    """The value of a schedule that has one from the start on."""
+    """Return the value of a schedule that has one from the start on."""
     if steps[-1][0] > 0.0:
         raise CouplingError(
             f"'{name}' changes by a schedule, which SSP cannot say. Give it one value as a parameter, "
@@ -152,7 +152,7 @@ def _add_connectors(component: Element, ports: list[Port], units: dict[str, dict
 
 
 def _base_unit(port: Port) -> dict[str, str] | None:
-    """The attributes of a variable's unit, if its FMU defines it; what is not written here, importers find there."""
+    """Return the attributes of a variable's unit, if its FMU defines it; importers find there what is left out here."""
     for unit in port.model.description.unitDefinitions:
         if unit.name == port.variable.unit and unit.baseUnit is not None:
             usual = {"factor": 1.0, "offset": 0.0}
@@ -175,7 +175,7 @@ def _add_parameters(component: Element, starts: list[tuple[Port, Value]], model:
 
 
 def _written(variable: ModelVariable, value: Value) -> tuple[str, str]:
-    """A value's type and text."""
+    """Return a value's type and text."""
     if variable.type == "Enumeration" and variable.declaredType is not None:
         names = {int(item.value): item.name for item in variable.declaredType.items or ()}
         return ("Enumeration", names[int(value)]) if value in names else ("Integer", repr(value))
@@ -203,7 +203,7 @@ def _add_connections(parent: Element, connections: Iterable[Connection]) -> None
 
 
 def _add_step_size(parent: Element, step_size: float) -> None:
-    """What OMSimulator writes for its master with fixed steps, in decimals, as its schema has them."""
+    """Add the annotation that OMSimulator writes for fixed steps, in decimals, as its schema has them."""
     annotation = SubElement(parent, _tag("ssc:Annotation"), type="org.openmodelica")
     information = SubElement(SubElement(annotation, _tag("oms:Annotations")), _tag("oms:SimulationInformation"))
     told = {"description": "oms-ma", "stepSize": f"{Decimal(repr(float(step_size))):f}", "relativeTolerance": "0.0001"}

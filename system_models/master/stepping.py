@@ -22,16 +22,16 @@ class Attempt(NamedTuple):
     size: float
     rows: list[Row]
     indicators: list[Values]  # of events, by row
-    error: float = 0.0  # over what it may be: up to 1 it is allowed
+    error: float = 0.0  # over the allowed one: up to 1 it is accepted
     errors: NDArray[np.float64] = np.zeros(0)  # of the coupled outputs
-    gains: NDArray[np.float64] = np.zeros(0)  # what changed in them over what changed in the inputs of their FMU
+    gains: NDArray[np.float64] = np.zeros(0)  # their changes over those of the inputs of their FMU
     halves: Halves = Halves(0.0, 0.0)
     event: bool = False  # an FMU has met one of its own before the last row
 
 
 @dataclass
 class Statistics:
-    """What a simulation has done."""
+    """Counts of a simulation."""
 
     steps: int = 0
     rejected: int = 0
@@ -77,7 +77,7 @@ class Stepper:
 
     @staticmethod
     def _first_change(time: float, values: Values, attempt: Attempt) -> tuple[float, Values, float] | None:
-        """The rows between which the first event lies: the time and the values of the one, the time of the other."""
+        """Return the rows around the first event: time and values of the first, time of the second."""
         for row, following in zip(attempt.rows, attempt.indicators, strict=True):
             if changed(values, following):
                 return time, values, row[0]
@@ -103,11 +103,11 @@ class Stepper:
         return attempt
 
     def _attempt_to(self, end: float, start: Point) -> Attempt:
-        """An attempt with an error that is allowed."""
+        """Return an attempt with an error that is allowed."""
         return self._unstopped(end, start)
 
     def _unstopped(self, end: float, start: Point) -> Attempt:
-        """An attempt that no FMU has stopped early."""
+        """Return an attempt that no FMU has stopped early."""
         while True:
             try:
                 return self._attempt(end, start)
@@ -142,7 +142,7 @@ class Stepper:
             )
 
     def _proposed_end(self, limit: float) -> float:
-        """The next of the given points or else multiple of the step, or the limit."""
+        """Return the next of the given points or else multiple of the step, or the limit."""
         time, points = self.coupled.time, self.coupled.settings.points
         following = bisect.bisect_right(points, time)
         if following < len(points):
@@ -170,13 +170,13 @@ class Stepper:
             statistics.ended_by = ended[0]
 
     def begin_anew(self) -> None:
-        """What was before an event says nothing about what follows."""
-        self.coupled.meet()
+        """Forget the past: after an event it says nothing about the future."""
+        self.coupled.restart()
 
     def stored(self) -> dict[str, Any]:
-        """All that is needed to go on from now in another process."""
+        """Return all that is needed to continue from now in another process."""
         return {"statistics": asdict(self.statistics)}
 
     def go_on(self, memory: Mapping[str, Any]) -> None:
-        """Go to what `stored` has given."""
+        """Go to a point that `stored` has returned."""
         self.statistics = Statistics(**memory["statistics"])

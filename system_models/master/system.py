@@ -1,4 +1,4 @@
-"""What is coupled: FMUs, the connections between them, and what is set from outside."""
+"""A system: FMUs, the connections between them, parameters and schedules."""
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -51,7 +51,7 @@ class Connection:
     offset: float
 
     def result(self, value: Any) -> Any:
-        """What a value of the source makes of the target."""
+        """Return the value of the target for a value of the source."""
         return self.factor * value + self.offset if self.source.kind in NUMBERS else value
 
 
@@ -80,7 +80,7 @@ class System:
     stepped over. bonds: pairs of connected outputs, effort and flow: a force on the other FMU, and that FMU's speed.
     derivatives: the output that is the derivative of an output by an input, {("a.force", "a.speed"): "a.dforce"}.
 
-    Raises CouplingError for what does not exist or cannot be coupled.
+    Raises CouplingError for variables that do not exist or cannot be coupled.
     """
 
     def __init__(
@@ -112,7 +112,7 @@ class System:
         self._check_derivatives()
 
     def port(self, name: str) -> Port:
-        """The variable "fmu.variable". Raises CouplingError if there is none."""
+        """Return the variable "fmu.variable". Raises CouplingError if there is none."""
         owner, dot, variable = str(name).partition(".")
         if not dot or owner not in self.models:
             raise CouplingError(
@@ -128,7 +128,7 @@ class System:
         return Port(model, model.variables[variable])
 
     def outputs(self, names: Iterable[str] | None) -> list[Port]:
-        """The variables to record: those named, or every output that is no text."""
+        """Return the variables to record: those named, or every output that is no text."""
         if isinstance(names, str):
             raise CouplingError(f"outputs = {names!r} is one name. Give a list of names.")
         if names is not None:
@@ -285,7 +285,7 @@ class System:
 
 
 def checked(port: Port, value: Any) -> Value:
-    """A value as the variable's type has it. Raises CouplingError if it is of another."""
+    """Return a value as the variable's type has it. Raises CouplingError if it is of another."""
     types: dict[str, tuple[type, ...]] = {"boolean": (bool,), "string": (str,), "integer": (int,)}
     fits = isinstance(value, types.get(port.kind, (int, float))) and (port.kind == "boolean") == isinstance(value, bool)
     if not fits or (port.kind in NUMBERS and not math.isfinite(value)):

@@ -1,4 +1,4 @@
-"""From the unit of one variable to that of another."""
+"""Conversion from the unit of one variable to that of another."""
 
 from fmpy.model_description import ModelDescription, ModelVariable
 
@@ -13,7 +13,7 @@ _EXPONENTS = ("m", "kg", "s", "K", "A", "mol", "cd")  # rad is a number: tools w
 def conversion(
     source: ModelVariable, source_model: ModelDescription, target: ModelVariable, target_model: ModelDescription
 ) -> tuple[float, float]:
-    """Factor and offset that turn a value of `source` into the unit of `target`.
+    """Return the factor and offset that turn a value of `source` into the unit of `target`.
 
     A variable without a unit gives and takes any. Raises CouplingError, the second half of a sentence, if the units
     measure different things or cannot be compared.
@@ -26,7 +26,7 @@ def conversion(
             return 1.0, 0.0
         unknown = source.unit if here is None else target.unit
         raise CouplingError(
-            f"the units '{source.unit}' and '{target.unit}' cannot be compared, for its FMU does not say what "
+            f"the units '{source.unit}' and '{target.unit}' cannot be compared: its FMU does not say what "
             f"'{unknown}' is. Add a BaseUnit to its UnitDefinitions."
         )
     if here[0] != there[0]:
@@ -41,7 +41,7 @@ def conversion(
 def power(
     first: ModelVariable, model: ModelDescription, second: ModelVariable, other: ModelDescription
 ) -> float | None:
-    """The factor to watt of the product of two variables; None if it is no power, or if nobody can tell."""
+    """Return the factor to watt of the product of two variables; None if it is no power, or if a unit is unknown."""
     bases = [_base(v.unit, m) if v.unit else None for v, m in ((first, model), (second, other))]
     if None in bases:
         return None
@@ -51,7 +51,7 @@ def power(
 
 
 def _base(unit: str, model: ModelDescription) -> tuple[tuple[int, ...], float, float] | None:
-    """Exponents of the base units, factor and offset to them: as the FMU defines the unit, else by its name."""
+    """Return exponents of the base units, factor and offset to them: as the FMU defines the unit, else by its name."""
     for definition in model.unitDefinitions:
         if definition.name == unit and definition.baseUnit is not None:
             base = definition.baseUnit

@@ -1,4 +1,4 @@
-"""Which output sets which input, as arrays over the Real variables of all FMUs."""
+"""Connections as arrays over the Real variables of all FMUs."""
 
 import math
 from collections.abc import Mapping
@@ -19,16 +19,16 @@ class _Ends(NamedTuple):
 
     watt: float
     effort: int
-    effort_told: int
+    effort_received: int
     flow: int
-    flow_told: int
+    flow_received: int
 
 
 class Wiring:
     """The coupled Real variables of a system.
 
     outputs, inputs: the names of all of them; output_of, input_of: where those of an FMU stand; source, factor and
-    offset [inputs]: what sets an input; coupled: the places of the outputs that set one; beside:
+    offset [inputs]: the source of an input; coupled: the places of the outputs that set one; beside:
     where the inputs of the FMU of each of these stand.
     """
 
@@ -55,26 +55,23 @@ class Wiring:
             for bond in system.bonds
         ]
 
-    def told(self, outputs: Array, inputs: slice | Places = slice(None)) -> Array:
-        """The inputs that go with outputs, all of them or some."""
+    def inputs_from(self, outputs: Array, inputs: slice | Places = slice(None)) -> Array:
+        """Return the inputs that follow from outputs, all of them or some."""
         return outputs[self.source[inputs]] * self.factor[inputs] + self.offset[inputs]
 
     def power_residuals(self, outputs: Array, held: Array | None) -> list[float]:
-        """For each bond, the power [W] that the FMU of the flow takes less what that of the effort gives.
+        """Return for each bond the power [W] that the FMU of the flow takes less what the FMU of the effort gives.
 
-        Each reckons with its own output and with what it was told of the other's at the end of the step, `held`. They
+        Each reckons with its own output and with what it received of the other's at the end of the step, `held`. They
         agree unless the coupling errs; it is no integral over the step (Sadjina et al. 2017,
         doi:10.1007/s00366-016-0492-8).
         """
         if held is None or not self._bonds:
             return [0.0] * len(self._bonds)
-        told = (held - self.offset) / self.factor
-        return [
-            float(
-                bond.watt * (told[bond.effort_told] * outputs[bond.flow] - outputs[bond.effort] * told[bond.flow_told])
-            )
-            for bond in self._bonds
-        ]
+        received = (held - self.offset) / self.factor
+        taken = [received[bond.effort_received] * outputs[bond.flow] for bond in self._bonds]
+        given = [outputs[bond.effort] * received[bond.flow_received] for bond in self._bonds]
+        return [float(bond.watt * (t - g)) for bond, t, g in zip(self._bonds, taken, given, strict=True)]
 
 
 def _index(reals: Mapping[str, Reals]) -> tuple[dict[str, slice], list[str]]:
@@ -86,13 +83,13 @@ def _index(reals: Mapping[str, Reals]) -> tuple[dict[str, slice], list[str]]:
 
 
 def real_inputs(system: System) -> dict[str, list[Port]]:
-    """The inputs that Real outputs set, by FMU."""
+    """Return the inputs that Real outputs set, by FMU."""
     ports = [c.target for c in system.connections if c.source.kind == c.target.kind == "real"]
     return {name: [port for port in ports if port.model.name == name] for name in system.models}
 
 
 def real_outputs(system: System, recorded: list[Port]) -> dict[str, list[Port]]:
-    """The Real outputs that are read, by FMU: for connections, records, events, bonds and derivatives."""
+    """Return the Real outputs that are read, by FMU: for connections, records, events, bonds and derivatives."""
     ports = [c.source for c in system.connections if c.source.kind == c.target.kind == "real"]
     ports += [*recorded, *system.events, *system.derivatives.values()]
     ports += [system.port(of) for of, _ in system.derivatives]

@@ -17,12 +17,12 @@ _SMALLEST, _LARGEST = 0.2, 2.0  # factors of the step: an error may be near zero
 
 
 def scale(tolerance: float, nominal: Array, values: Array) -> Array:
-    """Errors that are allowed in values: `tolerance` relative to them, and absolute in the unit of `nominal`."""
+    """Return errors that are allowed in values: `tolerance` relative to them, and absolute in the unit of `nominal`."""
     return tolerance * (nominal + np.abs(values))
 
 
 def wrms(error: Array, scale: Array) -> float:
-    """Weighted root mean square of an error: 1 where every entry is as large as its scale, 0 of nothing."""
+    """Return the weighted root mean square of an error: 1 where every entry is as large as its scale, 0 of nothing."""
     weighted = error / scale
     return math.sqrt(weighted.dot(weighted) / weighted.size) if weighted.size else 0.0
 
@@ -30,7 +30,7 @@ def wrms(error: Array, scale: Array) -> float:
 class StepControl:
     """PI controller of the step for an error per unit step that behaves like step^order.
 
-    Errors are given as ratios to what is allowed. The caller decides whether a step is accepted.
+    Errors are given as ratios to the allowed error. The caller decides whether a step is accepted.
     """
 
     def __init__(self, order: int) -> None:
@@ -39,19 +39,19 @@ class StepControl:
 
     def after_event(self) -> None:
         """Forget: errors before an event say nothing about those after it."""
-        self._previous = 0.0  # ratio of the last step, where it tells of the next; else 0
+        self._previous = 0.0  # ratio of the last step, where it predicts the next; else 0
         self._rejects = 0
 
     def accept(self, ratio: float) -> float:
-        """Factor of the next step after one that was accepted."""
+        """Return the factor of the next step after one that was accepted."""
         factor = _limited(self._proposed(ratio))
         after_reject, self._rejects = self._rejects > 0, 0
-        # The error after a limited change of the step tells of the change, not of the problem.
+        # The error after a limited change of the step reflects the change, not the problem.
         self._previous = ratio if _SMALLEST < factor < _LARGEST and not after_reject else 0.0
         return min(factor, 1.0) if after_reject else factor
 
     def reject(self, ratio: float) -> float:
-        """Factor of the same step, to be repeated; a ratio that is not finite shrinks it most.
+        """Return the factor of the same step, to be repeated; a ratio that is not finite shrinks it most.
 
         Each reject more in a row shows that the error falls more slowly than with the order: the factor is its power.
         """
@@ -60,11 +60,11 @@ class StepControl:
         return _limited((_TARGET / ratio) ** (self._rejects / self._order))
 
     def copy(self) -> dict[str, float]:
-        """What `restore` needs, fit for a checkpoint."""
+        """Return the memory for `restore`, fit for a checkpoint."""
         return {"previous": self._previous, "rejects": self._rejects}
 
     def restore(self, memory: dict[str, float]) -> None:
-        """Go back to what `copy` has returned."""
+        """Go back to a memory that `copy` has returned."""
         self._previous, self._rejects = memory["previous"], int(memory["rejects"])
 
     def _proposed(self, ratio: float) -> float:

@@ -34,28 +34,28 @@ class History:
         self._differences = differences
 
     def ages(self) -> list[float]:
-        """How long ago [s] the stored values were those of now, the newest first."""
+        """Return the ages [s] of the stored values, the newest first."""
         return [self._times[0] - time for time in self._times]
 
     def clear(self) -> None:
-        """Forget the past, as after an event: it says nothing about what follows."""
+        """Forget the past, as after an event: it says nothing about the future."""
         self._times, self._differences = (), ()
 
     def copy(self) -> Past:
-        """What `restore` needs."""
+        """Return the memory for `restore`."""
         return self._times, self._differences
 
     def restore(self, past: Past) -> None:
-        """Go back to what `copy` has returned."""
+        """Go back to a memory that `copy` has returned."""
         self._times, self._differences = past
 
     def extrapolate(self) -> Array:
-        """Coefficients of the polynomial through the stored values; there must be at least one."""
+        """Return coefficients of the polynomial through the stored values; there must be at least one."""
         now = self._times[0]
         return _expanded(self._differences, [time - now for time in self._times])
 
     def interpolate(self, step: float, end: Array, entries: slice = slice(None)) -> Array:
-        """Coefficients of the polynomial through the newest stored values and `end`, a `step` [s] from now.
+        """Return coefficients of the polynomial through the newest stored values and `end`, a `step` [s] from now.
 
         end [size of `entries`]: of all stored values or some.
         """
@@ -66,7 +66,7 @@ class History:
         return _expanded(differences, [step, *(time - now for time in self._times)])
 
     def _extended(self, time: float, values: Array, entries: slice = slice(None)) -> tuple[Array, ...]:
-        """Divided differences, up to the order, with one more time."""
+        """Return divided differences, up to the order, with one more time."""
         differences = [values]
         for past_time, past in zip(self._times[: self._order], self._differences, strict=False):
             differences.append((differences[-1] - past[entries]) / (time - past_time))
@@ -74,7 +74,7 @@ class History:
 
 
 def _expanded(differences: tuple[Array, ...], nodes: list[float]) -> Array:
-    """Coefficients of powers of s, of Newton's polynomial with its nodes at s [s]."""
+    """Return coefficients of powers of s, of Newton's polynomial with its nodes at s [s]."""
     powers = [differences[-1]]
     for difference, node in zip(differences[-2::-1], nodes[len(differences) - 2 :: -1], strict=False):
         between = [low - node * high for low, high in pairwise(powers)]
@@ -83,7 +83,7 @@ def _expanded(differences: tuple[Array, ...], nodes: list[float]) -> Array:
 
 
 def value(coefficients: Array, s: float) -> Array:
-    """u(s) [size]."""
+    """Return u(s) [size]."""
     total = coefficients[-1].copy()
     for c in coefficients[-2::-1]:
         total *= s
@@ -92,7 +92,7 @@ def value(coefficients: Array, s: float) -> Array:
 
 
 def mean(coefficients: Array, step: float) -> Array:
-    """Mean of u [size] over 0 <= s <= step."""
+    """Return the mean of u [size] over 0 <= s <= step."""
     total = coefficients[0].copy()
     for j in range(1, len(coefficients)):
         total += coefficients[j] * (step**j / (j + 1))

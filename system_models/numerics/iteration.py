@@ -1,7 +1,7 @@
 """Iterations that solve v = G(v) for the coupled values v [size] of one communication step.
 
 The caller evaluates G, decides by the norm of G(v) - v over the allowed errors `scale` [size] when to stop, and asks a
-method only for the next v. What a method keeps from accepted steps is restored with the states when a step is repeated,
+method only for the next v. The memory of accepted steps is restored with the states when a step is repeated,
 so that a result depends on the accepted past alone.
 
 Source: Küttler & Wall, Comput. Mech. 43 (2008) 61, doi:10.1007/s00466-008-0255-5 (Aitken's relaxation of vectors).
@@ -22,48 +22,48 @@ _LEAST, _MOST = 1e-6, 2.0  # its magnitude
 
 
 class Method(Protocol):
-    """What every method offers."""
+    """Contract of an iteration method."""
 
     def start(self, scale: Array) -> None:
         """Begin a communication step with the errors that are allowed."""
 
     def next(self, v: Array, g: Array) -> Array:
-        """The next values to try, after g = G(v) has been evaluated; always finite if the first g is."""
+        """Return the next values to try, after g = G(v) has been evaluated; always finite if the first g is."""
 
     def accept(self, v: Array, g: Array) -> None:
-        """The step is done with g = G(v): keep what serves the next one."""
+        """Accept g = G(v) as the result of the step; keep the memory for the next step."""
 
     def clear(self) -> None:
         """Forget the past, as after an event."""
 
     def copy(self) -> Any:
-        """What `restore` needs: all that is kept between steps; nothing in it ever changes."""
+        """Return the memory for `restore`: all that is kept between steps; nothing in it ever changes."""
 
     def restore(self, memory: Any) -> None:
-        """Go back to what `copy` has returned."""
+        """Go back to a memory that `copy` has returned."""
 
 
 class FixedPoint:
     """v <- G(v): converges where G contracts."""
 
     def start(self, scale: Array) -> None:
-        """There is nothing to begin with."""
+        """Begin a communication step."""
 
     def next(self, v: Array, g: Array) -> Array:
-        """G(v) itself."""
+        """Return G(v) itself."""
         return g.copy()
 
     def accept(self, v: Array, g: Array) -> None:
-        """Nothing is kept."""
+        """Keep nothing."""
 
     def clear(self) -> None:
-        """Nothing is kept."""
+        """Do nothing: there is no memory."""
 
     def copy(self) -> None:
-        """Nothing is kept."""
+        """Return nothing."""
 
     def restore(self, memory: None) -> None:
-        """Nothing is kept."""
+        """Do nothing: there is no memory."""
 
 
 class Aitken:
@@ -82,7 +82,7 @@ class Aitken:
         self._residual: Array | None = None
 
     def next(self, v: Array, g: Array) -> Array:
-        """A relaxed step along the residual."""
+        """Return a relaxed step along the residual."""
         residual = (g - v) / self._scale
         if self._residual is not None:
             change = residual - self._residual
@@ -102,7 +102,7 @@ class Aitken:
         self._kept = _FIRST
 
     def copy(self) -> float:
-        """The factor."""
+        """Return the factor."""
         return self._kept
 
     def restore(self, memory: float) -> None:

@@ -24,7 +24,7 @@ _CERTAIN = 0.1  # part of the residual outside of all differences, below which t
 _OPPOSITE = -0.7  # cosine between residuals of two points that enclose a solution
 _GAIN = 0.5  # decrease of the residual that makes it needless to search between them
 _FOUND = 0.1  # decrease of the residual at which the search on a line ends
-_ALONG = 0.5  # part of the residual that must be along the first one for the search to go on
+_ALONG = 0.5  # part of the residual that must be along the first one for the search to continue
 
 
 class _Point(NamedTuple):
@@ -73,7 +73,7 @@ class QuasiNewton:
         self._known = (self._past[0] / scale, self._past[1] / scale) if self._past else (none, none)
 
     def next(self, v: Array, g: Array) -> Array:
-        """The next values to try, after g = G(v) has been evaluated."""
+        """Return the next values to try, after g = G(v) has been evaluated."""
         if v.size == 1:
             return np.array([self._secant.next(float(v[0]), float(g[0] - v[0]))])
         x, residual = v / self._scale, (g - v) / self._scale
@@ -101,15 +101,15 @@ class QuasiNewton:
         self.restore((None, None))
 
     def copy(self) -> tuple[float | None, Differences | None]:
-        """What `restore` needs."""
+        """Return the memory for `restore`."""
         return self._secant.slope, self._past
 
     def restore(self, memory: tuple[float | None, Differences | None]) -> None:
-        """Go back to what `copy` has returned."""
+        """Go back to a memory that `copy` has returned."""
         self._secant.slope, self._past = memory
 
     def _enclosing(self, point: _Point) -> _Line | None:
-        """The line between two points on which the solution is sought, if it is."""
+        """Return the line between two points on which the solution is sought, if it is."""
         if self._line is not None:
             self._line = self._line if self._line.goes_on(point) else None
         elif self._certain:
@@ -121,7 +121,7 @@ class QuasiNewton:
         return self._line
 
     def _differences(self, point: _Point) -> Differences:
-        """From a point to those of this step, the nearest first; then those that are kept."""
+        """Return differences from a point to those of this step, the nearest first, then the kept ones."""
         if not self._points:
             return self._known
         runs = np.array([other.x for other in self._points]) - point.x
@@ -141,10 +141,10 @@ class QuasiNewton:
 
 
 def multi_secant(runs: Array, rises: Array, residual: Array) -> Differences:
-    """The step that cancels as much of a residual [size] as differences can, and the residual that is left.
+    """Return the step that cancels as much of a residual [size] as differences can, and the residual that is left.
 
     `rises` [count, size] are the changes of the residual along `runs` [count, size]. Gram-Schmidt takes them in their
-    order and leaves out what depends on those before. Every entry counts by its largest change, so that the choice of
+    order and leaves out dependent ones. Every entry counts by its largest change, so that the choice of
     units does not matter.
     """
     unit = np.abs(rises).max(axis=0)

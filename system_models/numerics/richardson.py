@@ -1,4 +1,4 @@
-"""What two halves of a step tell of its error, for inputs held as polynomials through any nodes.
+"""Error of a step from its two halves, for inputs held as polynomials through any nodes.
 
 The input of a step is wrong by c (s - n_0)(s - n_1)... at the time s, n_j being the times at which it is right, and c
 nearly the same for a step and its halves. So the difference between both comes to the error of the halves by a factor
@@ -15,12 +15,12 @@ _GAUSS = 0.5 - 0.5 / math.sqrt(3.0), 0.5 + 0.5 / math.sqrt(3.0)  # exact up to t
 class Halves(NamedTuple):
     """The error of a state after the two halves of a step."""
 
-    error: float  # up to the constant c and what the FMU makes of it
+    error: float  # up to the constant c and the response of the FMU
     per_difference: float  # over the difference between the step and its halves
 
 
 def halves(size: float, whole: list[float], first: list[float], second: list[float]) -> Halves:
-    """The error of a state after the two halves of a step.
+    """Return the error of a state after the two halves of a step.
 
     The nodes of a step [s] are given from its start, and those of its halves, each from its own start. Where the second
     half has more nodes than the first, as after an event, its error is of higher order: none.

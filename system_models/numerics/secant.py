@@ -1,7 +1,7 @@
 """One equation v = G(v): the secant method, safeguarded for residuals with kinks and plateaus.
 
 A one-sided contact has a steep residual r(v) = G(v) - v on one side of its root and a flat one on the other, and a
-secant across the kink tells of neither. So the slope at a point comes from the nearest point on its own side of the
+secant across the kink belongs to neither. So the slope at a point comes from the nearest point on its own side of the
 root, from a short probing step where there is none, and once a change of sign encloses the root, no step leaves the
 interval: a step that would, or one that gains too little, is a bisection.
 """
@@ -26,19 +26,19 @@ class Point:
     slope: float | None = None
 
     def beside(self, other: "Point") -> "Point":
-        """The same point, with the slope towards another."""
+        """Return the same point, with the slope towards another."""
         run = self.value - other.value
         return replace(self, slope=(self.residual - other.residual) / run) if run else self
 
     def root(self) -> float:
-        """Where the residual vanishes by its slope; NaN without slope."""
+        """Return the zero of the residual by its slope; NaN without slope."""
         return self.value - self.residual / self.slope if self.slope else math.nan
 
 
 def probing(size: float) -> float:
-    """Length of a step that only measures slopes at a residual of a size, both in allowed errors.
+    """Return the length of a step that only measures slopes at a residual of a size, both in allowed errors.
 
-    Long enough to stand out of what the tolerance makes of G, short enough to stay on this side of a kink.
+    Long enough to stand out of the errors of G, short enough to stay on this side of a kink.
     """
     return min(math.sqrt(size), size, _PROBE)
 
@@ -65,7 +65,7 @@ class Secant:
             self.slope = Point(value, residual, self.slope).beside(end).slope
 
     def next(self, value: float, residual: float) -> float:
-        """The next value to try."""
+        """Return the next value to try."""
         if residual == 0.0:
             return value
         if not math.isfinite(residual):
@@ -107,7 +107,7 @@ class Secant:
         return self._between(self._point, other)
 
     def _between(self, end: Point, other: Point) -> float:
-        """A value between the ends: by the slope at one of them or of the secant, or a probe, or the middle."""
+        """Return a value between the ends: by the slope at one of them or of the secant, or a probe, or the middle."""
         best, worst = sorted((end, other), key=lambda point: abs(point.residual))
         low, high = sorted((end.value, other.value))
         for root in (best.root(), worst.root()):
@@ -126,5 +126,5 @@ class Secant:
 
     @staticmethod
     def _within(value: float, low: float, high: float) -> float:
-        """The value, or the middle if it is not between the ends."""
+        """Return the value, or the middle if it is not between the ends."""
         return value if low < value < high else 0.5 * (low + high)

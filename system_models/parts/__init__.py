@@ -1,12 +1,13 @@
-"""Components of systems that are no contacts, each an FMU of its own.
+"""Components of systems that have no contact, each an FMU of its own.
 
-    part           what a component is: parameters, variables, three pure functions
-    speed_source   a motor that is stronger than its load
-    shaft          the inertia that it drives; brake: what loads it
-    spindle        a body of a rig on its servo motor; load_arm: what presses it on the other
-    thermal        temperatures of housing, oil and shafts, with thermostats
+    part          a component: parameters, variables, three pure functions
+    speed_source  a motor that is stronger than its load
+    shaft         the inertia that it drives; brake: a load on a shaft
+    spindle       a body of a rig on its servo motor; load_arm: the load of a rig
+    thermal       temperatures of housing, oil and shafts, with thermostats
+    timetable     the duty of a machine as a component
+    linear        x' = A x + B u over any step; conduction: the same for heat capacities joined by conductances
+    build         the FMU of a component; variables: its variables; resources: its files; slave: its runtime
 
-Numerics: linear: x' = A x + B u over any step; conduction: the same for heat capacities joined by conductances.
-These know neither FMI nor one another. Their FMUs: variables, resources (what lies in the FMU), slave (which runs it),
-build; timetable: a machine's duty as a component.
+Components know neither FMI nor one another.
 """

@@ -45,20 +45,20 @@ class Brake(Part):
 
     @property
     def at_start(self) -> tuple[str, ...]:
-        """What decides the first state."""
+        """Inputs that decide the first state."""
         return ("torque_setpoint",)
 
     def initial(self, inputs: Values) -> State:
-        """Strength M [N m]: as it is set at the start."""
+        """Return the strength M [N m] as it is set at the start."""
         return (inputs["torque_setpoint"],)
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """Exact."""
+        """Return the exact state after the step."""
         (strength,) = state
         return (strength - (inputs["torque_setpoint"] - strength) * math.expm1(-step / self.rise_time),)
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Torque at the speed there is, its power and its derivative."""
+        """Return the torque at the speed there is, its power and its derivative."""
         (strength,) = state
         share = math.tanh(inputs["speed"] / self.standstill_speed)
         return {

@@ -1,4 +1,4 @@
-"""Build a component's FMU: what a host is told of it, and the component itself."""
+"""Build a component's FMU: its description for hosts, and the component itself."""
 
 import inspect
 from collections.abc import Iterator
@@ -41,7 +41,7 @@ def build(
 
 
 def _page(part: Part, listed: tuple[Variable, ...]) -> Iterator[str]:
-    """The documentation: what the class says of its equations, and its variables."""
+    """Yield the documentation: the docstring of the class with its equations, and the variables."""
     yield f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>{plain(part.name)}</title></head><body>'
     yield f"<h1>{plain(part.name)}</h1>{paragraph(part.text)}<pre>{plain(inspect.getdoc(type(part)) or '')}</pre>"
     rows = ([v.name, v.causality, v.unit or "1", v.start if v.has_start else "", v.text] for v in listed)

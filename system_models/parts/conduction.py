@@ -23,13 +23,13 @@ class Modes:
 
     @staticmethod
     def of(capacities: Array, conductances: Array) -> "Modes":
-        """Of heat capacities C [n] in J/K and the symmetric matrix K [n, n] in W/K."""
+        """Return the modes of heat capacities C [n] in J/K and the symmetric matrix K [n, n] in W/K."""
         root = np.sqrt(capacities)
         rates, vectors = np.linalg.eigh(conductances / np.outer(root, root))
         return Modes(np.maximum(rates, 0.0), vectors / root[:, None], vectors.T * root, vectors.T / root)
 
     def after(self, temperatures: Array, heat: Array, time: Array) -> tuple[Array, Array]:
-        """Temperatures [t, n] in K and their integrals [t, n] in K s after times [t], under held heat [n] in W.
+        """Return temperatures [t, n] in K and their integrals [t, n] in K s after times [t], under held heat [n] in W.
 
         Temperatures count from that of the surroundings.
         """
@@ -42,7 +42,7 @@ class Modes:
 
 
 def _decays(x: Array) -> tuple[Array, Array, Array]:
-    """exp(-x), its mean over (0, x), and that mean's weighted one, (exp(-x) - 1 + x) / x^2, for x >= 0."""
+    """Return exp(-x), its mean over (0, x), and that mean's weighted one, (exp(-x) - 1 + x) / x^2, for x >= 0."""
     decay = np.exp(-x)
     safe = np.where(x > 0.0, x, 1.0)
     first = np.where(x > 0.0, -np.expm1(-x) / safe, 1.0)

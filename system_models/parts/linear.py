@@ -14,7 +14,7 @@ Matrix = tuple[tuple[float, ...], ...]  # rows
 def advance(
     matrix: Matrix, entry: Matrix, state: Sequence[float], inputs: Sequence[float], step: float
 ) -> tuple[float, ...]:
-    """The state [n] after a step [s] > 0, exact; `matrix` is A [n, n] and `entry` is B [n, m].
+    """Return the state [n] after a step [s] > 0, exact; `matrix` is A [n, n] and `entry` is B [n, m].
 
     No eigenvalue of A may have a real part above zero. Any number of steps is as good as one.
     """
@@ -24,7 +24,7 @@ def advance(
 
 @lru_cache(maxsize=64)
 def _propagators(matrix: Matrix, entry: Matrix, step: float) -> tuple[Array, Array]:
-    """exp(A h) and its integral times B: blocks of the exponential of [[A, B], [0, 0]] h.
+    """Return exp(A h) and its integral times B: blocks of the exponential of [[A, B], [0, 0]] h.
 
     Van Loan, C.F., IEEE Trans. Autom. Control 23 (1978) 395, doi 10.1109/TAC.1978.1101743
     """

@@ -46,18 +46,18 @@ class LoadArm(Part):
 
     @property
     def at_start(self) -> tuple[str, ...]:
-        """What decides the first state."""
+        """Inputs that decide the first state."""
         return ("load_setpoint",)
 
     def initial(self, inputs: Values) -> State:
-        """L and L'/f [N]: settled."""
+        """Return L and L'/f [N], settled."""
         return (inputs["load_setpoint"], 0.0)
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """Exact."""
+        """Return the exact state after the step."""
         f, damping = self.natural_frequency, 2.0 * self.damping_ratio * self.natural_frequency
         return linear.advance(((0.0, f), (-f, -damping)), ((0.0,), (f,)), state, (inputs["load_setpoint"],), step)
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """The load, never negative."""
+        """Return the load, never negative."""
         return {"load": max(self.dead_weight + state[0], 0.0)}

@@ -1,4 +1,4 @@
-"""What a component of a system is that is no contact: parameters, variables, and three pure functions.
+"""A component of a system without a contact: parameters, variables, and three pure functions.
 
 `fmu` wraps any of them as an FMU; none knows FMI, files or other components.
 """
@@ -72,22 +72,22 @@ class Part(ABC):
 
     @abstractmethod
     def initial(self, inputs: Values) -> State:
-        """The state at the start, for the inputs then."""
+        """Return the state at the start, for the inputs then."""
 
     @abstractmethod
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """The state after `step` [s] > 0 under held inputs; `state` is left as it is."""
+        """Return the state after `step` [s] > 0 under held inputs; `state` is left as it is."""
 
     @abstractmethod
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Value of each of `responses`; those without `direct` do not look at `inputs`."""
+        """Return the value of each of `responses`; those without `direct` do not look at `inputs`."""
 
 
 def start_values(part: Part) -> dict[str, float]:
-    """The value of each input where nothing sets it."""
+    """Return the value of each input where nothing sets it."""
     return {q.name: q.start for q in part.inputs} | {start.name: start.value for start in part.starts}
 
 
 def indexed(name: str, number: int) -> str:
-    """Name of one of several alike, counted from 1: `load[3]`."""
+    """Return the name of one of several alike, counted from 1: `load[3]`."""
     return f"{name}[{number}]"

@@ -1,4 +1,4 @@
-"""What lies in a component's FMU for its slave: `part.json` and the script that makes it."""
+"""Resources of a component's FMU for its slave: `part.json` and the script that makes it."""
 
 import functools
 import hashlib
@@ -16,11 +16,11 @@ from fmu_src.runtime.resources import identity, script
 
 from .part import Part
 
-_HOME = "system_models."  # what an FMU's resources may name lies in this package
+_HOME = "system_models."  # package of the components that resources may name
 
 
 def files(part: Part) -> dict[str, bytes]:
-    """Name and content of every file in `resources/` that both flavours have."""
+    """Return the name and content of every file in `resources/` that both flavours have."""
     module = _module(part)
     return {
         "part.json": (json.dumps(_table(part), indent=1) + "\n").encode(),
@@ -30,7 +30,7 @@ def files(part: Part) -> dict[str, bytes]:
 
 
 def guid(part: Part, flavour: Flavour) -> str:
-    """The FMU's identity as a UUID, from part, version and flavour."""
+    """Return the FMU's identity as a UUID, from part, version and flavour."""
     return identity(_fingerprint(part), flavour)
 
 
@@ -52,7 +52,7 @@ def check(part: Part) -> None:
 
 @functools.lru_cache(maxsize=256)
 def read(folder: str, module: str) -> Part:
-    """The component in an FMU's resources, for the script `module`. Raises SceneError if it cannot be used."""
+    """Return the component in an FMU's resources, for the script `module`. Raises SceneError if it cannot be used."""
     try:
         table = json.loads(Path(folder, "part.json").read_text("utf-8"))
         version, home, name, values = (table[key] for key in ("version", "module", "class", "values"))
@@ -82,7 +82,7 @@ def _table(part: Part) -> dict[str, Any]:
 
 
 def _module(part: Part) -> str:
-    """Name of the script, unique to part and version."""
+    """Return the name of the script, unique to part and version."""
     return f"{part.name.lower()}_{_fingerprint(part)[:16]}"
 
 

@@ -15,7 +15,7 @@ class Shaft(Part):
     """J w' = T_drive + k (w_drive - w) - T_resisting - c w.
 
     A drive gives a torque, or a speed to the other end of a slipping coupling k; with a speed, any step is stable. At
-    w = 0 the resisting torque only holds: the shaft stands until what drives is stronger, so what resists cannot turn
+    w = 0 the resisting torque only holds: the shaft stands until the drive is stronger, so resistance cannot turn
     it round, however long the step.
     """
 
@@ -29,7 +29,7 @@ class Shaft(Part):
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """What drives and what resists."""
+        """Speeds and torques that drive and resist."""
         return (
             Input("torque_drive", "T_d", "N m", "torque that drives: accelerates a positive speed", nominal=10.0),
             Input("speed_drive", "w_d", "rad/s", "speed of the coupling's other end", nominal=100.0, display="rpm"),
@@ -38,7 +38,7 @@ class Shaft(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Motion, and what the coupling transmits."""
+        """Motion, and the torque of the coupling."""
         return (
             Output("speed", "w", "rad/s", "angular speed", nominal=100.0, display="rpm"),
             Output("revolutions", "N", "1", "revolutions since the start, backward ones negative", nominal=1e3),
@@ -53,11 +53,11 @@ class Shaft(Part):
         )
 
     def initial(self, inputs: Values) -> State:
-        """Speed [rad/s] and angle [rad]."""
+        """Return speed [rad/s] and angle [rad]."""
         return (self.initial_speed, 0.0)
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """Exact, with the moment of standstill where there is one."""
+        """Return the exact state after the step, with the moment of standstill where there is one."""
         speed, _ = state
         drive = inputs["torque_drive"] + self.coupling * inputs["speed_drive"]  # at standstill
         resisting = inputs["torque_resisting"]
@@ -70,7 +70,7 @@ class Shaft(Part):
         return self._free((0.0, angle), drive - resisting, step - until_standstill)
 
     def _until_standstill(self, speed: float, torque: float) -> float:
-        """Time [s] after which the shaft stands under a net torque at standstill [N m]; inf if it does not."""
+        """Return time [s] after which the shaft stands under a net torque at standstill [N m]; inf if it does not."""
         if speed == 0.0:
             return 0.0
         if speed * torque >= 0.0:
@@ -84,7 +84,7 @@ class Shaft(Part):
         return linear.advance(matrix, ((1.0 / self.inertia,), (0.0,)), state, (torque,), step)
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Speed, revolutions and torque of the coupling."""
+        """Return speed, revolutions and torque of the coupling."""
         speed, angle = state
         torque = self.coupling * (inputs["speed_drive"] - speed)
         return {"speed": speed, "revolutions": angle / (2.0 * math.pi), "torque_coupling": torque}

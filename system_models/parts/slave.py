@@ -38,7 +38,7 @@ class Snapshot:
 
     @cached_property
     def data(self) -> bytes:
-        """As JSON, which gives every number back bit for bit."""
+        """The snapshot as JSON, which gives every number back bit for bit."""
         held = [_MAGIC, self.module, self.phase, self.stale, self.values, self.state]
         return json.dumps(held).encode()
 
@@ -94,7 +94,7 @@ class PartSlave(GuardedSlave):
             raise
 
     def _evaluate(self) -> None:
-        """The outputs of the state, for the inputs as they are."""
+        """Set the outputs of the state, for the inputs as they are."""
         assert self._part is not None
         assert self._state is not None
         self._stale = False  # also if they cannot be had: they stand

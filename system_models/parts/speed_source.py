@@ -39,7 +39,7 @@ class SpeedSource(Part):
         )
 
     def with_arrivals(self, course: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
-        """Times [s] and setpoints [rad/s], each setpoint again when the speed gets there, where the torque jumps."""
+        """Return times [s] and setpoints [rad/s], each again when the speed arrives there, where the torque jumps."""
         steps = [*course]
         found, speed = [], steps[0][1]
         for (time, setpoint), (end, _) in pairwise([*steps, (math.inf, 0.0)]):
@@ -53,15 +53,15 @@ class SpeedSource(Part):
 
     @property
     def at_start(self) -> tuple[str, ...]:
-        """What decides the first state."""
+        """Inputs that decide the first state."""
         return ("speed_setpoint",)
 
     def initial(self, inputs: Values) -> State:
-        """Speed [rad/s]: at the setpoint."""
+        """Return speed [rad/s]: at the setpoint."""
         return (inputs["speed_setpoint"],)
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """Exact."""
+        """Return the exact state after the step."""
         (speed,) = state
         change = inputs["speed_setpoint"] - speed
         if abs(change) <= self.ramp * step:
@@ -69,6 +69,6 @@ class SpeedSource(Part):
         return (speed + math.copysign(self.ramp * step, change),)
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Speed, and power at the torque there is."""
+        """Return speed, and power at the torque there is."""
         (speed,) = state
         return {"speed": speed, "power": inputs["torque"] * speed}

@@ -29,7 +29,7 @@ class Spindle(Part):
 
     @property
     def inputs(self) -> tuple[Input, ...]:
-        """The speed wanted and what the contact does to the body."""
+        """Speed setpoint, and forces of the contact on the body."""
         return (
             Input("surface_speed_setpoint", "u_s", "m/s", "surface speed to hold", minimum=-100.0, maximum=100.0),
             Input("friction_force", "F", "N", "friction force on body 1 of the contact"),
@@ -38,7 +38,7 @@ class Spindle(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Surface speed, and what the motor gives for it."""
+        """Surface speed, torque and power of the motor."""
         by = ("surface_speed_setpoint",)
         return (
             Output("surface_speed", "u", "m/s", "surface speed of the body at the contact"),
@@ -48,28 +48,28 @@ class Spindle(Part):
 
     @property
     def at_start(self) -> tuple[str, ...]:
-        """What decides the first state."""
+        """Inputs that decide the first state."""
         return ("surface_speed_setpoint", "friction_force", "rolling_resistance")
 
     def initial(self, inputs: Values) -> State:
-        """Speed w and memory y of the servo [rad/s]: settled."""
+        """Return speed w and memory y of the servo [rad/s]: settled."""
         setpoint = inputs["surface_speed_setpoint"] / self.radius
         return (setpoint, setpoint - self._acceleration(inputs) / self.bandwidth)
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """Exact."""
+        """Return the exact state after the step."""
         b = self.bandwidth
         setpoint = inputs["surface_speed_setpoint"] / self.radius
         matrix, entry = ((-2.0 * b, b), (-b, 0.0)), ((b, 1.0), (b, 0.0))
         return linear.advance(matrix, entry, state, (setpoint, self._acceleration(inputs)), step)
 
     def _acceleration(self, inputs: Values) -> float:
-        """What the contact does to the body [rad/s2]."""
+        """Return the acceleration of the body by the contact [rad/s2]."""
         friction = self.sign * inputs["friction_force"]
         return self.radius * (friction - inputs["rolling_resistance"]) / self.inertia
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Surface speed, torque and power."""
+        """Return surface speed, torque and power."""
         speed, memory = state
         setpoint = inputs["surface_speed_setpoint"] / self.radius
         torque = self.inertia * self.bandwidth * (memory - 2.0 * speed + setpoint)
@@ -78,6 +78,6 @@ class Spindle(Part):
 
 @dataclass(frozen=True)
 class OppositeSpindle(Spindle):
-    """Body 2 of a contact, which feels the opposite of the friction force: J w' = T - R (F + F_r), the rest alike."""
+    """Body 2 of a contact, on which the opposite friction force acts: J w' = T - R (F + F_r), the rest alike."""
 
     sign: ClassVar[float] = -1.0

@@ -66,7 +66,7 @@ class Thermostat:
 class ThermalNetwork(Part):
     """C_i T_i' = Q_i + sum of G (T_j - T_i) + thermostat, exact for held inputs.
 
-    What has gone to the surroundings and what thermostats have given is counted, so that the energy balance can be
+    Energy to the surroundings and from thermostats is counted, so that the energy balance can be
     closed: sum of C (T - T_start) = heat in + heater energies - energy_to_ambient.
     """
 
@@ -78,7 +78,7 @@ class ThermalNetwork(Part):
     thermostats: tuple[Thermostat, ...] = ()
 
     def check(self) -> None:
-        """Names are there, are known, and say something."""
+        """Raise SceneError for names that are missing, unknown or useless."""
         for sentence in self._complaints():
             raise SceneError(sentence)
 
@@ -132,11 +132,11 @@ class ThermalNetwork(Part):
         )
 
     def initial(self, inputs: Values) -> State:
-        """Temperatures [K], energy to the surroundings and of the thermostats [J]."""
+        """Return temperatures [K], energy to the surroundings and of the thermostats [J]."""
         return (*(node.temperature for node in self.nodes), 0.0, *(0.0 for _ in self.thermostats))
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """Exact, with the moments at which thermostats reach or leave their limits."""
+        """Return the exact state after the step, with the moments at which thermostats reach or leave their limits."""
         nodes = len(self.nodes)
         temperatures, energies = np.array(state[:nodes]), np.array(state[nodes:])
         regimes, left = self._regimes(temperatures, inputs), step
@@ -169,7 +169,7 @@ class ThermalNetwork(Part):
         return _Course(_modes(self, regimes), temperatures - ambient, heat, ambient)
 
     def _next_change(self, course: "_Course", regimes: Regimes, inputs: Values, left: float) -> tuple[float, Regimes]:
-        """When a thermostat comes to the end of its regime, at most `left` [s], and the regimes from then on."""
+        """Return the time until a thermostat leaves its regime, at most `left` [s], and the regimes from then on."""
         changes = [(left, regimes)]
         for k, (held, regime) in enumerate(zip(self.thermostats, regimes, strict=True)):
             low, high = _band(held, inputs)
@@ -179,7 +179,7 @@ class ThermalNetwork(Part):
         return min(changes, key=lambda change: change[0])
 
     def _given(self, course: "_Course", regimes: Regimes, inputs: Values, time: float) -> Array:
-        """Energies [J] that have gone to the surroundings and come from the thermostats after a time."""
+        """Return energies [J] that have gone to the surroundings and come from the thermostats after a time."""
         summed = course.summed(time)
         energies = [sum(loss * summed[self._place(name)] for name, loss in self._losses())]
         for held, regime in zip(self.thermostats, regimes, strict=True):
@@ -188,13 +188,13 @@ class ThermalNetwork(Part):
         return np.array(energies)
 
     def _losses(self) -> Iterator[tuple[str, float]]:
-        """Nodes and their conductances [W/K] to the surroundings."""
+        """Yield nodes and their conductances [W/K] to the surroundings."""
         for link in self.links:
             if AMBIENT in (link.first, link.second):
                 yield link.second if link.first == AMBIENT else link.first, link.conductance
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Temperatures, heat flows and energies."""
+        """Return temperatures, heat flows and energies."""
         temperatures = dict(zip((node.name for node in self.nodes), state, strict=False))
         lost, *given = state[len(self.nodes) :]
         ambient = inputs["temperature_ambient"]
@@ -221,14 +221,14 @@ def _heater(node: str) -> tuple[Output, Output]:
 
 
 def _band(held: Thermostat, inputs: Values) -> tuple[float, float]:
-    """Temperatures [K] below which it heats and above which it cools as much as it can."""
+    """Return temperatures [K] below which it heats and above which it cools as much as it can."""
     setpoint = inputs[f"setpoint_{held.node}"]
     return setpoint - held.heating / held.gain, setpoint + held.cooling / held.gain
 
 
 @lru_cache(maxsize=64)
 def _modes(network: ThermalNetwork, regimes: Regimes) -> Modes:
-    """Of the network with the gains of those thermostats that are within their limits."""
+    """Return the modes of the network with the gains of those thermostats that are within their limits."""
     places = {node.name: k for k, node in enumerate(network.nodes)}
     conductances = np.zeros((len(places) + 1, len(places) + 1))  # the last one is the surroundings
     for link in network.links:
@@ -251,19 +251,19 @@ class _Course:
     ambient: float
 
     def at(self, times: Array) -> Array:
-        """Temperatures [t, n] in K at times [t]."""
+        """Return temperatures [t, n] in K at times [t]."""
         return self.ambient + self.modes.after(self.start, self.heat, times)[0]
 
     def end(self, time: float) -> Array:
-        """Temperatures [n] in K at a time."""
+        """Return temperatures [n] in K at a time."""
         return self.at(np.array([time]))[0]
 
     def summed(self, time: float) -> Array:
-        """Integrals [n] in K s of the temperatures above the surroundings up to a time."""
+        """Return integrals [n] in K s of the temperatures above the surroundings up to a time."""
         return self.modes.after(self.start, self.heat, np.array([time]))[1][0]
 
     def leaves(self, place: int, least: float, most: float, until: float) -> tuple[float, int]:
-        """When a node's temperature leaves a range, and whether below (-1) or above (1); (until, 0) if it does not."""
+        """Return when a node's temperature leaves a range, and -1 for below, 1 for above; (until, 0) if never."""
         times = until * _LOOKS
         temperatures = self.at(times)[:, place]
         outside = np.flatnonzero((temperatures < least) | (temperatures > most))

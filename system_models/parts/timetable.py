@@ -42,19 +42,19 @@ class Timetable(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """One for each signal."""
+        """One output for each signal."""
         return tuple(Output(signal.name, "", signal.unit, f"signal {signal.name}") for signal in self.signals)
 
     def initial(self, inputs: Values) -> State:
-        """The time."""
+        """Return the time."""
         return (0.0,)
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """The time after the step."""
+        """Return the time after the step."""
         return (state[0] + step,)
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """What holds now; a time that rounding has missed by a billionth is reached."""
+        """Return the values that hold now; a time missed by a billionth through rounding counts as reached."""
         now = state[0] * (1.0 + 1e-9)
         found = {}
         for signal in self.signals:

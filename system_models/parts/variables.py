@@ -7,7 +7,7 @@ from .part import Part, start_values
 
 
 def variables(part: Part) -> tuple[Variable, ...]:
-    """Index + 1 is the index of the model description."""
+    """Return the variables; index + 1 is the index of the model description."""
     starts = start_values(part)
     return (
         *(of_quantity(q, "input", starts[q.name]) for q in part.inputs),

@@ -1,7 +1,8 @@
-"""One contact through its duty, Stribeck curves, and what simulations report.
+"""One contact through its duty, Stribeck curves, and the reports of simulations.
 
     duty, duty_table              load, speeds and temperature against time: constant, steps, or a CSV
     contact                       a contact's FMU through a duty
+    origin                        identity of a contact's run
     report                        the printed table and the overview picture of a contact's run
     stribeck, stribeck_report     Stribeck curves at given times of rubbing; their table and picture
     cosim_report                  tables and picture of any simulated system

@@ -1,4 +1,4 @@
-"""What a simulation of a system says: two tables, closing lines, and one picture."""
+"""The report of a simulated system: two tables, closing lines, and one picture."""
 
 import json
 from pathlib import Path
@@ -18,12 +18,12 @@ _COLOUR = "#0072B2"
 
 
 def recorded(dataset: xr.Dataset) -> list[str]:
-    """The variables that the FMUs have given, and the power residuals; the others tell of the master."""
+    """Return the variables that the FMUs have given, and the power residuals; the others describe the master."""
     return [str(name) for name in dataset.data_vars if not str(name).startswith("master.")]
 
 
 def table(dataset: xr.Dataset) -> str:
-    """Range of each recorded variable."""
+    """Return the range of each recorded variable."""
     names = recorded(dataset)
     rows = [["output", "unit", "start", "smallest", "largest", "end"]]
     for name in names[:_MOST_ROWS]:
@@ -43,7 +43,7 @@ def _short(value: object) -> str:
 
 
 def costs(dataset: xr.Dataset) -> str:
-    """Steps and time of each FMU."""
+    """Return steps and time of each FMU."""
     cost = json.loads(dataset.attrs["cost"])
     total = sum(entry["seconds"] for entry in cost.values())
     rows = [["FMU", "steps", "us per step", "s", "share"]]
@@ -55,7 +55,7 @@ def costs(dataset: xr.Dataset) -> str:
 
 
 def aligned(rows: list[list[str]], left: int) -> list[str]:
-    """Rows of a table; the first `left` columns are words."""
+    """Return rows of a table; the first `left` columns are words."""
     columns = list(zip(*rows, strict=True))
     widths = [max(map(len, column)) for column in columns]
     padded = [
@@ -66,12 +66,12 @@ def aligned(rows: list[list[str]], left: int) -> list[str]:
 
 
 def missed_steps(dataset: xr.Dataset) -> int:
-    """Number of steps whose iteration has not converged or whose error was larger than allowed."""
+    """Return the number of steps whose iteration has not converged or whose error was larger than allowed."""
     return int(dataset.attrs["unconverged"]) + int(dataset.attrs["below_min_step"])
 
 
 def closing_lines(dataset: xr.Dataset) -> list[str]:
-    """Steps, iterations, events, power residuals and what went wrong, in sentences."""
+    """Return steps, iterations, events, power residuals and warnings, in sentences."""
     return [_steps(dataset), *_iterations(dataset), *_events(dataset), *_bonds(dataset), *_warnings(dataset)]
 
 
@@ -122,7 +122,7 @@ def _warnings(dataset: xr.Dataset) -> list[str]:
             f"the first to {_first(dataset, 'master.error')}. Allow smaller steps, or iterate."
         )
     if counts["told_means"]:
-        lines.append(f"Told the mean of its inputs over a step, for it takes no derivatives: {counts['told_means']}.")
+        lines.append(f"Receives step-averaged inputs, as it takes no derivatives: {counts['told_means']}.")
     if counts["ended_by"]:
         lines.append(f"The FMU '{counts['ended_by']}' ended the simulation.")
     return lines
@@ -134,13 +134,13 @@ def _first(dataset: xr.Dataset, name: str) -> str:
 
 
 def write_overview(dataset: xr.Dataset, path: Path) -> Path:
-    """Draw the simulation into a PNG file and return its path."""
+    """Draw the recorded variables against time, each in a panel of its own, and the step if it changes."""
     overview(dataset).savefig(path, dpi=150)
     return path
 
 
 def overview(dataset: xr.Dataset) -> "Figure":
-    """The recorded variables against time, each in a panel of its own, and the step if it changes."""
+    """Return the recorded variables against time, each in a panel of its own, and the step if it changes."""
     from matplotlib.figure import Figure
 
     shown = [name for name in recorded(dataset) if dataset[name].dtype.kind in "fiub"]
@@ -165,7 +165,7 @@ def overview(dataset: xr.Dataset) -> "Figure":
 
 
 def _draw(axis: "Axes", variable: xr.DataArray) -> None:
-    """A Real as a line, any other type and the step in stairs."""
+    """Draw a Real as a line, any other type and the step in stairs."""
     name, unit, kind = str(variable.name), variable.attrs["units"], variable.dtype.kind
     time, values = variable["time"].values, variable.values.astype(float)
     if name == "master.step_size":

@@ -33,7 +33,7 @@ class Duty:
 
     @staticmethod
     def from_steps(point: OperatingPoint, steps: Sequence[Step] = ()) -> "Duty":
-        """Begin at `point` and hold it until a step changes what it names; the rest is as at the beginning."""
+        """Begin at `point` and hold it until a step changes some of its values; the others stay as at the beginning."""
         names = [f.name for f in fields(OperatingPoint)]
         given = [{name: getattr(step, name) for name in names if getattr(step, name) is not None} for step in steps]
         points = (point, *(replace(point, **values) for values in given))
@@ -43,32 +43,32 @@ class Duty:
     def from_csv(path: str | Path, reference: OperatingPoint) -> "Duty":
         """Read a table of steps; columns that are not there keep the value of `reference`.
 
-        Raises SceneError with one sentence that names file, line, column and value, and what would be right.
+        Raises SceneError with one sentence that names file, line, column, value and remedy.
         """
         rows = duty_table.read(Path(path), {f.name: TABLE[f.name] for f in fields(OperatingPoint)})
         return Duty(tuple(time for time, _ in rows), tuple(replace(reference, **values) for _, values in rows))
 
     @staticmethod
     def of_scene(scene: Scene, folder: Path | None = None) -> "Duty":
-        """The duty of a scene's `[operation]`; a relative `operation.file` is looked for in `folder`."""
+        """Return the duty of a scene's `[operation]`; a relative `operation.file` is looked for in `folder`."""
         point = scene.operation.point
         if not scene.operation.file:
             return Duty.from_steps(point, scene.operation.steps)
         return Duty.from_csv((folder or Path()) / scene.operation.file, point)
 
     def at(self, time: float) -> OperatingPoint:
-        """The operating point held from `time` [s] on."""
+        """Return the operating point held from `time` [s] on."""
         return self.points[max(bisect.bisect_right(self.times, time) - 1, 0)]
 
     def fingerprint(self) -> str:
-        """A text that is the same for the same duty, bit for bit, and for no other."""
+        """Return a text that is the same for the same duty, bit for bit, and for no other."""
         values = [[getattr(point, f.name) for f in fields(point)] for point in self.points]
         points = [tuple(None if value is None else float(value).hex() for value in row) for row in values]
         digest = hashlib.sha256(repr([[float(time).hex() for time in self.times], points]).encode()).hexdigest()
         return f"{len(self.times)} rows, fingerprint {digest[:16]}"
 
     def sized(self, scene: Scene) -> Scene:
-        """The scene with `operation.largest_load` raised to the duty's, so that its checks hold throughout.
+        """Return the scene with `operation.largest_load` raised to the duty's, so that its checks hold throughout.
 
         Raises SceneError if the grid cannot hold the contact at that load, or at the radii of a point.
         """

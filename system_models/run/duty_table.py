@@ -25,9 +25,9 @@ _COLUMN = re.compile(r"\s*([\w.]+(?:\[\d+\])?)\s*\[([^\]]+)\]\s*$")
 
 
 def read(path: Path, signals: Mapping[str, Quantity]) -> list[Row]:
-    """The rows of a table whose columns may be any of `signals`, by their names.
+    """Return the rows of a table whose columns may be any of `signals`, by their names.
 
-    Raises SceneError with one sentence that names file, line, column and value, and what would be right.
+    Raises SceneError with one sentence that names file, line, column, value and remedy.
     """
     (line, header), *body = _lines(path)
     columns = _columns(header, f"{path}, line {line}", _TIME | dict(signals))
@@ -46,7 +46,7 @@ def read(path: Path, signals: Mapping[str, Quantity]) -> list[Row]:
 
 
 def _lines(path: Path) -> list[tuple[int, list[str]]]:
-    """Line numbers and cells of the lines that are not empty: the header and at least one more."""
+    """Return the line numbers and cells of the lines that are not empty: the header and at least one more."""
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
             reader = csv.reader(file)
@@ -61,7 +61,7 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
 
 
 def _columns(header: list[str], where: str, signals: Mapping[str, Quantity]) -> list[tuple[str, str]]:
-    """Name and unit of every column."""
+    """Return the name and unit of every column."""
     columns: list[tuple[str, str]] = []
     for text in header:
         match = _COLUMN.match(text)

@@ -1,4 +1,4 @@
-"""What decides the run of a contact: its scene, its duty, the version of this program."""
+"""Identity of a contact's run: its scene, its duty, the version of this program."""
 
 import json
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What a run says: a short table, closing lines, and one picture."""
+"""The report of a contact's run: a short table, closing lines, and one picture."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -30,7 +30,7 @@ _SHARES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0)  # of the run:
 _FEW_ROWS = 12
 _WARM = 0.05  # K: bodies warmer than the oil by more are worth a line
 
-_BLUE, _RED, _BLACK = "#0072B2", "#D55E00", "#000000"  # of Okabe and Ito: told apart by the colour-blind
+_BLUE, _RED, _BLACK = "#0072B2", "#D55E00", "#000000"  # of Okabe and Ito: which the colour-blind can tell apart
 _Line = tuple[str, str, str]  # variable, legend, colour
 
 
@@ -59,7 +59,7 @@ _PANELS: tuple[tuple[str, float, tuple[_Line, ...]], ...] = (
 
 
 def table(dataset: xr.Dataset) -> str:
-    """About ten rows of the run as text, denser early on; all rows if they are few."""
+    """Return about ten rows of the run as text, denser early on; all rows if they are few."""
     time = dataset["time"].values
     rows: Sequence[int] = range(len(time))
     if len(time) > _FEW_ROWS:
@@ -74,7 +74,7 @@ def table(dataset: xr.Dataset) -> str:
 
 
 def closing_lines(dataset: xr.Dataset) -> list[str]:
-    """Load cycles, who drove the blocks, validity and range, in sentences."""
+    """Return the load cycles, who drove the blocks, validity and range, in sentences."""
     last = dataset.isel(time=-1)
     first, second = (f"{int(last[f'load_cycles_{body}']):,}".replace(",", " ") for body in (1, 2))
     cycles = f"Load cycles: {first} of body 1, {second} of body 2."
@@ -82,7 +82,7 @@ def closing_lines(dataset: xr.Dataset) -> list[str]:
 
 
 def _warmth(dataset: xr.Dataset) -> list[str]:
-    """Temperatures and heat of the bodies at the end, if they are not those of the oil."""
+    """Return temperatures and heat of the bodies at the end, if they are not those of the oil."""
     last, oil = dataset.isel(time=-1), dataset["temperature"]
     if all(float(np.abs(dataset[f"temperature_{body}"] - oil).max()) < _WARM for body in (1, 2)):
         return []
@@ -94,7 +94,7 @@ def _warmth(dataset: xr.Dataset) -> list[str]:
 
 
 def _blocks(last: xr.Dataset) -> list[str]:
-    """Who drove the blocks; the fast level has none."""
+    """Return the drivers of the blocks; the regression level has none."""
     if "blocks_dry" not in last:
         return []
     blocks = {name: int(last[f"blocks_{name}"]) for name in ("dry", "mixed", "fallback")}
@@ -106,7 +106,7 @@ def _blocks(last: xr.Dataset) -> list[str]:
 
 
 def invalid_rows(dataset: xr.Dataset) -> int:
-    """Number of rows that the FMU called invalid."""
+    """Return the number of rows that the FMU called invalid."""
     return int((~dataset["valid"].values).sum())
 
 
@@ -135,7 +135,7 @@ def write_overview(dataset: xr.Dataset, path: Path) -> Path:
 
 
 def overview(dataset: xr.Dataset) -> "Figure":
-    """The run against time; what the FMU called invalid is shaded."""
+    """Return the picture of the run against time; invalid rows are shaded."""
     from matplotlib.figure import Figure
 
     ratio = dataset["lambda_ratio"]

@@ -1,9 +1,9 @@
 """Stribeck curves of a contact that is being rubbed.
 
-The contact runs through its duty. At given rubbing times it is stopped, and its surfaces as they are then meet a range
-of entrainment speeds at one slide-to-roll ratio. Time stands still in such a sweep, and each speed starts from the
-rubbed contact itself: a sweep neither wears the surfaces nor depends on the order of its speeds, and all its speeds
-meet the same stretch of the surfaces.
+The contact runs through its duty. At given rubbing times it stops, and its surfaces as they are then run through a
+range of entrainment speeds at one slide-to-roll ratio. Time stands still in such a sweep, and each speed starts from
+the rubbed contact itself: a sweep neither wears the surfaces nor depends on the order of its speeds, and all its speeds
+use the same stretch of the surfaces.
 """
 
 import logging
@@ -45,7 +45,7 @@ _RUBBED = tuple(  # at every rubbing time
 
 @dataclass(frozen=True)
 class Plan:
-    """When the rubbing stops, and which speeds the contact meets then."""
+    """Times at which the rubbing stops, and the speeds that are swept then."""
 
     times: tuple[float, ...]  # of rubbing [s], increasing
     speeds: tuple[float, ...]  # of entrainment [m/s], from fast to slow
@@ -56,10 +56,10 @@ class Plan:
     def of(
         duty: Duty, times: Sequence[float], fastest: float, slowest: float, points: int, srr: float | None = None
     ) -> "Plan":
-        """`points` speeds [m/s], evenly spaced in their logarithm, after each of `times` [s] of the duty.
+        """Return `points` speeds [m/s], evenly spaced in their logarithm, after each of `times` [s] of the duty.
 
         Load, temperature, direction and, without `srr`, the slide-to-roll ratio are those at the duty's beginning.
-        Raises ContactError for what cannot be swept.
+        Raises ContactError for values that cannot be swept.
         """
         reference = duty.points[0]
         if not (0.0 < slowest < fastest < np.inf):
@@ -84,14 +84,14 @@ class Plan:
         return plan
 
     def point(self, speed: float) -> OperatingPoint:
-        """The operating point at an entrainment speed [m/s], in the direction of the reference."""
+        """Return the operating point at an entrainment speed [m/s], in the direction of the reference."""
         entrained = -speed if self.reference.entrainment_speed < 0.0 else speed
         half = 0.5 * self.slide_roll_ratio
         return replace(self.reference, speed_1=entrained * (1.0 + half), speed_2=entrained * (1.0 - half))
 
 
 class Curves:
-    """What has been measured so far. NaN and `valid` False stand for what has not been, or cannot be."""
+    """Results so far. NaN and `valid` False stand for points that have not been measured, or cannot be."""
 
     def __init__(self, plan: Plan) -> None:
         self.plan = plan
@@ -108,7 +108,7 @@ class Curves:
         return int(self._valid.sum()) + len(self._failures)
 
     def rubbed(self, i: int, outputs: Outputs) -> None:
-        """Keep what the surfaces are after the rubbing time `i`."""
+        """Keep the surfaces after the rubbing time `i`."""
         for name, values in self._rubbed.items():
             values[i] = getattr(outputs, name)
 
@@ -125,8 +125,9 @@ class Curves:
         log.warning("%s", sentence)
 
     def dataset(self, scene: Scene, duty: Duty) -> xr.Dataset:
-        """Variables along rubbing time [s] and entrainment speed [m/s]; `failures` in the attributes says what is
-        missing, line by line.
+        """Return variables along rubbing time [s] and entrainment speed [m/s].
+
+        The attribute `failures` lists the missing points, line by line.
         """
         level = _midway(self._swept["friction_coefficient"])
         both = np.hypot(self._rubbed["roughness_1"], self._rubbed["roughness_2"])
@@ -171,10 +172,10 @@ class Curves:
 def measure(
     scene: Scene, duty: Duty, curves: Curves, progress: Callable[[str, int], None] = lambda stage, count: None
 ) -> None:
-    """Rub the contact and fill `curves`, which keep what they have if this ends early.
+    """Rub the contact and fill `curves`, which keep their points if this ends early.
 
-    `progress` is called with words for what comes next and the number of points behind. A point without a solution is
-    kept as such; ContactError means that the rubbing itself cannot go on.
+    `progress` is called with words for the next stage and the number of points so far. A point without a solution is
+    kept as such; ContactError means that the rubbing itself cannot continue.
     """
     plan = curves.plan
     # however near the speed of the duty, a speed is solved for itself
@@ -196,7 +197,7 @@ def measure(
 def rubbing(
     scene: Scene, duty: Duty, times: Sequence[float], progress: Callable[[float], None] = lambda time: None
 ) -> Iterator[tuple[ContactState, Outputs]]:
-    """State and outputs after each of the increasing `times` [s] of the duty, in the steps of a run with it."""
+    """Yield state and outputs after each of the increasing `times` [s] of the duty, in the steps of a run with it."""
     rows = tuple(sorted({*duty.times, *times}))
     steps = Duty(rows, tuple(duty.at(time) for time in rows))
     points = communication_points(steps, times[-1], scene.operation.interval) if times[-1] > 0.0 else [0.0]
@@ -211,9 +212,9 @@ def rubbing(
 
 
 def transition_speed(speeds: ArrayLike, values: ArrayLike, level: float = 0.5) -> float:
-    """The fastest speed [m/s] at which `values`, which fall with the speed, cross `level`: by default, of the solids'
-    share of the load, where they carry half.
+    """Return the fastest speed [m/s] where `values`, falling with the speed, cross `level`.
 
+    By default `values` are the solids' share of the load, and `level` is one half.
     Linear in the logarithm of the speed between neighbours, in any order; NaN values are left out. NaN if no two
     neighbours bracket the level.
     """

@@ -1,4 +1,4 @@
-"""What a Stribeck measurement says: a table of friction, the shift of the curves, and one picture."""
+"""The report of Stribeck curves: a table of friction, the shift of the curves, and one picture."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -22,12 +22,12 @@ _PANELS = (
 
 
 def minutes(dataset: xr.Dataset) -> list[str]:
-    """The rubbing times [min] as text."""
+    """Return the rubbing times [min] as text."""
     return [f"{time / 60.0:g}" for time in dataset["rubbing_time"].values]
 
 
 def table(dataset: xr.Dataset) -> str:
-    """Friction coefficients, a row for each speed and a column for each rubbing time."""
+    """Return friction coefficients, a row for each speed and a column for each rubbing time."""
     head = [["speed", *("friction" for _ in minutes(dataset))], ["m/s", *(f"{time} min" for time in minutes(dataset))]]
     rows = [
         [f"{speed:.4g}", *(f"{mu:.4f}" for mu in row)]
@@ -43,7 +43,7 @@ def table(dataset: xr.Dataset) -> str:
 
 
 def shift_lines(dataset: xr.Dataset) -> list[str]:
-    """Where each curve has its transition and how rough the surfaces are then; how far it moves in all."""
+    """Return the transition of each curve and the roughness then; the shift in all."""
     level = dataset.attrs["friction_midway"]
     lines = []
     for text, row in zip(minutes(dataset), _rows(dataset), strict=True):
@@ -65,7 +65,7 @@ def _speed(value: xr.DataArray) -> str:
 
 
 def _verdict(dataset: xr.Dataset) -> list[str]:
-    """How far the transition moves from that of the first curve, beside what the roughness does."""
+    """Return the shift of the transition from that of the first curve, beside the effect of roughness."""
     speeds, rough = (dataset[name].values for name in ("transition_speed", "composite_roughness"))
     moved = [
         f"{text} min by {speed / speeds[0]:.2f}, roughness by {both / rough[0]:.2f}"
@@ -83,7 +83,7 @@ def _verdict(dataset: xr.Dataset) -> list[str]:
 
 
 def closing_lines(dataset: xr.Dataset) -> list[str]:
-    """Validity and range, in sentences."""
+    """Return validity and range, in sentences."""
     invalid, total = invalid_points(dataset), dataset["valid"].size
     lines = [f"Validity: all {total} points are valid."]
     if invalid:
@@ -94,7 +94,7 @@ def closing_lines(dataset: xr.Dataset) -> list[str]:
 
 
 def invalid_points(dataset: xr.Dataset) -> int:
-    """Number of points without an answer."""
+    """Return the number of points without an answer."""
     return int((~dataset["valid"].values).sum())
 
 
@@ -105,7 +105,7 @@ def write_figure(dataset: xr.Dataset, path: Path) -> Path:
 
 
 def figure(dataset: xr.Dataset, title: str = "") -> "Figure":
-    """Friction, film ratio, load and area of the solids against speed, a line for each rubbing time.
+    """Return friction, film ratio, load and area of the solids against speed, a line for each rubbing time.
 
     A hollow point stands for film solutions that have missed the tolerance, or a dry one in their place.
     """

@@ -1,4 +1,4 @@
-"""What runs keep on disk.
+"""Checkpoints and results on disk.
 
     checkpoint  the point that a run has reached: a killed run continues from it
     results     a run as an xarray Dataset, as netCDF and as CSV

@@ -1,8 +1,8 @@
-"""The checkpoint of a run, in the folder of its results: all that is needed to go on after a kill.
+"""The checkpoint of a run, in the folder of its results: all that is needed to continue after a kill.
 
 `checkpoint.tribofmu` is the point reached. It is replaced as a whole, never changed: magic, checksum of the rest,
 length of a JSON header, header, state of the FMU. `checkpoint.rows` holds the rows up to there, one binary record each,
-and only grows. The header says how many of its bytes count, and their checksum; what a kill leaves behind them is
+and only grows. The header says how many of its bytes count, and their checksum; remains of a kill behind them are
 overwritten.
 """
 
@@ -30,7 +30,7 @@ log = logging.getLogger(__name__)
 _MAGIC = b"tribofmu run 2\n"
 _PAUSE = 2.0  # at least, between two checkpoints [s]
 _REST = 20.0  # at least this many times the time that a checkpoint takes lies between two
-_NAMED = 3  # differences told in full
+_NAMED = 3  # differences listed in full
 
 
 @contextmanager
@@ -59,7 +59,7 @@ def alone(folder: Path) -> Iterator[None]:
 
 @dataclass(frozen=True)
 class Saved:
-    """A point from which a run can go on."""
+    """A point from which a run can continue."""
 
     time: float  # [s]
     state: bytes  # of the FMU, serialised
@@ -67,7 +67,7 @@ class Saved:
 
 
 class Checkpoint:
-    """Where a run stores the point it has reached; `saved` is where it goes on from."""
+    """Stores the point that a run has reached; `saved` is the point from which it continues."""
 
     def __init__(self, folder: Path, run: Mapping[str, Any]) -> None:
         self.file, self._rows = folder / "checkpoint.tribofmu", folder / "checkpoint.rows"
@@ -81,7 +81,7 @@ class Checkpoint:
 
     @staticmethod
     def resume(folder: Path, run: Mapping[str, Any]) -> "Checkpoint":
-        """The checkpoint of `folder`, with `saved` if there is one.
+        """Return the checkpoint of `folder`, with `saved` if there is one.
 
         Raises StateError if it is damaged or belongs to another run than `run`.
         """
@@ -90,7 +90,7 @@ class Checkpoint:
         return checkpoint
 
     def due(self) -> bool:
-        """Whether the last checkpoint is old enough for another."""
+        """Return True if the last checkpoint is old enough for another."""
         return monotonic() >= self._next
 
     def save(self, time: float, state: bytes, rows: NDArray[np.void]) -> None:
@@ -106,7 +106,7 @@ class Checkpoint:
         except OSError as error:
             if self._writable:
                 log.warning(
-                    "The checkpoint '%s' cannot be written: %s. The run goes on and tries again.",
+                    "The checkpoint '%s' cannot be written: %s. The run continues and tries again.",
                     self.file,
                     error.strerror,
                 )
@@ -164,7 +164,7 @@ class Checkpoint:
         self.saved = Saved(header["time"], state, rows)
 
     def _parsed(self, data: bytes) -> tuple[dict[str, Any], bytes]:
-        """Header and state."""
+        """Return header and state."""
         start = len(_MAGIC) + 8
         if len(data) < start or not data.startswith(_MAGIC):
             raise self._damaged("it is not one of this version of tribofmu")
@@ -191,7 +191,7 @@ _WAY_OUT = "Start from the beginning without --resume, which replaces it."
 
 
 def _flush(file: Any) -> None:
-    """To the disk: a checkpoint must not name rows that a power cut can lose."""
+    """Flush to the disk: a checkpoint must not name rows that a power cut can lose."""
     file.flush()
     os.fsync(file.fileno())
 

@@ -25,7 +25,7 @@ def to_dataset(
 
 
 def find(origin: Mapping[str, str], folder: Path) -> xr.Dataset | None:
-    """The result in `folder` that has these attributes, if there is one."""
+    """Return the result in `folder` that has these attributes, if there is one."""
     try:
         with xr.open_dataset(folder / "result.nc", engine="h5netcdf") as dataset:
             same = origin.items() <= dataset.attrs.items()
@@ -37,7 +37,7 @@ def find(origin: Mapping[str, str], folder: Path) -> xr.Dataset | None:
 def write(dataset: xr.Dataset, folder: Path, name: str = "result") -> list[Path]:
     """Write `name`.nc and `name`.csv into an existing folder and return their paths.
 
-    The CSV has a row for each point of the dataset's dimensions; what does not vary along one of them is repeated.
+    The CSV has a row for each point of the dataset's dimensions; variables constant along one of them are repeated.
     """
     netcdf, table = folder / f"{name}.nc", folder / f"{name}.csv"
     unfinished = netcdf.with_suffix(".new")

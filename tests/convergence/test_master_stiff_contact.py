@@ -16,6 +16,8 @@ REST = 1.0795e-6  # [m]: (300 / F_ref)^(2/3) x_ref
 STEPS = 100
 ALGORITHMS = "jacobi", "gauss_seidel"
 
+FOLLOWED = ["mass.x", "contact.F"]
+
 
 @pytest.fixture(scope="module")
 def case(tmp_path_factory: pytest.TempPathFactory) -> Case:
@@ -23,7 +25,7 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Case:
 
 
 def run(case: Case, step: float, algorithm: str, iterate: str | None = None, order: int = 0) -> xr.Dataset:
-    return simulate(case.system, STEPS * step, step, algorithm, order, iterate, outputs=["mass.x", "contact.F"])
+    return simulate(case.system, STEPS * step, step, algorithm=algorithm, order=order, iterate=iterate, outputs=FOLLOWED)
 
 
 @pytest.mark.parametrize("algorithm", ALGORITHMS)
@@ -80,7 +82,7 @@ def test_what_is_not_finite_never_comes_out(case, algorithm, iterate, step):
 
 @pytest.mark.parametrize("algorithm", ALGORITHMS)
 def test_error_control_follows_the_exact_course_without_iteration(case, algorithm):
-    result = simulate(case.system, 1e-4, 1e-8, algorithm, 2, tolerance=1e-3, outputs=case.states)
+    result = simulate(case.system, 1e-4, 1e-8, algorithm=algorithm, order=2, tolerance=1e-3, outputs=case.states)
     exact = case.solution(result.time.values)
     for name, column in zip(case.states, exact.T, strict=True):
         assert np.abs(result[name].values - column).max() < 3e-3 * np.abs(column).max()

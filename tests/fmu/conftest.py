@@ -1,4 +1,4 @@
-"""One small FMU, built and unpacked once: 17 nodes, every law in use: what flows, not how well it is resolved."""
+"""Fixtures: one small FMU, built and unpacked once (17 nodes, unresolved; every law in use)."""
 
 import shutil
 import sys
@@ -117,7 +117,7 @@ def flavoured_folder(flavoured_file: Path, tmp_path_factory: pytest.TempPathFact
 
 @pytest.fixture(scope="session")
 def quick_file(flavour: Flavour, quick: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A contact at the fast level: many instances cost little."""
+    """A contact at the regression level: many instances cost little."""
     return build(quick, tmp_path_factory.mktemp(flavour) / "quick.fmu", flavour)
 
 
@@ -145,5 +145,5 @@ def embedding() -> dict[str, str]:
 
 @pytest.fixture(scope="session")
 def native_environment(flavour: Flavour, request: pytest.FixtureRequest) -> dict[str, str]:
-    """Environment that the host in C needs for a flavour."""
+    """Environment of the host in C for a flavour."""
     return request.getfixturevalue("embedding") if flavour == "embedded" else plain_environment()

@@ -66,7 +66,7 @@ def _callbacks(logger: Callable[..., None]) -> fmi2CallbackFunctions:
 
 
 class Host:
-    """An instance of the FMU that lies unpacked in `folder`."""
+    """An instance of the FMU unpacked in `folder`."""
 
     def __init__(self, folder: Path, logging: bool = True):
         description = fmpy.read_model_description(str(folder))
@@ -137,7 +137,7 @@ class Host:
 
 @contextlib.contextmanager
 def hosted(folder: Path, **options) -> Iterator[Host]:
-    """Instantiate, and free in the end whatever happens."""
+    """Instantiate, and free the instance in any case."""
     host = Host(folder, **options)
     try:
         yield host

@@ -174,7 +174,7 @@ IMPORTERS: dict[str, Callable[[str], Iterator[list[float]]]] = {
 
 
 def _missing(name: str) -> str | None:
-    """Why an importer cannot be used here, or None."""
+    """Reason why an importer cannot be used here, or None."""
     if name == "fmusim":
         return None if _fmusim() else "no such program"
     try:

@@ -1,4 +1,4 @@
-"""Isolated FMUs in a host in C: one whose model is faulty, and the steps by which runs are compared."""
+"""Isolated FMUs in a host in C: one with a faulty model, and the steps of compared runs."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -44,14 +44,14 @@ STEPS = [(1.0, {"load": 40.0}), (2.0, {}), (0.5, {"speed_1": 0.2, "load": 60.0})
 
 
 def running(program: Path) -> Iterator[NativeHost]:
-    """A host that must end by itself, without a fault, whatever the test did."""
+    """A host that must end by itself without a fault after any test."""
     with NativeHost(program, plain_environment()) as host:
         yield host
     assert host.code == 0
 
 
 def rows(instance: Instance) -> list[dict[str, object]]:
-    """Outputs of the steps that all runs are compared by."""
+    """Outputs of the steps of compared runs."""
     found = []
     for dt, inputs in STEPS:
         assert instance.step(dt, **inputs) == OK

@@ -33,7 +33,7 @@ def shaft(folder: Path) -> Path:
 
 
 def exponents(fmu: Path) -> dict[str, dict[str, int]]:
-    """Those of every unit that are not zero."""
+    """Nonzero exponents of every unit."""
     units = {u.name: u.baseUnit for u in fmpy.read_model_description(str(fmu)).unitDefinitions}
     axes = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
     return {name: {axis: n for axis in axes if (n := getattr(base, axis))} for name, base in units.items()}

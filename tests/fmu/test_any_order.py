@@ -63,7 +63,7 @@ class Calls(RuleBasedStateMachine):
         return answer
 
     def told(self, status):
-        """How a refusal is answered."""
+        """Status of a refused call."""
         return OK if self.embedded else status
 
     @initialize(started=st.sampled_from([True, True, True, False]))

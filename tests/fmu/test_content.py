@@ -1,4 +1,4 @@
-"""What lies in the FMU beside the model: documentation, icon, licences, reference data."""
+"""Contents of the FMU beside the model: documentation, icon, licences, reference data."""
 
 import csv
 import io
@@ -198,7 +198,7 @@ def test_every_level_has_titled_equations_for_every_option(film, geometry):
 
 
 def choices(law: type, name: str) -> set[str]:
-    """What a law's option can be; nothing if it has no such option."""
+    """Choices of a law's option; empty if it has no such option."""
     return {choice for field in fields(law) if field.name == name for choice in field.metadata["choices"]}
 
 
@@ -292,7 +292,7 @@ def test_measured_figures_are_those_of_the_benchmarks_page(figures):
 
 
 def is_part(wanted: list[str], found: list[str]) -> bool:
-    """Whether `wanted` stand in `found` in this order."""
+    """True if `found` contains `wanted` in this order."""
     rest = iter(found)
     return all(number in rest for number in wanted)
 

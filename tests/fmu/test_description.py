@@ -1,4 +1,4 @@
-"""modelDescription.xml is complete, and says what the core says."""
+"""modelDescription.xml is complete, and agrees with the core."""
 
 import math
 import zipfile
@@ -186,7 +186,7 @@ def test_parameters_are_shown_in_the_units_that_people_read(by_name):
 
 
 def test_fidelity_is_of_a_type_that_every_host_sets(by_name):
-    """libcosim and ecos set no Enumeration, and say nothing."""
+    """libcosim and ecos silently set no Enumeration."""
     assert by_name["fidelity"].type == by_name["fidelity_used"].type == "Integer"
 
 

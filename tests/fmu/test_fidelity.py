@@ -1,4 +1,4 @@
-"""`fidelity` changes the level of a contact at any step, and the contact keeps its memory."""
+"""`fidelity` changes the level of a contact at any step, and the contact keeps its state."""
 
 import json
 import subprocess

@@ -1,4 +1,4 @@
-"""Bad input neither crashes the host nor loses the state: status OK, valid = false, the log says why."""
+"""Bad input neither crashes the host nor loses the state: status OK, valid = false, the log gives the reason."""
 
 import math
 from dataclasses import replace
@@ -137,7 +137,7 @@ def test_a_step_before_initialisation_is_refused(host):
 
 
 def test_initialisation_cannot_begin_again_while_stepping(stepped):
-    """The contact and its outputs stand; only a reset begins anew."""
+    """Contact and outputs do not change; only a reset begins again."""
     before = stepped.outputs()
     for call in (stepped.fmu.enterInitializationMode, stepped.fmu.exitInitializationMode, stepped.fmu.setupExperiment):
         stepped.log.clear()

@@ -1,4 +1,4 @@
-"""What is read from shared libraries, sound ones and others."""
+"""Imports and exports of shared libraries, intact and damaged ones."""
 
 import random
 import shutil
@@ -89,7 +89,7 @@ def test_a_file_of_another_kind_is_refused(data: bytes) -> None:
 
 
 def survives(data: bytes) -> bool:
-    """Whether `data` can be read; anything but an ImageError goes on to the test."""
+    """True if `data` can be read; exceptions other than ImageError reach the test."""
     try:
         read(data)
     except ImageError:

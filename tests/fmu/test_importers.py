@@ -31,7 +31,7 @@ def expected(scene, fmu_file):
 
 
 def printed(value: str, digits: int | None) -> str:
-    """The number that an importer has left of one when it has printed it with so many digits."""
+    """The number that remains after an importer has printed it with so many digits."""
     return value if digits is None else float(f"{float.fromhex(value):.{digits}g}").hex()
 
 

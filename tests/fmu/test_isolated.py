@@ -1,4 +1,4 @@
-"""The isolated flavour in a host that knows nothing of Python: whatever the model does, the host lives and goes on."""
+"""The isolated flavour in a host without Python: the host survives every failure of the model."""
 
 import ctypes
 import itertools

@@ -29,7 +29,7 @@ SHAFT = Shaft(0.02, 0.01, coupling=COUPLING, initial_speed=-5.0)
 
 
 def life(host: Host, part: Part, inputs: dict[str, float]) -> dict[str, list[object]]:
-    """What a host can see: a run, inputs set between steps, states, going back to them, a bad input, and a reset."""
+    """A run with inputs set between steps, states, restored states, a bad input, and a reset."""
     host.initialise(**at_rest(part))
     told = {"run": [host.outputs(), *(host.step(step, **inputs) for step in STEPS)], "time": [host.get("time")]}
     handle, data = host.fmu.getFMUstate(), host.state()

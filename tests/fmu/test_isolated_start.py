@@ -1,4 +1,4 @@
-"""How an isolated FMU finds its resources and its Python, and what it says if it does not."""
+"""Search of an isolated FMU for its resources and its Python, and its messages where that fails."""
 
 import shutil
 import subprocess

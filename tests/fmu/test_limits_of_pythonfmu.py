@@ -1,6 +1,6 @@
-"""What the embedded flavour can do, and each limit of pythonfmu that no guard in Python can cure.
+"""Abilities of the embedded flavour, and each limit of pythonfmu that no guard in Python can remove.
 
-A limit is a strict xfail of what should hold: the day that pythonfmu cures it, its test says so.
+A limit is a strict xfail of the right behaviour: its test fails as soon as pythonfmu removes the limit.
 """
 
 import contextlib
@@ -52,7 +52,7 @@ def flavour(request):
 
 @pytest.fixture
 def c_host(native_program, embedding):
-    """A host in C, told where Python is. How it ends is a limit of its own."""
+    """A host in C with the path of Python. Its exit has a limit of its own."""
     host = NativeHost(native_program, embedding)
     yield host
     host.close()

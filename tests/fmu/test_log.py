@@ -1,4 +1,4 @@
-"""Every message has a listed category; flags are told once, and are no failure."""
+"""Every message has a listed category; flags are logged once, and are no failure."""
 
 import math
 from dataclasses import replace
@@ -22,7 +22,7 @@ def surprise(scene, point, state, dt):
 
 
 def entries(host, action):
-    """What `action` makes the FMU say: (status, category)."""
+    """Log entries of `action`: (status, category)."""
     before = len(host.entries)
     action(host)
     return [entry[:2] for entry in host.entries[before:]]

@@ -137,7 +137,7 @@ def test_plain_coupling_needs_no_way_back(folder, fmi, algorithm):
         oscillator(build("mass_1_force", folder, fmi=fmi), build("mass_2_spring", folder, fmi=fmi, rollback=rollback))
         for rollback in (True, False)
     )
-    results = [simulate(system, 1.0, 0.01, algorithm, outputs=["one.x"]) for system in (with_state, without)]
+    results = [simulate(system, 1.0, 0.01, algorithm=algorithm, outputs=["one.x"]) for system in (with_state, without)]
     assert (results[0]["one.x"].values == results[1]["one.x"].values).all()
 
 

@@ -17,7 +17,7 @@ from system_models.store.checkpoint import Checkpoint
 
 MODULE = sys.modules["system_models.master.simulate"]
 # what an attempt sets anew before it is used, or only counts
-LEFT = {"_held", "magnitudes", "expected", "iteration_tolerance", "steps", "events", "told_order"}
+LEFT = {"_held", "magnitudes", "expected", "iteration_tolerance", "steps", "events", "derivative_order"}
 
 
 def plain(thing: Any) -> Any:
@@ -38,7 +38,7 @@ def plain(thing: Any) -> Any:
 
 def seen(coupled: Coupled) -> dict[str, Any]:
     """What the FMUs and the master are now."""
-    names = ("terminated", "next_event", "steps", "events", "told_order")
+    names = ("terminated", "next_event", "steps", "events", "derivative_order")
     instances = {
         name: {"state": instance.serialised()} | {key: getattr(instance, key) for key in names}
         for name, instance in coupled.instances.items()

@@ -89,7 +89,7 @@ def test_communication_points_are_those_that_are_given_and_multiples_of_the_step
     [
         ({"max_step": 1e-4}, "max_step = 0.0001 s is below step_size = 0.001 s. Raise it."),
         ({"max_step": 1e-2, "tolerance": None}, "limits steps chosen by a tolerance. Give one as well."),
-        ({"controlled": ["one.x"], "tolerance": None}, "are to meet a tolerance. Give one as well."),
+        ({"controlled": ["one.x"], "tolerance": None}, "must keep a tolerance. Give one as well."),
         ({"points": [1.0]}, "tolerance = 0.001 chooses the steps, and so do points. Leave one out."),
         ({"points": [1.0, 1.0], "tolerance": None}, "points, times in s, must be above 0 and rise."),
         ({"points": [0.0, 1.0], "tolerance": None}, "points, times in s, must be above 0 and rise."),

@@ -1,4 +1,4 @@
-"""The committed libraries of the isolated flavour: what they need and give, and that their sources make the same."""
+"""The committed libraries of the isolated flavour: imports, exports, and equality with a build of the sources."""
 
 import re
 import shutil

@@ -1,4 +1,4 @@
-"""The FMU of every component: valid, the component's own functions bit for bit, and it goes on after a bad input."""
+"""The FMU of every component: valid, the component's own functions bit for bit, and it continues after a bad input."""
 
 import math
 import re

@@ -73,7 +73,7 @@ def resources(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def edited(resources: Path, folder: Path, file: str, edit: Callable[[str], str]) -> Path:
-    """The resources with one file of another content."""
+    """The resources with one file changed."""
     copy = Path(shutil.copytree(resources, folder / "resources"))
     (path,) = copy.glob(file)
     path.write_text(edit(path.read_text()))

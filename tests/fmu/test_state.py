@@ -125,7 +125,7 @@ def test_a_damaged_state_is_refused_and_the_contact_stands(stepped, damage):
 
 @pytest.fixture(scope="module")
 def read(scene):
-    """Reads a serialised state as the slave does, but for the scenes, which are there already."""
+    """Read a serialised state as the slave does, with existing scenes."""
     table = variables(scene)
     scenes = tuple(scene.at_level(level) for level in LEVELS)
 
@@ -198,7 +198,7 @@ def test_a_state_of_another_scene_is_refused(stepped, other_scene, tmp_path):
 
 
 def test_the_list_of_values_is_the_same_one_after_a_restore(folder, monkeypatch):
-    """Who reads the slave's own list need not ask for it again."""
+    """Readers of the slave's list keep a valid reference."""
     monkeypatch.syspath_prepend(str(folder / "resources"))
     module = importlib.import_module((folder / "resources/slavemodule.txt").read_text())
     instance = module.MixedContact(instance_name="contact", resources=str(folder / "resources"))

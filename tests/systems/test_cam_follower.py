@@ -41,7 +41,7 @@ def test_contacts_get_load_speeds_and_radius_of_their_stations(record: Record) -
         assert record.along("radius_x")[-1, k] == approx(station.radius_x)
         assert record.along("speed_1")[-1, k] == approx(speed * station.radius_x, rel=1e-4)
         assert record.along("speed_2")[-1, k] == approx(speed * station.curvature, rel=1e-4)
-    assert record.along("load")[-1, -1] == approx(250.0)
+    assert record.along("load")[-1, -1] == approx(800.0)
 
 
 def test_what_the_drive_gives_is_what_the_contacts_lose(record: Record) -> None:
@@ -74,7 +74,7 @@ def test_the_report_has_a_row_for_each_station_and_pictures(record: Record, tmp_
 
 
 def test_a_cam_that_is_too_fast_is_warned_about(tmp_path: Any) -> None:
-    assembly = assembled(**at("5500 rpm"))
+    assembly = assembled(**at("5500 rpm"), **{"cam.mass": '"1 kg"'})
     found = simulate(assembly.system(tmp_path), **assembly.settings, outputs=assembly.outputs())
     assert any("LEAVE the cam" in line for line in report.lines(assembly, found))
 

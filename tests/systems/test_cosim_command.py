@@ -267,7 +267,7 @@ def test_a_simulation_that_is_killed_again_and_again_gives_the_same_rows(
         assert child.returncode == -signal.SIGKILL, child.stderr
         assert Path("killed/checkpoint.tribofmu").exists()
     assert main([*command, "killed"]) == 0
-    assert "Going on from 'killed/checkpoint.tribofmu'" in capsys.readouterr().err
+    assert "Continuing from 'killed/checkpoint.tribofmu'" in capsys.readouterr().err
     assert bits(result("killed")) == bits(result("whole"))
     assert Path("killed/result.csv").read_bytes() == Path("whole/result.csv").read_bytes()
     assert sorted(path.name for path in Path("killed").iterdir()) == ["result.csv", "result.nc"]

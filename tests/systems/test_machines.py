@@ -87,7 +87,7 @@ def test_a_killed_run_goes_on_to_the_same_rows(rig: list[str], capsys: pytest.Ca
     assert Path("killed/checkpoint.tribofmu").exists()
     capsys.readouterr()
     assert main([*rig, "--resume", "--out", "killed"]) == 0
-    assert "Going on from 'killed/checkpoint.tribofmu'" in capsys.readouterr().err
+    assert "Continuing from 'killed/checkpoint.tribofmu'" in capsys.readouterr().err
     whole = result("whole")
     assert whole.sizes["time"] > 25
     assert bits(result("killed")) == bits(whole)
@@ -183,7 +183,7 @@ def exported(machine: str, changes: dict[str, str]) -> Assembly:
 
 def marched(system: System, names: list[str], step: float, count: int) -> xr.Dataset:
     """In fixed steps with inputs held, as importers of SSP do it."""
-    return simulate(system, count * step, step, "jacobi", 0, outputs=names)
+    return simulate(system, count * step, step, algorithm="jacobi", order=0, outputs=names)
 
 
 COMPARED = {

@@ -110,7 +110,7 @@ def test_a_record_that_is_not_of_this_run_is_told(name: str, assembly: Assembly,
     if name in COMPARED:
         assert found.replayed == approx(0.01)
     assert 1e-3 < found.replayed < 0.5
-    assert list(resolve.lines([found]))[-1].endswith(f"are those of the run to {found.replayed:.1g}.")
+    assert list(resolve.lines([found]))[-1].endswith(f"they agree with the run to {found.replayed:.1g}.")
     sound = solved_again(assembly, run.dataset, "contact", last)
     assert list(resolve.lines([sound, found, sound]))[-1] == list(resolve.lines([found]))[-1]
 

@@ -171,7 +171,7 @@ def test_a_run_that_is_killed_again_and_again_writes_the_same_files(
         assert {path.name for path in killed.iterdir()} >= {"checkpoint.tribofmu", "checkpoint.rows"}
     assert row == 5
     assert main([*command, "--out", str(killed)]) == 0
-    assert f"Going on from '{killed / 'checkpoint.tribofmu'}' at 0.5 min" in capsys.readouterr().err
+    assert f"Continuing from '{killed / 'checkpoint.tribofmu'}' at 0.5 min" in capsys.readouterr().err
     for folder in (whole, killed):
         assert sorted(path.name for path in folder.iterdir()) == NAMES
     for name in NAMES:
@@ -218,7 +218,7 @@ def test_after_ctrl_c_the_command_says_how_to_go_on_and_does(
         assert err.splitlines()[-1].startswith(f"tribofmu: Interrupted.{kept if count else ''}")
         assert len(list(folder.glob("checkpoint.tribofmu"))) == (count > 0)
         assert main([*command, str(folder)]) == 0
-        told = "Going on from" if count else "There is no checkpoint"
+        told = "Continuing from" if count else "There is no checkpoint"
         assert told in capsys.readouterr().err
         assert (folder / "result.nc").read_bytes() == (tmp_path / "whole" / "result.nc").read_bytes()
 
@@ -233,7 +233,7 @@ def test_a_failure_says_how_to_go_on(
     assert main(["run", "mtm_zddp", *coarse, *STILL, "--out", str(tmp_path)]) == 2
     last = capsys.readouterr().err.splitlines()[-1]
     assert "tribofmu: The FMU 'contact' failed in the step from 0 s" in last
-    assert last.endswith("the same command with --resume goes on from there.")
+    assert last.endswith("the same command with --resume continues from there.")
 
 
 def test_a_finished_run_is_not_computed_again(

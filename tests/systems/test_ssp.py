@@ -76,7 +76,7 @@ def imported(importer: str, file: Path, names: list[str], step: float = STEP, co
 
 def own(system: System, names: list[str]) -> np.ndarray:
     """Values from the start on, a row for each communication point."""
-    dataset = simulate(system, COUNT * STEP, STEP, "jacobi", 0, outputs=names)
+    dataset = simulate(system, COUNT * STEP, STEP, algorithm="jacobi", order=0, outputs=names)
     assert dataset["time"].values == approx(STEP * np.arange(COUNT + 1))
     return np.column_stack([dataset[name].values for name in names])
 

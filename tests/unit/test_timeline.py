@@ -177,7 +177,7 @@ def test_a_bad_table_is_refused_with_file_line_and_value(tmp_path: Path, text: s
 
 
 def test_a_duration_does_not_cut_a_table_off(tmp_path: Path) -> None:
-    with pytest.raises(SceneError, match=r"duration = 60 s, but the duty file '.*' goes on to 120 s\. Make it longer"):
+    with pytest.raises(SceneError, match=r"duration = 60 s, but the duty file '.*' lasts to 120 s\. Make it longer"):
         read('[duty]\nfile = "cycle.csv"\nduration = "1 min"', write(tmp_path, TABLE))
 
 

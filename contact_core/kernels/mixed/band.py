@@ -1,7 +1,7 @@
-"""Local inverse of the Jacobian of `newton` where the contact is one row, repeated for ever: a smooth line.
+"""Local inverse of the Jacobian of `newton` on the single row of a periodic contact: a smooth line.
 
-The deformation by a node of a line falls so slowly that a patch of three nodes says little of it; a band of a few tens
-leaves so little to GMRES that a few steps do. LAPACK's band factorisation costs no more than the patch's.
+The deformation by a node of a line falls so slowly that a patch of three nodes describes little of it; a band of a few
+tens leaves GMRES a few steps. LAPACK's band factorisation costs no more than the patch's.
 """
 
 from collections.abc import Callable
@@ -45,7 +45,7 @@ def _assemble(by_f, by_h, scale, kernel, nodes, column, solid, edge, wide, band)
 def band_inverse(
     by_f: Array, by_h: Array, scale: Array, response: Array, nodes: NDArray[np.int64], solid: Array, edge: Array
 ) -> Callable[[Array], Array] | None:
-    """What solves the local system of the `nodes`, ascending, of a row; None if it is singular.
+    """Return a function that solves the local system of the `nodes`, ascending, of a row; None if it is singular.
 
     by_f, by_h [6, nx]: derivatives of the net inflow on the stencil; scale [nx] of the equations; response [nx]:
     deformation by the unit pressure of a node at a distance; solid, edge [nx] as in `problem`.

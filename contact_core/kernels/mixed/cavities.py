@@ -1,4 +1,4 @@
-"""Oil in cavities: how much of the gap it fills, and the flow of mass through every face, marched downstream.
+"""Oil in cavities: filling of the gap, and the flow of mass through every face, marched downstream.
 
     f >= 0, theta <= 1, f (1 - theta) = 0,   div(e grad f) - wedge d(m)/dx - d(m)/dt = 0,
     m = theta M, M = rho max(h, floor)
@@ -32,7 +32,7 @@ LEAST = 0.5
 
 @jit
 def close_inlet(p, f, solid, first):  # type: ignore[no-untyped-def]
-    """No oil presses upstream of column `first`."""
+    """Remove the pressure of oil upstream of column `first`."""
     for j in range(p.shape[0]):
         for i in range(first):
             f[j, i] = 0.0
@@ -42,7 +42,7 @@ def close_inlet(p, f, solid, first):  # type: ignore[no-untyped-def]
 
 @jit
 def carry(f, full, mass_old, e, per_dt, wedge, dx, conserving, supply, first, mass, flux, filling):  # type: ignore[no-untyped-def]
-    """Filling theta, mass and flow of mass of every node, from the fluid pressure and what full nodes hold.
+    """Compute filling theta, mass and mass flow of every node from the fluid pressure and the full masses.
 
     full, mass, flux, filling [ny, nx]; supply [ny]: the flow that enters, infinite if flooded; `first`: column upstream
     of which the flow is that. Not conserving: every node is full.
@@ -74,7 +74,7 @@ def carry(f, full, mass_old, e, per_dt, wedge, dx, conserving, supply, first, ma
 
 
 class Carried:
-    """Oil of a film that cavities and an inlet meniscus leave not full: `carry` and its scratch arrays."""
+    """Oil of a film with cavities or an inlet meniscus: `carry` and its scratch arrays."""
 
     def __init__(self, problem: Problem) -> None:
         self.problem, shape = problem, problem.cap.shape
@@ -84,7 +84,7 @@ class Carried:
         self.first = max(problem.first, 1)
 
     def carry(self, f: Array, e: Array, mass: Array) -> None:
-        """Mass of every node, and the flow between them, of a fluid pressure and what full nodes hold."""
+        """Compute mass and mass flow of every node from a fluid pressure; `full` holds the full masses."""
         q = self.problem
         inlet = (q.conserving, self.supply, self.first)
         carry(f, self.full, q.mass_old, e, *q.terms, *inlet, mass, self.flux, self.filling)

@@ -13,7 +13,7 @@ _OVER = 1.6  # relaxation of the lines
 
 
 @jit
-def mend_film(  # type: ignore[no-untyped-def]
+def correct_gap(  # type: ignore[no-untyped-def]
     p,
     f,
     cap,
@@ -37,7 +37,9 @@ def mend_film(  # type: ignore[no-untyped-def]
     filling=None,
     first=1,
 ):
-    """Residual r, the stiff zone, and the change of the gap dh in it that mends the residual, marched downstream.
+    """Compute the residual r, the stiff zone, and the change of gap dh in it that removes the residual.
+
+    dh is marched downstream.
 
     r: net inflow of mass per area, zero on solid contacts and on the edge. stiff: where elasticity rules, solid
     contacts and fluid nodes whose faces hardly pass any pressure flow. dh: on solid contacts, to the floor; zero
@@ -71,16 +73,16 @@ def mend_film(  # type: ignore[no-untyped-def]
                     rise = 1.5 * m - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2] if i > 1 else m - mass[j, i - 1]
                 value = half * flow - wedge_per_dx * rise - per_dt * (m - mass_old[j, i])
                 sinks = value < 0.0
-                if filling is not None and (filling[j, i] < 1.0 or i < first):  # nothing is unbalanced there
+                if filling is not None and (filling[j, i] < 1.0 or i < first):  # no residual there
                     sinks, value = True, 0.0
                 if own < floor and sinks:
-                    touches, value = True, 0.0  # the film sinks on: solids carry what it cannot
+                    touches, value = True, 0.0  # the film sinks further: solids carry the rest
                     solid[j, i] = True
             if touches:
                 is_stiff = True
                 change = floor - own
                 solids += here - f[j, i]
-                if here > 0.0 and f[j, i] >= here and here < cap[j, i]:  # oil alone carries it: it ought to lift it
+                if here > 0.0 and f[j, i] >= here and here < cap[j, i]:  # oil alone carries it and should lift it
                     ej, west, east, south, north = e[j, i], e[j, i - 1], e[j, i + 1], e[j - 1, i], e[j + 1, i]
                     flow = (ej + west) * (f[j, i - 1] - here) + (ej + east) * (f[j, i + 1] - here)
                     flow += (ej + south) * (f[j - 1, i] - here) + (ej + north) * (f[j + 1, i] - here)
@@ -91,9 +93,9 @@ def mend_film(  # type: ignore[no-untyped-def]
                     change = 0.0
             elif here > 0.0:
                 gap = max(own, floor)
-                # a film that loses mass sinks to the floor at most: near it, that is all it lacks
+                # a film that loses mass sinks to the floor at most: near it, the residual is no larger
                 loss = min(-value, m * (gap * per_floor - 1.0) * per_dx)
-                gain = value if here < cap[j, i] else 0.0  # the solids yield to a film that presses on
+                gain = value if here < cap[j, i] else 0.0  # the solids yield to the film
                 wrong += max(loss, gain) * here
                 film += m * here
                 fluid += here
@@ -154,8 +156,9 @@ def relax_lines(  # type: ignore[no-untyped-def]
     first=1,
     wrapped=False,
 ):
-    """Line over-relaxation of the linearised equation outside the stiff zone, dp given inside it. Updates dp, p +
-    dp >= 0.
+    """Relax the linearised equation outside the stiff zone by lines, dp given inside it.
+
+    Updates dp; keeps p + dp >= 0.
     """
     ny, nx = p.shape
     half = 0.5 / (dx * dx)
@@ -189,7 +192,7 @@ def relax_lines(  # type: ignore[no-untyped-def]
                 south, north = half * (ej + e[j - 1, i]), half * (ej + e[j + 1, i])
                 if alone:
                     south, north = 0.0, 0.0
-                # at the floor the flow does not feel the deformation
+                # at the floor the flow does not depend on the deformation
                 rho = mass[j, i] / h[j, i] if h[j, i] > floor else 0.0
                 far = w2 * dp[j, i + 2] if i < nx - 2 else 0.0
                 far += w_2 * dp[j, i - 2] if i > 1 else 0.0

@@ -1,10 +1,10 @@
 """The iteration of `fixed_point` with fluid off the stiff zone, rigid gap and load solved at once.
 
-Lines need thousands of iterations where the oil has to find its way: in pockets closed off by contacts, and under a
-light load, where a film is far wider than the contact and hardly a node is stiff enough to carry a change of load.
+Lines need thousands of iterations where the oil flows along narrow paths: in pockets closed off by contacts, and under
+a light load, where a film is far wider than the contact and few nodes are stiff enough to carry a change of load.
 Here the equation of `corrections.relax_lines` is solved by a sparse factorisation, bordered by the rigid gap and the
-load. It takes a few tens of iterations from light to heavy loads and full film to dry, each of the price of some tens
-of those of `fixed_point`.
+load. It takes a few tens of iterations from light to heavy loads and full film to dry; each costs some tens of those
+of `fixed_point`.
 """
 
 from typing import Any
@@ -26,8 +26,8 @@ Array = NDArray[np.float64]
 _DEPTH, _STIFF_STEP = 5, 0.5  # of Anderson's memory; part of their correction that stiff nodes take
 _LARGEST_STEP = 0.3  # of the load, that pressures may change by in an iteration
 _LARGEST_FALL = 0.5  # of the mean film, that the rigid gap may fall by
-_JUMP = 10.0  # times the change before, from which on the memory misleads
-_PROBE = 1e-6  # part of a film by which the rigid gap is moved to see what flows
+_JUMP = 10.0  # times the change before, above which the memory is discarded
+_PROBE = 1e-6  # part of a film by which the rigid gap is moved for the derivative
 
 
 @jit
@@ -51,24 +51,24 @@ def _response(  # type: ignore[no-untyped-def]
     conserving=False,
     first=1,
 ):
-    """Change of the net inflow of mass of every fluid node with the rigid gap; `gap` is the change that is tried."""
+    """Compute the change of every fluid node's net inflow with the rigid gap; `gap` is the trial change."""
     ny, nx = f.shape
     mass, e, r = np.empty((2, ny, nx)), np.empty((2, ny, nx)), np.zeros((2, ny, nx))
-    for way in range(2):
+    for side in range(2):
         for j in range(ny):
             for i in range(nx):
-                flow = floor if solid[j, i] else max(h[j, i] + way * gap, floor)
+                flow = floor if solid[j, i] else max(h[j, i] + side * gap, floor)
                 rho = reynolds.interpolate(density, step, f[j, i])
-                mass[way, j, i] = rho * flow
+                mass[side, j, i] = rho * flow
                 phi = reynolds.interpolate(fluidity, step, f[j, i]) + thinned[j, i]
-                e[way, j, i] = mobility[j, i] * rho * flow**3 * phi
+                e[side, j, i] = mobility[j, i] * rho * flow**3 * phi
         if supply is None:
-            reynolds.residual(f, solid, mass[way], mass_old, e[way], per_dt, wedge, dx, r[way])
+            reynolds.residual(f, solid, mass[side], mass_old, e[side], per_dt, wedge, dx, r[side])
         else:
             m, flux, filling = np.empty((ny, nx)), np.empty((ny, nx)), np.empty((ny, nx))
             inlet = (conserving, supply, first)
-            cavities.carry(f, mass[way], mass_old, e[way], per_dt, wedge, dx, *inlet, m, flux, filling)
-            reynolds.residual(f, solid, m, mass_old, e[way], per_dt, wedge, dx, r[way], flux, filling, first)
+            cavities.carry(f, mass[side], mass_old, e[side], per_dt, wedge, dx, *inlet, m, flux, filling)
+            reynolds.residual(f, solid, m, mass_old, e[side], per_dt, wedge, dx, r[side], flux, filling, first)
     for j in range(ny):
         for i in range(nx):
             out[j, i] = (r[1, j, i] - r[0, j, i]) / gap
@@ -102,7 +102,7 @@ def _equations(  # type: ignore[no-untyped-def]
     filling=None,
     first=1,
 ):
-    """Rows of the linearised equation for the free nodes, numbered in `number` (-1: not free). Returns how many.
+    """Assemble the linearised equation of the free nodes, numbered in `number` (-1: not free); return their count.
 
     An image has the number of its node: of few rows, some columns stand in a row more than once, and add up.
 
@@ -136,7 +136,7 @@ def _equations(  # type: ignore[no-untyped-def]
             if row < 0:
                 continue
             starts[row] = filled
-            rho = mass[j, i] / h[j, i] if h[j, i] > floor else 0.0  # at the floor the flow does not feel it
+            rho = mass[j, i] / h[j, i] if h[j, i] > floor else 0.0  # at the floor the flow does not depend on it
             asked, moved = r[j, i], response[j, i]
             diagonal = rho * lifts[3]
             faces = np.zeros(6)
@@ -185,7 +185,7 @@ def _equations(  # type: ignore[no-untyped-def]
 
 @jit
 def _carried(base, lever, shift, cap, edge, weight, wrapped, out):  # type: ignore[no-untyped-def]
-    """Put base + shift * lever within its bounds into `out`; returns the load it carries and its rate."""
+    """Put base + shift * lever within its bounds into `out`; return its load and the rate of that."""
     ny, nx = base.shape
     for j in range(1, ny - 1):
         for i in range(1, nx - 1):
@@ -201,7 +201,7 @@ def _carried(base, lever, shift, cap, edge, weight, wrapped, out):  # type: igno
 
 
 class _Direct(Iteration):
-    """As its parent; the free nodes by factorisation."""
+    """The fixed-point iteration with the free nodes solved by factorisation."""
 
     def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate) -> None:
         super().__init__(half_space, problem, start, _DEPTH, _STIFF_STEP)
@@ -237,7 +237,7 @@ class _Direct(Iteration):
         self.least = self.change
 
     def _solve_free(self, base: Array) -> None:
-        """Steps of the free nodes into `base`, their change with the rigid gap into the lever."""
+        """Put the steps of the free nodes into `base`, their change with the rigid gap into the lever."""
         q, p = self.problem, self.p
         scale = _PROBE * float(np.maximum(self.h, q.floor).min())
         inlet: tuple[Any, ...] = ()
@@ -263,7 +263,7 @@ class _Direct(Iteration):
         base[1:-1][free], self.lever[1:-1][free] = (factors.solve(side[:n], trans="T") for side in self.rhs)
 
     def _meet_load(self, base: Array, image: Array) -> float:
-        """The change of the rigid gap with which base + change * lever carries the load, put into `image`."""
+        """Return the change of the rigid gap for which base + change * lever carries the load; put it into `image`."""
         q = self.problem
         oil = ~self.stiff & (self.p > 0.0)
         pressure = self.p[oil]
@@ -283,5 +283,5 @@ class _Direct(Iteration):
 def solve_direct(
     half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int
 ) -> Solution:
-    """As `fixed_point.solve_mixed`, which it steps in for."""
+    """Iterate as `fixed_point.solve_mixed`, with a factorisation per iteration."""
     return iterate_on(_Direct(half_space, problem, start), tolerance, iterations)

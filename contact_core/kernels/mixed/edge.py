@@ -1,4 +1,4 @@
-"""Rows and columns at the edge of the grid: pressures that follow their inner neighbours, images of a periodic grid."""
+"""Edge of the grid: pressures that follow their inner neighbours, and image rows of a periodic grid."""
 
 from ..compiled import jit
 
@@ -14,7 +14,7 @@ def wrap(field):  # type: ignore[no-untyped-def]
 
 @jit
 def set_edge(p, edge, wrapped):  # type: ignore[no-untyped-def]
-    """Edge nodes follow their inner neighbours, or what they are images of."""
+    """Set the pressures of edge nodes from their inner neighbours, or from the nodes they are images of."""
     ny, nx = p.shape
     for j in range(ny):
         p[j, 0] = edge[j, 0] * p[j, 1]
@@ -29,7 +29,7 @@ def set_edge(p, edge, wrapped):  # type: ignore[no-untyped-def]
 
 @jit
 def load_beyond(p, weight):  # type: ignore[no-untyped-def]
-    """Load of the edge nodes and of what lies beyond them."""
+    """Return the load of the edge nodes and of the film beyond them."""
     ny, nx = p.shape
     total = 0.0
     for j in range(1, ny - 1):

@@ -1,8 +1,8 @@
 """Mixed lubrication: one fixed point for fluid and solid pressure from full film to dry contact.
 
 Unknowns are the total pressure p, the fluid's share f, the set of solid contacts and the rigid gap. On solid contacts
-the gap is the floor and p >= f; elsewhere p = f; 0 <= p <= cap everywhere. An iteration mends the film residual in
-the stiff zone through the inverse of the half space, the rest by lines, and meets the load exactly; Anderson's method
+the gap is the floor and p >= f; elsewhere p = f; 0 <= p <= cap everywhere. An iteration corrects the film residual in
+the stiff zone by the inverse of the half space, elsewhere by lines, and satisfies the load exactly. Anderson's method
 accelerates it.
 """
 
@@ -25,13 +25,13 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 
-_DEPTH = 3  # of Anderson's memory: deeper does not help where contacts come and go
+_DEPTH = 3  # of Anderson's memory: more does not help where contacts change
 _SWEEPS_UNDER_CONTACTS = 6
 _LINE_SWEEPS = 1
 _STIFF_STEP = 0.4  # part of their correction that nodes in the stiff zone take
 _RENEW = 0.02  # share of the stiff zone that changes before the lever of the load is computed anew
 _LEAST_PART = 0.1  # of the load, that the balance of a film that conserves its mass counts with
-_SHARE_TOLERANCE = 0.02  # nodes at the floor whose fluid pressure is about p change sides for ever, p unchanged
+_SHARE_TOLERANCE = 0.02  # nodes at the floor with a fluid pressure of about p change sides for ever, p unchanged
 
 
 @jit
@@ -45,7 +45,10 @@ def _place(field, top, bottom, left, right, out):  # type: ignore[no-untyped-def
 
 @jit
 def _begin(stiff, pressed, top, left, part, dp):  # type: ignore[no-untyped-def]
-    """Step dp of the stiff zone, a part of the pressure that mends its film; `pressed` begins at node (top, left)."""
+    """Set the step dp of the stiff zone: a part of the pressure that corrects its film.
+
+    `pressed` begins at node (top, left).
+    """
     ny, nx = dp.shape
     for j in range(ny):
         for i in range(nx):
@@ -56,7 +59,7 @@ def _begin(stiff, pressed, top, left, part, dp):  # type: ignore[no-untyped-def]
 def _next_pressure(  # type: ignore[no-untyped-def]
     p, cap, dh, stiff, unit, damping, load, edge, weight, wrapped, dp, image
 ):
-    """Damp and bound the corrections dp, meet the load. Returns the rigid gap's change and sum |image - p|."""
+    """Damp and bound the corrections dp, satisfy the load; return the change of the rigid gap and sum |image - p|."""
     ny, nx = p.shape
     size = 0.0
     for j in range(1, ny - 1):
@@ -108,7 +111,7 @@ def _next_pressure(  # type: ignore[no-untyped-def]
 
 @jit
 def _bounded(p, image, cap, edge, weight, wrapped):  # type: ignore[no-untyped-def]
-    """Keep a mixed pressure within its bounds; returns the load.
+    """Keep a mixed pressure within its bounds; return the load.
 
     What the image has at the cap stays there: mixed below it, it would be pushed against its overlap again.
     """
@@ -148,11 +151,11 @@ class Iteration:
 
     @property
     def rigid(self) -> float:
-        """The rigid gap."""
+        """Rigid gap."""
         return float(self.x[-1]) / self.weight
 
     def correct(self) -> None:
-        """Film of the present iterate; its image goes into Anderson's memory."""
+        """Compute the film of the present iterate; put its image into Anderson's memory."""
         self._film()
         self._press()
         q, p = self.problem, self.p
@@ -166,13 +169,13 @@ class Iteration:
         shift, change = _next_pressure(p, q.cap, self.dh, *lever, self.dp, self._pressure_of(vector))
         vector[-1] = self.x[-1] + self.weight * shift
         self.change = change / q.load
-        if self.change > 0.03 and self.change > 3.0 * self.least:  # it runs away
+        if self.change > 0.03 and self.change > 3.0 * self.least:  # it diverges
             self.memory.clear()
             self.damping = max(0.6 * self.damping, 0.2)
         self.least = min(self.least, self.change)
 
     def mix(self) -> None:
-        """The next iterate."""
+        """Move to the next iterate."""
         q, image = self.problem, self._pressure_of(self.memory.image)
         self.memory.mix(self.x)
         self.load = _bounded(self.p, image, q.cap, q.edge, q.weight, q.wrapped)
@@ -181,7 +184,7 @@ class Iteration:
         return vector[:-1].reshape(self.p.shape)
 
     def _film(self) -> None:
-        """Gap, contacts, fluid pressure under them, mass balance, and the change of the gap that mends it."""
+        """Compute gap, contacts, fluid pressure under them, mass balance, and the change of gap that corrects it."""
         q, p, f, solid, carried = self.problem, self.p, self.f, self.solid, self.carried
         oil = (q.floor, *q.oil)
         full = self.mass
@@ -204,12 +207,12 @@ class Iteration:
         balance = (self.h, self.mass, q.mass_old, self.e)
         scales = (q.floor, *q.terms, q.compliance, self.patch)
         out = (self.r, self.stiff, self.dh, self.sums)
-        self.zone = corrections.mend_film(p, f, q.cap, solid, *balance, *scales, self.stiff_of_unit, *out, *inlet)
+        self.zone = corrections.correct_gap(p, f, q.cap, solid, *balance, *scales, self.stiff_of_unit, *out, *inlet)
         if q.wrapped:
             wrap(solid)
 
     def _press(self) -> None:
-        """Pressure that mends the film of the stiff zone into `dp`, and the lever of the load."""
+        """Put the pressure that corrects the film of the stiff zone into `dp`; renew the lever of the load."""
         top, bottom, left, right, count, changed = self.zone
         if count == 0:
             self.dp[:] = 0.0
@@ -224,13 +227,16 @@ class Iteration:
         _begin(self.stiff, inverse.run(), top, left, self.stiff_step, self.dp)
 
     def assess(self, n: int, tolerance: float) -> Solution:
-        """How good the present pressure is; refers to the scratch arrays, so it holds until the next `correct`."""
+        """Return the present pressure with its convergence.
+
+        It refers to the scratch arrays and holds until the next `correct`.
+        """
         q = self.problem
         wrong, film, fluid, solids, complementarity, gained, held = (float(value) for value in self.sums)
         load_error, share = self.load / q.load - 1.0, solids / q.load
         complementarity /= q.floor * q.load
         imbalance = wrong / max(film, 1e-300) * fluid / q.load
-        if q.conserving:  # pockets that still fill up carry little yet, but will
+        if q.conserving:  # pockets that fill up carry little now, and more later
             imbalance = wrong / max(film, 1e-300) * max(fluid / q.load, _LEAST_PART) + gained / max(held, 1e-300)
         why = shortfall(tolerance, self.change, load_error, complementarity, imbalance, q.per_dt)
         if abs(share - self.share) >= _SHARE_TOLERANCE:
@@ -250,23 +256,23 @@ class Iteration:
             imbalance=imbalance,
         )
 
-    def _owed(self) -> Array:
-        """Mass that nodes have taken in by their balance and do not hold."""
+    def _missing_mass(self) -> Array:
+        """Return the mass that nodes have taken in by their balance and do not hold."""
         if not self.problem.conserving:
             return np.where(self.solid | (self.p <= 0.0), 0.0, self.r)
-        q, carried, owed, nowhere = self.problem, self.carried, np.zeros_like(self.r), np.zeros_like(self.solid)
+        q, carried, missing, nowhere = self.problem, self.carried, np.zeros_like(self.r), np.zeros_like(self.solid)
         assert carried is not None
         balance = (self.mass, q.mass_old, self.e, *q.terms)
-        reynolds.residual(self.f, nowhere, *balance, owed, carried.flux, carried.filling, carried.first)
-        return owed
+        reynolds.residual(self.f, nowhere, *balance, missing, carried.flux, carried.filling, carried.first)
+        return missing
 
     def kept(self, found: Solution) -> Solution:
-        """A copy of an assessed solution that outlives the scratch arrays."""
+        """Return a copy of an assessed solution that is independent of the scratch arrays."""
         mass = self.mass.copy()
         if self.problem.per_dt > 0.0:
-            # what the film still lacks of its mass balance goes into its history: the next instant makes up for it
-            owed = self._owed() / self.problem.per_dt
-            mass += np.clip(owed, -0.5 * mass, 0.5 * mass)
+            # the residual of the mass balance goes into the history of the film: the next instant corrects it
+            missing = self._missing_mass() / self.problem.per_dt
+            mass += np.clip(missing, -0.5 * mass, 0.5 * mass)
             if self.problem.wrapped:
                 wrap(mass)
         fluid = np.where(self.solid, 0.0, self.f) if self.problem.lumped else self.f.copy()
@@ -275,16 +281,16 @@ class Iteration:
 
 
 def solve_mixed(half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int) -> Solution:
-    """Iterate from `start` until the relative pressure change is below `tolerance` or `iterations` are spent.
+    """Iterate from `start` until the stopping rule holds at `tolerance` or `iterations` are used up.
 
-    What is not converged is the best of the last quarter, in the pressure's change. Non-finite values never leave: what
-    is returned is finite, or its `pressure_change` is infinite.
+    Without convergence the result is the one of least pressure change in the last quarter. It is finite, or its
+    `pressure_change` is infinite.
     """
     return iterate_on(Iteration(half_space, problem, start, _DEPTH, _STIFF_STEP), tolerance, iterations)
 
 
 def iterate_on(it: Iteration, tolerance: float, iterations: int) -> Solution:
-    """Iterate until the stopping rule holds or `iterations` are spent."""
+    """Iterate until the stopping rule holds or `iterations` are used up."""
     problem = it.problem
     best: Solution | None = None
     n = 0

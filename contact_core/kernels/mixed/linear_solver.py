@@ -18,8 +18,10 @@ _KRYLOV = 40  # most GMRES steps; no restart
 
 @lru_cache(maxsize=8)
 def elimination_order(ny: int, nx: int, wrapped: bool) -> Indices:
-    """Nodes of a grid by nested dissection; separators are two nodes thick as the stencil reaches two nodes west.
-    `wrapped`: the last inner row neighbours the first. A single row is in order.
+    """Return the nodes of a grid in the order of nested dissection.
+
+    Separators are two nodes thick, as the stencil reaches two nodes west. `wrapped`: the last inner row neighbours the
+    first. A single row is in order.
     """
     if wrapped and ny == 3:
         return np.arange(nx + 1, 2 * nx - 1)
@@ -47,7 +49,7 @@ def elimination_order(ny: int, nx: int, wrapped: bool) -> Indices:
 
 
 def gmres(operator: Callable[[Array], Array], invert: Callable[[Array], Array], right: Array) -> Array:
-    """Right-preconditioned GMRES of Saad & Schultz from zero, doi:10.1137/0907058."""
+    """Solve a linear system by right-preconditioned GMRES from zero (Saad & Schultz, doi:10.1137/0907058)."""
     size = np.linalg.norm(right)
     if size == 0.0:
         return np.zeros_like(right)

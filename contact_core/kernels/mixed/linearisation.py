@@ -12,7 +12,7 @@ DI = np.array([0, -1, 1, 0, 0, -2, -1, 1, -1, 1])
 
 @jit
 def slopes(f, solid, h, floor, mobility, thinned, fluidity, density, step, slope):  # type: ignore[no-untyped-def]
-    """Derivatives of what a full node holds and of its mobility, slope [4, ny, nx]: dm/df, dm/dh, de/df, de/dh."""
+    """Compute the derivatives of mass and mobility of full nodes, slope [4, ny, nx]: dm/df, dm/dh, de/df, de/dh."""
     ny, nx = f.shape
     for j in range(ny):
         for i in range(nx):
@@ -29,7 +29,7 @@ def slopes(f, solid, h, floor, mobility, thinned, fluidity, density, step, slope
 
 @jit
 def linearise(f, e, dx, rate, wedge, slope, by_f, by_h):  # type: ignore[no-untyped-def]
-    """Derivatives of the net inflow by fluid pressure and by gap on the stencil: by_f, by_h [6, ny, nx]."""
+    """Compute the derivatives of the net inflow by fluid pressure and gap on the stencil: by_f, by_h [6, ny, nx]."""
     ny, nx = f.shape
     half = 0.5 / (dx * dx)
     by_f[:], by_h[:] = 0.0, 0.0
@@ -57,7 +57,7 @@ def linearise(f, e, dx, rate, wedge, slope, by_f, by_h):  # type: ignore[no-unty
 
 @jit
 def product(by_f, by_h, scale, nodes, solid, df, dh, out):  # type: ignore[no-untyped-def]
-    """Rows of the Jacobian of all `nodes` times a change of the fluid pressure and of the gap."""
+    """Multiply the rows of the Jacobian of all `nodes` by a change of fluid pressure and gap."""
     nx = df.shape[1]
     for k in range(nodes.size):
         j, i = nodes[k] // nx, nodes[k] % nx
@@ -73,7 +73,9 @@ def product(by_f, by_h, scale, nodes, solid, df, dh, out):  # type: ignore[no-un
 
 @jit
 def assemble(by_f, by_h, scale, patch, nodes, column, solid, edge, wrapped, start, index, value):  # type: ignore[no-untyped-def]
-    """Compressed rows of the local Jacobian of `nodes`; patch [10, 6]: deformation of the stencil by the patch.
+    """Assemble compressed rows of the local Jacobian of `nodes`.
+
+    patch [10, 6]: deformation of the stencil by the patch.
 
     An image has the column of its node: of few rows, some columns stand in a row more than once, and add up.
     """

@@ -40,15 +40,16 @@ _LIGHT = 1e-2  # share of the largest pressure below which the cavity's edge is 
 _FALL = 0.75  # rms relative fall of the film in a step, weighted by pressure
 _RISE = (2.0, 1.0)  # largest rise of a fluid pressure in a step, and by how much more if it is high already
 _TOUCH = 0.95  # gap in floors below which a node becomes solid
-_RELEASES = 1  # a contact that comes back after so many releases stays: some would come and go for ever
+_RELEASES = 1  # a contact that returns after so many releases stays: some would change for ever
 
 
 @jit
 def _seek_cavity(  # type: ignore[no-untyped-def]
     f, p, solid, e, mass, mass_old, per_dt, wedge, dx, rigid, light, sweeps, wrapped
 ):
-    """Projected over-relaxation of light pressures on a given film: moves the edge of the cavity by many nodes, where a
-    Newton step frees one row.
+    """Relax light pressures on a given film by projected over-relaxation.
+
+    This moves the edge of the cavity by many nodes, where a Newton step frees one row.
     """
     ny, nx = f.shape
     half = 0.5 / (dx * dx)
@@ -73,7 +74,7 @@ def _seek_cavity(  # type: ignore[no-untyped-def]
 
 
 def _inner_weight(weight: Array, edge: Array) -> Array:
-    """Weight of the inner nodes in the load, that of the edge nodes that follow them included."""
+    """Return the weight of the inner nodes in the load, including the edge nodes that follow them."""
     w = weight.copy()
     w[1] += edge[0] * w[0]
     w[-2] += edge[-1] * w[-1]
@@ -83,7 +84,7 @@ def _inner_weight(weight: Array, edge: Array) -> Array:
 
 
 class _Film:
-    """The present iterate, its film and its linearisation."""
+    """Present iterate, its film and its linearisation."""
 
     def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate) -> None:
         self.half_space, self.problem = half_space, problem
@@ -110,11 +111,11 @@ class _Film:
         self.patch = np.where((apart_j < 2) & (apart_i < 2), near[np.minimum(apart_j, 1), np.minimum(apart_i, 1)], 0.0)
 
     def evaluate(self) -> None:
-        """Gap, contacts, fluid pressure under them, edge of the cavity and mass balance of the present pressure."""
+        """Compute gap, contacts, fluid pressure under them, cavity edge and mass balance of the present pressure."""
         q, before, old = self.problem, self.solid.copy(), self.p.copy()
         self._pass()
         if self.carried is None:
-            rigid = 30.0 * self.half_space.near[0, 0] / q.spacing  # there the gap does not feel light pressures
+            rigid = 30.0 * self.half_space.near[0, 0] / q.spacing  # there light pressures do not change the gap
             balance = (self.e, self.mass, q.mass_old, *q.terms)
             light = _LIGHT * self.p.max()
             _seek_cavity(self.f, self.p, self.solid, *balance, rigid, light, _SWEEPS_AT_CAVITY, q.wrapped)
@@ -125,7 +126,7 @@ class _Film:
         self.releases += before & ~self.solid
 
     def _residual(self, solid: Mask, out: Array) -> None:
-        """Net inflow of every node that is full and not `solid`."""
+        """Compute the net inflow of every node that is full and not `solid`."""
         q, flow = self.problem, self._flow
         reynolds.residual(self.f, solid, self.mass, q.mass_old, self.e, *q.terms, out, *flow)
 
@@ -160,7 +161,7 @@ class _Film:
         solid |= settled
 
     def correction(self) -> tuple[Array, Array, float] | None:
-        """Newton's changes of pressure, gap [ny, nx] and rigid gap; None if there are none."""
+        """Return Newton's changes of pressure, gap [ny, nx] and rigid gap; None if there are none."""
         q, solid, near = self.problem, self.solid, self.half_space.near
         oil = (q.floor, *q.oil)
         by_f, by_h, scale, carried = self.by_f, self.by_h, self.scale, self.carried
@@ -220,7 +221,7 @@ class _Film:
         return *spread(x), float(x[-1])
 
     def _local_inverse(self, nodes: Indices) -> Callable[[Array], Array] | None:
-        """What solves the local system of the nodes; None if it is singular."""
+        """Return a function that solves the local system of the nodes; None if it is singular."""
         q, solid, by_f, by_h, scale = self.problem, self.solid, self.by_f, self.by_h, self.scale
         size, shape = nodes.size, solid.shape
         if self.response is not None:
@@ -258,7 +259,10 @@ class _Film:
         return float(np.abs(self.p - old)[self.rows].sum()) / q.load, share
 
     def assess(self, n: int, change: float, whole: bool, tolerance: float) -> Solution:
-        """How good the present pressure is, `change` that of the last step and `whole` if that was not cut short."""
+        """Return the present pressure with its convergence.
+
+        `change` is that of the last step, `whole` is True if that step was taken in full.
+        """
         q, p = self.problem, self.p
         load_error = float((q.weight * p).sum()) / q.load - 1.0
         below_cap = self.solid & (p < q.cap)
@@ -292,9 +296,9 @@ class _Film:
 def solve_newton(
     half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int
 ) -> Solution:
-    """Newton steps from `start` until a step of full length meets the rule of `shortfall` or `iterations` are spent.
+    """Take Newton steps from `start` until a full step satisfies the stopping rule or `iterations` are used up.
 
-    Non-finite values never leave: what is returned is finite, or its `pressure_change` is infinite.
+    The result is finite, or its `pressure_change` is infinite.
     """
     film = _Film(half_space, problem, start)
     film.evaluate()

@@ -1,4 +1,4 @@
-"""One instant of a mixed film in the units of the kernels: the problem, an iterate and a solution of it."""
+"""One instant of a mixed film in the units of the kernels: problem, iterate and solution."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -37,8 +37,9 @@ class Terms(NamedTuple):
 
 @dataclass(frozen=True)
 class Problem:
-    """One instant, entrainment along +x, in units of length l, pressure q and gap l^2 / radius. Arrays [ny, nx]; tables
-    over p = 0, step, 2 step...
+    """One instant, entrainment along +x. Arrays [ny, nx]; tables over p = 0, step, 2 step...
+
+    Units: length l, pressure q, gap l^2 / radius.
 
     In Hertz units (l = a, q = p_H) the deformation is 2 / pi^2 * integral p / r; `compliance` is the factor on that in
     the units at hand. Units are chosen so that pressures and lengths of the solution are of order one.
@@ -59,7 +60,7 @@ class Problem:
     step: float
     compliance: float
     edge: Array  # ratio of the pressure on an edge node to that of its inner neighbour; zero elsewhere
-    weight: Array  # of each node in the load: 1, on the edge also what lies beyond it
+    weight: Array  # of each node in the load: 1, on the edge with the film beyond it
     lumped: bool = False  # one pressure for fluid and solids, as in the unified Reynolds equation: f = p everywhere
     # periodic along y: the first and the last row are images of the last and the first but one; edge and weight 0 there
     wrapped: bool = False
@@ -79,13 +80,13 @@ class Problem:
 
     @property
     def by_flux(self) -> bool:
-        """Whether the film is balanced by its flow through faces, as cavities and an inlet meniscus need it."""
+        """True if the film is balanced by its flow through faces, as cavities and an inlet meniscus need it."""
         return self.conserving or self.first > 1
 
 
 @dataclass(frozen=True)
 class Iterate:
-    """Where an iteration starts from and what it ends with. Arrays [ny, nx]."""
+    """Start or end of an iteration. Arrays [ny, nx]."""
 
     pressure: Array
     fluid: Array
@@ -95,10 +96,10 @@ class Iterate:
 
 @dataclass(frozen=True)
 class Solution(SolverConvergence):
-    """The end of an iteration and how good it is."""
+    """End of an iteration, and its convergence."""
 
     iterate: Iterate
-    gap: Array  # may be below the floor where the pressure is capped: what is missing yields plastically
+    gap: Array  # below the floor where the pressure is capped: the rest yields plastically
     mass: Array
 
 

@@ -7,9 +7,9 @@ f is the fluid pressure, solved everywhere; entrainment is along +x, `wedge` its
 where a time step is so short that squeezing rules, 0 at rest. Second order: central in pressure, upwind (1.5, -2,
 0.5) in the wedge. On nodes in solid contact (solid[j, i]) the gap is the floor and the total pressure p is at least
 f; elsewhere p = f. Viscosity and density come as tables over pressure (relative to those at p = 0). All arrays are
-[ny, nx] unless said otherwise.
+[ny, nx] unless stated otherwise.
 
-`flux`, `filling`: of `cavities.carry`, whose masses are less than m where the film is not full; None: it is full
+`flux`, `filling`: from `cavities.carry`; masses are less than m where the film is not full. None: it is full
 everywhere. With them, `first` is the first column in which the oil has pressure.
 """
 
@@ -19,12 +19,12 @@ from ..compiled import jit
 from .edge import wrap
 
 _TOUCH = 0.5  # gap in floors below which a node becomes solid at once; below 1, where its film loses mass
-_DEEP = 0.5  # gap in floors below which a contact is not released: it has to come up first
+_DEEP = 0.5  # gap in floors below which a contact is not released: it has to rise first
 
 
 @jit
 def interpolate(table, step, p):  # type: ignore[no-untyped-def]
-    """Linear interpolation in a table over p = 0, step, 2 step...; clamped at its end."""
+    """Interpolate linearly in a table over p = 0, step, 2 step...; clamped at its end."""
     at = p / step
     k = int(at)
     if k >= table.size - 1:
@@ -34,7 +34,7 @@ def interpolate(table, step, p):  # type: ignore[no-untyped-def]
 
 @jit
 def _properties(p, per_step, density, fluidity):  # type: ignore[no-untyped-def]
-    """Density and fluidity at a pressure, as `interpolate`."""
+    """Return density and fluidity at a pressure, as `interpolate`."""
     at = p * per_step
     k = int(at)
     if k >= density.size - 1:
@@ -63,7 +63,7 @@ def film_pass(  # type: ignore[no-untyped-def]
     e,
     lumped=False,
 ):
-    """Gap, new solid contacts, mass and mobility of every node, from the pressure.
+    """Compute gap, new solid contacts, mass and mobility of every node from the pressure.
 
     `deformation` may have more columns than there are nodes. lumped: f = p on solid contacts, too; where that is zero
     they are released.
@@ -77,7 +77,7 @@ def film_pass(  # type: ignore[no-untyped-def]
             h[j, i] = gap
             touches = solid[j, i]
             if touches and p[j, i] <= 0.0 and (lumped or gap > floor):
-                touches = False  # it carries nothing
+                touches = False  # it carries no load
             elif not touches:
                 touches = gap < touch
             if lumped or not (solid[j, i] and touches):
@@ -91,7 +91,7 @@ def film_pass(  # type: ignore[no-untyped-def]
 
 @jit
 def transport(mass, flux, mass_old, per_dt, wedge, dx, j, i):  # type: ignore[no-untyped-def]
-    """Mass carried away and squeezed out at a node: wedge d(m)/dx + d(m)/dt."""
+    """Return the mass carried away and squeezed out at a node: wedge d(m)/dx + d(m)/dt."""
     if flux is not None:
         slope = (flux[j, i] - flux[j, i - 1]) / dx
     elif i > 1:
@@ -103,7 +103,7 @@ def transport(mass, flux, mass_old, per_dt, wedge, dx, j, i):  # type: ignore[no
 
 @jit
 def returned(filling, first, per_dt, wedge, dx, j, i):  # type: ignore[no-untyped-def]
-    """Share that comes back of what a node's pressure drives upstream: all of it, in time, from a cavity."""
+    """Return the share of a node's upstream pressure flow that comes back: in time all of it, from a cavity."""
     return wedge / (wedge + per_dt * dx) if i > first and filling[j, i - 1] < 1.0 else 0.0
 
 
@@ -131,7 +131,7 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
     first=1,
     wrapped=False,
 ):
-    """Gauss-Seidel for the fluid pressure on solid contacts; releases those the fluid alone carries.
+    """Solve for the fluid pressure on solid contacts by Gauss-Seidel; release contacts that the fluid alone carries.
 
     full: what nodes hold if they are full, which changes with that pressure; `mass` itself where none is a cavity.
     """
@@ -189,7 +189,7 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
 
 @jit
 def residual(f, solid, mass, mass_old, e, per_dt, wedge, dx, r, flux=None, filling=None, first=1):  # type: ignore[no-untyped-def]
-    """Net inflow of mass per area at every interior node, zero on solid contacts, in cavities and on the edge."""
+    """Compute the net inflow of mass per area at inner nodes; zero on solid contacts, in cavities and on the edge."""
     ny, nx = f.shape
     half = 0.5 / (dx * dx)
     r[:] = 0.0
@@ -210,9 +210,11 @@ def residual(f, solid, mass, mass_old, e, per_dt, wedge, dx, r, flux=None, filli
 
 @jit
 def imbalance(p, f, cap, solid, h, mass, r, floor, dx):  # type: ignore[no-untyped-def]
-    """What the film gains or loses unasked over the film, weighted by pressure, times the oil's share of the load.
+    """Return the mass that the film gains or loses without a cause.
 
-    r: net inflow at every node, contacts included. The rules are those of `mend_film`, which counts as it goes.
+    It is relative to the film, weighted by pressure, and multiplied by the oil's share of the load.
+
+    r: net inflow at every node, contacts included. The rules are those of `corrections.correct_gap`.
     """
     wrong, film, fluid, total = 0.0, 1e-300, 0.0, 1e-300
     for j in range(1, p.shape[0] - 1):

@@ -1,7 +1,7 @@
-"""Linearisation of `cavities.carry` for `newton`: how a film that is not full everywhere answers pressure and gap.
+"""Linearisation of `cavities.carry` for `newton`: derivatives of a film that is not full everywhere.
 
 Which nodes are full is held. What flows through a cavity is marched downstream, as the flow itself is, so that the
-product with the Jacobian is exact; its local part knows of a cavity only what comes back at once.
+product with the Jacobian is exact; its local part holds only the share of a cavity's flow that comes back at once.
 """
 
 from ..compiled import jit
@@ -10,7 +10,7 @@ from . import cavities, reynolds
 
 @jit
 def _most(full, before, j, i):  # type: ignore[no-untyped-def]
-    """Flow of a full node behind one of a filling `before`: derivatives by what both hold, and by that filling."""
+    """Return the derivatives of a full node's flow, behind a filling `before`: by both masses and by that filling."""
     if i == 0:
         return 0.5, 0.5, 0.0  # of the first two nodes
     own, rise = full[j, i], full[j, i] - full[j, i - 1]
@@ -24,7 +24,7 @@ def _most(full, before, j, i):  # type: ignore[no-untyped-def]
 def change(  # type: ignore[no-untyped-def]
     f, full, e, slope, flux, filling, df, dh, per_dt, wedge, dx, conserving, first, dr
 ):
-    """Change dr [ny, nx] of the net inflow with changes of fluid pressure and gap; slope [4, ny, nx] of `newton`."""
+    """Compute the change dr [ny, nx] of the net inflow with fluid pressure and gap; slope [4, ny, nx] of `newton`."""
     ny, nx = f.shape
     half, wedge_per_dx = 0.5 / (dx * dx), wedge / dx
     dr[:] = 0.0
@@ -65,7 +65,7 @@ def change(  # type: ignore[no-untyped-def]
 
 @jit
 def linearise(f, full, e, slope, filling, per_dt, wedge, dx, first, by_f, by_h):  # type: ignore[no-untyped-def]
-    """Local part of `change`: derivatives by_f, by_h [6, ny, nx] on the stencil of `newton`."""
+    """Compute the local part of `change`: derivatives by_f, by_h [6, ny, nx] on the stencil of `newton`."""
     ny, nx = f.shape
     half, wedge_per_dx = 0.5 / (dx * dx), wedge / dx
     by_f[:], by_h[:] = 0.0, 0.0

@@ -1,4 +1,4 @@
-"""Newton's method for pressure and rigid gap together, for the coarsest level of a multigrid solver.
+"""Newton's method for pressure and rigid gap together, for the coarsest grid level.
 
 Fields are [rows, nx] as in `relaxation`; the unknowns are the pressures of the inner nodes, row by row, and the rigid
 gap. Nodes that would fall below zero are held at zero, the others satisfy their balance (semi-smooth, as in
@@ -20,7 +20,7 @@ _DI = np.array([0, -1, 1, 0, 0, -2])
 
 
 def dense_deformation(ny: int, nx: int, mirror: bool) -> Array:
-    """Matrix [nodes, nodes] of the deformation of every node kept by the pressure of every other, for unit scale."""
+    """Return the matrix [nodes, nodes] of the deformation by unit pressures, for unit scale."""
     kernel = influence(ny, nx)
     across = np.abs(np.arange(nx)[:, None] - np.arange(nx)[None, :])
     j = np.arange((ny + 1) // 2 if mirror else ny)
@@ -33,7 +33,7 @@ def dense_deformation(ny: int, nx: int, mirror: bool) -> Array:
 
 @jit
 def _stencil(p, mass, e, dx, mirror, j, i, by_p, by_e, by_mass):  # type: ignore[no-untyped-def]
-    """Net inflow of a node, and its derivatives by pressure, mobility and mass on the stencil."""
+    """Return the net inflow of a node; compute its derivatives by pressure, mobility and mass on the stencil."""
     rows = p.shape[0]
     half = 0.5 / (dx * dx)
     inflow = 0.0
@@ -55,7 +55,7 @@ def _stencil(p, mass, e, dx, mirror, j, i, by_p, by_e, by_mass):  # type: ignore
 
 @jit
 def _inner(j, i, edge, mirror):  # type: ignore[no-untyped-def]
-    """The unknown that the pressure of a node goes with, and the ratio to it."""
+    """Return the unknown that the pressure of a node follows, and the ratio to it."""
     rows, nx = edge.shape
     ratio = 1.0
     if j == 0 or (j == rows - 1 and not mirror):
@@ -69,7 +69,7 @@ def _inner(j, i, edge, mirror):  # type: ignore[no-untyped-def]
 
 @jit
 def condensed(matrix, edge, mirror):  # type: ignore[no-untyped-def]
-    """The deformation [nodes, unknowns] by the unknowns, edges moving along."""
+    """Return the deformation [nodes, unknowns] by the unknowns; edges follow them."""
     rows, nx = edge.shape
     out = np.zeros((rows * nx, (rows - (1 if mirror else 2)) * (nx - 2)))
     for j in range(rows):
@@ -85,7 +85,7 @@ def condensed(matrix, edge, mirror):  # type: ignore[no-untyped-def]
 def assemble(  # type: ignore[no-untyped-def]
     p, h, mass, e, rho, soft, f, edge, weight, missing, lift, dx, mirror, thinned, fluidity, step, jacobian, right
 ):
-    """Jacobian and right side of the next change of pressures and rigid gap, each equation per its diagonal.
+    """Assemble Jacobian and right side of the next change of pressures and rigid gap, scaled by the diagonal.
 
     `lift` [nodes, unknowns]: gap by unit pressures, see `condensed`; `missing`: sum of weight * p still to come.
     """
@@ -129,7 +129,7 @@ def assemble(  # type: ignore[no-untyped-def]
 
 @jit
 def solve_dense(a, b):  # type: ignore[no-untyped-def]
-    """Put the solution of a x = b into b by elimination with row pivoting; a is lost. Returns whether it is regular.
+    """Put the solution of a x = b into b by elimination with row pivoting; overwrite a. Return False if a is singular.
 
     Not LAPACK's: its threads make small systems slow on a busy machine, and its bits depend on their number.
     """
@@ -162,7 +162,7 @@ def solve_dense(a, b):  # type: ignore[no-untyped-def]
 
 @jit
 def advance(p, change, part, mirror):  # type: ignore[no-untyped-def]
-    """Take a part of a change of the inner pressures, at least to zero."""
+    """Take a part of a change of the inner pressures; none falls below zero."""
     rows, nx = p.shape
     for j in range(1, rows if mirror else rows - 1):
         for i in range(1, nx - 1):

@@ -1,8 +1,8 @@
 """Smooth, fully flooded films by full multigrid: nested grids, each solved by cycles over all coarser ones.
 
-Every level relaxes the pressure by lines (`relaxation`); the coarsest solves pressure and rigid gap together by
-Newton's method (`coarsest`), so that the load needs no loop of its own. Coarse levels work on the full unknowns and
-carry what the finer one knows better on their right sides (full approximation scheme).
+Every grid level relaxes the pressure by lines (`relaxation`); the coarsest solves pressure and rigid gap together by
+Newton's method (`coarsest`), so that the load needs no loop of its own. Coarse grid levels solve for the full unknowns;
+their right sides hold the corrections from the finer one (full approximation scheme).
 
 Sources: Brandt & Lubrecht, J. Comput. Phys. 90 (1990) 348, doi:10.1016/0021-9991(90)90171-V; Venner & Lubrecht,
 Multilevel Methods in Lubrication, Elsevier 2000.
@@ -21,20 +21,20 @@ from .level import Level
 
 Array = NDArray[np.float64]
 
-_COARSEST = 9  # nodes along an axis that no level goes below
+_COARSEST = 9  # nodes along an axis, at least
 _DENSE = 400  # unknowns that Newton's method is given at most
-_START = 2  # level of the first guess: on coarser ones a thin film has no meaning of its own
+_START = 2  # grid level of the first guess: coarser ones do not resolve a thin film
 _DOWN, _UP = 2, 1  # sweeps before and after the coarse correction
 _VISITS = 2  # of the coarser level by a cycle from above the starting level: W there, V below
-_NESTED_CHANGE, _NESTED_CYCLES = 1e-2, 6  # where the levels below the finest stop
-_LOST = 10.0  # change of a cycle, in loads, that is not made good again
+_NESTED_CHANGE, _NESTED_CYCLES = 1e-2, 6  # where the grid levels below the finest stop
+_LOST = 10.0  # change of a cycle, in loads, after which a solution is lost
 _DAMPING_PARTS = (1.0, 0.75, 0.5)  # one after the other where a solution is lost
 _SYMMETRY = 1e-9
 
 
 @dataclass(frozen=True)
 class LevelFilm:
-    """What a level of the nested start ended with."""
+    """Result of a grid level of the nested start."""
 
     spacing: float
     central: float  # gap at x = y = 0
@@ -44,7 +44,7 @@ class LevelFilm:
 
 @dataclass(frozen=True)
 class _Progress:
-    """Where the cycles on a level have got to."""
+    """State of the cycles on a grid level."""
 
     cycles: int
     change: float  # of the pressure by the last cycle, relative
@@ -52,19 +52,19 @@ class _Progress:
     imbalance: float  # as in `reynolds.imbalance`
 
     def shortfall(self, tolerance: float) -> str:
-        """What is short of the stopping rule."""
+        """Return which parts of the stopping rule do not hold."""
         return shortfall(tolerance, self.change, self.load_error, 0.0, self.imbalance, per_dt=0.0)
 
 
 class _Multigrid:
-    """Levels from the coarsest to the finest, and how their changes are damped."""
+    """Grid levels from the coarsest to the finest, and the damping of their changes."""
 
     def __init__(self, levels: list[Level], load: float, depth: float, single: float, spread: float) -> None:
         self.levels, self.load, self.depth, self.damping = levels, load, depth, (single, spread)
         self._found: tuple[Array, float] | None = None  # pressure and rigid gap of the last level but one
 
     def nested(self, film: float, tolerance: float, cycles: int) -> tuple[_Progress, list[LevelFilm]]:
-        """From the first guess to the finest level, and what each level found."""
+        """Solve from the first guess to the finest grid level; return the film of each."""
         films: list[LevelFilm] = []
         last = len(self.levels) - 1
         for k in range(min(_START, last), last + 1):
@@ -78,7 +78,7 @@ class _Multigrid:
         return progress, films
 
     def _guess(self, k: int, film: float) -> None:
-        """A Hertz-like pressure under a film on level k."""
+        """Set a Hertz-like pressure under a film on grid level k."""
         level = self.levels[k]
         self._found = None
         level.state_problem(self.load)
@@ -88,7 +88,7 @@ class _Multigrid:
         level.set_edges()
 
     def _refine(self, k: int) -> None:
-        """Begin level k with what level k - 1 found, extrapolated from what level k - 2 had found."""
+        """Start grid level k from level k - 1, extrapolated with the result of level k - 2."""
         fine, coarse = self.levels[k], self.levels[k - 1]
         before, self._found = self._found, (coarse.p.copy(), coarse.rigid)
         if before is not None:
@@ -102,8 +102,9 @@ class _Multigrid:
         fine.set_edges()
 
     def _iterate(self, k: int, tolerance: float, cycles: int, strictly: bool) -> _Progress:
-        """Cycles on level k until the pressure changes by less than `tolerance`; `strictly`: and nothing else is
-        short of the stopping rule.
+        """Run cycles on grid level k until the pressure changes by less than `tolerance`.
+
+        `strictly`: until the whole stopping rule holds.
         """
         level = self.levels[k]
         level.film()
@@ -119,7 +120,10 @@ class _Multigrid:
         return progress
 
     def _cycle(self, k: int) -> None:
-        """Improve level k, whose film is up to date, by one cycle; it is not afterwards."""
+        """Improve grid level k by one cycle.
+
+        Its film must be up to date before, and is not afterwards.
+        """
         level = self.levels[k]
         if k == 0:
             level.newton()
@@ -140,7 +144,7 @@ class _Multigrid:
 
 
 def is_symmetric(problem: Problem) -> bool:
-    """Whether one half of the contact is the image of the other."""
+    """Return True if one half of the contact is the image of the other."""
     oil = (problem.mobility, problem.thinned)
     fields = (problem.undeformed, problem.edge, problem.weight, *oil)
     return fields[0].shape[0] % 2 == 1 and all(
@@ -149,8 +153,9 @@ def is_symmetric(problem: Problem) -> bool:
 
 
 def is_applicable(problem: Problem) -> bool:
-    """Whether the film is steady, full where it has no pressure and without a period, and its grid can be halved often
-    enough.
+    """Return True if multigrid can solve the problem.
+
+    The film is steady, full where it has no pressure and not periodic, and its grid can be halved often enough.
     """
     (ny, nx), mirror = problem.undeformed.shape, is_symmetric(problem)
     halvings = _level_count(ny, nx, mirror) - 1
@@ -160,7 +165,7 @@ def is_applicable(problem: Problem) -> bool:
 
 
 def _level_count(ny: int, nx: int, mirror: bool) -> int:
-    """Levels that a grid can be halved into, the finest included. `mirror`: the middle row stays a row."""
+    """Return the number of grid levels, the finest included. `mirror`: the middle row stays a row."""
     count, y, x = 1, ny - 1, nx - 1
     while y % (4 if mirror else 2) == 0 and x % 2 == 0 and min(x, y) // 2 >= _COARSEST - 1:
         count, y, x = count + 1, y // 2, x // 2
@@ -168,7 +173,10 @@ def _level_count(ny: int, nx: int, mirror: bool) -> int:
 
 
 def _damping(problem: Problem, film: float) -> tuple[float, float]:
-    """Of the single and the spread changes of `relaxation`: light loads, little coupled, bear more."""
+    """Return the damping of the single and the spread changes of `relaxation`.
+
+    Light loads, which couple little, need less.
+    """
     depth = 0.42 * problem.compliance / film
     thickening = float(np.log(problem.fluidity[0] / problem.fluidity[1])) / problem.step
     return float(np.clip(1.0 - 0.15 * depth - 0.2 * thickening, 0.4, 0.95)), 0.4
@@ -204,14 +212,14 @@ def solve_smooth(
     curvature: float = 1.0,
     damping: float = 1.0,
 ) -> tuple[Solution, list[LevelFilm]]:
-    """Steady film of smooth bodies on the nodes x [nx], y [ny], from nothing.
+    """Return the steady film of smooth bodies on the nodes x [nx], y [ny], without a start.
 
     `film`: central film by a formula, for the first guess and the far field that `problem.edge` was made for; `depth`:
     approach of the dry bodies, for the same guess, that of a ball if not given; `curvature`: of the gap along y over
     that along x, for the same far field; `damping`: of all changes, beside the usual one. Ends after `cycles` on the
     finest grid, or when one of them changes the pressure by less than `tolerance` and load and mass balance are met.
-    Floor and cap are not imposed: a film that violates them is not converged. Non-finite values never leave: where
-    there are any, the change is infinite. The second result tells what the levels found, from coarse to fine.
+    Floor and cap are not imposed: a film that violates them is not converged. The result is finite, or its change
+    is infinite. The second result has the films of the grid levels, from coarse to fine.
     ValueError if not `is_applicable`.
     """
     if not is_applicable(problem):
@@ -230,8 +238,9 @@ def solve_smooth(
 
 
 def extrapolated(films: list[LevelFilm]) -> tuple[float, float]:
-    """Central and smallest gap of an infinitely fine grid, from those of the two finest levels: the error falls with
-    the square of the spacing (Richardson).
+    """Return central and smallest gap of an infinitely fine grid (Richardson).
+
+    From the two finest grid levels; the error falls with the square of the spacing.
     """
     coarse, fine = films[-2:]
     return fine.central + (fine.central - coarse.central) / 3.0, fine.least + (fine.least - coarse.least) / 3.0

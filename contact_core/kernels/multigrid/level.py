@@ -1,4 +1,4 @@
-"""One level of a multigrid solver: a grid, its fields and its share of the problem."""
+"""One grid level of the multigrid solver: a grid, its fields and its share of the problem."""
 
 import threading
 from functools import cached_property
@@ -19,7 +19,7 @@ _LOCAL = threading.local()  # plans and scratch may not be shared between thread
 
 
 class _Transforms:
-    """What only depends on the number of nodes; kept between solutions. Holds scratch."""
+    """Operators that depend on the number of nodes only; kept between solutions. Holds scratch."""
 
     def __init__(self, ny: int, nx: int, mirror: bool, library: str) -> None:
         self.near = influence(ny, nx)[:2, :8]
@@ -28,7 +28,7 @@ class _Transforms:
 
     @cached_property
     def matrix(self) -> Array:
-        """Dense deformation, for the coarsest level."""
+        """Dense deformation, for the coarsest grid level."""
         return coarsest.dense_deformation(*self._grid)
 
 
@@ -43,8 +43,10 @@ def _transforms(ny: int, nx: int, mirror: bool, library: str) -> _Transforms:
 
 
 class Level:
-    """Fields are [rows, nx], see `relaxation`. `f`, `base`, `offset` and `target` state the problem: right side of the
-    balance, gap of the undeformed bodies, edge pressures beyond those that go with the inner ones, load.
+    """One grid level; fields are [rows, nx], see `relaxation`.
+
+    `f`, `base`, `offset` and `target` state the problem: right side of the balance, gap of the undeformed bodies, edge
+    pressures beyond those that follow the inner ones, load.
     """
 
     def __init__(self, problem: Problem, x: Array, y: Array, mirror: bool, library: str) -> None:
@@ -63,22 +65,22 @@ class Level:
         self.target, self.rigid, self.rigid_before = 0.0, 0.0, 0.0
 
     def set_bodies(self, undeformed: Array, edge: Array, weight: Array) -> None:
-        """Take over arrays [ny, nx]."""
+        """Take over undeformed gap, edge and weight [ny, nx]."""
         self.undeformed[:], self.edge[:], self.weight[:] = (f[: self.rows] for f in (undeformed, edge, weight))
         if self.mirror:
             self.weight[:-1] *= 2.0  # each row but the last stands for two
 
     def set_oil(self, mobility: Array, thinned: Array) -> None:
-        """Take over arrays [ny, nx]."""
+        """Take over mobility and thinned fluidity [ny, nx]."""
         self.mobility[:], self.thinned[:] = mobility[: self.rows], thinned[: self.rows]
 
     def state_problem(self, load: float) -> None:
-        """The problem itself, without corrections of a finer level. `load`: integral of the pressure."""
+        """State the problem without corrections from a finer level. `load`: integral of the pressure."""
         self.f[:], self.offset[:], self.base[:] = 0.0, 0.0, self.undeformed
         self.target = load
 
     def whole(self, field: Array) -> Array:
-        """A copy of a field on all nodes [ny, nx]."""
+        """Return a copy of a field on all nodes [ny, nx]."""
         return np.concatenate([field, field[-2::-1]]) if self.mirror else field.copy()
 
     def film(self) -> None:
@@ -93,27 +95,27 @@ class Level:
         )  # fmt: skip
 
     def relax(self, single: float, spread: float) -> None:
-        """One sweep; the film has to be up to date and is not afterwards."""
+        """Relax once; the film must be up to date before, and is not afterwards."""
         relaxation.relax(
             self.p, self.mass, self.e, self.rho, self.soft, self.f, self.edge, self.offset, self._wedge,
             self._wedge_soft, self.dx, self.compliance, self.mirror, single, spread, self.work,
         )  # fmt: skip
 
     def set_edges(self) -> None:
-        """Edge pressures from the inner ones."""
+        """Set the edge pressures from the inner ones."""
         relaxation.set_edges(self.p, self.edge, self.offset, self.mirror)
 
     def load(self) -> float:
-        """Integral of the pressure."""
+        """Return the integral of the pressure."""
         return float(transfer.weighted_sum(self.weight, self.p)) * self.dx**2
 
     def defect(self) -> float:
-        """Put what is missing in the balance into `work`; returns the imbalance of `reynolds.imbalance`."""
+        """Put the defect of the balance into `work`; return the imbalance as `reynolds.imbalance`."""
         wrong, film = relaxation.defect(self.p, self.mass, self.e, self.f, self.dx, self.mirror, self.work)
         return abs(float(wrong / film))
 
     def restrict(self, fine: "Level") -> None:
-        """State what the finer level, whose film is up to date, has to improve; begin with its fields."""
+        """State the problem that corrects the finer level, whose film is up to date; start from its fields."""
         fine.defect()
         transfer.inject(fine.p, self.p)
         transfer.inject(fine.h, self.h)
@@ -128,13 +130,13 @@ class Level:
         self.target = self.load() + fine.target - fine.load()
 
     def correct(self, coarse: "Level") -> None:
-        """Take over what the coarser level has changed."""
+        """Add the changes of the coarser level."""
         transfer.add_interpolated(coarse.p, coarse.before, self.p)
         self.set_edges()
         self.rigid += coarse.rigid - coarse.rigid_before
 
     def newton(self) -> None:
-        """Improve pressure and rigid gap together by a step of Newton's method; the film has to be up to date."""
+        """Improve pressure and rigid gap together by a Newton step; the film must be up to date."""
         lift = coarsest.condensed(self._transforms.matrix, self.edge, self.mirror) * self.scale
         unknowns = lift.shape[1] + 1
         jacobian, change = np.empty((unknowns, unknowns)), np.empty(unknowns)
@@ -150,6 +152,6 @@ class Level:
             self.set_edges()
 
     def film_thickness(self) -> tuple[float, float]:
-        """Gap at x = 0 on the row next to y = 0, and the smallest."""
+        """Return the gap at x = 0 on the row next to y = 0, and the smallest gap."""
         row = min(int(np.abs(self.y).argmin()), self.rows - 1)
         return float(np.interp(0.0, self.x, self.h[row])), float(self.h.min())

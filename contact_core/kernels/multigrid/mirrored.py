@@ -18,8 +18,9 @@ Array = NDArray[np.float64]
 
 @jit
 def _pack(x, packed, odd):  # type: ignore[no-untyped-def]
-    """Pack the even, periodic sequence of samples x[0], x[1]..., zero between x[-1] and its image. `odd`: sum of its
-    odd samples.
+    """Pack the even, periodic sequence of samples x[0], x[1]..., zero between x[-1] and its image.
+
+    `odd`: sum of its odd samples.
     """
     half, columns = packed.shape
     last = x.shape[0] - 1
@@ -45,7 +46,7 @@ def _pack(x, packed, odd):  # type: ignore[no-untyped-def]
 
 @jit
 def _unpack(packed, odd, sine, factor, out):  # type: ignore[no-untyped-def]
-    """Transform of what was packed, from the transform of the packed, times a factor of each term.
+    """Compute the transform of the sequence from that of the packed one, times a factor of each term.
 
     packed [half, 2 columns], odd [2 columns], out [at most half + 1, 2 columns]: real and imaginary parts in turn.
     """
@@ -92,7 +93,7 @@ class MirroredHalfSpace:
         self._ones = np.ones((self.shape[0], width + 1))
 
     def deform(self, pressure: Array) -> Array:
-        """Deformation [rows, nx] for unit scale under a pressure [rows, nx]; the middle row is the last."""
+        """Return the deformation [rows, nx] for unit scale under a pressure [rows, nx]; the last row is the middle."""
         nx = self.shape[1]
         self._rows[:, :nx] = pressure[::-1]
         packed, odd, sine = self._packed.view(np.float64), self._odd, self._sine
@@ -106,7 +107,7 @@ class MirroredHalfSpace:
 
 
 def _plans(rows: int, columns: tuple[int, int], width: int, library: str):  # type: ignore[no-untyped-def]
-    """Scratch and transforms: along rows, across the packed ones, and back along rows. All unnormalised."""
+    """Return scratch and transforms: along rows, across the packed ones, back along rows. All unnormalised."""
     if library == "pyfftw":
         import pyfftw  # FFTW is GPL: loaded only where it is asked for
 

@@ -1,4 +1,4 @@
-"""Passes over one level of a multigrid solver for smooth, fully flooded films: film, mass balance, line relaxation.
+"""Passes over one grid level for smooth, fully flooded films: film, mass balance, line relaxation.
 
     div(e grad p) - d(m)/dx = f where p > 0,   p >= 0,   m = rho h,   e = mobility rho h^3 (1 / eta(p) + thinned)
 
@@ -21,7 +21,9 @@ _SINGLE, _SPREAD, _STAYS = 0, 1, 2  # change of a node: alone, with its neighbou
 
 
 def line_kernels(near, dx):  # type: ignore[no-untyped-def]
-    """Change of d(m)/dx at i by a unit change at i + m, m = -3...2, per rho and per h d(rho)/dp; [3, 6] each.
+    """Return the change of d(m)/dx at i by a unit change at i + m, m = -3...2.
+
+    Per rho and per h d(rho)/dp; [3, 6] each.
 
     Row 0 for a single node, row 1 for a node with its four neighbours, row 2 for none. near: influence coefficients
     times scale.
@@ -45,7 +47,7 @@ def line_kernels(near, dx):  # type: ignore[no-untyped-def]
 
 @jit
 def film_pass(p, base, deformation, scale, rigid, mobility, thinned, fluidity, density, step, h, mass, e, rho, soft):  # type: ignore[no-untyped-def]
-    """Gap, mass, mobility, density and h d(rho)/dp of every node from the pressure and the deformation it makes."""
+    """Compute gap, mass, mobility, density and h d(rho)/dp of every node from pressure and deformation."""
     rows, nx = p.shape
     last = fluidity.size - 1
     for j in range(rows):
@@ -72,7 +74,7 @@ def film_pass(p, base, deformation, scale, rigid, mobility, thinned, fluidity, d
 
 @jit
 def balance(p, mass, e, dx, mirror, out):  # type: ignore[no-untyped-def]
-    """Net inflow of mass per area at every inner node."""
+    """Compute the net inflow of mass per area at every inner node."""
     rows, nx = p.shape
     half = 0.5 / (dx * dx)
     for j in range(1, rows if mirror else rows - 1):
@@ -94,8 +96,9 @@ def balance(p, mass, e, dx, mirror, out):  # type: ignore[no-untyped-def]
 
 @jit
 def defect(p, mass, e, f, dx, mirror, out):  # type: ignore[no-untyped-def]
-    """What is missing in the balance where there is pressure, zero elsewhere. Returns the sums of |defect| p and of
-    mass p.
+    """Compute the defect of the balance where there is pressure, zero elsewhere.
+
+    Returns the sums of |defect| p and of mass p.
     """
     balance(p, mass, e, dx, mirror, out)
     rows, nx = p.shape
@@ -114,7 +117,7 @@ def defect(p, mass, e, f, dx, mirror, out):  # type: ignore[no-untyped-def]
 
 @jit
 def set_edges(p, edge, offset, mirror):  # type: ignore[no-untyped-def]
-    """Pressure of the edge nodes from that of their inner neighbours."""
+    """Set the pressure of the edge nodes from that of their inner neighbours."""
     rows, nx = p.shape
     for j in range(rows):
         p[j, 0] = max(edge[j, 0] * p[j, 1] + offset[j, 0], 0.0)
@@ -127,8 +130,9 @@ def set_edges(p, edge, offset, mirror):  # type: ignore[no-untyped-def]
 
 @jit
 def _line_balance(p, mass, e, f, dx, j, up, limit, faces, r, kind):  # type: ignore[no-untyped-def]
-    """Mobilities of the faces of a row's nodes, what they gain too much, and how each is to be changed. Returns the
-    first and the last node that is.
+    """Compute face mobilities, excess inflow and kind of change of a row's nodes.
+
+    Returns the first and the last node that changes.
     """
     nx = p.shape[1]
     half = 0.5 / (dx * dx)
@@ -212,7 +216,7 @@ def _line_changes(faces, r, kind, rho, soft, wedge, wedge_soft, j, first, final,
 
 @jit
 def relax(p, mass, e, rho, soft, f, edge, offset, wedge, wedge_soft, dx, compliance, mirror, single, spread, dp):  # type: ignore[no-untyped-def]
-    """One sweep of line relaxation over the rows. `single`, `spread`: damping of the two kinds of changes.
+    """Relax the rows by lines once. `single`, `spread`: damping of the two kinds of changes.
 
     `wedge`, `wedge_soft`: `line_kernels`. Changes p; dp is scratch of its shape.
     """

@@ -1,4 +1,4 @@
-"""Between the levels of a multigrid solver: restriction and interpolation of fields [rows, nx], as in `relaxation`.
+"""Transfer between grid levels: restriction and interpolation of fields [rows, nx], as in `relaxation`.
 
 The finer grid has 2 m - 1 rows and columns where the coarser one has m.
 """
@@ -10,7 +10,7 @@ from ..compiled import jit
 
 @jit
 def inject(fine, out):  # type: ignore[no-untyped-def]
-    """Values of the finer grid on the nodes of the coarser."""
+    """Copy the values of the finer grid at the nodes of the coarser."""
     for j in range(out.shape[0]):
         for i in range(out.shape[1]):
             out[j, i] = fine[2 * j, 2 * i]
@@ -32,7 +32,7 @@ def add_weighted(fine, mirror, out):  # type: ignore[no-untyped-def]
 
 @jit
 def undeformed_gap(h, deformation, scale, rigid, base):  # type: ignore[no-untyped-def]
-    """The undeformed gap that makes a gap of a rigid one and a deformation."""
+    """Compute the undeformed gap from gap, rigid gap and deformation."""
     for j in range(h.shape[0]):
         for i in range(h.shape[1]):
             base[j, i] = h[j, i] - rigid - scale * deformation[j, i]
@@ -40,7 +40,7 @@ def undeformed_gap(h, deformation, scale, rigid, base):  # type: ignore[no-untyp
 
 @jit
 def edge_offset(p, edge, mirror, offset):  # type: ignore[no-untyped-def]
-    """What edge pressures lack of those of `set_edges`."""
+    """Compute the difference of edge pressures from those of `set_edges`."""
     rows, nx = p.shape
     for j in range(rows):
         offset[j, 0] = p[j, 0] - edge[j, 0] * p[j, 1]
@@ -66,7 +66,7 @@ def add_interpolated(new, old, p):  # type: ignore[no-untyped-def]
 
 @jit
 def interpolate_cubic(coarse, mirror, fine):  # type: ignore[no-untyped-def]
-    """Cubic interpolation of the coarser grid, at least zero; linear in the cells at the edge."""
+    """Interpolate the coarser grid by cubics, at least zero; linearly in the cells at the edge."""
     rows, nx = fine.shape
     half = np.empty((coarse.shape[0], nx))
     cols = coarse.shape[1]
@@ -96,8 +96,10 @@ def interpolate_cubic(coarse, mirror, fine):  # type: ignore[no-untyped-def]
 
 @jit
 def extrapolate(coarser, p):  # type: ignore[no-untyped-def]
-    """Add a quarter of p - coarser to p where it is positive, `coarser` being twice as coarse a solution: what the next
-    finer one of a scheme of second order adds. p >= 0.
+    """Add a quarter of p - coarser to p where it is positive; p >= 0.
+
+    `coarser` is the solution of twice the spacing: a scheme of second order changes by this much on the next finer
+    grid.
     """
     for j in range(p.shape[0]):
         for i in range(p.shape[1]):
@@ -107,7 +109,7 @@ def extrapolate(coarser, p):  # type: ignore[no-untyped-def]
 
 @jit
 def weighted_sum(weight, p):  # type: ignore[no-untyped-def]
-    """Sum of weight * p."""
+    """Return the sum of weight * p."""
     out = 0.0
     for j in range(p.shape[0]):
         for i in range(p.shape[1]):
@@ -117,7 +119,7 @@ def weighted_sum(weight, p):  # type: ignore[no-untyped-def]
 
 @jit
 def distance(weight, a, b):  # type: ignore[no-untyped-def]
-    """Sum of weight * |a - b|."""
+    """Return the sum of weight * |a - b|."""
     out = 0.0
     for j in range(a.shape[0]):
         for i in range(a.shape[1]):

@@ -13,11 +13,12 @@ first-order removal needs one only: it keeps the thickness in `growth` and nothi
 `fitted` has laws of nodes in contact, fitted to films; `activated` those of reactions that stress speeds up.
 """
 
+from ..base import Tribofilm
 from .activated import Combined, Gosvami, ZhangSpikes
 from .doses import DOSES, MeanPasses, Passes
 from .fitted import Andersson, Ghanbarzadeh, NoTribofilm, thickness
 
-LAWS = (NoTribofilm, Ghanbarzadeh, Andersson, ZhangSpikes, Gosvami, Combined)
+LAWS: tuple[type[Tribofilm], ...] = (NoTribofilm, Ghanbarzadeh, Andersson, ZhangSpikes, Gosvami, Combined)
 
 __all__ = [
     "DOSES",

@@ -1,4 +1,4 @@
-"""Laws of reactions that stress speeds up, with first-order removal.
+"""Laws of reactions that stress accelerates, with first-order removal.
 
 Bell's model: a stress lowers the barrier of a reaction by its work on the activation volume, so the rate is
 A exp[-(E0 - stress dV) / (k_B T)] (Azam's equations (5-5) and (5-6), PhD thesis, University of Leeds 2018), with the
@@ -64,7 +64,7 @@ def _least_shear() -> Any:
 
 
 def edge_tension(position: Array) -> Array:
-    """Share (0 to 1) of the rise of the tension across the track from its middle to the edge of the contact.
+    """Return the share (0 to 1) of the rise of the tension across the track from its middle to its edge.
 
     `position` is |y| / b; beyond 1 the share stays 1. The radial surface stress of Hertz's frictionless circle, from
     -(1 + 2v) p0 / 2 in the middle to (1 - 2v) p0 / 3 at the edge (Johnson, Contact Mechanics, 1985, section 3.4,
@@ -79,7 +79,7 @@ def edge_tension(position: Array) -> Array:
 
 
 class _Activated:
-    """What these laws share. The thickness is in `growth`, `removal` stays zero."""
+    """Growth by Bell's rate. The thickness is in `growth`, `removal` stays zero."""
 
     abrades: ClassVar[bool] = True
     beyond_fit: str = "extrapolate"
@@ -92,13 +92,15 @@ class _Activated:
     edge_weight: float
 
     def rate(self, stress: Array, temperature: Temperature) -> Array:
-        """Rate of growth over h_max [1/s] under a stress [Pa] at a surface temperature [K]."""
+        """Return the rate of growth over h_max [1/s] under a stress [Pa] at a surface temperature [K]."""
         barrier = np.maximum(self.activation_energy - stress * self.activation_volume, 0.0)
         found: Array = self.prefactor / self.full_thickness * np.exp(-barrier / (BOLTZMANN * temperature))
         return found
 
     def abrasion(self, solid_pressure: Array, sliding_speed: float | Array, position: Array | None) -> Array:
-        """Rate of removal [1/s] under a solid pressure [Pa]; `position` is |y| / b, None: nowhere near an edge.
+        """Return the rate of removal [1/s] under a solid pressure [Pa].
+
+        `position` is |y| / b; None: far from the edges.
 
         Linear in the pressure: the mean pressure over a track gives the mean rate.
         """
@@ -110,7 +112,9 @@ class _Activated:
     def evolve(
         self, growth: Array, removal: Array, exposed: Array, abraded: Array, temperature: float
     ) -> tuple[Array, Array]:
-        """Both variables [m] after held rates of growth and removal added up to `exposed` and `abraded`; exact for any.
+        """Return both variables [m] after growth and removal rates that add up to `exposed` and `abraded`.
+
+        Exact for any of them.
 
         The temperature has been counted in `exposed`.
         """
@@ -119,17 +123,17 @@ class _Activated:
         return now - (settled - now) * np.expm1(-both), np.zeros_like(removal)
 
     def covers(self, temperature: float) -> bool:
-        """Whether a bulk `temperature` [K] is within 60 to 120 degC."""
+        """Return True if a bulk `temperature` [K] is within 60 to 120 degC."""
         return _COLDEST <= temperature <= _HOTTEST
 
     def refusal(self, temperature: float) -> str:
-        """Nothing to refuse: the rate carries the temperature."""
+        """Return an empty text: the rate includes the temperature."""
         return ""
 
 
 @dataclass(frozen=True)
 class _ByOneStress(_Activated):
-    """What laws of one stress and nothing else share."""
+    """Growth by one stress."""
 
     full_thickness: float = _full_thickness()
     prefactor: float = _prefactor()
@@ -167,7 +171,10 @@ class ZhangSpikes(_ByOneStress):
     least_shear: float = _least_shear()
 
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
-        """Rate of growth over h_max [1/s] under the total |shear stress| [Pa] of oil and solids; 0 without sliding."""
+        """Return the rate of growth over h_max [1/s] under the total |shear stress| [Pa] of oil and solids.
+
+        0 without sliding.
+        """
         if sliding_speed == 0.0:
             return np.zeros_like(shear)
         return np.where(shear > self.least_shear, self.rate(shear, temperature), 0.0)
@@ -193,7 +200,10 @@ class Gosvami(_ByOneStress):
     )
 
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
-        """Rate of growth over h_max [1/s] under the solid pressure [Pa] where solids touch; 0 without sliding."""
+        """Return the rate of growth over h_max [1/s] under the solid pressure [Pa] where solids touch.
+
+        0 without sliding.
+        """
         if sliding_speed == 0.0:
             return np.zeros_like(solid_pressure)
         return np.where(solid_pressure > 0.0, self.rate(solid_pressure, temperature), 0.0)
@@ -238,28 +248,28 @@ class Combined(_Activated):
 
     @property
     def in_contacts(self) -> Ghanbarzadeh:
-        """The law of the growth in contacts, without its removal."""
+        """Law of the growth in contacts, without its removal."""
         fit, beyond = self.fit_temperature, self.beyond_fit
         return Ghanbarzadeh(self.full_thickness, self.rate_factor, 0.0, 0.0, fit, beyond_fit=beyond)
 
     @property
     def by_shear(self) -> ZhangSpikes:
-        """The law of the growth by shear."""
+        """Law of the growth by shear."""
         barrier = (self.prefactor, self.activation_energy, self.activation_volume)
         removal = (self.removal_coefficient, self.edge_weight)
         return ZhangSpikes(self.full_thickness, *barrier, *removal, least_shear=self.least_shear)
 
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
-        """Weighted rate of growth over h_max [1/s] under solid pressure and total |shear stress| [Pa]."""
+        """Return the weighted rate of growth over h_max [1/s] under solid pressure and total |shear stress| [Pa]."""
         node = (solid_pressure, shear, sliding_speed, temperature)
         in_contacts = self.in_contacts.rate(temperature) * self.in_contacts.exposure(*node)
         return self.contact_weight * in_contacts + self.stress_weight * self.by_shear.exposure(*node)
 
     def covers(self, temperature: float) -> bool:
-        """Whether the constants of those parts that have a weight hold at a bulk `temperature` [K]."""
+        """Return True if the constants of those parts that have a weight hold at a bulk `temperature` [K]."""
         in_contacts = self.contact_weight == 0.0 or self.in_contacts.covers(temperature)
         return in_contacts and (self.stress_weight == 0.0 or super().covers(temperature))
 
     def refusal(self, temperature: float) -> str:
-        """Why the law does not go to a bulk `temperature` [K], or an empty text if it does."""
+        """Return why the law does not hold at a bulk `temperature` [K], or an empty text."""
         return self.in_contacts.refusal(temperature) if self.contact_weight > 0.0 else ""

@@ -1,4 +1,4 @@
-"""How the instants of a pass become the mean exposure per test time: the `dose` of a tribofilm law.
+"""Mean exposure per test time from the instants of a pass: the `dose` of a tribofilm law.
 
 A new dose is one class and one entry in `DOSES`.
 """

@@ -19,12 +19,12 @@ _FIT_WIDTH = 5.0  # K to either side of the fit
 
 
 def fit_temperature() -> Any:
-    """The field of a law whose constants hold at one temperature."""
+    """Return the field of a law whose constants hold at one temperature."""
     return parameter("K", "temperature at which the constants were fitted", least=200.0, most=600.0)
 
 
 def beyond_fit() -> Any:
-    """The field that says what such a law does at another one."""
+    """Return the field that chooses between refusal and extrapolation at other temperatures."""
     text = "what to do more than 5 K from the fit_temperature"
     return parameter("", text, choices=("refuse", "extrapolate"), default="refuse")
 
@@ -47,7 +47,7 @@ class _Unabraded:
     abrades: ClassVar[bool] = False
 
     def abrasion(self, solid_pressure: Array, sliding_speed: float | Array, position: Array | None) -> Array:
-        """Zeros in the shape of `solid_pressure`."""
+        """Return zeros in the shape of `solid_pressure`."""
         return np.zeros_like(solid_pressure)
 
 
@@ -65,7 +65,7 @@ class NoTribofilm(_Unabraded):
     dose: ClassVar[str] = "clock"
 
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
-        """Zeros in the shape of `solid_pressure`."""
+        """Return zeros in the shape of `solid_pressure`."""
         return np.zeros_like(solid_pressure)
 
     def evolve(
@@ -75,11 +75,11 @@ class NoTribofilm(_Unabraded):
         return growth, removal
 
     def covers(self, temperature: float) -> bool:
-        """Whether the constants hold at `temperature` [K]."""
+        """Return True: nothing depends on the temperature."""
         return True
 
     def refusal(self, temperature: float) -> str:
-        """Nothing to refuse at any `temperature` [K]."""
+        """Return an empty text at any `temperature` [K]."""
         return ""
 
 
@@ -121,13 +121,16 @@ class Ghanbarzadeh(_Unabraded):
     beyond_fit: str = beyond_fit()
 
     def rate(self, temperature: Temperature) -> Temperature:
-        """Rate k of growth [1/s] at `temperature` [K]."""
+        """Return the rate k of growth [1/s] at `temperature` [K]."""
         return BOLTZMANN * temperature / PLANCK * self.rate_factor
 
     def exposure(
         self, solid_pressure: Numbers, shear: Numbers, sliding_speed: float, temperature: Temperature
     ) -> Numbers:
-        """1 where a node is rubbed, else 0, under solid pressure and total |shear stress| [Pa]; 0 without sliding."""
+        """Return 1 where a node is rubbed, else 0, under solid pressure and total |shear stress| [Pa].
+
+        0 without sliding.
+        """
         if sliding_speed == 0.0:
             return np.zeros_like(solid_pressure)
         rubbed = solid_pressure > 0.0
@@ -138,17 +141,20 @@ class Ghanbarzadeh(_Unabraded):
     def evolve(
         self, growth: Array, removal: Array, exposed: Array, abraded: Array, temperature: float
     ) -> tuple[Array, Array]:
-        """Both variables [m] after each node was rubbed for a time `exposed` [s]; exact for any time."""
+        """Return both variables [m] after each node was rubbed for a time `exposed` [s]; exact for any time."""
         formed = -expm1(-self.rate(temperature) * exposed)
         taken = -expm1(-self.removal_rate * exposed)
         return growth + (self.full_thickness - growth) * formed, removal + (self.removal_thickness - removal) * taken
 
     def covers(self, temperature: float) -> bool:
-        """Whether `temperature` [K] is within 5 K of the fit: T enters the rate only by +-6 % from 60 to 100 degC."""
+        """Return True if `temperature` [K] is within 5 K of the fit.
+
+        T changes the rate by +-6 % only from 60 to 100 degC.
+        """
         return _covers(self.fit_temperature, temperature)
 
     def refusal(self, temperature: float) -> str:
-        """Why the law does not go to a bulk `temperature` [K], or an empty text if it does."""
+        """Return why the law does not hold at a bulk `temperature` [K], or an empty text."""
         if self.beyond_fit == "extrapolate" or self.covers(temperature):
             return ""
         changed = "changes the rate by +-6 % only between 60 and 100 degC: T enters by k_B T / h alone"
@@ -184,28 +190,31 @@ class Andersson(_Unabraded):
     beyond_fit: str = beyond_fit()
 
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
-        """Frictional power per area above the threshold [W/m2] where solids touch, total |shear stress| in Pa."""
+        """Return the frictional power per area above the threshold [W/m2] where solids touch.
+
+        The total |shear stress| is in Pa.
+        """
         power = np.maximum(shear * abs(sliding_speed) - self.least_power, 0.0)
         return np.where(solid_pressure > 0.0, power, 0.0)
 
     def evolve(
         self, growth: Array, removal: Array, exposed: Array, abraded: Array, temperature: float
     ) -> tuple[Array, Array]:
-        """Both variables [m] after each node took up `exposed` [J/m2]; exact for any energy."""
+        """Return both variables [m] after each node took up `exposed` [J/m2]; exact for any energy."""
         formed = -expm1(-self.growth_per_energy * exposed / self.full_thickness)
         return growth + (self.full_thickness - growth) * formed, removal
 
     def covers(self, temperature: float) -> bool:
-        """Whether `temperature` [K] is within 5 K of the fit."""
+        """Return True if `temperature` [K] is within 5 K of the fit."""
         return _covers(self.fit_temperature, temperature)
 
     def refusal(self, temperature: float) -> str:
-        """Why the law does not go to a bulk `temperature` [K], or an empty text if it does."""
+        """Return why the law does not hold at a bulk `temperature` [K], or an empty text."""
         if self.beyond_fit == "extrapolate" or self.covers(temperature):
             return ""
         return _refusal(self.fit_temperature, temperature, "leaves the rate as it is: the law has no temperature in it")
 
 
 def thickness(growth: Array, removal: Array) -> Array:
-    """Film thickness [m]."""
+    """Return the thickness of the tribofilm [m]."""
     return np.maximum(growth - removal, 0.0)

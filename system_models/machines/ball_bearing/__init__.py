@@ -9,7 +9,7 @@
     load_classes  balls in load classes, one contact for all balls of about one load
     textbook      friction torque after SKF and Palmgren, load integrals after Sjovall
     record        the results of a run by class and ball
-    report        tables; pictures
+    report        the printed report; pictures: its pictures
     shipped/      the files of bearings that come with the package
 
 x is the bearing's axis, y and z are radial, azimuths run from y towards z. The outer ring is at rest.

@@ -1,4 +1,4 @@
-"""Where the inner ring comes to rest under its loads: five degrees of freedom, balls with inertia.
+"""Equilibrium of the inner ring under its loads: five degrees of freedom, balls with inertia.
 
 Source: Jones, J. Basic Eng. 82 (1960) 309, doi:10.1115/1.3662587, with choices of our own: the balls' inertia is that
 of one speed of orbit, the cage's, and their gyroscopic moments are those of outer race control, held by friction on
@@ -27,7 +27,7 @@ _BALANCED = 1e-9  # of the largest force, at least of 1 N: more left over is no 
 
 
 class RingLoads(NamedTuple):
-    """What the shaft does to the inner ring [N, N m]; x is the axis, moments are about the centre of its grooves."""
+    """Loads of the shaft on the inner ring [N, N m]; x is the axis, moments are about the centre of its grooves."""
 
     x: float = 0.0
     y: float = 0.0
@@ -47,7 +47,7 @@ class Equilibrium:
     load_outer: Array
     angle_inner: Array  # contact angles [rad]; that of the outer race where a ball does not touch the inner one
     angle_outer: Array
-    rolling: Array  # [balls, 7], as `kernels.rolling` tells
+    rolling: Array  # [balls, 7], as `kernels.rolling` returns it
     cage: float  # speed of the cage over that of the inner ring
     residual: float  # largest force left over, over the largest force there is, at least 1 N
     steps: int  # of Newton's method
@@ -55,7 +55,7 @@ class Equilibrium:
 
     @property
     def converged(self) -> bool:
-        """Whether the forces balance."""
+        """True if the forces balance."""
         return self.residual <= _BALANCED
 
 
@@ -67,7 +67,7 @@ def solve(
     first_ball: float = 0.0,
     tilt_stiffness: float = 0.0,
 ) -> Equilibrium:
-    """The equilibrium at an angular speed [rad/s] of the inner ring; ball 1 is at azimuth `first_ball` [rad].
+    """Return the equilibrium at an angular speed [rad/s] of the inner ring; ball 1 is at azimuth `first_ball` [rad].
 
     tilt_stiffness: of the shaft against tilt of the ring [N m/rad]. `start` of an equilibrium nearby saves time; the
     answer is the same to rounding.
@@ -114,7 +114,7 @@ def solve(
 
 
 class _Fixed(NamedTuple):
-    """What the kernels ask of a geometry."""
+    """Numbers of a geometry that the kernels need."""
 
     centre: Array
     springs: Array

@@ -45,7 +45,7 @@ class Race:
         return float(self.unit.approach**-1.5)
 
     def ellipse(self, load: float) -> Hertz:
-        """The contact at a load [N] > 0."""
+        """Return the contact at a load [N] > 0."""
         return hertz_point(load, self.radius_x, self.radius_y, self.reduced_modulus)
 
     @property
@@ -123,7 +123,7 @@ class BallBearingGeometry:
 
     @property
     def mass(self) -> float:
-        """Of a ball [kg]."""
+        """Mass of a ball [kg]."""
         return self.density * math.pi / 6.0 * self.ball_diameter**3
 
     @property
@@ -142,11 +142,11 @@ class BallBearingGeometry:
         return self._race("outer", self.conformity_outer, 1.0)
 
     def race(self, name: RaceName) -> Race:
-        """One of the two by name."""
+        """Return the race of a name; curvatures are those at the nominal contact angle, whatever the loads."""
         return self.inner if name == "inner" else self.outer
 
     def _race(self, name: RaceName, conformity: float, outward: float) -> Race:
-        """Curvatures are those at the nominal contact angle, whatever the loads."""
+        """Return curvatures are those at the nominal contact angle, whatever the loads."""
         ball = 0.5 * self.ball_diameter
         bend = 1.0 + outward * self.ratio * math.cos(self.contact_angle)
         modulus = self.modulus / (1.0 - self.poisson**2)

@@ -28,7 +28,7 @@ _GRAZING = 0.1  # least cosine between a ball's axis and the plane of its contac
 
 @_jit
 def pull(x, r, stiffness, free):  # type: ignore[no-untyped-def]
-    """Force of a spring that reaches over (x, r): size, components, their derivatives xx, xr, rr."""
+    """Return the force of a spring that reaches over (x, r): size, components, their derivatives xx, xr, rr."""
     length = np.hypot(x, r)
     stretch = length - free
     if stretch <= 0.0:
@@ -42,13 +42,13 @@ def pull(x, r, stiffness, free):  # type: ignore[no-untyped-def]
 
 @_jit
 def _is_far_enough(along, down, part):  # type: ignore[no-untyped-def]
-    """Whether a part of Newton's step may end here, where the slope along it is `along` after `down` at its start."""
+    """Return True if a part of Newton's step may end here: slope `along` after slope `down` at its start."""
     return abs(along) <= -0.5 * down or (along < 0.0 and part == 1.0)
 
 
 @_jit
 def _between(part, along, low, below, high, above):  # type: ignore[no-untyped-def]
-    """The next part of a step to try, and the parts `low`, `high` between which the slope changes its sign."""
+    """Return the next part of a step to try, and the parts `low`, `high` between which the slope changes its sign."""
     if along < 0.0:
         low, below = part, along
     else:
@@ -59,7 +59,7 @@ def _between(part, along, low, below, high, above):  # type: ignore[no-untyped-d
 
 @_jit
 def _at_ball(x, r, cx, cr, bx, br, springs):  # type: ignore[no-untyped-def]
-    """First and second derivatives of a ball's energy by its position between the origin and (cx, cr), under b."""
+    """Return the derivatives of a ball's energy by its position between the origin and (cx, cr), under b."""
     _, ox, oy, oxx, oxr, orr = pull(x, r, springs[0], springs[1])
     _, ix, iy, ixx, ixr, irr = pull(cx - x, cr - r, springs[2], springs[3])
     return ox - ix - bx, oy - iy - br, oxx + ixx, oxr + ixr, orr + irr
@@ -67,13 +67,13 @@ def _at_ball(x, r, cx, cr, bx, br, springs):  # type: ignore[no-untyped-def]
 
 @_jit
 def _determinant(xx, xr, rr):  # type: ignore[no-untyped-def]
-    """Of a symmetric matrix that is not negative, not less than rounding leaves of it."""
+    """Return the determinant of a symmetric, not negative matrix, at least what rounding leaves of it."""
     return max(xx * rr - xr * xr, _EPS * (xx + rr) ** 2)
 
 
 @_jit
 def _seat_ball(x, r, cx, cr, bx, br, springs):  # type: ignore[no-untyped-def]
-    """Where a ball that is near (x, r) comes to rest."""
+    """Return the position of rest of a ball that is near (x, r)."""
     size = springs[1] + springs[3]
     gx, gr, hxx, hxr, hrr = _at_ball(x, r, cx, cr, bx, br, springs)
     norm = np.hypot(gx, gr)
@@ -109,7 +109,7 @@ def _product(one, other):  # type: ignore[no-untyped-def]
 
 @_jit
 def _solved(matrix, right):  # type: ignore[no-untyped-def]
-    """Solution of a symmetric positive definite system, by Cholesky's factors; overwrites both.
+    """Return the solution of a symmetric positive definite system, by Cholesky's factors; overwrites both.
 
     Pivots that rounding has made too small are raised to what it leaves of the largest entry.
     """
@@ -135,13 +135,13 @@ def _solved(matrix, right):  # type: ignore[no-untyped-def]
 
 @_jit
 def groove_centre(centre, ring, cos, sin):  # type: ignore[no-untyped-def]
-    """Centre of the inner groove at an azimuth once the ring has moved."""
+    """Return the centre of the inner groove at an azimuth once the ring has moved."""
     return centre[0] + ring[0] + sin * ring[3] - cos * ring[4], centre[1] + cos * ring[1] + sin * ring[2]
 
 
 @_jit
 def _at_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring, slope, curvature):  # type: ignore[no-untyped-def]
-    """First and second derivatives of the energy by the ring's coordinates, with all balls at rest; moves `balls`."""
+    """Return the derivatives of the energy by the ring's coordinates, with all balls at rest; moves `balls`."""
     for i in range(5):
         slope[i] = centring[i] * ring[i] - forces[i]
         curvature[i, :] = 0.0
@@ -205,9 +205,9 @@ def seat_ring(ring, balls, pressed, azimuths, centre, springs, forces, centring,
 
 @_jit
 def rolling(inner, outer, held_inner, held_outer, ratio):  # type: ignore[no-untyped-def]
-    """How a ball rolls whose contact angles are `inner` and `outer` [rad], per angular speed of the inner ring.
+    """Return the rolling of a ball with contact angles `inner`, `outer` [rad], per angular speed of the inner ring.
 
-    ratio: of ball to pitch diameter. held: what the spin of a contact meets with (any unit). The outer ring is at rest.
+    ratio: of ball to pitch diameter. held: the resistance of a contact to spin (any unit). The outer ring is at rest.
     Returns orbit, roll, tilt of the axis [rad], and for the inner and the outer contact: rolling of the ball relative
     to the race, spin (of the ball relative to the race, about the contact's normal that points outward).
     """
@@ -238,7 +238,7 @@ def rolling(inner, outer, held_inner, held_outer, ratio):  # type: ignore[no-unt
 
 @_jit
 def motions(ring, balls, azimuths, centre, springs, holds, ratio, found):  # type: ignore[no-untyped-def]
-    """Fill `found` [Z, 11]: inner and outer load, their angles, and what `rolling` tells.
+    """Fill `found` [Z, 11]: inner and outer load, their angles, and the results of `rolling`.
 
     holds: lever of spin friction at 1 N [m] of the inner and the outer contact. A ball without load on the inner race
     has there the angle of the outer one.
@@ -257,7 +257,7 @@ def motions(ring, balls, azimuths, centre, springs, holds, ratio, found):  # typ
 
 @_jit
 def cage(found, idle):  # type: ignore[no-untyped-def]
-    """Speed of the cage over that of the inner ring: mean orbit of the driven balls, weighted with their inner load.
+    """Return the cage's speed over the inner ring's: mean orbit of the driven balls, weighted with their inner load.
 
     idle: the cage's where no ball is driven.
     """

@@ -1,9 +1,9 @@
-"""How balls and raceways move in their contacts.
+"""Motion of balls and raceways in their contacts.
 
 Every ball rolls without gross slip on both races: at the centre of a contact both surfaces have one speed. The tilt of
 its axis lies between those of Jones' outer and inner race control, at which the one or the other contact does not spin:
-the contact whose friction meets spin with the smaller moment spins, and where the moments are near each other both do,
-in shares by the fourth power of the moments. Race control, which jumps from one race to the other, has the least
+the contact whose friction resists spin with the smaller moment spins; where the moments are about equal both do, in
+shares by the fourth power of the moments. Race control, which jumps from one race to the other, has the least
 Coulomb power; this has at most 8.3 % more and is smooth in the loads. A ball takes its own orbit here, as a cage with
 play in its pockets allows; only its inertia is that of the common one.
 
@@ -50,7 +50,7 @@ class Motion:
 
 
 def motion(geometry: BallBearingGeometry, rest: Equilibrium, race: RaceName) -> Motion:
-    """How the balls of an equilibrium move on a race."""
+    """Return the motion of the balls of an equilibrium on a race."""
     _, roll, tilt, rolling_inner, rolling_outer, spin_inner, spin_outer = rest.rolling.T
     if race == "inner":
         groove, angle, rolling, spin = geometry.inner.groove, rest.angle_inner, rolling_inner, spin_inner

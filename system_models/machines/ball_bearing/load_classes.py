@@ -5,8 +5,8 @@ variable Q^(1/3) in which the ellipses grow, and weighted with it, as rolling re
 sum count Q^(p/3) is that of the balls for p = 1, 2 ... 2 K: from two classes on that of the loads, of spin friction
 Q^(4/3), from three on of differential sliding Q^(5/3). Counts need not be whole. A ball without load is in no class of
 the inner race; on the outer one, which it only leaves as the shaft stops, it keeps almost none, and so its class.
-What differs from ball to ball otherwise, such as spin, is in each class a mean of positive weights, the squares of
-Lagrange's polynomials: exact for what is even or goes with Q^(1/3).
+Other differences from ball to ball, such as spin, are averaged in each class with positive weights, the squares of
+Lagrange's polynomials: exact for quantities that are equal or proportional to Q^(1/3).
 
 Nodes and means are Ritz values and squared Ritz vectors of Lanczos' method. All goes continuously with the loads: each
 ball is a tiny cloud of balls, so that there are enough of them for any number of classes, also where all loads are
@@ -52,7 +52,7 @@ class Classes:
 
 
 def classify(geometry: BallBearingGeometry, race: Race, loads: Array, motion: Motion, levels: int) -> Classes:
-    """The balls [Z] with these loads [N] on a race in `levels` classes."""
+    """Return the balls [Z] with these loads [N] on a race in `levels` classes."""
     least = _LEAST * float(loads.max()) if race.name == "outer" else 0.0
     load, count, weights = gathered(np.maximum(loads, least), levels)
     width = race.unit.b * np.cbrt(load)
@@ -69,7 +69,7 @@ def classify(geometry: BallBearingGeometry, race: Race, loads: Array, motion: Mo
 
 
 def gathered(loads: Array, levels: int) -> tuple[Array, Array, Array]:
-    """Loads [N] and counts of `levels` classes, and the weights [levels, Z] of the balls in means over each."""
+    """Return loads [N] and counts of `levels` classes, and the weights [levels, Z] of the balls in means over each."""
     size = np.cbrt(loads)
     total = float(size.sum())
     if total == 0.0:
@@ -82,7 +82,7 @@ def gathered(loads: Array, levels: int) -> tuple[Array, Array, Array]:
 
 
 def _ritz(diagonal: Array, start: Array, steps: int) -> tuple[Array, Array, Array]:
-    """Ritz values and vectors of a diagonal matrix after Lanczos' steps from a unit vector, and its part in each."""
+    """Return Ritz values, Ritz vectors of a diagonal matrix by Lanczos' steps from a unit vector, its parts in them."""
     basis, matrix = np.zeros((diagonal.size, steps)), np.zeros((steps, steps))
     basis[:, 0] = start
     for k in range(steps):
@@ -98,16 +98,16 @@ def _ritz(diagonal: Array, start: Array, steps: int) -> tuple[Array, Array, Arra
 
 
 def track_lengths(geometry: BallBearingGeometry, race: Race, count: Array, motion: Motion) -> list[tuple[float, float]]:
-    """Travel [m] of a point of the ball and of a point of the ring between two passes through a contact of each class.
+    """Return the track lengths [m] of ball and ring in the contact of each load class.
 
     For the balls' `count` [levels] at a design load; the speed does not matter, as all of them grow with it.
 
-    - Ball: its axis keeps its direction in it, so that one circle meets the race once a turn, in the class's part of
+    - Ball: its axis keeps its direction in it, so that one circle touches the race once a turn, in the class's part of
       the turns. A ball that tumbles spreads the wear over its surface. Inner and outer contacts of a ball on one
       circle, as under a radial load, wear it together; their films do not know of each other.
-    - Inner ring: each of its points meets all balls wherever they are, `count` of them in this class each turn
+    - Inner ring: each of its points touches all balls wherever they are, `count` of them in this class each turn
       relative to the cage. The depths of all classes add up; each class has the tribofilm of its own passes only.
-    - Outer ring: it stands still under a load that does too. Each of its points meets all balls, always with the load
+    - Outer ring: it stands still under a load that does too. Each of its points touches all balls, always with the load
       of its place: the classes are places, and their depths do not add up.
 
     Wear of a design load holds for others as far as the counts of its classes do. Counts below 0.01 are taken as that.

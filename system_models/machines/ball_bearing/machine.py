@@ -75,7 +75,7 @@ def design(table: Mapping[str, Any], duty: Timeline) -> Design:
 
 
 def _largest(duty: Timeline) -> tuple[RingLoads, float]:
-    """The row of the duty with the largest force, and the largest speed [rad/s]."""
+    """Return the row of the duty with the largest force, and the largest speed [rad/s]."""
     rows = [values for _, values in duty.filled()]
     heavy = max(rows, key=lambda row: abs(row.get("load", 0.0)) + abs(row.get("axial_load", 0.0)))
     loads = RingLoads(heavy.get("axial_load", 0.0), heavy.get("load", 0.0), 0.0, 0.0, heavy.get("moment", 0.0))
@@ -83,14 +83,14 @@ def _largest(duty: Timeline) -> tuple[RingLoads, float]:
 
 
 def _contact(table: Mapping[str, Any], design: LoadClass) -> Contact:
-    """The contact of a class: what its FMU is told beside what changes."""
+    """Return the contact of a load class: values of its FMU beside the connected inputs."""
     tracks = {f"geometry.track_length_{i}": getattr(design, f"track_length_{i}") for i in (1, 2)}
     told = {"radius_x": design.radius_x, "radius_y": design.radius_y, **tracks}
     return Contact(scene_of(table), told, "bearing." + indexed(f"count_{design.race}", design.level))
 
 
 def _links(design: LoadClass) -> list[tuple[Any, ...]]:
-    """Connections of the contact of a class."""
+    """Return connections of the contact of a class."""
     name = design.name
 
     def port(key: str) -> str:

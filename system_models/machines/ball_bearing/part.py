@@ -48,7 +48,7 @@ def contact_name(race: RaceName, level: int) -> str:
 
 
 class LoadClass(NamedTuple):
-    """What the contact of a class is to be built with."""
+    """Data with which the contact of a load class is built."""
 
     race: RaceName
     level: int  # from 1, the lightest
@@ -78,7 +78,7 @@ class BallBearing(Part):
     entrainment u per angular speed of the shaft. These are geometry: it does not divide by the speed, follows a change
     of speed before the contacts do, and always resists. Below the speed `standstill` it goes over to the torque that
     the Coulomb friction `friction_at_rest` holds, sum count mu load sqrt(s^2 + (lever w_s)^2), which the contacts,
-    whose friction fades where nothing slides, cannot tell; at rest it is given as positive, and only holds.
+    whose friction fades where nothing slides, cannot give; at rest it is given as positive, and only holds.
 
     All power that the shaft loses becomes heat of balls, rings, and, where the contacts do not put it into them, oil.
     """
@@ -116,7 +116,7 @@ class BallBearing(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """What each class is given, then the bearing as a whole, then its balls."""
+        """Outputs for each load class, of the bearing as a whole, and of its balls."""
 
         def told(name: str, symbol: str, unit: str, nominal: float, text: str, *, by: tuple[str, ...] = _BY_LOAD,
                  display: str = "") -> Output:  # fmt: skip
@@ -155,7 +155,7 @@ class BallBearing(Part):
         )  # fmt: skip
 
     def _given_to(self, race: RaceName) -> Iterator[Output]:
-        """What the classes of a race are given, and how many balls they stand for."""
+        """Yield the outputs for the load classes of a race, and the numbers of balls that they stand for."""
         for name, nominal in SENT.items():
             for k in self._numbers:
                 yield Output(**_alike(name, race, k, nominal), direct=_BY_LOAD)
@@ -171,7 +171,7 @@ class BallBearing(Part):
         return tuple(indexed(f"{name}_{race}", k) for race in RACES for k in self._numbers)
 
     def designs(self, loads: RingLoads, speed: float) -> tuple[LoadClass, ...]:
-        """What the contacts of all classes are to be built with, inner race first, for a design load and speed."""
+        """Return the data of the contacts of all load classes, inner race first, for a design load and speed."""
         rest, found = self._at(loads, speed), []
         for race, classes in self._classes(rest):
             shape, moving = self.dimensions.race(race), motion(self.dimensions, rest, race)
@@ -183,11 +183,11 @@ class BallBearing(Part):
         return tuple(found)
 
     def initial(self, inputs: Values) -> State:
-        """Where the search for the next equilibrium starts: what `equilibrium.solve` takes as such."""
+        """Return the start of the search for the next equilibrium, as `equilibrium.solve` takes it."""
         return self._solved(None, inputs).start
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """Nothing remains of what was before but where the search starts."""
+        """Return the start of the next search: nothing else remains of the past."""
         return self._solved(state, inputs).start
 
     def _solved(self, state: State | None, inputs: Values) -> Equilibrium:
@@ -209,7 +209,7 @@ class BallBearing(Part):
             yield race, classify(self.dimensions, self.dimensions.race(race), loads, moving, self.levels)
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Value of each of `responses`, for the inputs as they are."""
+        """Return the value of each of `responses`, for the inputs as they are."""
         rest, speed = self._solved(state, inputs), inputs["speed"]
         classes = dict(self._classes(rest))
         torque = self._torque(classes, inputs, speed)
@@ -232,20 +232,20 @@ class BallBearing(Part):
         return {name: np.array([inputs[indexed(f"{name}_{race}", k)] for k in self._numbers]) for name in RECEIVED}
 
     def _torque(self, classes: dict[RaceName, Classes], inputs: Values, speed: float) -> float:
-        """Friction torque on the shaft, positive where it resists a positive speed [N m]."""
+        """Return the friction torque on the shaft, positive where it resists a positive speed [N m]."""
         moving = at_rest = 0.0
         for race, c in classes.items():
-            felt = {name: np.abs(values) for name, values in self._received(race, inputs).items()}
+            received = {name: np.abs(values) for name, values in self._received(race, inputs).items()}
             sliding, lever = np.abs(c.sliding), self.dimensions.race(race).spin_lever * np.cbrt(c.load)
-            force = felt["friction_force"] * sliding + felt["spin_torque"] * c.spin
-            moving += float(c.count @ (force + 2.0 * felt["rolling_resistance"] * c.entrainment))
+            force = received["friction_force"] * sliding + received["spin_torque"] * c.spin
+            moving += float(c.count @ (force + 2.0 * received["rolling_resistance"] * c.entrainment))
             at_rest += self.friction_at_rest * float(c.count @ (c.load * np.hypot(sliding, lever * c.spin)))
         part = min(abs(speed) / self.standstill, 1.0)
         torque = part * moving + (1.0 - part) * at_rest
         return torque if speed >= 0.0 else -torque
 
     def _given(self, classes: dict[RaceName, Classes], speed: float) -> dict[str, float]:
-        """What each class is given, and how many balls it stands for."""
+        """Return the values for each load class, and the number of balls that it stands for."""
         found = {}
         for race, c in classes.items():
             rows = {
@@ -261,7 +261,7 @@ class BallBearing(Part):
         return found
 
     def _whole(self, rest: Equilibrium, speed: float) -> dict[str, float]:
-        """The bearing as a whole, and each ball."""
+        """Return the bearing as a whole, and each ball."""
         driven, inner, outer = rest.load_inner > 0.0, self.dimensions.inner, self.dimensions.outer
         largest = float(rest.load_inner.max()), float(rest.load_outer.max())
         pressures = [
@@ -283,7 +283,7 @@ class BallBearing(Part):
 
 
 def _alike(name: str, race: RaceName, k: int, nominal: float) -> dict[str, Any]:
-    """The variable for a quantity of the contact of class k."""
+    """Return the variable for a quantity of the contact of class k."""
     q = TABLE[name]
     return {
         "name": indexed(f"{name}_{race}", k),

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 _RPM, _DEGREES, _CELSIUS = 30.0 / math.pi, 180.0 / math.pi, 273.15
 _NM, _NMM = 1e9, 1e3  # per m, per N m
-# colours of Okabe and Ito: told apart by the colour-blind
+# colours of Okabe and Ito: which the colour-blind can tell apart
 _RACE_COLOURS: dict[RaceName, str] = {"inner": "#0072B2", "outer": "#D55E00"}
 _GREEN, _PURPLE, _ORANGE, _SKY = "#009E73", "#CC79A7", "#E69F00", "#56B4E9"
 _PART_COLOURS = {"rolling": _SKY, "sliding": _ORANGE, "spin": _PURPLE}
@@ -40,7 +40,7 @@ def write(run: BearingRun, folder: Path) -> list[Path]:
 
 
 def overview(run: BearingRun) -> "Figure":
-    """Loads and films around the race, torque, power and temperatures, starts, tribofilms, wear, film ratio."""
+    """Draw loads and films around the race, torque, power, temperatures, starts, tribofilms, wear, film ratio."""
     figure = _figure(run, (13.0, 11.0))
     grid = figure.add_gridspec(3, 3)
     _loads_around(figure.add_subplot(grid[0, 0], projection="polar"), run)
@@ -56,7 +56,7 @@ def overview(run: BearingRun) -> "Figure":
 
 
 def load_zone(run: BearingRun) -> "Figure":
-    """Load, pressure, film and film ratio of the balls around the races."""
+    """Draw load, pressure, film and film ratio of the balls around the races."""
     figure = _figure(run, (11.0, 10.0))
     places = [figure.add_subplot(2, 2, k, projection="polar") for k in range(1, 5)]
     _loads_around(places[0], run)
@@ -67,7 +67,7 @@ def load_zone(run: BearingRun) -> "Figure":
 
 
 def surfaces(run: BearingRun) -> "Figure":
-    """Of each class against time: tribofilm, wear, roughness, friction, share of the solids, film ratio."""
+    """Draw for each load class against time: tribofilm, wear, roughness, friction, share of the solids, film ratio."""
     figure = _figure(run, (13.0, 7.5))
     axes = figure.subplots(2, 3)
     _of_bodies(axes[0, 0], run, "tribofilm", "mean tribofilm [nm]")
@@ -91,7 +91,7 @@ def _figure(run: BearingRun, size: tuple[float, float]) -> "Figure":
 
 
 def _polar(axes: Any, title: str) -> None:
-    """The load points down."""
+    """Prepare polar axes with the load pointing down."""
     axes.set_theta_zero_location("S")
     axes.set_title(title, fontsize="medium")
     axes.tick_params(labelsize="small")
@@ -108,7 +108,7 @@ def _loads_around(axes: Any, run: BearingRun) -> None:
 
 
 def _passages(axes: Any, run: BearingRun, name: str, factor: float, title: str) -> None:
-    """Of a ball on its way around."""
+    """Draw a quantity of a ball along its orbit."""
     for race, style in zip(RACES, ("-", "--"), strict=True):
         way = run.passage(race, run.last)
         azimuth, values = np.append(way.azimuth, way.azimuth[0] + 2.0 * math.pi), factor * getattr(way, name)
@@ -118,7 +118,7 @@ def _passages(axes: Any, run: BearingRun, name: str, factor: float, title: str) 
 
 
 def _balls_around(axes: Any, run: BearingRun, name: str, factor: float, title: str) -> None:
-    """What the contacts tell, of a ball on its way around; nothing where it has no load."""
+    """Draw an output of the contacts along a ball's orbit; nothing where the ball has no load."""
     for race, style in zip(RACES, ("-", "--"), strict=True):
         way = run.passage(race, run.last)
         values = factor * run.at_load(race, name, run.last, way.load)
@@ -127,7 +127,7 @@ def _balls_around(axes: Any, run: BearingRun, name: str, factor: float, title: s
 
 
 def _films_around(axes: "Axes", run: BearingRun) -> None:
-    """Mean gap of a ball on its way around; the film ratio is in proportion but for the roughness."""
+    """Draw the mean gap of a ball along its orbit; the film ratio is in proportion but for the roughness."""
     for race in RACES:
         way = run.passage(race, run.last)
         gap = _NM * run.at_load(race, "h_c", run.last, way.load)
@@ -141,7 +141,7 @@ def _films_around(axes: "Axes", run: BearingRun) -> None:
 
 
 def _clock(run: BearingRun) -> tuple[Array, str]:
-    """Times in the unit that people would take, and that unit."""
+    """Return times in the unit that people would take, and that unit."""
     for unit, seconds in (("h", 3600.0), ("min", 60.0)):
         if run.time[-1] >= 3.0 * seconds:
             return run.time / seconds, unit
@@ -161,7 +161,7 @@ def _plain(axes: "Axes") -> None:
 
 
 def _legend(axes: "Axes", **more: Any) -> None:
-    """Above the axes, where it covers no line."""
+    """Draw the legend above the axes, where it covers no line."""
     axes.legend(**_KEY, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2, **_ABOVE | more)
 
 
@@ -170,7 +170,7 @@ def _total(parts: Mapping[str, Array]) -> Array:
 
 
 def _torque(axes: "Axes", run: BearingRun) -> None:
-    """Causes of the torque as areas, the textbooks as lines."""
+    """Draw the causes of the torque as areas, the textbooks as lines."""
     time, _ = _clock(run)
     below = np.zeros(time.size)
     for name, part in run.torque.items():
@@ -200,7 +200,7 @@ def _temperatures(axes: "Axes", run: BearingRun) -> None:
 
 
 def _over_speed(axes: "Axes", run: BearingRun) -> None:
-    """Size of the torque over speed in each start but the first, unless it is the only one; textbooks for the last."""
+    """Draw the torque over speed in each start but the first, unless it is the only one; textbooks for the last."""
     from matplotlib import colormaps
     from matplotlib.ticker import LogLocator, NullFormatter
 
@@ -231,12 +231,12 @@ def _over_speed(axes: "Axes", run: BearingRun) -> None:
 
 
 def _shade(level: int, levels: int) -> float:
-    """Opacity of a class: the heaviest is the darkest."""
+    """Return the opacity of a class: the heaviest is the darkest."""
     return 0.3 + 0.7 * level / levels
 
 
 def _of_bodies(axes: "Axes", run: BearingRun, name: str, label: str, log: bool = True) -> None:
-    """A length of balls and rings in all classes."""
+    """Draw a length of balls and rings in all load classes."""
     time, _ = _clock(run)
     largest = 0.0
     for which in run.carrying:
@@ -259,7 +259,7 @@ def _of_bodies(axes: "Axes", run: BearingRun, name: str, label: str, log: bool =
 
 
 def _of_contacts(axes: "Axes", run: BearingRun, name: str, label: str) -> None:
-    """An output of the contacts of all classes, where the shaft turns and they are loaded."""
+    """Draw an output of the contacts of all load classes, where the shaft turns and they are loaded."""
     time, _ = _clock(run)
     least, largest = math.inf, 0.0
     for which in run.carrying:
@@ -277,7 +277,7 @@ def _of_contacts(axes: "Axes", run: BearingRun, name: str, label: str) -> None:
 
 
 def _key(axes: "Axes", run: BearingRun, bodies: bool) -> None:
-    """Colours are races, dashes rings; darker is heavier."""
+    """Draw the key: colours are races, dashes rings; darker is heavier."""
     from matplotlib.lines import Line2D
 
     entries: list[tuple[str, Any]] = [(race, {"color": _RACE_COLOURS[race]}) for race in RACES]

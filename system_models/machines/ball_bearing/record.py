@@ -1,4 +1,4 @@
-"""What a run of a ball bearing tells beside its outputs: torque in parts and by textbooks, each ball's film, starts."""
+"""Results of a bearing's run beside its outputs: torque in parts and by textbooks, film of each ball, starts."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
@@ -74,7 +74,7 @@ class BearingRun:
         return self.of("time")
 
     def of(self, name: str) -> Array:
-        """A variable of the dataset."""
+        """Return a variable of the dataset."""
         return np.asarray(self.dataset[name].values, dtype=np.float64)
 
     @property
@@ -91,26 +91,26 @@ class BearingRun:
         return tuple(which for which in self.classes if loads[which] > least and balls[which] > FEWEST)
 
     def loaded(self, which: ContactClass) -> NDArray[np.bool_]:
-        """Where a class has balls that carry more than hardly any load: others idle, on oil as thick as it may be."""
+        """Return True in rows in which a load class has balls that carry more than hardly any load."""
         load, balls = self.given(which, "load"), self.given(which, "count")
         return (balls > FEWEST) & (load > _HARDLY * self.of("bearing.load_max"))
 
     def given(self, which: ContactClass, name: str) -> Array:
-        """What the bearing gives a class: load, speeds, count, ..."""
+        """Return a value that the bearing sends to a load class: load, speeds, count, ..."""
         return self.of("bearing." + indexed(f"{name}_{which.race}", which.level))
 
     def told(self, which: ContactClass, name: str) -> Array:
-        """What the contact of a class tells."""
+        """Return an output of the contact of a load class."""
         return self.of(f"{which.contact}.{name}")
 
     @cached_property
     def speed(self) -> Array:
-        """Of the shaft [rad/s]."""
+        """Speed of the shaft [rad/s]."""
         return self.of("shaft.speed")
 
     @cached_property
     def runs(self) -> NDArray[np.bool_]:
-        """Where the shaft turns."""
+        """True in rows in which the shaft turns."""
         return np.abs(self.speed) > self.bearing.standstill
 
     @property
@@ -123,19 +123,19 @@ class BearingRun:
         return int(rows[speed[rows] >= _REACHED * speed[rows[0]]][-1])
 
     def scheduled(self, name: str) -> Array:
-        """An input of the bearing that the duty sets, as it was in the step to each row; zero if it does not."""
+        """Return an input of the bearing that the duty sets, as it was in the step to each row; zero if it does not."""
         course = self.assembly.schedule.get(f"bearing.{name}", ((0.0, 0.0),))
         times, values = np.array([[float(at), float(value)] for at, value in course]).T
         return values[np.maximum(np.searchsorted(times, self.time, side="left") - 1, 0)]
 
     def ring_loads(self, row: int) -> RingLoads:
-        """Loads on the inner ring at a row."""
+        """Return loads on the inner ring at a row."""
         names = ("force_x", "force_y", "force_z", "moment_y", "moment_z")
         return RingLoads(*(float(self.scheduled(name)[row]) for name in names))
 
     @cached_property
     def torque(self) -> Parts:
-        """Friction torque by what the contacts tell: the bearing's, but for a step's delay between them."""
+        """Friction torque from the contacts' outputs: the bearing's, but for a step's delay between them."""
         speed = np.where(self.runs, np.abs(self.speed), np.nan)
         rolling, sliding, spin = np.zeros((3, speed.size))
         for which in self.classes:
@@ -146,7 +146,7 @@ class BearingRun:
         return {"rolling": rolling, "sliding": sliding, "spin": spin}
 
     def _spin_torque(self, which: ContactClass) -> Array:
-        """Size of a contact's torque about its normal [N m], by its power."""
+        """Return the size of a contact's torque about its normal [N m], by its power."""
         slid = self.told(which, "friction_force") * (self.told(which, "speed_1") - self.told(which, "speed_2"))
         spin = np.abs(self.told(which, "spin"))
         lost = np.maximum(self.told(which, "power_loss") - np.abs(slid), 0.0)
@@ -164,7 +164,7 @@ class BearingRun:
 
     @property
     def kinematic_viscosity(self) -> Array:
-        """Of the oil at its temperature [m2/s]."""
+        """Kinematic viscosity of the oil [m2/s]."""
         oil = next(iter(self.assembly.contacts.values())).scene.lubricant
         return kinematic_viscosity(oil, self.of("housing.temperature_oil"))
 
@@ -187,8 +187,10 @@ class BearingRun:
 
     @property
     def starts(self) -> list[NDArray[np.int_]]:
-        """Rows of each start, from the last at rest, or the first in a direction, to where the speed has nearly reached
-        its largest.
+        """Rows of each start.
+
+        From the last row at rest, or the first in a direction, to the row in which the speed has nearly reached its
+        largest.
         """
         direction = np.concatenate([[0.0], np.where(self.runs, np.sign(self.speed), 0.0), [0.0]])
         found = []
@@ -205,16 +207,16 @@ class BearingRun:
 
     @property
     def start_peaks(self) -> Array:
-        """Size of the largest friction torque of each start [N m] while the shaft turns: friction at rest is given."""
+        """Largest friction torque of each start [N m] while the shaft turns: friction at rest is given."""
         torque = np.abs(self.of("bearing.friction_torque"))
         return np.array([torque[rows[self.runs[rows]]].max() for rows in self.starts])
 
     def pressure(self, race: RaceName, load: Array) -> Array:
-        """Hertz's largest pressure [Pa] of balls with loads [N]."""
+        """Return Hertz's largest pressure [Pa] of balls with loads [N]."""
         return self.bearing.dimensions.race(race).unit.pressure_max * np.cbrt(load)
 
     def balls(self, race: RaceName, row: int) -> tuple[Array, Array]:
-        """Azimuth [rad] from -pi to pi and load [N] of each ball at a row, by rising azimuth."""
+        """Return azimuth [rad] from -pi to pi and load [N] of each ball at a row, by rising azimuth."""
         count = self.bearing.dimensions.balls
         turn = self.bearing.first_ball + 2.0 * np.pi * np.arange(count) / count
         azimuth = np.remainder(turn + np.pi - 1e-12, 2.0 * np.pi) - np.pi + 1e-12
@@ -223,7 +225,7 @@ class BearingRun:
         return azimuth[order], load[order]
 
     def passage(self, race: RaceName, row: int) -> Passage:
-        """A ball on its way around under the loads and speed of a row: the equilibria of many places of the cage."""
+        """Return the orbit of a ball under the loads and speed of a row: equilibria of many positions of the cage."""
         loads, speed, part = self.ring_loads(row), float(self.speed[row]), self.bearing
         found: list[tuple[float, float]] = []
         start: tuple[float, ...] | None = None
@@ -236,11 +238,11 @@ class BearingRun:
         return Passage(azimuth, load, self.pressure(race, load))
 
     def at_load(self, race: RaceName, name: str, row: int, load: Array) -> Array:
-        """Mean gap ("h_c") or film ratio ("lambda_ratio") of balls with loads [N] on a race at a row.
+        """Return the mean gap ("h_c") or film ratio ("lambda_ratio") of balls with loads [N] on a race at a row.
 
         Interpolated between the classes is not the film, of which idle balls have many times as much, but its share of
-        what the fast level has with fresh surfaces at the same load: that hardly changes. NaN with hardly any load and
-        at rest.
+        what the regression level gives for fresh surfaces at the same load: that hardly changes. NaN with hardly any
+        load and at rest.
         """
         found, loaded = np.full(load.shape, np.nan), load > _HARDLY * load.max()
         told = [
@@ -257,7 +259,7 @@ class BearingRun:
         return found
 
     def _fresh_gaps(self, which: ContactClass, row: int, loads: Sequence[float]) -> Array:
-        """Mean gaps [m] of the fast level under loads [N], with fresh surfaces and all else as in a class at a row."""
+        """Return mean gaps [m] of the regression level under loads [N]: fresh surfaces, all else as at a row."""
         contact = self.assembly.contacts[which.contact]
         names = {field.name for field in fields(OperatingPoint)}
         given = {name: float(value) for name, value in contact.parameters.items() if name in names}
@@ -283,7 +285,7 @@ class BearingRun:
 
 
 def kinematic_viscosity(oil: Lubricant, temperature: Array) -> Array:
-    """Of an oil at p = 0 and temperatures [K], in m2/s."""
+    """Return the kinematic viscosity [m2/s] of an oil at p = 0 and temperatures [K]."""
     law, density = oil.viscosity, np.full_like(temperature, DENSITY)
     if isinstance(law, AstmD341):
         density = law.density * (1.0 - law.expansion * (temperature - 288.15))

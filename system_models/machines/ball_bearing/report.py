@@ -1,4 +1,4 @@
-"""What a run of a ball bearing says: its contacts, torque beside SKF's and Palmgren's, heat and motion."""
+"""The report of a bearing's run: its contacts, torque beside SKF's and Palmgren's, heat and motion."""
 
 import math
 from pathlib import Path
@@ -14,17 +14,17 @@ _RPM = 30.0 / math.pi
 _CELSIUS = 273.15
 _NM, _NMM = 1e9, 1e3  # per m, per N m
 _NOTHING = 1e-3  # nm: less of a film or wear is none
-_UNLOADED = 0.5  # N: less is printed as none, and its film tells nothing
+_UNLOADED = 0.5  # N: less is printed as none, and its film says nothing
 _SOLIDS, _LAYERS = "contact_load_ratio", ("tribofilm_1", "tribofilm_2", "wear_depth_1", "wear_depth_2")
 
 
 def write(assembly: Assembly, dataset: xr.Dataset, folder: Path) -> list[Path]:
-    """The pictures, `overview.png` first."""
+    """Write the pictures and return their paths, `overview.png` first."""
     return ball_bearing_pictures.write(BearingRun(assembly, dataset), folder)
 
 
 def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
-    """Contacts, torque, heat and motion, at the last moment in which the shaft turns."""
+    """Return contacts, torque, heat and motion, at the last moment in which the shaft turns."""
     run = BearingRun(assembly, dataset)
     row = run.last
     return [
@@ -69,7 +69,7 @@ def _nanometres(length: float) -> str:
 
 
 def _torques(run: BearingRun, row: int) -> list[str]:
-    """Friction torque of the contacts and by the textbooks, in parts."""
+    """Return the friction torque of the contacts and by the textbooks, in parts."""
     if not run.runs[row]:
         return ["The shaft does not turn: there is no friction torque to compare."]
     found = []
@@ -81,7 +81,7 @@ def _torques(run: BearingRun, row: int) -> list[str]:
 
 
 def _heat(run: BearingRun, row: int) -> list[str]:
-    """How far in and out are from each other, as heat flows now and as energies so far."""
+    """Return the imbalance of heat, as heat flows now and as energies so far."""
     loss, left = run.of("bearing.power_loss")[row], run.of("housing.heat_to_ambient")[row]
     stored, gone = run.heat_stored, float(run.of("housing.energy_to_ambient")[-1])
     lines = [f"Heat: {loss:.4g} W from friction, {left:.4g} W to the surroundings{_apart(left, loss)}."]

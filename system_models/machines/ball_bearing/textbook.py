@@ -1,4 +1,4 @@
-"""What catalogues and textbooks say of ball bearings, to compare with.
+"""Values of catalogues and textbooks to compare a ball bearing with.
 
 The formulas for the torque are fits to measurements, in mm, N, rpm and mm2/s; SI goes in and comes out.
 """
@@ -13,7 +13,7 @@ from .geometry import BallBearingGeometry
 
 
 def sjovall(extent: float) -> tuple[float, float]:
-    """Radial and axial load integral J_r, J_a of point contacts for an extent epsilon > 0 of the load zone.
+    """Return the radial and axial load integral J_r, J_a of point contacts for an extent epsilon > 0 of the load zone.
 
     With many balls the most loaded one carries F_r / (Z J_r cos a) = F_a / (Z J_a sin a).
     Source: Sjovall, Teknisk Tidskrift (1933), in the form of Harris & Kotzalas, Essential Concepts of Bearing
@@ -32,7 +32,7 @@ def sjovall(extent: float) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class Series:
-    """What the formulas ask of a kind of bearing."""
+    """Constants of the formulas for a series of bearings."""
 
     angular: bool  # angular contact at 40 degrees, else deep groove
     r: tuple[float, float, float]  # R_1, R_2, R_3 of SKF's rolling torque
@@ -63,7 +63,7 @@ class CatalogueBearing:
         return 500.0 * (self.bore + self.outside)
 
     def static_load(self, radial: float, axial: float) -> float:
-        """Equivalent static load P_0 [N]; ISO 76, from memory."""
+        """Return the equivalent static load P_0 [N]; ISO 76, from memory."""
         by_radial, by_axial = (0.5, 0.26) if self.series.angular else (0.6, 0.5)
         return max(by_radial * radial + by_axial * axial, 0.0 if self.series.angular else radial)
 
@@ -76,7 +76,7 @@ _STATIC_PRESSURE = 4.2e9  # Pa: at the static rating of ball bearings, ISO 76 (f
 
 
 def catalogue_of(geometry: BallBearingGeometry) -> CatalogueBearing:
-    """A bearing of which only the inner geometry is known, proportioned as 209 and 218 are.
+    """Return a bearing of which only the inner geometry is known, proportioned as 209 and 218 are.
 
     Its static rating is the load at which the most loaded ball, with 5 times the mean load of all, has ISO 76's
     pressure on the inner race.
@@ -112,7 +112,7 @@ def skf_torque(
     friction_film: float = 0.05,
     starvation: float = 3e-8,
 ) -> Torque:
-    """Rolling and sliding friction torque after SKF, without seals and drag.
+    """Return rolling and sliding friction torque after SKF, without seals and drag.
 
     radial, axial [N] >= 0, speed [rad/s], kinematic viscosity [m2/s] at the bearing's temperature; friction_film: of a
     full film, 0.05 for mineral and 0.04 for synthetic oil; starvation: 3e-8 for an oil bath or jet, 6e-8 for grease, 0
@@ -130,7 +130,7 @@ def skf_torque(
 
 
 def _skf_geometry(bearing: CatalogueBearing, radial: float, axial: float, n: float) -> tuple[float, float]:
-    """G_rr and G_sl at n [rpm]."""
+    """Return G_rr and G_sl at n [rpm]."""
     series, dm = bearing.series, bearing.mean_diameter
     (r1, r2, r3), (s1, s2, s3) = series.r, series.s
     if series.angular:
@@ -149,7 +149,7 @@ def _skf_geometry(bearing: CatalogueBearing, radial: float, axial: float, n: flo
 
 
 def skf_drag(bearing: CatalogueBearing, speed: float, viscosity: float, level: float, factor: float) -> float:
-    """Drag torque in an oil bath after SKF [N m], which `skf_torque` leaves out.
+    """Return the drag torque in an oil bath after SKF [N m], which `skf_torque` leaves out.
 
     speed [rad/s], kinematic viscosity [m2/s], oil level above the lowest point of the outer raceway [m], factor V_M of
     the catalogue's diagram for that level over the mean diameter. Source: as of `skf_torque`.
@@ -166,7 +166,7 @@ def skf_drag(bearing: CatalogueBearing, speed: float, viscosity: float, level: f
 
 
 def palmgren_torque(bearing: CatalogueBearing, radial: float, axial: float, speed: float, viscosity: float) -> Torque:
-    """M_0 of the oil and M_1 of the load after Palmgren.
+    """Return M_0 of the oil and M_1 of the load after Palmgren.
 
     radial, axial [N] >= 0, speed [rad/s], kinematic viscosity [m2/s].
     Source: Palmgren, Ball and Roller Bearing Engineering, 3rd ed., 1959, in the form of Harris & Kotzalas, Essential
@@ -175,7 +175,7 @@ def palmgren_torque(bearing: CatalogueBearing, radial: float, axial: float, spee
     dm, moved, series = bearing.mean_diameter, viscosity * 1e6 * speed * 30.0 / math.pi, bearing.series
     oil = 1e-7 * series.f_0 * dm**3 * (moved ** (2 / 3) if moved > 2000.0 else 160.0)
     lever = 0.9 / math.tan(math.radians(40.0)) if series.angular else 3.0
-    felt = max(lever * axial - 0.1 * radial, radial)
+    equivalent = max(lever * axial - 0.1 * radial, radial)
     factor, exponent = series.f_1
     share = bearing.static_load(radial, axial) / bearing.static_rating
-    return Torque(1e-3 * oil, 1e-3 * factor * share**exponent * felt * dm)
+    return Torque(1e-3 * oil, 1e-3 * factor * share**exponent * equivalent * dm)

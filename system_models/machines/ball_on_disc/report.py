@@ -1,4 +1,4 @@
-"""What a run of a ball-on-disc rig says: tables, the Stribeck curves of its duty, the bath's energy, one picture."""
+"""The report of a rig's run: tables, the Stribeck curves of its duty, the bath's energy, one picture."""
 
 import math
 from collections.abc import Iterator
@@ -80,7 +80,7 @@ class Sweep:
 
 
 def holds(assembly: Assembly, end: float) -> list[Hold]:
-    """The stretches of the duty up to `end` [s]."""
+    """Return the stretches of the duty up to `end` [s]."""
     ball, disc = (assembly.schedule[f"{name}.surface_speed_setpoint"] for name in ("ball", "disc"))
     starts = [time for time, _ in ball if time < end * (1.0 - _SAME)]
     found = []
@@ -92,7 +92,7 @@ def holds(assembly: Assembly, end: float) -> list[Hold]:
 
 
 def sweeps(assembly: Assembly, dataset: xr.Dataset) -> list[Sweep]:
-    """The Stribeck curves of a duty."""
+    """Return the Stribeck curves of a duty."""
     times = dataset["time"].values
     found, taken = [], 0.0
     for run in _monotone(holds(assembly, float(times[-1]))):
@@ -103,7 +103,7 @@ def sweeps(assembly: Assembly, dataset: xr.Dataset) -> list[Sweep]:
 
 
 def _monotone(every: list[Hold]) -> Iterator[list[Hold]]:
-    """Longest runs of holds whose speed only rises, or only falls, at one slide-to-roll ratio."""
+    """Yield longest runs of holds whose speed only rises, or only falls, at one slide-to-roll ratio."""
     run: list[Hold] = []
     for hold in every:
         if run and not _goes_on(run, hold):
@@ -125,13 +125,13 @@ def _goes_on(run: list[Hold], hold: Hold) -> bool:
 
 
 def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
-    """Tables and sentences."""
+    """Return tables and sentences."""
     found = sweeps(assembly, dataset)
     return [*_table(dataset, found), "", *(_curves(dataset, found) if found else ()), *_energy(assembly, dataset)]
 
 
 def _rubbing(dataset: xr.Dataset, found: list[Sweep]) -> NDArray[np.bool_]:
-    """Which rows are in no sweep."""
+    """Return True for rows that are in no sweep."""
     times = dataset["time"].values
     within = [(sweep.holds[0].start < times) & (times <= sweep.holds[-1].end) for sweep in found]
     rubbing = ~np.logical_or.reduce(within) if within else np.ones(len(times), dtype=bool)
@@ -139,7 +139,7 @@ def _rubbing(dataset: xr.Dataset, found: list[Sweep]) -> NDArray[np.bool_]:
 
 
 def _table(dataset: xr.Dataset, found: list[Sweep]) -> list[str]:
-    """About ten rows outside of sweeps, denser early on."""
+    """Return about ten rows outside of sweeps, denser early on."""
     times, usable = dataset["time"].values, np.flatnonzero(_rubbing(dataset, found))
     wanted = times[usable[0]] + np.array(_SHARES) * (times[usable[-1]] - times[usable[0]])
     rows = sorted({int(usable[np.abs(times[usable] - time).argmin()]) for time in wanted})
@@ -159,7 +159,7 @@ def _table(dataset: xr.Dataset, found: list[Sweep]) -> list[str]:
 
 
 def _curves(dataset: xr.Dataset, found: list[Sweep]) -> Iterator[str]:
-    """Friction by speed and rubbing time."""
+    """Yield friction by speed and rubbing time."""
     yield "Friction in the sweeps, by speed of entrainment and time of rubbing before:"
     speeds = sorted({hold.entrainment_speed for sweep in found for hold in sweep.holds}, reverse=True)
     friction = dataset["contact.friction_coefficient"].values
@@ -170,7 +170,7 @@ def _curves(dataset: xr.Dataset, found: list[Sweep]) -> Iterator[str]:
 
 
 def _energy(assembly: Assembly, dataset: xr.Dataset) -> Iterator[str]:
-    """Whether the heat of the bath adds up, and what of the motors' work is not in it."""
+    """Yield the balance of heat of the bath, and the work of the motors that is not in it."""
     size = dataset["master.step_size"].values
     friction = float(size @ dataset["contact.power_loss"].values)
     heaters = [str(name) for name in dataset.data_vars if str(name).startswith("bath.heater_energy_")]
@@ -202,7 +202,7 @@ def write(assembly: Assembly, dataset: xr.Dataset, folder: Path) -> list[Path]:
 
 
 def overview(assembly: Assembly, dataset: xr.Dataset) -> "Figure":
-    """The run against time with its sweeps shaded, and the Stribeck curves above; invalid rows are darker."""
+    """Return the run against time with its sweeps shaded, and the Stribeck curves above; invalid rows are darker."""
     from matplotlib.figure import Figure
 
     found = sweeps(assembly, dataset)
@@ -244,7 +244,7 @@ def _draw_temperatures(axis: "Axes", dataset: xr.Dataset) -> None:
 
 
 def _draw_speeds(axis: "Axes", dataset: xr.Dataset) -> None:
-    """Speeds on a scale of logarithms, the load on the right."""
+    """Draw speeds on a logarithmic scale, the load on the right."""
     first, second = dataset["ball.surface_speed"].values, dataset["disc.surface_speed"].values
     _line(axis, dataset, 0.5 * np.abs(first + second), "entrainment", _BLUE)
     _line(axis, dataset, np.abs(first - second), "sliding", _RED)
@@ -259,7 +259,7 @@ def _draw_speeds(axis: "Axes", dataset: xr.Dataset) -> None:
 
 
 def _finish(axis: "Axes", dataset: xr.Dataset, found: list[Sweep]) -> None:
-    """Legend, limits, sweeps in light and invalid rows in dark grey."""
+    """Draw legend, limits, sweeps in light and invalid rows in dark grey."""
     minutes = dataset["time"].values / 60.0
     for sweep in found:
         axis.axvspan(sweep.holds[0].start / 60.0, sweep.holds[-1].end / 60.0, color="0.92", linewidth=0.0, zorder=0)
@@ -274,7 +274,7 @@ def _finish(axis: "Axes", dataset: xr.Dataset, found: list[Sweep]) -> None:
 
 
 def _draw_curves(axes: "list[Axes]", dataset: xr.Dataset, found: list[Sweep]) -> None:
-    """Friction and film ratio over speed, by rubbing time."""
+    """Draw friction and film ratio over speed, by rubbing time."""
     from matplotlib import colormaps
 
     colours = colormaps["viridis"](np.linspace(0.0, 0.9, len(found)))

@@ -155,7 +155,7 @@ class CamFollower(Part):
         return float((self._places["weight"] * values).sum())
 
     def track_lengths(self, station: Station, least: float) -> tuple[float, float]:
-        """Return the track lengths [m] of cam and follower: what passes the contact in a turn, `least` [m] at least."""
+        """Return the track lengths [m] of cam and follower: travel past the contact in a turn, `least` [m] at least."""
         turn = 2.0 * math.pi
         return max(turn * station.radius_x, least), max(turn * abs(station.curvature), least)
 

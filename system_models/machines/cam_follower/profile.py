@@ -56,7 +56,7 @@ class CamProfile:
     power_q: int = _fixed("", "q, second high power of the lift", least=5, most=200, default=16)
 
     def wrong(self) -> Iterator[str]:
-        """Yield a sentence for what does not go together."""
+        """Yield a sentence for each contradiction."""
         if self.power_q <= self.power_p:
             yield f"lobe.power_q = {self.power_q} must be above lobe.power_p = {self.power_p}."
             return

@@ -8,7 +8,7 @@
     mesh       GearMesh: torque and speeds to the stations, their friction and heat back to both shafts
     shafts     GearShafts: the rotation of both shafts
     record     the results of a run along the path, by load stages
-    report     tables; pictures
+    report     the printed report; pictures: its pictures
     shipped/   the files of gear pairs that come with the package
 
 Body 1 is the pinion, body 2 the wheel. Positions are distances [m] on the line of action from T1, where it touches the

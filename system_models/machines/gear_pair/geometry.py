@@ -1,4 +1,4 @@
-"""A pair of involute spur gears: what its drawing says, and what follows for the mesh."""
+"""A pair of involute spur gears: its drawing, and the geometry of its mesh."""
 
 import math
 from collections.abc import Iterator
@@ -11,7 +11,7 @@ _JAM = 1e-3  # backlash below zero, in modules, that rounded profile shifts may 
 
 
 def fixed(unit: str, text: str, **limits: Any) -> Any:
-    """A number that no FMU lets change: the contacts of a mesh are built for it."""
+    """Declare a number that no FMU lets change: the contacts of a mesh are built for it."""
     return parameter(unit, text, shapes_arrays=True, **limits)
 
 
@@ -52,7 +52,7 @@ class SpurGearPair:
         if self.contact_ratio < 1.0:
             yield (
                 f"The contact ratio of {self.contact_ratio:.3g} must be at least 1, or a pair of teeth parts before "
-                "the next one meets. Raise the tip diameters or lower centre_distance."
+                "the next one touches. Raise the tip diameters or lower centre_distance."
             )
         if self.backlash < -_JAM * self.module:
             yield (
@@ -72,12 +72,12 @@ class SpurGearPair:
 
     @property
     def base_radius_1(self) -> float:
-        """Of the pinion [m]."""
+        """Base radius of the pinion [m]."""
         return 0.5 * self.teeth_1 * self.module * math.cos(self.pressure_angle)
 
     @property
     def base_radius_2(self) -> float:
-        """Of the wheel [m]."""
+        """Base radius of the wheel [m]."""
         return self.base_radius_1 * self.ratio
 
     @property
@@ -92,12 +92,12 @@ class SpurGearPair:
 
     @property
     def pitch_radius_1(self) -> float:
-        """Of the pinion's working pitch circle [m]."""
+        """Radius of the pinion's working pitch circle [m]."""
         return self.centre_distance / (1.0 + self.ratio)
 
     @property
     def backlash(self) -> float:
-        """Along the line of action [m], for teeth of the thickness that the profile shifts give them."""
+        """Backlash along the line of action [m], for teeth of the thickness that the profile shifts give them."""
         grown = _involute(self.working_pressure_angle) - _involute(self.pressure_angle)
         thicker = 2.0 * self.module * (self.shift_1 + self.shift_2) * math.sin(self.pressure_angle)
         return 2.0 * (self.base_radius_1 + self.base_radius_2) * grown - thicker
@@ -109,7 +109,7 @@ class SpurGearPair:
 
     @property
     def start(self) -> float:
-        """A, where the wheel's tip meets the pinion [m]."""
+        """Position of A, where the tip of the wheel touches the pinion [m]."""
         return self.line_length - math.sqrt(0.25 * self.tip_diameter_2**2 - self.base_radius_2**2)
 
     @property

@@ -92,7 +92,7 @@ _SHAFTS: tuple[tuple[Any, ...], ...] = (
 
 
 def _links(k: int) -> list[tuple[Any, ...]]:
-    """Connections of the contact at a station."""
+    """Return connections of the contact at a station."""
     name = flank(k)
     sent = [(f"mesh.{indexed(key, k)}", f"{name}.{key}") for key in SENT]
     received = [(f"{name}.{key}", f"mesh.{indexed(key, k)}") for key in RECEIVED]
@@ -106,7 +106,7 @@ def _links(k: int) -> list[tuple[Any, ...]]:
 
 
 def _with_pair(table: Mapping[str, Any]) -> dict[str, Any]:
-    """The table of the mesh with the numbers of a pair that it names."""
+    """Return the table of the mesh with the numbers of a pair that it names."""
     pair = table.get("pair")
     if not isinstance(pair, str):
         return dict(table)
@@ -118,7 +118,7 @@ def _with_pair(table: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _contact(table: Mapping[str, Any], pair: SpurGearPair, station: Station) -> Contact:
-    """The contact at a station: what its FMU is told beside load, speeds and temperatures."""
+    """Return the contact at a station: values of its FMU beside load, speeds and temperatures."""
     return Contact(
         scene_of(table),
         {

@@ -18,7 +18,7 @@ from .textbook import loss_factor, ohlendorf
 
 Array = NDArray[np.float64]
 
-# quantities of the contacts, and what is typical of flanks, in SI
+# outputs of contacts that the mesh receives and inputs of contacts that it sends, with typical values in SI
 RECEIVED = {
     "friction_force": 50.0,
     "power_loss": 100.0,
@@ -39,7 +39,7 @@ def flank(k: int) -> str:
 
 @dataclass(frozen=True)
 class Station:
-    """What a contact at a station needs to be built: all but load and speeds."""
+    """Data with which the contact at a station is built: all but load and speeds."""
 
     position: float  # on the line of action, from T1 [m]
     radius_x: float  # [m]
@@ -78,7 +78,7 @@ class GearMesh(Part):
 
     @cached_property
     def contacts(self) -> tuple[Station, ...]:
-        """What the contacts are to be built with, in order."""
+        """Data of the contacts, in order."""
         position = self._places.position
         width = np.full(self.stations, self.pair.face_width)
         columns = position, radius(self.pair, position), width, *track_lengths(self.pair, position), self._weights
@@ -112,7 +112,7 @@ class GearMesh(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Load, speeds and temperature of each station, then what all pairs in contact do, as means of a mesh cycle."""
+        """Load, speeds and temperature of each station, then means over a mesh cycle of all pairs in contact."""
         friction, loss, rolling, flash, heat_1, heat_2 = map(self._all, RECEIVED)
         torque, speeds, bulk = ("torque",), ("speed_1", "speed_2"), ("body_temperature_1", "body_temperature_2")
         power = (*torque, "speed_1")
@@ -157,7 +157,7 @@ class GearMesh(Part):
 
     @staticmethod
     def _alike(name: str, k: int, nominal: float) -> dict[str, Any]:
-        """The variable for a quantity of the contact at station k."""
+        """Return the variable for a quantity of the contact at station k."""
         q = TABLE[name]
         return {
             "name": indexed(name, k),
@@ -169,15 +169,15 @@ class GearMesh(Part):
         }
 
     def initial(self, inputs: Values) -> State:
-        """There is none."""
+        """Return no state."""
         return ()
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """There is none."""
+        """Return no state."""
         return ()
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Value of each of `responses`, for the inputs as they are."""
+        """Return the value of each of `responses`, for the inputs as they are."""
         found = {name: np.array([inputs[key] for key in self._all(name)]) for name in RECEIVED}
         place, flash = self._places.position, found["flash_temperature_rise"]
         force, power = abs(inputs["torque"]) / self.pair.base_radius_1, inputs["torque"] * inputs["speed_1"]
@@ -205,7 +205,7 @@ class GearMesh(Part):
         }
 
     def _ratios(self, force: float, load: Array, sliding: float, power: float, friction: Array) -> dict[str, float]:
-        """Coefficients of friction and loss factor."""
+        """Return coefficients of friction and loss factor."""
         if force < _IDLE:
             return {"friction_coefficient": 0.0, "friction_coefficient_mean": 0.0, "loss_factor": 0.0}
         return {
@@ -215,5 +215,5 @@ class GearMesh(Part):
         }
 
     def _mean(self, values: Array) -> float:
-        """Of what all pairs in contact do together, over a mesh cycle, from the values [n] at the stations."""
+        """Return the sum over all pairs in contact, averaged over a mesh cycle, of values [n] at the stations."""
         return float((self._weights * values).sum())

@@ -1,4 +1,4 @@
-"""Along the path of contact: what a contact at a position on the line of action is made of.
+"""Radii, speeds and tracks of contacts along the path of contact.
 
 Positions are distances [m] from T1, numbers or arrays. Speeds of rotation [rad/s] are positive as the gears turn; the
 surface speeds are relative to the contact.
@@ -22,31 +22,31 @@ _ALIKE = 1e-9  # of the path: distances below it are rounding
 
 
 def radius(pair: SpurGearPair, position: Numbers) -> Numbers:
-    """Combined radius of curvature [m] of two involutes whose own radii are the distances to T1 and T2."""
+    """Return the combined radius of curvature [m] of two involutes whose own radii are the distances to T1 and T2."""
     return position * (pair.line_length - position) / pair.line_length
 
 
 def surface_speeds(pair: SpurGearPair, position: Numbers, speed_1: float, speed_2: float) -> tuple[Numbers, Numbers]:
-    """Surface speeds [m/s] of pinion and wheel that turn at speed_1 and speed_2 [rad/s]."""
+    """Return surface speeds [m/s] of pinion and wheel that turn at speed_1 and speed_2 [rad/s]."""
     return speed_1 * position, speed_2 * (pair.line_length - position)
 
 
 def slide_to_roll(pair: SpurGearPair, position: Numbers) -> Numbers:
-    """2 (u1 - u2) / (u1 + u2) of gears in mesh."""
+    """Return 2 (u1 - u2) / (u1 + u2) of gears in mesh."""
     first, second = surface_speeds(pair, position, pair.ratio, 1.0)
     return 2.0 * (first - second) / (first + second)
 
 
 def track_lengths(pair: SpurGearPair, position: Numbers) -> tuple[Numbers, Numbers]:
-    """Way [m] that a flank point of pinion and wheel runs, at its surface speed, while its gear turns once.
+    """Return the track lengths [m] of flank points of pinion and wheel: surface speed times the turn of the gear.
 
-    A point meets the other gear once a turn, so this is the travel between two passes of it, whatever the speed.
+    A point touches the other gear once a turn, so this is the travel between two passes of it, whatever the speed.
     """
     return 2.0 * math.pi * position, 2.0 * math.pi * (pair.line_length - position)
 
 
 def named_points(pair: SpurGearPair) -> dict[str, float]:
-    """A, B, C, D and E with their positions [m], in the order in which the contact passes them."""
+    """Return A, B, C, D and E with their positions [m], in the order in which the contact passes them."""
     points = {
         "A": pair.start, "B": pair.single_start, "C": pair.pitch_point, "D": pair.single_end, "E": pair.end,
     }  # fmt: skip
@@ -55,14 +55,14 @@ def named_points(pair: SpurGearPair) -> dict[str, float]:
 
 @dataclass(frozen=True)
 class Stations:
-    """Where contacts are solved, and the part of the path each of them stands for; arrays [n] from A to E."""
+    """Positions where contacts are solved, and the parts of the path that they stand for; arrays [n] from A to E."""
 
     position: Array  # [m]
     stretch: Array  # [m]; all together the path of contact
 
 
 def steps(pair: SpurGearPair) -> Array:
-    """A, E, and every position [m] between them where pairs of teeth come or go, or where sliding turns round."""
+    """Return A, E, and every position [m] between them where pairs of teeth come or go, or where sliding reverses."""
     inside = range(1, math.ceil(pair.contact_ratio))
     found = sorted(
         [pair.pitch_point]
@@ -78,12 +78,12 @@ def steps(pair: SpurGearPair) -> Array:
 
 
 def stations_of(pair: SpurGearPair, count: int) -> Stations:
-    """`count` stations in the middles of stretches that end at A, B, C, D and E.
+    """Return `count` stations in the middles of stretches that end at A, B, C, D and E.
 
     The load of a pair of teeth jumps at B and D, and sliding turns round at C. A station there would have two loads, or
     none of the friction of its surroundings; a stretch across would mix them. Between these points the stretches are
     equal, their number so that the longest is as short as can be. Sums over stations are then the midpoint rule on
-    smooth pieces: exact for what is linear in between, such as a constant coefficient of friction under rigid sharing,
+    smooth pieces: exact for linear integrands, such as of a constant coefficient of friction under rigid sharing,
     and of second order else. Raises SceneError if there are fewer stations than pieces.
     """
     edges = steps(pair)

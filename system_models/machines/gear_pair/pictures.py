@@ -20,7 +20,7 @@ _Curve = Callable[[Stage], Array]  # values at the stations at the end of a stag
 
 
 def overview(record: Record) -> "Figure":
-    """The run at a glance: along the path by stages, and against time."""
+    """Draw the run at a glance: along the path by stages, and against time."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(10.0, 11.5), layout="constrained")
@@ -36,7 +36,7 @@ def overview(record: Record) -> "Figure":
 
 
 def path(record: Record) -> "Figure":
-    """Along the path of contact: loads, films, friction, and what the flanks remember."""
+    """Draw along the path of contact: loads, films, friction, and the state of the flanks."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(10.0, 14.0), layout="constrained")
@@ -50,7 +50,7 @@ def path(record: Record) -> "Figure":
 
 
 def time(record: Record) -> "Figure":
-    """Against time: duty, temperatures, losses, and the largest wear and film."""
+    """Draw against time: duty, temperatures, losses, and the largest wear and film."""
     from matplotlib.figure import Figure
 
     figure = Figure(figsize=(10.0, 10.0), layout="constrained")
@@ -70,7 +70,7 @@ FIGURES: dict[str, Callable[[Record], "Figure"]] = {"overview": overview, "path"
 
 
 def _along(record: Record) -> dict[str, tuple[str, _Curve]]:
-    """Label and values of each panel."""
+    """Return the label and values of each panel."""
 
     def of(quantity: str, factor: float = 1.0) -> _Curve:
         values = factor * record.along(quantity)
@@ -96,7 +96,7 @@ def _along(record: Record) -> dict[str, tuple[str, _Curve]]:
 
 
 def _path(axis: "Axes", record: Record, label: str, values: _Curve) -> None:
-    """A curve for each stage, with gaps where pairs of teeth come or go."""
+    """Draw a curve for each stage, with gaps where pairs of teeth come or go."""
     where = _MM * record.positions
     for stage, colour in _coloured(record):
         found = values(stage)
@@ -112,7 +112,7 @@ def _path(axis: "Axes", record: Record, label: str, values: _Curve) -> None:
 
 
 def _coloured(record: Record) -> Iterator[tuple[Stage, str]]:
-    """The stages that are drawn, light to dark."""
+    """Yield the stages that are drawn, light to dark."""
     from matplotlib import colormaps
     from matplotlib.colors import to_hex
 
@@ -141,7 +141,7 @@ def _until(end: float) -> str:
 
 
 def _share_top(axes: "np.ndarray") -> None:
-    """Pinion and wheel on one scale."""
+    """Give pinion and wheel one scale."""
     top = max(axis.get_ylim()[1] for axis in axes)
     for axis in axes:
         axis.set_ylim(0.0, top)
@@ -151,7 +151,7 @@ def _share_top(axes: "np.ndarray") -> None:
 
 
 def _clock(span: float) -> tuple[float, str]:
-    """Factor and unit in which people read a time [s]."""
+    """Return the factor and unit in which people read a time [s]."""
     if span > 3.0 * 3600.0:
         return 1.0 / 3600.0, "h"
     return (1.0 / 60.0, "min") if span > 180.0 else (1.0, "s")

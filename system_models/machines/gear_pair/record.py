@@ -71,22 +71,22 @@ class Record:
 
     @property
     def time(self) -> Array:
-        """Of the rows [s]."""
+        """Times of the rows [s]."""
         return np.asarray(self.dataset["time"].values)
 
     @cached_property
     def positions(self) -> Array:
-        """Of the stations, from T1 [m]."""
+        """Positions of the stations, from T1 [m]."""
         return np.array([station.position for station in self.mesh.contacts])
 
     @cached_property
     def weights(self) -> Array:
-        """Of the stations in a mean over the mesh cycle."""
+        """Weights of the stations in a mean over the mesh cycle."""
         return np.array([station.weight for station in self.mesh.contacts])
 
     @property
     def scene(self) -> Scene:
-        """Of the flanks."""
+        """Scene of the flanks."""
         return self.assembly.contacts[flank(1)].scene
 
     @cached_property
@@ -96,15 +96,15 @@ class Record:
         return np.split(np.arange(self.mesh.stations), np.searchsorted(self.positions, jumps))
 
     def of(self, name: str) -> Array:
-        """A variable "component.output" by row."""
+        """Return a variable "component.output" by row."""
         return np.asarray(self.dataset[name].values)
 
     def along(self, quantity: str) -> Array:
-        """A quantity of the contacts by row and station."""
+        """Return a quantity of the contacts by row and station."""
         return np.stack([self.of(f"{flank(k)}.{quantity}") for k in range(1, self.mesh.stations + 1)], axis=1)
 
     def pressures(self, row: int) -> Array:
-        """Hertz's largest pressure [Pa] at the stations; 0 without load."""
+        """Return Hertz's largest pressure [Pa] at the stations; 0 without load."""
         modulus = self.pair.reduced_modulus
         return np.array(
             [
@@ -114,7 +114,7 @@ class Record:
         )
 
     def pressure_at_pitch_point(self, torque: float) -> float:
-        """Hertz's largest pressure [Pa] at C if one pair of teeth carries all, as load stages are known by."""
+        """Return Hertz's largest pressure [Pa] at C if one pair of teeth carries all, as load stages are known by."""
         pair, force = self.pair, torque / self.pair.base_radius_1
         radius = pair.pitch_point * (pair.line_length - pair.pitch_point) / pair.line_length
         return float(hertz_line(force, radius, pair.face_width, pair.reduced_modulus).pressure_max)
@@ -142,7 +142,7 @@ class Record:
         return _RA_OF_RQ * 0.5 * (self.scene.surface_1.rq + self.scene.surface_2.rq)
 
     def textbook(self, row: int) -> Textbook:
-        """For torque, speed and temperature of the oil at a row in which the gears work."""
+        """Return the formulas for torque, speed and oil temperature at a row in which the gears work."""
         torque, speed = float(self.of("shafts.mesh_torque")[row]), float(self.of("shafts.speed_1")[row])
         warm, law = float(self.of("gearbox.temperature_oil")[row]), self.scene.lubricant.viscosity
         viscosity = float(law(0.0, warm))
@@ -171,17 +171,17 @@ class Record:
         return found
 
     def shown(self, most: int) -> list[Stage]:
-        """At most so many stages, spread evenly, with the first and the last."""
+        """Return at most so many stages, spread evenly, with the first and the last."""
         if len(self.stages) <= most:
             return self.stages
         return [self.stages[k] for k in np.linspace(0, len(self.stages) - 1, most).round().astype(int)]
 
 
 def _changes(course: Sequence[tuple[float, Any]]) -> list[float]:
-    """Times at which a value differs from the one before, and the first."""
+    """Return times at which a value differs from the one before, and the first."""
     return [course[0][0], *(later[0] for before, later in pairwise(course) if later[1] != before[1])]
 
 
 def _held(course: Sequence[tuple[float, float | int | bool | str]], time: float) -> float:
-    """Value that holds at a time."""
+    """Return the value that holds at a time."""
     return float([value for start, value in course if start <= time][-1])

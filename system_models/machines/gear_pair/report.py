@@ -1,4 +1,4 @@
-"""What the run of a gear pair says: load stages beside the textbook, wear along the flanks, where the heat went."""
+"""The report of a gear pair's run: load stages beside the textbook, wear along the flanks, balance of heat."""
 
 from pathlib import Path
 
@@ -21,7 +21,7 @@ _HEADS = (
 
 
 def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
-    """A table of the load stages, and sentences."""
+    """Return a table of the load stages, and sentences."""
     record = Record(assembly, dataset)
     if not record.stages:
         return ["The duty has no stretch in which the gears turn under load.", *_heat(record)]
@@ -29,7 +29,7 @@ def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
 
 
 def write(assembly: Assembly, dataset: xr.Dataset, folder: Path) -> list[Path]:
-    """Pictures: the run at a glance, all along the path of contact, all against time."""
+    """Write the pictures: the run at a glance, all along the path of contact, all against time."""
     record, written = Record(assembly, dataset), []
     for name, draw in gear_pair_pictures.FIGURES.items():
         figure = draw(record)
@@ -47,7 +47,7 @@ def _table(record: Record) -> list[str]:
 
 
 def _row(record: Record, stage: Stage) -> list[str]:
-    """What holds at the end of a stage; flash is the largest in it."""
+    """Return the values at the end of a stage; flash is the largest in it."""
     row = stage.last
     ratio, formula = record.along("lambda_ratio")[row], record.textbook(row)
     warm = [record.of(f"gearbox.temperature_{node}")[row] - 273.15 for node in ("oil", "pinion", "wheel")]
@@ -81,7 +81,7 @@ def _notes(record: Record) -> list[str]:
 
 
 def _wear(record: Record) -> list[str]:
-    """Where most and least is worn."""
+    """Return the places of the most and the least wear."""
     pitch, found = record.pair.pitch_point, []
     for body, gear in ((1, "pinion"), (2, "wheel")):
         depth = record.along(f"wear_depth_{body}")[-1]
@@ -94,7 +94,7 @@ def _wear(record: Record) -> list[str]:
 
 
 def _heat(record: Record) -> list[str]:
-    """Heat now, and energy since the start."""
+    """Return heat now, and energy since the start."""
     lost, given = record.of("mesh.power_loss"), _thermostats(record, "heater_power")
     out = float(record.of("gearbox.heat_to_ambient")[-1])
     now = float(lost[-1] + given[-1])
@@ -121,6 +121,6 @@ def _heat(record: Record) -> list[str]:
 
 
 def _thermostats(record: Record, quantity: str) -> Array:
-    """Sum over the thermostats of the gearbox, by row."""
+    """Return the sum over the thermostats of the gearbox, by row."""
     names = [str(name) for name in record.dataset if str(name).startswith(f"gearbox.{quantity}_")]
     return np.asarray(sum((record.of(name) for name in names), np.zeros(len(record.time))))

@@ -68,7 +68,7 @@ class GearShafts(Part):
 
     @property
     def responses(self) -> tuple[Output, ...]:
-        """Speeds, and what the teeth transmit."""
+        """Speeds, and the torque of the teeth."""
         return (
             Output("speed_1", "omega_1", "rad/s", "angular speed of the pinion", nominal=100.0),
             Output(
@@ -89,11 +89,11 @@ class GearShafts(Part):
 
     @property
     def at_start(self) -> tuple[str, ...]:
-        """What decides the first state."""
+        """Inputs that decide the first state."""
         return ("drive_torque", "speed_drive", "brake_torque")
 
     def initial(self, inputs: Values) -> State:
-        """Both shafts at the start speed, the teeth deflected as once ringing has died away; without friction."""
+        """Return both shafts at the start speed, the teeth deflected as after ringing; without friction."""
         first, second = self.start_speed, self.start_speed / self.pair.ratio
         torque_1 = inputs["drive_torque"] + self.coupling * (inputs["speed_drive"] - first)
         torque_2 = -inputs["brake_torque"] - self.drag * second
@@ -104,14 +104,14 @@ class GearShafts(Part):
         return first, second, self._mass * (pull - brake) / self.stiffness
 
     def advance(self, state: State, inputs: Values, step: float) -> State:
-        """Speeds [rad/s] of pinion and wheel, deflection [m]."""
+        """Return speeds [rad/s] of pinion and wheel, deflection [m]."""
         scale = np.array([self.pair.base_radius_1, self.pair.base_radius_2, self._frequency])
         kept, pushed = _step(self, step)
         after = kept @ (scale * state) + pushed @ self._outer(inputs)
         return tuple(map(float, after / scale))
 
     def outputs(self, state: State, inputs: Values) -> dict[str, float]:
-        """Value of each of `responses`."""
+        """Return the value of each of `responses`."""
         speed_1, speed_2, deflection = state
         closing = self.pair.base_radius_1 * speed_1 - self.pair.base_radius_2 * speed_2
         force = self.stiffness * deflection + self._damping * closing
@@ -124,18 +124,18 @@ class GearShafts(Part):
         }
 
     def _outer(self, inputs: Values) -> tuple[float, float]:
-        """Torques [N m] on pinion and wheel, the way they turn, beside those of the teeth and what falls with speed."""
+        """Return torques [N m] on pinion and wheel, positive as they turn, beside those of teeth and of damping."""
         first = inputs["drive_torque"] + self.coupling * inputs["speed_drive"] + inputs["friction_torque_1"]
         return first, inputs["friction_torque_2"] - inputs["brake_torque"]
 
     @property
     def _mass(self) -> float:
-        """Of the two shafts against each other, on the line of action [kg]."""
+        """Mass of the two shafts against each other, on the line of action [kg]."""
         return 1.0 / (self.pair.base_radius_1**2 / self.inertia_1 + self.pair.base_radius_2**2 / self.inertia_2)
 
     @property
     def _frequency(self) -> float:
-        """At which the teeth ring without damping [rad/s]."""
+        """Angular frequency of the undamped teeth [rad/s]."""
         return math.sqrt(self.stiffness / self._mass)
 
     @property
@@ -145,7 +145,7 @@ class GearShafts(Part):
 
 @lru_cache(maxsize=64)
 def _step(shafts: GearShafts, step: float) -> tuple[Array, Array]:
-    """Matrices of a step [s] for r_b1 w1, r_b2 w2 and frequency times deflection [m/s], and for the outer torques.
+    """Return matrices of a step [s] for r_b1 w1, r_b2 w2 and frequency times deflection [m/s], and outer torques.
 
     All three are of one size; Loan's block matrix gives both: doi:10.1109/TAC.1978.1101743.
     """

@@ -1,4 +1,4 @@
-"""What each pair of teeth carries of the force between two spur gears.
+"""Share of the force between two spur gears that each pair of teeth carries.
 
 The force [N] acts along the line of action; all of it is on the pairs in contact at any moment.
 """
@@ -20,7 +20,7 @@ _DEDENDUM = 1.25  # of the basic rack, in modules
 
 @dataclass(frozen=True)
 class Sharing:
-    """How pairs of teeth share the load.
+    """Law by which pairs of teeth share the load.
 
     "rigid": in equal parts. "elastic": each as stiff as `pair_stiffness`, all deflected alike; linear tip relief takes
     off the tip `relief` and less toward `relief_length` before it, measured along the line of action.
@@ -52,7 +52,7 @@ class Sharing:
 
 
 def single_stiffness(pair: SpurGearPair) -> float:
-    """c', largest stiffness of a pair of teeth per face width [N/m2].
+    """Return c', largest stiffness of a pair of teeth per face width [N/m2].
 
     For discs without rim, specific loads from 100 N/mm, and a basic rack with a dedendum of 1.25 modules.
     Source: ISO 6336-1:2006, section 9.3, method B.
@@ -75,7 +75,7 @@ def single_stiffness(pair: SpurGearPair) -> float:
 
 
 def mean_stiffness(pair: SpurGearPair) -> float:
-    """c_gamma, stiffness of a mesh per face width, averaged over its cycle [N/m2], for contact ratios from 1.2.
+    """Return c_gamma, stiffness of a mesh per face width, averaged over its cycle [N/m2], for contact ratios from 1.2.
 
     Source: ISO 6336-1:2006, section 9.3.
     """
@@ -83,7 +83,7 @@ def mean_stiffness(pair: SpurGearPair) -> float:
 
 
 def pair_stiffness(pair: SpurGearPair, position: Numbers) -> Numbers:
-    """Stiffness of a pair of teeth per face width [N/m2] at a position [m]: c' amid its path, 55 % of it at the ends.
+    """Return the stiffness of a pair of teeth per face width [N/m2] at a position [m]: c', at its path's ends 55 %.
 
     Source of the parabola: Cai & Hayashi, J. Mech. Des. 116 (1994) 558.
     """
@@ -92,7 +92,7 @@ def pair_stiffness(pair: SpurGearPair, position: Numbers) -> Numbers:
 
 
 def loads(pair: SpurGearPair, sharing: Sharing, force: float, position: Array) -> Array:
-    """Load [N] >= 0 of the pair of teeth at each position [m], under a force [N] >= 0 between the gears.
+    """Return the load [N] >= 0 of the pair of teeth at each position [m], under a force [N] >= 0 between the gears.
 
     Pairs are in contact from A up to E; outside there is none.
     """
@@ -110,7 +110,7 @@ def loads(pair: SpurGearPair, sharing: Sharing, force: float, position: Array) -
 
 
 def _relief(pair: SpurGearPair, sharing: Sharing, position: Array) -> Array:
-    """What tip relief has taken off [m]."""
+    """Return the tip relief [m]."""
     taken = np.zeros_like(position)
     if sharing.relief_1 > 0.0:
         beyond = position - (pair.end - sharing.relief_length_1)
@@ -122,7 +122,7 @@ def _relief(pair: SpurGearPair, sharing: Sharing, position: Array) -> Array:
 
 
 def _common_deflection(stiffness: Array, gap: Array, touching: NDArray[np.bool_], force: float) -> Array:
-    """Deflection [m] at which springs [..., n] of a stiffness, each behind its gap, carry a force together.
+    """Return the deflection [m] at which springs [..., n] of a stiffness, each behind its gap, carry a force together.
 
     With the springs in the order of their gaps, the first m carry it if that does not close the gap of the next.
     """

@@ -1,4 +1,4 @@
-"""What engineers compare a gear mesh with: loss factors, mean friction, flash temperature.
+"""Textbook values to compare a gear mesh with: loss factors, mean friction, flash temperature.
 
 The loss of a mesh is P_V = P_a H_V mu_mz: transmitted power, loss factor of the geometry, mean coefficient of friction.
 """
@@ -10,7 +10,7 @@ from .path import Array, Numbers, Stations, radius
 
 
 def ohlendorf(pair: SpurGearPair) -> float:
-    """Loss factor H_V = pi (u + 1) / (z1 u) (1 - e + e1^2 + e2^2), e1 and e2 the contact ratios after and before C.
+    """Return the loss factor H_V = pi (u + 1) / (z1 u) (1 - e + e1^2 + e2^2), e1 and e2 contact ratios after, before C.
 
     That of rigid sharing if a single pair of teeth carries at C, as it does in FZG's type C, not in type A.
     Source: Ohlendorf, Verlustleistung und Erwaermung von Stirnradern, Diss. TU Muenchen 1958.
@@ -22,23 +22,23 @@ def ohlendorf(pair: SpurGearPair) -> float:
 
 
 def loss_factor(pair: SpurGearPair, places: Stations, share: Array) -> float:
-    """H_V = 1/p_b integral of (F_N / F_bt) (|v_g| / v_tb) along the path of contact, as a sum over stations.
+    """Return H_V = 1/p_b integral of (F_N / F_bt) (|v_g| / v_tb) along the path of contact, as a sum over stations.
 
-    share F_N / F_bt [n] is what the pair of teeth at each station carries of the force.
+    share F_N / F_bt [n] is the part of the force that the pair of teeth at each station carries.
     Source: Niemann & Winter, Maschinenelemente II, 1989, section 21.11.
     """
     return float((places.stretch * share * sliding_share(pair, places.position)).sum()) / pair.base_pitch
 
 
 def sliding_share(pair: SpurGearPair, position: Numbers) -> Numbers:
-    """Sliding speed at a position [m] over the speed along the line of action."""
+    """Return the sliding speed at a position [m] over the speed along the line of action."""
     return (1.0 + 1.0 / pair.ratio) * abs(position - pair.pitch_point) / pair.base_radius_1
 
 
 def schlenk(
     pair: SpurGearPair, force: float, speed_1: float, viscosity: float, ra: float, oil_factor: float = 1.0
 ) -> float:
-    """Mean coefficient of friction of a mesh, 0.048 [(F_bt / b) / (v_sum rho)]^0.2 eta^-0.05 Ra^0.25 X_L.
+    """Return the mean coefficient of friction of a mesh, 0.048 [(F_bt / b) / (v_sum rho)]^0.2 eta^-0.05 Ra^0.25 X_L.
 
     force F_bt [N]; speed_1 of the pinion [rad/s] > 0; viscosity [Pa s] at the oil's temperature; ra [m], arithmetic
     mean roughness, averaged over both flanks. v_sum and rho are sum of surface speeds and radius of curvature at C.
@@ -51,7 +51,7 @@ def schlenk(
 
 
 def iso_14179_1(pair: SpurGearPair, torque: float, speed_1: float, kinematic_viscosity: float) -> float:
-    """Mean coefficient of friction of a mesh, nu^-0.223 K^-0.40 / (3.239 V^0.70).
+    """Return the mean coefficient of friction of a mesh, nu^-0.223 K^-0.40 / (3.239 V^0.70).
 
     torque [N m] and speed_1 [rad/s] of the pinion, both > 0; kinematic_viscosity [m2/s] at the oil's temperature. V is
     the speed of the pitch circles, K the load intensity; fitted in mm2/s, N/mm2, m/s. Meant for 2 < V <= 25 m/s and
@@ -62,7 +62,7 @@ def iso_14179_1(pair: SpurGearPair, torque: float, speed_1: float, kinematic_vis
 
 
 def load_intensity(pair: SpurGearPair, torque: float) -> float:
-    """K = T1 (z1 + z2) / (2 b r_w1^2 z2) [Pa] under a torque of the pinion [N m]. Source: as `iso_14179_1`."""
+    """Return K = T1 (z1 + z2) / (2 b r_w1^2 z2) [Pa] under a torque of the pinion [N m]. Source: as `iso_14179_1`."""
     teeth = (pair.teeth_1 + pair.teeth_2) / pair.teeth_2
     return torque * teeth / (2.0 * pair.face_width * pair.pitch_radius_1**2)
 
@@ -70,7 +70,7 @@ def load_intensity(pair: SpurGearPair, torque: float) -> float:
 def blok_line(
     load: float, length: float, friction: float, speed_1: float, speed_2: float, half_width: float, effusivity: float
 ) -> float:
-    """Largest flash temperature rise [K] of a line contact that moves fast over both bodies, of one material.
+    """Return the largest flash temperature rise [K] of a line contact moving fast over both bodies, of one material.
 
     load [N] on a length [m], coefficient of friction, surface speeds [m/s], Hertz's half width [m], effusivity
     sqrt(conductivity * density * heat capacity) [W s^0.5 / (m2 K)]. The factor is that of Hertz's pressure, and heat
@@ -82,7 +82,7 @@ def blok_line(
 
 
 def _sum_speed(pair: SpurGearPair, speed_1: float) -> float:
-    """Sum of both surface speeds at C [m/s]."""
+    """Return the sum of both surface speeds at C [m/s]."""
     return 2.0 * speed_1 * pair.pitch_point
 
 

@@ -1,4 +1,4 @@
-"""An FMU of the fast level: what it tells, that it is the core, and that its state is whole."""
+"""An FMU at the regression level: its outputs agree with the core, and its state is complete."""
 
 import json
 import subprocess

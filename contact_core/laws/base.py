@@ -1,0 +1,260 @@
+"""Protocols of the laws, one per slot, so that nothing asks which law a scene has chosen.
+
+Load sharing has no Protocol: its laws are `load_sharing.FittedSharing` with other constants.
+"""
+
+from collections.abc import Hashable
+from dataclasses import Field
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .elementary import Numbers
+from .equations import Equations
+
+if TYPE_CHECKING:
+    from .heat import Rubbing, Temperatures
+
+Array = NDArray[np.float64]
+Pair = tuple[float, float]  # of body 1 and 2
+Inputs = tuple[float | None, float | None]  # of body 1 and 2; None: not given
+
+
+class Model(Protocol):
+    """A record that a scene chooses by its name: a law, a geometry or a film."""
+
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
+    name: ClassVar[str]  # as `model` in a scene
+    source: ClassVar[str]  # citation, or "assumed"; empty if the law does nothing
+
+
+class Law(Model, Protocol):
+    """A law: a frozen dataclass."""
+
+    equations: ClassVar[Equations]  # for documentation
+
+
+class Viscosity(Law, Hashable, Protocol):
+    """Viscosity of the oil."""
+
+    @property
+    def error(self) -> str:
+        """Sentence on constants that contradict each other, or an empty text."""
+
+    def __call__(self, pressure: Numbers, temperature: Numbers) -> Numbers:
+        """Return the viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
+
+
+class Density(Law, Hashable, Protocol):
+    """Density of the oil."""
+
+    def __call__(self, pressure: Array) -> Array:
+        """Return the density over that at p = 0, at pressures [Pa]."""
+
+
+class Rheology(Law, Hashable, Protocol):
+    """Shear stress of the film."""
+
+    thins: ClassVar[bool]  # the viscosity falls with the stress
+
+    @property
+    def inlet_thinning(self) -> Equations | None:
+        """Equations of `film_factor`; None: no formula is known."""
+
+    @property
+    def limiting_coefficient(self) -> float:
+        """Limiting shear stress over pressure; 0: no limit."""
+
+    def __call__(self, newtonian: Array, pressure: Array) -> Array:
+        """Return the shear stress [Pa] for that of a Newtonian oil, under a pressure [Pa]."""
+
+    def slopes(self, newtonian: Array, pressure: Array) -> tuple[Array, Array]:
+        """Return the derivatives of the stress by `newtonian` and by pressure."""
+
+    def ease(self, stress: Array) -> Array:
+        """Return the shear rate at a stress [Pa] over that of a Newtonian oil."""
+
+    def film_factor(self, newtonian_film: float, speed: float, viscosity: float, slide_roll_ratio: float) -> float:
+        """Return the central film thickness over that of a Newtonian oil [m], 1 without a formula."""
+
+
+class Supply(Law, Protocol):
+    """Oil before the contact."""
+
+    starves: ClassVar[bool]  # the film may be thinner than in a flooded contact
+
+    @property
+    def layer(self) -> float | None:
+        """Oil on both surfaces together before the contact [m]; None: all that the contact can take."""
+
+    @property
+    def inlet(self) -> float | None:
+        """Distance of the inlet meniscus before the centre [m]; None: beyond the grid."""
+
+    def film(self, flooded: float, half_width: float, radius: float, resistance: float) -> float:
+        """Return the central film thickness [m] of smooth bodies.
+
+        Parameters
+        ----------
+        flooded
+            Central film thickness of the flooded contact [m].
+        half_width
+            Half width of Hertz's contact along x [m].
+        radius
+            Radius of combined curvature along x [m].
+        resistance
+            Resistance to side flow, see `reference.supplied_film`.
+
+        """
+
+
+class Plasticity(Law, Protocol):
+    """Largest pressure that the bodies bear."""
+
+    @property
+    def error(self) -> str:
+        """Sentence on constants that contradict each other, or an empty text."""
+
+    @property
+    def hardness(self) -> float:
+        """Hardness of the bare solids [Pa]."""
+
+    @property
+    def indentation(self) -> str:
+        """Plastic depth that hardens the tribofilms: "none" or "total"."""
+
+    def limit(self, film_1: Array, film_2: Array, depth: Array | float, full_thickness: float) -> Array:
+        """Return the largest pressure [Pa] between tribofilms [m] that a plastic `depth` [m] has pressed in."""
+
+    def under(self, cover: Numbers) -> Numbers:
+        """Return the hardness [Pa] under a tribofilm of `cover` (0 to 1) of its full thickness."""
+
+
+class BoundaryFriction(Law, Protocol):
+    """Friction where solids touch."""
+
+    @property
+    def bare(self) -> float:
+        """Friction coefficient of bare solids."""
+
+    @property
+    def slip_speed(self) -> float:
+        """Sliding speed [m/s] over which friction changes sign."""
+
+    def coefficient(self, cover: Numbers) -> Numbers:
+        """Return the friction coefficient under tribofilms of a mean cover, 0 to 1."""
+
+    def __call__(self, solid_pressure: Numbers, cover: Numbers, sliding_speed: Numbers) -> Numbers:
+        """Return the shear stress [Pa] with the sign of the sliding speed [m/s]."""
+
+    def grip(self, sliding_speed: Numbers) -> Numbers:
+        """Return the share of full friction at a sliding speed [m/s], with its sign."""
+
+    def grip_slope(self, sliding_speed: Numbers) -> Numbers:
+        """Return the derivative of `grip` by the sliding speed [s/m]."""
+
+    def slope(self, solid_pressure: Numbers, cover: Numbers, sliding_speed: Numbers) -> Numbers:
+        """Return the derivative of the shear stress by the sliding speed [Pa s/m]."""
+
+
+class Bulk(Law, Protocol):
+    """Bulk temperatures of the two bodies."""
+
+    follows_oil: ClassVar[bool]  # the bodies have the temperature of the oil
+    from_inputs: ClassVar[bool]  # the inputs give the temperatures
+    stores_heat: ClassVar[bool]  # the bodies warm over time
+
+    def bodies(self, oil: float, inputs: Inputs, stored: Pair | None) -> Pair:
+        """Return the bulk temperatures [K] for an oil temperature, inputs and stored temperatures [K]."""
+
+    def after(self, temperatures: Pair, heat: Pair, oil: float, dt: float) -> Pair:
+        """Return the bulk temperatures [K] after `dt` [s] under heat flows [W] into the bodies."""
+
+
+class Heat(Law, Protocol):
+    """Temperatures of the surfaces and the film."""
+
+    warms_film: ClassVar[bool]  # the oil in the contact is at another temperature than in the inlet
+
+    @property
+    def inlet_shear(self) -> str:
+        """Thinning of the film by shear heating in the inlet: "none" or "gupta"."""
+
+    @property
+    def bulk(self) -> Bulk:
+        """Law of the bulk temperatures."""
+
+    def temperatures(self, rubbing: "Rubbing") -> "Temperatures":
+        """Return the temperatures of the contact, and where its heat goes."""
+
+    def spot_rise(self, radius: Numbers, shear: Numbers, sliding_speed: Numbers) -> Numbers:
+        """Return the flash temperature rise [K] of spots of `radius` [m] under a mean |shear stress| [Pa].
+
+        0 where the law has no spots.
+        """
+
+    def conductances(self, radius: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Return the heat flux per mean rise [W/(m2 K)] into each body under an even source on a circle [m]."""
+
+    def strip_conductances(self, a: Array, b: float, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Return the same for a strip of half width a and half length b [m]."""
+
+
+class Tribofilm(Law, Protocol):
+    """Growth and removal of the tribofilm. `growth` and `removal` [m] are its internal variables."""
+
+    abrades: ClassVar[bool]  # rubbing removes the film at a rate of its own, `abrasion`
+
+    @property
+    def full_thickness(self) -> float:
+        """Thickness without removal [m]."""
+
+    @property
+    def dose(self) -> str:
+        """Rule for the mean exposure of a pass, see `tribofilm.doses`."""
+
+    def exposure(self, solid_pressure: Numbers, shear: Numbers, sliding_speed: float, temperature: Numbers) -> Numbers:
+        """Return the exposure of nodes under solid pressure and total |shear stress| [Pa], at a temperature [K]."""
+
+    def abrasion(self, solid_pressure: Array, sliding_speed: float | Array, position: Array | None) -> Array:
+        """Return the rate of removal [1/s]; `position` is |y| / b, None: far from the edges of the track."""
+
+    def evolve(
+        self, growth: Array, removal: Array, exposed: Array, abraded: Array, temperature: float
+    ) -> tuple[Array, Array]:
+        """Return both variables [m] after an exposure and an abrasion, each times its test time."""
+
+    def covers(self, temperature: float) -> bool:
+        """Return True if the constants hold at a bulk temperature [K]."""
+
+    def refusal(self, temperature: float) -> str:
+        """Return why the law does not hold at a bulk temperature [K], or an empty text."""
+
+
+class Wear(Law, Protocol):
+    """Removal of the solids."""
+
+    wears: ClassVar[bool]
+
+    @property
+    def of_sliding(self) -> bool:
+        """True if the relative sliding of the bodies wears them; else each one's own speed does."""
+
+    def coefficient(self, cover: Numbers) -> Numbers:
+        """Return the dimensionless wear coefficient under a tribofilm of `cover` (0 to 1)."""
+
+    def slide(self, speeds: tuple[float | Array, float], body: int) -> Numbers:
+        """Return the speed [m/s] that wears body 1 (`body` = 0) or 2 (1) at surface speeds [m/s]."""
+
+    def rate(
+        self, pressure: Array, cover: Array, speeds: tuple[float | Array, float], body: int, hardness: float
+    ) -> Array:
+        """Return the wear depth per second [m/s] under a solid pressure [Pa]."""
+
+
+class Profile(Law, Protocol):
+    """Ends of a roller."""
+
+    def drop(self, y: Array, length: float) -> Array:
+        """Return the material taken away [m] at y [m] from the middle of a face; inf beyond its ends."""

@@ -1,0 +1,23 @@
+"""The map in the docstring of each package of system_models names its modules, and no others."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import system_models
+
+ROOT = Path(system_models.__file__).parent
+PACKAGES = sorted(path.parent for path in ROOT.rglob("__init__.py"))
+
+
+@pytest.mark.parametrize("package", PACKAGES, ids=lambda path: str(path.relative_to(ROOT.parent)))
+def test_a_map_names_exactly_the_modules_of_its_package(package: Path) -> None:
+    text = (package / "__init__.py").read_text("utf-8").split('"""')[1]
+    rows = re.findall(r"^    (\w[\w/]*(?:, \w[\w/]*)*)(?: {2,}| (?=\w))", text, re.MULTILINE)
+    listed = {name for row in rows for name in row.split(", ")}
+    listed |= set(re.findall(r"; (\w+/?):", text))
+    modules = {path.stem for path in package.glob("*.py")} - {"__init__"}
+    inside = [path for path in package.iterdir() if any(path.glob("*.[pt]*")) and path.name != "__pycache__"]
+    folders = {f"{path.name}/" for path in inside}
+    assert listed == modules | folders
