@@ -1,6 +1,7 @@
-"""Machines of contacts and parts, from TOML to a report. Each kind is a folder; `registry` lists them.
+"""Machines of contacts and parts, from TOML to a report.
 
-    ball_on_disc/, ball_bearing/, gear_pair/, cam_follower/   the kinds: wiring, own parts, report, shipped files
+Each kind is a folder with its wiring, own parts, report and shipped files; `registry` lists them. The rest:
+
     registry        the table of kinds; kind: what a kind must provide
     files           which machines are shipped
     reading         a TOML file as an Assembly; tables: its tables as records

@@ -21,7 +21,6 @@ MACHINE_FOLDER = "system_models/machines/pin_on_disc/"
 REGISTRY = "system_models/machines/registry.py"
 SCHEME_FILES = {
     "system_models/numerics/algorithms.py",
-    "system_models/numerics/relaxed.py",
     "system_models/numerics/iteration.py",
 }
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import system_models
+from system_models.machines.registry import KINDS
 
 ROOT = Path(system_models.__file__).parent
 PACKAGES = sorted(path.parent for path in ROOT.rglob("__init__.py"))
@@ -19,5 +20,9 @@ def test_a_map_names_exactly_the_modules_of_its_package(package: Path) -> None:
     listed |= set(re.findall(r"; (\w+/?):", text))
     modules = {path.stem for path in package.glob("*.py")} - {"__init__"}
     inside = [path for path in package.iterdir() if any(path.glob("*.[pt]*")) and path.name != "__pycache__"]
-    folders = {f"{path.name}/" for path in inside}
+    folders = {f"{path.name}/" for path in inside if not (path / "machine.py").exists()}  # `registry` lists those
     assert listed == modules | folders
+
+
+def test_the_registry_lists_every_folder_of_a_kind_of_machine() -> None:
+    assert sorted(KINDS) == sorted(path.parent.name for path in ROOT.glob("machines/*/machine.py"))
