@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from contact_core.laws import SLOTS
-from contact_core.laws.heat import Rubbing
+from contact_core.laws.temperatures import Rubbing
 from contact_core.laws.tribofilm import thickness
 from contact_core.quantities import out_of_range
 
