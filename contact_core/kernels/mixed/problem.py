@@ -51,9 +51,9 @@ class Problem:
     spacing: float
     load: float  # sum of weight * p over the nodes
     mobility: Array  # pressure flow of a unit's gap, gradient and fluidity
-    thinned: Array  # what shear adds to the fluidity
+    thinned: Array  # fluidity that shear adds
     per_dt: float  # 1 / time step, 0: steady
-    wedge: float  # entrainment speed: 1, less where that would be too slow a unit for the time step
+    wedge: float  # entrainment speed: 1, or less if it is too slow a unit for the time step
     mass_old: Array  # mass of the previous instant
     fluidity: Array  # table of 1 / viscosity
     density: Array  # table
