@@ -67,7 +67,8 @@ def test_the_error_is_what_the_tolerance_allows_and_the_work_grows_as_the_order_
     # place depends on rounding: 0.09 to 0.12 of the tolerance on two kinds of machines
     few = system == "stick-slip" and scheme == "order 2, iterated"
     assert all(
-        one.ratio >= (0.07 if few and tolerance > 1e-4 else 0.2) for one, tolerance in zip(runs, tolerances, strict=True)
+        one.ratio >= (0.07 if few and tolerance > 1e-4 else 0.2)
+        for one, tolerance in zip(runs, tolerances, strict=True)
     ), runs
     growth = math.log(runs[-1].work / runs[-2].work) / math.log(tolerances[-2] / tolerances[-1])
     # Iterations get fewer as the step gets shorter, and the first steps cost the same at any tolerance: less than 1.
