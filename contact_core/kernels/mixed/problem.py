@@ -17,7 +17,7 @@ class Oil(NamedTuple):
     """Properties of the oil, in the order in which kernels take them (as `*problem.oil`).
 
     Compiled functions get the fields one by one: unpacking a named tuple costs each call about 1.5 us, 5 % of an
-    iteration on 129 x 129 nodes.
+    iteration on 65 x 65 nodes.
     """
 
     mobility: Array
