@@ -18,8 +18,9 @@ from benchmarks.timing import timed, unit_of
 from contact_core import ContactFields, Scene, Transient, initial_state, solve
 from contact_core.deterministic.friction import derivatives, shear
 from contact_core.kernels.moving_source import MovingSurface, partition
-from contact_core.laws.heat import LAWS, Rubbing
+from contact_core.laws.heat import LAWS
 from contact_core.laws.rheology import Carreau, Eyring, Newtonian
+from contact_core.laws.temperatures import Rubbing
 from contact_core.scene import Case
 
 DOCS = MEASURED / "friction"

@@ -221,7 +221,7 @@ def heights_of(first: ArrayLike | None, second: ArrayLike | None) -> Array | Non
     return np.sum(given, axis=0) if given else None
 
 
-def asked(grid: int | tuple[int, int] | None) -> tuple[int | None, int | None]:
+def grid_nodes(grid: int | tuple[int, int] | None) -> tuple[int | None, int | None]:
     """Return the nodes (ny, nx) that `grid` gives; None where it leaves them open."""
     if grid is None:
         return None, None

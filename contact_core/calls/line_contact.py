@@ -12,9 +12,9 @@ from ..shapes import Line, Profile, Roller
 from .common import (
     FilmContact,
     Numbers,
-    asked,
     check_choices,
     film_of,
+    grid_nodes,
     heights_of,
     no_numbers,
     numbers_of,
@@ -171,7 +171,7 @@ def _grid(
     """Return the nodes that the arguments ask for."""
     from ..film.fitted import line_extent, rows_over
 
-    ny, nx = asked(grid)
+    ny, nx = grid_nodes(grid)
     if ny is not None and shape.periodic:
         refuse([f"grid = {grid} has rows: smooth lines without ends have one, that of rough ones heights decide."])
     if heights is not None:

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..film.instant import Grid
 from ..quantities import TABLE, parameter
 from ..shapes import Point
-from .common import FilmContact, Numbers, asked, check_choices, film_of, heights_of, numbers_of, refuse, solve_call
+from .common import FilmContact, Numbers, check_choices, film_of, grid_nodes, heights_of, numbers_of, refuse, solve_call
 
 Array = NDArray[np.float64]
 
@@ -154,7 +154,7 @@ def _grid(
     domain: tuple[float, float, float, float] | None,
 ) -> Grid:
     """Return the nodes that the arguments ask for."""
-    ny, nx = asked(grid)
+    ny, nx = grid_nodes(grid)
     if heights is not None:
         if heights.shape[0] < 17 or heights.shape[1] < 17:
             refuse([f"heights of {heights.shape} nodes [ny, nx] are too few: 17 along each axis are the least."])

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ..errors import SceneError
 from ..film import Convergence, Deterministic
 from ..film.instant import FilmSolution, FilmState, Grid, Instant, Step
-from ..laws.heat import Temperatures
+from ..laws.temperatures import Temperatures
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState
 from ..surfaces.patches import facing_surfaces

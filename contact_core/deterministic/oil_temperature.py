@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from ..film.instant import FilmSolution, FilmState, Grid, Instant
 from ..film.thinning import eased, recalled, remembering, solve_thinning
-from ..laws.heat import NoHeat, Rubbing, Temperatures
+from ..laws.heat import NoHeat
+from ..laws.temperatures import Rubbing, Temperatures
 from ..reference import inlet_shear_factor
 from ..scene import Case
 from .friction import Film, Shear, shear, sliding

@@ -68,7 +68,7 @@ def dry_solution(
         done += part.iterations
         p = np.zeros_like(gap)
         _cut(p, window)[:] = part.pressure
-        h = grids[0].gap + half_space.deform(p) - part.level
+        h = grids[0].gap + half_space.deform(p) - part.datum
         inside = _cut(h, window)
         drift = contact.give * float(np.abs(inside - part.gap)[part.pressure > 0.0].sum()) / load
         outside = (h < 0.0) & (p <= 0.0) & (cap > 0.0)
@@ -81,7 +81,7 @@ def dry_solution(
             ends = (min(j0, window[0]), max(j1, window[1]), min(i0, window[2]), max(i1, window[3]))
             window = _roomy(ends, gap.shape, half_space.periodic)
     met = abs(float(p.sum()) - load) < 1e-10 * load
-    return DrySolution(p, h, -part.level - lowest, error < tolerance and met, done, error)
+    return DrySolution(p, h, -part.datum - lowest, error < tolerance and met, done, error)
 
 
 class _Grid(NamedTuple):

@@ -28,7 +28,7 @@ class Part(NamedTuple):
 
     pressure: Array
     gap: Array
-    level: float
+    datum: float
     error: float
     iterations: int
 
@@ -53,8 +53,8 @@ class Contact:
         fresh, product, best, best_n, cleared, n = True, 1.0, np.inf, 0, 0, 0
         while True:
             n += 1
-            level = _level(g, state)
-            overlap, excess = _residual(p, g, self.cap, state, level, r)
+            datum = _datum(g, state)
+            overlap, excess = _residual(p, g, self.cap, state, datum, r)
             z = self.press(r)
             old = product
             size, product = _restrict(z, r, state)
@@ -67,7 +67,7 @@ class Contact:
             stalled = n - best_n >= _STALL and cleared != best_n
             if not fresh and (size <= faces.early * wrong * self.load or stalled):
                 cleared = best_n if stalled else cleared
-                p, g = faces.change(p, g, state, level, wrong)
+                p, g = faces.change(p, g, state, datum, wrong)
                 _place(p, self.cap, state)
                 fresh = True
                 continue
@@ -76,7 +76,7 @@ class Contact:
             _move(p, g, r, t, self.half_space.deform(t))
         if excess > 0.0:
             p, g = self.allowed(np.clip(p, 0.0, self.cap))
-        return Part(p, g - level, level, error, n)
+        return Part(p, g - datum, datum, error, n)
 
     def press(self, r: Array) -> Array:
         """Return the approximate pressure that causes a gap."""
@@ -90,13 +90,13 @@ class Contact:
             p = _project(p, self.cap, self.load)
         return p, self.gap + self.half_space.deform(p)
 
-    def downhill(self, p: Array, g: Array, level: float) -> tuple[Array, Array]:
+    def downhill(self, p: Array, g: Array, datum: float) -> tuple[Array, Array]:
         """Return pressure and gap after a step along the projected gradient that lowers the energy."""
         step = self.give
         for _ in range(2):
-            q = _project(p - step * (g - level), self.cap, self.load)
+            q = _project(p - step * (g - datum), self.cap, self.load)
             gq = self.gap + self.half_space.deform(q)
-            down, curve = _descent(p, g, q, gq, level)
+            down, curve = _descent(p, g, q, gq, datum)
             if down >= curve:
                 return q, gq
             part = max(down / curve, 0.0)
@@ -112,7 +112,7 @@ class _Faces:
         self.p, self.g = p.copy(), g.copy()  # at the start of the face
         self.early, self.least, self.misses, self.safe = _EARLY, np.inf, 0, False
 
-    def change(self, p: Array, g: Array, state: States, level: float, wrong: float) -> tuple[Array, Array]:
+    def change(self, p: Array, g: Array, state: States, datum: float, wrong: float) -> tuple[Array, Array]:
         """Return the pressure on the next face, and its gap.
 
         `wrong`: violation of bounds and of the signs of gaps on this face, in loads.
@@ -125,24 +125,24 @@ class _Faces:
         self.safe = self.safe or self.misses > _MISSES
         contact = self.contact
         if self.safe:
-            p, g = self._lower(p, g, state, level)
+            p, g = self._lower(p, g, state, datum)
         elif wrong > _HUGE:
-            p, g = contact.downhill(self.p, self.g, level)
+            p, g = contact.downhill(self.p, self.g, datum)
         else:
-            p, g = contact.allowed(_bound(p, g, contact.cap, state, level, contact.give))
+            p, g = contact.allowed(_bound(p, g, contact.cap, state, datum, contact.give))
         self.p, self.g = p.copy(), g.copy()
         return p, g
 
-    def _lower(self, p: Array, g: Array, state: States, level: float) -> tuple[Array, Array]:
+    def _lower(self, p: Array, g: Array, state: States, datum: float) -> tuple[Array, Array]:
         """Step toward p as far as the energy falls, else along the projected gradient."""
         contact = self.contact
         for part in (1.0, 0.25, 0.0625):
             toward = self.p + part * (p - self.p)
-            q, gq = contact.allowed(_bound(toward, g, contact.cap, state, level, part * contact.give))
-            down, curve = _descent(self.p, self.g, q, gq, level)
+            q, gq = contact.allowed(_bound(toward, g, contact.cap, state, datum, part * contact.give))
+            down, curve = _descent(self.p, self.g, q, gq, datum)
             if down > 0.5 * curve:
                 return q, gq
-        return contact.downhill(self.p, self.g, level)
+        return contact.downhill(self.p, self.g, datum)
 
 
 @jit
@@ -158,7 +158,7 @@ def _place(p, cap, state):  # type: ignore[no-untyped-def]
 
 
 @jit
-def _level(g, state):  # type: ignore[no-untyped-def]
+def _datum(g, state):  # type: ignore[no-untyped-def]
     """Return the gap at which the bodies touch.
 
     It is the mean over the face, or lies between the gaps of nodes that must be shut and of those that must be open.
@@ -181,19 +181,19 @@ def _level(g, state):  # type: ignore[no-untyped-def]
 
 
 @jit
-def _residual(p, g, cap, state, level, r):  # type: ignore[no-untyped-def]
+def _residual(p, g, cap, state, datum, r):  # type: ignore[no-untyped-def]
     """Put the gap on the face into r; return the overlap off the face and the excess of bounds on it."""
     overlap, excess = 0.0, 0.0
     for j in range(p.shape[0]):
         for i in range(p.shape[1]):
             r[j, i] = 0.0
             if state[j, i] == _FREE:
-                r[j, i] = g[j, i] - level
+                r[j, i] = g[j, i] - datum
                 excess += max(-p[j, i], 0.0) + max(p[j, i] - cap[j, i], 0.0)
             elif state[j, i] == _LOW:
-                overlap += max(level - g[j, i], 0.0)
+                overlap += max(datum - g[j, i], 0.0)
             elif state[j, i] == _HIGH:
-                overlap += max(g[j, i] - level, 0.0)
+                overlap += max(g[j, i] - datum, 0.0)
     return overlap, excess
 
 
@@ -238,12 +238,12 @@ def _move(p, g, r, t, bent):  # type: ignore[no-untyped-def]
 
 
 @jit
-def _bound(p, g, cap, state, level, give):  # type: ignore[no-untyped-def]
+def _bound(p, g, cap, state, datum, give):  # type: ignore[no-untyped-def]
     """Return p within its bounds, with a first pressure on nodes that join the face."""
     q = np.empty_like(p)
     for j in range(p.shape[0]):
         for i in range(p.shape[1]):
-            x, above = p[j, i], g[j, i] - level
+            x, above = p[j, i], g[j, i] - datum
             if (state[j, i] == _LOW and above < 0.0) or (state[j, i] == _HIGH and above > 0.0):
                 x -= give * above
             q[j, i] = min(max(x, 0.0), cap[j, i])
@@ -310,12 +310,12 @@ def _project(y, cap, load):  # type: ignore[no-untyped-def]
 
 
 @jit
-def _descent(p, g, q, gq, level):  # type: ignore[no-untyped-def]
+def _descent(p, g, q, gq, datum):  # type: ignore[no-untyped-def]
     """Return first and second derivative of the energy from p to q: (-slope, curvature)."""
     down, curve = 0.0, 0.0
     for j in range(p.shape[0]):
         for i in range(p.shape[1]):
             d = q[j, i] - p[j, i]
-            down -= d * (g[j, i] - level)
+            down -= d * (g[j, i] - datum)
             curve += d * (gq[j, i] - g[j, i])
     return down, curve

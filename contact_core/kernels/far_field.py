@@ -32,7 +32,7 @@ def far_field(
     xx, yy = np.meshgrid(x, y)
     r2 = xx**2 + yy**2
     rise = xx**2 + curvature * yy**2  # of the gap, twice
-    gap = np.maximum(film + 0.5 * rise, _THINNEST * _THINNEST)  # inside, where shapes overlap, it is not asked for
+    gap = np.maximum(film + 0.5 * rise, _THINNEST * _THINNEST)  # the gap inside is not used, where shapes may overlap
     decay = np.maximum(closing - wedge * xx, 0.0) / gap**2
     ratio, weight = np.zeros_like(decay), np.ones_like(decay)
     inner = (

@@ -191,7 +191,7 @@ class Partition:
     into_2: Array
     rise_1: Array  # of the surface above the body [K]
     rise_2: Array
-    mismatch: float  # what the film's drop of temperature misses, rms over the rises' rms
+    mismatch: float  # error of the temperature drop across the film, rms over the rms of the rises
     convolutions: int
 
 

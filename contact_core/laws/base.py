@@ -5,16 +5,14 @@ Load sharing has no Protocol: its laws are `load_sharing.FittedSharing` with oth
 
 from collections.abc import Hashable
 from dataclasses import Field
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .elementary import Numbers
 from .equations import Equations
-
-if TYPE_CHECKING:
-    from .heat import Rubbing, Temperatures
+from .temperatures import Rubbing, Temperatures
 
 Array = NDArray[np.float64]
 Pair = tuple[float, float]  # of body 1 and 2
@@ -185,7 +183,7 @@ class Heat(Law, Protocol):
     def bulk(self) -> Bulk:
         """Law of the bulk temperatures."""
 
-    def temperatures(self, rubbing: "Rubbing") -> "Temperatures":
+    def temperatures(self, rubbing: Rubbing) -> Temperatures:
         """Return the temperatures of the contact, and where its heat goes."""
 
     def spot_rise(self, radius: Numbers, shear: Numbers, sliding_speed: Numbers) -> Numbers:

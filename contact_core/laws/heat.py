@@ -17,6 +17,7 @@ from .base import Bulk, Heat
 from .bulk import OilBulk
 from .elementary import Numbers, sqrt
 from .equations import Equations
+from .temperatures import Rubbing, Temperatures
 
 Array = NDArray[np.float64]
 Nodes = NDArray[np.bool_]
@@ -25,39 +26,6 @@ Pair = tuple[float, float]
 _AS_THE_OIL = OilBulk()
 _CREEP = 1e-3  # Peclet number
 _MATCHED = 1e-6  # mismatch up to which temperatures count as solved; the solver aims at 1e-7
-
-
-@dataclass(frozen=True)
-class Rubbing:
-    """Heat of a contact, and the contact that it warms. Arrays [ny, nx]."""
-
-    dissipation: Array  # heat of friction per area [W/m2]
-    gap: Array  # [m]
-    solid: Nodes  # where solids touch
-    inside: Nodes  # under pressure
-    spacing: float  # of the grid [m]
-    speeds: Pair  # of both surfaces along x, relative to the contact [m/s]
-    bodies: Pair  # bulk temperatures [K]
-    oil_conductivity: float  # [W/(m K)]
-    face: float | None = None  # length [m] along which the rows repeat themselves; None: they do not
-
-    @property
-    def total(self) -> float:
-        """Heat of the whole contact [W]."""
-        return float(self.dissipation.sum()) * self.spacing**2
-
-
-@dataclass(frozen=True)
-class Temperatures:
-    """Temperatures [K], one number or [ny, nx], and the heat [W] that leaves the contact through each body."""
-
-    surface_1: float | Array
-    surface_2: float | Array
-    film: float | Array  # mean over its thickness
-    into_1: float  # into_1 + into_2: all that is dissipated
-    into_2: float
-    flash_rise: float  # of the surfaces above the bulk, mean over the real contact and both bodies
-    solved: bool
 
 
 def _flat(bodies: Pair, into_1: float, into_2: float) -> Temperatures:

@@ -7,8 +7,8 @@ from ..quantities import parameter
 from .elementary import Numbers, exp, expm1, log1p, maximum, minimum, sqrt
 from .equations import Equations
 
-_FLATTENING = 0.2  # where the constants hold as they are: about that of the shipped circles,
-_RESOLUTION = 2.0  # and theirs on their grids
+_FLATTENING = 0.2  # reference of the constants: about that of the shipped circles
+_RESOLUTION = 2.0  # reference of the constants: that of the shipped circles on their grids
 # films and flattening beyond which no solid carries anything, and power of the film: no power of them may overflow
 _THICKEST, _FLATTEST, _STEEPEST = 1e30, 1e3, 10.0
 

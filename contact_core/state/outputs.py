@@ -27,7 +27,7 @@ class RangeFlag(IntFlag):
     FALLBACK = 16, "the dry solution replaced a film solution in part of the block"
     DOMAIN_EDGE = 32, "the contact or the wear scar reaches the edge of the grid"
     FEW_NODES = 64, "fewer than 8 nodes across the Hertz contact at this load"
-    SLOW_BODY = 128, "only part of the slower body's track passes through the contact in one block: its tribofilm and wear are uneven"
+    SLOW_BODY = 128, "a block samples only part of the slower body's track: its tribofilm and wear are uneven along it"
     STIFF_WEAR = 256, "blocks are longer than the limit of stable wear: fine roughness and A_c are less sure"
     OUTSIDE_FIT = 512, "outside the points to which the curves of the regression level were fitted"
     OTHER_LEVEL = 1024, "outputs of the deterministic level alone keep their last values, or are zero"

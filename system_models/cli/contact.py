@@ -37,11 +37,11 @@ def _run_in(folder: Path, scene: Scene, duty: "Duty", resume: bool) -> int:
     try:
         code = _report(_simulate(scene, duty, checkpoint), scene, duty, folder)
     except KeyboardInterrupt:
-        raise KeyboardInterrupt(_how_to_go_on(checkpoint)) from None
+        raise KeyboardInterrupt(_how_to_continue(checkpoint)) from None
     except StateError:
         raise
     except ContactError as error:
-        raise ContactError(f"{error} {_how_to_go_on(checkpoint)}".rstrip()) from error
+        raise ContactError(f"{error} {_how_to_continue(checkpoint)}".rstrip()) from error
     checkpoint.remove()
     return code
 
@@ -75,7 +75,7 @@ def _finished(folder: Path, scene: Scene, duty: "Duty") -> int | None:
     return 1 if report.invalid_rows(dataset) else 0
 
 
-def _how_to_go_on(checkpoint: "Checkpoint") -> str:
+def _how_to_continue(checkpoint: "Checkpoint") -> str:
     if not checkpoint.count:
         return ""
     return f"What was computed is kept in '{checkpoint.file}': the same command with --resume continues from there."

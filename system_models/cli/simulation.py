@@ -36,12 +36,12 @@ def carry_out(
     """
     origin = _origin(system, settings, name) | attributes
     checkpoint = _checkpoint(folder, system, settings, resume)
-    go_on = resume and checkpoint is not None and checkpoint.exists()
-    if resume and not go_on and (code := _finished(folder, origin)) is not None:
+    continues = resume and checkpoint is not None and checkpoint.exists()
+    if resume and not continues and (code := _finished(folder, origin)) is not None:
         return code
     begin = monotonic()
-    dataset = _simulated(system, settings, name, checkpoint, go_on)
-    if not go_on:
+    dataset = _simulated(system, settings, name, checkpoint, continues)
+    if not continues:
         dataset.attrs["wall_seconds"] = monotonic() - begin
     code = report(dataset.assign_attrs(origin), folder)
     _remove_checkpoint(folder)
@@ -105,7 +105,7 @@ def _simulated(
     )
     folder, before = checkpoint and checkpoint.parent, _stamp(checkpoint)
 
-    def how_to_go_on() -> str:
+    def how_to_continue() -> str:
         if _stamp(checkpoint) == before and not resume:
             return ""
         return f"What was computed is kept in '{checkpoint}': the same command with --resume continues from there."
@@ -120,11 +120,11 @@ def _simulated(
                 progress=lambda time: bar.update(time - bar.n),
             )
     except KeyboardInterrupt:
-        raise KeyboardInterrupt(how_to_go_on()) from None
+        raise KeyboardInterrupt(how_to_continue()) from None
     except StateError:
         raise
     except ContactError as error:
-        raise ContactError(f"{error} {how_to_go_on()}".rstrip()) from error
+        raise ContactError(f"{error} {how_to_continue()}".rstrip()) from error
 
 
 def _stamp(file: Path | None) -> int | None:

@@ -235,7 +235,7 @@ def lines(states: Sequence[Resolved]) -> Iterator[str]:
     if not states:
         yield "No contact was at the regression level, so there is none to solve again."
         return
-    heads = f"{'fast':>9} {'solved':>9} {'off':>7} {'stated':>7}"
+    heads = f"{'regr.':>9} {'solved':>9} {'dev.':>7} {'stated':>7}"
     yield f"{'state':>24}  mu: {heads}  h_c: {heads}  valid"
     for s in states:
         where = f"{s.contact} at {s.time:.4g} s"

@@ -53,9 +53,9 @@ class ControlledStepper(Stepper):
         own = {"size": self.size, "control": self.control.copy(), "lags": self.lags}
         return super().stored() | own
 
-    def go_on(self, memory: Mapping[str, Any]) -> None:
+    def continue_from(self, memory: Mapping[str, Any]) -> None:
         """Go to a point that `stored` has returned."""
-        super().go_on(memory)
+        super().continue_from(memory)
         self.size, self.lags = memory["size"], memory["lags"]
         self.control.restore(memory["control"])
 

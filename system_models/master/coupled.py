@@ -328,7 +328,7 @@ class Coupled:
         self.outputs[self.wiring.output_of[instance.name]] = instance.outputs.values
 
     def save(self) -> Point:
-        """Return the point of now. The FMUs can go back to it only if all of them can; `release` frees it."""
+        """Return the present point. The FMUs can go back to it only if all of them can; `release` frees it."""
         states = {name: instance.save() for name, instance in self.instances.items()} if self.restores else {}
         memories = [method.copy() for method in self._methods]
         return Point(self.time, self.outputs.copy(), self.history.copy(), list(self._passed), memories, states)
@@ -375,7 +375,7 @@ class Coupled:
             "counts": {name: [s.steps, s.seconds, s.events, s.derivative_order] for name, s in self.instances.items()},
         }
 
-    def go_on(self, states: Mapping[str, bytes], memory: Mapping[str, Any]) -> None:
+    def continue_from(self, states: Mapping[str, bytes], memory: Mapping[str, Any]) -> None:
         """Go to a point that `stored` has returned."""
         for name, instance in self.instances.items():
             with self._named(instance, "to take the state of a checkpoint"):

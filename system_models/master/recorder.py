@@ -38,7 +38,7 @@ class Recorder:
         self._statistics = [array("d") for _ in self._extras]
 
     def row(self, size: float, outcome: Outcome, error: float = 0.0) -> Row:
-        """Return the row of now."""
+        """Return the present row."""
         outputs = self._coupled.outputs
         values = [
             outputs[place] if place is not None else self._coupled.get(port)

@@ -82,10 +82,10 @@ def simulate(
         stepper.check_interrupt = check_interrupt
         if store and store.saved:
             states, master = saving.unpack(store.saved.state)
-            coupled.go_on(states, master["coupled"])
+            coupled.continue_from(states, master["coupled"])
             if store is checkpoint:
                 saving.check_taken(coupled.instances, states, coupled.time)
-            stepper.go_on(master["stepper"])
+            stepper.continue_from(master["stepper"])
             recorder.restore(store.saved.rows)
         else:
             recorder.add(recorder.start())

@@ -177,6 +177,6 @@ class Stepper:
         """Return all that is needed to continue from now in another process."""
         return {"statistics": asdict(self.statistics)}
 
-    def go_on(self, memory: Mapping[str, Any]) -> None:
+    def continue_from(self, memory: Mapping[str, Any]) -> None:
         """Go to a point that `stored` has returned."""
         self.statistics = Statistics(**memory["statistics"])

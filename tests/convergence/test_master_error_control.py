@@ -63,10 +63,12 @@ def test_the_error_is_what_the_tolerance_allows_and_the_work_grows_as_the_order_
     tolerances, options = SCHEMES[scheme]
     runs = [run(build_case(folder), end, tolerance, horizon=horizon, **options) for tolerance in tolerances]
     assert all(one.ratio <= 2.0 for one in runs), runs
-    # the rest of the horizon is not used up; least of all where the block stops within one of few long steps
+    # the rest of the horizon is not used up; least of all where the block stops within one of few long steps, whose
+    # place depends on rounding: 0.09 to 0.12 of the tolerance on two kinds of machines
     few = system == "stick-slip" and scheme == "order 2, iterated"
     assert all(
-        one.ratio >= (0.1 if few and tolerance > 1e-4 else 0.2) for one, tolerance in zip(runs, tolerances, strict=True)
+        one.ratio >= (0.07 if few and tolerance > 1e-4 else 0.2)
+        for one, tolerance in zip(runs, tolerances, strict=True)
     ), runs
     growth = math.log(runs[-1].work / runs[-2].work) / math.log(tolerances[-2] / tolerances[-1])
     # Iterations get fewer as the step gets shorter, and the first steps cost the same at any tolerance: less than 1.

@@ -35,7 +35,9 @@ def run(case: Case, step: float, algorithm: str, order: int, **options: Any) -> 
     past = case.history()
     if "two.F" in {c.source.name for c in case.system.connections}:
         past["two.F"] = systems.spring_force
-    run = simulate(case.system, END, step, algorithm=algorithm, order=order, history=past, outputs=case.states, **options)
+    run = simulate(
+        case.system, END, step, algorithm=algorithm, order=order, history=past, outputs=case.states, **options
+    )
     assert run.time.values[-1] == END
     assert run.attrs["steps"] == round(END / step)
     assert run.attrs["unconverged"] == 0
@@ -135,7 +137,9 @@ def test_an_input_that_was_told_as_it_is_needs_no_correction(folder, order):
     fmus = {"body": build("mass_1_force", folder), "drag": build("drag", folder)}
     wires = [("body.v", "drag.u"), ("drag.F", "body.F")]
     plain, corrected = (
-        simulate(System(fmus, wires, derivatives=known), 1.0, 0.02, algorithm="gauss_seidel", order=order, outputs=["drag.F"])
+        simulate(
+            System(fmus, wires, derivatives=known), 1.0, 0.02, algorithm="gauss_seidel", order=order, outputs=["drag.F"]
+        )
         for known in ({}, {("drag.F", "drag.u"): "drag.dF_du"})
     )
     assert corrected["drag.F"].values == approx(plain["drag.F"].values, rel=1e-12, abs=1e-12)

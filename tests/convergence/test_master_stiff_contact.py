@@ -25,7 +25,8 @@ def case(tmp_path_factory: pytest.TempPathFactory) -> Case:
 
 
 def run(case: Case, step: float, algorithm: str, iterate: str | None = None, order: int = 0) -> xr.Dataset:
-    return simulate(case.system, STEPS * step, step, algorithm=algorithm, order=order, iterate=iterate, outputs=FOLLOWED)
+    how = {"algorithm": algorithm, "order": order, "iterate": iterate}
+    return simulate(case.system, STEPS * step, step, **how, outputs=FOLLOWED)
 
 
 @pytest.mark.parametrize("algorithm", ALGORITHMS)

@@ -42,7 +42,8 @@ class Tree:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         for name in PACKAGES:
-            skipped = shutil.ignore_patterns("__pycache__", "*.so", "*.dll", "kernels" if name == "contact_core" else "")
+            apart = "kernels" if name == "contact_core" else ""
+            skipped = shutil.ignore_patterns("__pycache__", "*.so", "*.dll", apart)
             shutil.copytree(source(name), folder / name, ignore=skipped)
         (folder / "contact_core" / "kernels").symlink_to(source("contact_core") / "kernels", target_is_directory=True)
 

@@ -173,7 +173,8 @@ point = scene_of(operation__load="20 N", control__driver="mixed", geometry__radi
 table = point.to_dict()
 barrel = Scene.from_dict(table | {"geometry": table["geometry"] | {"model": "barrel", "length": "0.4 mm"}})
 found = [
-    [advance(s, s.operation.point, initial_state(s), 1.0)[1].h_c for s in (point.at_level(level), barrel.at_level(level))]
+    [advance(s, s.operation.point, initial_state(s), 1.0)[1].h_c
+     for s in (point.at_level(level), barrel.at_level(level))]
     for level in ("deterministic", "regression")
 ]
 print(json.dumps([*found, *package_of(barrel)]))

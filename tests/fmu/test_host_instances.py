@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from comparison import approx
 from fmpy.fmi1 import FMICallException
-from benchmarks.models import build
 
+from benchmarks.models import build
 from system_models.fmu.errors import CouplingError
 from system_models.fmu.fmi2 import Fmi2Instance
 from system_models.fmu.fmi3 import Fmi3Instance

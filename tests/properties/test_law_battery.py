@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from contact_core.laws import SLOTS
-from contact_core.laws.heat import Rubbing
+from contact_core.laws.temperatures import Rubbing
 from contact_core.laws.tribofilm import thickness
 from contact_core.quantities import out_of_range
 
@@ -265,6 +265,29 @@ def test_friction_only_warms(law, heat, gap, solid, pressed, speed_1, speed_2, b
 heats = st.tuples(st.floats(-1e3, 1e3), st.floats(-1e3, 1e3))
 pairs = st.tuples(temperatures, temperatures)
 steps = st.floats(1e-3, 1e5)
+
+
+@given(laws_of("heat"), st.floats(1e-7, 1e-3), st.floats(0.0, 1e9), speeds, speeds)
+def test_bodies_conduct_heat_away_the_better_the_faster_they_move(law, size, shear, speed_1, speed_2):
+    assert law.spot_rise(size, shear, speed_1) >= 0.0
+    radius, pair = np.full(3, size), (np.full(3, speed_1), np.full(3, speed_2))
+    for conductances in (law.conductances, lambda a, u: law.strip_conductances(a, 100.0 * size, u)):
+        slow, fast = conductances(radius, pair), conductances(radius, tuple(2.0 * speed for speed in pair))
+        assert all(np.all((one > 0.0) & (one <= two)) for one, two in zip(slow, fast, strict=True))
+
+
+@given(laws_of("rheology"), st.floats(1e-9, 1e-5), st.floats(0.0, 10.0), st.floats(1e-4, 10.0), st.floats(-2.0, 2.0))
+def test_an_oil_that_thins_has_a_thinner_film(law, film, speed, viscosity, slide_roll_ratio):
+    factor = law.film_factor(film, speed, viscosity, slide_roll_ratio)
+    assert 0.0 <= factor <= 1.0
+    assert factor == 1.0 or law.thins
+
+
+@given(laws_of("supply"), st.floats(1e-9, 1e-5))
+def test_only_a_supply_that_starves_makes_a_film_thinner(law, flooded):
+    film = law.film(flooded, 1e-4, 1e-2, 3.0)
+    assert 0.0 < film <= flooded * (1.0 + 1e-12)
+    assert film == flooded or law.starves
 
 
 @given(laws_of("bulk"), pairs, heats, temperatures, steps, steps)

@@ -67,10 +67,12 @@ def test_names_of_fmus_do_not_matter(paths, algorithm):
         fmu, _, variable = name.partition(".")
         return f"{new[fmu]}.{variable}"
 
-    reference = simulate(System(paths, WIRES), 0.1, 0.01, algorithm, 1)
+    reference = simulate(System(paths, WIRES), 0.1, 0.01, algorithm=algorithm, order=1)
     for names in permutations(FMUS):
         new = dict(zip(FMUS, names, strict=True))
         wires = [(renamed(source), renamed(target), *factor) for source, target, *factor in WIRES]
-        result = simulate(System({new[name]: path for name, path in paths.items()}, wires), 0.1, 0.01, algorithm, 1)
+        result = simulate(
+            System({new[name]: path for name, path in paths.items()}, wires), 0.1, 0.01, algorithm=algorithm, order=1
+        )
         variables = {str(name): renamed(str(name)) for name in reference.variables if str(name).split(".")[0] in FMUS}
         assert same(reference, result, variables), names

@@ -174,6 +174,7 @@ def test_oil_at_its_limit_grips_as_solids_do():
     scene, _, _ = cheap(lubricant__rheology__model="newtonian")
     stiff = replace(wet(0.0), fluid=np.full_like(HERTZ, 6e9))  # beyond its limit at any speed
     full, part = (
-        friction(shear(Case(scene, at(speed_1=0.1 + speed, speed_2=0.1)), stiff), GRID).force_fluid for speed in (0.1, 1e-7)
+        friction(shear(Case(scene, at(speed_1=0.1 + speed, speed_2=0.1)), stiff), GRID).force_fluid
+        for speed in (0.1, 1e-7)
     )
     assert part == approx(scene.boundary_friction.grip(1e-7) * full, rel=1e-6)

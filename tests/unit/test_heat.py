@@ -9,7 +9,8 @@ import contact_core.laws.heat
 from contact_core import Scene, SceneError
 from contact_core.kernels.moving_source import MovingSurface, partition
 from contact_core.laws.bulk import InputBulk, LumpedBulk, OilBulk
-from contact_core.laws.heat import FlashTemperature, NoHeat, Rubbing, TemperatureField, Temperatures
+from contact_core.laws.heat import FlashTemperature, NoHeat, TemperatureField
+from contact_core.laws.temperatures import Rubbing, Temperatures
 from contact_core.scene import tunables, with_values
 
 SPACING, FLOOR, OIL = 4e-6, 1e-9, 0.14

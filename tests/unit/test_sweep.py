@@ -11,7 +11,7 @@ from contact_core import solve
 from contact_core.deterministic import oil_temperature as oil
 from contact_core.deterministic.observed import observed
 from contact_core.deterministic.transient import rolled, yielded
-from contact_core.laws.heat import Rubbing
+from contact_core.laws.temperatures import Rubbing
 from contact_core.reference import hamrock_dowson
 from contact_core.scene import Case
 from contact_core.shapes import Point

@@ -25,8 +25,8 @@ Array = NDArray[np.float64]
 
 
 FADE = 4.0  # how fast the second order fades with the emptiness of the node upstream
-# of a node's mass that flows on at least: second order would let oil flow back where a film falls to under half of
-# itself from node to node. Limited next to cavities alone, nodes change sides for ever
+# least share of a node's mass that flows on: at second order oil would flow back where a film falls to under half of
+# itself from node to node. With this limit next to cavities only, nodes change sides for ever
 LEAST = 0.5
 
 

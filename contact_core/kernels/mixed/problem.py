@@ -17,7 +17,7 @@ class Oil(NamedTuple):
     """Properties of the oil, in the order in which kernels take them (as `*problem.oil`).
 
     Compiled functions get the fields one by one: unpacking a named tuple costs each call about 1.5 us, 5 % of an
-    iteration on 129 x 129 nodes.
+    iteration on 65 x 65 nodes.
     """
 
     mobility: Array
@@ -51,9 +51,9 @@ class Problem:
     spacing: float
     load: float  # sum of weight * p over the nodes
     mobility: Array  # pressure flow of a unit's gap, gradient and fluidity
-    thinned: Array  # what shear adds to the fluidity
+    thinned: Array  # fluidity that shear adds
     per_dt: float  # 1 / time step, 0: steady
-    wedge: float  # entrainment speed: 1, less where that would be too slow a unit for the time step
+    wedge: float  # entrainment speed: 1, or less if it is too slow a unit for the time step
     mass_old: Array  # mass of the previous instant
     fluidity: Array  # table of 1 / viscosity
     density: Array  # table

@@ -155,9 +155,12 @@ class CamFollower(Part):
         return float((self._places["weight"] * values).sum())
 
     def track_lengths(self, station: Station, least: float) -> tuple[float, float]:
-        """Return the track lengths [m] of cam and follower: travel past the contact in a turn, `least` [m] at least."""
+        """Return the track lengths [m] of cam and follower, `least` [m] at least: travel past the contact in a turn.
+
+        On the follower the contact may reverse within the angles of a station, so their mean travel counts.
+        """
         turn = 2.0 * math.pi
-        return max(turn * station.radius_x, least), max(turn * abs(station.curvature), least)
+        return max(turn * station.radius_x, least), max(turn * station.travel, least)
 
 
 def _alike(name: str, k: int, nominal: float) -> dict[str, Any]:

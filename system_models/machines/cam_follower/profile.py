@@ -14,6 +14,7 @@ from contact_core.quantities import parameter
 Array = NDArray[np.float64]
 
 _ANGLES = 2001  # at which the profile is checked
+_WITHIN = 33  # angles of a station at which the travel of the contact is summed
 
 
 def _fixed(unit: str, text: str, **limits: Any) -> Any:
@@ -37,6 +38,7 @@ class Station(NamedTuple):
     slope: float  # s' [m]: distance of the contact from the axis of the cam, along the face of the follower
     curvature: float  # s'' [m]
     radius_x: float  # of the cam [m]
+    travel: float  # mean of |s''| over its angles [m]: travel of the contact along the face, per angle
     weight: float  # share of a turn
 
 
@@ -101,7 +103,9 @@ class CamProfile:
         """Return `count` stations in the middles of equal parts of the event, and one for the base circle."""
         angles = self.half_event * (2.0 * (np.arange(count) + 0.5) / count - 1.0)
         found, radius = self.at(angles), self.radius(angles)
-        event = self.half_event / math.pi
-        rows = zip(angles, *found, radius, np.full(count, event / count), strict=True)
-        rest = Station(math.pi, 0.0, 0.0, 0.0, self.base_radius, 1.0 - event)
+        event, part = self.half_event / math.pi, 2.0 * self.half_event / count
+        fine = angles[:, None] + part * np.linspace(-0.5, 0.5, _WITHIN)
+        travel = np.abs(np.diff(self.at(fine).slope)).sum(axis=1) / part
+        rows = zip(angles, *found, radius, travel, np.full(count, event / count), strict=True)
+        rest = Station(math.pi, 0.0, 0.0, 0.0, self.base_radius, 0.0, 1.0 - event)
         return (*(Station(*map(float, row)) for row in rows), rest)
