@@ -99,7 +99,7 @@ class Tree:
         work = self.folder / "work"
         work.mkdir(exist_ok=True)
         path = os.pathsep.join(map(str, (self.folder, ROOT, ROOT / "tests")))
-        environment = os.environ | {"PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1", "OPENBLAS_NUM_THREADS": "1"}
+        environment = os.environ | {"PYTHONPATH": path, "OPENBLAS_NUM_THREADS": "1"}
         run = subprocess.run(command, cwd=work, env=environment, capture_output=True, text=True, check=False)
         assert (run.returncode != 0) == fails, run.stderr
         return run.stderr if fails else run.stdout

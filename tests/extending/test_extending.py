@@ -331,7 +331,7 @@ print(json.dumps([seen, residuals]))
 def test_a_machine_is_coupled_by_the_scheme(tree: Tree) -> None:
     (line,) = examples(SCHEME, "sh")
     printed = tree.command(line)
-    assert "Steps: 600 to 600 s" in printed
+    assert "Steps: 120 to 600 s" in printed
     assert "terations" in printed
 
 
