@@ -1,6 +1,16 @@
-"""The fidelity levels of the film, and the record of its convergence.
+"""Fluid and solid pressure of one instant: what to solve, by which algorithm, and how well it converged.
 
-`FILMS`: the records that `scene.film` may be.
+    deterministic   the record of the deterministic level in a scene
+    regression      the record of the regression level in a scene
+    instant         grid, instant and solution, in SI
+    scaled          an instant in the dimensionless units of the kernels
+    routes          table of algorithms, and its execution
+    thinning        flow of an oil that shear thins or heat warms
+    outputs         outputs of a film from its fields
+    fitted          grids that fit a film
+    estimate        error estimate from the grid of half the nodes
+
+`FILMS` are the records that `scene.film` may be.
 """
 
 from ..kernels.convergence import Convergence

@@ -5,6 +5,7 @@
     line_films    film of smooth line contacts
     starvation    film of contacts that are short of oil
     sliders       pressure and cavitation of a rigid roller
+    rolling       rolling resistance of smooth contacts
     squeeze       rigid bodies that approach each other through oil
     profiles      of rollers
     oil           what heat and shear of the oil make of a film

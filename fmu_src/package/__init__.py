@@ -1,7 +1,7 @@
 """Build an FMU: everything that happens when a package is made.
 
     command     the command line that builds an FMU
-    build       build: scene -> FMU file; pack: the files of any model -> FMU file
+    build       the FMU file of a scene, or of the files of any model
     describe    modelDescription.xml
     document    documentation/index.html
     evidence    reference data: a short run to replay

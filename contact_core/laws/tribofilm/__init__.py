@@ -1,5 +1,9 @@
 """Growth and removal of the tribofilm.
 
+    fitted      laws of nodes in contact, fitted to measured tribofilms
+    activated   laws of reactions that stress activates
+    doses       from the instants of a pass to the exposure per test time
+
 In each solved instant a law gives the exposure of every node (`exposure`). Its `dose` (`doses`) says how the instants
 of a pass become the mean exposure per test time.
 
@@ -9,8 +13,6 @@ takes away what there is (`abrasion`, by the solid pressure as mean over the tra
 A law carries two internal variables per node and body: `growth` (what tribochemistry has formed) and `removal` (what
 rubbing has taken). They are autonomous, so a state needs no age and may be cut and continued anywhere. A law of
 first-order removal needs one only: it keeps the thickness in `growth` and nothing in `removal`.
-
-`fitted` has laws of nodes in contact, fitted to films; `activated` those of reactions that stress speeds up.
 """
 
 from ..base import Tribofilm
