@@ -118,8 +118,8 @@ class BallBearing(Part):
     def responses(self) -> tuple[Output, ...]:
         """Outputs for each load class, of the bearing as a whole, and of its balls."""
 
-        def response(name: str, symbol: str, unit: str, nominal: float, text: str, *, by: tuple[str, ...] = _BY_LOAD,
-                     display: str = "") -> Output:  # fmt: skip
+        def row(name: str, symbol: str, unit: str, nominal: float, text: str, *, by: tuple[str, ...] = _BY_LOAD,
+                display: str = "") -> Output:  # fmt: skip
             return Output(name, symbol, unit, text, nominal=nominal, direct=by, display=display)
 
         rubbed = ("friction_force", "spin_torque", "rolling_resistance")
@@ -128,27 +128,27 @@ class BallBearing(Part):
         into_balls = self._all("heat_flow_1")
         return (
             *(output for race in RACES for output in self._given_to(race)),
-            response("friction_torque", "M", "N m", 0.1, "torque that resists the shaft's speed", by=friction),
-            response("power_loss", "P", "W", 10.0, "friction_torque times speed", by=friction),
-            response("heat_flow_balls", "Q_b", "W", 10.0, "heat into all balls", by=(*_BY_LOAD, *into_balls)),
-            response("heat_flow_inner", "Q_i", "W", 10.0, "heat into the inner ring", by=(*_BY_LOAD, *heat["inner"])),
-            response("heat_flow_outer", "Q_o", "W", 10.0, "heat into the outer ring", by=(*_BY_LOAD, *heat["outer"])),
-            response("heat_flow_oil", "Q_oil", "W", 10.0, "power_loss less the heat into balls and rings",
+            row("friction_torque", "M", "N m", 0.1, "torque that resists the shaft's speed", by=friction),
+            row("power_loss", "P", "W", 10.0, "friction_torque times speed", by=friction),
+            row("heat_flow_balls", "Q_b", "W", 10.0, "heat into all balls", by=(*_BY_LOAD, *into_balls)),
+            row("heat_flow_inner", "Q_i", "W", 10.0, "heat into the inner ring", by=(*_BY_LOAD, *heat["inner"])),
+            row("heat_flow_outer", "Q_o", "W", 10.0, "heat into the outer ring", by=(*_BY_LOAD, *heat["outer"])),
+            row("heat_flow_oil", "Q_oil", "W", 10.0, "power_loss less the heat into balls and rings",
                  by=(*friction, *into_balls, *heat["inner"], *heat["outer"])),
-            response("cage_speed", "omega_c", "rad/s", 100.0, "angular speed of the cage", display="rpm"),
-            response("load_max", "Q_max", "N", 1000.0, "largest load of a contact"),
-            response("pressure_max", "p_max", "Pa", 1e9, "largest pressure of a contact, after Hertz", display="GPa"),
-            response("contact_angle_inner", "alpha_i", "rad", 0.1, "largest contact angle of a loaded ball, inner race"),
-            response("contact_angle_outer", "alpha_o", "rad", 0.1, "largest contact angle of a loaded ball, outer race"),
+            row("cage_speed", "omega_c", "rad/s", 100.0, "angular speed of the cage", display="rpm"),
+            row("load_max", "Q_max", "N", 1000.0, "largest load of a contact"),
+            row("pressure_max", "p_max", "Pa", 1e9, "largest pressure of a contact, after Hertz", display="GPa"),
+            row("contact_angle_inner", "alpha_i", "rad", 0.1, "largest contact angle of a loaded ball, inner race"),
+            row("contact_angle_outer", "alpha_o", "rad", 0.1, "largest contact angle of a loaded ball, outer race"),
             *(
-                output(f"displacement_{axis}", f"delta_{axis}", "m", 1e-5, f"of inner ring along {axis}", display="um")
+                row(f"displacement_{axis}", f"delta_{axis}", "m", 1e-5, f"of inner ring along {axis}", display="um")
                 for axis in "xyz"
             ),
-            *(output(f"tilt_{axis}", f"theta_{axis}", "rad", 1e-4, f"of the inner ring about {axis}") for axis in "yz"),
-            response("residual", "r", "1", 1e-6, "largest force out of balance over the largest force, at least 1 N"),
-            response("unconverged", "", "1", 1.0, "1 where the forces do not balance, else 0"),
+            *(row(f"tilt_{axis}", f"theta_{axis}", "rad", 1e-4, f"of the inner ring about {axis}") for axis in "yz"),
+            row("residual", "r", "1", 1e-6, "largest force out of balance over the largest force, at least 1 N"),
+            row("unconverged", "", "1", 1.0, "1 where the forces do not balance, else 0"),
             *(
-                output(indexed(f"load_ball_{race}", j), "Q_j", "N", 100.0, f"load of ball {j} on the {race} race")
+                row(indexed(f"load_ball_{race}", j), "Q_j", "N", 100.0, f"load of ball {j} on the {race} race")
                 for race in RACES
                 for j in range(1, self.dimensions.balls + 1)
             ),
