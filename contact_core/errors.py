@@ -1,4 +1,4 @@
-"""What can go wrong, by meaning. Every message is a sentence that ends with a way out."""
+"""Errors, by meaning. Every message is a sentence that ends with a way out."""
 
 
 class ContactError(Exception):

@@ -70,7 +70,7 @@ class Quantity:
 
     @property
     def quantity(self) -> str:
-        """What is measured."""
+        """Kind of physical quantity."""
         return measured(self.unit, DIFFERENCE if self.relative else "")
 
 

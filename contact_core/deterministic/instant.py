@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Transient:
-    """How an instant follows from the state's last film solution."""
+    """The step from the state's last film solution to an instant."""
 
     dt: float  # time since then [s]
     moved: int  # nodes by which the rougher surface has moved along +x since then

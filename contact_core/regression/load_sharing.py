@@ -1,4 +1,4 @@
-"""How solids and oil of rough bodies share the load, by curves fitted to the deterministic level."""
+"""Load sharing between solids and oil of rough bodies, by curves fitted to the deterministic level."""
 
 import math
 from typing import NamedTuple
@@ -31,7 +31,7 @@ class Surfaces(NamedTuple):
 
 
 class Shares(NamedTuple):
-    """How solids and oil share the load."""
+    """Shares of solids and oil in the load."""
 
     fit: Fit
     gap: float  # mean [m]

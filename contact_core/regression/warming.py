@@ -1,4 +1,4 @@
-"""What a process loads before its first step at the regression level."""
+"""Loading of packages and compiled kernels before the first step at the regression level."""
 
 from ..scene import Case
 from ..state import ContactState

@@ -1,4 +1,4 @@
-"""What makes a scene or an operating point unusable, and what is not resolved well: one sentence each."""
+"""Checks of scenes and operating points: a sentence for all that is unusable or not resolved well."""
 
 import math
 import re

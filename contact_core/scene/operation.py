@@ -8,7 +8,7 @@ from ..quantities import TABLE, input_parameter, out_of_range, parameter
 
 @dataclass(frozen=True)
 class OperatingPoint:
-    """What is asked of the contact in one step."""
+    """The inputs of one step."""
 
     load: float = input_parameter("load")
     speed_1: float = input_parameter("speed_1")
@@ -32,7 +32,7 @@ class OperatingPoint:
 
     @property
     def slides(self) -> bool:
-        """Whether the bodies slide anywhere in the contact."""
+        """True if the bodies slide anywhere in the contact."""
         return self.speed_1 != self.speed_2 or self.spin != 0.0
 
     @property

@@ -57,7 +57,7 @@ class Lubricant:
 
 @dataclass(frozen=True)
 class Control:
-    """How the evolution over time is cut into blocks, in each of which the contact is solved at a few instants."""
+    """Division of the evolution over time into blocks, in each of which the contact is solved at a few instants."""
 
     change: float = parameter(
         "m", "largest change of film or wear in a block, as rms over the track", above=0.0, most=1e-6

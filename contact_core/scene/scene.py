@@ -1,4 +1,4 @@
-"""What a contact is and which physics it needs: a frozen record read from TOML, checked before anything is computed."""
+"""The scene: a frozen record of a contact and its physics, read from TOML and checked before anything is computed."""
 
 from collections.abc import Mapping
 from dataclasses import fields, replace

@@ -97,7 +97,7 @@ class Shape(Protocol):
 
 
 class GridRecord(Protocol):
-    """What a film record says of the grid."""
+    """The grid in a film record."""
 
     @property
     def points(self) -> int:

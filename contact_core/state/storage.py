@@ -21,7 +21,7 @@ _LETTERS: dict[Any, str] = {float: "d", float | None: "d", int: "q"}
 
 
 class Kind:
-    """How records of a class are stored."""
+    """Layout in which records of a class are stored."""
 
     def __init__(self, record: type) -> None:
         letters = {f.name: _LETTERS[f.type] for f in fields(record) if f.type in _LETTERS}
@@ -38,7 +38,7 @@ _kind = cache(Kind)
 
 
 def numbers(record: Any) -> bytes:
-    """Those of a record; None, where it may stand for a number, becomes NaN."""
+    """Return the numbers of a record as bytes; None, where a number is optional, becomes NaN."""
     kind = _kind(record.__class__)
     values = kind.fetch(vars(record))
     if kind.maybe:

@@ -65,7 +65,7 @@ class SharedMemory:
         self._give(_HOST)
 
     def hold(self) -> None:
-        """Lock the file while this process lives: the lock tells the host when the process has ended."""
+        """Lock the file while this process lives: the lock shows the host when the process has ended."""
         with suppress(OSError):  # where locks do not work, the supervisor's report is enough
             self._held = os.open(f"/proc/self/fd/{self._file}", os.O_RDWR | os.O_CLOEXEC)
             fcntl.flock(self._held, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -55,15 +55,15 @@ def stated(dataset: xr.Dataset, coarse: xr.Dataset, schedule: Schedule) -> xr.Da
     return found
 
 
-def _jump(values: NDArray[np.float64], told: NDArray[np.bool_]) -> float:
-    """Return the largest isolated change of values in one of the steps that are `told`.
+def _jump(values: NDArray[np.float64], compared: NDArray[np.bool_]) -> float:
+    """Return the largest isolated change of values in one of the steps that are `compared`.
 
     It is far larger than the changes beside it. Jumps that `differences` leaves out do not count.
     """
     change = np.abs(np.diff(values))
     beside = np.maximum(np.append(change[1:], 0.0), np.append(0.0, change[:-1]))
     alone = (change > _ALONE * beside) & (change <= _JUMP * np.abs(values).max(initial=0.0))
-    return float(change[told & alone].max(initial=0.0))
+    return float(change[compared & alone].max(initial=0.0))
 
 
 def differences(dataset: xr.Dataset, other: xr.Dataset, times: NDArray[np.float64]) -> dict[str, float]:

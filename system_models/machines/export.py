@@ -54,7 +54,7 @@ def _starts(part: str, schedule: Schedule) -> tuple[Start, ...]:
 
 def _as_told(contact: Contact) -> Scene:
     """Return the scene with the values that its FMU is given."""
-    told: dict[str, Any] = dict(contact.parameters)
-    scene = contact.scene.at_level(LEVELS[int(told.pop(FIDELITY)) - 1]) if FIDELITY in told else contact.scene
-    inputs: dict[str, Any] = {f.name: told.pop(f.name) for f in fields(OperatingPoint) if f.name in told}
-    return replace(with_values(scene, told), operation=replace(scene.operation, **inputs))
+    given: dict[str, Any] = dict(contact.parameters)
+    scene = contact.scene.at_level(LEVELS[int(given.pop(FIDELITY)) - 1]) if FIDELITY in given else contact.scene
+    inputs: dict[str, Any] = {f.name: given.pop(f.name) for f in fields(OperatingPoint) if f.name in given}
+    return replace(with_values(scene, given), operation=replace(scene.operation, **inputs))

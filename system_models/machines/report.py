@@ -55,8 +55,8 @@ def _solutions(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
     cost, counts = json.loads(dataset.attrs["cost"]), Counter[int]()
     for name in assembly.contacts:
         counts[int(dataset[f"{name}.fidelity_used"].values[-1])] += cost[name]["steps"]
-    told = ", ".join(f"{count:,} {LEVELS[level - 1]}" for level, count in sorted(counts.items()) if level)
-    sentence = f"Contact solutions, with those of steps tried or repeated: {told}."
+    counted = ", ".join(f"{count:,} {LEVELS[level - 1]}" for level, count in sorted(counts.items()) if level)
+    sentence = f"Contact solutions, with those of steps tried or repeated: {counted}."
     wall = dataset.attrs.get("wall_seconds")
     if wall is None:
         return [f"{sentence} The real-time factor of a resumed run is not known."]

@@ -102,7 +102,7 @@ class ControlledStepper(Stepper):
             coupled.iteration_tolerance = max(_ROUNDING, _ITERATED * self.tolerance * self._share(size))
         whole_nodes, first_nodes = coupled.nodes(size), coupled.nodes(0.5 * size)
         whole = coupled.advance(end, start)
-        outputs, told = coupled.outputs[coupled.wiring.coupled], coupled.ends()
+        outputs, before = coupled.outputs[coupled.wiring.coupled], coupled.ends()
         if not self.statistics.steps:
             coupled.expect()
         coupled.restore(start)
@@ -122,7 +122,7 @@ class ControlledStepper(Stepper):
         if max(whole.residual, first.residual, second.residual) > 1.0:
             ratio = max(ratio, 2.0)
         rows = [row, self.recorder.row(0.5 * size, second, ratio)]
-        seen, gains = [indicators, self._indicators.values()], self._gains(changes, coupled.ends() - told)
+        seen, gains = [indicators, self._indicators.values()], self._gains(changes, coupled.ends() - before)
         return Attempt(size, rows, seen, ratio, errors, gains, of_halves, event)
 
     def _gains(self, changes: NDArray[np.float64], of_inputs: NDArray[np.float64]) -> NDArray[np.float64]:

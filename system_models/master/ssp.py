@@ -206,5 +206,5 @@ def _add_step_size(parent: Element, step_size: float) -> None:
     """Add the annotation that OMSimulator writes for fixed steps, in decimals, as its schema has them."""
     annotation = SubElement(parent, _tag("ssc:Annotation"), type="org.openmodelica")
     information = SubElement(SubElement(annotation, _tag("oms:Annotations")), _tag("oms:SimulationInformation"))
-    told = {"description": "oms-ma", "stepSize": f"{Decimal(repr(float(step_size))):f}", "relativeTolerance": "0.0001"}
-    SubElement(information, _tag("oms:FixedStepMaster"), told)
+    attributes = {"description": "oms-ma", "stepSize": f"{Decimal(repr(float(step_size))):f}", "relativeTolerance": "0.0001"}
+    SubElement(information, _tag("oms:FixedStepMaster"), attributes)

@@ -11,7 +11,7 @@ of Akchurin & Bosman 2017, doi:10.1007/s11249-017-0842-8; here r = k_r p v, with
 
 With the dose "residence", A is a rate while the stress acts. Rigs report growth per test time: as it stands, such a
 rate is for the dose "contact_length"; divided by the contact's share of the track, 2a / track length, for "residence",
-which then tells long tracks from short ones.
+which then distinguishes long tracks from short ones.
 """
 
 from dataclasses import dataclass

@@ -118,7 +118,7 @@ class BallBearing(Part):
     def responses(self) -> tuple[Output, ...]:
         """Outputs for each load class, of the bearing as a whole, and of its balls."""
 
-        def told(name: str, symbol: str, unit: str, nominal: float, text: str, *, by: tuple[str, ...] = _BY_LOAD,
+        def output(name: str, symbol: str, unit: str, nominal: float, text: str, *, by: tuple[str, ...] = _BY_LOAD,
                  display: str = "") -> Output:  # fmt: skip
             return Output(name, symbol, unit, text, nominal=nominal, direct=by, display=display)
 
@@ -128,27 +128,27 @@ class BallBearing(Part):
         into_balls = self._all("heat_flow_1")
         return (
             *(output for race in RACES for output in self._given_to(race)),
-            told("friction_torque", "M", "N m", 0.1, "torque that resists the shaft's speed", by=friction),
-            told("power_loss", "P", "W", 10.0, "friction_torque times speed", by=friction),
-            told("heat_flow_balls", "Q_b", "W", 10.0, "heat into all balls", by=(*_BY_LOAD, *into_balls)),
-            told("heat_flow_inner", "Q_i", "W", 10.0, "heat into the inner ring", by=(*_BY_LOAD, *heat["inner"])),
-            told("heat_flow_outer", "Q_o", "W", 10.0, "heat into the outer ring", by=(*_BY_LOAD, *heat["outer"])),
-            told("heat_flow_oil", "Q_oil", "W", 10.0, "power_loss less the heat into balls and rings",
+            output("friction_torque", "M", "N m", 0.1, "torque that resists the shaft's speed", by=friction),
+            output("power_loss", "P", "W", 10.0, "friction_torque times speed", by=friction),
+            output("heat_flow_balls", "Q_b", "W", 10.0, "heat into all balls", by=(*_BY_LOAD, *into_balls)),
+            output("heat_flow_inner", "Q_i", "W", 10.0, "heat into the inner ring", by=(*_BY_LOAD, *heat["inner"])),
+            output("heat_flow_outer", "Q_o", "W", 10.0, "heat into the outer ring", by=(*_BY_LOAD, *heat["outer"])),
+            output("heat_flow_oil", "Q_oil", "W", 10.0, "power_loss less the heat into balls and rings",
                  by=(*friction, *into_balls, *heat["inner"], *heat["outer"])),
-            told("cage_speed", "omega_c", "rad/s", 100.0, "angular speed of the cage", display="rpm"),
-            told("load_max", "Q_max", "N", 1000.0, "largest load of a contact"),
-            told("pressure_max", "p_max", "Pa", 1e9, "largest pressure of a contact, after Hertz", display="GPa"),
-            told("contact_angle_inner", "alpha_i", "rad", 0.1, "largest contact angle of a loaded ball, inner race"),
-            told("contact_angle_outer", "alpha_o", "rad", 0.1, "largest contact angle of a loaded ball, outer race"),
+            output("cage_speed", "omega_c", "rad/s", 100.0, "angular speed of the cage", display="rpm"),
+            output("load_max", "Q_max", "N", 1000.0, "largest load of a contact"),
+            output("pressure_max", "p_max", "Pa", 1e9, "largest pressure of a contact, after Hertz", display="GPa"),
+            output("contact_angle_inner", "alpha_i", "rad", 0.1, "largest contact angle of a loaded ball, inner race"),
+            output("contact_angle_outer", "alpha_o", "rad", 0.1, "largest contact angle of a loaded ball, outer race"),
             *(
-                told(f"displacement_{axis}", f"delta_{axis}", "m", 1e-5, f"of inner ring along {axis}", display="um")
+                output(f"displacement_{axis}", f"delta_{axis}", "m", 1e-5, f"of inner ring along {axis}", display="um")
                 for axis in "xyz"
             ),
-            *(told(f"tilt_{axis}", f"theta_{axis}", "rad", 1e-4, f"of the inner ring about {axis}") for axis in "yz"),
-            told("residual", "r", "1", 1e-6, "largest force out of balance over the largest force, at least 1 N"),
-            told("unconverged", "", "1", 1.0, "1 where the forces do not balance, else 0"),
+            *(output(f"tilt_{axis}", f"theta_{axis}", "rad", 1e-4, f"of the inner ring about {axis}") for axis in "yz"),
+            output("residual", "r", "1", 1e-6, "largest force out of balance over the largest force, at least 1 N"),
+            output("unconverged", "", "1", 1.0, "1 where the forces do not balance, else 0"),
             *(
-                told(indexed(f"load_ball_{race}", j), "Q_j", "N", 100.0, f"load of ball {j} on the {race} race")
+                output(indexed(f"load_ball_{race}", j), "Q_j", "N", 100.0, f"load of ball {j} on the {race} race")
                 for race in RACES
                 for j in range(1, self.dimensions.balls + 1)
             ),

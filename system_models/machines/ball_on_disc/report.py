@@ -278,8 +278,8 @@ def _draw_curves(axes: "list[Axes]", dataset: xr.Dataset, found: list[Sweep]) ->
     from matplotlib import colormaps
 
     colours = colormaps["viridis"](np.linspace(0.0, 0.9, len(found)))
-    told = (("contact.friction_coefficient", "friction coefficient"), ("contact.lambda_ratio", r"film ratio $\lambda$"))
-    for axis, (name, label) in zip(axes, told, strict=True):
+    shown = (("contact.friction_coefficient", "friction coefficient"), ("contact.lambda_ratio", r"film ratio $\lambda$"))
+    for axis, (name, label) in zip(axes, shown, strict=True):
         for sweep, colour in zip(found, colours, strict=True):
             speeds, values = [hold.entrainment_speed for hold in sweep.holds], dataset[name].values[list(sweep.rows)]
             axis.plot(
