@@ -11,7 +11,7 @@ from ..film import Deterministic, Regression
 from ..film.instant import Grid
 from ..laws.base import BoundaryFriction, Heat, Plasticity, Tribofilm, Wear
 from ..reference import Hertz
-from ..shapes import LineGeometry, PointGeometry, RollerGeometry, Shape
+from ..shapes import Geometry, Shape
 from .operation import OperatingPoint, Operation
 from .records import Control, Lubricant, Solids, Surface
 from .toml import unbuild
@@ -25,7 +25,7 @@ class SceneFields:
 
     name: str
     description: str
-    geometry: PointGeometry | LineGeometry | RollerGeometry
+    geometry: Geometry
     solids: Solids
     surface_1: Surface
     surface_2: Surface

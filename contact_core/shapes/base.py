@@ -145,6 +145,10 @@ class Geometry(Law, Protocol):
         """Radius of combined curvature along x [m]."""
 
     @property
+    def face_width(self) -> float | None:
+        """Length [m] of the face that carries the load; None if the size across follows from the load."""
+
+    @property
     def track_length_1(self) -> float:
         """Travel [m] of a point of body 1 between two passes."""
 

@@ -98,7 +98,7 @@ class Tree:
     def _run(self, command: list[str], fails: bool) -> str:
         work = self.folder / "work"
         work.mkdir(exist_ok=True)
-        path = os.pathsep.join(map(str, (self.folder, ROOT, ROOT / "tests")))
+        path = os.pathsep.join(map(str, (self.folder, ROOT)))
         environment = os.environ | {"PYTHONPATH": path, "OPENBLAS_NUM_THREADS": "1"}
         run = subprocess.run(command, cwd=work, env=environment, capture_output=True, text=True, check=False)
         assert (run.returncode != 0) == fails, run.stderr

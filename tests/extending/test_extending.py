@@ -60,7 +60,7 @@ def extended(folder: Path, *titles: str, without: str = "") -> Tree:
 
 @pytest.fixture(scope="module")
 def tree(tmp_path_factory: pytest.TempPathFactory) -> Tree:
-    """The packages with all extensions of the page."""
+    """Return the packages with all extensions of the page."""
     return extended(tmp_path_factory.mktemp("tree"), LAW, SHAPE, OUTPUT, MACHINE, SCHEME)
 
 
