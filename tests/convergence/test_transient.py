@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from comparison import approx
 
-from contact_core import Scene, initial_state
-from contact_core.deterministic import march
+from contact_core import Scene, initial_state, march
 from contact_core.film.instant import FilmState, Grid, Instant, Settings, Step
 from contact_core.film.routes import solve_film
 from contact_core.laws.density import Incompressible

@@ -19,7 +19,7 @@ from fmpy.simulation import instantiate_fmu
 from fmu_host import environment, hosted
 
 from benchmarks.hosts.native_host import ERROR, OK, NativeHost, plain_environment
-from fmu_src import slave
+from fmu_src.runtime import slave
 from fmu_src.runtime.snapshot import Snapshot
 
 OUTPUTS = ("friction_force", "h_c", "wear_volume_1")

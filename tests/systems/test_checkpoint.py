@@ -238,7 +238,7 @@ def test_a_disk_that_refuses_is_warned_about_once_and_tried_again(
         for number in (2, 3):
             checkpoint.save(number / 10.0, state(number), rows(checkpoint.count, number))
     (warning,) = [record.getMessage() for record in caplog.records if record.levelno == logging.WARNING]
-    assert "cannot be written: No space left on device. The run goes on" in warning
+    assert "cannot be written: No space left on device. The run continues" in warning
     assert Checkpoint.resume(tmp_path, RUN).count == 1
     checkpoint.save(0.4, state(4), rows(checkpoint.count, 4))
     assert count(Checkpoint.resume(tmp_path, RUN)) == ALL

@@ -8,8 +8,7 @@ import pytest
 from cheap_scene import CHEAP, cheap
 from comparison import approx
 
-from contact_core import OperatingPointError, Scene, advance, initial_state, parted, run_cycle
-from contact_core.deterministic import march
+from contact_core import OperatingPointError, Scene, advance, initial_state, march, parted, run_cycle
 from contact_core.state import ContactState
 from contact_core.surfaces.patches import patch_nodes
 
