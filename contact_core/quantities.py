@@ -65,7 +65,7 @@ class Quantity:
     display: str = ""  # the unit people read, convertible to `unit`
     kind: Kind = "Real"
     relative: bool = False  # a temperature difference, not a temperature
-    levels: tuple[str, ...] = LEVELS  # film models that have it; others leave it zero
+    levels: tuple[str, ...] = LEVELS  # fidelity levels that have it; others leave it zero
     trend: Trend = ""  # how the deterministic level follows it from block to block, see `Trend`
 
     @property
@@ -113,9 +113,9 @@ OUTPUTS: tuple[Quantity, ...] = (
     *_pair("wear_volume", "V", "m3", "wear volume of the whole track", nominal=1e-14, minimum=0.0, display="um3"),
     *_pair("wear_depth", "w", "m", "mean wear depth over the track |y| < b", nominal=1e-8, minimum=0.0, display="nm", trend="rate"),
     Quantity("h_c", "h_c", "m", "mean gap over the inner 2/3 of Hertz's contact: r < 2a/3, or such an ellipse or strip", nominal=1e-8, minimum=0.0, display="nm", trend="level"),
-    Quantity("h_central", "h_central", "m", "gap at the centre of the contact", nominal=1e-8, minimum=0.0, display="nm", trend="level"),
+    Quantity("h_central", "h_central", "m", "gap at the centre of the contact: one node, of a rough contact no film thickness", nominal=1e-8, minimum=0.0, display="nm", trend="level"),
     Quantity("h_min", "h_min", "m", "smallest gap", nominal=1e-9, minimum=0.0, display="nm", levels=_FIELDS, trend="level"),
-    Quantity("lambda_ratio", "lambda", "1", "h_c / composite rms roughness over the same disc, at most 1000", minimum=0.0, trend="level"),
+    Quantity("lambda_ratio", "lambda", "1", "h_c / composite rms roughness over the same area, at most 1000; of rough, deformed bodies: not the lambda of handbooks", minimum=0.0, trend="level"),
     *_pair("tribofilm", "h_t", "m", "mean tribofilm thickness over the track |y| < b, all nodes", nominal=1e-8, minimum=0.0, display="nm", trend="slope"),
     *_pair("tribofilm_roughness", "Rq_t", "m", "rms deviation of the tribofilm thickness over |y| < 2b/3", nominal=1e-8, minimum=0.0, display="nm"),
     *_pair("roughness", "Rq", "m", "rms roughness over |y| < 2b/3, free of the groove's shape", nominal=1e-8, minimum=0.0, display="nm", trend="slope"),
@@ -128,15 +128,15 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("heat_flow_2", "Q_2", "W", "heat that the contact puts into the body, body 2", nominal=1.0),
     Quantity("approach", "delta", "m", "approach of the bodies from first touching of the undeformed, smooth shapes", nominal=1e-6, display="um", trend="level"),
     Quantity("valid", "", "", "false: the last input could not be used; state and outputs stand as they were", kind="Boolean"),
-    Quantity("fidelity_used", "", "", "film model that gave the outputs: 1 regression, 2 deterministic, 0 none yet", kind="Integer", minimum=0, maximum=2),
+    Quantity("fidelity_used", "", "", "fidelity level that gave the outputs: 1 regression, 2 deterministic, 0 none yet", kind="Integer", minimum=0, maximum=2),
     Quantity("range_flags", "", "", "sum of the RangeFlag values raised (see RangeFlag)", kind="Integer", minimum=0),
     Quantity("iterations", "", "", "film iterations in the last step", kind="Integer", minimum=0, levels=_FIELDS),
     Quantity("suggested_step", "dt", "s", "time until the stored contact is due to be solved again", nominal=60.0, minimum=0.0),
     *_pair("load_cycles", "N", "1", "passes of a surface point through the contact", role="diagnostic", nominal=1e4, minimum=0.0),
     Quantity("lambda_conventional", "lambda_HD", "1",
-             "Hamrock and Dowson's central film of the smooth bodies / composite rms roughness, at most 1000", role="diagnostic", minimum=0.0, levels=_FIELDS, trend="level"),
-    Quantity("contact_area_ratio_disc", "A_c_disc", "1", "share of the disc r < 2a/3 in solid contact", role="diagnostic", minimum=0.0, maximum=1.0, levels=_FIELDS, trend="level"),
-    Quantity("contact_load_ratio_disc", "W_c_disc", "1", "share of the load on the disc r < 2a/3 that solids carry", role="diagnostic", minimum=0.0, maximum=1.0, levels=_FIELDS, trend="level"),
+             "central film of the smooth bodies by formula (points: Hamrock and Dowson, lines: Dowson and Toyoda) / composite rms roughness, at most 1000: the lambda of handbooks", role="diagnostic", minimum=0.0, levels=_FIELDS, trend="level"),
+    Quantity("contact_area_ratio_disc", "A_c_disc", "1", "share of the inner area r < 2a/3 in solid contact", role="diagnostic", minimum=0.0, maximum=1.0, levels=_FIELDS, trend="level"),
+    Quantity("contact_load_ratio_disc", "W_c_disc", "1", "share of the load on the inner area r < 2a/3 that solids carry", role="diagnostic", minimum=0.0, maximum=1.0, levels=_FIELDS, trend="level"),
     *_pair("tribofilm_covered", "h_t_cov", "m", "mean tribofilm thickness over the track's nodes with more than 1 nm", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm", levels=_FIELDS),
     *_pair("tribofilm_upper", "h_t_up", "m", "mean tribofilm thickness over the track's nodes above 80 % of the thickest", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm", levels=_FIELDS),
     *_pair("roughness_ra", "Ra", "m", "arithmetic mean roughness over |y| < 2b/3, free of the groove's shape", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm", levels=_FIELDS),
@@ -146,7 +146,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("error_film", "", "1", "half width of h_c's error, relative: by time steps and sampling, or by the fit of the level", role="diagnostic", minimum=0.0),
     Quantity("error_tribofilm", "", "1", "half width of the mean tribofilms' error, relative, the larger one: by time steps and sampling, or by the fit of the level", role="diagnostic", minimum=0.0),
     Quantity("error_wear", "", "1", "half width of the wear depths' error, relative, the larger one: by time steps and sampling, or by the fit of the level", role="diagnostic", minimum=0.0),
-    Quantity("unconverged", "", "1", "share of the last block's film solutions that missed the tolerance", role="diagnostic", minimum=0.0, maximum=1.0, levels=_FIELDS),
+    Quantity("unconverged", "", "1", "share of the last block's film solutions that did not converge", role="diagnostic", minimum=0.0, maximum=1.0, levels=_FIELDS),
     Quantity("blocks_dry", "", "1", "solved blocks so far that dry contact pressures drove", role="diagnostic", minimum=0.0, levels=_FIELDS),
     Quantity("blocks_mixed", "", "1", "solved blocks so far that mixed lubrication pressures drove", role="diagnostic", minimum=0.0, levels=_FIELDS),
     Quantity("blocks_fallback", "", "1", "solved blocks so far in which the dry solution had to stand in for a mixed one", role="diagnostic", minimum=0.0, levels=_FIELDS),

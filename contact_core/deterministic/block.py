@@ -1,6 +1,7 @@
 """One block: an interval over which one set of contact solutions holds, because the geometry changes only a little.
 
-`control.driver` says which solutions drive it. Where the solids carry more than `control.dry_above` of the load, a dry
+`control.driver` says which solutions drive tribofilm and wear: mixed ones, dry ones or, for "auto", by the share of the
+load on the solids. Where the solids carry more than `control.dry_above` of the load, a dry
 contact replaces the mixed one: its solids carry the same share, under oil that carries the rest like smooth bodies. A
 mixed march measures that share anew every few blocks. `sampling` has the instants of both.
 """
@@ -20,12 +21,12 @@ from .sampling import blocks_per_pass, jumps_of, sample_dry, sample_mixed
 
 _DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
-# how far the noise of blocks cancels, against that of independent ones: fitted to the roughness of case A's ball, which
-# `python -m benchmarks.surfaces.evolution control` judges
+# variance of the noise of wear per block over that of independent blocks: fitted to the roughness of case A's ball, as
+# `python -m benchmarks.surfaces.evolution control` shows
 _ALIKE = {"dry": 0.1, "mixed": 0.5}
-_CREEP = 0.01  # a body below this share of the other's speed shows a block only a piece of its track
+_CREEP = 0.01  # of the other body's speed: of a slower body a block samples only a piece of the track
 _SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most
-# flags of a march that stay true of the dry contact that takes its share
+# flags of the mixed solutions that measured the share; they also hold for the dry blocks that use it
 _OF_FILM = RangeFlag.INLET_UNRESOLVED | RangeFlag.NOT_CONVERGED
 _SHORTEST = 0.05  # of control.longest: no block is shorter to keep wear stable; a flag says where it should be
 _LONGER = 2.0  # a block may be so much longer than the one before
@@ -70,7 +71,7 @@ def _sampled(case: Case, state: ContactState, same: bool) -> tuple[ContactState,
         share = found if state.share == 1.0 else 0.5 * (found + state.share)  # one measurement scatters
         state = replace(state, share=share, dry_blocks_left=_DRY_BLOCKS, film=None)
         sums = sums.restarted(state, _OF_FILM)
-    else:  # what made the share less sure still does
+    else:  # the flags of the mixed solutions that measured the share still hold
         sums.flags = RangeFlag(state.outputs.range_flags) & _OF_FILM
     return sample_dry(case, state, sums), sums
 

@@ -27,7 +27,7 @@ def after_block(
 def with_exposure(case: Case, side: Side, state: ContactState, sums: Accumulator, alike: float) -> Body:
     """Return a body with the mean pressure over its track, the abrasion by it, and the exposure per test time.
 
-    `alike` says how far the noise of blocks cancels, against that of independent ones.
+    `alike` is the variance of the noise of wear per block over that of independent blocks.
     """
     scene, i, body = case.scene, side.index, state.bodies[side.index]
     law, film = scene.tribofilm, scene.film

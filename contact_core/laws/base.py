@@ -221,7 +221,10 @@ class Tribofilm(Law, Protocol):
     def evolve(
         self, growth: Array, removal: Array, exposed: Array, abraded: Array, temperature: float
     ) -> tuple[Array, Array]:
-        """Return both variables [m] after an exposure and an abrasion, each times its test time."""
+        """Return both variables [m] after an exposure and an abrasion, each times its test time.
+
+        `temperature` [K] is that of the surface: the bulk's and the mean flash rise.
+        """
 
     def covers(self, temperature: float) -> bool:
         """Return True if the constants hold at a bulk temperature [K]."""

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 class FilmBlend:
     """tau = mu p_solid, mu between bare steel's and the full tribofilm's in proportion to the local mean cover.
 
-    `slip_speed` is the sliding speed over which friction changes sign: mu, and the limiting stress of the oil, are
+    `slip_speed` regularises friction about zero sliding: mu, and the limiting stress of the oil, are
     multiplied by tanh(u_s / slip_speed) (`grip`), so that friction is continuous and its slope bounded through zero
     sliding, and 99.99 % of its value at five times that speed. Oil below its limiting stress shears as it does.
     """
@@ -32,7 +32,9 @@ class FilmBlend:
 
     bare: float = parameter("", "friction coefficient of bare solids", least=0.0, most=2.0)
     film: float = parameter("", "friction coefficient under a full tribofilm", least=0.0, most=2.0)
-    slip_speed: float = parameter("m/s", "sliding speed over which friction changes sign", above=0.0, most=1.0)
+    slip_speed: float = parameter(
+        "m/s", "regularisation speed v0: friction rises as tanh(u_s/v0) through zero sliding", above=0.0, most=1.0
+    )
 
     def coefficient(self, cover: Array) -> Array:
         """Return the friction coefficient of sliding solids under tribofilms of a mean cover, 0 to 1."""

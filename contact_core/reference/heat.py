@@ -7,8 +7,6 @@ import scipy  # its parts are loaded at their first use
 def jaeger_circle(peclet: float) -> tuple[float, float]:
     """Return largest and mean steady rise of a half space moving at a speed u under a circle of uniform flux q.
 
-    It moves at a speed u.
-
     In units of q r / K, K conductivity; peclet = u r / (2 k) >= 0, k diffusivity. At rest 1 and 8 / (3 pi). By
     quadrature of Jaeger's point source, in polar coordinates around the point that is warmed.
     Source: Jaeger, Proc. R. Soc. N. S. W. 76 (1942) 203.
@@ -44,9 +42,8 @@ def tian_kennedy_circle(peclet: float) -> tuple[float, float]:
 def jaeger_band(x: float, peclet: float) -> float:
     """Return the steady rise under a band of uniform flux q, endless across, at x in half widths downstream.
 
-    At x, in half widths downstream of the centre.
-
-    In units of q b / K, b half width; peclet = u b / (2 k). Source: Jaeger, Proc. R. Soc. N. S. W. 76 (1942) 203.
+    x is zero at the centre. In units of q b / K, b half width; peclet = u b / (2 k).
+    Source: Jaeger, Proc. R. Soc. N. S. W. 76 (1942) 203.
     """
     k0e, k1e = scipy.special.k0e, scipy.special.k1e
 

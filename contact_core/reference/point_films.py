@@ -159,8 +159,6 @@ def _moes_factors(ratio: float) -> tuple[float, float, float, float, float]:
     """Return the films of the asymptotic contacts at M = L = 1.
 
     They are those of the rigid and of the elastic, isoviscous and piezoviscous contact, and of an unloaded one.
-
-    Rigid and elastic, isoviscous and piezoviscous, and of one unloaded.
     """
     shape = 1.0 + 0.006 * math.log(ratio) + 0.63 * ratio ** (4 / 7)
     return (

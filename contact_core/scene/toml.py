@@ -97,8 +97,9 @@ def build(cls: type, table: Any, path: str) -> Any:
     for key in table:
         if key not in known:
             where = f"[{path}]" if path else "The scene"
-            hint = _elsewhere(cls, key, path) or did_you_mean(key, list(known))
-            raise SceneError(f"{where} has no key '{key}'.{hint} Known are {', '.join(known)}.")
+            keys = [*(["model"] if cls in models_of(path) else []), *known]
+            hint = _elsewhere(cls, key, path) or did_you_mean(key, keys)
+            raise SceneError(f"{where} has no key '{key}'.{hint} Known are {', '.join(keys)}.")
     values = {}
     for name, f in known.items():
         full = f"{path}.{name}" if path else name
@@ -152,7 +153,7 @@ def _build_law(models: tuple[type[Model], ...], raw: Any, path: str) -> Any:
     model = table.pop("model", None)
     if model not in names:
         said = f"has no model '{model}'." + did_you_mean(str(model), list(names)) if model else "needs a 'model'."
-        raise SceneError(f"[{path}] {said} Known are {', '.join(names)}.")
+        raise SceneError(f"[{path}] {said} Known are {', '.join(names)}. Its parameters are keys of [{path}].")
     return build(names[model], table, path)
 
 
@@ -199,7 +200,8 @@ def _hint(f: "Field[Any]") -> str:
     if "unit" not in f.metadata:
         models = ", ".join(law.name for law in models_of(f.name))
         return f"Add the table, with a 'model': {models}." if models else "Add the table."
-    return f"It is the {f.metadata['text']}" + (f" [{f.metadata['unit']}]." if f.metadata["unit"] else ".")
+    unit = f" [{f.metadata['unit']}]" if f.metadata["unit"] else ""
+    return f"Give it{unit}: {f.metadata['text']}."
 
 
 def unbuild(record: Any) -> dict[str, Any]:

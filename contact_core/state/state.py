@@ -100,7 +100,7 @@ class ContactState:
     hold: float  # longest time until the next block [s]
     settling: float  # time [s] for which the film still follows inputs that have changed (control.inputs)
     dry_blocks_left: int  # blocks until the share of the solids is measured again
-    share: float  # of the load on the solids of a dry contact
+    share: float  # of the load on the solids of a dry contact; 1: all of it, or not measured yet
     trends: Trends
     temperatures: tuple[float, float] | None  # of the bodies [K], for heat.bulk = "lumped"; None: none yet
     outputs: Outputs

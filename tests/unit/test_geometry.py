@@ -84,7 +84,7 @@ def test_states_of_different_shapes_cannot_be_mixed_up():
 
 def test_a_missing_face_width_is_named_with_its_meaning():
     sentence = refusal("mtm_zddp", geometry__model="line")
-    assert "'geometry.face_width' is missing. It is the length of the line that carries the load [m]." in sentence
+    assert "'geometry.face_width' is missing. Give it [m]: length of the line that carries the load." in sentence
 
 
 def test_a_roller_without_a_profile_is_told_the_choices():
