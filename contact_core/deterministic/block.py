@@ -171,7 +171,7 @@ def _flags_of_motion(case: Case, state: ContactState, driver: str) -> RangeFlag:
     flags = RangeFlag(0)
     slow, fast = sorted(abs(speed) for speed in case.speeds)
     jumping = driver == "dry" or any(
-        any(jumps_of(case, side.index)) and abs(side.speed) == slow for side in case.sides
+        any(jumps_of(case, side.body)) and abs(side.speed) == slow for side in case.sides
     )
     if case.loaded and 0.0 < slow < (_CREEP if jumping else 0.9) * fast:
         flags |= RangeFlag.SLOW_BODY

@@ -29,7 +29,7 @@ def with_exposure(case: Case, side: Side, state: ContactState, sums: Accumulator
 
     `alike` is the variance of the noise of wear per block over that of independent blocks.
     """
-    scene, i, body = case.scene, side.index, state.bodies[side.index]
+    scene, i, body = case.scene, side.body, state.bodies[side.body]
     law, film = scene.tribofilm, scene.film
     # a moving point spends patch / track of its time in reach of the contact, a resting one all of it
     reach = film.domain / side.track_length if side.moves else 1.0
@@ -54,7 +54,7 @@ def _noise(case: Case, side: Side, state: ContactState, after: Body, alike: floa
 
     Two blocks that sample the same wear differ by their noise.
     """
-    body = state.bodies[side.index]
+    body = state.bodies[side.body]
     middle = middle_rows(case.scene, state.rows)
     film = body.tribofilm
     change = wear_speed(case, side, after, film)[middle] - wear_speed(case, side, body, film)[middle]
@@ -85,7 +85,7 @@ def wear_speed(case: Case, side: Side, body: Body, film: Array) -> Array:
     speeds: tuple[float | Array, float] = case.speeds
     if scene.wear.of_sliding:
         speeds = sliding_on_track(case, film.shape[0]), 0.0
-    return scene.wear.rate(body.pressure, cover, speeds, side.index, scene.plasticity.hardness)
+    return scene.wear.rate(body.pressure, cover, speeds, side.body, scene.plasticity.hardness)
 
 
 def sliding_on_track(case: Case, rows: int) -> float | Array:
@@ -107,8 +107,8 @@ def area_of_node(case: Case, side: Side) -> float:
 
 def _followed(case: Case, side: Side, body: Body) -> dict[str, float]:
     """Return what the trends follow of a body: roughness, mean tribofilm and the mean speed [m/s] of its wear."""
-    now = surface_now(case.scene, body, side.index)
-    k = side.index + 1
+    now = surface_now(case.scene, body, side.body)
+    k = side.body + 1
     return {
         f"wear_depth_{k}_rate": float(wear_speed(case, side, body, body.tribofilm)[now.track].mean()),
         f"roughness_{k}": rms_roughness(now.roughness, now.middle),
@@ -138,7 +138,7 @@ def stable_time(case: Case, side: Side, body: Body) -> float:
     duty = min(width / side.track_length, 1.0) if side.moves else 1.0
     shortest = math.sqrt(2.0) * math.pi / scene.film.spacing
     stiffness = 0.25 * scene.solids.reduced_modulus * shortest
-    slide = scene.wear.slide(case.speeds, side.index)
+    slide = scene.wear.slide(case.speeds, side.body)
     decay = float(scene.wear.coefficient(cover).max()) * slide * duty * stiffness / scene.plasticity.hardness
     # a point that a block samples in only part of its passes gets more in those
     return 2.0 / decay / max(1.0, scene.film.domain / width) if decay > 0.0 else math.inf

@@ -20,7 +20,7 @@ def outputs_of(case: Case, state: ContactState, suggested_step: float) -> Output
     values: dict[str, Any] = {}
     for side, body in zip(case.sides, state.bodies, strict=True):
         found = _of_surface(case, side, body) | {"temperature": side.temperature}
-        values |= {f"{name}_{side.index + 1}": value for name, value in found.items()}
+        values |= {f"{name}_{side.body + 1}": value for name, value in found.items()}
     out = state.outputs
     flags = RangeFlag(out.range_flags) & ~RangeFlag.TRIBOFILM_TEMPERATURE
     if not all(case.scene.tribofilm.covers(side.temperature) for side in case.sides):
@@ -39,7 +39,7 @@ def outputs_of(case: Case, state: ContactState, suggested_step: float) -> Output
 
 def _of_surface(case: Case, side: Side, body: Body) -> dict[str, float]:
     """Return the outputs of one surface by their names without the body's number."""
-    heights, rough, track, middle = surface_now(case.scene, body, side.index)
+    heights, rough, track, middle = surface_now(case.scene, body, side.body)
     film = body.tribofilm
     rubbed = film[track]
     covered, upper = rubbed > _COVERED, rubbed > _UPPER * rubbed.max()

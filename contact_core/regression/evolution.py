@@ -174,7 +174,7 @@ def _body_after(
         warm = side.temperature + contact.rise
         grown, removed = evolve(growth / coverage, removal / coverage, exposed, abraded, warm)
         growth, removal, new = float(grown) * coverage, float(removed) * coverage, max(float(grown - removed), 0.0)
-    film = 0.5 * (contact.tribofilms[side.index].thickness + new)
+    film = 0.5 * (contact.tribofilms[side.body].thickness + new)
     volume = step * wear_rate(case, side, contact, film)
     depth = volume / track_area(case, side)
     smoothing = regression_film(case.scene).smoothing

@@ -57,7 +57,7 @@ def _dose(
     """Return the dose of one body, for the exposures of a point in solid contact and of one under oil."""
     scene = case.scene
     first, second = scene.surface_1.rq, scene.surface_2.rq
-    as_rougher = (True, False) if first == second else ((first > second) == (side.index == 0),)  # alike: between both
+    as_rougher = (True, False) if first == second else ((first > second) == (side.body == 0),)  # alike: between both
     dry = contact.load_ratio > scene.control.dry_above
     sharing = regression_film(scene).sharing
     curves = [sharing.exposed(contact.area_ratio, rougher=rougher, dry=dry) for rougher in as_rougher]
@@ -103,7 +103,7 @@ def wear_rate(case: Case, side: Side, contact: MeanContact, film: float) -> floa
     if case.op.spin and scene.wear.of_sliding:
         speeds = contact.slide, 0.0
     rate: Law = scene.wear.rate
-    return float(rate(force, cover, speeds, side.index, scene.plasticity.hardness))
+    return float(rate(force, cover, speeds, side.body, scene.plasticity.hardness))
 
 
 def track_area(case: Case, side: Side) -> float:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,11 +19,10 @@ from .scene import Scene
 Pair = tuple[float, float]
 
 
-@dataclass(frozen=True)
-class Side:
+class Side(NamedTuple):
     """One body of a case."""
 
-    index: int  # 0 of body 1, 1 of body 2
+    body: int  # 0 of body 1, 1 of body 2, as in the laws
     surface: Surface  # roughness, as new
     speed: float  # of the surface along +x [m/s]
     track_length: float  # travel of a surface point between two passes [m]

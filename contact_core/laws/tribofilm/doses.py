@@ -4,7 +4,7 @@ A new dose is one class and one entry in `DOSES`.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar, Protocol
+from typing import ClassVar, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +14,7 @@ from ..equations import Equations
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Passes:
+class Passes(NamedTuple):
     """Passes of a body's points through the contact during a block, on its patch."""
 
     since: Array  # passes since a point was last exposed
@@ -25,8 +24,7 @@ class Passes:
     contact_length: float | None  # 2a [m]; None without a load
 
 
-@dataclass(frozen=True)
-class MeanPasses:
+class MeanPasses(NamedTuple):
     """Passes of a body's track through Hertz's contact, as means."""
 
     moves: bool
