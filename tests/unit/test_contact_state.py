@@ -9,6 +9,7 @@ from cheap_scene import cheap
 from contact_core import ContactState, Outputs, RangeFlag, Scene, StateError, advance, initial_state
 from contact_core.film.instant import FilmState
 from contact_core.state import Body, Mean
+from contact_core.state import state as state_module
 from contact_core.state.trends import NAMES, Trends
 
 SMALL = {"film.points": "33", "surface_1.rq": "0 nm", "surface_2.correlation_length": "16 um"}
@@ -229,6 +230,18 @@ def test_a_state_of_an_older_schema_is_refused_with_both_numbers(scene):
         data = b"tribofmu" + zlib.crc32(written).to_bytes(4, "little") + written
         with pytest.raises(StateError, match=r"has schema (4|5 or less) .*reads 7\. Give a file"):
             ContactState.from_bytes(data, scene)
+
+
+def test_a_state_of_other_outputs_is_refused(scene, used, monkeypatch):
+    """Numbers are stored by their order: a version with one output more would read each of them as another."""
+    data = used.to_bytes()
+    monkeypatch.setattr("contact_core.state.state.NAMES", ("another", *state_module.NAMES))
+    state_module._layout.cache_clear()
+    try:
+        with pytest.raises(StateError, match="a version with other inputs or outputs. Give a file"):
+            ContactState.from_bytes(data, scene)
+    finally:
+        state_module._layout.cache_clear()
 
 
 @pytest.mark.parametrize("data", [b"", b"tribofmu", b"PK\x03\x04 not a state at all", b"\0" * 64])
