@@ -238,7 +238,7 @@ def test_a_state_of_other_outputs_is_refused(scene, used, monkeypatch):
     monkeypatch.setattr("contact_core.state.state.NAMES", ("another", *state_module.NAMES))
     state_module._layout.cache_clear()
     try:
-        with pytest.raises(StateError, match="a version with other inputs or outputs. Give a file"):
+        with pytest.raises(StateError, match=r"a version with other inputs or outputs\. Give a file"):
             ContactState.from_bytes(data, scene)
     finally:
         state_module._layout.cache_clear()
