@@ -10,7 +10,8 @@ contact_core offers, the command `tribofmu` and FMI. Every number that they see 
 digest. The record of REV is results/golden/SHA.json; a part of it is run again when its scripts, the packages or the
 machine have changed. The record of the working tree is results/golden/working_tree.json.
 
-A number that only one of them has is a difference. A state or checkpoint of REV may be refused with a sentence by the
+A number that only REV has is a difference; runs and numbers that only the working tree has are new, texts may be
+reworded: both are said. A state or checkpoint of REV may be refused with a sentence by the
 working tree: this is said, and is no difference. The exit code is 1 if anything differs.
 """
 

@@ -12,21 +12,30 @@ Values = Mapping[str, Mapping[str, Any]]
 
 def differences(before: Values | None, after: Values | None) -> tuple[int, list[str], list[str]]:
     """Return how many values were compared, a line for each name that differs, and what else is to be said."""
-    if before is None or after is None:
-        return 0, [f"This run is in {'the working tree' if before is None else 'the revision'} only."], []
-    count = 0
+    if before is None:
+        return 0, [], ["new in the working tree"]
+    if after is None:
+        return 0, ["This run is in the revision only."], []
+    count, added, texts = 0, 0, []
     found = [f"It has failed: {text_of(values[FAILED])}" for values in (before, after) if FAILED in values]
     for name in [*before, *(name for name in after if name not in before)]:
         if name.startswith(NOTE):
             continue
-        if name not in after or name not in before:
-            found.append(f"{name}: is in {'the revision' if name in before else 'the working tree'} only")
+        if name not in before:
+            added += 1
+            continue
+        if name not in after:
+            found.append(f"{name}: is in the revision only")
             continue
         number, line = _compared(before[name], after[name])
         count += number
-        if line:
+        if line and None not in (text_of(before[name]), text_of(after[name])):
+            texts.append(name)
+        elif line:
             found.append(f"{name}{line}")
-    notes = [f"{name.removeprefix(NOTE)}: {text_of(value)}" for name, value in after.items() if name.startswith(NOTE)]
+    notes = [f"{added} names added"] if added else []
+    notes += [f"{len(texts)} texts reworded ({texts[0]})"] if texts else []
+    notes += [f"{name.removeprefix(NOTE)}: {text_of(value)}" for name, value in after.items() if name.startswith(NOTE)]
     return count, found, notes
 
 
