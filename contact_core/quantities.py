@@ -109,7 +109,7 @@ OUTPUTS: tuple[Quantity, ...] = (
           ("speed_2", "u_2", "N.s/m", 1.0, "speed_2"),
           ("load", "W", "1", 0.1, "load"),
           ("temperature", "T", "N/K", 0.01, "the temperature of oil and bodies together"))),
-    *_pair("wear_rate", "dV/dt", "m3/s", "wear volume of the step divided by the step", nominal=1e-17, minimum=0.0, display="um3/s"),
+    *_pair("wear_rate", "dV/dt", "m3/s", "wear volume of the step divided by the step; at a step of 0 the rate now", nominal=1e-17, minimum=0.0, display="um3/s"),
     *_pair("wear_volume", "V", "m3", "wear volume of the whole track", nominal=1e-14, minimum=0.0, display="um3"),
     *_pair("wear_depth", "w", "m", "mean wear depth over the track |y| < b", nominal=1e-8, minimum=0.0, display="nm", trend="rate"),
     Quantity("h_c", "h_c", "m", "mean gap over the inner 2/3 of Hertz's contact: r < 2a/3, or such an ellipse or strip", nominal=1e-8, minimum=0.0, display="nm", trend="level"),
