@@ -12,8 +12,6 @@ def rolling_line(
 
     The load per length [N/m] is above zero.
 
-    Under a load per length [N/m] > 0.
-
     With U = 2 eta0 u_e / (E' R), W = w / (E' R) and M = W / sqrt(U), it is E' R 1.42 sqrt(U W) / [1 + (0.966
     sqrt(M))^10]^0.1: that of rigid bodies for small M, 1.47 U^0.75 E' R, whatever the load, for large ones. Exact of
     rigid bodies is 1.470 in place of 1.42 (Martin's film). It is that of an inlet full for ever: of it, what lies

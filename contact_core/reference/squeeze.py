@@ -36,8 +36,6 @@ def squeezed_line(time: float, gap: float, load: float, radius: float, viscosity
     """Return the smallest gap [m] under a cylinder after a time [s], from `gap` [m] on.
 
     The load per length [N/m] is constant.
-
-    Under a constant load per length [N/m].
     """
     speed = load / squeeze_line(1.0, gap, radius, viscosity)
     return gap / (1.0 + 0.5 * speed * time / gap) ** 2
