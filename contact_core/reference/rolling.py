@@ -36,8 +36,6 @@ def rolling_point(
 
     The load [N] is above zero.
 
-    Under a load [N] > 0.
-
     With U = 2 eta0 u_e / (E' R_x), k = a / b, beta = E' a / (pi p_H R_x) and M = beta^(1/4) k W / (E' R_x^2) U^(-3/4)
     it is 2 b E' R_x U^(3/4) [(rigid - elastic) / (1 + M / 6.6) + elastic], rigid = 0.77 beta^(-1/3) k^0.12 U^(-1/12),
     elastic = 1.8 beta^(-1/4). It is that of an inlet full as far as the bodies are parabolas: the share of what lies
