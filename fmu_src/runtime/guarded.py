@@ -33,9 +33,12 @@ LOG_CATEGORIES = {
 }
 
 
-_PART, _ROUNDED = 1e-6, 1e-12  # of a step and of a time: communication points that differ by less are the same
-_PAST = 1e-5  # s, and of the stop time: fmusim takes as much for rounding, no known host takes more
-_HALF = 0.5  # of a step: more is not rounding
+# Two communication points are the same if they differ by no more than _PART of the step plus _ROUNDED of the time.
+_PART, _ROUNDED = 1e-6, 1e-12
+# A step may end beyond the stop time by _PAST in seconds, or as a share of a stop time above 1 s: fmusim's rounding
+# needs this much, no known host needs more. It may not by more than _HALF of the step: that is no rounding.
+_PAST = 1e-5
+_HALF = 0.5
 
 _WHEN = {
     Phase.NEW: "before initialisation",
@@ -56,15 +59,19 @@ class StepError(CallError):
 class GuardedSlave(Fmi2Slave):
     """A model with variables by value reference, among them the output `valid` and the independent `time`.
 
-    Attributes, to be read only: `values` of all variables, always the same list; `layout`, kind and role of each;
-    `phase` of the instance.
+    Attributes, to be read only; places in both lists are value references:
+
+    values : the present value of each variable. The list object stays the same for the life of the instance.
+    layout : for each variable its kind ("Real", "Integer", ...) and its role (see `_role`). An isolated FMU's process
+        sends this to the host.
+    phase : phase of the instance.
     """
 
     log_categories = LOG_CATEGORIES
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        self._module = type(self).__module__
+        self._module = type(self).__module__  # of the FMU's own class: names the FMU in its resources and states
         loader.tidy(self.resources, type(self).__name__)
         try:
             self._variables = self._read()
@@ -125,8 +132,8 @@ class GuardedSlave(Fmi2Slave):
 
     def _exit(self) -> None:
         self._must_be("fmi2ExitInitializationMode", Phase.UNSETTLED, Phase.SETTLED)
-        if self.phase is not Phase.SETTLED or not self._value("valid"):  # log errors in this call, too
-            self._settle()
+        if self.phase is not Phase.SETTLED or not self._value("valid"):
+            self._settle()  # once more if it has failed before: this call, too, logs why
         self.phase = Phase.STEPPING
 
     def _must_be(self, call: str, *phases: Phase) -> None:
@@ -176,11 +183,11 @@ class GuardedSlave(Fmi2Slave):
             )
 
     def terminate(self) -> None:
-        """Allow no further step until a state is restored."""
+        """End the run: steps are refused from now on. Restoring a state permits them again."""
         self._terminated = True
 
     def refresh(self) -> None:
-        """Bring the outputs up to date with parameters, inputs and state."""
+        """In initialisation mode compute the outputs anew if a parameter or input was set since the last time."""
         if self.phase is Phase.UNSETTLED:
             self._settle()
 
@@ -302,8 +309,9 @@ class GuardedSlave(Fmi2Slave):
         """Set String parameters; a null pointer is an empty text."""
         self._set(vrs, [value or "" for value in values], "String")
 
-    # state: a handle is a frozen record with `data`, or its bytes until they are set (the binary decodes without the
-    # instance)
+    # FMU states. A handle, pythonfmu's object for a state, is one of two things: a frozen record with the bytes `data`,
+    # made when the host gets a state; or plain bytes, made when the host deserialises a state. pythonfmu's binary calls
+    # `_fmu_state_from_bytes` without an instance, so that bytes are read only when the state is set.
 
     def _set_fmu_state(self, handle: Any) -> None:
         self._guard(self._restore, handle)

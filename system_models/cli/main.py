@@ -1,10 +1,12 @@
 """The command `tribofmu`: its commands, each in a module of its own.
 
 Exit codes: 0 done; 1 some rows of the result are invalid, some rule failed, or some steps have missed a tolerance;
-2 refused or failed, with a sentence on stderr; 130 interrupted.
+2 refused or failed, with a sentence on stderr; 130 interrupted; 141 the reader of the output has gone, as in
+`tribofmu list | head`.
 """
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
 from typing import Protocol
@@ -40,13 +42,18 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code."""
     arguments = _parser().parse_args(argv)
     try:
-        return int(arguments.command(arguments))
+        code = int(arguments.command(arguments))
+        sys.stdout.flush()  # here, so that a closed pipe is seen here and not at exit
+        return code
     except ContactError as error:
         print(f"tribofmu: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt as interrupt:
         print(f"tribofmu: Interrupted. {interrupt}".rstrip(), file=sys.stderr)
         return 130
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # else the exit tries to write again
+        return 141
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -19,7 +19,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="continue from the checkpoint that a killed, interrupted or failed run has left in DIR, to the same "
         "result, bit for bit; start from the beginning if there is none (without --resume always, and replace it)",
     )
-    parser.add_argument("--hours", metavar="H", help="duration of the test: replaces operation.duration")
+    parser.add_argument(
+        "--hours",
+        metavar="H",
+        help=(
+            "duration of the test in hours: replaces operation.duration; "
+            'for a short run of a scene use --set operation.duration="60 s"'
+        ),
+    )
     parser.add_argument("--duty", metavar="FILE.csv", help="CSV of the duty: replaces operation.file")
     parser.add_argument(
         "--unchecked",

@@ -26,10 +26,12 @@ _ITERATED = 0.05  # of the allowed error of a step: the iteration's part
 class ControlledStepper(Stepper):
     """Makes steps whose errors add up to the tolerance at most.
 
-    Every step is made whole and as two halves, which stand; their difference gives the error of these (Richardson). The
-    error of an output may grow by tolerance * its magnitude * step / horizon in a step: so they add up to the tolerance
-    over the horizon. The error of an output that follows the inputs of its FMU at once does not add up, and may be the
-    tolerance itself; which outputs do shows when a rejected step is repeated.
+    Step doubling: every step is made whole and as two halves, whose result is kept. The error of the two halves is
+    factor * (whole - halves), with the factor 1 / (2^p - 1), p = hold order + 1, for regular nodes
+    (`numerics.richardson`). In a step the error of an output may grow by tolerance * its magnitude * step / horizon, so
+    that over the horizon the errors add up to the tolerance at most. The error of an output that follows the inputs of
+    its FMU at once does not add up, and may be the tolerance itself; which outputs do shows when a rejected step is
+    repeated.
     """
 
     def __init__(self, coupled: Coupled, recorder: Recorder, tolerance: float) -> None:

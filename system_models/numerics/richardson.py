@@ -1,9 +1,13 @@
 """Error of a step from its two halves, for inputs held as polynomials through any nodes.
 
-The input of a step is wrong by c (s - n_0)(s - n_1)... at the time s, n_j being the times at which it is right, and c
-nearly the same for a step and its halves. So the difference between both comes to the error of the halves by a factor
-that follows from the nodes; it is 1 / (2^order - 1) where these move with the step. Errors of the halves that are of
-unlike sign are taken not to cancel.
+Step doubling: a step is made whole and as two halves, and
+
+    error of the two halves = factor x (whole - halves).
+
+The held input is exact at its nodes n_j and has the error c (s - n_0)(s - n_1)... at the time s of the step. c is taken
+as the same for the step and its halves, so that it cancels in the factor. The factor follows from the nodes. It is
+1 / (2^p - 1) with p = hold order + 1 if the nodes lie at the same fractions of the step and of its halves. The errors
+of the halves are added by their amounts: they are not allowed to cancel.
 """
 
 import math

@@ -122,7 +122,9 @@ def _warnings(dataset: xr.Dataset) -> list[str]:
             f"the first to {_first(dataset, 'master.error')}. Allow smaller steps, or iterate."
         )
     if counts["told_means"]:
-        lines.append(f"Receives step-averaged inputs, as it takes no derivatives: {counts['told_means']}.")
+        lines.append(
+            f"These FMUs cannot extrapolate their inputs; they receive the mean over each step: {counts['told_means']}."
+        )
     if counts["ended_by"]:
         lines.append(f"The FMU '{counts['ended_by']}' ended the simulation.")
     return lines

@@ -1,6 +1,5 @@
 """The report of a contact's run: a short table, closing lines, and one picture."""
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,12 +14,11 @@ if TYPE_CHECKING:
 
 # heading, unit people read, variable, factor from SI, digits
 _COLUMNS = (
-    ("time", "min", "time", 1.0 / 60.0, 2),
     ("friction", "", "friction_coefficient", 1.0, 4),
     ("h_c", "nm", "h_c", 1e9, 2),
     ("lambda", "", "lambda_ratio", 1.0, 3),
-    ("film 1", "nm", "tribofilm_1", 1e9, 2),
-    ("film 2", "nm", "tribofilm_2", 1e9, 2),
+    ("tribofilm 1", "nm", "tribofilm_1", 1e9, 2),
+    ("tribofilm 2", "nm", "tribofilm_2", 1e9, 2),
     ("wear 1", "nm", "wear_depth_1", 1e9, 2),
     ("wear 2", "nm", "wear_depth_2", 1e9, 2),
     ("A_c", "", "contact_area_ratio", 1.0, 3),
@@ -28,6 +26,7 @@ _COLUMNS = (
 )
 _SHARES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0)  # of the run: running-in is early
 _FEW_ROWS = 12
+_DIGITS, _MOST_DIGITS = 2, 6  # of the time [min]
 _WARM = 0.05  # K: bodies warmer than the oil by more are worth a line
 
 _BLUE, _RED, _BLACK = "#0072B2", "#D55E00", "#000000"  # of Okabe and Ito: which the colour-blind can tell apart
@@ -61,10 +60,11 @@ _PANELS: tuple[tuple[str, float, tuple[_Line, ...]], ...] = (
 def table(dataset: xr.Dataset) -> str:
     """Return about ten rows of the run as text, denser early on; all rows if they are few."""
     time = dataset["time"].values
-    rows: Sequence[int] = range(len(time))
+    rows = list(range(len(time)))
     if len(time) > _FEW_ROWS:
         rows = sorted({int(np.abs(time - share * time[-1]).argmin()) for share in _SHARES})
-    columns = [
+    columns = [["time", "min", *_apart(time[rows] / 60.0)]]
+    columns += [
         [heading, unit, *(f"{factor * dataset[name].values[row]:.{digits}f}" for row in rows)]
         for heading, unit, name, factor, digits in _COLUMNS
     ]
@@ -73,8 +73,17 @@ def table(dataset: xr.Dataset) -> str:
     return "\n".join("  ".join(line) for line in zip(*padded, strict=True))
 
 
+def _apart(minutes: np.ndarray) -> list[str]:
+    """Return times as text with two digits, or as many up to six as show different times as different."""
+    for digits in range(_DIGITS, _MOST_DIGITS):
+        texts = [f"{value:.{digits}f}" for value in minutes]
+        if len({*texts}) == len({*minutes}):
+            return texts
+    return [f"{value:.{_MOST_DIGITS}f}" for value in minutes]
+
+
 def closing_lines(dataset: xr.Dataset) -> list[str]:
-    """Return the load cycles, who drove the blocks, validity and range, in sentences."""
+    """Return sentences on load cycles, the pressures that drove the blocks, validity and range flags."""
     last = dataset.isel(time=-1)
     first, second = (f"{int(last[f'load_cycles_{body}']):,}".replace(",", " ") for body in (1, 2))
     cycles = f"Load cycles: {first} of body 1, {second} of body 2."
@@ -94,14 +103,16 @@ def _warmth(dataset: xr.Dataset) -> list[str]:
 
 
 def _blocks(last: xr.Dataset) -> list[str]:
-    """Return the drivers of the blocks; the regression level has none."""
+    """Return the shares of the pressures that drove the blocks; the regression level has none."""
     if "blocks_dry" not in last:
         return []
     blocks = {name: int(last[f"blocks_{name}"]) for name in ("dry", "mixed", "fallback")}
     total = sum(blocks.values())
     share = {name: f"{100.0 * count / max(total, 1):.1f} %" for name, count in blocks.items()}
     return [
-        f"Blocks: {total} solved; driven dry {share['dry']}, mixed {share['mixed']}, by fallback {share['fallback']}."
+        "Pressures that drive tribofilm and wear: dry contact at the measured share of load in "
+        f"{share['dry']} of {total} blocks, mixed lubrication in {share['mixed']}, dry contact in place of a mixed "
+        f"solution that failed in {share['fallback']}."
     ]
 
 

@@ -163,6 +163,24 @@ def test_the_page_names_every_variable_flag_and_log_category(page, contact):
         assert set(names) <= set(page.cells)
 
 
+@pytest.mark.parametrize(
+    ("flavour", "warning", "error", "log"),
+    [
+        ("isolated", "fmi2Warning", "fmi2Error", "The FMU always reports errors."),
+        ("embedded", "fmi2OK", "fmi2OK", "The FMU sends messages if the host has switched logging on"),
+    ],
+)
+def test_the_page_gives_the_status_of_each_event_and_what_is_logged(contact, flavour, warning, error, log):
+    page = Page(documentation(contact, flavour, reference=False))
+    status = dict(pairwise(page.cells))
+    assert status["a usable step or value"] == "fmi2OK"
+    assert status["an unusable input or step size, a contact that cannot be solved"] == warning
+    assert status["an unusable parameter or initial_state"] == warning
+    assert status["a state that cannot be used"] == error
+    assert status["unexpected error in the model"] == error
+    assert log in page.text
+
+
 @pytest.mark.parametrize("changes", [{}, OTHERS], ids=["as shipped", "other laws"])
 def test_the_page_names_every_law_in_use_with_its_source(contact, changes):
     scene = Scene.from_toml("mtm_zddp", SMALL | changes).at_level(contact.film.name)

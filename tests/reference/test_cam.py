@@ -43,7 +43,7 @@ def test_the_event_begins_and_ends_without_a_jump_of_speed_and_acceleration(powe
 def test_slope_and_curvature_are_the_derivatives_of_the_lift():
     low, mid, high = (LOBE.at(ANGLES + shift) for shift in (-STEP, 0.0, STEP))
     np.testing.assert_allclose(mid.slope, (high.lift - low.lift) / (2.0 * STEP), rtol=1e-6, atol=1e-10)
-    np.testing.assert_allclose(mid.curvature, (high.slope - low.slope) / (2.0 * STEP), rtol=1e-6, atol=1e-9)
+    np.testing.assert_allclose(mid.lift_second, (high.slope - low.slope) / (2.0 * STEP), rtol=1e-6, atol=1e-9)
 
 
 def test_the_radius_of_curvature_is_that_of_the_contour():
@@ -74,7 +74,7 @@ def test_surface_speeds_are_those_of_the_bodies_relative_to_the_moving_contact()
 
 
 def test_sliding_and_entrainment_are_those_of_the_textbook():
-    answer, lift, bent = answered(), *(np.array([getattr(s, n) for s in CAM.contacts]) for n in ("lift", "curvature"))
+    answer, lift, bent = answered(), *(np.array([getattr(s, n) for s in CAM.contacts]) for n in ("lift", "lift_second"))
     u1, u2 = row(answer, "speed_1"), row(answer, "speed_2")
     np.testing.assert_allclose(u1 - u2, SPEED * (18e-3 + lift), rtol=1e-12)
     np.testing.assert_allclose(0.5 * (u1 + u2), 0.5 * SPEED * (18e-3 + lift + 2.0 * bent), rtol=1e-12)
@@ -103,8 +103,8 @@ def test_the_load_moves_the_mass_against_the_spring():
 
 def test_a_follower_that_is_too_fast_for_its_spring_leaves_the_cam():
     """Where F_0 + k s = m w^2 |s''| comes first, which is beside the nose."""
-    slowing = [station for station in CAM.contacts if station.curvature < 0.0]
-    limit = min(math.sqrt((250.0 + 40e3 * s.lift) / (-0.12 * s.curvature)) for s in slowing)
+    slowing = [station for station in CAM.contacts if station.lift_second < 0.0]
+    limit = min(math.sqrt((250.0 + 40e3 * s.lift) / (-0.12 * s.lift_second)) for s in slowing)
     slow, fast = answered(speed=0.99 * limit), answered(speed=1.01 * limit)
     assert row(slow, "load").min() > 0.0
     assert row(fast, "load").min() == 0.0 > fast["load_least"]
@@ -140,7 +140,7 @@ def test_means_converge_with_the_stations():
     """Mean of the load over a turn, against a fine sum."""
     angles = np.linspace(-1.134, 1.134, 200001)
     event = LOBE.at(angles)
-    load = 250.0 + 40e3 * event.lift + 0.12 * SPEED**2 * event.curvature
+    load = 250.0 + 40e3 * event.lift + 0.12 * SPEED**2 * event.lift_second
     exact = (np.trapezoid(load, angles) + 250.0 * (2.0 * math.pi - 2.268)) / (2.0 * math.pi)
     errors = []
     for count in (11, 21, 41):
@@ -156,7 +156,7 @@ def test_the_tracks_of_the_follower_are_the_travel_of_the_contact_along_its_face
     weights = np.array([station.weight for station in CAM.contacts])
     reach = np.abs(LOBE.at(np.linspace(0.0, 1.134, 100001)).slope).max()
     assert (weights * tracks).sum() == approx(4.0 * reach, rel=1e-3)
-    bent = np.array([abs(station.curvature) for station in CAM.contacts])
+    bent = np.array([abs(station.lift_second) for station in CAM.contacts])
     far = bent > 0.5 * bent.max()
     np.testing.assert_allclose(tracks[far], 2.0 * math.pi * bent[far], rtol=0.2)
     assert CAM.track_lengths(CAM.contacts[-1], 1e-3)[1] == 1e-3

@@ -40,7 +40,7 @@ def test_contacts_get_load_speeds_and_radius_of_their_stations(record: Record) -
     for k, station in enumerate(record.cam.contacts):
         assert record.along("radius_x")[-1, k] == approx(station.radius_x)
         assert record.along("speed_1")[-1, k] == approx(speed * station.radius_x, rel=1e-4)
-        assert record.along("speed_2")[-1, k] == approx(speed * station.curvature, rel=1e-4)
+        assert record.along("speed_2")[-1, k] == approx(speed * station.lift_second, rel=1e-4)
     assert record.along("load")[-1, -1] == approx(800.0)
 
 

@@ -28,6 +28,16 @@ def test_list_names_the_shipped_scenes_and_machines(capsys: pytest.CaptureFixtur
     assert all(text in line for text, line in zip(texts, lines, strict=True))
 
 
+def test_a_reader_that_has_gone_ends_the_output_quietly() -> None:
+    code = "import sys; from system_models.cli.main import main; sys.stdin.read(); sys.exit(main(['list']))"
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    with subprocess.Popen([sys.executable, "-c", code], **pipes) as process:
+        process.stdout.close()
+        process.stdin.close()  # only now the command writes
+        assert process.stderr.read() == b""
+    assert process.returncode == 141
+
+
 def test_list_does_not_load_what_only_a_run_needs() -> None:
     code = "import sys; from system_models.cli.main import main; main(['list']); print(*sys.modules)"
     run = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
@@ -44,7 +54,7 @@ def test_a_run_prints_a_table_and_writes_three_files(
     out, err = capsys.readouterr()
     assert out.startswith("Azam's case B")
     assert {"friction", "h_c", "lambda", "A_c", "W_c"} < set(out.splitlines()[1].split())
-    assert "driven dry" in out
+    assert "Pressures that drive tribofilm and wear: dry contact" in out
     assert "0.6/0.6 min" in err
     folder = tmp_path / "results" / "mtm_zddp"
     assert {path.name for path in folder.iterdir()} == {"result.nc", "result.csv", "overview.png"}

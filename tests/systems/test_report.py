@@ -37,6 +37,11 @@ def test_a_short_run_is_printed_whole(long_run: xr.Dataset) -> None:
     assert len(rows_of(report.table(long_run.isel(time=slice(12))))) == 12
 
 
+def test_times_that_two_digits_cannot_tell_apart_have_more(long_run: xr.Dataset) -> None:
+    short = long_run.isel(time=slice(3)).assign_coords(time=[0.0, 60.0, 60.12])
+    assert [row[0] for row in rows_of(report.table(short))] == [0.0, 1.0, 1.002]
+
+
 def test_the_table_converts_to_the_units_of_its_heading(long_run: xr.Dataset) -> None:
     heading, units, *_ = (line.split() for line in report.table(long_run).splitlines())
     assert heading[:3] == ["time", "friction", "h_c"]
@@ -53,7 +58,10 @@ def test_the_share_of_blocks_is_told(long_run: xr.Dataset) -> None:
     for name, count in (("dry", 6.0), ("mixed", 3.0), ("fallback", 1.0)):
         long_run[f"blocks_{name}"][-1] = count
     line = report.closing_lines(long_run)[1]
-    assert line == "Blocks: 10 solved; driven dry 60.0 %, mixed 30.0 %, by fallback 10.0 %."
+    assert line == (
+        "Pressures that drive tribofilm and wear: dry contact at the measured share of load in 60.0 % of 10 blocks, "
+        "mixed lubrication in 30.0 %, dry contact in place of a mixed solution that failed in 10.0 %."
+    )
 
 
 def test_range_flags_are_told_in_words_with_their_rows(long_run: xr.Dataset) -> None:

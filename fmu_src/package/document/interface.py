@@ -14,22 +14,35 @@ from .. import evidence, licences
 from .markup import bullets, paragraph, table
 
 _KINDS = (("Inputs", "input"), ("Outputs", "output"), ("Parameters", "parameter"), ("Time", "independent"))
+_WARNING: dict[Flavour, str] = {"isolated": "fmi2Warning", "embedded": "fmi2OK"}
+_ERROR: dict[Flavour, str] = {"isolated": "fmi2Error", "embedded": "fmi2OK"}
 _FAILURES: dict[Flavour, tuple[tuple[str, str, str], ...]] = {
     "isolated": (
-        ("unexpected error in the model", "Error", "the log has its traceback; the host continues"),
+        (
+            "unexpected error in the model",
+            "fmi2Error",
+            "valid is false; state and outputs do not change; the log has its traceback; the host continues",
+        ),
         (
             "the process of the model ends, or does not answer within TRIBOFMU_TIMEOUT",
-            "Error",
+            "fmi2Error",
             "the host continues; restore a state, or reset, to continue in a new process",
         ),
     ),
     "embedded": (
         (
             "unexpected error in the model",
-            "OK",
+            "fmi2OK",
             "valid is false; state and outputs do not change; the log has its traceback",
         ),
     ),
+}
+_LOGGING: dict[Flavour, str] = {
+    "isolated": (
+        "The FMU always reports errors. It reports warnings until the host switches logging off by fmi2SetDebugLogging "
+        "or selects other categories, and notes (status fmi2OK) if the host has switched logging on."
+    ),
+    "embedded": "The FMU sends messages if the host has switched logging on, and warnings and errors only as messages.",
 }
 _PROCESS: dict[Flavour, str] = {
     "isolated": "The FMU starts a Python process of its own for the model; the host needs no Python.",
@@ -42,17 +55,27 @@ def status(flavour: Flavour) -> Iterator[str]:
     yield table(
         ("event", "status", "result"),
         (
-            ("a usable step or value", "OK", "valid is true"),
+            ("a usable step or value", "fmi2OK", "valid is true"),
             (
                 "an unusable input or step size, a contact that cannot be solved",
-                "OK",
+                _WARNING[flavour],
                 "valid is false; time advances, state and outputs do not change, the log gives the reason. The next "
                 "step that can be computed sets valid to true again",
             ),
             (
                 f"an unusable parameter or {INITIAL_STATE}",
-                "OK",
+                _WARNING[flavour],
                 "the same at every step until a reset; the FMU never runs with other values than the given ones",
+            ),
+            (
+                "a step that does not begin at the end of the last one, or that ends beyond the stop time",
+                _ERROR[flavour],
+                "valid is false; nothing changes, the log gives the reason",
+            ),
+            (
+                "a state that cannot be used",
+                _ERROR[flavour],
+                "valid is false; nothing else changes, the log gives the reason",
             ),
             *_FAILURES[flavour],
         ),
@@ -95,9 +118,9 @@ def state() -> Iterator[str]:
     )
 
 
-def log() -> Iterator[str]:
+def log(flavour: Flavour) -> Iterator[str]:
     """Yield the section on log messages."""
-    yield paragraph("The FMU sends messages if the host has switched logging on. Categories:")
+    yield paragraph(f"{_LOGGING[flavour]} Categories:")
     yield table(("category", "messages"), LOG_CATEGORIES.items())
 
 

@@ -51,7 +51,7 @@ def documentation(scene: Scene, flavour: Flavour, reference: bool) -> bytes:
         "status": ("Status, <code>valid</code> and <code>range_flags</code>", interface.status(flavour)),
         "variables": ("Variables", interface.variable_tables(scene)),
         "state": ("State", interface.state()),
-        "log": ("Log", interface.log()),
+        "log": ("Log", interface.log(flavour)),
         "needs": ("Requirements", interface.requirements(flavour)),
         "check": ("Check", interface.check(reference)),
         "licence": ("Licence", interface.licence(flavour)),

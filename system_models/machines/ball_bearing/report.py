@@ -42,7 +42,10 @@ def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
 
 def _contacts(run: BearingRun, row: int) -> list[str]:
     rows = [
-        ["contacts", "balls", "load", "p_max", "h_c", "lambda", "mu", "solids", "film b", "film r", "wear b", "wear r"],
+        [
+            *("contacts", "balls", "load", "p_max", "h_c", "lambda", "mu", "solids"),
+            *("tribofilm b", "tribofilm r", "wear b", "wear r"),
+        ],
         ["", "", "N", "GPa", "nm", "", "", "", *4 * ["nm"]],
     ]
     for which in run.classes:
@@ -59,8 +62,8 @@ def _contacts(run: BearingRun, row: int) -> list[str]:
         rows.append([which.contact, f"{balls:.2f}", f"{load:.0f}", *told, *map(_nanometres, layers)])
     return [
         *aligned(rows, 1),
-        "balls: how many a class stands for; solids: load on asperities; film, wear: mean of tribofilm and wear depth "
-        "on ball (b) and ring (r).",
+        "balls: how many a class stands for; solids: load on asperities; tribofilm, wear: mean thickness and mean "
+        "wear depth on ball (b) and ring (r).",
     ]
 
 
@@ -84,12 +87,21 @@ def _heat(run: BearingRun, row: int) -> list[str]:
     """Return the imbalance of heat, as heat flows now and as energies so far."""
     loss, left = run.of("bearing.power_loss")[row], run.of("housing.heat_to_ambient")[row]
     stored, gone = run.heat_stored, float(run.of("housing.energy_to_ambient")[-1])
-    lines = [f"Heat: {loss:.4g} W from friction, {left:.4g} W to the surroundings{_apart(left, loss)}."]
     return [
-        *lines,
+        f"Heat: {loss:.4g} W from friction, {left:.4g} W to the surroundings{_warming(loss - left, loss)}.",
         f"Energy to the end: {run.heat_in:.5g} J from friction; {stored:.5g} J are stored and {gone:.5g} J gone"
         f"{_apart(stored + gone, run.heat_in)}.",
     ]
+
+
+def _warming(rest: float, loss: float) -> str:
+    """Return where the rest of the heat flow [W] of friction goes to, or comes from."""
+    share = f" ({abs(rest) / loss:.2%} of the friction's)" if loss > 0.0 else ""
+    return (
+        f"; the rest, {rest:.4g} W{share}, warms the parts"
+        if rest > 0.0
+        else (f"; the parts cool and give {-rest:.4g} W{share} of it" if rest < 0.0 else "")
+    )
 
 
 def _apart(value: float, reference: float) -> str:

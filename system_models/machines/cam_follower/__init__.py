@@ -1,7 +1,7 @@
 """Cam and flat-faced follower.
 
     machine    its parts, contacts and connections
-    profile    CamProfile: lift over the angle of the cam, curvature, contour; the stations where contacts are solved
+    profile    CamProfile: lift over the angle of the cam, its derivatives, contour; stations where contacts are solved
     part       CamFollower: speed of the cam to the stations, their friction and heat back to the shaft
     record     the results of a run over the angle of the cam
     report     the printed report; pictures: over the angle of the cam, and against time

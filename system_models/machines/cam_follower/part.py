@@ -36,20 +36,25 @@ def contact_name(k: int, count: int) -> str:
 class CamFollower(Part):
     """A cam, and a follower with a flat face that a spring holds on it; contacts at stations over the cam's angle.
 
-    With the lift s of the angle, h = r + s and the speed w of the cam, the contact lies s' beside the axis, and moves
-    along the face with w s''. Relative to it the surface of the cam has the speed u_1 = w (h + s''), that of the
-    follower u_2 = w s''. So the entrainment is w (r + s + 2 s'') / 2, the sliding w (r + s), and the radius r + s + s''
-    (D. Dowson, C.M. Taylor & G. Zhu, J. Phys. D: Appl. Phys. 25 (1992) A313).
+    s is the lift over the angle of the cam, s' and s'' are its derivatives [m per rad, m per rad2], h = r + s, and w
+    is the angular speed of the cam. With x along the face of the follower and x = 0 above the axis of the cam, the
+    contact is at x = s' and moves with w s''. There the surface of the cam has the speed -w h along x, that of the
+    follower none. Both speeds relative to the contact are counted in the direction of -x: u_1 = w (h + s'') of the
+    cam, u_2 = w s'' of the follower, negative around the nose. The radius of the cam is R = r + s + s'', so that
+    u_1 = w R. The entrainment is w (r + s + 2 s'') / 2, the sliding u_1 - u_2 = w (r + s) (D. Dowson, C.M. Taylor
+    & G. Zhu, J. Phys. D: Appl. Phys. 25 (1992) A313).
 
     The load is W = F_0 + k s + m w^2 s'', with the spring's preload F_0 and stiffness k and the reciprocating mass m.
     Where that is negative the follower would leave the cam; it is taken as zero, and load_least is negative. Weight,
     friction of the guide, elasticity of the train and changes of w within a turn are left out.
 
-    A contact answers as if the cam stayed at its station, with the load, speeds and radius it has there in passing. Its
+    A contact answers as if the cam stayed at its station, with the load, speeds and radius it has there in passing. So
+    the squeeze film is neglected, which keeps a film where the entrainment passes through zero. The contact's
     share of a turn is the weight of its power, torque and heat in the means over a turn. Friction resists the cam with
     the torque -F (r + s), and the rolling resistance F_r with F_r (u_1 + u_2) / w, so that friction_torque times w is
-    power_loss. The torque W s' of the load, which has no mean, is left out. A point of the follower that the contact
-    stands on (u_2 = 0, as below the base circle) is taken to be loaded all the time: its wear is an upper bound.
+    power_loss. The torque W s' of the load averages to zero over a turn and is left out. A point of the follower
+    that the contact stands on (u_2 = 0, as below the base circle) is taken to be loaded all the time: its wear is an
+    upper bound.
     """
 
     name: ClassVar[str] = "CamFollower"
@@ -128,12 +133,12 @@ class CamFollower(Part):
         """Return the value of each of `responses`, for the inputs as they are."""
         place, speed = self._places, inputs["speed"]
         found = {name: np.array([inputs[key] for key in self._all(name)]) for name in RECEIVED}
-        load = self.preload + self.stiffness * place["lift"] + self.mass * speed**2 * place["curvature"]
-        sums = place["radius_x"] + place["curvature"]  # (u_1 + u_2) / w
+        load = self.preload + self.stiffness * place["lift"] + self.mass * speed**2 * place["lift_second"]
+        sums = place["radius_x"] + place["lift_second"]  # (u_1 + u_2) / w [m]
         rows = {
             "load": np.maximum(load, 0.0),
-            "speed_1": speed * place["radius_x"],
-            "speed_2": speed * place["curvature"],
+            "speed_1": speed * place["radius_x"],  # u_1 = w R, with R = r + s + s''
+            "speed_2": speed * place["lift_second"],
             "radius_x": place["radius_x"],
         }
         rolling = self._mean(found["rolling_resistance"] * sums)

@@ -27,7 +27,7 @@ class Lift(NamedTuple):
 
     lift: Array  # s [m]
     slope: Array  # s' [m]
-    curvature: Array  # s'' [m]
+    lift_second: Array  # s'' [m per rad2]: second derivative of the lift
 
 
 class Station(NamedTuple):
@@ -36,7 +36,7 @@ class Station(NamedTuple):
     angle: float  # from the nose [rad]
     lift: float  # s [m]
     slope: float  # s' [m]: distance of the contact from the axis of the cam, along the face of the follower
-    curvature: float  # s'' [m]
+    lift_second: float  # s'' [m per rad2]: second derivative of the lift, no curvature
     radius_x: float  # of the cam [m]
     travel: float  # mean of |s''| over its angles [m]: travel of the contact along the face, per angle
     weight: float  # share of a turn
@@ -63,7 +63,7 @@ class CamProfile:
             yield f"lobe.power_q = {self.power_q} must be above lobe.power_p = {self.power_p}."
             return
         event = self.at(np.linspace(0.0, self.half_event, _ANGLES))
-        least = float((event.lift + event.curvature).min())
+        least = float((event.lift + event.lift_second).min())
         if self.base_radius + least <= 0.0:
             yield (
                 f"lobe.base_radius = {self.base_radius:g} m leaves the cam hollow, where a flat follower cannot "
@@ -76,21 +76,21 @@ class CamProfile:
         return (-p * q / ((p - 2) * (q - 2)), 2 * q / ((p - 2) * (q - p)), -2 * p / ((q - 2) * (q - p)))
 
     def at(self, angle: Array) -> Lift:
-        """Return lift, slope and curvature at angles [rad] from the nose, within half a turn."""
+        """Return the lift and its first two derivatives at angles [rad] from the nose, within half a turn."""
         x, sign = np.abs(angle) / self.half_event, np.sign(angle)
         within, x = x < 1.0, np.minimum(x, 1.0)
-        lift, slope, curvature = np.ones_like(x), np.zeros_like(x), np.zeros_like(x)
+        lift, slope, second = np.ones_like(x), np.zeros_like(x), np.zeros_like(x)
         for c, n in zip(self._coefficients, (2, self.power_p, self.power_q), strict=True):
             lift += c * x**n
             slope += c * n * x ** (n - 1)
-            curvature += c * n * (n - 1) * x ** (n - 2)
+            second += c * n * (n - 1) * x ** (n - 2)
         scale = np.where(within, self.lift, 0.0)
-        return Lift(scale * lift, scale * sign * slope / self.half_event, scale * curvature / self.half_event**2)
+        return Lift(scale * lift, scale * sign * slope / self.half_event, scale * second / self.half_event**2)
 
     def radius(self, angle: Array) -> Array:
-        """Return the radius of curvature [m]."""
+        """Return the radius of curvature r + s + s'' [m] of the contour."""
         found = self.at(angle)
-        return self.base_radius + found.lift + found.curvature
+        return self.base_radius + found.lift + found.lift_second
 
     def contour(self, angle: Array) -> tuple[Array, Array]:
         """Return the points [m] of the contour, in axes that turn with the cam, x through the nose."""

@@ -14,8 +14,8 @@ _RPM, _CELSIUS, _NM, _MM = 30.0 / math.pi, 273.15, 1e9, 1e3
 _LEAST = 1e-9  # J: no energy
 _HEADS = (
     ("angle", "deg"), ("lift", "mm"), ("load", "N"), ("radius", "mm"), ("u cam", "m/s"), ("u follower", "m/s"),
-    ("p_H", "MPa"), ("h_c", "nm"), ("lambda", ""), ("mu", ""), ("loss", "W"), ("film 1", "nm"), ("film 2", "nm"),
-    ("wear 1", "nm"), ("wear 2", "nm"),
+    ("p_H", "MPa"), ("h_c", "nm"), ("lambda", ""), ("mu", ""), ("loss", "W"),
+    ("tribofilm 1", "nm"), ("tribofilm 2", "nm"), ("wear 1", "nm"), ("wear 2", "nm"),
 )  # fmt: skip
 
 
