@@ -95,13 +95,11 @@ def _heat(run: BearingRun, row: int) -> list[str]:
 
 
 def _warming(rest: float, loss: float) -> str:
-    """Return where the rest of the heat flow [W] of friction goes to, or comes from."""
+    """Return what the heat flow [W] that friction makes above that to the surroundings does to the parts."""
     share = f" ({abs(rest) / loss:.2%} of the friction's)" if loss > 0.0 else ""
-    return (
-        f"; the rest, {rest:.4g} W{share}, warms the parts"
-        if rest > 0.0
-        else (f"; the parts cool and give {-rest:.4g} W{share} of it" if rest < 0.0 else "")
-    )
+    if rest < 0.0:
+        return f"; the parts cool and give {-rest:.4g} W{share} of it"
+    return f"; the rest, {rest:.4g} W{share}, warms the parts" if rest > 0.0 else ""
 
 
 def _apart(value: float, reference: float) -> str:
