@@ -11,11 +11,11 @@ sys.path.append(str(Path(__file__).parents[1]))
 # before numpy is loaded: threads that wait for each other on matrices of six rows take half of the time of some files
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-# a background job of a shell inherits that Ctrl-C is ignored; tests of interrupts raise it themselves
-signal.signal(signal.SIGINT, signal.default_int_handler)
-
 import pytest
 from hypothesis import HealthCheck, settings
+
+# a background job of a shell inherits that Ctrl-C is ignored; tests of interrupts raise it themselves
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 UNTIMED = [HealthCheck.too_slow]  # which a busy machine fails
 settings.register_profile(
