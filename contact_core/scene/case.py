@@ -66,8 +66,8 @@ class Case:
 
         Bodies that warm by themselves raise a range flag instead.
         """
-        bulk, op = self.scene.heat.bulk, self.op
-        given = bulk.bodies(op.temperature, _inputs(op), None) if bulk.from_inputs else (op.temperature,)
+        op = self.op
+        given = op.bodies if self.scene.heat.bulk.from_inputs else (op.temperature,)
         for refusal in map(self.scene.tribofilm.refusal, given):
             if refusal:
                 raise OperatingPointError(refusal)
@@ -188,13 +188,9 @@ class Case:
         return any(abs(now - then) > scene.control.input_change * scale for now, then, scale in now_then_scale)
 
 
-def _inputs(op: OperatingPoint) -> tuple[float | None, float | None]:
-    return op.body_temperature_1, op.body_temperature_2
-
-
 def _with_bulk_temperatures(scene: Scene, op: OperatingPoint, stored: Pair | None) -> OperatingPoint:
     """Return the operating point with the bulk temperatures that the scene's law gives the bodies."""
-    inputs, bulk = _inputs(op), scene.heat.bulk
+    inputs, bulk = (op.body_temperature_1, op.body_temperature_2), scene.heat.bulk
     if bulk.follows_oil and inputs == (None, None):
         return op
     first, second = bulk.bodies(op.temperature, inputs, stored)
