@@ -115,6 +115,12 @@ class Deterministic:
         choices=("split", "lumped"),
         default="split",
     )
+    flux: str = parameter(
+        "",
+        "flow through the faces between nodes. upwind: of second order; fitted: exact for a constant flow in each cell",
+        choices=("upwind", "fitted"),
+        default="upwind",
+    )
 
     @property
     def spacing(self) -> float:
@@ -146,5 +152,5 @@ class Deterministic:
         from .routes import solve_film  # the kernels: loaded where a film is solved
 
         most = min(iterations or self.iterations, self.iterations)
-        settings = Settings(self.floor, self.tolerance, most, self.fft, self.criterion == "lumped")
+        settings = Settings(self.floor, self.tolerance, most, self.fft, self.criterion == "lumped", self.flux == "fitted")
         return solve_film(now, grid, settings, start, step)

@@ -107,6 +107,7 @@ class Settings:
     iterations: int
     fft: str  # library: "pyfftw" or "scipy"
     lumped: bool = False  # the thesis's criterion: total pressure in Reynolds' equation, solids included
+    fitted: bool = False  # flow through faces exact for a constant flow in each cell; else second order upstream
 
 
 @dataclass(frozen=True)

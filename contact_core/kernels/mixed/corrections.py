@@ -7,7 +7,7 @@ import numpy as np
 
 from ..compiled import jit
 from .edge import wrap
-from .reynolds import returned, transport
+from .reynolds import inflow, returned, transport
 
 _OVER = 1.6  # relaxation of the lines
 
@@ -21,7 +21,9 @@ def correct_gap(  # type: ignore[no-untyped-def]
     h,
     mass,
     mass_old,
-    e,
+    ex,
+    ey,
+    flux,
     floor,
     per_dt,
     wedge,
@@ -33,7 +35,6 @@ def correct_gap(  # type: ignore[no-untyped-def]
     stiff,
     dh,
     sums,
-    flux=None,
     filling=None,
     first=1,
 ):
@@ -47,14 +48,14 @@ def correct_gap(  # type: ignore[no-untyped-def]
 
     Returns the first row, the row after the last, first column and column after the last of dh, and how many nodes are
     stiff and how many of them differ from `stiff_before`. sums [7]: of |r| p, m p and p over nodes that fluid alone
-    carries; of p - f and, below the cap, of p |floor - h| over solid contacts; with `flux`, of r over nodes that are
+    carries; of p - f and, below the cap, of p |floor - h| over solid contacts; with `filling`, of r over nodes that are
     full and have no pressure yet, and of what all others gain together, and of m over nodes that have some.
     """
     ny, nx = p.shape
-    half, per_dx, wedge_per_dx = 0.5 / (dx * dx), 1.0 / dx, wedge / dx
-    limit = 2.0 * dx * dx * compliance
+    per_dx2, per_dx, wedge_per_dx = 1.0 / (dx * dx), 1.0 / dx, wedge / dx
+    limit = dx * dx * compliance
     a0, a1, a2 = 1.5 * wedge_per_dx + per_dt, -2.0 * wedge_per_dx, 0.5 * wedge_per_dx
-    per_patch, per_floor = half / patch, 1.0 / floor
+    per_patch, per_floor = per_dx2 / patch, 1.0 / floor
     wrong, film, fluid, solids, intrusion, gained, held = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     net = 0.0
     top, bottom, left, right, count, changed = ny, 0, nx, 0, 0, 0
@@ -64,14 +65,8 @@ def correct_gap(  # type: ignore[no-untyped-def]
             here, own, m = p[j, i], h[j, i], mass[j, i]
             touches, value, change, is_stiff = solid[j, i], 0.0, 0.0, False
             if not touches:
-                ej, west, east, south, north = e[j, i], e[j, i - 1], e[j, i + 1], e[j - 1, i], e[j + 1, i]
-                flow = (ej + west) * (f[j, i - 1] - here) + (ej + east) * (f[j, i + 1] - here)
-                flow += (ej + south) * (f[j - 1, i] - here) + (ej + north) * (f[j + 1, i] - here)
-                if flux is not None:
-                    rise = flux[j, i] - flux[j, i - 1]
-                else:
-                    rise = 1.5 * m - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2] if i > 1 else m - mass[j, i - 1]
-                value = half * flow - wedge_per_dx * rise - per_dt * (m - mass_old[j, i])
+                squeezed = per_dt * (m - mass_old[j, i])
+                value = inflow(f, ex, ey, per_dx2, j, i) - wedge_per_dx * (flux[j, i] - flux[j, i - 1]) - squeezed
                 sinks = value < 0.0
                 if filling is not None and (filling[j, i] < 1.0 or i < first):  # no residual there
                     sinks, value = True, 0.0
@@ -83,10 +78,8 @@ def correct_gap(  # type: ignore[no-untyped-def]
                 change = floor - own
                 solids += here - f[j, i]
                 if here > 0.0 and f[j, i] >= here and here < cap[j, i]:  # oil alone carries it and should lift it
-                    ej, west, east, south, north = e[j, i], e[j, i - 1], e[j, i + 1], e[j - 1, i], e[j + 1, i]
-                    flow = (ej + west) * (f[j, i - 1] - here) + (ej + east) * (f[j, i + 1] - here)
-                    flow += (ej + south) * (f[j - 1, i] - here) + (ej + north) * (f[j + 1, i] - here)
-                    wrong += max(half * flow - transport(mass, flux, mass_old, per_dt, wedge, dx, j, i), 0.0) * here
+                    gain = inflow(f, ex, ey, per_dx2, j, i)
+                    wrong += max(gain - transport(mass, flux, mass_old, per_dt, wedge, dx, j, i), 0.0) * here
                 if here < cap[j, i]:
                     intrusion += here * abs(change)
                 elif change > 0.0:
@@ -99,14 +92,15 @@ def correct_gap(  # type: ignore[no-untyped-def]
                 wrong += max(loss, gain) * here
                 film += m * here
                 fluid += here
-                is_stiff = ej + max(max(west, east), max(south, north)) < limit
+                west, east, south, north = ex[j, i - 1], ex[j, i], ey[j - 1, i], ey[j, i]
+                is_stiff = max(max(west, east), max(south, north)) < limit
                 if is_stiff:
-                    faces = 4.0 * ej + west + east + south + north
+                    faces = west + east + south + north
                     change = (value * gap - m * (a1 * before + a2 * before_2)) / (m * a0 + faces * per_patch * gap)
                     change = max(change, min(floor - own, 0.0))  # solids stop it there
                     if here >= cap[j, i]:
                         change = min(change, 0.0)  # the solids yield, the gap does not open
-            if flux is not None:
+            if filling is not None:
                 if here > 0.0:
                     held += m
                     net += value
@@ -140,7 +134,8 @@ def relax_lines(  # type: ignore[no-untyped-def]
     stiff,
     h,
     mass,
-    e,
+    ex,
+    ey,
     r,
     edge,
     floor,
@@ -161,7 +156,7 @@ def relax_lines(  # type: ignore[no-untyped-def]
     Updates dp; keeps p + dp >= 0.
     """
     ny, nx = p.shape
-    half = 0.5 / (dx * dx)
+    per_dx2 = 1.0 / (dx * dx)
     k0, k1, k2, k3, k4 = near[0, 0], near[0, 1], near[0, 2], near[0, 3], near[0, 4]
     # d(deformation wedge)_i / dp_(i + m)
     w_3 = wedge * ((1.5 * k3 - 2.0 * k2 + 0.5 * k1) / dx)
@@ -187,9 +182,8 @@ def relax_lines(  # type: ignore[no-untyped-def]
                     continue
                 free[i] = True
                 first, last = min(first, i), i
-                ej = e[j, i]
-                west, east = half * (ej + e[j, i - 1]), half * (ej + e[j, i + 1])
-                south, north = half * (ej + e[j - 1, i]), half * (ej + e[j + 1, i])
+                west, east = per_dx2 * ex[j, i - 1], per_dx2 * ex[j, i]
+                south, north = per_dx2 * ey[j - 1, i], per_dx2 * ey[j, i]
                 if alone:
                     south, north = 0.0, 0.0
                 # at the floor the flow does not depend on the deformation
