@@ -170,7 +170,7 @@ class Flow:
     """
 
     def __init__(self, shape: tuple[int, int], floor: float, step: float, per_stiff: float, fitted: bool) -> None:
-        self._scales = floor, step, per_stiff, fitted
+        self._scales, self.fitted = (floor, step, per_stiff), fitted
         self.gap, self.rho, self.fluid, self.potential = (np.zeros(shape) for _ in range(4))
         self.conductance, self.width, self.across = (np.zeros(shape) for _ in range(3))
         self.ex, self.ey, self.share, self.carried = (np.zeros(shape) for _ in range(4))
@@ -198,11 +198,11 @@ class Flow:
 
     def measure(self) -> None:
         """Compute what the faces owe to the gap."""
-        if self._scales[-1]:
+        if self.fitted:
             gap_means(self.gap, self.conductance, self.width, self.across)
 
     def drive(self, f: Array, full: Array, mobility: Array, thinned: Array) -> None:
         """Compute the flows through all faces from fluid pressure, full masses and properties of the oil."""
         nodes = (self.gap, full, self.rho, self.fluid, self.potential, mobility, thinned)
         means = (self.conductance, self.width, self.across)
-        face_flows(f, *nodes, *self._scales, *means, self.ex, self.ey, self.share, self.carried)
+        face_flows(f, *nodes, *self._scales, self.fitted, *means, self.ex, self.ey, self.share, self.carried)

@@ -60,7 +60,8 @@ class Level:
         self.compliance, self.scale = problem.compliance, problem.compliance * 2.0 / np.pi**2 * self.dx
         self._problem = problem
         self._transforms = _transforms(y.size, x.size, mirror, library)
-        self._wedge, self._wedge_soft = relaxation.line_kernels(self._transforms.near * self.scale, self.dx, _WEIGHTS[problem.fitted])
+        near = self._transforms.near * self.scale
+        self._lines = {fitted: relaxation.line_kernels(near, self.dx, w) for fitted, w in _WEIGHTS.items()}
         shape = (self.rows, self.nx)
         self.p, self.h, self.mass, self.soft, self.f = (np.zeros(shape) for _ in range(5))
         scales = relaxation.CLOSED, problem.step, 1.0 / (problem.compliance * self.dx**2), problem.fitted
@@ -82,6 +83,7 @@ class Level:
 
     def state_problem(self, load: float) -> None:
         """State the problem without corrections from a finer level. `load`: integral of the pressure."""
+        self.flow.fitted = self._problem.fitted
         self.f[:], self.offset[:], self.base[:] = 0.0, 0.0, self.undeformed
         self.target = load
 
@@ -106,8 +108,8 @@ class Level:
     def relax(self, single: float, spread: float) -> None:
         """Relax once; the film must be up to date before, and is not afterwards."""
         relaxation.relax(
-            self.p, *self.flow.through, self.flow.rho, self.soft, self.f, self.edge, self.offset, self._wedge,
-            self._wedge_soft, self.dx, self.compliance, self.mirror, single, spread, self.work,
+            self.p, *self.flow.through, self.flow.rho, self.soft, self.f, self.edge, self.offset,
+            *self._lines[self.flow.fitted], self.dx, self.compliance, self.mirror, single, spread, self.work,
         )  # fmt: skip
 
     def set_edges(self) -> None:
@@ -126,6 +128,7 @@ class Level:
     def restrict(self, fine: "Level") -> None:
         """State the problem that corrects the finer level, whose film is up to date; start from its fields."""
         fine.defect()
+        self.flow.fitted = False  # a correction needs no more, and is smoother
         transfer.inject(fine.p, self.p)
         transfer.inject(fine.h, self.h)
         self.before[:] = self.p
