@@ -226,6 +226,8 @@ class Scaled:
             first=self._first,
             wrapped=self.grid.periodic,
             fitted=self.settings.fitted,
+            stress=now.stress / self.p_unit,
+            depth=now.depth / self.h_unit,
         )
 
     def _with_images(self, field: NDArray[Any]) -> NDArray[Any]:

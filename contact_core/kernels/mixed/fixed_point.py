@@ -161,7 +161,7 @@ class Iteration:
         self._film()
         self._press()
         q, p = self.problem, self.p
-        film = (self.h, self.mass, *self.flow.faces, self.r, q.edge, q.floor, *q.terms)
+        film = (self.h, self.mass, *self.flow.faces, self.r, q.edge, *q.layer, *q.terms)
         near = (self.half_space.near, self.patch_wide)
         inlet = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
         relaxation = (q.lumped, _LINE_SWEEPS, self.dp, *inlet, q.wrapped)
@@ -188,7 +188,7 @@ class Iteration:
     def _film(self) -> None:
         """Compute gap, contacts, fluid pressure under them, mass balance, and the change of gap that corrects it."""
         q, p, f, solid, carried, flow = self.problem, self.p, self.f, self.solid, self.carried, self.flow
-        oil = (q.floor, *q.tables)
+        oil = (*q.layer, *q.tables)
         full, flux, first, filling = self.mass, flow.carried, 1, None
         if carried is not None:
             full, flux, first, filling = carried.full, carried.flux, carried.first, carried.filling
@@ -199,10 +199,10 @@ class Iteration:
         self._carry(full)
         balance = (self.h, self.mass, q.mass_old, *flow.faces, flux)
         if not q.lumped:
-            constants = (*q.terms, _SWEEPS_UNDER_CONTACTS, *oil)
-            if reynolds.fluid_under_contacts(p, f, solid, *balance, *constants, full, *flow.nodes[1:], first, q.wrapped):
+            constants = (*q.terms, _SWEEPS_UNDER_CONTACTS, q.floor, *q.tables)
+            if reynolds.fluid_under_contacts(p, f, solid, *balance, *constants, full, *flow.nodes, first, q.wrapped):
                 self._carry(full)
-        scales = (q.floor, *q.terms, q.compliance, self.patch)
+        scales = (*q.layer, *q.terms, q.compliance, self.patch)
         out = (self.r, self.stiff, self.dh, self.sums)
         state = (p, f, q.cap, solid, *balance)
         self.zone = corrections.correct_gap(*state, *scales, self.stiff_of_unit, *out, filling, first)

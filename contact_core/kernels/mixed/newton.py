@@ -168,7 +168,7 @@ class _Film:
 
     def _pass(self) -> None:
         q, p, f, solid, flow = self.problem, self.p, self.f, self.solid, self.flow
-        oil = (q.floor, *q.tables)
+        oil = (*q.layer, *q.tables)
         deformation = self.half_space.deform(p)
         solid |= self.inner & (self.rigid + q.undeformed + deformation < _TOUCH * q.floor)
         if q.wrapped:
@@ -185,7 +185,7 @@ class _Film:
         flow.measure()
         self._carry(full)
         balance = (self.h, self.mass, q.mass_old, *flow.faces, flux, *q.terms, _SWEEPS_UNDER_CONTACTS)
-        if reynolds.fluid_under_contacts(p, f, solid, *balance, *oil, full, *flow.nodes[1:], first, q.wrapped):
+        if reynolds.fluid_under_contacts(p, f, solid, *balance, q.floor, *q.tables, full, *flow.nodes, first, q.wrapped):
             self._carry(full)
         solid |= settled
 

@@ -66,6 +66,8 @@ class Problem:
     conserving: bool = False  # cavities hold the oil that flows into them; else they count as full
     supply: float | Array | None = None  # conserving: mass [ny] that enters, None: as much as the first column can take
     first: int = 0  # first column in which oil has pressure; upstream of it none presses
+    stress: float = 0.0  # pressure that asperities below the grid carry at the floor
+    depth: float = 0.0  # gap over which that falls by the factor e; 0: no such asperities
     fitted: bool = False  # flow through faces exact for a constant flow in each cell; else second order upstream
 
     @cached_property
@@ -82,6 +84,11 @@ class Problem:
     def terms(self) -> Terms:
         """Arguments of kernels: time step, entrainment, spacing."""
         return Terms(self.per_dt, self.wedge, self.spacing)
+
+    @property
+    def layer(self) -> tuple[float, float, float]:
+        """Arguments of kernels: floor, and stress and depth of the asperities above it."""
+        return self.floor, self.stress, self.depth
 
     @property
     def by_flux(self) -> bool:

@@ -16,6 +16,7 @@ it, `first` is the first column in which the oil has pressure.
 import numpy as np
 
 from ..compiled import jit
+from .asperities import carried_at
 from .edge import wrap
 from .flow import properties
 
@@ -32,6 +33,8 @@ def film_pass(  # type: ignore[no-untyped-def]
     deformation,
     rigid,
     floor,
+    stress,
+    depth,
     step,
     density,
     fluidity,
@@ -55,15 +58,19 @@ def film_pass(  # type: ignore[no-untyped-def]
         for i in range(nx):
             here = rigid + undeformed[j, i] + deformation[j, i]
             h[j, i] = here
-            touches = solid[j, i]
-            if touches and p[j, i] <= 0.0 and (lumped or here > floor):
+            touches, own = solid[j, i], carried_at(here, floor, stress, depth)
+            if touches and p[j, i] <= 0.0 and own <= 0.0 and (lumped or here > floor):
                 touches = False  # it carries no load
+            elif touches and depth > 0.0 and own < p[j, i] and here > floor:
+                touches = False  # asperities share the load with the oil
             elif not touches:
                 touches = here < touch
-            if lumped or not (solid[j, i] and touches):
+            if lumped:
                 f[j, i] = p[j, i]
+            elif not (solid[j, i] and touches):
+                f[j, i] = max(p[j, i] - own, 0.0)
             solid[j, i] = touches
-            open_gap = floor if touches else max(here, floor)
+            open_gap = floor if touches and depth <= 0.0 else max(here, floor)
             gap[j, i] = open_gap
             rho[j, i], fluid[j, i], driven[j, i] = properties(f[j, i], step, density, fluidity, potential)
             mass[j, i] = rho[j, i] * open_gap
@@ -110,6 +117,7 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
     fluidity,
     potential,
     full,
+    gap,
     rho,
     fluid,
     driven,
@@ -153,13 +161,13 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
             ff[k] = min(max(value, 0.0), pp[k])
         if wrapped:
             wrap(f)
-    rr, flu, dd = rho.ravel(), fluid.ravel(), driven.ravel()
+    rr, flu, dd, gg = rho.ravel(), fluid.ravel(), driven.ravel(), gap.ravel()
     for n in range(count):
         k = at[n]
         if not ss[k]:
             ff[k] = pp[k]
         rr[k], flu[k], dd[k] = properties(ff[k], step, density, fluidity, potential)
-        mm[k] = rr[k] * floor
+        mm[k] = rr[k] * gg[k]
     if wrapped:
         for field in (f, full, rho, fluid, driven):
             wrap(field)
