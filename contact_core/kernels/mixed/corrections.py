@@ -81,8 +81,8 @@ def correct_gap(  # type: ignore[no-untyped-def]
                 is_stiff = True
                 alone = here - f[j, i]
                 pressing = carried_at(own, floor, stress, depth)
-                if depth > 0.0 and own > floor and pressing > alone:  # the asperities press the bodies apart
-                    change = (pressing - alone) / (per_patch + pressing * per_depth)
+                if pressing > alone:  # the asperities press the bodies apart
+                    change = (pressing - alone) / (per_patch + pressing * per_depth) + max(floor - own, 0.0)
                 else:
                     change = rest_gap(alone, floor, stress, depth) - own
                 solids += alone
