@@ -175,7 +175,6 @@ def instant_of(case: Case, heights: Array, limit: Array) -> Instant:
         conserving=case.scene.lubricant.cavitation == "mass_conserving",
         supply=case.scene.lubricant.supply.layer,
         meniscus=case.scene.lubricant.supply.inlet,
-        **_layer(case.scene.solids.reduced_modulus),
     )
 
 
@@ -201,9 +200,3 @@ def _open(case: Case, grid: Grid, heights: Array) -> FilmSolution:
         imbalance=0.0,
         inlet_nodes=np.inf,
     )
-
-
-def _layer(modulus):
-    import os
-    rms, longest = float(os.environ.get("SIGMA", "0")), 4e-6
-    return {"stress": float(os.environ.get("CP", "0.6")) * 2 * np.pi / longest * rms * modulus / 2, "depth": float(os.environ.get("CH", "0.43")) * rms}

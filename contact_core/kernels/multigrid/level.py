@@ -17,8 +17,8 @@ Array = NDArray[np.float64]
 _KEPT = 32  # grids whose plans and scratch are kept
 _LARGEST_STEP = 0.5  # of a pressure by Newton's method
 _TRIAL = 1e-7  # change of pressures and, relative to the mean one, of gaps, of a difference of flows
-# of the masses at i, i - 1, i - 2 in the wedge of the lines' equations. fitted: of first order, which is stable
-_WEIGHTS = {True: (1.0, -1.0, 0.0), False: (1.5, -2.0, 0.5)}
+# of the masses at i + 1, i, i - 1, i - 2 in the wedge of the lines' equations. fitted: m_u of `mixed.flow`
+_WEIGHTS = {True: (0.375, 0.375, -0.875, 0.125), False: (0.0, 1.5, -2.0, 0.5)}
 _LOCAL = threading.local()  # plans and scratch may not be shared between threads
 
 

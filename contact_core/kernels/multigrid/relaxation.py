@@ -41,7 +41,7 @@ def line_kernels(near, dx, weights):  # type: ignore[no-untyped-def]
 
     def wedge(c):  # type: ignore[no-untyped-def]
         m = range(-_LOWER, _UPPER + 1)
-        return np.array([sum(w * c[abs(k + n)] for n, w in enumerate(weights)) / dx for k in m])
+        return np.array([sum(w * c[abs(k + n)] for n, w in enumerate(weights, -1)) / dx for k in m])
 
     none = np.zeros(_LOWER + 1 + _UPPER)
     return np.array([wedge(single), wedge(spread), none]), np.array([wedge(unit), wedge(unit_spread), none])
