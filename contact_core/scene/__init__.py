@@ -2,7 +2,9 @@
 
     scene       `Scene`: fields, TOML, checks
     fields      the fields of a scene, and the geometry and grid that follow from them
-    records     solids, surfaces, lubricant, control of the evolution over time
+    records     solids, lubricant, control of the evolution over time
+    surface     roughness of a body by its spectrum
+    heights     heights of a body from a file or an array
     operation   operating points, and the duty of a scene
     case        a scene at an operating point, bound once per step
     checks      what makes a scene or an operating point unusable
@@ -14,22 +16,28 @@ A scene is checked when it is read; an operating point when it is bound in a cas
 """
 
 from .case import Case, Side
+from .heights import Heights, HeightStatistics, statistics_of
 from .operation import OperatingPoint, Operation, Step
-from .records import Control, Lubricant, Solids, Surface
+from .records import Control, Lubricant, Solids
 from .scene import Scene
+from .surface import SelfAffine, Surface
 from .tunables import tunables, with_values
 
 __all__ = [
     "Case",
     "Control",
+    "HeightStatistics",
+    "Heights",
     "Lubricant",
     "OperatingPoint",
     "Operation",
     "Scene",
+    "SelfAffine",
     "Side",
     "Solids",
     "Step",
     "Surface",
+    "statistics_of",
     "tunables",
     "with_values",
 ]

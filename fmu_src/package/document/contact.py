@@ -38,7 +38,7 @@ def data(scene: Scene) -> Iterator[str]:
         *(
             (
                 f"body {i}: rms roughness, correlation length; track length between two passes",
-                f"{number(1e9 * s.rq, 'nm')}, {number(1e6 * s.correlation_length, 'µm')}; {number(1e3 * track, 'mm')}",
+                f"{number(1e9 * s.rms, 'nm')}, {number(1e6 * s.length, 'µm')}; {number(1e3 * track, 'mm')}",
             )
             for i, s, track in (
                 (1, scene.surface_1, bodies.track_length_1),
@@ -115,8 +115,8 @@ def _limits(scene: Scene) -> Iterator[tuple[str, str, str]]:
     yield from _smooth_film(scene)
     yield from LEVELS[scene.film.name].limits(scene)
     for i, surface in ((1, scene.surface_1), (2, scene.surface_2)):
-        if surface.rq > 0.0:
-            nodes = number(surface.correlation_length / scene.film.spacing)
+        if not surface.smooth:
+            nodes = number(surface.length / scene.film.spacing)
             yield f"nodes per correlation length, body {i}", nodes, "2 or more resolve the roughness; W_c depends on it"
     yield "tribofilm", _temperatures(scene), "bulk temperatures (oil or given bodies) for which its constants hold"
 
@@ -135,7 +135,7 @@ def _smooth_film(scene: Scene) -> Iterator[tuple[str, str, str]]:
     yield "flooded film of the smooth bodies", number(1e9 * smooth.film, "nm"), formula
     if supply.name != "flooded":
         yield "film with this oil supply", number(1e9 * film, "nm"), supply.source
-    sigma = math.hypot(scene.surface_1.rq, scene.surface_2.rq)
+    sigma = math.hypot(scene.surface_1.rms, scene.surface_2.rms)
     if sigma > 0.0:
         yield "λ: that film over composite roughness", number(film / sigma), "the smaller λ, the more load on solids"
 
