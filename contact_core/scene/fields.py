@@ -89,8 +89,11 @@ class SceneFields:
 
     @property
     def patch_size(self) -> tuple[float, float]:
-        """Lengths [m] along y and x after which the surfaces repeat."""
-        return self.period * self.film.spacing, self.film.domain
+        """Lengths [m] along y and x after which the surfaces repeat, as asked for.
+
+        On the grid that along y is a whole number of nodes: files are stretched as generated waves are.
+        """
+        return self.film.width or self.period * self.film.spacing, self.film.domain
 
     @property
     def repeats(self) -> float:

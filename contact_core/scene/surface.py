@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 SEEDS = 2**31  # of a surface: what FMI's integers can tell apart
 
-_MOST_WAVES = 4096  # of the cut-off in a domain: 27 million modes, some seconds
+_MOST_WAVES = 2048  # of the cut-off in a domain: some 7 million modes, two seconds
 
 
 class _Body:

@@ -1,5 +1,6 @@
 """Heights of a file, laid on the nodes of a patch."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -55,7 +56,7 @@ class Shown(NamedTuple):
     """What a grid shows of a body's surface, as new."""
 
     rms: float  # of all waves on the patch [m]
-    slope: float  # rms gradient of all waves, of the file or of the spectrum
+    slope: float  # rms gradient of all waves on the patch
     on_grid: HeightStatistics
     cut: float  # rms of what the grid does not show [m]
 
@@ -65,12 +66,18 @@ def shown(scene: Scene, body: int) -> Shown:
     surface = scene.surface_1 if body == 1 else scene.surface_2
     film, size = scene.film, scene.patch_size
     heights = generate(surface, film.points, film.domain, body, scene.period)[:-1]
-    variance = surface.rq**2
+    variance, slope_2 = surface.rq**2, surface.slope**2
     if surface.heights is not None:
         heights = heights + laid(surface.heights, size, (scene.period, film.points - 1))
         variance += _variance(surface.heights, size)
+        slope_2 -= (1.0 - _share(surface.heights, size)) * surface.heights.statistics.slope**2
     found = statistics_of(heights, film.spacing)
-    return Shown(np.sqrt(variance), surface.slope, found, np.sqrt(max(variance - found.rms**2, 0.0)))
+    return Shown(math.sqrt(variance), math.sqrt(slope_2), found, math.sqrt(max(variance - found.rms**2, 0.0)))
+
+
+def _share(heights: Heights, size: tuple[float, float]) -> float:
+    """Return the share of a patch that is not flat surroundings."""
+    return math.prod(float(np.mean(heights.samples(axis, size[axis]) >= 0)) for axis in (0, 1))
 
 
 def _variance(heights: Heights, size: tuple[float, float]) -> float:

@@ -110,19 +110,17 @@ def on_patches(scene: Scene, state: ContactState, fields: tuple[NDArray[Any], ND
 
 def bare_heights(scene: Scene, rows: int) -> tuple[Array, Array]:
     """Return the heights of both bodies' patches, as new. Rows beyond the scene's own repeat them."""
-    film = scene.film
-    grid = (film.points, film.domain, scene.period, scene.rows, rows)
+    grid = (scene.film.points, scene.patch_size, scene.period, scene.rows, rows)
     return _bare(scene.surface_1, 1, *grid), _bare(scene.surface_2, 2, *grid)
 
 
 @lru_cache(maxsize=32)  # sixteen contacts in one process
 def _bare(
-    surface: Surface | SelfAffine, body: int, points: int, domain: float, period: int, own: int, rows: int
+    surface: Surface | SelfAffine, body: int, points: int, size: tuple[float, float], period: int, own: int, rows: int
 ) -> Array:
     at = np.arange(rows) - (rows - own) // 2
-    heights = generate(surface, points, domain, body, period)[at % period]
+    heights = generate(surface, points, size[1], body, period)[at % period]
     if surface.heights is not None:
-        size = (period * domain / (points - 1), domain)
         heights = heights + laid(surface.heights, size, (period, points - 1))[at % period]
     heights.setflags(write=False)
     return heights
