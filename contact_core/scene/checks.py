@@ -160,6 +160,11 @@ def warnings(scene: SceneFields) -> list[str]:
     found = []
     for name, surface in (("surface_1", scene.surface_1), ("surface_2", scene.surface_2)):
         found += [f"{name} {sentence}" for sentence in surface.warnings(scene.film.spacing)]
+        if not scene.film.on_grid and not surface.fitted:
+            found.append(
+                f"{name} is taken for Gaussian roughness without lay by film.model = '{scene.film.name}': its curves "
+                "are fitted to that, and their errors do not hold."
+            )
     if not scene.tribofilm.covers(scene.operation.temperature):
         found.append(
             f"The tribofilm's constants are extrapolated: they do not hold at {scene.operation.temperature:g} K."

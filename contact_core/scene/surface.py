@@ -31,6 +31,11 @@ class _Body:
         return self.rq == 0.0 and self.heights is None
 
     @property
+    def fitted(self) -> bool:
+        """True for what curves are fitted to: Gaussian roughness of one correlation length, or nothing."""
+        return self.smooth
+
+    @property
     def rms(self) -> float:
         """Rms height [m] of roughness and of the file of heights together."""
         return self.rq if self.heights is None else math.hypot(self.rq, self.heights.statistics.rms)
@@ -140,10 +145,14 @@ class Surface(_Body):
         return math.sqrt(2.0) * self.rq * math.hypot(1.0 / self.correlation_length, 1.0 / across)
 
     @property
+    def fitted(self) -> bool:
+        """True without lay and heights."""
+        return self.correlation_length_across in (None, self.correlation_length) and self.heights is None
+
+    @property
     def length(self) -> float:
         """Correlation length [m]; with lay or heights that of `_Body.length`."""
-        alike = self.correlation_length_across in (None, self.correlation_length) and self.heights is None
-        return self.correlation_length if alike else super().length
+        return self.correlation_length if self.fitted else super().length
 
     @property
     def _own_length(self) -> float:

@@ -169,6 +169,15 @@ def test_waves_that_a_grid_cuts_are_told():
     assert told.startswith("surface_2 has waves down to 1e-06 m; the grid shows those above 7.8125e-06 m, 99 % of")
 
 
+@pytest.mark.parametrize("changes", [SELF_AFFINE, {"surface_2.correlation_length_across": "16 um"}])
+def test_surfaces_beyond_the_fitted_curves_are_told_at_their_level(changes):
+    told = "surface_2 is taken for Gaussian roughness without lay by film.model = 'regression'"
+    scene = Scene.from_toml("azam_case_a", changes)
+    assert not [text for text in scene.warnings() if told in text]
+    assert [text for text in scene.at_level("regression").warnings() if told in text]
+    assert not Scene.from_toml("azam_case_a").at_level("regression").warnings()
+
+
 def test_a_self_affine_scene_is_read_written_and_realised_like_any_other():
     scene = Scene.from_toml("azam_case_a", SELF_AFFINE)
     assert Scene.from_dict(scene.to_dict()) == scene
