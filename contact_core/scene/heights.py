@@ -36,7 +36,7 @@ class HeightMap(str):
 
     def __new__(cls, array: Array) -> "HeightMap":
         """Keep a read-only copy of an array [ny, nx]."""
-        kept = np.array(array, dtype="<f8", order="C") + 0.0  # of two zeros one
+        kept = np.asarray(array, dtype="<f8") + 0.0  # a copy; of two zeros one
         kept.setflags(write=False)
         self = super().__new__(cls, hashlib.sha256(repr(kept.shape).encode() + kept.tobytes()).hexdigest())
         self.array = kept

@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..laws.equations import Equations
 from ..quantities import parameter
 from .heights import Heights
 
@@ -107,6 +108,10 @@ class Surface(_Body):
 
     name: ClassVar[str] = "gaussian"
     source: ClassVar[str] = "Hu & Tonder 1992, doi:10.1016/0890-6955(92)90064-N"
+    equations: ClassVar[Equations] = Equations(
+        ("⟨z(0, 0) z(x, y)⟩ = Rq^2 exp[−(x/l_x)^2 − (y/l_y)^2]",),
+        "Gaussian heights z, the same on every grid but for waves that are shorter than two of its nodes.",
+    )
     # modes are kept up to k l = 9: what lies beyond holds exp(-81/4) = 1.6e-9 of the Gaussian spectrum's power
     reach: ClassVar[float] = 9.0
 
@@ -202,6 +207,11 @@ class SelfAffine(_Body):
 
     name: ClassVar[str] = "self_affine"
     source: ClassVar[str] = "Jacobs, Junge & Pastewka 2017, doi:10.1088/2051-672X/aa51f8"
+    equations: ClassVar[Equations] = Equations(
+        ("C(q) ∝ max(q, 2π/λ_r)^{−2−2H}   for   q ≤ 2π/λ_c,   else 0",),
+        "Gaussian heights of a power C per area of wave numbers q, λ_r being the roll-off and λ_c the cut-off; the "
+        "same on every grid but for waves that are shorter than two of its nodes.",
+    )
     reach: ClassVar[float] = 1.0  # in units of the cut-off's wave number
 
     rq: float = parameter("m", "rms roughness", least=0.0, most=1e-4)

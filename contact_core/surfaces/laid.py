@@ -5,7 +5,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from ..scene import Heights, HeightStatistics, Scene, statistics_of
 from .roughness import generate
@@ -38,6 +37,8 @@ def _cell_means(z: Array, samples: NDArray[np.int64], nodes: int, axis: int) -> 
 
 
 def _means_along(lines: Array, samples: NDArray[np.int64], nodes: int) -> Array:
+    from scipy.interpolate import CubicSpline  # here: it loads slowly, and few scenes have heights
+
     count = samples.size
     if count == 1:
         return np.repeat(lines, nodes, axis=1)

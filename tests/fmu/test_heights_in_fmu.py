@@ -1,6 +1,7 @@
 """An FMU carries the heights of its scene's files, and is known by their numbers."""
 
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from test_run import STEPS, bits, direct
 
 from contact_core import Scene, SceneError
 from fmu_src.package.build import build
+from fmu_src.package.document.page import documentation
 from fmu_src.runtime import resources
 from fmu_src.variables import variables
 
@@ -65,6 +67,17 @@ def test_changed_heights_in_an_fmu_are_refused(file, tmp_path):
     np.save(folder / name, np.load(file) * 1.1)
     with pytest.raises(SceneError, match="holds other numbers than before"):
         resources.read(str(folder / "resources"), resources.module_name(scene))
+
+
+def test_the_page_of_an_fmu_names_spectrum_and_file(file):
+    spectrum = {"model": "self_affine", "hurst": "0.8", "roll_off": "0.2 mm", "cut_off": "40 um"}
+    changes = {f"surface_1.{key}": value for key, value in spectrum.items()}
+    rough = Scene.from_toml("mtm_zddp", {"film.points": "17", "surface_2.correlation_length": "32 um"} | changes)
+    page = documentation(replace(scene_of(file), surface_1=rough.surface_1), "isolated", reference=False).decode()
+    assert "surface_1: self_affine" in page
+    assert "doi:10.1088/2051-672X/aa51f8" in page
+    assert "surface_2.heights.beyond" in page
+    assert "heights of resources/heights_" in page
 
 
 def test_the_spacing_of_a_file_is_no_parameter(file):

@@ -10,7 +10,7 @@ import pytest
 from comparison import approx
 
 from contact_core import ContactState, Scene, SceneError, StateError, advance, initial_state, solve
-from contact_core.scene import Heights, SelfAffine
+from contact_core.scene import Heights, SelfAffine, statistics_of
 from contact_core.scene.heights import HeightMap
 from contact_core.surfaces.laid import laid, shown
 from contact_core.surfaces.patches import bare_heights, facing_surfaces
@@ -131,6 +131,15 @@ def test_a_mirrored_patch_shows_the_file_itself():
     copy = found[1:250, 1:250] - found[1:250, 1:250].mean()
     four = 0.25 * (array[1:, 1:] + array[:-1, 1:] + array[1:, :-1] + array[:-1, :-1])
     assert np.abs(copy - (four - four.mean())).max() < 0.06 * 100e-9
+
+
+def test_a_file_that_ends_goes_on_in_its_mirror_image():
+    """A file of 120 um has an edge 120 um into the patch, between two nodes of 1 um."""
+    found = square(heights(measured(120)), 501)
+    for axis in (0, 1):
+        after, before = (np.take(found, np.arange(1, 100) * sign + 120, axis=axis) for sign in (1, -1))
+        assert np.abs(after - before).max() < 1e-9 * 100e-9
+        assert np.std(np.diff(found, axis=axis)) < 0.3 * np.std(found)  # no step anywhere
 
 
 def test_tiles_repeat_in_whole_numbers():
@@ -320,6 +329,7 @@ def test_what_the_grid_cuts_is_what_is_missing_in_its_rms():
     whole = np.zeros((500, 500))
     whole[:80, :80] = dimple()
     assert flat.rms == approx(np.std(whole), rel=1e-6)
+    assert flat.slope == approx(statistics_of(whole, 1e-6).slope, rel=0.01)
     assert flat.on_grid.skewness < -20.0
     generated = shown(scene, 1)
     assert generated.rms == 12e-9

@@ -187,3 +187,10 @@ def test_a_self_affine_scene_is_read_written_and_realised_like_any_other():
     one, two = bare_heights(scene, scene.rows)[1], bare_heights(scene.realisation(2), scene.rows)[1]
     assert np.std(one) == approx(np.std(two), rel=0.05)
     assert abs(np.corrcoef(one.ravel(), two.ravel())[0, 1]) < 0.2
+
+
+def test_a_coarse_grid_for_warming_up_asks_for_no_waves_that_it_cannot_show():
+    rough = replace(ROUGH, cut_off=1e-6).coarsened(20e-6)
+    assert (rough.cut_off, rough.roll_off) == (40e-6, ROUGH.roll_off)
+    lay = Surface(RQ, 30e-6, 1, correlation_length_across=5e-6).coarsened(20e-6)
+    assert (lay.correlation_length, lay.correlation_length_across) == (30e-6, 20e-6)

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from contact_core.scene import Scene
+from contact_core.scene import Scene, SelfAffine, Surface
 
 from ...variables import FIDELITY
 from . import drawings, measured
@@ -37,7 +37,7 @@ def data(scene: Scene) -> Iterator[str]:
         ("reduced modulus E′ = 2/[(1 − ν₁²)/E₁ + (1 − ν₂²)/E₂]", number(1e-9 * scene.solids.reduced_modulus, "GPa")),
         *(
             (
-                f"body {i}: rms roughness, correlation length; track length between two passes",
+                f"body {i}: rms roughness{_given(s)}, correlation length; track length between two passes",
                 f"{number(1e9 * s.rms, 'nm')}, {number(1e6 * s.length, 'µm')}; {number(1e3 * track, 'mm')}",
             )
             for i, s, track in (
@@ -56,6 +56,11 @@ def data(scene: Scene) -> Iterator[str]:
     if scene.warnings():
         yield "<h3>Notes on this scene</h3>"
         yield from bullets(scene.warnings())
+
+
+def _given(surface: Surface | SelfAffine) -> str:
+    """Return that the roughness contains heights that were given, or an empty text."""
+    return f" with the heights of resources/{surface.heights.packed.file}" if surface.heights else ""
 
 
 def _face(scene: Scene) -> Iterator[tuple[str, str]]:
