@@ -251,6 +251,6 @@ def _numbers(path: Path) -> Array:
         return np.asarray(array, dtype=np.float64)
     if path.suffix != ".csv":
         raise ValueError(f"its name ends with '{path.suffix}'")
-    text = path.read_text("utf-8-sig")
-    delimiter = next((mark for mark in ";,\t" if mark in text), None)
-    return np.loadtxt(io.StringIO(text), dtype=np.float64, delimiter=delimiter, ndmin=2)
+    rows = [line.partition("#")[0] for line in path.read_text("utf-8-sig").splitlines()]
+    delimiter = next((mark for mark in ";,\t" if any(mark in row for row in rows)), None)
+    return np.loadtxt(rows, dtype=np.float64, delimiter=delimiter, ndmin=2)

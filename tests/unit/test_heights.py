@@ -161,7 +161,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A working folder with a measured patch of 0.3 mm in nm, as csv and npy."""
     numbers = np.round(1e9 * measured(), 2)
     np.save(tmp_path / "patch.npy", numbers)
-    np.savetxt(tmp_path / "patch.csv", numbers, delimiter=",", fmt="%.2f")
+    np.savetxt(tmp_path / "patch.csv", numbers, delimiter=",", fmt="%.2f", header="in nm; 1 um apart")
     np.savetxt(tmp_path / "german.csv", numbers, delimiter=";", fmt="%.2f")
     np.save(tmp_path / "patch_in_mm.npy", 1e-6 * numbers)
     np.save(tmp_path / "flat.npy", np.zeros((9, 9)))
