@@ -3,8 +3,9 @@
     scene       `Scene`: fields, TOML, checks
     fields      the fields of a scene, and the geometry and grid that follow from them
     records     solids, lubricant, control of the evolution over time
-    surface     roughness of a body by its spectrum
-    heights     heights of a body from a file or an array
+    surface     what all surfaces have; Gaussian roughness
+    self_affine self-affine roughness
+    heights     heights of a body from a file or an array; height_map: the array
     operation   operating points, and the duty of a scene
     case        a scene at an operating point, bound once per step
     checks      what makes a scene or an operating point unusable
@@ -16,11 +17,13 @@ A scene is checked when it is read; an operating point when it is bound in a cas
 """
 
 from .case import Case, Side
-from .heights import Heights, HeightStatistics, statistics_of
+from .height_map import HeightStatistics, statistics_of
+from .heights import Heights
 from .operation import OperatingPoint, Operation, Step
 from .records import Control, Lubricant, Solids
 from .scene import Scene
-from .surface import SelfAffine, Surface
+from .self_affine import SelfAffine
+from .surface import Surface
 from .tunables import tunables, with_values
 
 __all__ = [

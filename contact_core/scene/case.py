@@ -14,7 +14,8 @@ from ..shapes import Shape
 from ..shapes.base import Viscosity
 from .operation import OperatingPoint
 from .scene import Scene
-from .surface import SelfAffine, Surface
+from .self_affine import SelfAffine
+from .surface import Surface
 
 Pair = tuple[float, float]
 

@@ -14,7 +14,8 @@ from ..reference import Hertz
 from ..shapes import Geometry, Shape
 from .operation import OperatingPoint, Operation
 from .records import Control, Lubricant, Solids
-from .surface import SelfAffine, Surface
+from .self_affine import SelfAffine
+from .surface import Surface
 from .toml import unbuild
 
 ROOM = 2.4  # side of the grid over the half width of Hertz's contact, at least

@@ -1,82 +1,26 @@
 """Heights of a body that are given: a measured patch, a texture, a dimple; from a file or an array."""
 
-import hashlib
 import io
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..errors import SceneError
 from ..quantities import parameter
 from . import units
+from .height_map import HeightMap, HeightStatistics, read, statistics_of
 
 Array = NDArray[np.float64]
 
 _RMS = (2e-10, 1e-4)  # m: less is smooth, more is no roughness
-_SLOPE = (1e-4, 1.0)  # measured surfaces have 1e-3 to 0.3; a thousandfold error of unit leaves this range
+_SLOPE = (1e-4, 1.0)  # assumed: a thousandfold error of unit takes slopes of 1e-3 to 0.1 out of it
 _STRETCH = 0.02  # of a tile, at most, to fit a whole number of them
 _LEVEL = 0.02  # of the peak to valley: rms deviation of an edge that counts as level
 _LEAST, _MOST = 4, 2**14  # heights along an edge of the patch
-_LARGEST = 2**24  # numbers in a file
-
-
-class HeightMap(str):
-    """The SHA-256 of an array, carrying the array.
-
-    A record with one is hashed and compared by content, and its table and JSON hold the digest alone.
-    """
-
-    array: Array
-
-    def __new__(cls, array: Array) -> "HeightMap":
-        """Keep a read-only copy of an array [ny, nx]."""
-        kept = np.asarray(array, dtype="<f8") + 0.0  # a copy; of two zeros one
-        kept.setflags(write=False)
-        self = super().__new__(cls, hashlib.sha256(repr(kept.shape).encode() + kept.tobytes()).hexdigest())
-        self.array = kept
-        return self
-
-    @staticmethod
-    def of(name: str, heights: ArrayLike) -> "HeightMap":
-        """Return the map of an array that a caller gives; SceneError, about the field `name`, if it cannot be used."""
-        array = np.asarray(heights, dtype=np.float64)
-        said = _refusal(array)
-        if said:
-            raise SceneError(f"{name} {said}")
-        return HeightMap(array)
-
-    def __getnewargs__(self) -> tuple[Array]:  # type: ignore[override]
-        return (self.array,)
-
-
-class HeightStatistics(NamedTuple):
-    """Statistics of heights about their mean."""
-
-    rms: float  # [m]
-    ra: float  # mean absolute deviation [m]
-    skewness: float
-    peak_to_valley: float  # [m]
-    slope: float  # rms gradient, by differences between neighbours
-
-
-def statistics_of(heights: Array, spacing: float) -> HeightStatistics:
-    """Return the statistics of heights [m] on a square lattice of a spacing [m]."""
-    z = heights - heights.mean()
-    rms = float(np.sqrt(np.mean(z * z)))
-    slopes_2 = sum(float(np.mean(np.diff(z, axis=i) ** 2)) for i in (0, 1) if z.shape[i] > 1)
-    return HeightStatistics(
-        rms,
-        float(np.abs(z).mean()),
-        float(np.mean(z**3)) / rms**3 if rms > 0.0 else 0.0,
-        float(np.ptp(z)),
-        math.sqrt(slopes_2) / spacing,
-    )
 
 
 @dataclass(frozen=True)
@@ -107,7 +51,7 @@ class Heights:
         """
         if isinstance(self.digest, HeightMap):
             return self
-        found = HeightMap(_read(f"{name}.file", self.file, folders))
+        found = read(f"{name}.file", self.file, folders)
         if self.digest not in ("", found):
             raise SceneError(
                 f"{name}.file = '{self.file}' holds other numbers than before: their digest is {found[:16]}, not "
@@ -186,7 +130,7 @@ class Heights:
                     f"{length:g} m; a whole number is needed. Use a film.domain (along y: film.width) of "
                     f"{max(1, round(fit)) * tile:g} m, or beyond = 'mirrored'."
                 )
-            if self.beyond == "flat" and fit > 0.0 and tile > length * (1.0 + _STRETCH):
+            if self.beyond == "flat" and tile > length * (1.0 + _STRETCH):
                 yield (
                     f"beyond = 'flat': the file is {tile:g} m long along {along}, the patch {length:g} m. Use a "
                     f"film.domain (along y: film.width) of at least {tile:g} m, or beyond = 'mirrored'."
@@ -211,46 +155,3 @@ class Heights:
                     f"{unit}; {least:g} to {most:g}{unit} is plausible. Give the unit of the numbers in the file and "
                     "the distance of its neighbours; for a smooth surface leave heights out."
                 )
-
-
-def _read(name: str, file: str, folders: tuple[Path, ...]) -> Array:
-    if not file:
-        raise SceneError(f"'{name}' is missing. Give the path of a .npy or .csv file of heights.")
-    path = next((folder / file for folder in folders if (folder / file).is_file()), None)
-    if path is None:
-        looked = " and ".join(f"'{folder}'" for folder in folders)
-        raise SceneError(f"{name} = '{file}' is not there; looked in {looked}. Give its path from the scene's file.")
-    try:
-        array = _numbers(path)
-    except (OSError, ValueError, EOFError) as error:
-        raise SceneError(
-            f"{name} = '{file}' cannot be read: {error}. Give numbers as .npy, or as .csv in rows of equal length."
-        ) from None
-    said = _refusal(array)
-    if said:
-        raise SceneError(f"{name} = '{file}' {said}")
-    return array
-
-
-def _refusal(array: Array) -> str:
-    """Return why numbers cannot be heights, or an empty text."""
-    if array.ndim != 2 or not _LEAST <= array.size <= _LARGEST:
-        return (
-            f"holds numbers of the shape {array.shape}; rows and columns are needed, with {_LEAST} to {_LARGEST} "
-            "numbers. Cut the array, or average neighbours."
-        )
-    bad = int(array.size - np.isfinite(array).sum())
-    return f"has {bad} of {array.size} numbers that are not finite. Fill them in." if bad else ""
-
-
-def _numbers(path: Path) -> Array:
-    if path.suffix == ".npy":
-        array = np.load(path, allow_pickle=False)
-        if not (np.issubdtype(array.dtype, np.floating) or np.issubdtype(array.dtype, np.integer)):
-            raise ValueError(f"its type is {array.dtype}")
-        return np.asarray(array, dtype=np.float64)
-    if path.suffix != ".csv":
-        raise ValueError(f"its name ends with '{path.suffix}'")
-    rows = [line.partition("#")[0] for line in path.read_text("utf-8-sig").splitlines()]
-    delimiter = next((mark for mark in ";,\t" if any(mark in row for row in rows)), None)
-    return np.loadtxt(rows, dtype=np.float64, delimiter=delimiter, ndmin=2)

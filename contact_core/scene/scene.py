@@ -11,7 +11,8 @@ from ..errors import SceneError
 from ..film import FILMS
 from . import checks
 from .fields import SceneFields
-from .heights import HeightMap, Heights
+from .height_map import HeightMap
+from .heights import Heights
 from .operation import OperatingPoint
 from .surface import SEEDS
 from .toml import build, completed, did_you_mean, folder_of, full_key, override, override_order, read_table

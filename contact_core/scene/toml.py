@@ -15,16 +15,17 @@ from ..laws import SLOTS
 from ..laws.base import Model
 from ..shapes import GEOMETRIES
 from . import units
-from .surface import SURFACES
+from .self_affine import SelfAffine
+from .surface import Surface
 
 _KINDS: dict[str, tuple[type[Model], ...]] = {
     "film": FILMS,
     "geometry": GEOMETRIES,
-    "surface_1": SURFACES,
-    "surface_2": SURFACES,
+    "surface_1": (Surface, SelfAffine),
+    "surface_2": (Surface, SelfAffine),
 }
 _USUAL = {"geometry", "surface_1", "surface_2"}  # without a `model`: the first kind
-_UNNAMED = SURFACES[0]  # its tables have never had a `model`, and stored states go by their text
+_UNNAMED = Surface  # its tables have never had a `model`, and stored states go by their text
 _SHARING = {film.name for film in FILMS if "sharing" in {f.name for f in fields(film)}}
 
 

@@ -11,7 +11,7 @@ from comparison import approx
 
 from contact_core import ContactState, Scene, SceneError, StateError, advance, initial_state, solve
 from contact_core.scene import Heights, SelfAffine, statistics_of
-from contact_core.scene.heights import HeightMap
+from contact_core.scene.height_map import HeightMap
 from contact_core.surfaces.laid import laid, shown
 from contact_core.surfaces.patches import bare_heights, facing_surfaces
 
