@@ -85,10 +85,14 @@ def main() -> None:
             lines.append(row(kind, points, found, change))
         for ax, points in zip(axes[:, i], (GRIDS[0], GRIDS[-1]), strict=True):
             most = 1e9 * np.abs(heights[GRIDS[-1]]).max()
-            ax.imshow(1e9 * heights[points], origin="lower", extent=(0, 0.5, 0, 0.5), vmin=-most, vmax=most, cmap="gray")
+            ax.imshow(
+                1e9 * heights[points], origin="lower", extent=(0, 0.5, 0, 0.5), vmin=-most, vmax=most, cmap="gray"
+            )
             ax.set_title(f"{kind.replace(' and', chr(10) + 'and')}\n{points} nodes", fontsize="small")
             ax.set_xticks([]), ax.set_yticks([])
-    (DOCS / "grids.md").write_text("\n".join([*lines, "", "![The surfaces on the coarsest and finest grid](grids.png)", ""]))
+    (DOCS / "grids.md").write_text(
+        "\n".join([*lines, "", "![The surfaces on the coarsest and finest grid](grids.png)", ""])
+    )
     figure.savefig(DOCS / "grids.png", dpi=80)
     print("\n".join(lines))
 
