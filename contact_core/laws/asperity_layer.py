@@ -20,7 +20,7 @@ ELASTIC_PRESSURE = 1.0  # p0 without yielding
 PLASTIC_PRESSURE = 1.1  # p0 where all yields, in hardnesses
 ELASTIC_HEIGHT, PLASTIC_HEIGHT = 0.44, 0.52  # h0
 SLOPE = 2.3  # rms slope; 1.82 and 2.87 for waves over a factor of 4 and 16
-AREA = 2.1  # touching share at light pressures, in pressures over E'/2 and the rms slope
+AREA = 2.2  # touching share at light pressures, in pressures over E'/2 and the rms slope
 STEEPEST = 0.3  # rms slope of one wave, beyond which heights or lengths are in a wrong unit
 
 
@@ -41,7 +41,7 @@ class AsperityLayer:
         (
             "s = p_0 exp(−h/h_0),   p_e = q σ E'/2,   q = 2π/λ_l",
             "p_0 = [p_e^{−2} + (1.1 H)^{−2}]^{−1/2},   h_0 = σ [0.52 − 0.08 p_0/p_e]",
-            "A = min(1, [A_e^4 + (s/H)^4]^{1/4}),   A_e = erf[√π/2 · 2.1 s/(2.3 p_e)]",
+            "A = min(1, [A_e^4 + (s/H)^4]^{1/4}),   A_e = erf[√π/2 · 2.2 s/(2.3 p_e)]",
         ),
         "σ is the rms height of the waves that no grid carries, λl the longest of them, h the height above the floor.",
     )
