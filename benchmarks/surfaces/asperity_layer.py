@@ -1,7 +1,7 @@
 """Constants of the law of asperities below the grid, from dry contacts of periodic random roughness.
 
     python -m benchmarks.surfaces.asperity_layer            two surfaces a case, half a minute
-    python -m benchmarks.surfaces.asperity_layer --full     six surfaces, larger planes, more steps of the nodes: a quarter of an hour
+    python -m benchmarks.surfaces.asperity_layer --full     six surfaces, larger planes, more steps of the nodes: six minutes
 
 Writes docs/measured/surfaces/asperity_layer.md and .png. One thread.
 """
