@@ -29,6 +29,7 @@ class Page:
     benchmark: str  # room/name
     title: str
     part: str = ""  # of a benchmark that writes several pages
+    options: str = ""  # of its command
     body: list[str] = field(default_factory=list)
     verdicts: list[str] = field(default_factory=list)
 
@@ -66,7 +67,8 @@ class Page:
 
     def write(self) -> None:
         """Write the page."""
-        command = f"python -m benchmarks.{self.benchmark.replace('/', '.')} {self.part}".rstrip()
+        module = f"benchmarks.{self.benchmark.replace('/', '.')}"
+        command = " ".join(filter(None, ("python -m", module, self.part, self.options)))
         intro = f"# {self.title}\n\nWritten by `{command}`. One process, one thread.\n"
         asked = ["## Asked", "", cells(("asked", "found", "met?")), "|---|---|---|", *self.verdicts, "", "## Found"]
         self.path.write_text("\n".join([intro, *asked, *self.body]).rstrip() + "\n")

@@ -60,10 +60,7 @@ def warm_up(scene: Scene) -> None:
     step.
     """
     film = replace(scene.film, points=min(_POINTS, scene.film.points))
-    first, second = (
-        replace(surface, correlation_length=max(surface.correlation_length, film.spacing))
-        for surface in (scene.surface_1, scene.surface_2)
-    )
+    first, second = (surface.coarsened(film.spacing) for surface in (scene.surface_1, scene.surface_2))
     coarse = replace(scene, film=film, surface_1=first, surface_2=second)
     point = coarse.operation.point
     if point.entrainment_speed == 0.0 or not point.slides:

@@ -76,7 +76,7 @@ def sample_mixed(
         unsampled = 0
     elif same:
         state, unsampled = rolled(scene, state, jumps_of(case, smoother, 1.0)), _CALMING
-    length = case.sides[scene.rougher].surface.correlation_length / scene.film.spacing
+    length = case.sides[scene.rougher].surface.length / scene.film.spacing
     stride = max(1, round((0.5 * length) ** 2))  # instants in which oil between asperities gets used to a jump
     for k in range(-unsampled, mixed_instants(scene)):
         jump_now = k % stride == 0
@@ -95,7 +95,7 @@ def _first_film(case: Case, state: ContactState) -> FilmState:
     carry the share that was measured.
     """
     scene = case.scene
-    clear = case.smooth_film > _CLEAR * math.hypot(scene.surface_1.rq, scene.surface_2.rq)
+    clear = case.smooth_film > _CLEAR * math.hypot(scene.surface_1.rms, scene.surface_2.rms)
     if clear and state.share == 1.0:
         with suppress(ConvergenceError):
             return solve_instant(case, state).film
@@ -129,5 +129,5 @@ def jumps_of(case: Case, index: int, most: float = _SMOOTHER) -> list[float]:
     Only body 1 (`index` 0) or 2 (1) jumps, if it moves and its roughness is at most `most` times the other's.
     """
     side, other = case.sides[index], case.sides[1 - index]
-    jumping = side.moves and side.surface.rq <= most * other.surface.rq
+    jumping = side.moves and side.surface.rms <= most * other.surface.rms
     return [case.scene.film.domain * _GOLDEN * (jumping and k == index) for k in (0, 1)]

@@ -7,6 +7,7 @@
     tribofilm/          growth and removal of the tribofilm
     load_sharing        load on solids and oil at the regression level
     profile             ends of rollers
+    asperity_layer      roughness below the grid: not yet in a scene
     temperatures        records of the heat and the temperatures of a contact
     equations           text of a law's equations, for documentation
     elementary          elementary functions of numbers and arrays

@@ -206,9 +206,7 @@ def _flash_rise(case: Case, shear: float, sliding: float) -> float:
     """Return the flash temperature rise [K] of a spot as wide as the rougher body's correlation length."""
     if shear == 0.0:
         return 0.0
-    return float(
-        case.scene.heat.spot_rise(0.5 * case.sides[case.scene.rougher].surface.correlation_length, shear, sliding)
-    )
+    return float(case.scene.heat.spot_rise(0.5 * case.sides[case.scene.rougher].surface.length, shear, sliding))
 
 
 def _faster(case: Case) -> float:

@@ -56,7 +56,7 @@ def _dose(
 ) -> Dose:
     """Return the dose of one body, for the exposures of a point in solid contact and of one under oil."""
     scene = case.scene
-    first, second = scene.surface_1.rq, scene.surface_2.rq
+    first, second = scene.surface_1.rms, scene.surface_2.rms
     as_rougher = (True, False) if first == second else ((first > second) == (side.body == 0),)  # alike: between both
     dry = contact.load_ratio > scene.control.dry_above
     sharing = regression_film(scene).sharing

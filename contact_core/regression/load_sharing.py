@@ -44,7 +44,7 @@ def surfaces_of(case: Case, tribofilms: Tribofilms) -> Surfaces:
     """Return the properties of the surfaces under their tribofilms."""
     scene, hertz = case.scene, case.unit_hertz
     first, second = scene.surface_1, scene.surface_2
-    slope = rms_slope(tribofilms[0].both, first.correlation_length, tribofilms[1].both, second.correlation_length)
+    slope = rms_slope(tribofilms[0].both, first.length, tribofilms[1].both, second.length)
     rougher = case.sides[scene.rougher].surface
     per_pressure = flattening_of(hertz.mean_share, scene.solids.reduced_modulus, slope) if slope > 0.0 else math.inf
     return Surfaces(
@@ -52,7 +52,7 @@ def surfaces_of(case: Case, tribofilms: Tribofilms) -> Surfaces:
         cover=mean_cover(scene, tribofilms),
         hardness=hardness_of(scene, tribofilms),
         flattening=per_pressure,
-        resolution=rougher.correlation_length / scene.film.spacing,
+        resolution=rougher.length / scene.film.spacing,
     )
 
 

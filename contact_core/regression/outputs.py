@@ -137,5 +137,5 @@ def _run_in(case: Case, contact: MeanContact) -> float:
     if contact.sigma == 0.0:
         return 1.0
     pairs = zip(case.sides, contact.tribofilms, strict=True)
-    changed = sum(film.thickness + abs(film.both - side.surface.rq) for side, film in pairs)
+    changed = sum(film.thickness + abs(film.both - side.surface.rms) for side, film in pairs)
     return 1.0 + (_RUN_IN - 1.0) * min(changed / (_CHANGED * contact.sigma), 1.0)

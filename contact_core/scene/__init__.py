@@ -2,7 +2,10 @@
 
     scene       `Scene`: fields, TOML, checks
     fields      the fields of a scene, and the geometry and grid that follow from them
-    records     solids, surfaces, lubricant, control of the evolution over time
+    records     solids, lubricant, control of the evolution over time
+    surface     what all surfaces have; Gaussian roughness
+    self_affine self-affine roughness
+    heights     heights of a body from a file or an array; height_map: the array
     operation   operating points, and the duty of a scene
     case        a scene at an operating point, bound once per step
     checks      what makes a scene or an operating point unusable
@@ -14,22 +17,30 @@ A scene is checked when it is read; an operating point when it is bound in a cas
 """
 
 from .case import Case, Side
+from .height_map import HeightStatistics, statistics_of
+from .heights import Heights
 from .operation import OperatingPoint, Operation, Step
-from .records import Control, Lubricant, Solids, Surface
+from .records import Control, Lubricant, Solids
 from .scene import Scene
+from .self_affine import SelfAffine
+from .surface import Surface
 from .tunables import tunables, with_values
 
 __all__ = [
     "Case",
     "Control",
+    "HeightStatistics",
+    "Heights",
     "Lubricant",
     "OperatingPoint",
     "Operation",
     "Scene",
+    "SelfAffine",
     "Side",
     "Solids",
     "Step",
     "Surface",
+    "statistics_of",
     "tunables",
     "with_values",
 ]

@@ -13,8 +13,9 @@ from ..reference import Hertz
 from ..shapes import Shape
 from ..shapes.base import Viscosity
 from .operation import OperatingPoint
-from .records import Surface
 from .scene import Scene
+from .self_affine import SelfAffine
+from .surface import Surface
 
 Pair = tuple[float, float]
 
@@ -23,7 +24,7 @@ class Side(NamedTuple):
     """One body of a case."""
 
     body: int  # 0 of body 1, 1 of body 2, as in the laws
-    surface: Surface  # roughness, as new
+    surface: Surface | SelfAffine  # as new
     speed: float  # of the surface along +x [m/s]
     track_length: float  # travel of a surface point between two passes [m]
     temperature: float  # of the bulk [K]
@@ -138,7 +139,7 @@ class Case:
     @property
     def rough_speed(self) -> float:
         """Speed [m/s] of the faster rough body, 0 of smooth ones."""
-        return max((abs(side.speed) for side in self.sides if side.surface.rq > 0.0), default=0.0)
+        return max((abs(side.speed) for side in self.sides if not side.surface.smooth), default=0.0)
 
     @property
     def smooth_film(self) -> float:

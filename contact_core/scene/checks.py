@@ -1,6 +1,5 @@
 """Checks of scenes and operating points: a sentence for all that is unusable or not resolved well."""
 
-import math
 import re
 from collections.abc import Iterator
 from dataclasses import fields, replace
@@ -105,21 +104,8 @@ def _shape_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
 
 def _roughness_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
     for name, surface in (("surface_1", scene.surface_1), ("surface_2", scene.surface_2)):
-        length = surface.correlation_length
-        nodes = length / scene.film.spacing
-        if surface.rq > 0.0 and length > scene.film.domain / 5.0:
-            yield (
-                "resolution",
-                f"{name}.correlation_length = {length:g} m is too long for film.domain = {scene.film.domain:g} m. "
-                f"Use at most {scene.film.domain / 5.0:g} m, a larger domain, or rq = 0 for a smooth surface.",
-            )
-        if surface.rq > 0.0 and nodes < 1.0 - 1e-9:
-            yield (
-                "resolution",
-                f"{name}.correlation_length = {length:g} m is {nodes:.2f} nodes of the grid; "
-                f"at least 1 is needed. Use film.points = {1 + math.ceil(scene.film.domain / length)} or more, "
-                "or a longer correlation length.",
-            )
+        for sentence in surface.errors(scene.film.spacing, scene.patch_size):
+            yield "resolution", f"{name}.{sentence}"
 
 
 def _oil_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
@@ -173,9 +159,12 @@ def warnings(scene: SceneFields) -> list[str]:
     """Return sentences on what can be computed but is not resolved well."""
     found = []
     for name, surface in (("surface_1", scene.surface_1), ("surface_2", scene.surface_2)):
-        nodes = surface.correlation_length / scene.film.spacing
-        if surface.rq > 0.0 and nodes < 2.0 - 0.06:  # 8 um on 129 nodes over 0.5 mm is 2.05, over 0.53 mm 1.93
-            found.append(f"{name} has {nodes:.2f} nodes per correlation length; 2 or more resolve it.")
+        found += [f"{name} {sentence}" for sentence in surface.warnings(scene.film.spacing)]
+        if not scene.film.on_grid and not surface.fitted:
+            found.append(
+                f"{name} is taken for Gaussian roughness without lay by film.model = '{scene.film.name}': its curves "
+                "are fitted to that, and their errors do not hold."
+            )
     if not scene.tribofilm.covers(scene.operation.temperature):
         found.append(
             f"The tribofilm's constants are extrapolated: they do not hold at {scene.operation.temperature:g} K."

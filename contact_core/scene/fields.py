@@ -13,7 +13,9 @@ from ..laws.base import BoundaryFriction, Heat, Plasticity, Tribofilm, Wear
 from ..reference import Hertz
 from ..shapes import Geometry, Shape
 from .operation import OperatingPoint, Operation
-from .records import Control, Lubricant, Solids, Surface
+from .records import Control, Lubricant, Solids
+from .self_affine import SelfAffine
+from .surface import Surface
 from .toml import unbuild
 
 ROOM = 2.4  # side of the grid over the half width of Hertz's contact, at least
@@ -27,8 +29,8 @@ class SceneFields:
     description: str
     geometry: Geometry
     solids: Solids
-    surface_1: Surface
-    surface_2: Surface
+    surface_1: Surface | SelfAffine
+    surface_2: Surface | SelfAffine
     lubricant: Lubricant
     plasticity: Plasticity
     boundary_friction: BoundaryFriction
@@ -79,7 +81,20 @@ class SceneFields:
     @cached_property
     def rows(self) -> int:
         """Rows of nodes that the contact has along y before a scar makes them more."""
-        return self.geometry.rows(self.film, self.surface_1.rq == self.surface_2.rq == 0.0)
+        return self.geometry.rows(self.film, self.surface_1.smooth and self.surface_2.smooth)
+
+    @property
+    def period(self) -> int:
+        """Rows of nodes after which the surfaces repeat along y; along x they repeat after film.domain."""
+        return self.rows if self._own_shape.periodic else self.rows - 1
+
+    @property
+    def patch_size(self) -> tuple[float, float]:
+        """Lengths [m] along y and x after which the surfaces repeat, as asked for.
+
+        On the grid that along y is a whole number of nodes: files are stretched as generated waves are.
+        """
+        return self.film.width or self.period * self.film.spacing, self.film.domain
 
     @property
     def repeats(self) -> float:
@@ -89,7 +104,7 @@ class SceneFields:
     @property
     def rougher(self) -> int:
         """Index of the rougher body: 0 of body 1, 1 of body 2; 1 if they are alike."""
-        return 0 if self.surface_1.rq > self.surface_2.rq else 1
+        return 0 if self.surface_1.rms > self.surface_2.rms else 1
 
     @property
     def track_lengths(self) -> tuple[float, float]:
@@ -121,6 +136,8 @@ class SceneFields:
     def _digest(self) -> str:
         table = self.to_dict()
         parts = {key: table[key] for key in ("geometry", "surface_1", "surface_2")}
+        for surface in (parts["surface_1"], parts["surface_2"]):
+            surface.get("heights", {}).pop("file", None)  # wherever they lie
         parts["grid"] = [self.film.points, self.film.domain, self.rows]
         return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:16]
 

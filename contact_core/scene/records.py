@@ -1,12 +1,10 @@
-"""Records of a scene: solids, surfaces, lubricant, and the control of the evolution over time."""
+"""Records of a scene: solids, lubricant, and the control of the evolution over time."""
 
 from dataclasses import dataclass, field
 
 from ..laws.base import Density, Rheology, Supply, Viscosity
 from ..laws.supply import Flooded
 from ..quantities import parameter
-
-SEEDS = 2**31  # of a surface: what FMI's integers can tell apart
 
 
 @dataclass(frozen=True)
@@ -16,18 +14,6 @@ class Solids:
     reduced_modulus: float = parameter(
         "Pa", "E' = 2 / [(1 - v1^2)/E1 + (1 - v2^2)/E2]", above=1e3, most=1e13, quantity="Stress"
     )
-
-
-@dataclass(frozen=True)
-class Surface:
-    """Roughness of one body: Gaussian heights of a Gaussian autocorrelation.
-
-    The autocorrelation is rq^2 exp(-(r/correlation_length)^2); rq = 0 is smooth.
-    """
-
-    rq: float = parameter("m", "rms roughness", least=0.0, most=1e-4)
-    correlation_length: float = parameter("m", "correlation length", above=0.0, most=1.0, shapes_arrays=True)
-    seed: int = parameter("", "number of the realisation", least=0, most=SEEDS - 1)
 
 
 @dataclass(frozen=True)

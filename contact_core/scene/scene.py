@@ -5,13 +5,17 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
+from numpy.typing import ArrayLike
+
 from ..errors import SceneError
 from ..film import FILMS
 from . import checks
 from .fields import SceneFields
+from .height_map import HeightMap
+from .heights import Heights
 from .operation import OperatingPoint
-from .records import SEEDS
-from .toml import build, completed, did_you_mean, full_key, override, override_order, read_table
+from .surface import SEEDS
+from .toml import build, completed, did_you_mean, folder_of, full_key, override, override_order, read_table
 
 _SEED_STEP = 1_327_217_885  # the odd number nearest to SEEDS over the golden ratio
 
@@ -23,18 +27,41 @@ class Scene(SceneFields):
     def from_toml(source: str | Path, overrides: Mapping[str, str] | None = None) -> "Scene":
         """Read a shipped scene by name or a TOML file by path; `overrides` maps dotted keys to new values.
 
-        Raises SceneError with every sentence that says what is wrong and what would be right.
+        Files of heights are looked for beside the scene's file, then in the working folder. Raises SceneError with
+        every sentence that says what is wrong and what would be right.
         """
         table = read_table(source)
         changes = {full_key(key, value): value for key, value in (overrides or {}).items()}
         for key, value in sorted(changes.items(), key=override_order):
             override(table, key, value)
-        return Scene.from_dict(table)
+        return Scene.from_dict(table, folder_of(source), Path())
 
     @staticmethod
-    def from_dict(table: Mapping[str, Any]) -> "Scene":
-        """Build and check a scene from nested tables as TOML gives them."""
-        return checked(build(Scene, completed(table), ""))
+    def from_dict(table: Mapping[str, Any], *folders: Path) -> "Scene":
+        """Build and check a scene from nested tables as TOML gives them.
+
+        Files of heights are looked for in the folders, in their order; without any in the working folder.
+        """
+        scene: Scene = build(Scene, completed(table), "")
+        first, second = (
+            getattr(scene, name).with_file(name, folders or (Path(),)) for name in ("surface_1", "surface_2")
+        )
+        return checked(replace(scene, surface_1=first, surface_2=second))
+
+    def with_heights(
+        self, body: int, heights: ArrayLike, spacing: float, unit: str = "m", beyond: str = "mirrored"
+    ) -> "Scene":
+        """Return the scene with heights [ny, nx] in a unit added to the roughness of body 1 or 2.
+
+        `spacing` [m] is the distance between neighbours, rows run along x; `Heights` says what `unit` and `beyond`
+        may be. Raises SceneError if they cannot be used.
+        """
+        if body not in (1, 2):
+            raise SceneError(f"body = {body!r} must be 1 or 2.")
+        name = f"surface_{body}"
+        given = Heights(spacing, unit, beyond=beyond, digest=HeightMap.of(f"{name}.heights", heights))
+        surface: Any = replace(getattr(self, name), heights=given)
+        return checked(replace(self, **{name: surface}))
 
     def at_level(self, level: str) -> "Scene":
         """Return the scene with `film.model` = `level`, on the same grid: both levels share their states.

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import MISSING, Field, fields, is_dataclass
 from importlib.resources import files
 from pathlib import Path
+from types import NoneType
 from typing import Any, get_args, get_origin, get_type_hints
 
 from ..errors import SceneError
@@ -14,7 +15,17 @@ from ..laws import SLOTS
 from ..laws.base import Model
 from ..shapes import GEOMETRIES
 from . import units
+from .self_affine import SelfAffine
+from .surface import Surface
 
+_KINDS: dict[str, tuple[type[Model], ...]] = {
+    "film": FILMS,
+    "geometry": GEOMETRIES,
+    "surface_1": (Surface, SelfAffine),
+    "surface_2": (Surface, SelfAffine),
+}
+_USUAL = {"geometry", "surface_1", "surface_2"}  # without a `model`: the first kind
+_UNNAMED = Surface  # its tables have never had a `model`, and stored states go by their text
 _SHARING = {film.name for film in FILMS if "sharing" in {f.name for f in fields(film)}}
 
 
@@ -47,6 +58,12 @@ def read_table(source: str | Path) -> dict[str, Any]:
         raise SceneError(f"The scene file '{source}' is not valid TOML: {error}.") from None
 
 
+def folder_of(source: str | Path) -> Path:
+    """Return the folder of a scene's file, by name or path."""
+    path = Path(source)
+    return path.parent if path.suffix == ".toml" else Path(str(files("contact_core"))) / "data" / "scenes"
+
+
 def did_you_mean(word: str, choices: list[str]) -> str:
     """Return " Did you mean ...?" if one of the choices looks like the word, else nothing."""
     close = difflib.get_close_matches(word, choices, n=1, cutoff=0.5)
@@ -55,7 +72,7 @@ def did_you_mean(word: str, choices: list[str]) -> str:
 
 def models_of(path: str) -> tuple[type[Model], ...]:
     """Return the records that a table at a dotted path may be, by its `model`; none if there is one kind only."""
-    return {"film": FILMS, "geometry": GEOMETRIES}.get(path) or SLOTS.get(path.rpartition(".")[2], ())
+    return _KINDS.get(path) or SLOTS.get(path.rpartition(".")[2], ())
 
 
 def override(table: dict[str, Any], key: str, value: str) -> None:
@@ -121,8 +138,11 @@ def _elsewhere(cls: type, key: str, path: str) -> str:
 
 def _value(hint: Any, raw: Any, full: str, f: "Field[Any]") -> Any:
     models = () if f.metadata else models_of(full)
+    given = [kind for kind in get_args(hint) if kind is not NoneType]
+    if len(given) == 1 and NoneType in get_args(hint):
+        hint = given[0]
     if models:
-        usual = models[0].name if full == "geometry" else getattr(f.default, "name", None)
+        usual = models[0].name if full in _USUAL else getattr(f.default, "name", None)
         if isinstance(raw, Mapping) and not {"model", "set"} & set(raw) and usual:
             raw = {"model": usual, **raw}
         return _build_law(models, raw, full)
@@ -132,7 +152,7 @@ def _value(hint: Any, raw: Any, full: str, f: "Field[Any]") -> Any:
         if not isinstance(raw, list):
             raise SceneError(f"[[{full}]] must be a list of tables.")
         return tuple(build(get_args(hint)[0], item, f"{full}[{i}]") for i, item in enumerate(raw))
-    if hint in (float, float | None):
+    if hint is float:
         return units.parse(raw, f.metadata["unit"], full)
     if hint is int:
         number = units.parse(raw, "", full)
@@ -206,7 +226,8 @@ def _hint(f: "Field[Any]") -> str:
 
 def unbuild(record: Any) -> dict[str, Any]:
     """Return nested tables of a record, with SI units, from which `build` makes an equal one."""
-    table: dict[str, Any] = {"model": record.name} if type(record) in _all_models() else {}
+    named = type(record) in _all_models() and type(record) is not _UNNAMED
+    table: dict[str, Any] = {"model": record.name} if named else {}
     for f in fields(record):
         value = getattr(record, f.name)
         if value is None:
@@ -223,7 +244,7 @@ def unbuild(record: Any) -> dict[str, Any]:
 
 
 def _all_models() -> set[type]:
-    return {model for models in (*SLOTS.values(), FILMS, GEOMETRIES) for model in models}
+    return {model for models in (*SLOTS.values(), *_KINDS.values()) for model in models}
 
 
 def full_key(key: str, value: str) -> str:

@@ -1,6 +1,7 @@
 """Rough surfaces of both bodies.
 
     roughness     generation and statistics
+    laid          heights of a file on the nodes, and what a grid shows
     patches       body-fixed patches: heights now, place under the contact, rubbing track
     track_means   from patches to the track means of the regression level and back
     profiles      the rubbed surfaces laid end to end, for profiles and pictures

@@ -12,8 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Scene, Surface
+from ..scene import Scene, SelfAffine, Surface
 from ..state import Body, ContactState
+from .laid import laid
 from .roughness import generate, groove_free
 
 Array = NDArray[np.float64]
@@ -108,17 +109,19 @@ def on_patches(scene: Scene, state: ContactState, fields: tuple[NDArray[Any], ND
 
 
 def bare_heights(scene: Scene, rows: int) -> tuple[Array, Array]:
-    """Return the generated heights of both bodies' patches, as new. Rows beyond the scene's own repeat them."""
-    film, own = scene.film, scene.rows
-    period = own if scene.shape().periodic else own - 1
-    grid = (film.points, film.domain, period, own, rows)
+    """Return the heights of both bodies' patches, as new. Rows beyond the scene's own repeat them."""
+    grid = (scene.film.points, scene.patch_size, scene.period, scene.rows, rows)
     return _bare(scene.surface_1, 1, *grid), _bare(scene.surface_2, 2, *grid)
 
 
 @lru_cache(maxsize=32)  # sixteen contacts in one process
-def _bare(surface: Surface, body: int, points: int, domain: float, period: int, own: int, rows: int) -> Array:
+def _bare(
+    surface: Surface | SelfAffine, body: int, points: int, size: tuple[float, float], period: int, own: int, rows: int
+) -> Array:
     at = np.arange(rows) - (rows - own) // 2
-    heights = generate(surface, points, domain, body, period)[at % period]
+    heights = generate(surface, points, size[1], body, period)[at % period]
+    if surface.heights is not None:
+        heights = heights + laid(surface.heights, size, (period, points - 1))[at % period]
     heights.setflags(write=False)
     return heights
 

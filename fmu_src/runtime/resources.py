@@ -1,15 +1,16 @@
 """Resources of an FMU for its slave, written and read in one place.
 
-`scene.json` is the scene, `versions.json` the packages it was built with; `slavemodule.txt` names the script that
-defines the slave. The name of the script contains a fingerprint of scene and versions: two FMUs in one process never
-share a module, and an edited scene is detected. An isolated FMU has in addition `start.py`, which its library runs,
-`guid.txt`, and `python.txt` if an interpreter was recorded (package.build).
+`scene.json` is the scene, `heights_*.npy` are its heights from files, `versions.json` the packages it was built with;
+`slavemodule.txt` names the script that defines the slave. The name of the script contains a fingerprint of scene and
+versions: two FMUs in one process never share a module, and an edited scene is detected. An isolated FMU has in addition
+`start.py`, which its library runs, `guid.txt`, and `python.txt` if an interpreter was recorded (package.build).
 """
 
 import functools
 import hashlib
 import json
 import uuid
+from dataclasses import replace
 from pathlib import Path
 
 import pythonfmu
@@ -63,13 +64,24 @@ def module_name(scene: Scene) -> str:
 
 
 def _fingerprint(scene: Scene) -> str:
-    return hashlib.sha256(json.dumps([scene.to_dict(), VERSIONS], sort_keys=True).encode()).hexdigest()
+    return hashlib.sha256(json.dumps([_packed(scene).to_dict(), VERSIONS], sort_keys=True).encode()).hexdigest()
+
+
+def _packed(scene: Scene) -> Scene:
+    """Return the scene with its files of heights under the names that they have in an FMU."""
+    first, second = (
+        surface if surface.heights is None else replace(surface, heights=surface.heights.packed)
+        for surface in (scene.surface_1, scene.surface_2)
+    )
+    return replace(scene, surface_1=first, surface_2=second)
 
 
 def files(scene: Scene) -> dict[str, bytes]:
     """Return name and content of every file in `resources/` that both flavours have."""
-    module = module_name(scene)
+    module, scene = module_name(scene), _packed(scene)
+    given = (surface.heights for surface in (scene.surface_1, scene.surface_2))
     return {
+        **{heights.file: heights.npy() for heights in given if heights is not None},
         "scene.json": (json.dumps(scene.to_dict(), indent=1) + "\n").encode(),
         "versions.json": (json.dumps(VERSIONS, indent=1) + "\n").encode(),
         "slavemodule.txt": module.encode(),
@@ -97,7 +109,7 @@ def read(folder: str, module: str) -> Scene:
                 f"The FMU was built with {package} {built_with}, but {installed} is installed. "
                 f"Build the FMU again, or install {package} {built_with}."
             )
-    scene = Scene.from_dict(table)
+    scene = Scene.from_dict(table, Path(folder))
     if module_name(scene) != module:
         raise SceneError(f"The scene of the FMU in {folder} was changed after building. Build the FMU again.")
     return scene

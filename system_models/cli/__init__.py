@@ -2,6 +2,7 @@
 
     main        the table of commands
     listing     list: what is shipped
+    surfaces    surfaces: what a grid shows of the surfaces
     run         run: a contact or a machine through its duty; contact: one contact; machine: a machine
     stribeck    stribeck: Stribeck curves
     check       check: verdicts on an FMU

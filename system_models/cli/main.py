@@ -14,7 +14,7 @@ from typing import Protocol
 from contact_core.errors import ContactError
 from fmu_src.package import command as build
 
-from . import check, cosim, listing, run, stribeck
+from . import check, cosim, listing, run, stribeck, surfaces
 
 
 class Command(Protocol):
@@ -30,6 +30,7 @@ class Command(Protocol):
 # name: its module, and its line in the help
 COMMANDS: dict[str, tuple[Command, str]] = {
     "list": (listing, "name the shipped scenes and machines"),
+    "surfaces": (surfaces, "what a scene's grid shows of its surfaces"),
     "run": (run, "run a scene's contact, or a machine, through its duty"),
     "stribeck": (stribeck, "rub a scene's contact and measure its Stribeck curves"),
     "build": (build, "build the FMU of a scene, for another tool"),

@@ -32,6 +32,16 @@ def test_a_scene_survives_its_own_tables_bit_for_bit(name, overrides):
     assert Scene.from_dict(scene.to_dict()) == scene
 
 
+def test_the_dimple_is_that_of_its_source():
+    """Mourier et al., Tribol. Int. 39 (2006) 1745: r0 = 15.5 um, 175 nm, in nodes 1 um apart."""
+    heights = Scene.from_toml("dimple_rolling").surface_2.heights
+    at = 1e-6 * (np.arange(40) - 19.5)
+    r = np.hypot(at[:, None], at[None, :]) / (1.2 * 15.5e-6)
+    exact = np.where(r < 1.0, -175e-9 * np.cos(0.5 * np.pi * r) * np.exp(-2.0 * r**2), 0.0)
+    assert heights.spacing == 1e-6
+    assert np.abs(heights.values - exact).max() <= 0.0051e-9
+
+
 def test_a_scene_file_and_the_shipped_name_give_the_same_scene(tmp_path: Path):
     shipped = Path(contact_core.__file__).parent / "data" / "scenes" / "mtm_zddp.toml"
     path = tmp_path / "mine.toml"

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from contact_core.scene import Scene
+from contact_core.scene import Scene, SelfAffine, Surface
 
 from ...variables import FIDELITY
 from . import drawings, measured
@@ -37,8 +37,8 @@ def data(scene: Scene) -> Iterator[str]:
         ("reduced modulus E′ = 2/[(1 − ν₁²)/E₁ + (1 − ν₂²)/E₂]", number(1e-9 * scene.solids.reduced_modulus, "GPa")),
         *(
             (
-                f"body {i}: rms roughness, correlation length; track length between two passes",
-                f"{number(1e9 * s.rq, 'nm')}, {number(1e6 * s.correlation_length, 'µm')}; {number(1e3 * track, 'mm')}",
+                f"body {i}: rms roughness{_given(s)}, correlation length; track length between two passes",
+                f"{number(1e9 * s.rms, 'nm')}, {number(1e6 * s.length, 'µm')}; {number(1e3 * track, 'mm')}",
             )
             for i, s, track in (
                 (1, scene.surface_1, bodies.track_length_1),
@@ -56,6 +56,11 @@ def data(scene: Scene) -> Iterator[str]:
     if scene.warnings():
         yield "<h3>Notes on this scene</h3>"
         yield from bullets(scene.warnings())
+
+
+def _given(surface: Surface | SelfAffine) -> str:
+    """Return that the roughness contains heights that were given, or an empty text."""
+    return f" with the heights of resources/{surface.heights.packed.file}" if surface.heights else ""
 
 
 def _face(scene: Scene) -> Iterator[tuple[str, str]]:
@@ -115,8 +120,8 @@ def _limits(scene: Scene) -> Iterator[tuple[str, str, str]]:
     yield from _smooth_film(scene)
     yield from LEVELS[scene.film.name].limits(scene)
     for i, surface in ((1, scene.surface_1), (2, scene.surface_2)):
-        if surface.rq > 0.0:
-            nodes = number(surface.correlation_length / scene.film.spacing)
+        if not surface.smooth:
+            nodes = number(surface.length / scene.film.spacing)
             yield f"nodes per correlation length, body {i}", nodes, "2 or more resolve the roughness; W_c depends on it"
     yield "tribofilm", _temperatures(scene), "bulk temperatures (oil or given bodies) for which its constants hold"
 
@@ -135,7 +140,7 @@ def _smooth_film(scene: Scene) -> Iterator[tuple[str, str, str]]:
     yield "flooded film of the smooth bodies", number(1e9 * smooth.film, "nm"), formula
     if supply.name != "flooded":
         yield "film with this oil supply", number(1e9 * film, "nm"), supply.source
-    sigma = math.hypot(scene.surface_1.rq, scene.surface_2.rq)
+    sigma = math.hypot(scene.surface_1.rms, scene.surface_2.rms)
     if sigma > 0.0:
         yield "λ: that film over composite roughness", number(film / sigma), "the smaller λ, the more load on solids"
 

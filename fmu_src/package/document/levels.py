@@ -66,13 +66,13 @@ def _fitted_ranges(scene: Scene) -> Iterator[Row]:
     """Yield the arguments of the fitted curves of load sharing and their fitted ranges."""
     film: Any = scene.film
     first, second = scene.surface_1, scene.surface_2
-    slope = rms_slope(first.rq, first.correlation_length, second.rq, second.correlation_length)
-    rougher = max(first, second, key=lambda surface: surface.rq)
+    slope = rms_slope(first.rms, first.length, second.rms, second.length)
+    rougher = max(first, second, key=lambda surface: surface.rms)
     pressure = scene.hertz(scene.operation.load).pressure_mean
     here = {
         "clearance": "see above",
         "flattening": number(flattening_of(pressure, scene.solids.reduced_modulus, slope)) if slope > 0.0 else "none",
-        "resolution": number(rougher.correlation_length / film.spacing),
+        "resolution": number(rougher.length / film.spacing),
     }
     symbols = {"clearance": "λ", "flattening": "s", "resolution": "r"}
     for name, (low, high) in film.sharing.FITTED.items():

@@ -139,7 +139,7 @@ class Record:
     @property
     def roughness(self) -> float:
         """Ra of the new flanks, averaged over both [m]."""
-        return _RA_OF_RQ * 0.5 * (self.scene.surface_1.rq + self.scene.surface_2.rq)
+        return _RA_OF_RQ * 0.5 * (self.scene.surface_1.rms + self.scene.surface_2.rms)
 
     def textbook(self, row: int) -> Textbook:
         """Return the formulas for torque, speed and oil temperature at a row in which the gears work."""
