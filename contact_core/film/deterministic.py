@@ -152,5 +152,6 @@ class Deterministic:
         from .routes import solve_film  # the kernels: loaded where a film is solved
 
         most = min(iterations or self.iterations, self.iterations)
-        settings = Settings(self.floor, self.tolerance, most, self.fft, self.criterion == "lumped", self.flux == "fitted")
+        fitted = self.flux == "fitted"
+        settings = Settings(self.floor, self.tolerance, most, self.fft, self.lumped, fitted)
         return solve_film(now, grid, settings, start, step)

@@ -79,7 +79,9 @@ class Carried:
 
     def __init__(self, problem: Problem) -> None:
         self.problem, shape = problem, problem.cap.shape
-        self.full, self.flux, self.filling = np.zeros(shape), np.zeros(shape), np.ones(shape)
+        self.full: Array = np.zeros(shape)
+        self.flux: Array = np.zeros(shape)
+        self.filling: Array = np.ones(shape)
         supply = np.inf if problem.supply is None else problem.supply
         self.supply: Array = np.broadcast_to(np.asarray(supply, np.float64), shape[:1]).copy()
         self.first = max(problem.first, 1)

@@ -7,7 +7,6 @@ accelerates it.
 """
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray

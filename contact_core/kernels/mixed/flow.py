@@ -5,8 +5,8 @@ Through the face between two nodes, h [l^2 / radius] along the cell between them
     F = wedge m_f - e_f (f_right - f_left) / dx,
     e_f = mobility rho <1 / eta> / I_3,   m_c = rho I_2 / I_3,
 
-<1 / eta> = (Phi(f_right) - Phi(f_left)) / (f_right - f_left), Phi the integral of the fluidity over pressure (Kirchhoff's
-transform), are exact for a flow that is constant within the cell, however much the gap and the viscosity change there.
+<1 / eta> = (Phi(f_right) - Phi(f_left)) / (f_right - f_left), Phi the integral of the fluidity over pressure
+(Kirchhoff's transform), are exact for a flow that is constant within the cell, however much the gap and the viscosity change there.
 Where the half space is stiff against the flow, the film is carried along as it is: m_u, of third order upstream,
 kept between the masses of both nodes. m_f = t m_c + (1 - t) m_u, t = s^2 / (1 + s^2), s = e_f / (compliance dx^2).
 
@@ -15,7 +15,8 @@ The gap within a cell along the flow is the cubic through four nodes; across the
 doi:10.1109/T-ED.1969.16566, for drift and diffusion; of m_u: Leonard, Comput. Methods Appl. Mech. Eng. 19 (1979) 59,
 doi:10.1016/0045-7825(79)90034-3.
 
-A face has the index of the node before it: ex[j, i], carried[j, i] lie between i and i + 1, ey[j, i] between j and j + 1.
+A face has the index of the node before it: ex[j, i], carried[j, i] lie between i and i + 1, ey[j, i] between j and
+j + 1.
 """
 
 import numpy as np
@@ -171,9 +172,10 @@ class Flow:
 
     def __init__(self, shape: tuple[int, int], floor: float, step: float, per_stiff: float, fitted: bool) -> None:
         self._scales, self.fitted = (floor, step, per_stiff), fitted
-        self.gap, self.rho, self.fluid, self.potential = (np.zeros(shape) for _ in range(4))
-        self.conductance, self.width, self.across = (np.zeros(shape) for _ in range(3))
-        self.ex, self.ey, self.share, self.carried = (np.zeros(shape) for _ in range(4))
+        scratch: list[Array] = [np.zeros(shape) for _ in range(11)]
+        self.gap, self.rho, self.fluid, self.potential = scratch[:4]
+        self.conductance, self.width, self.across = scratch[4:7]
+        self.ex, self.ey, self.share, self.carried = scratch[7:]
 
     @staticmethod
     def of(problem: Problem) -> "Flow":
@@ -182,7 +184,7 @@ class Flow:
         return Flow(problem.cap.shape, problem.floor, problem.step, per_stiff, problem.fitted)
 
     @property
-    def nodes(self) -> tuple[Array, ...]:
+    def nodes(self) -> tuple[Array, Array, Array, Array]:
         """Arguments of kernels: gap through which oil flows, density, fluidity, potential."""
         return self.gap, self.rho, self.fluid, self.potential
 

@@ -185,7 +185,8 @@ class _Film:
         flow.measure()
         self._carry(full)
         balance = (self.h, self.mass, q.mass_old, *flow.faces, flux, *q.terms, _SWEEPS_UNDER_CONTACTS)
-        if reynolds.fluid_under_contacts(p, f, solid, *balance, q.floor, *q.tables, full, *flow.nodes, first, q.wrapped):
+        inner = (q.floor, *q.tables, full, *flow.nodes, first, q.wrapped)
+        if reynolds.fluid_under_contacts(p, f, solid, *balance, *inner):
             self._carry(full)
         solid |= settled
 

@@ -155,9 +155,11 @@ class Level:
         missing = (self.target - self.load()) / self.dx**2
         inflow = np.zeros_like(self.p)
         relaxation.balance(self.p, *self.flow.through, self.dx, self.mirror, inflow)
-        by_p, by_h = self._by_colours(inflow, np.array([1.0, 0.0])), self._by_colours(inflow, np.array([0.0, 1.0]))
-        excess = inflow - self.f
-        coarsest.assemble(self.p, by_p, by_h, excess, self.edge, self.weight, missing, lift, self.mirror, jacobian, change)
+        with np.errstate(all="ignore"):  # a film that diverges shows by its pressure
+            by_p, by_h = self._by_colours(inflow, np.array([1.0, 0.0])), self._by_colours(inflow, np.array([0.0, 1.0]))
+            excess = inflow - self.f
+        derivatives = (by_p, by_h, excess, self.edge, self.weight, missing, lift, self.mirror)
+        coarsest.assemble(self.p, *derivatives, jacobian, change)
         if coarsest.solve_dense(jacobian, change) and np.isfinite(change).all():  # else finer levels do without
             part = min(1.0, _LARGEST_STEP / max(float(np.abs(change[:-1]).max()), 1e-300))
             coarsest.advance(self.p, change, part, self.mirror)
@@ -176,7 +178,8 @@ class Level:
             part[colour // coarsest.ALONG :: coarsest.ACROSS, colour % coarsest.ALONG :: coarsest.ALONG] = size
             self._through(self.p + of[0] * part, self.h + of[1] * part)
             relaxation.balance(self.p + of[0] * part, *self.flow.through, self.dx, self.mirror, out[colour])
-            out[colour] = (out[colour] - inflow) / size
+            out[colour] -= inflow
+            out[colour] *= 1.0 / size
         self._through(self.p, self.h)
         return out
 

@@ -66,7 +66,7 @@ def oil_pass(p, h, step, density, fluidity, potential, mass, soft, gap, rho, flu
             rho[j, i], fluid[j, i], driven[j, i] = properties(here, step, density, fluidity, potential)
             mass[j, i] = rho[j, i] * h[j, i]
             k = int(here / step)
-            rise = density[k + 1] - density[k] if 0.0 < here and k < last else 0.0
+            rise = density[k + 1] - density[k] if here > 0.0 and k < last else 0.0
             soft[j, i] = gap[j, i] * rise / step
 
 
