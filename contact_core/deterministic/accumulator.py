@@ -14,7 +14,7 @@ from .observed import instant_flags, observed
 
 Array = NDArray[np.float64]
 
-_MANY = 0.1  # share of unconverged solutions that raises a flag
+MANY = 0.1  # share of unconverged solutions that raises a flag
 
 
 @dataclass
@@ -48,7 +48,7 @@ class Accumulator:
     @property
     def all_flags(self) -> RangeFlag:
         """The instants' flags, and one if many of them are not converged."""
-        many = self.count > 0 and self.missed > _MANY * self.count
+        many = self.count > 0 and self.missed > MANY * self.count
         return self.flags | (RangeFlag.NOT_CONVERGED if many else RangeFlag(0))
 
     @property

@@ -5,12 +5,10 @@ from dataclasses import replace
 
 from ..scene import Case
 from ..state import ContactState, Outputs, RangeFlag
-from .accumulator import Accumulator
+from .accumulator import MANY, Accumulator
 from .block import finished
 from .sampling import settling_instants
 from .transient import follow, longest_instant
-
-_MANY_MISSED = 0.1  # share of unconverged solutions that raises a flag
 
 
 def is_following(case: Case, state: ContactState) -> bool:
@@ -45,5 +43,5 @@ def solve_following(case: Case, state: ContactState, dt: float) -> ContactState:
 def _with_misses(outputs: Outputs, before: float) -> Outputs:
     """Return outputs that still report earlier instants that missed the tolerance, each half as much as the next."""
     missed = 0.5 * (outputs.unconverged + before)
-    flag = RangeFlag.NOT_CONVERGED if missed > _MANY_MISSED else RangeFlag(0)
+    flag = RangeFlag.NOT_CONVERGED if missed > MANY else RangeFlag(0)
     return replace(outputs, unconverged=missed, range_flags=outputs.range_flags | flag)

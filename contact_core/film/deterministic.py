@@ -121,6 +121,11 @@ class Deterministic:
         """Distance between nodes [m]."""
         return self.domain / (self.points - 1)
 
+    @property
+    def lumped(self) -> bool:
+        """True if one pressure is that of oil and solids."""
+        return self.criterion == "lumped"
+
     def with_sharing(self, sharing: FittedSharing) -> "Deterministic":
         """Return itself: this level shares the load node by node."""
         return self
@@ -146,5 +151,5 @@ class Deterministic:
         from .routes import solve_film  # the kernels: loaded where a film is solved
 
         most = min(iterations or self.iterations, self.iterations)
-        settings = Settings(self.floor, self.tolerance, most, self.fft, self.criterion == "lumped")
+        settings = Settings(self.floor, self.tolerance, most, self.fft, self.lumped)
         return solve_film(now, grid, settings, start, step)

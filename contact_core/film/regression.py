@@ -24,6 +24,7 @@ class Regression:
     )
 
     on_grid: ClassVar[bool] = False
+    lumped: ClassVar[bool] = False  # solids and oil have pressures of their own
 
     friction: ClassVar[Equations] = Equations(
         (

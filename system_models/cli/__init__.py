@@ -9,6 +9,7 @@
     cosim       cosim: a system of FMUs
     scenes      the scene and duty that commands are given
     simulation  simulates a system with a checkpoint
+    progress    progress bar, how to continue an unfinished run
     console     notes, the folder of the results, --set
 
 Every module is light to import: what a command needs is loaded when it runs.

@@ -5,9 +5,7 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING
 
-from contact_core.errors import ContactError
-
-from .console import note, output_folder
+from .console import note, output_folder, refuse_empty
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,9 +29,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _changes(arguments: argparse.Namespace) -> dict[str, str]:
-    for option in ("hours", "grid", "duty", "out", "ssp"):
-        if getattr(arguments, option) == "":
-            raise ContactError(f"--{option} is empty. Give a value, or leave --{option} out.")
+    refuse_empty(arguments)
     changes = dict(arguments.settings)
     if arguments.hours:
         changes["simulate.stop_time"] = f"{arguments.hours} h"

@@ -5,10 +5,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from contact_core.errors import ContactError
 from contact_core.scene import Scene
 
-from .console import add_settings
+from .console import add_settings, refuse_empty
 
 if TYPE_CHECKING:
     from ..run.duty import Duty
@@ -38,9 +37,7 @@ def warn(scene: Scene) -> None:
 
 
 def _overrides(arguments: argparse.Namespace) -> dict[str, str]:
-    for option in ("hours", "grid", "duty", "out"):
-        if getattr(arguments, option, None) == "":
-            raise ContactError(f"--{option} is empty. Give a value, or leave --{option} out.")
+    refuse_empty(arguments)
     settings = dict(arguments.settings)
     if getattr(arguments, "hours", None):
         settings["operation.duration"] = f"{arguments.hours} h"

@@ -66,7 +66,8 @@ def test_the_inputs_have_the_units_that_all_others_follow_from():
 
 @pytest.mark.parametrize("quantity", REALS, ids=lambda q: q.name)
 def test_an_output_has_the_unit_of_what_defines_it(quantity: Quantity) -> None:
-    defined = DEFINED.get(quantity.name) or DEFINED[quantity.name[:-2]]
+    defined = DEFINED.get(quantity.name) or DEFINED.get(quantity.name[:-2])
+    assert defined, f"Add '{quantity.name}' to DEFINED."
     factor, (*exponents, radian) = units.unit(quantity.unit)
     assert (factor, radian) == (1.0, 0)
     assert {dimension(product) for product in defined} == {tuple(exponents)}

@@ -11,12 +11,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from contact_core import OperatingPoint, advance, initial_state
-from contact_core.laws.viscosity import AstmD341
-from contact_core.scene import Lubricant
+from contact_core.laws.viscosity import kinematic_viscosity
 
 from ...parts.part import indexed
-from ...parts.thermal import ThermalNetwork
 from ..assembly import Assembly
+from ..report import heat_stored
 from .equilibrium import RingLoads, solve
 from .geometry import RACES, RaceName
 from .part import BallBearing, contact_name
@@ -26,7 +25,6 @@ Array = NDArray[np.float64]
 Parts = dict[str, Array]  # friction torque [N m] by cause, arrays [time], NaN at standstill
 Formula = Callable[[CatalogueBearing, float, float, float, float], Torque]  # radial, axial, speed, viscosity
 
-DENSITY = 870.0  # kg/m3, assumed of oils whose viscosity law has none
 CAPPED = 1e3  # film ratios from here on say nothing
 FEWEST = 0.02  # balls: a class of fewer stands for none
 _HARDLY = 0.02  # of the largest load or speed
@@ -166,7 +164,7 @@ class BearingRun:
     def kinematic_viscosity(self) -> Array:
         """Kinematic viscosity of the oil [m2/s]."""
         oil = next(iter(self.assembly.contacts.values())).scene.lubricant
-        return kinematic_viscosity(oil, self.of("housing.temperature_oil"))
+        return np.asarray(kinematic_viscosity(oil.viscosity, self.of("housing.temperature_oil")))
 
     @cached_property
     def skf(self) -> Parts:
@@ -271,22 +269,9 @@ class BearingRun:
     @property
     def heat_stored(self) -> float:
         """Heat that the housing's nodes hold more than at the start [J]."""
-        housing = self.assembly.parts["housing"]
-        assert isinstance(housing, ThermalNetwork)
-        return sum(
-            node.heat_capacity * float(self.of(f"housing.temperature_{node.name}")[-1] - node.temperature)
-            for node in housing.nodes
-        )
+        return heat_stored(self.assembly, self.dataset, "housing")
 
     @property
     def heat_in(self) -> float:
         """Heat that friction has made since the start [J], by the trapezoidal rule."""
         return float(np.trapezoid(self.of("bearing.power_loss"), self.time))
-
-
-def kinematic_viscosity(oil: Lubricant, temperature: Array) -> Array:
-    """Return the kinematic viscosity [m2/s] of an oil at p = 0 and temperatures [K]."""
-    law, density = oil.viscosity, np.full_like(temperature, DENSITY)
-    if isinstance(law, AstmD341):
-        density = law.density * (1.0 - law.expansion * (temperature - 288.15))
-    return np.asarray(law(0.0, temperature)) / density

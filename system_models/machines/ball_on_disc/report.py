@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ...run.cosim_report import aligned
 from ..assembly import Assembly
+from ..report import heat_stored
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -176,10 +177,7 @@ def _energy(assembly: Assembly, dataset: xr.Dataset) -> Iterator[str]:
     heaters = [str(name) for name in dataset.data_vars if str(name).startswith("bath.heater_energy_")]
     heating = sum(float(dataset[name].values[-1]) for name in heaters)
     lost = float(dataset["bath.energy_to_ambient"].values[-1])
-    stored = sum(
-        node.heat_capacity * float(np.diff(dataset[f"bath.temperature_{node.name}"].values[[0, -1]])[0])
-        for node in assembly.parts["bath"].nodes  # type: ignore[attr-defined]
-    )
+    stored = heat_stored(assembly, dataset, "bath")
     missing = friction + heating - lost - stored
     yield (
         f"Energy of the bath: {friction / 1e3:.3f} kJ from friction and {heating / 1e3:.3f} kJ from heaters, "
