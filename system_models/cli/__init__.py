@@ -4,6 +4,7 @@
     listing     list: what is shipped
     run         run: a contact or a machine through its duty; contact: one contact; machine: a machine
     stribeck    stribeck: Stribeck curves
+    build       build: the FMU of a scene
     check       check: verdicts on an FMU
     cosim       cosim: a system of FMUs
     scenes      the scene and duty that commands are given

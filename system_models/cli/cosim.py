@@ -29,13 +29,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--resume",
         action="store_true",
         help="continue from the checkpoint that a killed, interrupted or failed simulation has left in DIR, to the "
-        "same result, bit for bit; start from the beginning if there is none (without --resume always, and replace it)",
+        "same result, bit for bit; start from the beginning if there is none. Without --resume a simulation starts "
+        "from the beginning and replaces the checkpoint.",
     )
     instead.add_argument("--ssp", metavar="FILE.ssp", help="export the system as SSP 1.0, do not simulate it")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Carry out the command; return 0, or 1 if some steps have missed a tolerance.
+    """Carry out the command; return 0, or 1 if some steps have not converged or are less accurate than asked.
 
     Raises ContactError with a sentence if it cannot be done.
     """
