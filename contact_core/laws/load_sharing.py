@@ -134,13 +134,13 @@ class FittedSharing:
     area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.84)
     area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.812)
     film_dry: float = parameter(
-        "", "G, central film thickness of the dry contact / roughness", least=0.0, most=10.0, default=0.322
+        "", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.322
     )
     film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=0.352)
     film_mixed: float = parameter(
-        "", "F, mean gap that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.649
+        "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.649
     )
-    film_factor: float = parameter("", "E, mean gap / film of smooth bodies", above=0.0, most=10.0, default=0.876)
+    film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.876)
     film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=2.86)
     oil_pressure_excess: float = parameter(
         "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=1.85
@@ -269,13 +269,13 @@ class LineSharing(FittedSharing):
     area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.9)
     area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.939)
     film_dry: float = parameter(
-        "", "G, central film thickness of the dry contact / roughness", least=0.0, most=10.0, default=0.584
+        "", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.584
     )
     film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=1.03)
     film_mixed: float = parameter(
-        "", "F, mean gap that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.747
+        "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.747
     )
-    film_factor: float = parameter("", "E, mean gap / film of smooth bodies", above=0.0, most=10.0, default=0.961)
+    film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.961)
     film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=1.72)
     oil_pressure_excess: float = parameter(
         "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=5.39

@@ -71,7 +71,7 @@ def _report(dataset: "xr.Dataset", folder: Path) -> int:
 
     print(cosim_report.table(dataset), "", cosim_report.costs(dataset), "", sep="\n")
     print(*cosim_report.closing_lines(dataset), sep="\n")
-    code = 1 if cosim_report.missed_steps(dataset) else 0
+    code = 1 if cosim_report.unreliable_steps(dataset) else 0
     dataset = dataset.assign_attrs({EXIT_CODE: code})
     written = [*results.write(dataset, folder), cosim_report.write_overview(dataset, folder / "overview.png")]
     print(f"Written: {', '.join(map(str, written))}")

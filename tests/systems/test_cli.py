@@ -64,7 +64,7 @@ def test_a_run_prints_a_table_and_writes_three_files(
         assert dataset.attrs["scene"] == "mtm_zddp"
 
 
-def test_a_run_of_the_fast_level_says_what_it_knows(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_a_run_of_the_regression_level_says_what_it_knows(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main(["run", "azam_case_a", "--set", "film.model=regression", "--hours", "2", "--out", str(tmp_path)]) == 0
     out = capsys.readouterr().out
     assert "Load cycles: 28 361 of body 1, 7 419 of body 2." in out
