@@ -61,7 +61,7 @@ def load_zone(run: BearingRun) -> "Figure":
     places = [figure.add_subplot(2, 2, k, projection="polar") for k in range(1, 5)]
     _loads_around(places[0], run)
     _passages(places[1], run, "pressure", 1e-9, "Hertz's largest pressure [GPa]")
-    _balls_around(places[2], run, "h_c", _NM, "central film thickness $h_c$ [nm]")
+    _balls_around(places[2], run, "h_c", _NM, "central film\nthickness $h_c$ [nm]")
     _balls_around(places[3], run, "lambda_ratio", 1.0, r"lambda ratio $\lambda$")
     return figure
 
@@ -133,7 +133,7 @@ def _films_around(axes: "Axes", run: BearingRun) -> None:
         gap = _NM * run.at_load(race, "h_c", run.last, way.load)
         axes.plot(way.azimuth * _DEGREES, gap, color=_RACE_COLOURS[race], label=f"{race} race")
     axes.set(xlabel="azimuth from the load [deg]", xticks=range(-180, 181, 90))
-    axes.set_ylabel("central film thickness $h_c$ [nm]")
+    axes.set_ylabel("central film\nthickness $h_c$ [nm]")
     axes.set_ylim(bottom=0.0)
     _plain(axes)
 

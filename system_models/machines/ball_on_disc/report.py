@@ -49,7 +49,7 @@ def _bodies(name: str) -> tuple[_Line, _Line]:
 _PANELS: tuple[tuple[str, float, tuple[_Line, ...]], ...] = (
     ("friction coefficient", 1.0, (("contact.friction_coefficient", "", _BLACK),)),
     ("mean tribofilm [nm]", 1e9, _bodies("tribofilm")),
-    ("central film thickness $h_c$ [nm]", 1e9, (("contact.h_c", "", _BLACK),)),
+    ("central film\nthickness $h_c$ [nm]", 1e9, (("contact.h_c", "", _BLACK),)),
     ("mean wear depth [nm]", 1e9, _bodies("wear_depth")),
     (r"lambda ratio $\lambda$", 1.0, (("contact.lambda_ratio", "", _BLACK),)),
     ("roughness Rq [nm]", 1e9, _bodies("roughness")),

@@ -38,7 +38,7 @@ def overview(record: Record) -> "Figure":
         ("radius of the cam [mm]", [(of("radius_x", _MM), "", _BLACK)]),
         ("speed relative to the contact [m/s]", [*speeds, (mean, "entrainment", _GREEN)]),
         ("Hertz's pressure [MPa]", [(1e-6 * record.pressures(row), "", _BLACK)]),
-        ("central film thickness $h_c$ [nm]", [(of("h_c", _NM), "", _BLACK)]),
+        ("central film\nthickness $h_c$ [nm]", [(of("h_c", _NM), "", _BLACK)]),
         (r"lambda ratio $\lambda$", [(of("lambda_ratio"), "", _BLACK)]),
         ("coefficient of friction", [(of("friction_coefficient"), "", _BLACK)]),
         ("loss while there [W]", [(of("power_loss"), "", _BLACK)]),
