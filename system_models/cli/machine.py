@@ -77,7 +77,7 @@ def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str
 
     print(assembly.description, "", *KINDS[kind].lines(assembly, dataset), "", sep="\n")
     print(*machine_report.lines(assembly, dataset), "", *cosim_report.closing_lines(dataset), "", sep="\n")
-    code = 1 if cosim_report.missed_steps(dataset) or machine_report.invalid_rows(assembly, dataset) else 0
+    code = 1 if cosim_report.unreliable_steps(dataset) or machine_report.invalid_rows(assembly, dataset) else 0
     written = results.write(dataset.assign_attrs({EXIT_CODE: code}), folder)
     print(f"Written: {', '.join(map(str, [*written, *KINDS[kind].pictures(assembly, dataset, folder)]))}", flush=True)
     return code

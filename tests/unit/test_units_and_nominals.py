@@ -97,7 +97,7 @@ def run(scene: Scene, steps: int = 2) -> Iterator[Outputs]:
 
 @pytest.fixture(scope="module")
 def largest() -> dict[str, float]:
-    """The largest magnitude of each output over runs of shipped scenes, at the fast level and on a coarse grid."""
+    """The largest magnitude of each output over shipped scenes, at the regression level and on a coarse grid."""
     scenes = [Scene.from_toml(name).at_level("regression") for name in ("azam_case_a", "mtm_zddp", "fzg_flank")]
     found = [row for scene in (*scenes, Scene.from_toml("mtm_zddp", COARSE)) for row in run(scene)]
     return {q.name: max(abs(getattr(row, q.name)) for row in found) for q in REALS if q.name not in OF_CALLER}

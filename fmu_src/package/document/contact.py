@@ -142,7 +142,7 @@ def _smooth_film(scene: Scene) -> Iterator[tuple[str, str, str]]:
         yield "film with this oil supply", number(1e9 * film, "nm"), supply.source
     sigma = math.hypot(scene.surface_1.rms, scene.surface_2.rms)
     if sigma > 0.0:
-        yield "λ: that film over composite roughness", number(film / sigma), "the smaller λ, the more load on solids"
+        yield "Z: that film over composite roughness", number(film / sigma), "the smaller Z, the more load on solids"
 
 
 def _temperatures(scene: Scene) -> str:

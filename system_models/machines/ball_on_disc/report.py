@@ -50,9 +50,9 @@ def _bodies(name: str) -> tuple[_Line, _Line]:
 _PANELS: tuple[tuple[str, float, tuple[_Line, ...]], ...] = (
     ("friction coefficient", 1.0, (("contact.friction_coefficient", "", _BLACK),)),
     ("mean tribofilm [nm]", 1e9, _bodies("tribofilm")),
-    ("mean gap $h_c$ [nm]", 1e9, (("contact.h_c", "", _BLACK),)),
+    ("central film\nthickness $h_c$ [nm]", 1e9, (("contact.h_c", "", _BLACK),)),
     ("mean wear depth [nm]", 1e9, _bodies("wear_depth")),
-    (r"film ratio $\lambda$", 1.0, (("contact.lambda_ratio", "", _BLACK),)),
+    (r"lambda ratio $\lambda$", 1.0, (("contact.lambda_ratio", "", _BLACK),)),
     ("roughness Rq [nm]", 1e9, _bodies("roughness")),
 )
 
@@ -272,11 +272,14 @@ def _finish(axis: "Axes", dataset: xr.Dataset, found: list[Sweep]) -> None:
 
 
 def _draw_curves(axes: "list[Axes]", dataset: xr.Dataset, found: list[Sweep]) -> None:
-    """Draw friction and film ratio over speed, by rubbing time."""
+    """Draw friction and lambda ratio over speed, by rubbing time."""
     from matplotlib import colormaps
 
     colours = colormaps["viridis"](np.linspace(0.0, 0.9, len(found)))
-    rows = (("contact.friction_coefficient", "friction coefficient"), ("contact.lambda_ratio", r"film ratio $\lambda$"))
+    rows = (
+        ("contact.friction_coefficient", "friction coefficient"),
+        ("contact.lambda_ratio", r"lambda ratio $\lambda$"),
+    )
     for axis, (name, label) in zip(axes, rows, strict=True):
         for sweep, colour in zip(found, colours, strict=True):
             speeds, values = [hold.entrainment_speed for hold in sweep.holds], dataset[name].values[list(sweep.rows)]
