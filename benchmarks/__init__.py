@@ -10,7 +10,7 @@ thesis      the shipped cases against the thesis that they are from
 machines    ball bearings, gear pairs, the test rig
 coupling    the co-simulation master, other masters and importers
 fmu         cost of a step, memory, lost processes
-house       faults put into the code, figures of the README
+house       faults put into the code, numbers of two revisions (`golden.py`), arguments, figures of the README
 models      small FMUs with exact solutions, for benchmarks and tests
 hosts       programs that load FMUs, and importers of SSP, for benchmarks and tests
 

@@ -20,8 +20,8 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     errors           what can go wrong, each message with a way out
     data/            named oils, solids and tribofilms, and the shipped scenes
 
-Imports run one way: kernels, reference <- laws <- shapes <- film <- scene <- state <- surfaces <- deterministic,
-regression <- advance. The two levels do not import each other.
+Imports run one way: errors, quantities, reference <- kernels <- laws <- shapes <- film <- scene <- state, calls <-
+surfaces <- deterministic, regression <- advance. The two levels do not import each other.
 Everything inside is SI; heights are metres above a body's mean plane, positive toward the other body; arrays are
 [ny, nx], x along entrainment.
 """

@@ -15,7 +15,7 @@ Kind = Literal["Real", "Integer", "Boolean"]
 # surfaces have it, and its change per block gives the error of time steps; rate: so has its rate of change
 Trend = Literal["", "level", "slope", "rate"]
 
-LEVELS = ("regression", "deterministic")  # film models by rising fidelity: 1, 2
+LEVELS = ("regression", "deterministic")  # fidelity levels by rising number: 1, 2
 
 # What is measured in a unit, in the words of the Modelica standard library, where nothing else is said
 _MEASURED_IN = {
@@ -65,7 +65,7 @@ class Quantity:
     display: str = ""  # the unit people read, convertible to `unit`
     kind: Kind = "Real"
     relative: bool = False  # a temperature difference, not a temperature
-    levels: tuple[str, ...] = LEVELS  # fidelity levels that have it; others leave it zero
+    levels: tuple[str, ...] = LEVELS  # fidelity levels that have it; others keep its last value, or zero
     trend: Trend = ""  # how the deterministic level follows it from block to block, see `Trend`
 
     @property
@@ -112,7 +112,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     *_pair("wear_rate", "dV/dt", "m3/s", "wear volume of the step divided by the step; at a step of 0 the rate now", nominal=1e-17, minimum=0.0, display="um3/s"),
     *_pair("wear_volume", "V", "m3", "wear volume of the whole track", nominal=1e-14, minimum=0.0, display="um3"),
     *_pair("wear_depth", "w", "m", "mean wear depth over the track |y| < b", nominal=1e-8, minimum=0.0, display="nm", trend="rate"),
-    Quantity("h_c", "h_c", "m", "mean gap over the inner 2/3 of Hertz's contact: r < 2a/3, or such an ellipse or strip", nominal=1e-8, minimum=0.0, display="nm", trend="level"),
+    Quantity("h_c", "h_c", "m", "central film thickness: mean gap over the inner 2/3 of Hertz's contact, r < 2a/3, or such an ellipse or strip", nominal=1e-8, minimum=0.0, display="nm", trend="level"),
     Quantity("h_central", "h_central", "m", "gap at the centre of the contact: one node, of a rough contact no film thickness", nominal=1e-8, minimum=0.0, display="nm", trend="level"),
     Quantity("h_min", "h_min", "m", "smallest gap", nominal=1e-9, minimum=0.0, display="nm", levels=_FIELDS, trend="level"),
     Quantity("lambda_ratio", "lambda", "1", "h_c / composite rms roughness over the same area, at most 1000; of rough, deformed bodies: not the lambda of handbooks", minimum=0.0, trend="level"),

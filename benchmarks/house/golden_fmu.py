@@ -16,7 +16,7 @@ from golden_record import Record
 
 SCENES = {
     "mtm_zddp": ("mtm_zddp", SMALL),
-    "fast level": ("mtm_zddp", SMALL | {"film.model": "regression"}),
+    "regression level": ("mtm_zddp", SMALL | {"film.model": "regression"}),
     "line": ("fzg_flank", LINE),
     "ellipse with field of heat": ("mtm_zddp", ELLIPSE | {"heat.model": "field", "heat.bulk.model": "inputs"}),
 }

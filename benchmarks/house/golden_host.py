@@ -103,7 +103,7 @@ def script(host: Host) -> None:
     host.record.put("replays", replays)
     host.fmu.freeFMUstate(state)
     host.set("fidelity", 1)
-    host.step(0, "at the fast level")
+    host.step(0, "at the regression level")
     host.set("fidelity", 2)
     host.step(1, "at the deterministic level")
     try:

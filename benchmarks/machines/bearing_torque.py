@@ -6,16 +6,15 @@ python -m benchmarks.machines.bearing_torque
 import math
 from dataclasses import replace
 
-import numpy as np
 from matplotlib.figure import Figure
 
 from benchmarks.pages import Page
 from contact_core import OperatingPoint, advance, initial_state
+from contact_core.laws.viscosity import kinematic_viscosity
 from system_models.machines import reading
 from system_models.machines.ball_bearing.equilibrium import RingLoads
 from system_models.machines.ball_bearing.geometry import RACES
 from system_models.machines.ball_bearing.part import BallBearing
-from system_models.machines.ball_bearing.record import kinematic_viscosity
 from system_models.machines.ball_bearing.textbook import CATALOGUE_209, palmgren_torque, skf_torque
 
 RPM = math.pi / 30.0
@@ -87,7 +86,7 @@ def over_speed(report: Page) -> dict:  # type: ignore[type-arg]
     )  # fmt: skip
     found, ratios = {}, []
     for load, celsius in CASES:
-        viscosity = float(kinematic_viscosity(scene.lubricant, np.array([celsius + 273.15]))[0])
+        viscosity = float(kinematic_viscosity(scene.lubricant.viscosity, celsius + 273.15))
         rows = []
         for rpm in SPEEDS:
             own, *_ = solved(bearing, scene, load, celsius, rpm)
@@ -126,7 +125,7 @@ def explained(report: Page) -> None:
         "sliding [N mm]", "SKF sliding [N mm]", "rolling [N mm]", "of idle balls [N mm]",
     )  # fmt: skip
     load, celsius = CASES[1]
-    viscosity = float(kinematic_viscosity(scene.lubricant, np.array([celsius + 273.15]))[0])
+    viscosity = float(kinematic_viscosity(scene.lubricant.viscosity, celsius + 273.15))
     for rpm in SPEEDS[::2]:
         own, out, idle = solved(bearing, scene, load, celsius, rpm)
         skf, _ = textbooks(load, celsius, rpm, viscosity)

@@ -32,7 +32,7 @@ CONTACT = "contact"
 # variable, what it is called, factor and unit for people, error output that covers it
 SHOWN = (
     ("friction_coefficient", "friction coefficient", 1.0, "", "error_friction"),
-    ("h_c", "mean gap", 1e9, "nm", "error_film"),
+    ("h_c", "central film thickness", 1e9, "nm", "error_film"),
     ("tribofilm_1", "tribofilm, ball", 1e9, "nm", ""),
     ("tribofilm_2", "tribofilm, disc", 1e9, "nm", ""),
     ("wear_depth_1", "wear depth, ball", 1e9, "nm", "error_wear"),
@@ -183,7 +183,7 @@ def figure(fast: xr.Dataset, deep: xr.Dataset) -> Figure:
             for axis, name in ((axes[-2], "friction_coefficient"), (axes[-1], "h_c")):
                 values = run[f"{CONTACT}.{name}"].values[rows] * (1.0 if name != "h_c" else 1e9)
                 axis.semilogx(speeds, values, style, color=COLOURS[level], markersize=3.5, linewidth=1.1, label=label)
-    for axis, text in zip(axes[-2:], ("friction in sweeps", "mean gap in sweeps [nm]"), strict=True):
+    for axis, text in zip(axes[-2:], ("friction in sweeps", "h_c in sweeps [nm]"), strict=True):
         axis.set(xlabel="entrainment speed [m/s]", ylabel=text, ylim=(0.0, None))
     axes[0].legend(frameon=False, fontsize="small")
     axes[-2].legend(frameon=False, fontsize="x-small")

@@ -29,6 +29,7 @@ MACHINES = {
     "bearing_218": ("", 4),
     "gear_fzg_c": ("32 min", 8),
     "gear_fzg_a": ("32 min", 8),
+    "cam_follower": ("", 4),
 }
 MOST = 5  # outputs of each that are shown
 SMALL = 1e-3  # of the largest value: changes that nobody sees

@@ -3,7 +3,7 @@
     python -m benchmarks.regression.truths    # 20 min
 
 Random contacts that no curve was fitted to (the seed `check` of regression_shapes.py): within the fit, beyond it, and
-rubbed for ten minutes. Writes tests/golden/fast_level.json; what stands there is kept.
+rubbed for ten minutes. Writes tests/golden/regression_level.json; what stands there is kept.
 """
 
 import json
@@ -16,7 +16,7 @@ from benchmarks.regression.shapes_points import CHECK, MINUTES, RUBBED, RUNS, Sh
 from contact_core import Scene, advance, initial_state
 from contact_core.surfaces.track_means import means_of
 
-GOLDEN = ROOT / "tests" / "golden" / "fast_level.json"
+GOLDEN = ROOT / "tests" / "golden" / "regression_level.json"
 COUNT = 16  # of each shape
 HEAVIEST = {"line": 1500.0, "circle": 75.0}  # N: others take long
 BEYOND = {"film.points": "65"}  # roughness on half as many nodes as in the fit

@@ -331,7 +331,7 @@ def memory() -> list[str]:
                 sample_mixed(Case(scene, op), state, still, True, jumping=False)
                 for name, sweep in (("march", march), ("march without jumps", still), ("steady", steady)):
                     m = sweep.means()
-                    rows.append([case, f"{scene.surface_2.correlation_length * 1e6:.0f} um", f"{minutes}", name, f"{sweep.missed} of {sweep.count}",
+                    rows.append([case, f"{scene.surface_2.correlation_length * 1e6:.0f} um", f"{minutes}", name, f"{sweep.unconverged} of {sweep.count}",
                                  *(f"{m[n]:.3f}" for n in ("contact_load_ratio", "contact_area_ratio")), f"{m['h_c'] * 1e9:.1f}", f"{abs(m['friction_force']) / op.load:.4f}", *(f"{touched(scene, sweep, i):.2f}" for i in (0, 1))])  # fmt: skip
     return [
         "One block, the same surfaces: a march of the moving roughness over one pass, and 8 steady films at offsets of low discrepancy.",

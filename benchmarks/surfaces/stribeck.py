@@ -175,7 +175,7 @@ def page(all_curves: dict[tuple[str, str], xr.Dataset], options: str) -> list[st
         "## Shift and roughness",
         "",
         "n: of transition speed ~ roughness^n, fitted to the curves of one contact; m: of h_c ~ speed^m at the transition of "
-        "the fresh surfaces, 0.67 only where no solids hold the gap open. If W_c depended on the film ratio alone, n would be "
+        "the fresh surfaces, 0.67 only where no solids hold the gap open. If W_c depended on the lambda ratio alone, n would be "
         "1/m and lambda at the transition the same in all rows of the tables below; where it is higher, the shape of the tribofilm also holds the surfaces apart.",
         "",
         "| scene | tribofilm | n | m | 1/m | CPU s |",

@@ -66,7 +66,7 @@ def dry_contact(
     The gap at (x, y) from the centre of the array is x^2 / (2 radius) + y^2 / (2 radius_y) - heights + deformation -
     approach.
 
-    Without rms height, complementarity is in terms of the approach. A tolerance that was missed is reported by
+    Without rms height, complementarity is in terms of the approach. A solution that has not converged is reported by
     `converged`.
 
     Parameters

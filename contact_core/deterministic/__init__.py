@@ -2,18 +2,18 @@
 
     instant            `solve`: one instant of a scene in a state, and its fields
     friction           shear of solids and oil, forces, power, derivatives at a held film
-    oil_temperature    what heat and shear make of the oil, and how it then flows
+    oil_temperature    temperature of the oil by heat and shear, and its flow at that temperature
     observed           outputs and range flags of one instant
-    transient          consecutive instants: a film that remembers, begins or opens
-    march              `march`, `run_cycle`: inputs that change within a run
+    transient          consecutive instants: a film that depends on the one before, begins or opens
+    march              `march`, `run_cycle`: consecutive instants while inputs change within a run
     accumulator        sums over the instants of a block
-    sampling           at which instants a block is solved
+    sampling           choice of the instants at which a block is solved
     growth_and_wear    exposure, tribofilm and wear of one body
-    block              one block: due when, driven by what, followed by what
+    block              one block: when it is due, which contacts drive it
     changing_inputs    instants in place of blocks while inputs change
-    outputs            outputs of a step, and how sure they are
-    evolution          `advance`: blocks and what continues between them
-    warming            what a process loads before its first step
+    outputs            outputs of a step and their errors
+    evolution          `advance`: the sequence of blocks, and evolution between them
+    warming            loads compiled kernels before the first step of a process
 
 Imports run from the bottom of this list to its top.
 """

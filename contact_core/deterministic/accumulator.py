@@ -14,7 +14,7 @@ from .observed import instant_flags, observed
 
 Array = NDArray[np.float64]
 
-_MANY = 0.1  # share of unconverged solutions that raises a flag
+MANY = 0.1  # share of unconverged solutions that raises a flag
 
 
 @dataclass
@@ -27,7 +27,7 @@ class Accumulator:
     outputs: list[dict[str, float]] = field(default_factory=list)
     iterations: int = 0
     mixed: int = 0
-    missed: int = 0  # solutions that stayed short of the tolerance
+    unconverged: int = 0  # solutions that have not converged
     fallbacks: int = 0
     flags: RangeFlag = field(default_factory=lambda: RangeFlag(0))
     sheared: Film | None = None  # the last instant's
@@ -48,7 +48,7 @@ class Accumulator:
     @property
     def all_flags(self) -> RangeFlag:
         """The instants' flags, and one if many of them are not converged."""
-        many = self.count > 0 and self.missed > _MANY * self.count
+        many = self.count > 0 and self.unconverged > MANY * self.count
         return self.flags | (RangeFlag.NOT_CONVERGED if many else RangeFlag(0))
 
     @property
@@ -88,7 +88,7 @@ class Accumulator:
         self.sheared = fields.sheared
         self.iterations += fields.iterations
         self.mixed += fields.route == "mixed"
-        self.missed += not fields.converged
+        self.unconverged += not fields.converged
         self.fallbacks += fields.route == "fallback"
         self.flags |= instant_flags(case, fields)
 

@@ -1,9 +1,9 @@
 """One block: an interval over which one set of contact solutions holds, because the geometry changes only a little.
 
 `control.driver` says which solutions drive tribofilm and wear: mixed ones, dry ones or, for "auto", by the share of the
-load on the solids. Where the solids carry more than `control.dry_above` of the load, a dry
-contact replaces the mixed one: its solids carry the same share, under oil that carries the rest like smooth bodies. A
-mixed march measures that share anew every few blocks. `sampling` has the instants of both.
+load on the solids. Where the solids carry more than `control.dry_above` of the load, a dry contact replaces the mixed
+one: its solids carry the same share, under oil that carries the rest like smooth bodies. A mixed march measures that
+share anew every few blocks. `sampling` has the instants of both.
 """
 
 import math
@@ -111,7 +111,7 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
         friction_coefficient=abs(smooth["friction_force"]) / case.op.load if case.loaded else 0.0,
         range_flags=int(sums.flags),
         iterations=sums.iterations,
-        unconverged=sums.missed / sums.count,
+        unconverged=sums.unconverged / sums.count,
     )
     left = max(state.dry_blocks_left - 1, 0) if driver == "dry" else 0
     state = replace(

@@ -5,16 +5,14 @@ from dataclasses import replace
 
 from ..scene import Case
 from ..state import ContactState, Outputs, RangeFlag
-from .accumulator import Accumulator
+from .accumulator import MANY, Accumulator
 from .block import finished
 from .sampling import settling_instants
 from .transient import follow, longest_instant
 
-_MANY_MISSED = 0.1  # share of unconverged solutions that raises a flag
 
-
-def is_following(case: Case, state: ContactState) -> bool:
-    """Return True if the film follows inputs that change."""
+def inputs_change(case: Case, state: ContactState) -> bool:
+    """Return True if the inputs change and the film is to follow them."""
     control = case.scene.control
     asked = control.inputs == "transient" and control.driver != "dry" and case.loaded
     if not asked or state.solved_for is None:
@@ -22,7 +20,7 @@ def is_following(case: Case, state: ContactState) -> bool:
     return state.settling > 0.0 or case.differs_from(state.solved_for)
 
 
-def solve_following(case: Case, state: ContactState, dt: float) -> ContactState:
+def solve_instant_of_change(case: Case, state: ContactState, dt: float) -> ContactState:
     """Solve the contact `dt` [s] later, the bodies moved on. Return the state with exposures and outputs."""
     since = state.solved_for
     if since is None or case.differs_from(since):
@@ -36,14 +34,14 @@ def solve_following(case: Case, state: ContactState, dt: float) -> ContactState:
     sums.add(case, state, fields, passes)
     before = state.outputs.unconverged
     state = finished(case, replace(state, trends=state.trends.restarted()), sums, blocks=0)
-    state = replace(state, outputs=_with_misses(state.outputs, before))
+    state = replace(state, outputs=_with_earlier_unconverged(state.outputs, before))
     left = max(state.settling - dt, 0.0)
     hold = dt + min(longest_instant(case), left)
     return replace(state, solved_for=since, settling=left, hold=hold)
 
 
-def _with_misses(outputs: Outputs, before: float) -> Outputs:
-    """Return outputs that still report earlier instants that missed the tolerance, each half as much as the next."""
-    missed = 0.5 * (outputs.unconverged + before)
-    flag = RangeFlag.NOT_CONVERGED if missed > _MANY_MISSED else RangeFlag(0)
-    return replace(outputs, unconverged=missed, range_flags=outputs.range_flags | flag)
+def _with_earlier_unconverged(outputs: Outputs, before: float) -> Outputs:
+    """Return outputs that still report earlier instants that have not converged, each half as much as the next."""
+    unconverged = 0.5 * (outputs.unconverged + before)
+    flag = RangeFlag.NOT_CONVERGED if unconverged > MANY else RangeFlag(0)
+    return replace(outputs, unconverged=unconverged, range_flags=outputs.range_flags | flag)

@@ -14,7 +14,7 @@ from ..state.bulk_temperature import NO_TIME, cool_time, temperatures_after
 from ..surfaces.patches import track_rows
 from ..surfaces.track_means import folded
 from .block import is_due, solve_block
-from .changing_inputs import is_following, solve_following
+from .changing_inputs import inputs_change, solve_instant_of_change
 from .growth_and_wear import evolved, wear_volume_rate
 from .outputs import outputs_of
 from .transient import longest_instant
@@ -30,14 +30,14 @@ def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, O
     left = dt
     while True:
         case = case.warmed(state.temperatures)
-        following = is_following(case, state)
-        if not following and is_due(case, state):
+        changing = inputs_change(case, state)
+        if not changing and is_due(case, state):
             state = solve_block(case, state)
         if left <= 0.0:
             break
-        if following:
+        if changing:
             step, change = min(left, longest_instant(case)), 0.0
-            state = solve_following(case, state, step)
+            state = solve_instant_of_change(case, state, step)
         else:
             step, change = _longest_step(case, state, left)
         left -= step

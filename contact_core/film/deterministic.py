@@ -127,6 +127,11 @@ class Deterministic:
         """Distance between nodes [m]."""
         return self.domain / (self.points - 1)
 
+    @property
+    def lumped(self) -> bool:
+        """True if one pressure is that of oil and solids."""
+        return self.criterion == "lumped"
+
     def with_sharing(self, sharing: FittedSharing) -> "Deterministic":
         """Return itself: this level shares the load node by node."""
         return self

@@ -24,13 +24,14 @@ class Regression:
     )
 
     on_grid: ClassVar[bool] = False
+    lumped: ClassVar[bool] = False  # solids and oil have pressures of their own
 
     friction: ClassVar[Equations] = Equations(
         (
             "F = −(μ W_c W + ⟨τ_{oil}⟩ A_{oil}) (u_1 − u_2)/|u_1 − u_2|",
             "τ_N = η(p, T) |u_1 − u_2|/h_c",
             "A_{oil} = (1 − W_c) A_H/k,   p = k p_H",
-            "k = [1 + K z exp(−d λ z^q)] [(1 + S h_s R_x/a^2) (1 + S h_s R_y/b^2)]^{−1/2},   z = 0.2/s",
+            "k = [1 + (K/t) exp(−d Z t^{−q})] [(1 + S h_s R_x/a^2) (1 + S h_s R_y/b^2)]^{−1/2},   t = s/0.2",
         ),
         "⟨τ⟩ is the mean stress of the oil under k times the Hertz pressure, on the share 1/k of the Hertz area A H: "
         "between rough bodies oil carries load in spots; a thick film carries it on a larger area, of lines along x "

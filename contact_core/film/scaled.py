@@ -358,7 +358,7 @@ class Scaled:
         mass = np.maximum(gap, self.floor)
         if self.now.supply is not None:
             mass = np.minimum(mass, self.now.supply / self.h_unit)
-        why = "" if converged else f"dry contact short of {tolerance:g} after {iterations} iterations"
+        why = "" if converged else f"dry contact not converged to {tolerance:g} after {iterations} iterations"
         found = Solution(
             iterate,
             gap,

@@ -35,8 +35,8 @@ def flattening_of(mean_pressure: Numbers, reduced_modulus: float, slope: Numbers
 class Widths(NamedTuple):
     """Half widths of 95 % of the deterministic solutions about the law, on points that it was not fitted to.
 
-    Of W_c it is load W_c^power; of h_c, relative, film (1 + lambda)^-film_fall but at least film_least; of the oil's
-    friction, relative, [plastic (1 - n) + newtonian n] [1 + exp(-4 lambda)], which grows with the sliding speed to n.
+    Of W_c it is load W_c^power; of h_c, relative, film (1 + Z)^-film_fall but at least film_least; of the oil's
+    friction, relative, [plastic (1 - n) + newtonian n] [1 + exp(-4 Z)], which grows with the sliding speed to n.
     """
 
     load: float
@@ -68,18 +68,13 @@ class Widths(NamedTuple):
 class FittedSharing:
     """W_c, A_c, h_c and the exposure of both bodies as functions of a few numbers, for circles and ellipses.
 
-    lambda      film of the smooth bodies by the formula of their shape / composite rms roughness sigma,
+    clearance   Z, film of the smooth bodies by the formula of their shape / composite rms roughness,
     flattening  s, see `flattening_of`,
     resolution  r, correlation length of the rougher body / distance of the nodes,
     floors      f, that film / the gap at which solids touch.
 
-    1 - W_c = [1 - exp(-B t^(m C) L^(C t^-v))] [1 - exp(-b f^c)], t = s / 0.2, L = lambda r / 2;
-    A_c = [1 - exp(-c s)] W_c^D;
-    h_c / sigma = W_c g + (1 - W_c) {(E lambda / rho)^n + f^n}^(1/n), rho the density of the oil under Hertz's mean
-    pressure, g = G ln[1 + k (s / 0.2)^-1.5] / k, f = F (s r / 0.4)^-0.75 >= g.
-
-    W_c at a given lambda is a number of the grid: the constants hold for resolutions as those of the fit. They were
-    fitted over the ranges `FITTED`; `HALF_WIDTHS` are those of their 95 % intervals
+    `equations` states them. W_c at a given Z is a number of the grid: the constants hold for resolutions as those of
+    the fit. They were fitted over the ranges `FITTED`; `HALF_WIDTHS` are those of their 95 % intervals
     (docs/measured/regression/curves.md).
     """
 
@@ -90,14 +85,15 @@ class FittedSharing:
     )
     equations: ClassVar[Equations] = Equations(
         (
-            "1 − W_c = [1 − exp(−B Λ^C)] [1 − exp(−b (h_s/h_{floor})^c)],   Λ = λ (s/0.2)^m (r/2)",
-            "A_c = [1 − exp(−c s)] W_c^D",
-            "h_c/σ = W_c g + (1 − W_c) [(E λ/ρ)^n + f^n]^{1/n}",
-            "g = (G/k) ln[1 + k (s/0.2)^{−1.5}],   f = F (s r/0.4)^{−0.75} ≥ g",
+            "1 − W_c = [1 − exp(−B t^{m C} Z′^{C′})] [1 − exp(−b f^c)]",
+            "t = s/0.2,   Z′ = Z r/2,   C′ = C t^{−v}",
+            "A_c = [1 − exp(−A s)] W_c^D",
+            "h_c/σ = W_c g + (1 − W_c) [(E Z/ρ)^n + j^n]^{1/n}",
+            "g = (G/k) ln[1 + k t^{−1.5}],   j = max[F (t r/2)^{−0.75}, g]",
         ),
-        "λ: film of the smooth bodies over composite roughness; s: mean Hertz pressure over what "
-        "would press the roughness flat; r: correlation length over the distance of the nodes; "
-        "ρ: density of the oil under Hertz's mean pressure.",
+        "Z: film of the smooth bodies by the formula of their shape over composite roughness; f: that film over "
+        "film.floor; s: mean Hertz pressure over what would press the roughness flat; r: correlation length over the "
+        "distance of the nodes; ρ: density of the oil under Hertz's mean pressure, over that without pressure.",
     )
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
         "clearance": (0.003, 70.0),
@@ -129,20 +125,22 @@ class FittedSharing:
 
     load_factor: float = parameter("", "B", above=0.0, most=100.0, default=2.08)
     load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=0.597)
-    load_flattening: float = parameter("", "m, power of s beside lambda", above=0.0, most=10.0, default=2.0)
+    load_flattening: float = parameter("", "m, power of s beside Z", above=0.0, most=10.0, default=2.0)
     load_bending: float = parameter(
-        "", "v, how much less of lambda decides where roughness is pressed flat", least=0.0, most=2.0, default=0.0
+        "", "v, how much less Z decides where roughness is pressed flat", least=0.0, most=2.0, default=0.0
     )
     floor_factor: float = parameter("", "b, of films as thin as the floor", above=0.0, most=100.0, default=0.8)
     floor_exponent: float = parameter("", "c, of them", above=0.0, most=10.0, default=0.8)
-    area_factor: float = parameter("", "c, of the dry contact's area", above=0.0, most=100.0, default=2.84)
+    area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.84)
     area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.812)
-    film_dry: float = parameter("", "G, mean gap of the dry contact / roughness", least=0.0, most=10.0, default=0.322)
+    film_dry: float = parameter(
+        "", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.322
+    )
     film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=0.352)
     film_mixed: float = parameter(
-        "", "F, mean gap that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.649
+        "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.649
     )
-    film_factor: float = parameter("", "E, mean gap / film of smooth bodies", above=0.0, most=10.0, default=0.876)
+    film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.876)
     film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=2.86)
     oil_pressure_excess: float = parameter(
         "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=1.85
@@ -169,7 +167,7 @@ class FittedSharing:
     )
 
     def load_ratio(self, clearance: Numbers, flattening: Numbers, resolution: Numbers, floors: Numbers) -> Numbers:
-        """Return contact_load_ratio at lambda = `clearance`, for a film of smooth bodies `floors` floors thick."""
+        """Return contact_load_ratio at Z = `clearance`, for a film of smooth bodies `floors` floors thick."""
         flat, film = flattening / _FLATTENING, minimum(clearance * resolution / _RESOLUTION, _THICKEST)
         flat = minimum(flat, _FLATTEST)
         steep = flat ** (self.load_flattening * self.load_exponent)
@@ -183,7 +181,7 @@ class FittedSharing:
         return -expm1(-self.area_factor * flattening) * load_ratio**self.area_exponent
 
     def film_ratio(self, dense: Numbers, load_ratio: Numbers, flattening: Numbers, resolution: Numbers) -> Numbers:
-        """Return h_c / sigma at lambda / rho = `dense` where the solids carry `load_ratio` of the load."""
+        """Return h_c / sigma at Z / rho = `dense` where the solids carry `load_ratio` of the load."""
         share, flat = load_ratio, flattening / _FLATTENING
         flat = flat**-0.75
         dry = self.film_dry * log1p(self.film_parted * (flat * flat)) / self.film_parted
@@ -196,7 +194,7 @@ class FittedSharing:
     def oil_pressure(self, clearance: Numbers, flattening: Numbers, thick_x: Numbers, thick_y: Numbers) -> Numbers:
         """Return the pressure at which oil carries load, over Hertz's.
 
-        It is [1 + K z exp(-d lambda z^q)] / sqrt[(1 + S X) (1 + S Y)], with z = 0.2 / s.
+        It is [1 + (K / t) exp(-d Z t^-q)] / sqrt[(1 + S X) (1 + S Y)], with t = s / 0.2.
 
         Between rough bodies the oil carries its load in spots, on the part (1 - W_c) / `oil_pressure` of Hertz's area;
         at the pressure of a load spread over all that the solids leave, it would be too thin to shear. A film h that is
@@ -264,18 +262,20 @@ class LineSharing(FittedSharing):
 
     load_factor: float = parameter("", "B", above=0.0, most=100.0, default=2.04)
     load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=0.649)
-    load_flattening: float = parameter("", "m, power of s beside lambda", above=0.0, most=10.0, default=1.63)
+    load_flattening: float = parameter("", "m, power of s beside Z", above=0.0, most=10.0, default=1.63)
     load_bending: float = parameter(
-        "", "v, how much less of lambda decides where roughness is pressed flat", least=0.0, most=2.0, default=0.592
+        "", "v, how much less Z decides where roughness is pressed flat", least=0.0, most=2.0, default=0.592
     )
-    area_factor: float = parameter("", "c, of the dry contact's area", above=0.0, most=100.0, default=2.9)
+    area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.9)
     area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.939)
-    film_dry: float = parameter("", "G, mean gap of the dry contact / roughness", least=0.0, most=10.0, default=0.584)
+    film_dry: float = parameter(
+        "", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.584
+    )
     film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=1.03)
     film_mixed: float = parameter(
-        "", "F, mean gap that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.747
+        "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.747
     )
-    film_factor: float = parameter("", "E, mean gap / film of smooth bodies", above=0.0, most=10.0, default=0.961)
+    film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.961)
     film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=1.72)
     oil_pressure_excess: float = parameter(
         "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=5.39

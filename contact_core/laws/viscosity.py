@@ -22,6 +22,7 @@ _P0 = 1.0 / 5.1e-9  # Pa
 _LN_ETA_INF = -9.67  # ln(6.31e-5 Pa s)
 _STIFF = 500.0  # an oil e^500 times stiffer than at p = 0 does not flow: no need to overflow
 _STIFFEST_DOUBLE_LOG = 2.3  # log10 log10 of e^459 mm2/s, for the same reason
+_ASSUMED_DENSITY = 870.0  # kg/m3, of oils whose law has none
 
 
 @dataclass(frozen=True)
@@ -204,6 +205,15 @@ class AstmD341:
         """Return the viscosity [Pa s] at pressures [Pa] and temperatures [K]."""
         exponent = self._log_viscosity(temperature) * (1.0 + pressure / _P0) ** self._z
         return exp(minimum(_LN_ETA_INF + exponent, _STIFF))
+
+
+def kinematic_viscosity(law: Viscosity, temperature: Numbers) -> Numbers:
+    """Return the kinematic viscosity [m2/s] of an oil at p = 0 and temperatures [K].
+
+    Of laws that know no density it is that of an oil of 870 kg/m3.
+    """
+    density = law.density_at(temperature) if isinstance(law, AstmD341) else _ASSUMED_DENSITY
+    return law(0.0, temperature) / density
 
 
 LAWS: tuple[type[Viscosity], ...] = (Roelands, Barus, Modulus, AstmD341)

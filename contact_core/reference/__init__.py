@@ -8,7 +8,7 @@
     rolling       rolling resistance of smooth contacts
     squeeze       rigid bodies that approach each other through oil
     profiles      of rollers
-    oil           what heat and shear of the oil make of a film
+    oil           film factors for heat and shear of the oil
     evolution     tribofilm and wear over time
     heat          temperature under moving sources
     constants     of nature

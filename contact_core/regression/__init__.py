@@ -8,7 +8,7 @@
     exposure       exposure, abrasion and wear of a track
     outputs        outputs and their errors
     evolution      `advance`: the track means over time
-    warming        what a process loads before its first step
+    warming        loads packages before the first step of a process
 
 Imports run from the bottom of this list to its top.
 """

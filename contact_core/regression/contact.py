@@ -182,7 +182,7 @@ def _point(case: Case, surfaces: Surfaces, shares: Shares, grown: tuple[float, f
 def _oil_friction(case: Case, points: list[_Point], further: float) -> tuple[list[float], MeanHeat | None]:
     """Return the friction of the oil [N] at the points, and the heat where it warms the film."""
     scene, op, hertz = case.scene, case.op, case.unit_hertz
-    oily, pressures, rates, grips = np.array([point[-4:] for point in points]).T
+    oily, pressures, rates, grips = np.array([(p.oily, p.oil_pressure, p.oil_rate, p.grip) for p in points]).T
     warmer = _WARMER[: len(points)]
     start = op.inlet_temperature + warmer
 

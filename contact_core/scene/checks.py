@@ -86,7 +86,7 @@ def _shape_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
             f"The Hertz pressure at {load:g} N is {hertz.pressure_max:.3g} Pa, above plasticity.hardness = "
             f"{plasticity.hardness:g} Pa. Lower the load or raise the hardness.",
         )
-    if not scene.geometry.lumped and getattr(scene.film, "criterion", "split") == "lumped":
+    if not scene.geometry.lumped and scene.film.lumped:
         yield (
             "criterion",
             "film.criterion = 'lumped' is for point contacts: it finds no film of a line. Use 'split'.",

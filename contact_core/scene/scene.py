@@ -73,10 +73,11 @@ class Scene(SceneFields):
             raise SceneError(
                 f"There is no level '{level}'.{did_you_mean(level, list(films))} Known are {', '.join(films)}."
             )
-        if level == self.film.name:
+        record = films[level]
+        if isinstance(self.film, record):
             return self
-        shared = {f.name for f in fields(films[level])} & {f.name for f in fields(self.film)}
-        film = films[level](**{name: getattr(self.film, name) for name in shared})
+        shared = {f.name for f in fields(record)} & {f.name for f in fields(self.film)}
+        film = record(**{name: getattr(self.film, name) for name in shared})
         return replace(self, film=film.with_sharing(self.geometry.sharing()))
 
     def realisation(self, seed: int) -> "Scene":

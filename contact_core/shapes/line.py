@@ -13,7 +13,7 @@ from .base import Array, Bodies, GridRecord, Shape, Viscosity
 from .equations import REDUCED, ROLLING_NOTE
 
 SMOOTH_LINE = Equations(
-    ("h_s = R_x U^{1/2} H(M, L),   λ = h_s/σ",),
+    ("h_s = R_x U^{1/2} H(M, L),   Z = h_s/σ",),
     "H is Moes' formula of line contacts over all regimes, " + REDUCED,
     title="Film of the smooth bodies",
 )

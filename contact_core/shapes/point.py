@@ -118,7 +118,7 @@ class PointGeometry(Bodies):
     deformation: ClassVar[Equations] = HALF_SPACE
     load_balance: ClassVar[Equations] = LOAD_BALANCE
     smooth_film: ClassVar[Equations] = Equations(
-        ("h_s = R_x U^{1/2} H(M, L, R_x/R_y),   λ = h_s/σ",),
+        ("h_s = R_x U^{1/2} H(M, L, R_x/R_y),   Z = h_s/σ",),
         "H is the formula of Nijenbanning, Venner and Moes over all regimes, " + REDUCED,
         title="Film of the smooth bodies",
     )

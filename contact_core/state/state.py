@@ -87,7 +87,7 @@ class Mean:
 
 @dataclass(frozen=True)
 class ContactState:
-    """A contact's whole memory."""
+    """Everything that the next step depends on."""
 
     digest: str  # fingerprint of the scene it belongs to
     time: float  # [s]

@@ -29,7 +29,7 @@ LOG_CATEGORIES = {
     "logStatusWarning": "calls that FMI does not allow, and the user's interrupt",
     "logStatusError": "unexpected errors, with their traceback",
     "logValidity": "inputs, parameters, steps and states that cannot be used; range flags when they appear",
-    "logSolver": "contacts without a solution, and solutions that missed their tolerance or were replaced",
+    "logSolver": "contacts without a solution, and solutions that have not converged or were replaced",
 }
 
 

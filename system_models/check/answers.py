@@ -194,8 +194,8 @@ def unusable(fmu: Fmu, notebook: Path) -> Answer:
         worth.append(f"The outputs stand still, and nothing says so, after {some(silent)}")
     if worth:
         return noted(f"{'. '.join(worth)}: a host must check what it sets.")
-    told = "".join(f" {len(s)} leave the outputs as they stand, with {said}." for said, s in still.items())
-    return passed(f"{len(settings)} settings to NaN and inf: {refused} refused by status, no output spoilt.{told}")
+    others = "".join(f" {len(s)} leave the outputs as they stand, with {said}." for said, s in still.items())
+    return passed(f"{len(settings)} settings to NaN and inf: {refused} refused by status, no output spoilt.{others}")
 
 
 def feedthrough(fmu: Fmu, notebook: Path) -> Answer:

@@ -60,8 +60,8 @@ def stop_time(fmu: Fmu, notebook: Path) -> Answer:
     if refused:
         return passed(f"A step up to the stop time is taken, one beyond it is answered with {said}.")
     # FMI 2.0 demands fmi2Error, but few exporters give it, and what was computed up to the stop time is right
-    told = f" with {said}" if said else ", and nothing says so"
-    return noted(f"A step beyond the stop time is taken{told}; FMI 2.0 wants it to be answered with fmi2Error.")
+    status = f" with {said}" if said else ", and nothing says so"
+    return noted(f"A step beyond the stop time is taken{status}; FMI 2.0 wants it to be answered with fmi2Error.")
 
 
 def communication_point(fmu: Fmu, notebook: Path) -> Answer:

@@ -5,10 +5,12 @@
     surfaces    surfaces: what a grid shows of the surfaces
     run         run: a contact or a machine through its duty; contact: one contact; machine: a machine
     stribeck    stribeck: Stribeck curves
+    build       build: the FMU of a scene
     check       check: verdicts on an FMU
     cosim       cosim: a system of FMUs
     scenes      the scene and duty that commands are given
     simulation  simulates a system with a checkpoint
+    progress    progress bar, how to continue an unfinished run
     console     notes, the folder of the results, --set
 
 Every module is light to import: what a command needs is loaded when it runs.

@@ -1,4 +1,4 @@
-"""Parts that the commands share: notes on stderr, the folder of the results, and --set."""
+"""Parts that the commands share: notes on stderr, the folder of the results, --set, and empty options."""
 
 import argparse
 import os
@@ -11,6 +11,13 @@ from contact_core.errors import ContactError
 def note(sentence: str) -> None:
     """Print a sentence that is no result on stderr."""
     print(f"tribofmu: note: {sentence}", file=sys.stderr)
+
+
+def refuse_empty(arguments: argparse.Namespace) -> None:
+    """Raise ContactError for an option whose value is an empty text."""
+    for option in ("hours", "grid", "duty", "out", "ssp"):
+        if getattr(arguments, option, None) == "":
+            raise ContactError(f"--{option} is empty. Give a value, or leave --{option} out.")
 
 
 def add_settings(command: argparse.ArgumentParser, text: str) -> None:

@@ -1,15 +1,14 @@
 """Runs one contact through its duty: builds its FMU, simulates and reports."""
 
 import argparse
-import logging
 import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from contact_core.errors import ContactError, StateError
 from contact_core.scene import Scene
 
 from .console import note, output_folder
+from .progress import continued_by_resume, note_replaced, shown
 from .scenes import contact, warn
 
 if TYPE_CHECKING:
@@ -34,14 +33,8 @@ def _run_in(folder: Path, scene: Scene, duty: "Duty", resume: bool) -> int:
     checkpoint = _checkpoint(folder, scene, duty, resume)
     if resume and not checkpoint.saved and (code := _finished(folder, scene, duty)) is not None:
         return code
-    try:
+    with continued_by_resume(lambda: checkpoint.file if checkpoint.count else None):
         code = _report(_simulate(scene, duty, checkpoint), scene, duty, folder)
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(_how_to_continue(checkpoint)) from None
-    except StateError:
-        raise
-    except ContactError as error:
-        raise ContactError(f"{error} {_how_to_continue(checkpoint)}".rstrip()) from error
     checkpoint.remove()
     return code
 
@@ -55,7 +48,7 @@ def _checkpoint(folder: Path, scene: Scene, duty: "Duty", resume: bool) -> "Chec
     if not resume:
         checkpoint = Checkpoint(folder, run)
         if checkpoint.file.exists():
-            note(f"'{checkpoint.file}' of an unfinished run will be replaced; to continue from it, use --resume.")
+            note_replaced(checkpoint.file)
         return checkpoint
     checkpoint = Checkpoint.resume(folder, run)
     if checkpoint.saved:
@@ -75,12 +68,6 @@ def _finished(folder: Path, scene: Scene, duty: "Duty") -> int | None:
     return 1 if report.invalid_rows(dataset) else 0
 
 
-def _how_to_continue(checkpoint: "Checkpoint") -> str:
-    if not checkpoint.count:
-        return ""
-    return f"What was computed is kept in '{checkpoint.file}': the same command with --resume continues from there."
-
-
 def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path) -> int:
     """Print and write the result; return the exit code."""
     from ..run import origin, report
@@ -95,27 +82,12 @@ def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path) -> 
 
 def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint") -> "xr.Dataset":
     """Build the FMU and drive it, with a progress bar in minutes of test time."""
-    from tqdm import tqdm
-    from tqdm.contrib.logging import logging_redirect_tqdm
-
     from fmu_src.package.build import build
 
     from ..run.contact import run
 
-    logging.basicConfig(format="%(message)s")
-    bar = tqdm(
-        total=scene.operation.duration / 60.0,
-        initial=checkpoint.saved.time / 60.0 if checkpoint.saved else 0.0,
-        desc=scene.name,
-        bar_format="{desc} {percentage:3.0f} %|{bar}| {n:.1f}/{total:.1f} min [{elapsed}<{remaining}]",
-    )
-    with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder, bar, logging_redirect_tqdm():
+    duration, since = scene.operation.duration, checkpoint.saved.time if checkpoint.saved else 0.0
+    bar = shown(scene.name, duration, "{n:.1f}/{total:.1f} min", 60.0, since)
+    with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder, bar as progress:
         fmu = build(scene, Path(folder) / f"{scene.name}.fmu", "embedded")
-        return run(
-            fmu,
-            duty,
-            scene.operation.duration,
-            scene.operation.interval,
-            lambda time: bar.update(time / 60.0 - bar.n),
-            checkpoint,
-        )
+        return run(fmu, duty, duration, scene.operation.interval, progress, checkpoint)

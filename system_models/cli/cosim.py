@@ -29,13 +29,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--resume",
         action="store_true",
         help="continue from the checkpoint that a killed, interrupted or failed simulation has left in DIR, to the "
-        "same result, bit for bit; start from the beginning if there is none (without --resume always, and replace it)",
+        "same result, bit for bit; start from the beginning if there is none. Without --resume a simulation starts "
+        "from the beginning and replaces the checkpoint.",
     )
     instead.add_argument("--ssp", metavar="FILE.ssp", help="export the system as SSP 1.0, do not simulate it")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Carry out the command; return 0, or 1 if some steps have missed a tolerance.
+    """Carry out the command; return 0, or 1 if some steps have not converged or are less accurate than asked.
 
     Raises ContactError with a sentence if it cannot be done.
     """
@@ -70,7 +71,7 @@ def _report(dataset: "xr.Dataset", folder: Path) -> int:
 
     print(cosim_report.table(dataset), "", cosim_report.costs(dataset), "", sep="\n")
     print(*cosim_report.closing_lines(dataset), sep="\n")
-    code = 1 if cosim_report.missed_steps(dataset) else 0
+    code = 1 if cosim_report.unreliable_steps(dataset) else 0
     dataset = dataset.assign_attrs({EXIT_CODE: code})
     written = [*results.write(dataset, folder), cosim_report.write_overview(dataset, folder / "overview.png")]
     print(f"Written: {', '.join(map(str, written))}")

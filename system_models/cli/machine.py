@@ -5,9 +5,7 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING
 
-from contact_core.errors import ContactError
-
-from .console import note, output_folder
+from .console import note, output_folder, refuse_empty
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,9 +29,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _changes(arguments: argparse.Namespace) -> dict[str, str]:
-    for option in ("hours", "grid", "duty", "out", "ssp"):
-        if getattr(arguments, option) == "":
-            raise ContactError(f"--{option} is empty. Give a value, or leave --{option} out.")
+    refuse_empty(arguments)
     changes = dict(arguments.settings)
     if arguments.hours:
         changes["simulate.stop_time"] = f"{arguments.hours} h"
@@ -81,7 +77,7 @@ def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str
 
     print(assembly.description, "", *KINDS[kind].lines(assembly, dataset), "", sep="\n")
     print(*machine_report.lines(assembly, dataset), "", *cosim_report.closing_lines(dataset), "", sep="\n")
-    code = 1 if cosim_report.missed_steps(dataset) or machine_report.invalid_rows(assembly, dataset) else 0
+    code = 1 if cosim_report.unreliable_steps(dataset) or machine_report.invalid_rows(assembly, dataset) else 0
     written = results.write(dataset.assign_attrs({EXIT_CODE: code}), folder)
     print(f"Written: {', '.join(map(str, [*written, *KINDS[kind].pictures(assembly, dataset, folder)]))}", flush=True)
     return code

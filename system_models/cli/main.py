@@ -1,8 +1,8 @@
 """The command `tribofmu`: its commands, each in a module of its own.
 
-Exit codes: 0 done; 1 some rows of the result are invalid, some rule failed, or some steps have missed a tolerance;
-2 refused or failed, with a sentence on stderr; 130 interrupted; 141 the reader of the output has gone, as in
-`tribofmu list | head`.
+Exit codes: 0 done; 1 some rows of the result are invalid, some rule failed, or some steps have not converged or are
+less accurate than asked; 2 refused or failed, with a sentence on stderr; 130 interrupted; 141 the reader of the output
+has gone, as in `tribofmu list | head`.
 """
 
 import argparse
@@ -12,9 +12,8 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from contact_core.errors import ContactError
-from fmu_src.package import command as build
 
-from . import check, cosim, listing, run, stribeck, surfaces
+from . import build, check, cosim, listing, run, stribeck, surfaces
 
 
 class Command(Protocol):
@@ -59,11 +58,13 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="tribofmu", description="Mixed lubrication, tribofilm and wear of a contact as an FMU."
+        prog="tribofmu",
+        description="Contacts with mixed lubrication, tribofilm and wear: run them, build FMUs of them, check and "
+        "couple any FMUs.",
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     for name, (module, text) in COMMANDS.items():
-        command = commands.add_parser(name, help=text)
+        command = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
         module.add_arguments(command)
         command.set_defaults(command=module.run)
     return parser

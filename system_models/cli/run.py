@@ -12,22 +12,25 @@ from .scenes import add_scene
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
-    add_scene(parser)
+    add_scene(parser, "scene or machine")
     parser.add_argument(
         "--resume",
         action="store_true",
         help="continue from the checkpoint that a killed, interrupted or failed run has left in DIR, to the same "
-        "result, bit for bit; start from the beginning if there is none (without --resume always, and replace it)",
+        "result, bit for bit; start from the beginning if there is none. Without --resume a run starts from the "
+        "beginning and replaces the checkpoint.",
     )
     parser.add_argument(
         "--hours",
         metavar="H",
         help=(
-            "duration of the test in hours: replaces operation.duration; "
+            "duration of the test in hours: replaces operation.duration, of a machine simulate.stop_time; "
             'for a short run of a scene use --set operation.duration="60 s"'
         ),
     )
-    parser.add_argument("--duty", metavar="FILE.csv", help="CSV of the duty: replaces operation.file")
+    parser.add_argument(
+        "--duty", metavar="FILE.csv", help="CSV of the duty: replaces operation.file, of a machine duty.file"
+    )
     parser.add_argument(
         "--unchecked",
         action="store_true",

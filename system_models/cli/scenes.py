@@ -8,27 +8,39 @@ from typing import TYPE_CHECKING
 from contact_core.errors import ContactError
 from contact_core.scene import Scene
 
-from .console import add_settings
+from ..machines import files
+from .console import add_settings, refuse_empty
 
 if TYPE_CHECKING:
     from ..run.duty import Duty
 
 
-def add_scene(command: argparse.ArgumentParser) -> None:
-    """Add the arguments that name the contact and the folder of the results."""
-    command.add_argument("scene", metavar="NAME", help="a shipped name (`tribofmu list`), or the path of a .toml file")
+def add_scene(command: argparse.ArgumentParser, kinds: str) -> None:
+    """Add the arguments that name one of `kinds`, such as "scene", and the folder of the results."""
+    command.add_argument(
+        "scene", metavar="NAME", help=f"a shipped {kinds} (`tribofmu list`), or the path of a .toml file"
+    )
     command.add_argument("--out", metavar="DIR", help="folder of the results (default: results/NAME)")
-    command.add_argument("--grid", metavar="N", help="nodes along x and y: replaces film.points")
-    add_settings(command, "change values of the scene or machine, e.g. tribofilm.model=none surface_2.rq='50 nm'")
+    command.add_argument(
+        "--grid", metavar="N", help="nodes along x and y: replaces film.points, of machines contact.film.points"
+    )
+    add_settings(command, f"change values of the {kinds}, e.g. tribofilm.model=none surface_2.rq='50 nm'")
 
 
 def contact(arguments: argparse.Namespace) -> "tuple[Scene, Duty]":
     """Return the scene, large enough for its duty, and the duty."""
     from ..run.duty import Duty
 
+    refuse_machine(arguments.scene)
     scene = Scene.from_toml(arguments.scene, _overrides(arguments))
     duty = Duty.of_scene(scene, _folder_of_duty(arguments))
     return duty.sized(scene), duty
+
+
+def refuse_machine(name: str) -> None:
+    """Raise ContactError if a command that needs a scene is given the name or the file of a machine."""
+    if files.is_machine(name):
+        raise ContactError(f"'{name}' is a machine: use `tribofmu run {name}`; with --ssp it exports the FMUs.")
 
 
 def warn(scene: Scene) -> None:
@@ -38,9 +50,7 @@ def warn(scene: Scene) -> None:
 
 
 def _overrides(arguments: argparse.Namespace) -> dict[str, str]:
-    for option in ("hours", "grid", "duty", "out"):
-        if getattr(arguments, option, None) == "":
-            raise ContactError(f"--{option} is empty. Give a value, or leave --{option} out.")
+    refuse_empty(arguments)
     settings = dict(arguments.settings)
     if getattr(arguments, "hours", None):
         settings["operation.duration"] = f"{arguments.hours} h"

@@ -1,15 +1,13 @@
 """Simulates a system with a checkpoint in the folder of its results, and hands the result to a report."""
 
 import json
-import logging
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
-from contact_core.errors import ContactError, StateError
-
 from .console import note
+from .progress import continued_by_resume, note_replaced, shown
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -70,7 +68,7 @@ def _checkpoint(folder: Path, system: "System", settings: Mapping[str, Any], res
         note(f"There will be no checkpoint. {error}")
         return None
     if file.exists() and not resume:
-        note(f"'{file}' of an unfinished run will be replaced; to continue from it, use --resume.")
+        note_replaced(file)
     if file.exists() and resume:
         note(f"Continuing from '{file}'.")
     return file
@@ -92,39 +90,16 @@ def _simulated(
     system: "System", settings: Mapping[str, Any], name: str, checkpoint: Path | None, resume: bool
 ) -> "xr.Dataset":
     """Simulate, with a progress bar in seconds; an early end says how to continue."""
-    from tqdm import tqdm
-    from tqdm.contrib.logging import logging_redirect_tqdm
-
     from ..master import simulate
 
-    logging.basicConfig(format="%(message)s")
-    bar = tqdm(
-        total=settings["stop_time"],
-        desc=name,
-        bar_format="{desc} {percentage:3.0f} %|{bar}| {n:.4g}/{total:.4g} s [{elapsed}<{remaining}]",
-    )
     folder, before = checkpoint and checkpoint.parent, _stamp(checkpoint)
 
-    def how_to_continue() -> str:
-        if _stamp(checkpoint) == before and not resume:
-            return ""
-        return f"What was computed is kept in '{checkpoint}': the same command with --resume continues from there."
+    def kept() -> Path | None:
+        return None if _stamp(checkpoint) == before and not resume else checkpoint
 
-    try:
-        with bar, logging_redirect_tqdm():
-            return simulate(
-                system,
-                **settings,
-                checkpoint=folder,
-                resume=resume,
-                progress=lambda time: bar.update(time - bar.n),
-            )
-    except KeyboardInterrupt:
-        raise KeyboardInterrupt(how_to_continue()) from None
-    except StateError:
-        raise
-    except ContactError as error:
-        raise ContactError(f"{error} {how_to_continue()}".rstrip()) from error
+    bar = shown(name, settings["stop_time"], "{n:.4g}/{total:.4g} s")
+    with continued_by_resume(kept), bar as progress:
+        return simulate(system, **settings, checkpoint=folder, resume=resume, progress=progress)
 
 
 def _stamp(file: Path | None) -> int | None:

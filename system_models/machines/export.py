@@ -39,7 +39,7 @@ def with_timetable(assembly: Assembly) -> Assembly:
     return replace(
         assembly,
         parts={**started, **({_DUTY: Timetable(tuple(signals))} if signals else {})},
-        contacts={name: replace(contact, scene=_as_told(contact)) for name, contact in assembly.contacts.items()},
+        contacts={name: replace(contact, scene=_with_values(contact)) for name, contact in assembly.contacts.items()},
         connections=(*assembly.connections, *links),
         parameters={**assembly.parameters, **constant},
         schedule={},
@@ -52,7 +52,7 @@ def _starts(part: str, schedule: Schedule) -> tuple[Start, ...]:
     return tuple(Start(variable, float(value)) for (owner, _, variable), value in first if owner == part)
 
 
-def _as_told(contact: Contact) -> Scene:
+def _with_values(contact: Contact) -> Scene:
     """Return the scene with the values that its FMU is given."""
     given: dict[str, Any] = dict(contact.parameters)
     scene = contact.scene.at_level(LEVELS[int(given.pop(FIDELITY)) - 1]) if FIDELITY in given else contact.scene

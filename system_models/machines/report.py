@@ -1,4 +1,4 @@
-"""The part of the report that all machines have: costs, contact solutions by level, invalid rows."""
+"""The part of the report that all machines have: costs, contact solutions by level, invalid rows, stored heat."""
 
 import json
 from collections import Counter
@@ -8,6 +8,7 @@ import xarray as xr
 
 from contact_core.quantities import LEVELS
 
+from ..parts.thermal import ThermalNetwork
 from ..run.cosim_report import aligned
 from .assembly import Assembly
 
@@ -20,6 +21,13 @@ def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
 def invalid_rows(assembly: Assembly, dataset: xr.Dataset) -> int:
     """Return rows in which a contact or component could not use its inputs."""
     return int((~_valid(assembly, dataset)).sum())
+
+
+def heat_stored(assembly: Assembly, dataset: xr.Dataset, network: str) -> float:
+    """Return the heat [J] that a thermal network of the machine holds at the end more than at the start."""
+    part = assembly.parts[network]
+    assert isinstance(part, ThermalNetwork)
+    return part.heat_stored([float(dataset[f"{network}.temperature_{node.name}"].values[-1]) for node in part.nodes])
 
 
 def _valid(assembly: Assembly, dataset: xr.Dataset) -> np.ndarray:

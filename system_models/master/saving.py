@@ -46,7 +46,7 @@ def kept(
 def check(system: System, outputs: Iterable[Port]) -> None:
     """Raise CouplingError if a simulation of the system that records `outputs` cannot be stored."""
     for name, model in system.models.items():
-        if not (model.restores and model.capabilities.canSerializeFMUstate):
+        if not model.serialises:
             raise CouplingError(
                 f"The FMU '{name}' cannot give its state as bytes (canSerializeFMUstate is false): no checkpoint can "
                 "be made of a simulation with it. Simulate without a checkpoint, or export the FMU with its state."

@@ -52,7 +52,7 @@ def simulate(
     Returns a Dataset along `time`: the recorded variables by name, with units; "master.*", statistics of each step;
     "bond.*", the difference between the powers that the two FMUs of a bond compute. Its attributes count steps,
     iterations, unconverged, below_min_step, events and stopped_early among the steps that stand, and those rejected;
-    ended_by is the FMU that has asked for the end, told_means those that take no derivatives of inputs, and `cost`
+    ended_by is the FMU that has asked for the end, receives_means those that take no derivatives of inputs, and `cost`
     gives, as JSON, all steps of each FMU and its seconds.
 
     Raises CouplingError for settings that make no sense or that the FMUs cannot serve, for an FMU that fails, and for
@@ -187,7 +187,7 @@ def _report(coupled: Coupled, statistics: Statistics) -> None:
 def _attributes(coupled: Coupled, stepper: Stepper) -> dict[str, Any]:
     instances = coupled.instances
     costs = {name: {"steps": each.steps, "seconds": each.seconds} for name, each in instances.items()}
-    told_means = [each.name for each in instances.values() if each.inputs.count and not each.interpolates]
+    receives_means = [each.name for each in instances.values() if each.inputs.count and not each.interpolates]
     if not coupled.settings.order:
-        told_means = []
-    return asdict(stepper.statistics) | {"told_means": ", ".join(told_means), "cost": json.dumps(costs)}
+        receives_means = []
+    return asdict(stepper.statistics) | {"receives_means": ", ".join(receives_means), "cost": json.dumps(costs)}

@@ -1,7 +1,7 @@
 """Housing, shafts and oil as heat capacities, joined by conductances, heated by losses and held by thermostats."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import chain
@@ -149,6 +149,11 @@ class ThermalNetwork(Part):
                 return (*temperatures.tolist(), *energies.tolist())
         course = self._course(temperatures, regimes, inputs)
         return (*course.end(left).tolist(), *(energies + self._given(course, regimes, inputs, left)).tolist())
+
+    def heat_stored(self, temperatures: Sequence[float]) -> float:
+        """Return the heat [J] that the nodes hold at temperatures [K] more than at the start."""
+        pairs = zip(self.nodes, temperatures, strict=True)
+        return sum(node.heat_capacity * (temperature - node.temperature) for node, temperature in pairs)
 
     def _regimes(self, temperatures: Array, inputs: Values) -> Regimes:
         found = []

@@ -65,7 +65,7 @@ def aligned(rows: list[list[str]], left: int) -> list[str]:
     return ["  ".join(line).rstrip() for line in zip(*padded, strict=True)]
 
 
-def missed_steps(dataset: xr.Dataset) -> int:
+def unreliable_steps(dataset: xr.Dataset) -> int:
     """Return the number of steps whose iteration has not converged or whose error was larger than allowed."""
     return int(dataset.attrs["unconverged"]) + int(dataset.attrs["below_min_step"])
 
@@ -103,7 +103,7 @@ def _events(dataset: xr.Dataset) -> list[str]:
 def _bonds(dataset: xr.Dataset) -> list[str]:
     bonds = [name for name in recorded(dataset) if name.startswith("bond.")]
     return [
-        f"Powers that differ at {name.removeprefix('bond.')}: "
+        f"Power residual at {name.removeprefix('bond.')}: "
         f"{float(np.abs(dataset[name]).max()):.3g} W at most, {float(np.abs(dataset[name]).mean()):.3g} W on average."
         for name in bonds
     ]
@@ -121,9 +121,10 @@ def _warnings(dataset: xr.Dataset) -> list[str]:
             f"WARNING: {counts['below_min_step']} steps of min_step have a LARGER ERROR than the tolerance allows, "
             f"the first to {_first(dataset, 'master.error')}. Allow smaller steps, or iterate."
         )
-    if counts["told_means"]:
+    if counts["receives_means"]:
         lines.append(
-            f"These FMUs cannot extrapolate their inputs; they receive the mean over each step: {counts['told_means']}."
+            "These FMUs cannot extrapolate their inputs; they receive the mean over each step: "
+            f"{counts['receives_means']}."
         )
     if counts["ended_by"]:
         lines.append(f"The FMU '{counts['ended_by']}' ended the simulation.")
@@ -131,8 +132,8 @@ def _warnings(dataset: xr.Dataset) -> list[str]:
 
 
 def _first(dataset: xr.Dataset, name: str) -> str:
-    missed = dataset["time"].values[dataset[name].values > 1.0]
-    return f"{missed[0]:g} s" if len(missed) else "the end"
+    above = dataset["time"].values[dataset[name].values > 1.0]
+    return f"{above[0]:g} s" if len(above) else "the end"
 
 
 def write_overview(dataset: xr.Dataset, path: Path) -> Path:

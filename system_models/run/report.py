@@ -41,9 +41,9 @@ def _bodies(name: str) -> tuple[_Line, _Line]:
 _PANELS: tuple[tuple[str, float, tuple[_Line, ...]], ...] = (
     ("friction coefficient", 1.0, (("friction_coefficient", "", _BLACK),)),
     ("mean tribofilm thickness [nm]", 1e9, _bodies("tribofilm")),
-    ("height [nm]", 1e9, (("h_c", "mean gap $h_c$", _BLUE), ("sigma", "composite roughness", _RED))),
+    ("height [nm]", 1e9, (("h_c", "central film thickness $h_c$", _BLUE), ("sigma", "composite roughness", _RED))),
     ("mean wear depth [nm]", 1e9, _bodies("wear_depth")),
-    (r"film ratio $\lambda$", 1.0, (("lambda_ratio", "", _BLACK),)),
+    (r"lambda ratio $\lambda$", 1.0, (("lambda_ratio", "", _BLACK),)),
     ("roughness Rq [nm]", 1e9, _bodies("roughness")),
     (
         "share of the solids",
@@ -150,8 +150,8 @@ def overview(dataset: xr.Dataset) -> "Figure":
     from matplotlib.figure import Figure
 
     ratio = dataset["lambda_ratio"]
-    told = ratio.where((ratio > 0.0) & (ratio < 1e3))  # at its caps it says nothing about the roughness
-    shown = dataset.assign(sigma=dataset["h_c"] / told)
+    uncapped = ratio.where((ratio > 0.0) & (ratio < 1e3))  # at its caps it says nothing about the roughness
+    shown = dataset.assign(sigma=dataset["h_c"] / uncapped)
     figure = Figure(figsize=(9.0, 10.0), layout="constrained")
     axes = figure.subplots(4, 2, sharex=True)
     for axis, (label, factor, lines) in zip(axes.flat, _PANELS, strict=True):

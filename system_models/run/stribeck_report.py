@@ -15,7 +15,7 @@ _SOURCE = "Dawczyk et al. 2019, 10.1007/s11249-019-1148-9"
 _ROUGH = ("tribofilm_roughness_1", "tribofilm_roughness_2", "composite_roughness")
 _PANELS = (
     ("friction_coefficient", "friction coefficient", None),
-    ("lambda_ratio", r"film ratio $\lambda$", None),
+    ("lambda_ratio", r"lambda ratio $\lambda$", None),
     ("contact_load_ratio", "share of the solids in the load, $W_c$", 0.5),
     ("contact_area_ratio", "real contact area / Hertz area, $A_c$", None),
 )
@@ -105,9 +105,9 @@ def write_figure(dataset: xr.Dataset, path: Path) -> Path:
 
 
 def figure(dataset: xr.Dataset, title: str = "") -> "Figure":
-    """Return friction, film ratio, load and area of the solids against speed, a line for each rubbing time.
+    """Return friction, lambda ratio, load and area of the solids against speed, a line for each rubbing time.
 
-    A hollow point stands for film solutions that have missed the tolerance, or a dry one in their place.
+    A hollow point stands for film solutions that have not converged, or a dry one in their place.
     """
     from matplotlib import colormaps
     from matplotlib.figure import Figure

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from comparison import approx
-from page import Tree, examples, section
+from page import ROOT, Tree, examples, section
 
 LAW, SHAPE, OUTPUT = "A tribofilm law", "A shape", "An output"
 MACHINE, SCHEME = "A machine", "A coupling scheme"
@@ -139,6 +139,24 @@ def test_the_law_is_in_the_fmu_and_law_and_output_are_in_the_results(tree: Tree)
     last = columns(tree, "mtm_zddp")[-1]
     assert float(last["tribofilm_1"]) > 10e-9
     assert float(last["asperity_pressure"]) > 1e8  # the output of the page
+
+
+def test_the_law_obeys_what_every_law_of_its_slot_must(tree: Tree) -> None:
+    """All random examples of the battery are of the law of the page."""
+    printed = tree.python(
+        f"""
+import sys
+import pytest
+from contact_core.laws import SLOTS
+from contact_core.laws.tribofilm import Quinn
+assert Quinn in SLOTS["tribofilm"]
+SLOTS["tribofilm"] = (Quinn,)
+battery = {str(ROOT / "tests" / "properties" / "test_law_battery.py")!r}
+sys.exit(pytest.main([battery, "-vv", "-p", "no:cacheprovider", "-k", "tribofilm or exposes"]))
+"""
+    )
+    assert "[tribofilm-quinn] PASSED" in printed
+    assert "test_a_tribofilm_after_two_times_is_that_after_their_sum PASSED" in printed
 
 
 def test_a_law_without_its_entry_is_refused_by_name(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Rolling resistance: the closed forms against solved films, and what the fast level makes of them."""
+"""Rolling resistance: the closed forms against solved films, and what the regression level makes of them."""
 
 import math
 from dataclasses import replace
@@ -74,7 +74,7 @@ SMOOTH = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "film.model": "regress
 
 
 @pytest.mark.parametrize("name", ["mtm_zddp", "ball_209_inner", "fzg_flank"])
-def test_the_fast_level_rolls_smooth_bodies_by_the_formula_of_their_shape(name):
+def test_the_regression_level_rolls_smooth_bodies_by_the_formula_of_their_shape(name):
     scene = Scene.from_toml(name, SMOOTH)
     op = replace(scene.operation.point, speed_1=2.0, speed_2=2.0)
     shape, modulus = scene.geometry, scene.solids.reduced_modulus

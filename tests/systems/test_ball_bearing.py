@@ -122,8 +122,8 @@ def test_the_film_at_a_balls_load_grows_as_the_formula_says_and_not_toward_that_
 ) -> None:
     run = BearingRun(*warm)
     heaviest = next(which for which in reversed(run.classes) if which.race == race)
-    most, film = (float(values[run.last]) for values in (run.given(heaviest, "load"), run.told(heaviest, "h_c")))
-    speed, warmth = (float(run.told(heaviest, name)[run.last]) for name in ("speed_1", "body_temperature_1"))
+    most, film = (float(values[run.last]) for values in (run.given(heaviest, "load"), run.solved(heaviest, "h_c")))
+    speed, warmth = (float(run.solved(heaviest, name)[run.last]) for name in ("speed_1", "body_temperature_1"))
     scene = warm[0].contacts[heaviest.contact].scene
     loads = most * np.array([1.0, 0.6, 0.3, 0.1])
 
@@ -136,7 +136,7 @@ def test_the_film_at_a_balls_load_grows_as_the_formula_says_and_not_toward_that_
     assert found == approx([smooth(load) / smooth(most) for load in loads], rel=0.05)
     assert found[0] == approx(1.0, rel=1e-6)
     assert (np.diff(found) > 0.02).all()
-    ratio = run.at_load(race, "lambda_ratio", run.last, loads) / float(run.told(heaviest, "lambda_ratio")[run.last])
+    ratio = run.at_load(race, "lambda_ratio", run.last, loads) / float(run.solved(heaviest, "lambda_ratio")[run.last])
     assert ratio == approx(found, rel=0.1)
 
 
@@ -191,8 +191,8 @@ def test_the_table_tells_nothing_of_classes_without_balls_or_load(warm: Result) 
 
 
 def test_the_next_start_feels_the_film_that_the_last_has_left(starts: BearingRun, tmp_path: Path) -> None:
-    film = np.array([starts.told(starts.classes[0], "tribofilm_1")[rows[0]] for rows in starts.starts])
-    wear = np.array([starts.told(starts.classes[1], "wear_depth_2")[rows[0]] for rows in starts.starts])
+    film = np.array([starts.solved(starts.classes[0], "tribofilm_1")[rows[0]] for rows in starts.starts])
+    wear = np.array([starts.solved(starts.classes[1], "wear_depth_2")[rows[0]] for rows in starts.starts])
     assert (np.diff(film) > 1e-9).all()
     assert (np.diff(wear) > 0.0).all()
     forgetful = starting(tmp_path / "none", MEMORYLESS)

@@ -18,7 +18,7 @@ from system_models.cli.main import main
 
 @pytest.fixture(scope="module")
 def fmu(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Our own FMU, at its fast level, for hosts with Python."""
+    """Our own FMU, at its regression level, for hosts with Python."""
     scene = Scene.from_toml("mtm_zddp").at_level("regression")
     return build(scene, tmp_path_factory.mktemp("fmu") / "contact.fmu", flavour="embedded")
 

@@ -8,7 +8,7 @@ import xarray as xr
 from comparison import approx
 
 from contact_core import OperatingPoint, Scene, shipped_scenes
-from system_models.cli.main import main
+from system_models.cli.main import COMMANDS, main
 from system_models.machines.files import shipped
 from system_models.run.duty import Duty
 
@@ -20,10 +20,9 @@ STILL = [  # nothing grows or wears: one solution serves for ever
 def test_list_names_the_shipped_scenes_and_machines(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["list"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    scenes = ["azam_case_a", "ball_209_inner", "cam_tappet", "dimple_rolling", "fzg_flank", "mtm_zddp"]
-    bearings = ["bearing_209", "bearing_209_start_stop", "bearing_218"]
-    others = ["cam_follower", "gear_fzg_a", "gear_fzg_c", "mtm_rig"]
-    assert [line.split()[0] for line in lines] == [*scenes, *bearings, *others]
+    names = [line.split()[0] for line in lines]
+    assert names == [*shipped_scenes(), *shipped()]
+    assert {"mtm_zddp", "cam_tappet", "bearing_209", "gear_fzg_c"} <= set(names)
     texts = [*shipped_scenes().values(), *shipped().values()]
     assert all(text in line for text, line in zip(texts, lines, strict=True))
 
@@ -64,7 +63,7 @@ def test_a_run_prints_a_table_and_writes_three_files(
         assert dataset.attrs["scene"] == "mtm_zddp"
 
 
-def test_a_run_of_the_fast_level_says_what_it_knows(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_a_run_of_the_regression_level_says_what_it_knows(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main(["run", "azam_case_a", "--set", "film.model=regression", "--hours", "2", "--out", str(tmp_path)]) == 0
     out = capsys.readouterr().out
     assert "Load cycles: 28 361 of body 1, 7 419 of body 2." in out
@@ -139,6 +138,20 @@ def test_bad_input_is_refused_with_one_sentence_and_code_2(
     assert not out
     assert err.startswith(f"tribofmu: {said}")
     assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("command", ["build", "stribeck"])
+def test_commands_for_scenes_name_the_command_for_a_machine(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([command, "bearing_209"]) == 2
+    assert "'bearing_209' is a machine: use `tribofmu run bearing_209`" in capsys.readouterr().err
+
+
+def test_the_help_of_every_command_says_what_it_does(capsys: pytest.CaptureFixture[str]) -> None:
+    for command, (_, text) in COMMANDS.items():
+        with pytest.raises(SystemExit) as end:
+            main([command, "--help"])
+        assert end.value.code == 0
+        assert f"{text[1:]}." in " ".join(capsys.readouterr().out.split())
 
 
 def test_a_setting_without_a_value_is_refused(capsys: pytest.CaptureFixture[str]) -> None:

@@ -247,7 +247,6 @@ def test_each_machine_exports_as_ssp_that_others_read(machine: str, tmp_path: Pa
     ssd = read_ssd(str(file))  # validates it
     found = {(f"{a.parent.name}.{a.name}", f"{b.parent.name}.{b.name}") for a, b in get_connections(ssd.system)}
     assert found == {tuple(connection[:2]) for connection in assembly.connections}
-    assert len(found) >= 10
     root = structure(file)
     components = root.findall(".//ssd:Component", SPACES)
     assert {c.get("name") for c in components} == {*assembly.parts, *assembly.contacts}

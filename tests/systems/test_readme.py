@@ -67,7 +67,7 @@ def test_the_example_of_friction_and_heat_runs() -> None:
     assert state.temperatures is not None and state.temperatures[0] > scene.operation.temperature
 
 
-def test_the_example_of_the_fast_level_runs(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_example_of_the_regression_level_runs(capsys: pytest.CaptureFixture[str]) -> None:
     scene = Scene.from_toml("mtm_zddp", {"film.points": "65"})
     names: dict[str, Any] = {
         "scene": scene,

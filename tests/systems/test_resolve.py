@@ -68,7 +68,7 @@ def run(assembly: Assembly) -> Run:
 
 @pytest.fixture
 def shallow(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What is solved again is so by the fast level, in no time."""
+    """What is solved again is so by the regression level, in no time."""
     monkeypatch.setattr(resolve, "DEEP", FAST)
 
 
@@ -150,12 +150,12 @@ def test_a_solution_that_missed_its_tolerance_judges_nothing(flag: RangeFlag) ->
 def test_a_run_whose_stated_errors_are_a_tenth_is_found_not_to_be_covered(
     part: float, assembly: Assembly, run: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The errors of the fast level are given as 1.2 of what they are, and as a tenth of that."""
+    """The errors of the regression level are given as 1.2 of what they are, and as a tenth of that."""
     whole, true = advance, {"friction_coefficient": 0.25, "h_c": 0.4}
 
     def stating(scene: Scene, point: OperatingPoint, state: ContactState, step: float) -> tuple[ContactState, Outputs]:
         after, out = whole(scene.at_level(FAST), point, state, step)
-        if step == 0.0:  # solved again: off from the fast level by what is true
+        if step == 0.0:  # solved again: off from the regression level by what is true
             return after, replace(out, **{name: getattr(out, name) * (1.0 + off) for name, off in true.items()})
         return after, replace(out, **{COMPARED[name]: 1.2 * part * off for name, off in true.items()})
 

@@ -125,7 +125,7 @@ def test_an_array_of_one_value_is_stored_as_that_value_and_no_other_is(scene, od
     assert same_bits(ContactState.from_bytes(other.to_bytes(), scene), other)
 
 
-def test_a_contact_that_has_only_seen_the_fast_level_has_a_state_of_a_few_kilobytes_on_any_grid():
+def test_a_contact_that_has_only_seen_the_regression_level_has_a_state_of_a_few_kilobytes_on_any_grid():
     scene, state, point = cheap()
     fine = replace(scene, film=replace(scene.film, points=257)).at_level("regression")
     coarse = scene.at_level("regression")
@@ -154,7 +154,7 @@ def memory_kept(then: ContactState, now: ContactState) -> list[bool]:
     return [id(part.obj) in before for part in now.parts()[1:]]
 
 
-def test_a_step_of_the_fast_level_keeps_every_array():
+def test_a_step_of_the_regression_level_keeps_every_array():
     scene, state, point = cheap()
     fast = scene.at_level("regression")
     state, _ = advance(scene, point, state, 60.0)

@@ -31,7 +31,7 @@ def test_an_import_loads_no_compiler_and_no_heavy_package(package):
     assert _loaded(f"import {package}") == set()
 
 
-def test_the_fast_level_needs_no_compiler():
+def test_the_regression_level_needs_no_compiler():
     loaded = _loaded("from contact_core import Scene, advance, initial_state" + _FAST_LEVEL)
     assert not loaded & {"numba", "llvmlite", "pyfftw", "xarray"}
 

@@ -75,7 +75,7 @@ def test_what_has_been_pressed_into_either_body_hardens_the_film_alike():
 
 @pytest.mark.parametrize("radius_y", [4e-3, 10e-3, 40e-3])
 def test_a_spinning_ellipse_rubs_with_the_mean_lever_of_hertzs_pressure(radius_y):
-    """At the fast level, where solids carry next to all of the load."""
+    """At the regression level, where solids carry next to all of the load."""
     scene, state, op = cheap({"film.model": "regression", "surface_2.rq": "800 nm", "tribofilm.model": "none"})
     op = replace(op, radius_x=10e-3, radius_y=radius_y, speed_1=1e-9, speed_2=1e-9, spin=10.0)
     found = advance(scene, op, state, 0.0)[1]

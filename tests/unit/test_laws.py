@@ -9,7 +9,7 @@ from contact_core.laws.density import DowsonHigginson, Incompressible
 from contact_core.laws.plasticity import ElasticPerfectlyPlastic
 from contact_core.laws.rheology import Eyring
 from contact_core.laws.tribofilm import Andersson, Ghanbarzadeh, NoTribofilm, thickness
-from contact_core.laws.viscosity import AstmD341, Barus, Modulus, Roelands
+from contact_core.laws.viscosity import AstmD341, Barus, Modulus, Roelands, kinematic_viscosity
 from contact_core.laws.wear import Archard, NoWear
 
 PRESSURE = np.linspace(0.0, 6e9, 40).reshape(5, 8)
@@ -58,6 +58,12 @@ def test_beyond_its_pole_the_modulus_equation_is_stiff_and_never_turns_back(bend
 
 
 SHEET = AstmD341(99.4e-6, 10.99e-6, 900.0, 18.8e-9, 333.15, 6e-4)
+
+
+def test_the_kinematic_viscosity_is_the_data_sheets_or_that_of_an_assumed_density():
+    assert kinematic_viscosity(SHEET, 313.15) == approx(99.4e-6, rel=1e-12)
+    assert kinematic_viscosity(SHEET, np.array([313.15, 373.15])) == approx([99.4e-6, 10.99e-6], rel=1e-12)
+    assert kinematic_viscosity(Barus(0.087, 353.15, 2e-8, 0.03), 353.15) == approx(1e-4, rel=1e-12)  # 870 kg/m3
 
 
 def test_an_oil_has_the_kinematic_viscosities_and_the_density_of_its_data_sheet():

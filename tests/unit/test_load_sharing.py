@@ -1,5 +1,7 @@
-"""The curves of load sharing: limits, order, arrays, and the sweep they were fitted to."""
+"""The curves of load sharing: limits, order, arrays, printed equations, and the sweep they were fitted to."""
 
+import math
+import re
 from dataclasses import fields
 from pathlib import Path
 
@@ -7,6 +9,7 @@ import numpy as np
 import pytest
 from comparison import approx
 
+from contact_core.film.regression import Regression
 from contact_core.laws.load_sharing import FittedSharing, LineSharing, flattening_of, rms_slope
 
 LAW = FittedSharing()
@@ -47,6 +50,41 @@ def test_the_flatter_roughness_is_pressed_the_less_the_film_of_lines_decides():
     assert power(lines, 0.2) == approx(lines.load_exponent)
     assert power(lines, 0.1) == approx(lines.load_exponent * 2.0**lines.load_bending)
     assert power(lines, 0.05) > power(lines, 0.6) > 0.0
+
+
+def sides(printed, names):
+    """Return the values of both sides of the first equation; those after it define names that it needs."""
+    signs = {"−": "-", "′": "_prime", "[": "(", "]": ")", "{": "(", "}": ")", "^": "**", "h_c/σ": "film_ratio"}
+    for sign, python in signs.items():
+        printed = printed.replace(sign, python)
+    printed = re.sub(r"(?<=[\w)]) +(?=[\w(])", "*", printed)
+    (left, right), *definitions = (equation.split(" = ") for equation in re.split(r",   |\n", printed))
+    names = names | {"exp": math.exp, "ln": math.log, "max": max}
+    for name, value in definitions:
+        names[name] = eval(value, names)
+    return eval(left, names), eval(right, names)
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize(
+    ("clearance", "flattening", "resolution", "floors"), [(1.0, 0.6, 4.0, 100.0), (0.03, 0.1, 2.5, 3.0)]
+)
+def test_the_printed_equations_are_those_that_are_evaluated(law, clearance, flattening, resolution, floors):
+    """By the symbols that the texts of the constants begin with, for points and lines."""
+    load, of_load, area, film, of_film = law.equations.lines
+    names = {f.metadata["text"].split(",")[0]: getattr(law, f.name) for f in fields(law) if "exposure" not in f.name}
+    names |= {"Z": clearance, "s": flattening, "r": resolution, "f": floors, "ρ": 1.2}
+    names["W_c"] = law.load_ratio(clearance, flattening, resolution, floors)
+    names["A_c"] = law.area_ratio(names["W_c"], flattening)
+    names["film_ratio"] = law.film_ratio(clearance / names["ρ"], names["W_c"], flattening, resolution)
+    for printed in (f"{load}\n{of_load}", area, f"{film}\n{of_load}\n{of_film}"):
+        found, expected = sides(printed, names)
+        assert found == approx(expected, rel=1e-9), printed
+    # in which a and b are the half widths of the contact
+    names |= {"h_s": 1e-7, "R_x": 0.01, "R_y": 0.02, "a": 1e-4, "b": 2e-4}
+    names["k"] = law.oil_pressure(clearance, flattening, 0.1, 0.05)
+    found, expected = sides(Regression.friction.lines[-1], names)
+    assert found == approx(expected, rel=1e-9)
 
 
 def test_films_as_thin_as_the_floor_leave_load_to_the_solids_however_flat_they_are():

@@ -1,4 +1,4 @@
-"""The fast level on lines and rollers: what changes with the shape, and what must not."""
+"""The regression level on lines and rollers: what changes with the shape, and what must not."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""The fast level: friction without jumps, derivatives that are its own, means that patches give and take."""
+"""The regression level: friction without jumps, derivatives that are its own, means that patches give and take."""
 
 import math
 from dataclasses import asdict, fields, replace

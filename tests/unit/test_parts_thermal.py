@@ -27,6 +27,8 @@ def test_a_node_without_links_takes_up_all_heat():
     inputs = {"heat_oil": 80.0, "temperature_ambient": 300.0}
     state = alone.advance(alone.initial(inputs), inputs, 600.0)
     assert state == approx((290.0 + 80.0 * 600.0 / 500.0, 0.0), rel=1e-14)
+    assert alone.heat_stored(state[:1]) == approx(80.0 * 600.0, rel=1e-12)
+    assert alone.heat_stored([290.0]) == 0.0
     assert alone.outputs(state, inputs)["heat_to_ambient"] == 0.0
 
 

@@ -183,14 +183,14 @@ def test_the_load_is_not_blamed_on_radii_that_ease_it():
     assert scene.refusal(at(heavy, 10.1e-3)) != ""
 
 
-def test_the_fast_level_needs_no_grid_but_bodies_that_do_not_yield():
+def test_the_regression_level_needs_no_grid_but_bodies_that_do_not_yield():
     scene, fresh, op = at_level("regression")
     assert advance(scene, at(op, 50e-3), fresh, 1.0)[1].approach > 0.0
     with pytest.raises(OperatingPointError, match="Lower the load or enlarge the radii"):
         advance(scene, at(op, 0.2e-3), fresh, 1.0)
 
 
-def test_the_fast_level_goes_on_from_patches_and_back_under_other_radii():
+def test_the_regression_level_goes_on_from_patches_and_back_under_other_radii():
     scene, fresh, op = cheap()
     state, before = advance(scene, op, fresh, 60.0)
     quick = scene.at_level("regression")

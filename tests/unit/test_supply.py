@@ -85,7 +85,7 @@ def test_a_call_takes_supply_and_meniscus_on_the_side_where_oil_comes_in(speed):
     assert flooded.pressure[:, before].any()
 
 
-def test_a_starved_film_is_thinner_at_the_fast_level_too():
+def test_a_starved_film_is_thinner_at_the_regression_level_too():
     films = []
     for changes in ({}, CONSERVING | FILM, INLET):
         scene = Scene.from_toml("mtm_zddp", changes).at_level("regression")

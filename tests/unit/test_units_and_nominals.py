@@ -66,7 +66,8 @@ def test_the_inputs_have_the_units_that_all_others_follow_from():
 
 @pytest.mark.parametrize("quantity", REALS, ids=lambda q: q.name)
 def test_an_output_has_the_unit_of_what_defines_it(quantity: Quantity) -> None:
-    defined = DEFINED.get(quantity.name) or DEFINED[quantity.name[:-2]]
+    defined = DEFINED.get(quantity.name) or DEFINED.get(quantity.name[:-2])
+    assert defined, f"Add '{quantity.name}' to DEFINED."
     factor, (*exponents, radian) = units.unit(quantity.unit)
     assert (factor, radian) == (1.0, 0)
     assert {dimension(product) for product in defined} == {tuple(exponents)}
@@ -96,7 +97,7 @@ def run(scene: Scene, steps: int = 2) -> Iterator[Outputs]:
 
 @pytest.fixture(scope="module")
 def largest() -> dict[str, float]:
-    """The largest magnitude of each output over runs of shipped scenes, at the fast level and on a coarse grid."""
+    """The largest magnitude of each output over shipped scenes, at the regression level and on a coarse grid."""
     scenes = [Scene.from_toml(name).at_level("regression") for name in ("azam_case_a", "mtm_zddp", "fzg_flank")]
     found = [row for scene in (*scenes, Scene.from_toml("mtm_zddp", COARSE)) for row in run(scene)]
     return {q.name: max(abs(getattr(row, q.name)) for row in found) for q in REALS if q.name not in OF_CALLER}

@@ -69,7 +69,7 @@ def test_the_first_steps_find_every_kernel_and_module_loaded(name, changes):
     assert not modules
 
 
-def test_the_fast_level_is_warm_without_a_kernel():
+def test_the_regression_level_is_warm_without_a_kernel():
     _, before, after, modules = _run("mtm_zddp", **{"film.model": "regression"})
     assert before == after == []
     assert not modules

@@ -72,7 +72,7 @@ def test_volumes_are_the_sum_of_the_rates_and_the_depth_over_the_track_of_each_b
     volumes = of(found[-1], "wear_volume")
     assert volumes == approx(sum(of(out, "wear_rate") * dt for out, dt in zip(found, STEPS, strict=True)), rel=1e-9)
     assert volumes[0] > 1.5 * volumes[1] > 0.0
-    # the fast level gives the patches of a point and a roller what its means have on whole rows
+    # the regression level gives the patches of a point and a roller what its means have on whole rows
     near = 1e-9 if level == "deterministic" or shape == "line" else 1e-6
     assert depth_times_area(scene, state) == approx(volumes, rel=near)
 
@@ -130,7 +130,7 @@ def test_wear_under_a_film_that_grows_within_a_block_is_of_second_order_in_the_s
     assert np.log2(np.divide(off[:-1], off[1:])) == approx([2.0, 2.0], abs=0.15)
 
 
-def test_wear_under_a_growing_film_does_not_wait_for_fine_steps_at_the_fast_level():
+def test_wear_under_a_growing_film_does_not_wait_for_fine_steps_at_the_regression_level():
     """Between bodies that roll against each other nothing but the film changes: solids carry all of the load."""
     volumes = []
     for change in ("10 nm", "0.3 nm"):

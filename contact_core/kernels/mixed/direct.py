@@ -228,18 +228,18 @@ class _Direct(Iteration):
         moved.measure()
         full = moved.rho * moved.gap
         moved.drive(self.f, full, q.mobility, q.thinned)
-        mass, filling = full, ()
-        flux, old = moved.carried, here.carried
+        mass, flux, old = full, moved.carried, here.carried
+        filling, filling_before, first = None, None, 1
         if self.carried is not None and self.moved_oil is not None:
             np.copyto(self.moved_oil.full, full)
             mass = self.moved_mass
             self.moved_oil.carry(self.f, moved, mass)
-            flux, old, filling = self.moved_oil.flux, self.carried.flux, (self.moved_oil.filling, self.carried.first)
-        reynolds.residual(self.f, self.solid, mass, q.mass_old, *moved.faces, flux, *q.terms, self.response, *filling)
-        before = np.empty_like(self.response)
-        if self.carried is not None:
-            filling = (self.carried.filling, self.carried.first)
-        reynolds.residual(self.f, self.solid, self.mass, q.mass_old, *here.faces, old, *q.terms, before, *filling)
+            flux, old, first = self.moved_oil.flux, self.carried.flux, self.carried.first
+            filling, filling_before = self.moved_oil.filling, self.carried.filling
+        balance = (mass, q.mass_old, *moved.faces, flux, *q.terms)
+        reynolds.residual(self.f, self.solid, *balance, self.response, filling, first)
+        balance, before = (self.mass, q.mass_old, *here.faces, old, *q.terms), np.empty_like(self.response)
+        reynolds.residual(self.f, self.solid, *balance, before, filling_before, first)
         self.response -= before
         self.response /= trial
 

@@ -6,9 +6,10 @@ Through the face between two nodes, h [l^2 / radius] along the cell between them
     e_f = mobility rho <1 / eta> / I_3,   m_c = rho I_2 / I_3,
 
 <1 / eta> = (Phi(f_right) - Phi(f_left)) / (f_right - f_left), Phi the integral of the fluidity over pressure
-(Kirchhoff's transform), are exact for a flow that is constant within the cell, however much the gap and the viscosity change there.
-Where the half space is stiff against the flow, the film is carried along as it is: m_u, of third order upstream,
-kept between the masses of both nodes. m_f = t m_c + (1 - t) m_u, t = s^2 / (1 + s^2), s = e_f / (compliance dx^2).
+(Kirchhoff's transform), are exact for a flow that is constant within the cell, however much the gap and the viscosity
+change there. Where the half space is stiff against the flow, the film is carried along as it is: m_u, of third order
+upstream, kept between the masses of both nodes. m_f = t m_c + (1 - t) m_u, t = s^2 / (1 + s^2),
+s = e_f / (compliance dx^2).
 
 The gap within a cell along the flow is the cubic through four nodes; across the flow it is straight, 1 / I_3 =
 2 h_1^2 h_2^2 / (h_1 + h_2). Source of fitted fluxes: Scharfetter & Gummel, IEEE Trans. Electron Devices 16 (1969) 64,

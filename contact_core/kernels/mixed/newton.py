@@ -108,11 +108,12 @@ class _Trial:
         node_pass(self.at, self.gap, self.fixed, df, dh, part, q.floor, *q.tables, self.f, full, *flow.nodes)
         flow.measure()
         flow.drive(self.f, full, q.mobility, q.thinned)
-        mass, flux, filling = full, flow.carried, ()
+        mass, flux, filling, first = full, flow.carried, None, 1
         if carried is not None:
-            mass, flux, filling = self.mass, carried.flux, (carried.filling, carried.first)
+            mass, flux, filling, first = self.mass, carried.flux, carried.filling, carried.first
             carried.carry(self.f, flow, mass)
-        reynolds.residual(self.f, self.solid, mass, q.mass_old, *flow.faces, flux, *q.terms, self.r, *filling)
+        balance = (mass, q.mass_old, *flow.faces, flux, *q.terms)
+        reynolds.residual(self.f, self.solid, *balance, self.r, filling, first)
         return (self.r - self.base) / part
 
 
@@ -202,8 +203,8 @@ class _Film:
         by_f, by_h, scale, flow = self.by_f, self.by_h, self.scale, self.flow
         linearisation.slopes(self.f, solid, self.h, q.floor, q.step, q.density, self.slope)
         film = (self.f, flow.gap, flow.fluid, q.thinned, *flow.faces, flow.share, q.fitted, *q.terms, self.slope)
-        inlet = (1, None) if self.carried is None else (self.carried.first, self.carried.filling)
-        linearisation.linearise(*film, *inlet, by_f, by_h)
+        filling, first = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
+        linearisation.linearise(*film, first, filling, by_f, by_h)
         yields = solid & (self.p >= q.cap) & (self.h < q.floor)
         wet = ((self.p > 0.0) | (self.r > 0.0)) & ~((self.p >= q.cap) & (self.r >= 0.0))
         nodes = self.order[np.where(solid, ~yields, wet).ravel()[self.order]]

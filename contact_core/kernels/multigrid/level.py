@@ -107,9 +107,10 @@ class Level:
 
     def relax(self, single: float, spread: float) -> None:
         """Relax once; the film must be up to date before, and is not afterwards."""
+        wedge, wedge_soft = self._lines[self.flow.fitted]
         relaxation.relax(
             self.p, *self.flow.through, self.flow.rho, self.soft, self.f, self.edge, self.offset,
-            *self._lines[self.flow.fitted], self.dx, self.compliance, self.mirror, single, spread, self.work,
+            wedge, wedge_soft, self.dx, self.compliance, self.mirror, single, spread, self.work,
         )  # fmt: skip
 
     def set_edges(self) -> None:

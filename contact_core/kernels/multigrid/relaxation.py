@@ -2,9 +2,9 @@
 
     div(e grad p) - d(m)/dx = f where p > 0,   p >= 0,   m = rho h,   e = mobility rho h^3 (1 / eta(p) + thinned)
 
-What flows through the faces between nodes is said in `mixed.flow`. Fields are [rows, nx]. With `mirror` they are one half of a contact that is symmetric
-about its last row: what lies beyond it is the image of the row before it. Where the film of a coarse grid is negative
-nothing flows under pressure, but its mass is carried along as it is.
+What flows through the faces between nodes is said in `mixed.flow`. Fields are [rows, nx]. With `mirror` they are one
+half of a contact that is symmetric about its last row: what lies beyond it is the image of the row before it. Where the
+film of a coarse grid is negative nothing flows under pressure, but its mass is carried along as it is.
 
 Source of the relaxation: Venner & Lubrecht, Multilevel Methods in Lubrication, Elsevier 2000; lines along x, Gauss-
 Seidel where pressure flow rules, changes that leave the total pressure as it is (a node up, its neighbours down by a

@@ -104,7 +104,7 @@ def validity(scene: Scene) -> Iterator[str]:
 
 
 def _not_modelled(scene: Scene) -> Iterator[str]:
-    if scene.lubricant.supply.name == "flooded":
+    if not scene.lubricant.supply.starves:
         yield "starvation (lubricant.supply = flooded: the inlet is full)"
     yield from scene.geometry.not_modelled
     yield "heat carried along by moving asperities (temperatures are steady)"
@@ -138,11 +138,11 @@ def _smooth_film(scene: Scene) -> Iterator[tuple[str, str, str]]:
     yield "Moes' M and L", ", ".join(map(number, smooth.moes_parameters)), "load and lubricant parameters"
     formula = f"by the formula of {scene.geometry.film_formula}"
     yield "flooded film of the smooth bodies", number(1e9 * smooth.film, "nm"), formula
-    if supply.name != "flooded":
+    if supply.starves:
         yield "film with this oil supply", number(1e9 * film, "nm"), supply.source
     sigma = math.hypot(scene.surface_1.rms, scene.surface_2.rms)
     if sigma > 0.0:
-        yield "λ: that film over composite roughness", number(film / sigma), "the smaller λ, the more load on solids"
+        yield "Z: that film over composite roughness", number(film / sigma), "the smaller Z, the more load on solids"
 
 
 def _temperatures(scene: Scene) -> str:

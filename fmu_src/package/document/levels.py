@@ -74,7 +74,7 @@ def _fitted_ranges(scene: Scene) -> Iterator[Row]:
         "flattening": number(flattening_of(pressure, scene.solids.reduced_modulus, slope)) if slope > 0.0 else "none",
         "resolution": number(rougher.length / film.spacing),
     }
-    symbols = {"clearance": "λ", "flattening": "s", "resolution": "r"}
+    symbols = {"clearance": "Z", "flattening": "s", "resolution": "r"}
     for name, (low, high) in film.sharing.FITTED.items():
         yield f"{symbols[name]} of the fit", here[name], f"fitted from {low:g} to {high:g}"
 

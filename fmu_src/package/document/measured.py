@@ -18,7 +18,7 @@ class Table:
 
 
 _CHECK = "python -m benchmarks.regression.curves check"
-_BANDS = ("λ", "points", "friction, median", "90 %", "h_c, median", "90 %", "W_c (absolute), median", "90 %")
+_BANDS = ("Z", "points", "friction, median", "90 %", "h_c, median", "90 %", "W_c (absolute), median", "90 %")
 
 ERRORS: dict[str, tuple[Table, ...]] = {
     "deterministic": (

@@ -85,8 +85,8 @@ def _largest(duty: Timeline) -> tuple[RingLoads, float]:
 def _contact(table: Mapping[str, Any], design: LoadClass) -> Contact:
     """Return the contact of a load class: values of its FMU beside the connected inputs."""
     tracks = {f"geometry.track_length_{i}": getattr(design, f"track_length_{i}") for i in (1, 2)}
-    told = {"radius_x": design.radius_x, "radius_y": design.radius_y, **tracks}
-    return Contact(scene_of(table), told, "bearing." + indexed(f"count_{design.race}", design.level))
+    values = {"radius_x": design.radius_x, "radius_y": design.radius_y, **tracks}
+    return Contact(scene_of(table), values, "bearing." + indexed(f"count_{design.race}", design.level))
 
 
 def _links(design: LoadClass) -> list[tuple[Any, ...]]:

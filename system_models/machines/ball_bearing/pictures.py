@@ -40,7 +40,7 @@ def write(run: BearingRun, folder: Path) -> list[Path]:
 
 
 def overview(run: BearingRun) -> "Figure":
-    """Draw loads and films around the race, torque, power, temperatures, starts, tribofilms, wear, film ratio."""
+    """Draw loads and films around the race, torque, power, temperatures, starts, tribofilms, wear, lambda ratio."""
     figure = _figure(run, (13.0, 11.0))
     grid = figure.add_gridspec(3, 3)
     _loads_around(figure.add_subplot(grid[0, 0], projection="polar"), run)
@@ -51,23 +51,23 @@ def overview(run: BearingRun) -> "Figure":
     _over_speed(figure.add_subplot(grid[1, 2]), run)
     _of_bodies(figure.add_subplot(grid[2, 0]), run, "tribofilm", "mean tribofilm [nm]")
     _of_bodies(figure.add_subplot(grid[2, 1]), run, "wear_depth", "mean wear depth [nm]")
-    _of_contacts(figure.add_subplot(grid[2, 2]), run, "lambda_ratio", r"film ratio $\lambda$")
+    _of_contacts(figure.add_subplot(grid[2, 2]), run, "lambda_ratio", r"lambda ratio $\lambda$")
     return figure
 
 
 def load_zone(run: BearingRun) -> "Figure":
-    """Draw load, pressure, film and film ratio of the balls around the races."""
+    """Draw load, pressure, film and lambda ratio of the balls around the races."""
     figure = _figure(run, (11.0, 10.0))
     places = [figure.add_subplot(2, 2, k, projection="polar") for k in range(1, 5)]
     _loads_around(places[0], run)
     _passages(places[1], run, "pressure", 1e-9, "Hertz's largest pressure [GPa]")
-    _balls_around(places[2], run, "h_c", _NM, "mean gap $h_c$ [nm]")
-    _balls_around(places[3], run, "lambda_ratio", 1.0, r"film ratio $\lambda$")
+    _balls_around(places[2], run, "h_c", _NM, "central film\nthickness $h_c$ [nm]")
+    _balls_around(places[3], run, "lambda_ratio", 1.0, r"lambda ratio $\lambda$")
     return figure
 
 
 def surfaces(run: BearingRun) -> "Figure":
-    """Draw for each load class against time: tribofilm, wear, roughness, friction, share of the solids, film ratio."""
+    """Draw for each load class against time: tribofilm, wear, roughness, friction, load on solids, lambda ratio."""
     figure = _figure(run, (13.0, 7.5))
     axes = figure.subplots(2, 3)
     _of_bodies(axes[0, 0], run, "tribofilm", "mean tribofilm [nm]")
@@ -75,7 +75,7 @@ def surfaces(run: BearingRun) -> "Figure":
     _of_bodies(axes[0, 2], run, "roughness", "roughness Rq [nm]", log=False)
     _of_contacts(axes[1, 0], run, "friction_coefficient", "friction coefficient")
     _of_contacts(axes[1, 1], run, "contact_load_ratio", "load on solids")
-    _of_contacts(axes[1, 2], run, "lambda_ratio", r"film ratio $\lambda$")
+    _of_contacts(axes[1, 2], run, "lambda_ratio", r"lambda ratio $\lambda$")
     return figure
 
 
@@ -127,12 +127,13 @@ def _balls_around(axes: Any, run: BearingRun, name: str, factor: float, title: s
 
 
 def _films_around(axes: "Axes", run: BearingRun) -> None:
-    """Draw the mean gap of a ball along its orbit; the film ratio is in proportion but for the roughness."""
+    """Draw the central film thickness of a ball along its orbit; the lambda ratio is in proportion to it."""
     for race in RACES:
         way = run.passage(race, run.last)
         gap = _NM * run.at_load(race, "h_c", run.last, way.load)
         axes.plot(way.azimuth * _DEGREES, gap, color=_RACE_COLOURS[race], label=f"{race} race")
-    axes.set(xlabel="azimuth from the load [deg]", ylabel="mean gap $h_c$ [nm]", xticks=range(-180, 181, 90))
+    axes.set(xlabel="azimuth from the load [deg]", xticks=range(-180, 181, 90))
+    axes.set_ylabel("central film\nthickness $h_c$ [nm]")
     axes.set_ylim(bottom=0.0)
     _plain(axes)
 
@@ -241,7 +242,7 @@ def _of_bodies(axes: "Axes", run: BearingRun, name: str, label: str, log: bool =
     largest = 0.0
     for which in run.carrying:
         for body, _, style in _BODIES:
-            values = _NM * run.told(which, f"{name}_{body}")
+            values = _NM * run.solved(which, f"{name}_{body}")
             largest = max(largest, float(values.max()))
             shade = _shade(which.level, run.bearing.levels)
             axes.plot(time, values, style, color=_RACE_COLOURS[which.race], alpha=shade, linewidth=1.2)
@@ -263,7 +264,7 @@ def _of_contacts(axes: "Axes", run: BearingRun, name: str, label: str) -> None:
     time, _ = _clock(run)
     least, largest = math.inf, 0.0
     for which in run.carrying:
-        values = np.where(run.runs & run.loaded(which), run.told(which, name), np.nan)
+        values = np.where(run.runs & run.loaded(which), run.solved(which, name), np.nan)
         values[values >= CAPPED] = np.nan
         least = min(least, float(np.nanmin(values, initial=math.inf)))
         largest = max(largest, float(np.nanmax(values, initial=0.0)))

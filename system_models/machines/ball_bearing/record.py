@@ -11,12 +11,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from contact_core import OperatingPoint, advance, initial_state
-from contact_core.laws.viscosity import AstmD341
-from contact_core.scene import Lubricant
+from contact_core.laws.viscosity import kinematic_viscosity
 
 from ...parts.part import indexed
-from ...parts.thermal import ThermalNetwork
 from ..assembly import Assembly
+from ..report import heat_stored
 from .equilibrium import RingLoads, solve
 from .geometry import RACES, RaceName
 from .part import BallBearing, contact_name
@@ -26,8 +25,7 @@ Array = NDArray[np.float64]
 Parts = dict[str, Array]  # friction torque [N m] by cause, arrays [time], NaN at standstill
 Formula = Callable[[CatalogueBearing, float, float, float, float], Torque]  # radial, axial, speed, viscosity
 
-DENSITY = 870.0  # kg/m3, assumed of oils whose viscosity law has none
-CAPPED = 1e3  # film ratios from here on say nothing
+CAPPED = 1e3  # lambda ratios from here on say nothing
 FEWEST = 0.02  # balls: a class of fewer stands for none
 _HARDLY = 0.02  # of the largest load or speed
 _REACHED = 0.99  # of its largest speed: a start ends there
@@ -35,7 +33,7 @@ _POSITIONS = 24  # of the cage between one ball and the next
 
 
 class ContactClass(NamedTuple):
-    """A class of contacts: a race and a level of load on it."""
+    """A class of contacts: a race and a load class of it."""
 
     race: RaceName
     level: int
@@ -99,7 +97,7 @@ class BearingRun:
         """Return a value that the bearing sends to a load class: load, speeds, count, ..."""
         return self.of("bearing." + indexed(f"{name}_{which.race}", which.level))
 
-    def told(self, which: ContactClass, name: str) -> Array:
+    def solved(self, which: ContactClass, name: str) -> Array:
         """Return an output of the contact of a load class."""
         return self.of(f"{which.contact}.{name}")
 
@@ -140,16 +138,16 @@ class BearingRun:
         rolling, sliding, spin = np.zeros((3, speed.size))
         for which in self.classes:
             count, u1, u2 = (self.given(which, name) for name in ("count", "speed_1", "speed_2"))
-            rolling += count * np.abs(self.told(which, "rolling_resistance") * (u1 + u2)) / speed
-            sliding += count * np.abs(self.told(which, "friction_force") * (u1 - u2)) / speed
+            rolling += count * np.abs(self.solved(which, "rolling_resistance") * (u1 + u2)) / speed
+            sliding += count * np.abs(self.solved(which, "friction_force") * (u1 - u2)) / speed
             spin += count * self._spin_torque(which) * np.abs(self.given(which, "spin")) / speed
         return {"rolling": rolling, "sliding": sliding, "spin": spin}
 
     def _spin_torque(self, which: ContactClass) -> Array:
         """Return the size of a contact's torque about its normal [N m], by its power."""
-        slid = self.told(which, "friction_force") * (self.told(which, "speed_1") - self.told(which, "speed_2"))
-        spin = np.abs(self.told(which, "spin"))
-        lost = np.maximum(self.told(which, "power_loss") - np.abs(slid), 0.0)
+        slid = self.solved(which, "friction_force") * (self.solved(which, "speed_1") - self.solved(which, "speed_2"))
+        spin = np.abs(self.solved(which, "spin"))
+        lost = np.maximum(self.solved(which, "power_loss") - np.abs(slid), 0.0)
         return np.divide(lost, spin, out=np.zeros_like(lost), where=spin > 0.0)
 
     @property
@@ -166,7 +164,7 @@ class BearingRun:
     def kinematic_viscosity(self) -> Array:
         """Kinematic viscosity of the oil [m2/s]."""
         oil = next(iter(self.assembly.contacts.values())).scene.lubricant
-        return kinematic_viscosity(oil, self.of("housing.temperature_oil"))
+        return np.asarray(kinematic_viscosity(oil.viscosity, self.of("housing.temperature_oil")))
 
     @cached_property
     def skf(self) -> Parts:
@@ -238,32 +236,32 @@ class BearingRun:
         return Passage(azimuth, load, self.pressure(race, load))
 
     def at_load(self, race: RaceName, name: str, row: int, load: Array) -> Array:
-        """Return the mean gap ("h_c") or film ratio ("lambda_ratio") of balls with loads [N] on a race at a row.
+        """Return h_c [m] or lambda ratio, by `name`, of balls with loads [N] on a race at a row.
 
         Interpolated between the classes is not the film, of which idle balls have many times as much, but its share of
         what the regression level gives for fresh surfaces at the same load: that hardly changes. NaN with hardly any
         load and at rest.
         """
         found, loaded = np.full(load.shape, np.nan), load > _HARDLY * load.max()
-        told = [
-            (float(self.given(which, "load")[row]), float(self.told(which, name)[row]), which)
+        known = [
+            (float(self.given(which, "load")[row]), float(self.solved(which, name)[row]), which)
             for which in self.classes
             if which.race == race and self.loaded(which)[row]
         ]
-        told = sorted(each for each in told if each[1] < CAPPED)
-        if told and self.runs[row]:
-            loads, values, own = zip(*told, strict=True)
+        known = sorted(each for each in known if each[1] < CAPPED)
+        if known and self.runs[row]:
+            loads, values, own = zip(*known, strict=True)
             shares = np.array(values) / self._fresh_gaps(own[-1], row, loads)
             gaps = self._fresh_gaps(own[-1], row, load[loaded].tolist())
             found[loaded] = np.interp(load[loaded], loads, shares) * gaps
         return found
 
     def _fresh_gaps(self, which: ContactClass, row: int, loads: Sequence[float]) -> Array:
-        """Return mean gaps [m] of the regression level under loads [N]: fresh surfaces, all else as at a row."""
+        """Return h_c [m] of the regression level under loads [N]: fresh surfaces, all else as at a row."""
         contact = self.assembly.contacts[which.contact]
         names = {field.name for field in fields(OperatingPoint)}
         given = {name: float(value) for name, value in contact.parameters.items() if name in names}
-        given |= {name: float(self.told(which, name)[row]) for name in self.assembly.inputs_of(which.contact)}
+        given |= {name: float(self.solved(which, name)[row]) for name in self.assembly.inputs_of(which.contact)}
         scene = contact.scene.at_level("regression")
         op, fresh = OperatingPoint(**given), initial_state(scene)
         return np.array([advance(scene, replace(op, load=load), fresh, 0.0)[1].h_c for load in loads])
@@ -271,22 +269,9 @@ class BearingRun:
     @property
     def heat_stored(self) -> float:
         """Heat that the housing's nodes hold more than at the start [J]."""
-        housing = self.assembly.parts["housing"]
-        assert isinstance(housing, ThermalNetwork)
-        return sum(
-            node.heat_capacity * float(self.of(f"housing.temperature_{node.name}")[-1] - node.temperature)
-            for node in housing.nodes
-        )
+        return heat_stored(self.assembly, self.dataset, "housing")
 
     @property
     def heat_in(self) -> float:
         """Heat that friction has made since the start [J], by the trapezoidal rule."""
         return float(np.trapezoid(self.of("bearing.power_loss"), self.time))
-
-
-def kinematic_viscosity(oil: Lubricant, temperature: Array) -> Array:
-    """Return the kinematic viscosity [m2/s] of an oil at p = 0 and temperatures [K]."""
-    law, density = oil.viscosity, np.full_like(temperature, DENSITY)
-    if isinstance(law, AstmD341):
-        density = law.density * (1.0 - law.expansion * (temperature - 288.15))
-    return np.asarray(law(0.0, temperature)) / density

@@ -53,13 +53,13 @@ def _contacts(run: BearingRun, row: int) -> list[str]:
         if balls < FEWEST:
             continue
         h_c, ratio, mu, solids, *layers = (
-            run.told(which, name)[row] for name in ("h_c", "lambda_ratio", "friction_coefficient", _SOLIDS, *_LAYERS)
+            run.solved(which, name)[row] for name in ("h_c", "lambda_ratio", "friction_coefficient", _SOLIDS, *_LAYERS)
         )
         pressure = 1e-9 * run.pressure(which.race, load)
         film = f"{ratio:.2f}" if ratio < CAPPED else "-"
         carried = [f"{pressure:.2f}", f"{_NM * h_c:.0f}", film, f"{mu:.4f}", f"{solids:.1%}"]
-        told = carried if load >= _UNLOADED else len(carried) * ["-"]
-        rows.append([which.contact, f"{balls:.2f}", f"{load:.0f}", *told, *map(_nanometres, layers)])
+        shown = carried if load >= _UNLOADED else len(carried) * ["-"]
+        rows.append([which.contact, f"{balls:.2f}", f"{load:.0f}", *shown, *map(_nanometres, layers)])
     return [
         *aligned(rows, 1),
         "balls: how many a class stands for; solids: load on asperities; tribofilm, wear: mean thickness and mean "
@@ -78,8 +78,8 @@ def _torques(run: BearingRun, row: int) -> list[str]:
     found = []
     for who, parts in (("the contacts", run.torque), ("SKF", run.skf), ("Palmgren", run.palmgren)):
         values = {name: _NMM * float(part[row]) for name, part in parts.items()}
-        told = ", ".join(f"{name} {value:.3g}" for name, value in values.items())
-        found.append(f"{sum(values.values()):.3g} N mm by {who} ({told})")
+        shown = ", ".join(f"{name} {value:.3g}" for name, value in values.items())
+        found.append(f"{sum(values.values()):.3g} N mm by {who} ({shown})")
     return [f"Friction torque, without drag and seals: {'; '.join(found)}."]
 
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ...run.cosim_report import aligned
 from ..assembly import Assembly
+from ..report import heat_stored
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -49,9 +50,9 @@ def _bodies(name: str) -> tuple[_Line, _Line]:
 _PANELS: tuple[tuple[str, float, tuple[_Line, ...]], ...] = (
     ("friction coefficient", 1.0, (("contact.friction_coefficient", "", _BLACK),)),
     ("mean tribofilm [nm]", 1e9, _bodies("tribofilm")),
-    ("mean gap $h_c$ [nm]", 1e9, (("contact.h_c", "", _BLACK),)),
+    ("central film\nthickness $h_c$ [nm]", 1e9, (("contact.h_c", "", _BLACK),)),
     ("mean wear depth [nm]", 1e9, _bodies("wear_depth")),
-    (r"film ratio $\lambda$", 1.0, (("contact.lambda_ratio", "", _BLACK),)),
+    (r"lambda ratio $\lambda$", 1.0, (("contact.lambda_ratio", "", _BLACK),)),
     ("roughness Rq [nm]", 1e9, _bodies("roughness")),
 )
 
@@ -176,10 +177,7 @@ def _energy(assembly: Assembly, dataset: xr.Dataset) -> Iterator[str]:
     heaters = [str(name) for name in dataset.data_vars if str(name).startswith("bath.heater_energy_")]
     heating = sum(float(dataset[name].values[-1]) for name in heaters)
     lost = float(dataset["bath.energy_to_ambient"].values[-1])
-    stored = sum(
-        node.heat_capacity * float(np.diff(dataset[f"bath.temperature_{node.name}"].values[[0, -1]])[0])
-        for node in assembly.parts["bath"].nodes  # type: ignore[attr-defined]
-    )
+    stored = heat_stored(assembly, dataset, "bath")
     missing = friction + heating - lost - stored
     yield (
         f"Energy of the bath: {friction / 1e3:.3f} kJ from friction and {heating / 1e3:.3f} kJ from heaters, "
@@ -274,11 +272,14 @@ def _finish(axis: "Axes", dataset: xr.Dataset, found: list[Sweep]) -> None:
 
 
 def _draw_curves(axes: "list[Axes]", dataset: xr.Dataset, found: list[Sweep]) -> None:
-    """Draw friction and film ratio over speed, by rubbing time."""
+    """Draw friction and lambda ratio over speed, by rubbing time."""
     from matplotlib import colormaps
 
     colours = colormaps["viridis"](np.linspace(0.0, 0.9, len(found)))
-    rows = (("contact.friction_coefficient", "friction coefficient"), ("contact.lambda_ratio", r"film ratio $\lambda$"))
+    rows = (
+        ("contact.friction_coefficient", "friction coefficient"),
+        ("contact.lambda_ratio", r"lambda ratio $\lambda$"),
+    )
     for axis, (name, label) in zip(axes, rows, strict=True):
         for sweep, colour in zip(found, colours, strict=True):
             speeds, values = [hold.entrainment_speed for hold in sweep.holds], dataset[name].values[list(sweep.rows)]

@@ -7,10 +7,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from contact_core.reference import hertz_line
-from contact_core.shapes import LineGeometry
-
 from ..assembly import Assembly
+from ..report import heat_stored
 from .part import CamFollower, contact_name
 
 Array = NDArray[np.float64]
@@ -70,21 +68,18 @@ class Record:
     def pressures(self, row: int) -> Array:
         """Return Hertz's largest pressure [Pa] at the stations; 0 without load."""
         scene = self.assembly.contacts[self.names[0]].scene
-        assert isinstance(scene.geometry, LineGeometry)
-        width, modulus = scene.geometry.face_width, scene.solids.reduced_modulus
+        geometry, modulus = scene.geometry, scene.solids.reduced_modulus
         rows = zip(self.along("load")[row], self.along("radius_x")[row], strict=True)
-        return np.array([hertz_line(load, r, width, modulus).pressure_max if load > 0.0 else 0.0 for load, r in rows])
+        return np.array(
+            [geometry.shape(r).hertz(load, modulus).pressure_max if load > 0.0 else 0.0 for load, r in rows]
+        )
 
     def energies(self) -> dict[str, float]:
         """Return the energies [J] since the start: of friction, from thermostats, stored, to the surroundings."""
-        head = self.assembly.parts["head"]
         heaters = [str(name) for name in self.dataset if str(name).startswith("head.heater_energy_")]
         return {
             "friction": float(np.trapezoid(self.of("cam.power_loss"), self.time)),
             "thermostats": float(sum(self.of(name)[-1] for name in heaters)),
-            "stored": sum(
-                node.heat_capacity * float(self.of(f"head.temperature_{node.name}")[-1] - node.temperature)
-                for node in head.nodes  # type: ignore[attr-defined]
-            ),
+            "stored": heat_stored(self.assembly, self.dataset, "head"),
             "to the surroundings": float(self.of("head.energy_to_ambient")[-1]),
         }

@@ -85,8 +85,8 @@ def _along(record: Record) -> dict[str, tuple[str, _Curve]]:
     return {
         "load": ("load of the contact [kN]", of("load", 1e-3)),
         "pressure": ("Hertz's pressure [GPa]", lambda stage: 1e-9 * record.pressures(stage.last)),
-        "film": ("mean gap $h_c$ [nm]", of("h_c", 1e9)),
-        "lambda": (r"film ratio $\lambda$", of("lambda_ratio")),
+        "film": ("central film\nthickness $h_c$ [nm]", of("h_c", 1e9)),
+        "lambda": (r"lambda ratio $\lambda$", of("lambda_ratio")),
         "friction": ("coefficient of friction", of("friction_coefficient")),
         "flash": ("flash temperature rise [K]", of("flash_temperature_rise")),
         **bodies("wear", "wear_depth", "wear depth"),

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from contact_core.laws.viscosity import AstmD341
+from contact_core.laws.viscosity import kinematic_viscosity
 from contact_core.reference import hertz_line
 from contact_core.scene import Scene
 
@@ -22,7 +22,6 @@ from .path import Array, steps
 from .textbook import iso_14179_1, load_intensity, ohlendorf, schlenk
 
 _RA_OF_RQ = math.sqrt(2.0 / math.pi)  # of Gaussian heights
-_DENSITY = 870.0  # kg/m3, of oils that do not say theirs
 _TURNS, _LOADED = 1.0, 1e-3  # rad/s and N m: less is standing still or idling
 
 
@@ -145,12 +144,11 @@ class Record:
         """Return the formulas for torque, speed and oil temperature at a row in which the gears work."""
         torque, speed = float(self.of("shafts.mesh_torque")[row]), float(self.of("shafts.speed_1")[row])
         warm, law = float(self.of("gearbox.temperature_oil")[row]), self.scene.lubricant.viscosity
-        viscosity = float(law(0.0, warm))
-        density = float(law.density_at(warm)) if isinstance(law, AstmD341) else _DENSITY
+        viscosity, kinematic = float(law(0.0, warm)), float(kinematic_viscosity(law, warm))
         within = 1.4e6 < load_intensity(self.pair, torque) <= 14e6 and 2.0 < speed * self.pair.pitch_radius_1 <= 25.0
         return Textbook(
             schlenk(self.pair, torque / self.pair.base_radius_1, speed, viscosity, self.roughness),
-            iso_14179_1(self.pair, torque, speed, viscosity / density),
+            iso_14179_1(self.pair, torque, speed, kinematic),
             within,
         )
 

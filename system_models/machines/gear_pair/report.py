@@ -7,6 +7,7 @@ import xarray as xr
 
 from ...run.cosim_report import aligned
 from ..assembly import Assembly
+from ..report import heat_stored
 from . import pictures as gear_pair_pictures
 from .path import Array
 from .record import Record, Stage
@@ -98,11 +99,7 @@ def _heat(record: Record) -> list[str]:
     lost, given = record.of("mesh.power_loss"), _thermostats(record, "heater_power")
     out = float(record.of("gearbox.heat_to_ambient")[-1])
     now = float(lost[-1] + given[-1])
-    network = record.assembly.parts["gearbox"]
-    stored = sum(
-        node.heat_capacity * float(record.of(f"gearbox.temperature_{node.name}")[-1] - node.temperature)
-        for node in network.nodes  # type: ignore[attr-defined]
-    )
+    stored = heat_stored(record.assembly, record.dataset, "gearbox")
     energies = {
         "friction": float(np.trapezoid(lost, record.time)),
         "thermostats": float(_thermostats(record, "heater_energy")[-1]),

@@ -1,4 +1,4 @@
-"""Errors that the fast level states, against the deterministic level on contacts that no curve was fitted to."""
+"""Errors that the regression level states, against the deterministic level on contacts that no curve was fitted to."""
 
 import json
 from dataclasses import replace
@@ -12,9 +12,9 @@ from contact_core import OperatingPoint, RangeFlag, Scene, advance, initial_stat
 from contact_core.state import Mean
 
 # random contacts within the fit, beyond it, and rubbed for ten minutes: `python -m benchmarks.regression.truths`
-GOLDEN = Path(__file__).parent.parent / "golden" / "fast_level.json"
+GOLDEN = Path(__file__).parent.parent / "golden" / "regression_level.json"
 # tribofilms of circles within the fit, after the seconds said with it, from new surfaces: each as `advance` has it
-TRIBOFILMS = GOLDEN.with_name("fast_level_tribofilms.json")
+TRIBOFILMS = GOLDEN.with_name("regression_level_tribofilms.json")
 # wear is in proportion to the load on the solids
 ERRORS = {"friction_coefficient": "error_friction", "h_c": "error_film", "contact_load_ratio": "error_wear"}
 UNKNOWN = 1e3  # of wear: nobody knows
@@ -31,7 +31,7 @@ def scene_of(row):
 
 
 def fast(row):
-    """The scene at the fast level, and its outputs."""
+    """The scene at the regression level, and its outputs."""
     scene = scene_of(row).at_level("regression")
     state = initial_state(scene)
     if row["means"]:
