@@ -68,7 +68,7 @@ def node_pass(  # type: ignore[no-untyped-def]
     """
     for j in range(f.shape[0]):
         for i in range(f.shape[1]):
-            out[j, i] = max(f[j, i] + part * df[j, i], 0.0)
+            out[j, i] = f[j, i] + part * df[j, i]
             rise = 0.0 if fixed[j, i] else part * dh[j, i]
             gap[j, i] = max(gap_before[j, i] + rise, floor)
             rho[j, i], fluid[j, i], driven[j, i] = properties(out[j, i], step, density, fluidity, potential)

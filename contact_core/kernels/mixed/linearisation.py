@@ -7,6 +7,7 @@ import numpy as np
 
 from ..compiled import jit
 from . import reynolds
+from .cavities import FADE
 
 # stencil of Reynolds' equation: centre, west, east, south, north, second west; then the corners of the patch
 DJ = np.array([0, 0, 0, -1, 1, 0, -1, -1, 1, 1])
@@ -61,7 +62,12 @@ def linearise(  # type: ignore[no-untyped-def]
                 by_h[0, j, i] += e * drop * (2.0 / here - 1.0 / (here + there)) * (slope[1, j, i] > 0.0)
             far, near, behind = _weights(share[j, i], fitted)
             far_2, near_2, behind_2 = _weights(share[j, i - 1], fitted)
-            if i == 1:
+            if filling is not None:
+                order = max(1.0 - FADE * (1.0 - filling[j, i - 1]), 0.0)
+                far, near, behind = order * far, 1.0 - order + order * near, order * behind
+                if filling[j, i - 1] < 1.0:  # what flows in does not depend on the gap there
+                    far_2, near_2, behind_2 = 0.0, 0.0, 0.0
+            if i == 1 and (filling is None or filling[j, 0] >= 1.0):
                 far_2, near_2, behind_2 = 0.0, 0.5, 0.5
             part = (near - behind_2, far - near_2, behind, 0.0, 0.0, -far_2)
             for n in range(6):
