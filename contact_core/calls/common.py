@@ -188,7 +188,7 @@ def solve_call(
         y=nodes.y,
         pressure=state.pressure,
         fluid_pressure=state.fluid,
-        solid_pressure=np.where(state.solid, state.pressure - state.fluid, 0.0),
+        solid_pressure=state.pressure - state.fluid,
         film=found.gap,
         oil=state.mass,
         **(found.convergence | values),

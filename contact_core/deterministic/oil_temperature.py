@@ -30,7 +30,7 @@ _FILM_OF_VISCOSITY = 0.67  # power of the viscosity in the film of smooth bodies
 def sheared(grid: Grid, found: FilmSolution, cover: Array, temperature: float) -> Film:
     """Return a film solution as friction needs it, its oil at one temperature [K]."""
     state = found.state
-    solid = np.where(state.solid, state.pressure - state.fluid, 0.0)
+    solid = state.pressure - state.fluid
     return Film(grid, state.fluid, solid, found.gap, cover, temperature)
 
 

@@ -115,6 +115,12 @@ class Deterministic:
         choices=("split", "lumped"),
         default="split",
     )
+    flux: str = parameter(
+        "",
+        "flow through the faces between nodes. upwind: of second order; fitted: exact for a constant flow in each cell",
+        choices=("upwind", "fitted"),
+        default="upwind",
+    )
 
     @property
     def spacing(self) -> float:
@@ -151,5 +157,6 @@ class Deterministic:
         from .routes import solve_film  # the kernels: loaded where a film is solved
 
         most = min(iterations or self.iterations, self.iterations)
-        settings = Settings(self.floor, self.tolerance, most, self.fft, self.lumped)
+        fitted = self.flux == "fitted"
+        settings = Settings(self.floor, self.tolerance, most, self.fft, self.lumped, fitted)
         return solve_film(now, grid, settings, start, step)

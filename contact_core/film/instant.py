@@ -74,6 +74,8 @@ class Instant:
     thinned: Array | None = None  # fluidity [1/(Pa s)] that shear adds to that at a node
     conserving: bool = False  # cavities hold the oil that flows into them; else they count as full
     supply: float | None = None  # oil film [m] on both surfaces together before the contact; None: flooded
+    stress: float = 0.0  # that asperities below the grid carry at the floor
+    depth: float = 0.0  # gap [m] over which it falls by the factor e
     meniscus: float | None = None  # distance [m] of the inlet meniscus before the centre; None: beyond the grid
 
     def mirrored(self) -> "Instant":
@@ -107,6 +109,7 @@ class Settings:
     iterations: int
     fft: str  # library: "pyfftw" or "scipy"
     lumped: bool = False  # the thesis's criterion: total pressure in Reynolds' equation, solids included
+    fitted: bool = False  # flow through faces exact for a constant flow in each cell; else second order upstream
 
 
 @dataclass(frozen=True)

@@ -33,7 +33,7 @@ def film_outputs(grid: Grid, state: FilmState, gap: Array, load: float, hertz: H
 
     They are h_central, h_c, h_min, contact_area_ratio, contact_load_ratio, pressure_max and approach.
     """
-    solid_pressure = np.where(state.solid, state.pressure - state.fluid, 0.0)
+    solid_pressure = state.pressure - state.fluid
     cell = grid.cell
     return {
         "h_central": at_centre(grid, gap),

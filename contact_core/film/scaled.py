@@ -225,6 +225,9 @@ class Scaled:
             supply=None if now.supply is None else now.supply / self.h_unit,
             first=self._first,
             wrapped=self.grid.periodic,
+            fitted=self.settings.fitted,
+            stress=now.stress / self.p_unit,
+            depth=now.depth / self.h_unit,
         )
 
     def _with_images(self, field: NDArray[Any]) -> NDArray[Any]:

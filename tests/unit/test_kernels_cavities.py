@@ -16,7 +16,9 @@ def test_a_cavity_keeps_what_it_held_and_what_flows_in_until_it_flows_out(held, 
     mass_old, supply = held * full, np.full(ny, 0.5)
     nothing, e = np.zeros((ny, nx)), np.ones((ny, nx))
     mass, flux, filling = np.empty((3, ny, nx))
-    cavities.carry(nothing, full, mass_old, e, per_dt, wedge, dx, True, supply, 1, mass, flux, filling)
+    carried = np.concatenate([0.5 * (full[:, :1] + full[:, 1:2]), 1.5 * full[:, 1:] - 0.5 * full[:, :-1]], axis=1)
+    terms = (per_dt, wedge, dx)
+    cavities.carry(nothing, full, carried, mass_old, e, e, *terms, True, supply, 1, mass, flux, filling)
     assert flux[:, 0] == approx(supply, rel=1e-12)
     partly = (filling > 0.0) & (filling < 1.0)
     assert partly.mean() > 0.9

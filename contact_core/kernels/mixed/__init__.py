@@ -7,14 +7,15 @@
     newton          Newton's method with the whole half space, for light loads and smooth lines
     reynolds        Reynolds' equation: gap and mass, residual, fluid pressure under contacts, imbalance
     corrections     corrections of `fixed_point`: of the gap in the stiff zone, of the pressure by lines elsewhere
+    flow            flow of oil through the faces between nodes
+    asperities      pressure that asperities below the grid carry at a gap
     cavities        oil in cavities
     edge            the edge of the grid, and images of periodic rows
-    linearisation   derivatives of a full film, for `newton`
-    streaming       derivatives of a film with cavities, for `newton`
+    linearisation   derivatives of a film on a stencil, for the preconditioner of `newton`
     band            local inverse on the single row of a smooth line, for `newton`
     linear_solver   GMRES and the order of elimination, for `newton`
     advection       prediction after the surfaces have moved
 
-Imports run one way: problem <- stopping_rule, edge <- cavities <- reynolds <- corrections <- fixed_point <- direct;
-newton stands beside fixed_point.
+Imports run one way: problem, asperities, edge <- flow <- stopping_rule, reynolds, cavities <- corrections <-
+fixed_point <- direct; newton stands beside fixed_point.
 """

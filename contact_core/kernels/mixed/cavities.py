@@ -7,9 +7,9 @@ A node with pressure is full. A node without has what the balance leaves it, M a
 net inflow is what its pressure has to drive out. Entrainment is along +x and carries all of the oil, so that one
 march along each row solves the balance of its cavities exactly.
 
-The flow F(i + 1/2) = theta_i G_i leaves node i through the face before node i + 1. G_i = (3 M_i - M_(i-1)) / 2 where
-the film is full, second order upwind as in `reynolds.transport`, and falls to M_i, first order, where the node upstream
-is not: gradually, as a jump would leave nodes at which neither state fits. Sources: Elrod, J. Lubr. Technol. 103
+The flow F(i + 1/2) = theta_i G_i leaves node i through the face before node i + 1. G_i is what `flow` says where the
+film is full, and falls to M_i, first order, where the node upstream is not: gradually, as a jump would leave nodes at
+which neither state fits. Sources: Elrod, J. Lubr. Technol. 103
 (1981) 350, doi:10.1115/1.3251669 (mass-conserving cavitation); Giacopini et al., J. Tribol. 132 (2010) 041702,
 doi:10.1115/1.4002215 (complementarity).
 """
@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from ..compiled import jit
 from .edge import wrap
+from .flow import Flow
 from .problem import Problem
 
 Array = NDArray[np.float64]
@@ -41,33 +42,33 @@ def close_inlet(p, f, solid, first):  # type: ignore[no-untyped-def]
 
 
 @jit
-def carry(f, full, mass_old, e, per_dt, wedge, dx, conserving, supply, first, mass, flux, filling):  # type: ignore[no-untyped-def]
+def carry(  # type: ignore[no-untyped-def]
+    f, full, carried, mass_old, ex, ey, per_dt, wedge, dx, conserving, supply, first, mass, flux, filling
+):
     """Compute filling theta, mass and mass flow of every node from the fluid pressure and the full masses.
 
-    full, mass, flux, filling [ny, nx]; supply [ny]: the flow that enters, infinite if flooded; `first`: column upstream
-    of which the flow is that. Not conserving: every node is full.
+    full, mass, flux, filling [ny, nx]; carried: what flows on where the film is full; supply [ny]: the flow that
+    enters, infinite if flooded; `first`: column upstream of which the flow is that. Not conserving: every node is full.
     """
     ny, nx = f.shape
-    half, wedge_per_dx = 0.5 / (dx * dx), wedge / dx
+    per_dx2, wedge_per_dx = 1.0 / (dx * dx), wedge / dx
     for j in range(ny):
         before = 1.0
         for i in range(nx):
             own = full[j, i]
-            if i == 0:
-                most = 0.5 * (own + full[j, 1])
-            else:
+            most = carried[j, i] if i < nx - 1 else own
+            if i > 0:
                 order = max(1.0 - FADE * (1.0 - before), 0.0)
-                most = max(own + 0.5 * order * (own - full[j, i - 1]), LEAST * own)
+                most = max(own + order * (most - own), LEAST * own)
             theta = 1.0
             if conserving and (i == 0 or i < first):
                 theta = min(supply[j] / most, 1.0)
             elif conserving and f[j, i] <= 0.0:
                 inflow = wedge_per_dx * flux[j, i - 1] + per_dt * mass_old[j, i]
                 if 0 < j < ny - 1 and i < nx - 1:
-                    ej = e[j, i]
-                    west, east = (ej + e[j, i - 1]) * f[j, i - 1], (ej + e[j, i + 1]) * f[j, i + 1]
-                    south, north = (ej + e[j - 1, i]) * f[j - 1, i], (ej + e[j + 1, i]) * f[j + 1, i]
-                    inflow += half * (west + east + south + north)
+                    driven = ex[j, i - 1] * f[j, i - 1] + ex[j, i] * f[j, i + 1]
+                    driven += ey[j - 1, i] * f[j - 1, i] + ey[j, i] * f[j + 1, i]
+                    inflow += per_dx2 * driven
                 theta = min(max(inflow / (wedge_per_dx * most + per_dt * own), 0.0), 1.0)
             flux[j, i], filling[j, i], mass[j, i] = theta * most, theta, theta * own
             before = theta
@@ -78,16 +79,19 @@ class Carried:
 
     def __init__(self, problem: Problem) -> None:
         self.problem, shape = problem, problem.cap.shape
-        self.full, self.flux, self.filling = np.zeros(shape), np.zeros(shape), np.ones(shape)
+        self.full: Array = np.zeros(shape)
+        self.flux: Array = np.zeros(shape)
+        self.filling: Array = np.ones(shape)
         supply = np.inf if problem.supply is None else problem.supply
         self.supply: Array = np.broadcast_to(np.asarray(supply, np.float64), shape[:1]).copy()
         self.first = max(problem.first, 1)
 
-    def carry(self, f: Array, e: Array, mass: Array) -> None:
+    def carry(self, f: Array, flow: Flow, mass: Array) -> None:
         """Compute mass and mass flow of every node from a fluid pressure; `full` holds the full masses."""
         q = self.problem
         inlet = (q.conserving, self.supply, self.first)
-        carry(f, self.full, q.mass_old, e, *q.terms, *inlet, mass, self.flux, self.filling)
+        through = (flow.carried, q.mass_old, *flow.faces)
+        carry(f, self.full, *through, *q.terms, *inlet, mass, self.flux, self.filling)
         if q.wrapped:
             for field in (mass, self.flux, self.filling):
                 wrap(field)

@@ -6,8 +6,9 @@ Equation, arrays and units are those of `reynolds`.
 import numpy as np
 
 from ..compiled import jit
+from .asperities import carried_at, rest_gap
 from .edge import wrap
-from .reynolds import returned, transport
+from .reynolds import inflow, returned, transport
 
 _OVER = 1.6  # relaxation of the lines
 
@@ -21,8 +22,12 @@ def correct_gap(  # type: ignore[no-untyped-def]
     h,
     mass,
     mass_old,
-    e,
+    ex,
+    ey,
+    flux,
     floor,
+    stress,
+    depth,
     per_dt,
     wedge,
     dx,
@@ -33,7 +38,6 @@ def correct_gap(  # type: ignore[no-untyped-def]
     stiff,
     dh,
     sums,
-    flux=None,
     filling=None,
     first=1,
 ):
@@ -47,14 +51,14 @@ def correct_gap(  # type: ignore[no-untyped-def]
 
     Returns the first row, the row after the last, first column and column after the last of dh, and how many nodes are
     stiff and how many of them differ from `stiff_before`. sums [7]: of |r| p, m p and p over nodes that fluid alone
-    carries; of p - f and, below the cap, of p |floor - h| over solid contacts; with `flux`, of r over nodes that are
+    carries; of p - f and, below the cap, of p |floor - h| over solid contacts; with `filling`, of r over nodes that are
     full and have no pressure yet, and of what all others gain together, and of m over nodes that have some.
     """
     ny, nx = p.shape
-    half, per_dx, wedge_per_dx = 0.5 / (dx * dx), 1.0 / dx, wedge / dx
-    limit = 2.0 * dx * dx * compliance
+    per_dx2, per_dx, wedge_per_dx = 1.0 / (dx * dx), 1.0 / dx, wedge / dx
+    limit = dx * dx * compliance
     a0, a1, a2 = 1.5 * wedge_per_dx + per_dt, -2.0 * wedge_per_dx, 0.5 * wedge_per_dx
-    per_patch, per_floor = half / patch, 1.0 / floor
+    per_patch, per_depth = 1.0 / patch, 1.0 / depth if depth > 0.0 else 0.0
     wrong, film, fluid, solids, intrusion, gained, held = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     net = 0.0
     top, bottom, left, right, count, changed = ny, 0, nx, 0, 0, 0
@@ -62,51 +66,52 @@ def correct_gap(  # type: ignore[no-untyped-def]
         before, before_2 = 0.0, 0.0  # change of the film that flows at the two nodes upstream
         for i in range(1, nx - 1):
             here, own, m = p[j, i], h[j, i], mass[j, i]
-            touches, value, change, is_stiff = solid[j, i], 0.0, 0.0, False
+            touches, value, change, is_stiff, own_rest = solid[j, i], 0.0, 0.0, False, floor
             if not touches:
-                ej, west, east, south, north = e[j, i], e[j, i - 1], e[j, i + 1], e[j - 1, i], e[j + 1, i]
-                flow = (ej + west) * (f[j, i - 1] - here) + (ej + east) * (f[j, i + 1] - here)
-                flow += (ej + south) * (f[j - 1, i] - here) + (ej + north) * (f[j + 1, i] - here)
-                if flux is not None:
-                    rise = flux[j, i] - flux[j, i - 1]
-                else:
-                    rise = 1.5 * m - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2] if i > 1 else m - mass[j, i - 1]
-                value = half * flow - wedge_per_dx * rise - per_dt * (m - mass_old[j, i])
+                squeezed = per_dt * (m - mass_old[j, i])
+                value = inflow(f, ex, ey, per_dx2, j, i) - wedge_per_dx * (flux[j, i] - flux[j, i - 1]) - squeezed
                 sinks = value < 0.0
                 if filling is not None and (filling[j, i] < 1.0 or i < first):  # no residual there
                     sinks, value = True, 0.0
-                if own < floor and sinks:
+                own_rest = rest_gap(here, floor, stress, depth)
+                if own < own_rest and sinks:
                     touches, value = True, 0.0  # the film sinks further: solids carry the rest
                     solid[j, i] = True
             if touches:
                 is_stiff = True
-                change = floor - own
-                solids += here - f[j, i]
+                alone = here - f[j, i]
+                pressing = carried_at(own, floor, stress, depth)
+                if pressing > alone:  # the asperities press the bodies apart
+                    change = (pressing - alone) / (per_patch + pressing * per_depth) + max(floor - own, 0.0)
+                else:
+                    change = rest_gap(alone, floor, stress, depth) - own
+                solids += alone
                 if here > 0.0 and f[j, i] >= here and here < cap[j, i]:  # oil alone carries it and should lift it
-                    ej, west, east, south, north = e[j, i], e[j, i - 1], e[j, i + 1], e[j - 1, i], e[j + 1, i]
-                    flow = (ej + west) * (f[j, i - 1] - here) + (ej + east) * (f[j, i + 1] - here)
-                    flow += (ej + south) * (f[j - 1, i] - here) + (ej + north) * (f[j + 1, i] - here)
-                    wrong += max(half * flow - transport(mass, flux, mass_old, per_dt, wedge, dx, j, i), 0.0) * here
+                    gain = inflow(f, ex, ey, per_dx2, j, i)
+                    wrong += max(gain - transport(mass, flux, mass_old, per_dt, wedge, dx, j, i), 0.0) * here
                 if here < cap[j, i]:
                     intrusion += here * abs(change)
                 elif change > 0.0:
                     change = 0.0
             elif here > 0.0:
-                gap = max(own, floor)
-                # a film that loses mass sinks to the floor at most: near it, the residual is no larger
-                loss = min(-value, m * (gap * per_floor - 1.0) * per_dx)
+                gap, pressed = max(own, floor), f[j, i]
+                # a film that loses mass sinks at most until solids carry all: near that, the residual is no larger
+                loss = min(-value, m * (max(gap / own_rest, 1.0) - 1.0) * per_dx)
                 gain = value if here < cap[j, i] else 0.0  # the solids yield to the film
-                wrong += max(loss, gain) * here
-                film += m * here
-                fluid += here
-                is_stiff = ej + max(max(west, east), max(south, north)) < limit
+                wrong += max(loss, gain) * pressed
+                film += m * pressed
+                fluid += pressed
+                solids += here - pressed
+                west, east, south, north = ex[j, i - 1], ex[j, i], ey[j - 1, i], ey[j, i]
+                is_stiff = max(max(west, east), max(south, north)) < limit
                 if is_stiff:
-                    faces = 4.0 * ej + west + east + south + north
-                    change = (value * gap - m * (a1 * before + a2 * before_2)) / (m * a0 + faces * per_patch * gap)
-                    change = max(change, min(floor - own, 0.0))  # solids stop it there
+                    faces = (west + east + south + north) * per_dx2
+                    give = per_patch + carried_at(own, floor, stress, depth) * per_depth
+                    change = (value * gap - m * (a1 * before + a2 * before_2)) / (m * a0 + faces * give * gap)
+                    change = max(change, min(own_rest - own, 0.0))  # solids stop it there
                     if here >= cap[j, i]:
                         change = min(change, 0.0)  # the solids yield, the gap does not open
-            if flux is not None:
+            if filling is not None:
                 if here > 0.0:
                     held += m
                     net += value
@@ -114,7 +119,7 @@ def correct_gap(  # type: ignore[no-untyped-def]
                     gained += value
             r[j, i], stiff[j, i], dh[j, i] = value, is_stiff, change
             before_2 = before
-            before = 0.0 if solid[j, i] else max(h[j, i] + change, floor) - max(h[j, i], floor)
+            before = 0.0 if solid[j, i] and depth <= 0.0 else max(h[j, i] + change, floor) - max(h[j, i], floor)
             if is_stiff:
                 count += 1
                 top, bottom = min(top, j), max(bottom, j + 1)
@@ -140,10 +145,13 @@ def relax_lines(  # type: ignore[no-untyped-def]
     stiff,
     h,
     mass,
-    e,
+    ex,
+    ey,
     r,
     edge,
     floor,
+    stress,
+    depth,
     per_dt,
     wedge,
     dx,
@@ -161,7 +169,7 @@ def relax_lines(  # type: ignore[no-untyped-def]
     Updates dp; keeps p + dp >= 0.
     """
     ny, nx = p.shape
-    half = 0.5 / (dx * dx)
+    per_dx2 = 1.0 / (dx * dx)
     k0, k1, k2, k3, k4 = near[0, 0], near[0, 1], near[0, 2], near[0, 3], near[0, 4]
     # d(deformation wedge)_i / dp_(i + m)
     w_3 = wedge * ((1.5 * k3 - 2.0 * k2 + 0.5 * k1) / dx)
@@ -187,38 +195,45 @@ def relax_lines(  # type: ignore[no-untyped-def]
                     continue
                 free[i] = True
                 first, last = min(first, i), i
-                ej = e[j, i]
-                west, east = half * (ej + e[j, i - 1]), half * (ej + e[j, i + 1])
-                south, north = half * (ej + e[j - 1, i]), half * (ej + e[j + 1, i])
+                west, east = per_dx2 * ex[j, i - 1], per_dx2 * ex[j, i]
+                south, north = per_dx2 * ey[j - 1, i], per_dx2 * ey[j, i]
                 if alone:
                     south, north = 0.0, 0.0
+                # of an asperity that presses less as the bodies part, the oil takes over
+                over_west, over_east, over_south, over_north, over_own = 1.0, 1.0, 1.0, 1.0, 1.0
+                if depth > 0.0:
+                    over_own = 1.0 + carried_at(h[j, i], floor, stress, depth) * k0 / depth
+                    over_west = 1.0 + carried_at(h[j, i - 1], floor, stress, depth) * k0 / depth
+                    over_east = 1.0 + carried_at(h[j, i + 1], floor, stress, depth) * k0 / depth
+                    over_south = 1.0 + carried_at(h[j - 1, i], floor, stress, depth) * k0 / depth
+                    over_north = 1.0 + carried_at(h[j + 1, i], floor, stress, depth) * k0 / depth
                 # at the floor the flow does not depend on the deformation
                 rho = mass[j, i] / h[j, i] if h[j, i] > floor else 0.0
                 far = w2 * dp[j, i + 2] if i < nx - 2 else 0.0
                 far += w_2 * dp[j, i - 2] if i > 1 else 0.0
                 far += w_3 * dp[j, i - 3] if i > 2 else 0.0
-                diag = west + east + south + north + rho * w0
+                diag = (west + east + south + north) * over_own + rho * w0
                 if filling is not None:
-                    diag -= returned(filling, first, per_dt, wedge, dx, j, i) * west
+                    diag -= returned(filling, first, per_dt, wedge, dx, j, i) * west * over_own
                 lower, upper = rho * w_1, rho * w1
                 rhs = r[j, i] - rho * far
                 # the fluid pressure of a solid contact stays in this step
                 if lumped or not solid[j, i - 1]:
-                    lower -= west
+                    lower -= west * over_west
                 if lumped or not solid[j, i + 1]:
-                    upper -= east
+                    upper -= east * over_east
                 if lumped or not solid[j - 1, i]:
-                    rhs += south * dp[j - 1, i]
+                    rhs += south * over_south * dp[j - 1, i]
                 if lumped or not solid[j + 1, i]:
-                    rhs += north * dp[j + 1, i]
+                    rhs += north * over_north * dp[j + 1, i]
                 if i == 1:
                     diag += lower * edge[j, 0]
                 if i == nx - 2:
                     diag += upper * edge[j, nx - 1]
                 if j == 1:
-                    diag -= south * edge[0, i]
+                    diag -= south * over_south * edge[0, i]
                 if j == ny - 2:
-                    diag -= north * edge[ny - 1, i]
+                    diag -= north * over_north * edge[ny - 1, i]
                 pivot = 1.0 / (diag - lower * ratio[i - 1])
                 ratio[i] = upper * pivot
                 known[i] = (rhs - lower * known[i - 1]) * pivot

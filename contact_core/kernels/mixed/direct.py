@@ -7,17 +7,17 @@ load. It takes a few tens of iterations from light to heavy loads and full film 
 of `fixed_point`.
 """
 
-from typing import Any
-
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
 from ..compiled import jit
 from ..half_space import HalfSpace
-from . import cavities, reynolds
+from . import reynolds
+from .cavities import Carried
 from .edge import set_edge, wrap
 from .fixed_point import Iteration, iterate_on
+from .flow import Flow
 from .problem import Iterate, Problem, Solution
 
 Array = NDArray[np.float64]
@@ -31,57 +31,14 @@ _PROBE = 1e-6  # part of a film by which the rigid gap is moved for the derivati
 
 
 @jit
-def _response(  # type: ignore[no-untyped-def]
-    f,
-    solid,
-    h,
-    floor,
-    mobility,
-    thinned,
-    fluidity,
-    density,
-    step,
-    mass_old,
-    per_dt,
-    wedge,
-    dx,
-    gap,
-    out,
-    supply=None,
-    conserving=False,
-    first=1,
-):
-    """Compute the change of every fluid node's net inflow with the rigid gap; `gap` is the trial change."""
-    ny, nx = f.shape
-    mass, e, r = np.empty((2, ny, nx)), np.empty((2, ny, nx)), np.zeros((2, ny, nx))
-    for side in range(2):
-        for j in range(ny):
-            for i in range(nx):
-                flow = floor if solid[j, i] else max(h[j, i] + side * gap, floor)
-                rho = reynolds.interpolate(density, step, f[j, i])
-                mass[side, j, i] = rho * flow
-                phi = reynolds.interpolate(fluidity, step, f[j, i]) + thinned[j, i]
-                e[side, j, i] = mobility[j, i] * rho * flow**3 * phi
-        if supply is None:
-            reynolds.residual(f, solid, mass[side], mass_old, e[side], per_dt, wedge, dx, r[side])
-        else:
-            m, flux, filling = np.empty((ny, nx)), np.empty((ny, nx)), np.empty((ny, nx))
-            inlet = (conserving, supply, first)
-            cavities.carry(f, mass[side], mass_old, e[side], per_dt, wedge, dx, *inlet, m, flux, filling)
-            reynolds.residual(f, solid, m, mass_old, e[side], per_dt, wedge, dx, r[side], flux, filling, first)
-    for j in range(ny):
-        for i in range(nx):
-            out[j, i] = (r[1, j, i] - r[0, j, i]) / gap
-
-
-@jit
 def _equations(  # type: ignore[no-untyped-def]
     p,
     solid,
     stiff,
     h,
     mass,
-    e,
+    ex,
+    ey,
     r,
     edge,
     floor,
@@ -120,7 +77,7 @@ def _equations(  # type: ignore[no-untyped-def]
                 n += 1
     if wrapped:
         wrap(number)
-    half = 0.5 / (dx * dx)
+    per_dx2 = 1.0 / (dx * dx)
     k0, k1, k2, k3, k4 = near[0, 0], near[0, 1], near[0, 2], near[0, 3], near[0, 4]
     lifts = np.empty(6)  # d(deformation wedge)_i / dp_(i + m), m = -3 ... 2
     lifts[0] = wedge * ((1.5 * k3 - 2.0 * k2 + 0.5 * k1) / dx)
@@ -142,7 +99,7 @@ def _equations(  # type: ignore[no-untyped-def]
             faces = np.zeros(6)
             for side in range(4):  # south, west, east, north
                 dj, di = (-1, 0, 0, 1)[side], (0, -1, 1, 0)[side]
-                face = half * (e[j, i] + e[j + dj, i + di])
+                face = per_dx2 * (ex[j, i + min(di, 0)] if dj == 0 else ey[j + min(dj, 0), i])
                 diagonal += face
                 if filling is not None and side == 1:
                     diagonal -= reynolds.returned(filling, first, per_dt, wedge, dx, j, i) * face
@@ -171,7 +128,7 @@ def _equations(  # type: ignore[no-untyped-def]
                     else:
                         asked -= value * given[j, k]
                         moved += value * unit[j, k]
-            north = 0.0 if solid[j + 1, i] or edge[j + 1, i] > 0.0 else half * (e[j, i] + e[j + 1, i])
+            north = 0.0 if solid[j + 1, i] or edge[j + 1, i] > 0.0 else per_dx2 * ey[j, i]
             if number[j + 1, i] >= 0:
                 columns[filled], values[filled] = number[j + 1, i], -north
                 filled += 1
@@ -207,6 +164,8 @@ class _Direct(Iteration):
         super().__init__(half_space, problem, start, _DEPTH, _STIFF_STEP)
         shape, size = self.p.shape, self.p.size
         self.number, self.response, self.lever = np.zeros(shape, np.int64), np.zeros(shape), np.zeros(shape)
+        self.moved, self.moved_mass = Flow.of(problem), np.zeros(shape)
+        self.moved_oil = None if self.carried is None else Carried(problem)
         self.starts, self.columns = np.zeros(size + 1, np.int64), np.zeros(8 * size, np.int64)
         self.values, self.rhs = np.zeros(8 * size), np.zeros((2, size))
 
@@ -240,12 +199,9 @@ class _Direct(Iteration):
         """Put the steps of the free nodes into `base`, their change with the rigid gap into the lever."""
         q, p = self.problem, self.p
         scale = _PROBE * float(np.maximum(self.h, q.floor).min())
-        inlet: tuple[Any, ...] = ()
-        filling: tuple[Any, ...] = ()
-        if (carried := self.carried) is not None:
-            inlet, filling = (carried.supply, q.conserving, carried.first), (carried.filling, carried.first)
-        _response(self.f, self.solid, self.h, q.floor, *q.oil, q.mass_old, *q.terms, scale, self.response, *inlet)
-        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, *q.terms)
+        self._respond(scale)
+        filling = () if self.carried is None else (self.carried.filling, self.carried.first)
+        film = (self.h, self.mass, *self.flow.faces, self.r, q.edge, q.floor, *q.terms)
         given = (self.half_space.near, self.patch_wide, base, -self.lever, self.response)
         system = (self.number, self.starts, self.columns, self.values, self.rhs)
         n, filled = _equations(p, self.solid, self.stiff, *film, *given, q.wrapped, *system, *filling)
@@ -261,6 +217,31 @@ class _Direct(Iteration):
             return
         free = self.number[1:-1] >= 0
         base[1:-1][free], self.lever[1:-1][free] = (factors.solve(side[:n], trans="T") for side in self.rhs)
+
+    def _respond(self, trial: float) -> None:
+        """Compute the change of every fluid node's net inflow with the rigid gap, by a trial change of that."""
+        q, here, moved = self.problem, self.flow, self.moved
+        rise = np.maximum(self.h + trial, q.floor) - np.maximum(self.h, q.floor)
+        np.add(here.gap, np.where(self.solid, 0.0, rise), out=moved.gap)
+        for mine, its in zip(moved.nodes[1:], here.nodes[1:], strict=True):
+            np.copyto(mine, its)
+        moved.measure()
+        full = moved.rho * moved.gap
+        moved.drive(self.f, full, q.mobility, q.thinned)
+        mass, flux, old = full, moved.carried, here.carried
+        filling, filling_before, first = None, None, 1
+        if self.carried is not None and self.moved_oil is not None:
+            np.copyto(self.moved_oil.full, full)
+            mass = self.moved_mass
+            self.moved_oil.carry(self.f, moved, mass)
+            flux, old, first = self.moved_oil.flux, self.carried.flux, self.carried.first
+            filling, filling_before = self.moved_oil.filling, self.carried.filling
+        balance = (mass, q.mass_old, *moved.faces, flux, *q.terms)
+        reynolds.residual(self.f, self.solid, *balance, self.response, filling, first)
+        balance, before = (self.mass, q.mass_old, *here.faces, old, *q.terms), np.empty_like(self.response)
+        reynolds.residual(self.f, self.solid, *balance, before, filling_before, first)
+        self.response -= before
+        self.response /= trial
 
     def _meet_load(self, base: Array, image: Array) -> float:
         """Return the change of the rigid gap for which base + change * lever carries the load; put it into `image`."""

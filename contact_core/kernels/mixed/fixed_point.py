@@ -7,7 +7,6 @@ accelerates it.
 """
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +17,7 @@ from ..half_space import HalfSpace
 from . import cavities, corrections, reynolds
 from .cavities import Carried
 from .edge import load_beyond, set_edge, wrap
+from .flow import Flow
 from .problem import Iterate, Problem, Solution, failed
 from .stopping_rule import shortfall
 
@@ -137,7 +137,8 @@ class Iteration:
         self.x = np.append(start.pressure.ravel(), self.weight * start.rigid)
         self.p = self.x[:-1].reshape(shape)
         self.f, self.solid = start.fluid.copy(), start.solid.copy()
-        self.h, self.mass, self.e, self.r, self.dh, self.dp, self.unit = (np.zeros(shape) for _ in range(7))
+        self.h, self.mass, self.r, self.dh, self.dp, self.unit = (np.zeros(shape) for _ in range(6))
+        self.flow = Flow.of(problem)
         self.stiff, self.stiff_of_unit = (np.zeros(shape, np.bool_) for _ in range(2))
         self.sums = np.zeros(7)
         self.carried = Carried(problem) if problem.by_flux else None
@@ -159,7 +160,7 @@ class Iteration:
         self._film()
         self._press()
         q, p = self.problem, self.p
-        film = (self.h, self.mass, self.e, self.r, q.edge, q.floor, *q.terms)
+        film = (self.h, self.mass, *self.flow.faces, self.r, q.edge, *q.layer, *q.terms)
         near = (self.half_space.near, self.patch_wide)
         inlet = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
         relaxation = (q.lumped, _LINE_SWEEPS, self.dp, *inlet, q.wrapped)
@@ -185,31 +186,33 @@ class Iteration:
 
     def _film(self) -> None:
         """Compute gap, contacts, fluid pressure under them, mass balance, and the change of gap that corrects it."""
-        q, p, f, solid, carried = self.problem, self.p, self.f, self.solid, self.carried
-        oil = (q.floor, *q.oil)
-        full = self.mass
-        flow: tuple[Any, int] = (None, 1)
-        inlet: tuple[Any, ...] = ()
+        q, p, f, solid, carried, flow = self.problem, self.p, self.f, self.solid, self.carried, self.flow
+        oil = (*q.layer, *q.tables)
+        full, flux, first, filling = self.mass, flow.carried, 1, None
         if carried is not None:
-            full, flow = carried.full, (carried.flux, carried.first)
-            inlet = (carried.flux, carried.filling, carried.first)
+            full, flux, first, filling = carried.full, carried.flux, carried.first, carried.filling
             cavities.close_inlet(p, f, solid, q.first)
-        gap = (q.undeformed, self.half_space.deform_padded(p), self.rigid)
-        reynolds.film_pass(p, f, solid, *gap, *oil, self.h, full, self.e, q.lumped)
-        if carried is not None:
-            carried.carry(f, self.e, self.mass)
+        bodies = (q.undeformed, self.half_space.deform_padded(p), self.rigid)
+        reynolds.film_pass(p, f, solid, *bodies, *oil, self.h, full, *flow.nodes, q.lumped)
+        flow.measure()
+        self._carry(full)
+        balance = (self.h, self.mass, q.mass_old, *flow.faces, flux)
         if not q.lumped:
-            constants = (*q.terms, _SWEEPS_UNDER_CONTACTS)
-            film = (self.h, self.mass, q.mass_old, self.e)
-            reynolds.fluid_under_contacts(p, f, solid, *film, *constants, *oil, full, *flow, q.wrapped)
-            if carried is not None:
-                carried.carry(f, self.e, self.mass)
-        balance = (self.h, self.mass, q.mass_old, self.e)
-        scales = (q.floor, *q.terms, q.compliance, self.patch)
+            constants = (*q.terms, _SWEEPS_UNDER_CONTACTS, q.floor, *q.tables)
+            if reynolds.fluid_under_contacts(p, f, solid, *balance, *constants, full, *flow.nodes, first, q.wrapped):
+                self._carry(full)
+        scales = (*q.layer, *q.terms, q.compliance, self.patch)
         out = (self.r, self.stiff, self.dh, self.sums)
-        self.zone = corrections.correct_gap(p, f, q.cap, solid, *balance, *scales, self.stiff_of_unit, *out, *inlet)
+        state = (p, f, q.cap, solid, *balance)
+        self.zone = corrections.correct_gap(*state, *scales, self.stiff_of_unit, *out, filling, first)
         if q.wrapped:
             wrap(solid)
+
+    def _carry(self, full: Array) -> None:
+        """Compute what flows through the faces, from properties of the nodes."""
+        self.flow.drive(self.f, full, self.problem.mobility, self.problem.thinned)
+        if self.carried is not None:
+            self.carried.carry(self.f, self.flow, self.mass)
 
     def _press(self) -> None:
         """Put the pressure that corrects the film of the stiff zone into `dp`; renew the lever of the load."""
@@ -262,8 +265,8 @@ class Iteration:
             return np.where(self.solid | (self.p <= 0.0), 0.0, self.r)
         q, carried, missing, nowhere = self.problem, self.carried, np.zeros_like(self.r), np.zeros_like(self.solid)
         assert carried is not None
-        balance = (self.mass, q.mass_old, self.e, *q.terms)
-        reynolds.residual(self.f, nowhere, *balance, missing, carried.flux, carried.filling, carried.first)
+        balance = (self.mass, q.mass_old, *self.flow.faces, carried.flux, *q.terms)
+        reynolds.residual(self.f, nowhere, *balance, missing, carried.filling, carried.first)
         return missing
 
     def kept(self, found: Solution) -> Solution:

@@ -1,9 +1,13 @@
-"""Linearisation of a film that is full everywhere, for `newton`: derivatives on a stencil, products, a local matrix."""
+"""Local linearisation of a film for the preconditioner of `newton`: derivatives on a stencil, and a sparse matrix.
+
+They are those of gaps and pressures that change little from node to node; `newton` corrects what they leave out.
+"""
 
 import numpy as np
 
 from ..compiled import jit
 from . import reynolds
+from .cavities import FADE
 
 # stencil of Reynolds' equation: centre, west, east, south, north, second west; then the corners of the patch
 DJ = np.array([0, 0, 0, -1, 1, 0, -1, -1, 1, 1])
@@ -11,64 +15,67 @@ DI = np.array([0, -1, 1, 0, 0, -2, -1, 1, -1, 1])
 
 
 @jit
-def slopes(f, solid, h, floor, mobility, thinned, fluidity, density, step, slope):  # type: ignore[no-untyped-def]
-    """Compute the derivatives of mass and mobility of full nodes, slope [4, ny, nx]: dm/df, dm/dh, de/df, de/dh."""
+def slopes(f, solid, h, floor, step, density, slope):  # type: ignore[no-untyped-def]
+    """Compute the derivatives of the mass of full nodes, slope [2, ny, nx]: dm/df, dm/dh."""
     ny, nx = f.shape
     for j in range(ny):
         for i in range(nx):
             k = min(int(f[j, i] / step), density.size - 2)
-            rho = reynolds.interpolate(density, step, f[j, i])
-            phi = reynolds.interpolate(fluidity, step, f[j, i]) + thinned[j, i]
-            d_rho, d_phi = (density[k + 1] - density[k]) / step, (fluidity[k + 1] - fluidity[k]) / step
-            lift = 0.0 if solid[j, i] or h[j, i] <= floor else 1.0
-            flow = floor if solid[j, i] else max(h[j, i], floor)
-            slope[0, j, i], slope[1, j, i] = d_rho * flow, rho * lift
-            slope[2, j, i] = mobility[j, i] * flow**3 * (d_rho * phi + rho * d_phi)
-            slope[3, j, i] = 3.0 * mobility[j, i] * rho * flow**2 * phi * lift
+            rise = density[k + 1] - density[k]
+            fixed = solid[j, i] or h[j, i] <= floor
+            slope[0, j, i] = rise / step * (floor if fixed else h[j, i])
+            slope[1, j, i] = 0.0 if fixed else density[k] + (f[j, i] / step - k) * rise
 
 
 @jit
-def linearise(f, e, dx, rate, wedge, slope, by_f, by_h):  # type: ignore[no-untyped-def]
+def _weights(share, fitted):  # type: ignore[no-untyped-def]
+    """Return the parts of the masses of the nodes upstream of, before and behind a face in what is carried through."""
+    if not fitted:
+        return -0.5, 1.5, 0.0
+    rest = 1.0 - share
+    return -0.125 * rest, 0.5 * share + 0.75 * rest, 0.5 * share + 0.375 * rest
+
+
+@jit
+def linearise(  # type: ignore[no-untyped-def]
+    f, gap, fluid, thinned, ex, ey, share, fitted, per_dt, wedge, dx, slope, first, filling, by_f, by_h
+):
     """Compute the derivatives of the net inflow by fluid pressure and gap on the stencil: by_f, by_h [6, ny, nx]."""
     ny, nx = f.shape
-    half = 0.5 / (dx * dx)
+    per_dx2, per_dx = 1.0 / (dx * dx), wedge / dx
     by_f[:], by_h[:] = 0.0, 0.0
     for j in range(1, ny - 1):
-        for i in range(1, nx - 1):
-            a0, a1, a2 = (1.5 / dx, -2.0 / dx, 0.5 / dx) if i > 1 else (1.0 / dx, -1.0 / dx, 0.0)
-            a0, a1, a2 = wedge * a0, wedge * a1, wedge * a2
-            faces, fall = 0.0, 0.0
+        for i in range(first, nx - 1):
+            if filling is not None and filling[j, i] < 1.0:
+                continue
+            own, here = fluid[j, i] + thinned[j, i], gap[j, i]
             for n in range(1, 5):
                 jn, im = j + DJ[n], i + DI[n]
-                d = f[jn, im] - f[j, i]
-                face = half * (e[j, i] + e[jn, im])
-                by_f[n, j, i] = face + half * slope[2, jn, im] * d
-                by_h[n, j, i] = half * slope[3, jn, im] * d
-                faces += face
-                fall += d
-            by_f[0, j, i] = -faces + half * slope[2, j, i] * fall - (a0 + rate) * slope[0, j, i]
-            by_h[0, j, i] = half * slope[3, j, i] * fall - (a0 + rate) * slope[1, j, i]
-            by_f[1, j, i] -= a1 * slope[0, j, i - 1]
-            by_h[1, j, i] -= a1 * slope[1, j, i - 1]
-            if i > 1:
-                by_f[5, j, i] = -a2 * slope[0, j, i - 2]
-                by_h[5, j, i] = -a2 * slope[1, j, i - 2]
-
-
-@jit
-def product(by_f, by_h, scale, nodes, solid, df, dh, out):  # type: ignore[no-untyped-def]
-    """Multiply the rows of the Jacobian of all `nodes` by a change of fluid pressure and gap."""
-    nx = df.shape[1]
-    for k in range(nodes.size):
-        j, i = nodes[k] // nx, nodes[k] % nx
-        if solid[j, i]:
-            out[k] = dh[j, i] * scale[j, i]
-            continue
-        total = 0.0
-        for n in range(6 if i > 1 else 5):
-            jn, im = j + DJ[n], i + DI[n]
-            total += by_f[n, j, i] * df[jn, im] + by_h[n, j, i] * dh[jn, im]
-        out[k] = total * scale[j, i]
+                e = per_dx2 * (ex[j, min(i, im)] if DJ[n] == 0 else ey[min(j, jn), i])
+                if filling is not None and n == 1:
+                    e *= 1.0 - reynolds.returned(filling, first, per_dt, wedge, dx, j, i)
+                drop, their, there = f[jn, im] - f[j, i], fluid[jn, im] + thinned[jn, im], gap[jn, im]
+                mean = 0.5 * (own + their) + 1e-300
+                by_f[n, j, i] = e * their / mean
+                by_f[0, j, i] -= e * own / mean
+                by_h[n, j, i] = e * drop * (2.0 / there - 1.0 / (here + there)) * (slope[1, jn, im] > 0.0)
+                by_h[0, j, i] += e * drop * (2.0 / here - 1.0 / (here + there)) * (slope[1, j, i] > 0.0)
+            far, near, behind = _weights(share[j, i], fitted)
+            far_2, near_2, behind_2 = _weights(share[j, i - 1], fitted)
+            if filling is not None:
+                order = max(1.0 - FADE * (1.0 - filling[j, i - 1]), 0.0)
+                far, near, behind = order * far, 1.0 - order + order * near, order * behind
+                if filling[j, i - 1] < 1.0:  # what flows in does not depend on the gap there
+                    far_2, near_2, behind_2 = 0.0, 0.0, 0.0
+            if i == 1 and (filling is None or filling[j, 0] >= 1.0):
+                far_2, near_2, behind_2 = 0.0, 0.5, 0.5
+            part = (near - behind_2, far - near_2, behind, 0.0, 0.0, -far_2)
+            for n in range(6):
+                if part[n] != 0.0 and i + DI[n] >= 0:
+                    m = per_dx * part[n] + (per_dt if n == 0 else 0.0)
+                    jn, im = j + DJ[n], i + DI[n]
+                    by_f[n, j, i] -= m * slope[0, jn, im]
+                    by_h[n, j, i] -= m * slope[1, jn, im]
 
 
 @jit

@@ -2,19 +2,19 @@
 
 Unknowns are the total pressure of every node and the rigid gap. Equations are those of `fixed_point`: no net inflow
 where fluid carries the load (p > 0), the gap at the floor on solid contacts, the load. Sets (cavity, contacts, cap) are
-guessed anew in every step. A step solves the linear system by GMRES with the full elastic coupling (FFT); it is
-preconditioned by a sparse LU of the local part: Reynolds' equation and a 3 x 3 patch of the deformation, bordered by
-rigid gap and load. A contact of one row, repeated for ever, has a band instead (`band`).
+guessed anew in every step. A step solves the linear system by GMRES with the full elastic coupling (FFT), in which the
+change of the net inflow is a difference of two flows (Knoll & Keyes, J. Comput. Phys. 193 (2004) 357,
+doi:10.1016/j.jcp.2003.08.010). It is preconditioned by a sparse LU of the local part: Reynolds' equation and a 3 x 3
+patch of the deformation, bordered by rigid gap and load. A contact of one row, repeated for ever, has a band instead
+(`band`).
 
-Where cavities hold oil, or an inlet meniscus keeps nodes from pressing, masses and flows are those of `cavities` and
-their derivatives those of `streaming`: a node that is full and gains mass joins those with pressure, one whose pressure
-falls to zero becomes a cavity.
+Where cavities hold oil, or an inlet meniscus keeps nodes from pressing, masses and flows are those of `cavities`: a
+node that is full and gains mass joins those with pressure, one whose pressure falls to zero becomes a cavity.
 
 Source of the active sets: Hintermueller, Ito & Kunisch, SIAM J. Optim. 13 (2003) 865, doi:10.1137/S1052623401383558.
 """
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import scipy
@@ -22,10 +22,11 @@ from numpy.typing import NDArray
 
 from ..compiled import jit
 from ..half_space import HalfSpace
-from . import cavities, linearisation, reynolds, streaming
+from . import cavities, linearisation, reynolds
 from .band import band_inverse
 from .cavities import Carried
 from .edge import set_edge, wrap
+from .flow import Flow, node_pass
 from .linear_solver import elimination_order, gmres
 from .problem import Iterate, Problem, Solution, failed
 from .stopping_rule import shortfall
@@ -40,19 +41,20 @@ _LIGHT = 1e-2  # share of the largest pressure below which the cavity's edge is 
 _FALL = 0.75  # rms relative fall of the film in a step, weighted by pressure
 _RISE = (2.0, 1.0)  # largest rise of a fluid pressure in a step, and by how much more if it is high already
 _TOUCH = 0.95  # gap in floors below which a node becomes solid
+_TRIAL = 1e-6  # largest relative change of a gap, or change of a pressure, of a difference of flows
 _RELEASES = 1  # a contact that returns after so many releases stays: some would change for ever
 
 
 @jit
 def _seek_cavity(  # type: ignore[no-untyped-def]
-    f, p, solid, e, mass, mass_old, per_dt, wedge, dx, rigid, light, sweeps, wrapped
+    f, p, solid, ex, ey, flux, mass, mass_old, per_dt, wedge, dx, rigid, light, sweeps, wrapped
 ):
     """Relax light pressures on a given film by projected over-relaxation.
 
     This moves the edge of the cavity by many nodes, where a Newton step frees one row.
     """
     ny, nx = f.shape
-    half = 0.5 / (dx * dx)
+    per_dx2 = 1.0 / (dx * dx)
     for sweep in range(sweeps):
         for row in range(1, ny - 1):
             j = row if sweep % 2 == 0 else ny - 1 - row
@@ -60,13 +62,13 @@ def _seek_cavity(  # type: ignore[no-untyped-def]
                 i = node if sweep % 2 == 0 else nx - 1 - node
                 if solid[j, i] or f[j, i] > light:
                     continue
-                west, east = half * (e[j, i] + e[j, i - 1]), half * (e[j, i] + e[j, i + 1])
-                south, north = half * (e[j, i] + e[j - 1, i]), half * (e[j, i] + e[j + 1, i])
+                west, east = per_dx2 * ex[j, i - 1], per_dx2 * ex[j, i]
+                south, north = per_dx2 * ey[j - 1, i], per_dx2 * ey[j, i]
                 total = west + east + south + north
                 inflow = west * f[j, i - 1] + east * f[j, i + 1] + south * f[j - 1, i] + north * f[j + 1, i]
                 if total < rigid or (f[j, i] <= 0.0 and inflow <= 0.0):
                     continue
-                value = (inflow - reynolds.transport(mass, None, mass_old, per_dt, wedge, dx, j, i)) / total
+                value = (inflow - reynolds.transport(mass, flux, mass_old, per_dt, wedge, dx, j, i)) / total
                 f[j, i] = min(max(f[j, i] + 1.6 * (value - f[j, i]), 0.0), light)
                 p[j, i] = f[j, i]
         if wrapped:
@@ -83,6 +85,38 @@ def _inner_weight(weight: Array, edge: Array) -> Array:
     return w
 
 
+class _Trial:
+    """Change of the net inflow with fluid pressure and gap, as the difference of two flows."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem, shape = problem, problem.cap.shape
+        self.flow = Flow.of(problem)
+        self.carried = Carried(problem) if problem.by_flux else None
+        self.full, self.mass, self.f, self.base, self.r = (np.zeros(shape) for _ in range(5))
+
+    def start(self, f: Array, solid: Mask, h: Array, gap: Array, r: Array) -> None:
+        """Take the film around which changes are sought, with its net inflow."""
+        self.at, self.solid, self.gap, self.base = f, solid, gap, r
+        self.fixed = solid | (h <= self.problem.floor)
+
+    def change(self, df: Array, dh: Array) -> Array:
+        """Return the change of the net inflow [ny, nx] with those of fluid pressure and gap, in full nodes."""
+        q, flow, carried = self.problem, self.flow, self.carried
+        largest = max(float(np.abs(df).max()), float((np.abs(dh) / self.gap).max()), 1e-300)
+        part = _TRIAL / largest
+        full = self.full if carried is None else carried.full
+        node_pass(self.at, self.gap, self.fixed, df, dh, part, q.floor, *q.tables, self.f, full, *flow.nodes)
+        flow.measure()
+        flow.drive(self.f, full, q.mobility, q.thinned)
+        mass, flux, filling, first = full, flow.carried, None, 1
+        if carried is not None:
+            mass, flux, filling, first = self.mass, carried.flux, carried.filling, carried.first
+            carried.carry(self.f, flow, mass)
+        balance = (mass, q.mass_old, *flow.faces, flux, *q.terms)
+        reynolds.residual(self.f, self.solid, *balance, self.r, filling, first)
+        return (self.r - self.base) / part
+
+
 class _Film:
     """Present iterate, its film and its linearisation."""
 
@@ -93,8 +127,9 @@ class _Film:
         self.solid, self.rigid = start.solid.copy(), start.rigid
         set_edge(self.p, problem.edge, problem.wrapped)
         shape = self.p.shape
-        self.h, self.mass, self.e, self.r, self.scale = (np.zeros(shape) for _ in range(5))
-        self.slope, self.by_f, self.by_h = np.zeros((4, *shape)), np.zeros((6, *shape)), np.zeros((6, *shape))
+        self.h, self.mass, self.r, self.scale = (np.zeros(shape) for _ in range(4))
+        self.slope, self.by_f, self.by_h = np.zeros((2, *shape)), np.zeros((6, *shape)), np.zeros((6, *shape))
+        self.flow, self.trial = Flow.of(problem), _Trial(problem)
         self.inner_weight = _inner_weight(problem.weight, problem.edge)
         self.order = elimination_order(*shape, problem.wrapped)
         self.rows = slice(1, -1) if problem.wrapped else slice(None)  # that are no images
@@ -116,7 +151,7 @@ class _Film:
         self._pass()
         if self.carried is None:
             rigid = 30.0 * self.half_space.near[0, 0] / q.spacing  # there light pressures do not change the gap
-            balance = (self.e, self.mass, q.mass_old, *q.terms)
+            balance = (*self.flow.faces, self.flow.carried, self.mass, q.mass_old, *q.terms)
             light = _LIGHT * self.p.max()
             _seek_cavity(self.f, self.p, self.solid, *balance, rigid, light, _SWEEPS_AT_CAVITY, q.wrapped)
             set_edge(self.p, q.edge, q.wrapped)
@@ -127,54 +162,53 @@ class _Film:
 
     def _residual(self, solid: Mask, out: Array) -> None:
         """Compute the net inflow of every node that is full and not `solid`."""
-        q, flow = self.problem, self._flow
-        reynolds.residual(self.f, solid, self.mass, q.mass_old, self.e, *q.terms, out, *flow)
-
-    @property
-    def _flow(self) -> tuple[Any, ...]:
-        carried = self.carried
-        return () if carried is None else (carried.flux, carried.filling, carried.first)
+        q, carried = self.problem, self.carried
+        flux = self.flow.carried if carried is None else carried.flux
+        filling = () if carried is None else (carried.filling, carried.first)
+        reynolds.residual(self.f, solid, self.mass, q.mass_old, *self.flow.faces, flux, *q.terms, out, *filling)
 
     def _pass(self) -> None:
-        q, p, f, solid = self.problem, self.p, self.f, self.solid
-        oil = (q.floor, *q.oil)
+        q, p, f, solid, flow = self.problem, self.p, self.f, self.solid, self.flow
+        oil = (*q.layer, *q.tables)
         deformation = self.half_space.deform(p)
         solid |= self.inner & (self.rigid + q.undeformed + deformation < _TOUCH * q.floor)
         if q.wrapped:
             wrap(solid)
-        full, flux, first = self.mass, None, 1
+        full, flux, first = self.mass, flow.carried, 1
         if (carried := self.carried) is not None:
             full, flux, first = carried.full, carried.flux, carried.first
             cavities.close_inlet(p, f, solid, q.first)
-        reynolds.film_pass(p, f, solid, q.undeformed, deformation, self.rigid, *oil, self.h, full, self.e)
+        reynolds.film_pass(p, f, solid, q.undeformed, deformation, self.rigid, *oil, self.h, full, *flow.nodes)
         solid &= self.inner  # the edge does not touch
         if q.wrapped:
             wrap(solid)
         settled = solid & (self.releases >= _RELEASES)
-        if carried is not None:
-            carried.carry(f, self.e, self.mass)
-        balance = (self.mass, q.mass_old, self.e, *q.terms)
-        flow = (*oil, full, flux, first, q.wrapped)
-        reynolds.fluid_under_contacts(p, f, solid, self.h, *balance, _SWEEPS_UNDER_CONTACTS, *flow)
-        if carried is not None:
-            carried.carry(f, self.e, self.mass)
+        flow.measure()
+        self._carry(full)
+        balance = (self.h, self.mass, q.mass_old, *flow.faces, flux, *q.terms, _SWEEPS_UNDER_CONTACTS)
+        inner = (q.floor, *q.tables, full, *flow.nodes, first, q.wrapped)
+        if reynolds.fluid_under_contacts(p, f, solid, *balance, *inner):
+            self._carry(full)
         solid |= settled
+
+    def _carry(self, full: Array) -> None:
+        """Compute what flows through the faces, from properties of the nodes."""
+        self.flow.drive(self.f, full, self.problem.mobility, self.problem.thinned)
+        if self.carried is not None:
+            self.carried.carry(self.f, self.flow, self.mass)
 
     def correction(self) -> tuple[Array, Array, float] | None:
         """Return Newton's changes of pressure, gap [ny, nx] and rigid gap; None if there are none."""
         q, solid, near = self.problem, self.solid, self.half_space.near
-        oil = (q.floor, *q.oil)
-        by_f, by_h, scale, carried = self.by_f, self.by_h, self.scale, self.carried
-        linearisation.slopes(self.f, solid, self.h, *oil, self.slope)
-        if carried is None:
-            linearisation.linearise(self.f, self.e, q.spacing, q.per_dt, q.wedge, self.slope, by_f, by_h)
-        else:
-            film = (self.f, carried.full, self.e, self.slope)
-            streaming.linearise(*film, carried.filling, *q.terms, carried.first, by_f, by_h)
+        by_f, by_h, scale, flow = self.by_f, self.by_h, self.scale, self.flow
+        linearisation.slopes(self.f, solid, self.h, q.floor, q.step, q.density, self.slope)
+        film = (self.f, flow.gap, flow.fluid, q.thinned, *flow.faces, flow.share, q.fitted, *q.terms, self.slope)
+        filling, first = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
+        linearisation.linearise(*film, first, filling, by_f, by_h)
         yields = solid & (self.p >= q.cap) & (self.h < q.floor)
         wet = ((self.p > 0.0) | (self.r > 0.0)) & ~((self.p >= q.cap) & (self.r >= 0.0))
         nodes = self.order[np.where(solid, ~yields, wet).ravel()[self.order]]
-        size, shape, change = nodes.size, solid.shape, np.empty(solid.shape)
+        size, shape = nodes.size, solid.shape
         if size == 0:
             return None
         own = -(by_f[0] + by_h[0] * near[0, 0] + by_h[1] * near[0, 1])
@@ -183,12 +217,10 @@ class _Film:
         if inverse is None:
             return None
 
+        self.trial.start(self.f, solid, self.h, flow.gap, self.r)
+
         def product(df: Array, dh: Array, out: Array) -> None:
-            if carried is None:
-                linearisation.product(by_f, by_h, scale, nodes, solid, df, dh, out)
-                return
-            flow = (carried.flux, carried.filling, df, dh)
-            streaming.change(*film, *flow, *q.terms, q.conserving, carried.first, change)
+            change = self.trial.change(df, dh)
             out[:] = (np.where(solid, dh, change) * scale).ravel()[nodes]
 
         lift = np.empty(size)

@@ -13,18 +13,17 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 
-class Oil(NamedTuple):
-    """Properties of the oil, in the order in which kernels take them (as `*problem.oil`).
+class Tables(NamedTuple):
+    """Oil over p = 0, step, 2 step..., in the order in which kernels take it (as `*problem.tables`).
 
     Compiled functions get the fields one by one: unpacking a named tuple costs each call about 1.5 us, 5 % of an
     iteration on 65 x 65 nodes.
     """
 
-    mobility: Array
-    thinned: Array
-    fluidity: Array
-    density: Array
     step: float
+    density: Array
+    fluidity: Array
+    potential: Array  # integral of the fluidity over pressure
 
 
 class Terms(NamedTuple):
@@ -67,16 +66,29 @@ class Problem:
     conserving: bool = False  # cavities hold the oil that flows into them; else they count as full
     supply: float | Array | None = None  # conserving: mass [ny] that enters, None: as much as the first column can take
     first: int = 0  # first column in which oil has pressure; upstream of it none presses
+    stress: float = 0.0  # pressure that asperities below the grid carry at the floor
+    depth: float = 0.0  # gap over which that falls by the factor e; 0: no such asperities
+    fitted: bool = False  # flow through faces exact for a constant flow in each cell; else second order upstream
 
     @cached_property
-    def oil(self) -> Oil:
-        """Arguments of kernels: properties of the oil."""
-        return Oil(self.mobility, self.thinned, self.fluidity, self.density, self.step)
+    def potential(self) -> Array:
+        """Table of the integral of the fluidity over pressure."""
+        return np.concatenate([[0.0], np.cumsum(0.5 * self.step * (self.fluidity[1:] + self.fluidity[:-1]))])
+
+    @cached_property
+    def tables(self) -> Tables:
+        """Arguments of kernels: tables of the oil over pressure."""
+        return Tables(self.step, self.density, self.fluidity, self.potential)
 
     @cached_property
     def terms(self) -> Terms:
         """Arguments of kernels: time step, entrainment, spacing."""
         return Terms(self.per_dt, self.wedge, self.spacing)
+
+    @property
+    def layer(self) -> tuple[float, float, float]:
+        """Arguments of kernels: floor, and stress and depth of the asperities above it."""
+        return self.floor, self.stress, self.depth
 
     @property
     def by_flux(self) -> bool:

@@ -4,44 +4,25 @@
     e = mobility rho max(h, floor)^3 (1 / eta(f) + thinned)
 
 f is the fluid pressure, solved everywhere; entrainment is along +x, `wedge` its speed in the unit of speeds: 1, less
-where a time step is so short that squeezing rules, 0 at rest. Second order: central in pressure, upwind (1.5, -2,
-0.5) in the wedge. On nodes in solid contact (solid[j, i]) the gap is the floor and the total pressure p is at least
-f; elsewhere p = f. Viscosity and density come as tables over pressure (relative to those at p = 0). All arrays are
-[ny, nx] unless stated otherwise.
+where a time step is so short that squeezing rules, 0 at rest. What flows through the faces between nodes is said in
+`flow`: their mobilities ex and ey, and the mass `flux` that is carried along. On nodes in solid contact (solid[j, i])
+the gap is the floor and the total pressure p is at least f; elsewhere p = f, less what asperities below the grid carry
+(`asperities`). Viscosity and density come as tables over pressure (relative to those at p = 0). All arrays are [ny, nx]
+unless stated otherwise.
 
-`flux`, `filling`: from `cavities.carry`; masses are less than m where the film is not full. None: it is full
-everywhere. With them, `first` is the first column in which the oil has pressure.
+`filling`: from `cavities.carry`; masses are less than m where the film is not full. None: it is full everywhere. With
+it, `first` is the first column in which the oil has pressure.
 """
 
 import numpy as np
 
 from ..compiled import jit
+from .asperities import carried_at
 from .edge import wrap
+from .flow import properties
 
 _TOUCH = 0.5  # gap in floors below which a node becomes solid at once; below 1, where its film loses mass
 _DEEP = 0.5  # gap in floors below which a contact is not released: it has to rise first
-
-
-@jit
-def interpolate(table, step, p):  # type: ignore[no-untyped-def]
-    """Interpolate linearly in a table over p = 0, step, 2 step...; clamped at its end."""
-    at = p / step
-    k = int(at)
-    if k >= table.size - 1:
-        return table[table.size - 1]
-    return table[k] + (at - k) * (table[k + 1] - table[k])
-
-
-@jit
-def _properties(p, per_step, density, fluidity):  # type: ignore[no-untyped-def]
-    """Return density and fluidity at a pressure, as `interpolate`."""
-    at = p * per_step
-    k = int(at)
-    if k >= density.size - 1:
-        return density[density.size - 1], fluidity[density.size - 1]
-    part = at - k
-    rho, flow = density[k], fluidity[k]
-    return rho + part * (density[k + 1] - rho), flow + part * (fluidity[k + 1] - flow)
 
 
 @jit
@@ -53,52 +34,61 @@ def film_pass(  # type: ignore[no-untyped-def]
     deformation,
     rigid,
     floor,
-    mobility,
-    thinned,
-    fluidity,
-    density,
+    stress,
+    depth,
     step,
+    density,
+    fluidity,
+    potential,
     h,
     mass,
-    e,
+    gap,
+    rho,
+    fluid,
+    driven,
     lumped=False,
 ):
-    """Compute gap, new solid contacts, mass and mobility of every node from the pressure.
+    """Compute gap, new solid contacts, full mass and the nodes' properties of `flow` from the pressure.
 
     `deformation` may have more columns than there are nodes. lumped: f = p on solid contacts, too; where that is zero
     they are released.
     """
     ny, nx = p.shape
-    per_step = 1.0 / step
     touch = _TOUCH * floor
     for j in range(ny):
         for i in range(nx):
-            gap = rigid + undeformed[j, i] + deformation[j, i]
-            h[j, i] = gap
-            touches = solid[j, i]
-            if touches and p[j, i] <= 0.0 and (lumped or gap > floor):
+            here = rigid + undeformed[j, i] + deformation[j, i]
+            h[j, i] = here
+            touches, own = solid[j, i], carried_at(here, floor, stress, depth)
+            if touches and p[j, i] <= 0.0 and own <= 0.0 and (lumped or here > floor):
                 touches = False  # it carries no load
+            elif touches and depth > 0.0 and own < p[j, i] and here > floor:
+                touches = False  # asperities share the load with the oil
             elif not touches:
-                touches = gap < touch
-            if lumped or not (solid[j, i] and touches):
+                touches = here < touch
+            if lumped:
                 f[j, i] = p[j, i]
+            elif not (solid[j, i] and touches):
+                f[j, i] = max(p[j, i] - own, 0.0)
             solid[j, i] = touches
-            flow = floor if touches else max(gap, floor)
-            rho, fluid = _properties(f[j, i], per_step, density, fluidity)
-            mass[j, i] = rho * flow
-            e[j, i] = mobility[j, i] * rho * (fluid + thinned[j, i]) * (flow * flow * flow) + 1e-300
+            open_gap = floor if touches and depth <= 0.0 else max(here, floor)
+            gap[j, i] = open_gap
+            rho[j, i], fluid[j, i], driven[j, i] = properties(f[j, i], step, density, fluidity, potential)
+            mass[j, i] = rho[j, i] * open_gap
 
 
 @jit
 def transport(mass, flux, mass_old, per_dt, wedge, dx, j, i):  # type: ignore[no-untyped-def]
     """Return the mass carried away and squeezed out at a node: wedge d(m)/dx + d(m)/dt."""
-    if flux is not None:
-        slope = (flux[j, i] - flux[j, i - 1]) / dx
-    elif i > 1:
-        slope = (1.5 * mass[j, i] - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2]) / dx
-    else:
-        slope = (mass[j, i] - mass[j, i - 1]) / dx
-    return wedge * slope + (mass[j, i] - mass_old[j, i]) * per_dt
+    return wedge * ((flux[j, i] - flux[j, i - 1]) / dx) + (mass[j, i] - mass_old[j, i]) * per_dt
+
+
+@jit
+def inflow(f, ex, ey, per_dx2, j, i):  # type: ignore[no-untyped-def]
+    """Return the mass that pressure drives into a node: div(e grad f)."""
+    here = f[j, i]
+    along = ex[j, i - 1] * (f[j, i - 1] - here) + ex[j, i] * (f[j, i + 1] - here)
+    return per_dx2 * (along + ey[j - 1, i] * (f[j - 1, i] - here) + ey[j, i] * (f[j + 1, i] - here))
 
 
 @jit
@@ -115,25 +105,30 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
     h,
     mass,
     mass_old,
-    e,
+    ex,
+    ey,
+    flux,
     per_dt,
     wedge,
     dx,
     sweeps,
     floor,
-    mobility,
-    thinned,
-    fluidity,
-    density,
     step,
+    density,
+    fluidity,
+    potential,
     full,
-    flux=None,
+    gap,
+    rho,
+    fluid,
+    driven,
     first=1,
     wrapped=False,
 ):
     """Solve for the fluid pressure on solid contacts by Gauss-Seidel; release contacts that the fluid alone carries.
 
-    full: what nodes hold if they are full, which changes with that pressure; `mass` itself where none is a cavity.
+    full: what nodes hold if they are full, which changes with that pressure as rho, fluid and driven do; `mass` itself
+    where none is a cavity. Returns True if there is a contact.
     """
     ny, nx = p.shape
     count = 0
@@ -141,25 +136,20 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
         for i in range(first, nx - 1):
             if solid[j, i]:
                 count += 1
+    if count == 0:
+        return False
     at, c = np.empty(count, np.int64), np.empty((count, 5))
-    half, n = 0.5 / (dx * dx), 0
+    n = 0
     for j in range(1, ny - 1):
         for i in range(first, nx - 1):
             if solid[j, i]:
-                here = e[j, i]
-                west, east, south, north = (
-                    here + e[j, i - 1],
-                    here + e[j, i + 1],
-                    here + e[j - 1, i],
-                    here + e[j + 1, i],
-                )
+                west, east, south, north = ex[j, i - 1], ex[j, i], ey[j - 1, i], ey[j, i]
                 part = 1.0 / (west + east + south + north)
                 at[n] = j * nx + i
                 c[n, 0], c[n, 1], c[n, 2], c[n, 3] = west * part, east * part, south * part, north * part
-                c[n, 4] = -transport(mass, flux, mass_old, per_dt, wedge, dx, j, i) * part / half
+                c[n, 4] = -transport(mass, flux, mass_old, per_dt, wedge, dx, j, i) * part * dx * dx
                 n += 1
-    pp, ff, hh, ee, mm, ss = p.ravel(), f.ravel(), h.ravel(), e.ravel(), full.ravel(), solid.ravel()
-    ease, more = mobility.ravel(), thinned.ravel()
+    pp, ff, hh, mm, ss = p.ravel(), f.ravel(), h.ravel(), full.ravel(), solid.ravel()
     for sweep in range(sweeps):
         last = sweep == sweeps - 1
         for m in range(count):
@@ -172,40 +162,32 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
             ff[k] = min(max(value, 0.0), pp[k])
         if wrapped:
             wrap(f)
-    cube, per_step = floor * floor * floor, 1.0 / step
+    rr, flu, dd, gg = rho.ravel(), fluid.ravel(), driven.ravel(), gap.ravel()
     for n in range(count):
         k = at[n]
         if not ss[k]:
             ff[k] = pp[k]
-        rho, fluid = _properties(ff[k], per_step, density, fluidity)
-        mm[k] = rho * floor
-        ee[k] = ease[k] * cube * rho * (fluid + more[k]) + 1e-300
+        rr[k], flu[k], dd[k] = properties(ff[k], step, density, fluidity, potential)
+        mm[k] = rr[k] * gg[k]
     if wrapped:
-        wrap(f)
-        wrap(mass)
-        wrap(e)
+        for field in (f, full, rho, fluid, driven):
+            wrap(field)
         wrap(solid)
+    return True
 
 
 @jit
-def residual(f, solid, mass, mass_old, e, per_dt, wedge, dx, r, flux=None, filling=None, first=1):  # type: ignore[no-untyped-def]
+def residual(f, solid, mass, mass_old, ex, ey, flux, per_dt, wedge, dx, r, filling=None, first=1):  # type: ignore[no-untyped-def]
     """Compute the net inflow of mass per area at inner nodes; zero on solid contacts, in cavities and on the edge."""
     ny, nx = f.shape
-    half = 0.5 / (dx * dx)
+    per_dx2 = 1.0 / (dx * dx)
     r[:] = 0.0
     for j in range(1, ny - 1):
         for i in range(first, nx - 1):
             if filling is not None and filling[j, i] < 1.0:
                 continue
             if not solid[j, i]:
-                here, ej = f[j, i], e[j, i]
-                flow = (
-                    (ej + e[j, i - 1]) * (f[j, i - 1] - here)
-                    + (ej + e[j, i + 1]) * (f[j, i + 1] - here)
-                    + (ej + e[j - 1, i]) * (f[j - 1, i] - here)
-                    + (ej + e[j + 1, i]) * (f[j + 1, i] - here)
-                )
-                r[j, i] = half * flow - transport(mass, flux, mass_old, per_dt, wedge, dx, j, i)
+                r[j, i] = inflow(f, ex, ey, per_dx2, j, i) - transport(mass, flux, mass_old, per_dt, wedge, dx, j, i)
 
 
 @jit

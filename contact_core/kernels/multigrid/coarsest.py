@@ -14,9 +14,7 @@ from ..half_space import influence
 Array = NDArray[np.float64]
 
 
-# nodes that a node's balance looks at: itself, west, east, south, north, second west
-_DJ = np.array([0, 0, 0, -1, 1, 0])
-_DI = np.array([0, -1, 1, 0, 0, -2])
+ACROSS, ALONG = 3, 5  # rows and columns of the nodes that a node's balance looks at
 
 
 def dense_deformation(ny: int, nx: int, mirror: bool) -> Array:
@@ -29,28 +27,6 @@ def dense_deformation(ny: int, nx: int, mirror: bool) -> Array:
         matrix[:, :-1] += kernel[ny - 1 - j[:, None] - j[None, :-1]][:, :, across]
     nodes = j.size * nx
     return np.ascontiguousarray(matrix.transpose(0, 2, 1, 3).reshape(nodes, nodes))
-
-
-@jit
-def _stencil(p, mass, e, dx, mirror, j, i, by_p, by_e, by_mass):  # type: ignore[no-untyped-def]
-    """Return the net inflow of a node; compute its derivatives by pressure, mobility and mass on the stencil."""
-    rows = p.shape[0]
-    half = 0.5 / (dx * dx)
-    inflow = 0.0
-    by_p[:], by_e[:], by_mass[:] = 0.0, 0.0, 0.0
-    for k in range(1, 5):
-        row = rows - 2 if mirror and j + _DJ[k] == rows else j + _DJ[k]
-        ease, drop = half * (e[j, i] + e[row, i + _DI[k]]), half * (p[row, i + _DI[k]] - p[j, i])
-        inflow += ease / half * drop
-        by_p[k], by_e[k] = ease, drop
-        by_p[0] -= ease
-        by_e[0] += drop
-    if i > 1:
-        by_mass[0], by_mass[1], by_mass[5] = -1.5 / dx, 2.0 / dx, -0.5 / dx
-        inflow += by_mass[5] * mass[j, i - 2]
-    else:
-        by_mass[0], by_mass[1] = -1.0 / dx, 1.0 / dx
-    return inflow + by_mass[0] * mass[j, i] + by_mass[1] * mass[j, i - 1]
 
 
 @jit
@@ -82,44 +58,35 @@ def condensed(matrix, edge, mirror):  # type: ignore[no-untyped-def]
 
 
 @jit
-def assemble(  # type: ignore[no-untyped-def]
-    p, h, mass, e, rho, soft, f, edge, weight, missing, lift, dx, mirror, thinned, fluidity, step, jacobian, right
-):
+def assemble(p, by_p, by_h, excess, edge, weight, missing, lift, mirror, jacobian, right):  # type: ignore[no-untyped-def]
     """Assemble Jacobian and right side of the next change of pressures and rigid gap, scaled by the diagonal.
 
-    `lift` [nodes, unknowns]: gap by unit pressures, see `condensed`; `missing`: sum of weight * p still to come.
+    by_p, by_h [colours, rows, nx]: derivatives of the net inflow, see `Level`; excess [rows, nx] of it; `lift` [nodes,
+    unknowns]: gap by unit pressures, see `condensed`; `missing`: sum of weight * p still to come.
     """
     rows, nx = p.shape
     n = right.size - 1
-    by_p, by_e, by_mass = np.empty(6), np.empty(6), np.empty(6)
     jacobian[:] = 0.0
     for j in range(1, rows if mirror else rows - 1):
         for i in range(1, nx - 1):
-            at = (j - 1) * (nx - 2) + i - 1
-            excess = _stencil(p, mass, e, dx, mirror, j, i, by_p, by_e, by_mass) - f[j, i]
-            diagonal = -by_p[0] - by_mass[0] * rho[j, i] * lift[j * nx + i, at]
-            right[at] = excess / diagonal
+            at, own = (j - 1) * (nx - 2) + i - 1, (j % ACROSS) * ALONG + i % ALONG
+            diagonal = -by_p[own, j, i] - by_h[own, j, i] * lift[j * nx + i, at]
+            if not diagonal > 0.0:
+                diagonal = max(-by_p[own, j, i], 1e-300)
+            right[at] = excess[j, i] / diagonal
             if p[j, i] + right[at] <= 0.0:
                 jacobian[at, at], right[at] = 1.0, -p[j, i]
                 continue
-            for k in range(6):
-                column = i + _DI[k]
-                if column < 0:
-                    continue
-                row = rows - 2 if mirror and j + _DJ[k] == rows else j + _DJ[k]
-                by_gap = by_mass[k] * rho[row, column]
-                if h[row, column] > 0.0:
-                    by_gap += 3.0 * by_e[k] * e[row, column] / h[row, column]
-                for m in range(n):
-                    jacobian[at, m] -= by_gap / diagonal * lift[row * nx + column, m]
-                jacobian[at, n] -= by_gap / diagonal
-                place, thinner = int(p[row, column] / step), 0.0
-                if p[row, column] > 0.0 and place < fluidity.size - 1:
-                    fluid = max(fluidity[place] + thinned[row, column], 1e-300)
-                    thinner = (fluidity[place + 1] - fluidity[place]) / (step * fluid)
-                directly = by_p[k] + by_mass[k] * soft[row, column] + by_e[k] * e[row, column] * thinner
-                m, ratio = _inner(row, column, edge, mirror)
-                jacobian[at, m] -= ratio * directly / diagonal
+            for row in range(max(j - 1, 0), min(j + 2, rows)):
+                for column in range(max(i - 2, 0), min(i + 3, nx)):
+                    colour, node = (row % ACROSS) * ALONG + column % ALONG, row * nx + column
+                    by_gap = by_h[colour, j, i] / diagonal
+                    if by_gap != 0.0:
+                        for m in range(n):
+                            jacobian[at, m] -= by_gap * lift[node, m]
+                        jacobian[at, n] -= by_gap
+                    m, ratio = _inner(row, column, edge, mirror)
+                    jacobian[at, m] -= ratio * by_p[colour, j, i] / diagonal
     for j in range(rows):
         for i in range(nx):
             m, ratio = _inner(j, i, edge, mirror)

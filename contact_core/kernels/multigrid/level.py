@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..half_space import HalfSpace, influence
+from ..mixed.flow import Flow
 from ..mixed.problem import Problem
 from . import coarsest, relaxation, transfer
 from .mirrored import MirroredHalfSpace
@@ -15,6 +16,9 @@ Array = NDArray[np.float64]
 
 _KEPT = 32  # grids whose plans and scratch are kept
 _LARGEST_STEP = 0.5  # of a pressure by Newton's method
+_TRIAL = 1e-7  # change of pressures and, relative to the mean one, of gaps, of a difference of flows
+# of the masses at i + 1, i, i - 1, i - 2 in the wedge of the lines' equations. fitted: m_u of `mixed.flow`
+_WEIGHTS = {True: (0.375, 0.375, -0.875, 0.125), False: (0.0, 1.5, -2.0, 0.5)}
 _LOCAL = threading.local()  # plans and scratch may not be shared between threads
 
 
@@ -56,9 +60,12 @@ class Level:
         self.compliance, self.scale = problem.compliance, problem.compliance * 2.0 / np.pi**2 * self.dx
         self._problem = problem
         self._transforms = _transforms(y.size, x.size, mirror, library)
-        self._wedge, self._wedge_soft = relaxation.line_kernels(self._transforms.near * self.scale, self.dx)
+        near = self._transforms.near * self.scale
+        self._lines = {fitted: relaxation.line_kernels(near, self.dx, w) for fitted, w in _WEIGHTS.items()}
         shape = (self.rows, self.nx)
-        self.p, self.h, self.mass, self.e, self.rho, self.soft, self.f = (np.zeros(shape) for _ in range(7))
+        self.p, self.h, self.mass, self.soft, self.f = (np.zeros(shape) for _ in range(5))
+        scales = relaxation.CLOSED, problem.step, 1.0 / (problem.compliance * self.dx**2), problem.fitted
+        self.flow = Flow(shape, *scales)
         self.undeformed, self.base, self.edge, self.weight = (np.zeros(shape) for _ in range(4))
         self.mobility, self.thinned = np.zeros(shape), np.zeros(shape)
         self.offset, self.before, self.work = (np.zeros(shape) for _ in range(3))
@@ -76,6 +83,7 @@ class Level:
 
     def state_problem(self, load: float) -> None:
         """State the problem without corrections from a finer level. `load`: integral of the pressure."""
+        self.flow.fitted = self._problem.fitted
         self.f[:], self.offset[:], self.base[:] = 0.0, 0.0, self.undeformed
         self.target = load
 
@@ -88,17 +96,21 @@ class Level:
         self._film(self._transforms.deform(self.p))
 
     def _film(self, deformation: Array) -> None:
-        oil = self._problem
-        relaxation.film_pass(
-            self.p, self.base, deformation, self.scale, self.rigid, self.mobility, self.thinned,
-            oil.fluidity, oil.density, oil.step, self.h, self.mass, self.e, self.rho, self.soft,
-        )  # fmt: skip
+        relaxation.gap_pass(self.base, deformation, self.scale, self.rigid, self.h)
+        self._through(self.p, self.h)
+
+    def _through(self, p: Array, h: Array) -> None:
+        """Compute what flows through the faces under a pressure and a gap."""
+        relaxation.oil_pass(p, h, *self._problem.tables, self.mass, self.soft, *self.flow.nodes)
+        self.flow.measure()
+        self.flow.drive(p, self.mass, self.mobility, self.thinned)
 
     def relax(self, single: float, spread: float) -> None:
         """Relax once; the film must be up to date before, and is not afterwards."""
+        wedge, wedge_soft = self._lines[self.flow.fitted]
         relaxation.relax(
-            self.p, self.mass, self.e, self.rho, self.soft, self.f, self.edge, self.offset, self._wedge,
-            self._wedge_soft, self.dx, self.compliance, self.mirror, single, spread, self.work,
+            self.p, *self.flow.through, self.flow.rho, self.soft, self.f, self.edge, self.offset,
+            wedge, wedge_soft, self.dx, self.compliance, self.mirror, single, spread, self.work,
         )  # fmt: skip
 
     def set_edges(self) -> None:
@@ -111,12 +123,13 @@ class Level:
 
     def defect(self) -> float:
         """Put the defect of the balance into `work`; return the imbalance as `reynolds.imbalance`."""
-        wrong, film = relaxation.defect(self.p, self.mass, self.e, self.f, self.dx, self.mirror, self.work)
+        wrong, film = relaxation.defect(self.p, self.mass, *self.flow.through, self.f, self.dx, self.mirror, self.work)
         return abs(float(wrong / film))
 
     def restrict(self, fine: "Level") -> None:
         """State the problem that corrects the finer level, whose film is up to date; start from its fields."""
         fine.defect()
+        self.flow.fitted = False  # a correction needs no more, and is smoother
         transfer.inject(fine.p, self.p)
         transfer.inject(fine.h, self.h)
         self.before[:] = self.p
@@ -125,7 +138,7 @@ class Level:
         deformation = self._transforms.deform(self.p)
         transfer.undeformed_gap(self.h, deformation, self.scale, self.rigid, self.base)
         self._film(deformation)
-        relaxation.balance(self.p, self.mass, self.e, self.dx, self.mirror, self.f)
+        relaxation.balance(self.p, *self.flow.through, self.dx, self.mirror, self.f)
         transfer.add_weighted(fine.work, fine.mirror, self.f)
         self.target = self.load() + fine.target - fine.load()
 
@@ -141,15 +154,35 @@ class Level:
         unknowns = lift.shape[1] + 1
         jacobian, change = np.empty((unknowns, unknowns)), np.empty(unknowns)
         missing = (self.target - self.load()) / self.dx**2
-        coarsest.assemble(
-            self.p, self.h, self.mass, self.e, self.rho, self.soft, self.f, self.edge, self.weight, missing, lift,
-            self.dx, self.mirror, self.thinned, self._problem.fluidity, self._problem.step, jacobian, change,
-        )  # fmt: skip
+        inflow = np.zeros_like(self.p)
+        relaxation.balance(self.p, *self.flow.through, self.dx, self.mirror, inflow)
+        with np.errstate(all="ignore"):  # a film that diverges shows by its pressure
+            by_p, by_h = self._by_colours(inflow, np.array([1.0, 0.0])), self._by_colours(inflow, np.array([0.0, 1.0]))
+            excess = inflow - self.f
+        derivatives = (by_p, by_h, excess, self.edge, self.weight, missing, lift, self.mirror)
+        coarsest.assemble(self.p, *derivatives, jacobian, change)
         if coarsest.solve_dense(jacobian, change) and np.isfinite(change).all():  # else finer levels do without
             part = min(1.0, _LARGEST_STEP / max(float(np.abs(change[:-1]).max()), 1e-300))
             coarsest.advance(self.p, change, part, self.mirror)
             self.rigid += part * float(change[-1])
             self.set_edges()
+
+    def _by_colours(self, inflow: Array, of: Array) -> Array:
+        """Return the derivatives of the net inflow by pressure (`of` = 1, 0) or gap (0, 1) of the nodes around.
+
+        [colours, rows, nx]: all nodes of a colour change at once, of which a balance looks at one at most.
+        """
+        out = np.empty((coarsest.ACROSS * coarsest.ALONG, *self.p.shape))
+        size = _TRIAL * (of[0] + of[1] * float(np.abs(self.h).mean()))
+        for colour in range(len(out)):
+            part = np.zeros_like(self.p)
+            part[colour // coarsest.ALONG :: coarsest.ACROSS, colour % coarsest.ALONG :: coarsest.ALONG] = size
+            self._through(self.p + of[0] * part, self.h + of[1] * part)
+            relaxation.balance(self.p + of[0] * part, *self.flow.through, self.dx, self.mirror, out[colour])
+            out[colour] -= inflow
+            out[colour] *= 1.0 / size
+        self._through(self.p, self.h)
+        return out
 
     def film_thickness(self) -> tuple[float, float]:
         """Return the gap at x = 0 on the row next to y = 0, and the smallest gap."""

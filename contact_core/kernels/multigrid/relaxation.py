@@ -2,9 +2,9 @@
 
     div(e grad p) - d(m)/dx = f where p > 0,   p >= 0,   m = rho h,   e = mobility rho h^3 (1 / eta(p) + thinned)
 
-Discretised as in `reynolds`. Fields are [rows, nx]. With `mirror` they are one half of a contact that is symmetric
-about its last row: what lies beyond it is the image of the row before it. Where the film of a coarse grid is negative
-nothing flows under pressure, but its mass is carried along as it is.
+What flows through the faces between nodes is said in `mixed.flow`. Fields are [rows, nx]. With `mirror` they are one
+half of a contact that is symmetric about its last row: what lies beyond it is the image of the row before it. Where the
+film of a coarse grid is negative nothing flows under pressure, but its mass is carried along as it is.
 
 Source of the relaxation: Venner & Lubrecht, Multilevel Methods in Lubrication, Elsevier 2000; lines along x, Gauss-
 Seidel where pressure flow rules, changes that leave the total pressure as it is (a node up, its neighbours down by a
@@ -14,13 +14,15 @@ quarter each) where elasticity does.
 import numpy as np
 
 from ..compiled import jit
+from ..mixed.flow import properties
 
+CLOSED = 1e-12  # gap through which nothing flows
 _STIFF = 0.3  # e / dx^2, in compliances, below which elasticity rules
 _LOWER, _UPPER = 3, 2  # neighbours upstream and downstream in a line's equations
 _SINGLE, _SPREAD, _STAYS = 0, 1, 2  # change of a node: alone, with its neighbours, none
 
 
-def line_kernels(near, dx):  # type: ignore[no-untyped-def]
+def line_kernels(near, dx, weights):  # type: ignore[no-untyped-def]
     """Return the change of d(m)/dx at i by a unit change at i + m, m = -3...2.
 
     Per rho and per h d(rho)/dp; [3, 6] each.
@@ -39,68 +41,56 @@ def line_kernels(near, dx):  # type: ignore[no-untyped-def]
 
     def wedge(c):  # type: ignore[no-untyped-def]
         m = range(-_LOWER, _UPPER + 1)
-        return np.array([(1.5 * c[abs(k)] - 2.0 * c[abs(k + 1)] + 0.5 * c[abs(k + 2)]) / dx for k in m])
+        return np.array([sum(w * c[abs(k + n)] for n, w in enumerate(weights, -1)) / dx for k in m])
 
     none = np.zeros(_LOWER + 1 + _UPPER)
     return np.array([wedge(single), wedge(spread), none]), np.array([wedge(unit), wedge(unit_spread), none])
 
 
 @jit
-def film_pass(p, base, deformation, scale, rigid, mobility, thinned, fluidity, density, step, h, mass, e, rho, soft):  # type: ignore[no-untyped-def]
-    """Compute gap, mass, mobility, density and h d(rho)/dp of every node from pressure and deformation."""
-    rows, nx = p.shape
-    last = fluidity.size - 1
-    for j in range(rows):
-        for i in range(nx):
-            gap = rigid + base[j, i] + scale * deformation[j, i]
-            h[j, i] = gap
-            open_gap = max(gap, 0.0)
-            ease, dense, slope = fluidity[0], density[0], 0.0
-            if p[j, i] > 0.0:
-                at = p[j, i] / step
-                if at < last:
-                    k = int(at)
-                    part = at - k
-                    slope = density[k + 1] - density[k]
-                    ease = fluidity[k] + part * (fluidity[k + 1] - fluidity[k])
-                    dense = density[k] + part * slope
-                else:
-                    ease, dense = fluidity[last], density[last]
-            mass[j, i] = dense * gap
-            rho[j, i] = dense
-            soft[j, i] = open_gap * slope / step
-            e[j, i] = mobility[j, i] * dense * open_gap * open_gap * open_gap * (ease + thinned[j, i]) + 1e-300
+def gap_pass(base, deformation, scale, rigid, h):  # type: ignore[no-untyped-def]
+    """Compute the gap of every node from the deformation."""
+    for j in range(h.shape[0]):
+        for i in range(h.shape[1]):
+            h[j, i] = rigid + base[j, i] + scale * deformation[j, i]
 
 
 @jit
-def balance(p, mass, e, dx, mirror, out):  # type: ignore[no-untyped-def]
+def oil_pass(p, h, step, density, fluidity, potential, mass, soft, gap, rho, fluid, driven):  # type: ignore[no-untyped-def]
+    """Compute mass, h d(rho)/dp and the nodes' properties of `mixed.flow` from pressure and gap."""
+    last = fluidity.size - 1
+    for j in range(p.shape[0]):
+        for i in range(p.shape[1]):
+            here = max(p[j, i], 0.0)
+            gap[j, i] = max(h[j, i], CLOSED)
+            rho[j, i], fluid[j, i], driven[j, i] = properties(here, step, density, fluidity, potential)
+            mass[j, i] = rho[j, i] * h[j, i]
+            k = int(here / step)
+            rise = density[k + 1] - density[k] if here > 0.0 and k < last else 0.0
+            soft[j, i] = gap[j, i] * rise / step
+
+
+@jit
+def balance(p, ex, ey, carried, dx, mirror, out):  # type: ignore[no-untyped-def]
     """Compute the net inflow of mass per area at every inner node."""
     rows, nx = p.shape
-    half = 0.5 / (dx * dx)
+    per_dx2 = 1.0 / (dx * dx)
     for j in range(1, rows if mirror else rows - 1):
-        up = j + 1 if j + 1 < rows else j - 1
+        up, face = (j + 1, j) if j + 1 < rows else (j - 1, j - 1)
         for i in range(1, nx - 1):
-            here, ej = p[j, i], e[j, i]
-            flow = (
-                (ej + e[j, i - 1]) * (p[j, i - 1] - here)
-                + (ej + e[j, i + 1]) * (p[j, i + 1] - here)
-                + (ej + e[j - 1, i]) * (p[j - 1, i] - here)
-                + (ej + e[up, i]) * (p[up, i] - here)
-            )
-            if i > 1:
-                carried = (1.5 * mass[j, i] - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2]) / dx
-            else:
-                carried = (mass[j, 1] - mass[j, 0]) / dx
-            out[j, i] = half * flow - carried
+            here = p[j, i]
+            flow = ex[j, i - 1] * (p[j, i - 1] - here) + ex[j, i] * (p[j, i + 1] - here)
+            flow += ey[j - 1, i] * (p[j - 1, i] - here) + ey[face, i] * (p[up, i] - here)
+            out[j, i] = per_dx2 * flow - (carried[j, i] - carried[j, i - 1]) / dx
 
 
 @jit
-def defect(p, mass, e, f, dx, mirror, out):  # type: ignore[no-untyped-def]
+def defect(p, mass, ex, ey, carried, f, dx, mirror, out):  # type: ignore[no-untyped-def]
     """Compute the defect of the balance where there is pressure, zero elsewhere.
 
     Returns the sums of |defect| p and of mass p.
     """
-    balance(p, mass, e, dx, mirror, out)
+    balance(p, ex, ey, carried, dx, mirror, out)
     rows, nx = p.shape
     wrong, film = 0.0, 1e-300
     for j in range(1, rows if mirror else rows - 1):
@@ -129,24 +119,21 @@ def set_edges(p, edge, offset, mirror):  # type: ignore[no-untyped-def]
 
 
 @jit
-def _line_balance(p, mass, e, f, dx, j, up, limit, faces, r, kind):  # type: ignore[no-untyped-def]
+def _line_balance(p, ex, ey, carried, f, dx, j, up, face, limit, faces, r, kind):  # type: ignore[no-untyped-def]
     """Compute face mobilities, excess inflow and kind of change of a row's nodes.
 
     Returns the first and the last node that changes.
     """
     nx = p.shape[1]
-    half = 0.5 / (dx * dx)
+    per_dx2 = 1.0 / (dx * dx)
     for i in range(1, nx - 1):
-        here, ej = p[j, i], e[j, i]
-        west, east = half * (ej + e[j, i - 1]), half * (ej + e[j, i + 1])
-        south, north = half * (ej + e[j - 1, i]), half * (ej + e[up, i])
+        here = p[j, i]
+        west, east = per_dx2 * ex[j, i - 1], per_dx2 * ex[j, i]
+        south, north = per_dx2 * ey[j - 1, i], per_dx2 * ey[face, i]
         faces[0, i], faces[1, i], faces[2, i], faces[3, i] = west, east, south, north
         flow = west * (p[j, i - 1] - here) + east * (p[j, i + 1] - here)
         flow += south * (p[j - 1, i] - here) + north * (p[up, i] - here)
-        r[i] = flow - f[j, i]
-    r[1] -= (mass[j, 1] - mass[j, 0]) / dx
-    for i in range(2, nx - 1):
-        r[i] -= (1.5 * mass[j, i] - 2.0 * mass[j, i - 1] + 0.5 * mass[j, i - 2]) / dx
+        r[i] = flow - f[j, i] - (carried[j, i] - carried[j, i - 1]) / dx
     kind[:] = _STAYS
     first, final = nx, 0
     for i in range(1, nx - 1):
@@ -215,7 +202,9 @@ def _line_changes(faces, r, kind, rho, soft, wedge, wedge_soft, j, first, final,
 
 
 @jit
-def relax(p, mass, e, rho, soft, f, edge, offset, wedge, wedge_soft, dx, compliance, mirror, single, spread, dp):  # type: ignore[no-untyped-def]
+def relax(  # type: ignore[no-untyped-def]
+    p, ex, ey, carried, rho, soft, f, edge, offset, wedge, wedge_soft, dx, compliance, mirror, single, spread, dp
+):
     """Relax the rows by lines once. `single`, `spread`: damping of the two kinds of changes.
 
     `wedge`, `wedge_soft`: `line_kernels`. Changes p; dp is scratch of its shape.
@@ -227,8 +216,8 @@ def relax(p, mass, e, rho, soft, f, edge, offset, wedge, wedge_soft, dx, complia
     kind, faces = np.empty(nx + 5, np.int64), np.empty((4, nx))
     dp[:] = 0.0
     for j in range(1, end):
-        up = j + 1 if j + 1 < rows else j - 1
-        first, final = _line_balance(p, mass, e, f, dx, j, up, limit, faces, r, kind)
+        up, face = (j + 1, j) if j + 1 < rows else (j - 1, j - 1)
+        first, final = _line_balance(p, ex, ey, carried, f, dx, j, up, face, limit, faces, r, kind)
         if first > final:
             continue
         for i in range(first, final + 1):
