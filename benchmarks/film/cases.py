@@ -211,7 +211,7 @@ def cascade(case: RoughCase, grids: Sequence[int], settings: Settings) -> list[L
             found = solve(scaled.half_space, scaled.problem(), begin, settings.tolerance, most)
             film = scaled.solution(found, "mixed", f"{name} from the coarser grid")
         seconds = time.process_time() - start
-        outputs = film_outputs(grid, film.state, film.gap, case.load, case.hertz)
+        outputs = film_outputs(grid, film.state, film.gap, film.touching, case.load, case.hertz)
         levels.append(Level(nodes, grid, film, outputs, seconds))
     return levels
 

@@ -14,6 +14,7 @@ from .observed import instant_flags, observed
 
 Array = NDArray[np.float64]
 
+_LEAST_SHARE = 1e-12  # of a touching area, that stresses are divided by
 MANY = 0.1  # share of unconverged solutions that raises a flag
 
 
@@ -23,7 +24,8 @@ class Accumulator:
 
     pressures: tuple[Array, Array]
     exposures: tuple[Array, Array]
-    since: tuple[Array, Array]  # passes since a node was last exposed
+    since: tuple[Array, Array]  # passes since a node had the exposure in `peaks`
+    peaks: tuple[Array, Array]  # largest exposure in the last pass
     outputs: list[dict[str, float]] = field(default_factory=list)
     iterations: int = 0
     mixed: int = 0
@@ -35,9 +37,9 @@ class Accumulator:
     @staticmethod
     def before(state: ContactState) -> "Accumulator":
         """Return empty sums at the beginning of a block."""
-        first, second = (body.since.copy() for body in state.bodies)
-        zeros = [np.zeros_like(first) for _ in range(4)]
-        return Accumulator((zeros[0], zeros[1]), (zeros[2], zeros[3]), (first, second))
+        since, peaks = ([getattr(body, name).copy() for body in state.bodies] for name in ("since", "peak"))
+        zeros = [np.zeros_like(since[0]) for _ in range(4)]
+        return Accumulator((zeros[0], zeros[1]), (zeros[2], zeros[3]), (since[0], since[1]), (peaks[0], peaks[1]))
 
     def restarted(self, state: ContactState, kept: RangeFlag) -> "Accumulator":
         """Return empty sums that keep the iterations and, of the flags, those in `kept`."""
@@ -75,9 +77,10 @@ class Accumulator:
         `passes` is the part of a pass through the contact that each body makes until the next instant.
         """
         exposures = on_patches(case.scene, state, _exposures(case, fields))
-        for since, exposed, part in zip(self.since, exposures, passes, strict=True):
+        for since, peak, exposed, part in zip(self.since, self.peaks, exposures, passes, strict=True):
             since += part
-            since[exposed > 0.0] = 0.0
+            highest = (exposed > 0.0) & ((exposed >= peak) | (since >= 1.0))
+            since[highest], peak[highest] = 0.0, exposed[highest]
         if not sampled:
             return
         pressures = on_patches(case.scene, state, (fields.solid_pressure, fields.solid_pressure))
@@ -109,8 +112,17 @@ class Accumulator:
 def _exposures(case: Case, fields: ContactFields) -> tuple[Array, Array]:
     """Return the exposure of both bodies on the grid, each at the temperature of its surface."""
     law, op = case.scene.tribofilm, case.op
-    stresses = (fields.solid_pressure, fields.shear, fields.friction.slide if op.spin else op.sliding_speed)
+    speed = fields.friction.slide if op.spin else op.sliding_speed
     warm_1, warm_2 = fields.temperatures.surface_1, fields.temperatures.surface_2
-    first = law.exposure(*stresses, warm_1)
+
+    def exposure(warm: Array | float) -> Array:
+        if case.microroughness is None:
+            return law.exposure(fields.solid_pressure, fields.shear, speed, warm)
+        share = fields.touching  # of a node's area; there the solids' stresses are as much higher, beside it there are none
+        closer = np.maximum(share, _LEAST_SHARE)
+        touching = law.exposure(fields.solid_pressure / closer, fields.oil_shear + fields.rubbing_shear / closer, speed, warm)
+        return share * touching + (1.0 - share) * law.exposure(np.zeros_like(share), fields.oil_shear, speed, warm)
+
+    first = exposure(warm_1)
     alike = warm_1 is warm_2 or (isinstance(warm_1, float) and isinstance(warm_2, float) and warm_1 == warm_2)
-    return first, first if alike else law.exposure(*stresses, warm_2)
+    return first, first if alike else exposure(warm_2)

@@ -35,6 +35,7 @@ def with_exposure(case: Case, side: Side, state: ContactState, sums: Accumulator
     reach = film.domain / side.track_length if side.moves else 1.0
     passes = Passes(
         since=sums.since[i],
+        peak=sums.peaks[i],
         moves=side.moves,
         reach=reach,
         domain=film.domain,
@@ -45,7 +46,7 @@ def with_exposure(case: Case, side: Side, state: ContactState, sums: Accumulator
         exposure = np.zeros_like(exposure)
     pressure = sums.pressures[i] / sums.count * reach
     abrasion = law.abrasion(pressure, sliding_on_track(case, state.rows), across_track(scene, state.rows))
-    after = replace(body, pressure=pressure, exposure=exposure, abrasion=abrasion, since=sums.since[i])
+    after = replace(body, pressure=pressure, exposure=exposure, abrasion=abrasion, since=sums.since[i], peak=sums.peaks[i])
     return replace(after, noise=body.noise + _noise(case, side, state, after, alike))
 
 

@@ -48,6 +48,9 @@ class ContactFields(Convergence):
     fluid_shear: Array  # on body 2 along +x
     solid_shear: Array
     shear: Array  # of solids and oil together, in the direction of the local sliding
+    oil_shear: Array  # of these, the oil's
+    rubbing_shear: Array  # and the solids', mean over a node's area
+    touching: Array  # share of a node's area where solids touch
     friction: Friction
     sheared: Film  # what that friction is of
     temperatures: Temperatures
@@ -151,6 +154,9 @@ def solve_instant(
         fluid_shear=stress.fluid * stress.along_x,
         solid_shear=stress.solid * stress.along_x,
         shear=stress.total,
+        oil_shear=stress.fluid,
+        rubbing_shear=stress.solid,
+        touching=film.touching,
         friction=friction(stress, grid),
         sheared=found,
         temperatures=warm,
@@ -172,6 +178,7 @@ def instant_of(case: Case, heights: Array, limit: Array) -> Instant:
         heights=heights,
         limit=limit,
         hardness=case.scene.plasticity.hardness,
+        microroughness=case.microroughness,
         conserving=case.scene.lubricant.cavitation == "mass_conserving",
         supply=case.scene.lubricant.supply.layer,
         meniscus=case.scene.lubricant.supply.inlet,
@@ -188,6 +195,7 @@ def _open(case: Case, grid: Grid, heights: Array) -> FilmSolution:
         state=FilmState(zeros, zeros, nothing, shape + rigid, rigid),
         gap=shape + rigid,
         overlap=zeros,
+        touching=zeros,
         converged=True,
         shortfall="",
         route="open",

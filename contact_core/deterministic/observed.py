@@ -27,10 +27,10 @@ def observed(case: Case, fields: ContactFields) -> dict[str, float]:
         inside = disc(grid, hertz)
         carried = fields.pressure[inside].sum()
         slope = np.gradient(fields.fluid_pressure, scene.film.spacing, axis=1)
-        seen |= film_outputs(grid, fields.film, fields.gap, case.op.load, hertz)
+        seen |= film_outputs(grid, fields.film, fields.gap, fields.touching, case.op.load, hertz)
         seen |= {
             "rolling_resistance": float((0.5 * fields.gap * slope).sum()) * grid.cell,
-            "contact_area_ratio_disc": float((fields.solid_pressure[inside] > 0.0).mean()),
+            "contact_area_ratio_disc": float(fields.touching[inside].mean()),
             "contact_load_ratio_disc": float(fields.solid_pressure[inside].sum() / carried) if carried > 0.0 else 0.0,
         }
         sigma = float(fields.roughness[inside].std())

@@ -52,7 +52,7 @@ def warmed(
         rubbing = Rubbing(
             dissipation=stress.dissipation,
             gap=film.gap,
-            solid=film.solid > 0.0,
+            solid=film.solid > (0.0 if case.microroughness is None else film.fluid),  # where they carry the most
             inside=film.fluid + film.solid > 0.0,
             spacing=film.grid.spacing,
             speeds=case.speeds,

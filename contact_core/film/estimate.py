@@ -25,8 +25,8 @@ def solve_with_estimate(
     bodies = now.load, now.shape.hertz(now.load, now.reduced_modulus)
     before = solve_film(instant, coarse, settings)
     found = solve_film(now, grid, settings, prolonged(before.state, grid.shape))
-    values = film_outputs(grid, found.state, found.gap, *bodies)
-    less = film_outputs(coarse, before.state, before.gap, *bodies)
+    values = film_outputs(grid, found.state, found.gap, found.touching, *bodies)
+    less = film_outputs(coarse, before.state, before.gap, before.touching, *bodies)
     errors = {
         name: _FACTORS.get(name, _FACTOR) * abs(value - less[name]) + settings.tolerance * abs(value)
         for name, value in values.items()

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernels.convergence import Convergence
+from ..laws.asperity_layer import AsperityLayer
 from ..shapes import Shape
 
 Array = NDArray[np.float64]
@@ -74,9 +75,14 @@ class Instant:
     thinned: Array | None = None  # fluidity [1/(Pa s)] that shear adds to that at a node
     conserving: bool = False  # cavities hold the oil that flows into them; else they count as full
     supply: float | None = None  # oil film [m] on both surfaces together before the contact; None: flooded
-    stress: float = 0.0  # that asperities below the grid carry at the floor
-    depth: float = 0.0  # gap [m] over which it falls by the factor e
+    microroughness: AsperityLayer | None = None  # of both bodies together, too short for the grid
     meniscus: float | None = None  # distance [m] of the inlet meniscus before the centre; None: beyond the grid
+
+    def touching(self, solid: Array) -> Array:
+        """Return the touching share of each node's area under the solids' pressure [Pa]: without microroughness 0 or 1."""
+        if self.microroughness is None:
+            return (solid > 0.0).astype(np.float64)
+        return self.microroughness.area(solid, self.reduced_modulus, self.hardness)
 
     def mirrored(self) -> "Instant":
         """Return the instant mirrored along x: entrained the other way."""
@@ -146,14 +152,16 @@ class FilmState:
 class FilmSolution(Convergence):
     """The film of one instant.
 
-    `gap` is at least the floor; `overlap` is the shortfall below the floor, which yields plastically.
+    `gap` is at least the floor; `overlap` is the shortfall below the floor, which yields plastically; `touching` is the
+    share of a node's area where solids touch.
     """
 
     state: FilmState
     gap: Array
     overlap: Array
+    touching: Array
 
     def mirrored(self) -> "FilmSolution":
         """Return the solution mirrored along x."""
-        gap, overlap = np.ascontiguousarray(self.gap[:, ::-1]), np.ascontiguousarray(self.overlap[:, ::-1])
-        return replace(self, state=self.state.mirrored(), gap=gap, overlap=overlap)
+        gap, overlap, touching = (np.ascontiguousarray(f[:, ::-1]) for f in (self.gap, self.overlap, self.touching))
+        return replace(self, state=self.state.mirrored(), gap=gap, overlap=overlap, touching=touching)

@@ -28,8 +28,12 @@ def at_centre(grid: Grid, field: Array) -> float:
     return float(rows @ np.array([1.0 - v, v]))
 
 
-def film_outputs(grid: Grid, state: FilmState, gap: Array, load: float, hertz: Hertz) -> dict[str, float]:
+def film_outputs(
+    grid: Grid, state: FilmState, gap: Array, touching: Array, load: float, hertz: Hertz
+) -> dict[str, float]:
     """Return film thicknesses, contact ratios, largest pressure and approach of a loaded contact.
+
+    `touching` is the share of a node's area where solids touch.
 
     They are h_central, h_c, h_min, contact_area_ratio, contact_load_ratio, pressure_max and approach.
     """
@@ -39,7 +43,7 @@ def film_outputs(grid: Grid, state: FilmState, gap: Array, load: float, hertz: H
         "h_central": at_centre(grid, gap),
         "h_c": float(gap[disc(grid, hertz)].mean()),
         "h_min": float(gap.min()),
-        "contact_area_ratio": float((solid_pressure > 0.0).sum()) * cell / hertz.area,
+        "contact_area_ratio": float(touching.sum()) * cell / hertz.area,
         "contact_load_ratio": float(solid_pressure.sum()) * cell / load,
         "pressure_max": float(state.pressure.max()),
         # the film of a periodic grid counts displacements from those a grid's length away

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..errors import ConvergenceError
 from ..kernels.dry import solve_dry
+from ..kernels.dry_asperities import solve_dry_asperities
 from ..kernels.far_field import far_field
 from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
 from ..kernels.mixed.problem import Iterate, Problem, Solution
@@ -96,6 +97,11 @@ class Scaled:
                 f"{now.load:g} N are more than a grid of {grid.shape[1] * grid.spacing:g} m by "
                 f"{grid.shape[0] * grid.spacing:g} m can carry at the hardness. Lower the load or enlarge film.domain."
             )
+        asperities, modulus = now.microroughness, now.reduced_modulus
+        self.stress = self.fade = 0.0  # of asperities below the grid: pressure at the floor, gap over which it fades
+        if asperities is not None and asperities.rms > 0.0:
+            self.stress = float(asperities.pressure_scale(modulus, now.hardness)) / self.p_unit
+            self.fade = float(asperities.height_scale(modulus, now.hardness)) / self.h_unit
         self.depth = self.compliance ** (2.0 / 3.0) if shape.circular else hertz.approach / self.h_unit
         self.x, self.y = grid.x / self.size, grid.y / self.size
         gap = shape.gap(self.x, self.y, self.size)
@@ -226,8 +232,8 @@ class Scaled:
             first=self._first,
             wrapped=self.grid.periodic,
             fitted=self.settings.fitted,
-            stress=now.stress / self.p_unit,
-            depth=now.depth / self.h_unit,
+            stress=self.stress,
+            depth=self.fade,
         )
 
     def _with_images(self, field: NDArray[Any]) -> NDArray[Any]:
@@ -341,9 +347,11 @@ class Scaled:
             gap = gap + self.half_space.deform(fluid)
         left = self.load - float(fluid.sum())
         room = self.cap - fluid
-        solid, rigid, converged, iterations = solve_dry(
-            self.half_space, gap, room, left, self.smooth, tolerance, _DRY_ITERATIONS
-        )
+        contact, limits = (self.half_space, gap, room, left, self.smooth), (tolerance, _DRY_ITERATIONS)
+        if self.fade > 0.0:
+            solid, rigid, converged, iterations = solve_dry_asperities(*contact, (self.stress, self.fade), *limits)
+        else:
+            solid, rigid, converged, iterations = solve_dry(*contact, *limits)
         return Iterate(solid + fluid, fluid, solid > 0.0, rigid + self.floor), converged, iterations
 
     def dry(self, route: str, share: float = 1.0) -> FilmSolution:
@@ -394,6 +402,7 @@ class Scaled:
             state=state,
             gap=gap,
             overlap=overlap,
+            touching=self.now.touching(state.pressure - state.fluid),
             route=route,
             algorithm=algorithm,
             load_beyond=1.0 + found.load_error - float(it.pressure.sum()) / self.load,

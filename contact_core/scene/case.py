@@ -1,13 +1,14 @@
 """A scene at an operating point: what every calculation of one step asks for, bound once."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import NamedTuple
 
 import numpy as np
 
 from ..errors import OperatingPointError
 from ..film.instant import Grid
+from ..laws.asperity_layer import AsperityLayer
 from ..quantities import TABLE
 from ..reference import Hertz
 from ..shapes import Shape
@@ -125,6 +126,12 @@ class Case:
             Side(0, scene.surface_1, op.speed_1, lengths[0], warm[0]),
             Side(1, scene.surface_2, op.speed_2, lengths[1], warm[1]),
         )
+
+    @cached_property
+    def microroughness(self) -> AsperityLayer | None:
+        """Asperities of both bodies together that are too short for the grid; None without any."""
+        given = [side.surface.microroughness for side in self.sides if side.surface.microroughness is not None]
+        return reduce(AsperityLayer.beside, given) if given else None
 
     @property
     def speeds(self) -> Pair:

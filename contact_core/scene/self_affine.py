@@ -7,6 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..laws.asperity_layer import AsperityLayer
 from ..laws.equations import Equations
 from ..quantities import parameter
 from .heights import Heights
@@ -40,6 +41,7 @@ class SelfAffine(RoughBody):
     cut_off: float = parameter("m", "shortest wavelength of the roughness", above=0.0, most=1.0, shapes_arrays=True)
     seed: int = parameter("", "number of the realisation", least=0, most=SEEDS - 1)
     heights: Heights | None = None
+    microroughness: AsperityLayer | None = None
 
     def steps(self, domain: float, aspect: float) -> tuple[float, float]:
         """Return q over that of the cut-off, of mode number 1 along x and y; see `Surface.steps`."""

@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..laws.asperity_layer import AsperityLayer
 from ..laws.equations import Equations
 from ..quantities import parameter
 from .heights import Heights
@@ -19,10 +20,11 @@ SEEDS = 2**31  # of a surface: what FMI's integers can tell apart
 
 
 class RoughBody:
-    """What all surfaces have: roughness `rq`, a `seed`, and perhaps `heights`."""
+    """What all surfaces have: roughness `rq`, a `seed`, and perhaps `heights` and `microroughness`."""
 
     rq: float
     heights: Heights | None
+    microroughness: AsperityLayer | None  # waves too short for any grid, beside those of `rq`
 
     @property
     def smooth(self) -> bool:
@@ -76,6 +78,8 @@ class RoughBody:
             yield from self._errors(spacing, size)
         if self.heights is not None:
             yield from (f"heights.{sentence}" for sentence in self.heights.errors(size))
+        if self.microroughness is not None and self.microroughness.error:
+            yield f"microroughness: {self.microroughness.error}"
 
     def _errors(self, spacing: float, size: tuple[float, float]) -> Iterator[str]:
         raise NotImplementedError
@@ -125,6 +129,7 @@ class Surface(RoughBody):
         default=None,
     )
     heights: Heights | None = None
+    microroughness: AsperityLayer | None = None
 
     def steps(self, domain: float, aspect: float) -> tuple[float, float]:
         """Return k l of mode number 1 along x and along y, for a patch domain [m] long and domain / aspect wide."""

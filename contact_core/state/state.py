@@ -24,7 +24,7 @@ from .trends import NAMES, Trends
 
 Array = NDArray[np.float64]
 _Record = TypeVar("_Record", "ContactState", "Outputs", "Mean", OperatingPoint)
-_MAGIC, _SCHEMA = b"tribofmu", 7
+_MAGIC, _SCHEMA = b"tribofmu", 8
 _FEWEST = 100  # bytes that a header of schema 5 or before has at least
 _CHECKSUM, _SIGNED = struct.Struct("<I"), struct.Struct("<II")
 _LAYOUT = struct.Struct("<I")
@@ -43,7 +43,8 @@ class Body:
     pressure: Array  # of the solids on a point, mean over its track [Pa], of the last solution: for wear
     exposure: Array  # per test time, of the last solution: for the tribofilm law
     abrasion: Array  # rate [1/s], per test time, at which rubbing removes the tribofilm; zero for laws without it
-    since: Array  # passes through the contact since a point was last exposed
+    since: Array  # passes through the contact since a point had the exposure `peak`
+    peak: Array  # largest exposure in the last pass
     offset: float  # how far the patch has moved along x in the solved steps [m], within one patch length
     cycles: float  # passes through the contact
     worn: float  # wear volume of the whole track [m3]
@@ -58,6 +59,7 @@ class Body:
         "exposure",
         "abrasion",
         "since",
+        "peak",
     )
 
     def __post_init__(self) -> None:
@@ -227,7 +229,7 @@ def initial_state(scene: Scene) -> ContactState:
     """Fresh surfaces: no film, no wear, nothing solved."""
     shape = (scene.rows, scene.film.points - 1)
     zeros = np.zeros(shape)
-    body = Body(zeros, zeros, zeros, zeros, zeros, zeros, zeros, np.full(shape, np.inf), 0.0, 0.0, 0.0, 0.0)
+    body = Body(zeros, zeros, zeros, zeros, zeros, zeros, zeros, np.full(shape, np.inf), zeros, 0.0, 0.0, 0.0, 0.0)
     return ContactState(
         scene.digest(), 0.0, (body, body), None, "", None, 0.0, 0.0, 0.0, 0.0, 0, 1.0, Trends.fresh(), None, Outputs()
     )

@@ -17,7 +17,8 @@ Array = NDArray[np.float64]
 class Passes(NamedTuple):
     """Passes of a body's points through the contact during a block, on its patch."""
 
-    since: Array  # passes since a point was last exposed
+    since: Array  # passes since a point had the exposure `peak`
+    peak: Array  # largest exposure in the last pass
     moves: bool  # the body moves through the contact
     reach: float  # share of its time that a point spends on the grid
     domain: float  # length of the grid [m]
@@ -66,8 +67,8 @@ class Clock:
     )
 
     def on_patch(self, exposure: Array, passes: Passes) -> Array:
-        """Return 1 where a point was exposed in the last pass."""
-        return (passes.since < 1.0).astype(np.float64) if passes.moves else exposure
+        """Return the largest exposure in the last pass."""
+        return np.where(passes.since < 1.0, passes.peak, 0.0) if passes.moves else exposure
 
     def mean(self, touching: float, oiled: float, passes: MeanPasses) -> float:
         """Return the mean over the exposed and the other points."""
