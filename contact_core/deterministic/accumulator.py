@@ -118,9 +118,10 @@ def _exposures(case: Case, fields: ContactFields) -> tuple[Array, Array]:
     def exposure(warm: Array | float) -> Array:
         if case.microroughness is None:
             return law.exposure(fields.solid_pressure, fields.shear, speed, warm)
-        share = fields.touching  # of a node's area; there the solids' stresses are as much higher, beside it there are none
+        share = fields.touching  # of a node's area: there the solids' stresses are higher, beside it there are none
         closer = np.maximum(share, _LEAST_SHARE)
-        touching = law.exposure(fields.solid_pressure / closer, fields.oil_shear + fields.rubbing_shear / closer, speed, warm)
+        shear = fields.oil_shear + fields.rubbing_shear / closer
+        touching = law.exposure(fields.solid_pressure / closer, shear, speed, warm)
         return share * touching + (1.0 - share) * law.exposure(np.zeros_like(share), fields.oil_shear, speed, warm)
 
     first = exposure(warm_1)

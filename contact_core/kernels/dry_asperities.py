@@ -14,6 +14,7 @@ from .half_space import HalfSpace
 from .mixed.asperities import REACH
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 _START_TOLERANCE = 1e-2  # of the contact without asperities
 _SPREAD = 2.0  # depths that the start is further apart by than that contact
@@ -94,7 +95,7 @@ def _loaded(p: Array, cap: Array, load: float) -> Array:
     return p
 
 
-def _newton_step(half_space: HalfSpace, pull: Array, bend: Array, free: Array) -> tuple[Array, int]:
+def _newton_step(half_space: HalfSpace, pull: Array, bend: Array, free: Mask) -> tuple[Array, int]:
     """Return the step d of sum 0 with (K + bend) d + pull + constant = 0 on the free nodes, and iterations."""
     own = free / (half_space.near[0, 0] + bend)
     total = float(own.sum())
