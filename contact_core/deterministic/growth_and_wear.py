@@ -46,8 +46,8 @@ def with_exposure(case: Case, side: Side, state: ContactState, sums: Accumulator
         exposure = np.zeros_like(exposure)
     pressure = sums.pressures[i] / sums.count * reach
     abrasion = law.abrasion(pressure, sliding_on_track(case, state.rows), across_track(scene, state.rows))
-    seen = {"since": sums.since[i], "peak": sums.peaks[i]}
-    after = replace(body, pressure=pressure, exposure=exposure, abrasion=abrasion, **seen)
+    after = replace(body, pressure=pressure, exposure=exposure, abrasion=abrasion)
+    after = replace(after, since=sums.since[i], peak=sums.peaks[i])
     return replace(after, noise=body.noise + _noise(case, side, state, after, alike))
 
 

@@ -79,7 +79,7 @@ class Instant:
     meniscus: float | None = None  # distance [m] of the inlet meniscus before the centre; None: beyond the grid
 
     def touching(self, solid: Array) -> Array:
-        """Return the touching share of each node's area under the solids' pressure [Pa]; 0 or 1 without microroughness."""
+        """Return the share of a node's area that touches under the solids' pressure [Pa]; 0 or 1 without microroughness."""
         if self.microroughness is None:
             return (solid > 0.0).astype(np.float64)
         return self.microroughness.area(solid, self.reduced_modulus, self.hardness)
