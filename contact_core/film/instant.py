@@ -79,7 +79,7 @@ class Instant:
     meniscus: float | None = None  # distance [m] of the inlet meniscus before the centre; None: beyond the grid
 
     def touching(self, solid: Array) -> Array:
-        """Return the share of a node's area that touches under the solids' pressure [Pa]; 0 or 1 without microroughness."""
+        """Return the touching share of a node's area under the solids' pressure [Pa]; 0 or 1 without microroughness."""
         if self.microroughness is None:
             return (solid > 0.0).astype(np.float64)
         return self.microroughness.area(solid, self.reduced_modulus, self.hardness)
@@ -132,6 +132,7 @@ class FilmState:
     warmth: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of the film above the inlet [K], as well
     mass_before: Array = field(default_factory=lambda: np.zeros((1, 1)))  # of a step of second order, where it began
     dt: float = 0.0  # [s] since then
+    slow_mass: Array = field(default_factory=lambda: np.zeros((1, 1)))  # `mass` as a running mean, as well
 
     def __post_init__(self) -> None:
         for array in (self.solid, *self._fields):
@@ -139,13 +140,15 @@ class FilmState:
 
     @property
     def _fields(self) -> tuple[Array, ...]:
-        return self.pressure, self.fluid, self.mass, self.ease, self.thinned, self.warmth, self.mass_before
+        oil = self.ease, self.thinned, self.warmth
+        return self.pressure, self.fluid, self.mass, *oil, self.mass_before, self.slow_mass
 
     def mirrored(self) -> "FilmState":
         """Return the state mirrored along x."""
         solid = np.ascontiguousarray(self.solid[:, ::-1])
-        pressure, fluid, mass, ease, thinned, warmth, before = (np.ascontiguousarray(f[:, ::-1]) for f in self._fields)
-        return FilmState(pressure, fluid, solid, mass, self.rigid_gap, ease, thinned, warmth, before, self.dt)
+        first = (np.ascontiguousarray(f[:, ::-1]) for f in self._fields)
+        pressure, fluid, mass, ease, thinned, warmth, before, slow = first
+        return FilmState(pressure, fluid, solid, mass, self.rigid_gap, ease, thinned, warmth, before, self.dt, slow)
 
 
 @dataclass(frozen=True)

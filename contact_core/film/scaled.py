@@ -35,6 +35,8 @@ _FAR_FIELD_BELOW = 30.0  # Moes' M: above it, the pressure beyond a film-sized g
 _SLOWEST = 0.25  # unit of speeds, in nodes per time step: below it, squeezing dominates
 LOAD_ACCEPTED = 1e-3  # relative error of the load, up to which a film is accepted
 _BEYOND_KNOWN = 0.05  # relative error of the formula for the load beyond the grid
+_MEMORY = 2.0  # half widths of the contact that the oil passes while the running mean of a film follows
+_WHOLE = 1.0 + 1e-9  # nodes per time step, up to which a film is carried over
 _FASTEST_CHANGE = 2.0  # of a film in a step, up to which it is of second order
 
 
@@ -197,6 +199,23 @@ class Scaled:
         old = ((1.0 + ratio) * mass - ratio**2 / (1.0 + ratio) * self.start.mass_before) / own
         return own * per_dt, np.clip(old, mass / _FASTEST_CHANGE, mass * _FASTEST_CHANGE)
 
+    @cached_property
+    def _slow_mass(self) -> Array | None:
+        """Running mean of the mass [m] before this step; None where no film is carried over as it is.
+
+        A march begins with the film of smooth bodies under Hertz's pressure.
+        """
+        if self.start is None or self.step is None or self.step.order != 1 or not self.settings.fitted:
+            return None
+        speed, shape = self.now.entrainment_speed, self.now.shape
+        if self.now.conserving or self._first > 0 or not 0.0 < speed * self.step.dt <= _WHOLE * self.grid.spacing:
+            return None
+        if self.start.slow_mass.size > 1:
+            return self.start.slow_mass
+        pressure = self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300))
+        gap = shape.gap(self.x, self.y, self.size) + self.half_space.deform(pressure)
+        return np.asarray((gap - gap.min()) * self.h_unit + max(self.smooth_film, self.settings.floor))
+
     def problem(self) -> Problem:
         """Return the problem that the kernels solve."""
         now, (per_dt, mass) = self.now, self._history()
@@ -232,6 +251,7 @@ class Scaled:
             first=self._first,
             wrapped=self.grid.periodic,
             fitted=self.settings.fitted,
+            slow_mass=None if self._slow_mass is None else images(self._slow_mass / self.h_unit),
             stress=self.stress,
             depth=self.fade,
         )
@@ -393,6 +413,9 @@ class Scaled:
             np.ones((1, 1)) if self.now.ease is None else self.now.ease,
             np.zeros((1, 1)) if self.now.thinned is None else self.now.thinned,
         )
+        if self._slow_mass is not None and self.step is not None:
+            part = min(1.0, self.step.dt * self.now.entrainment_speed / (_MEMORY * self.a))
+            state = replace(state, slow_mass=self._slow_mass + part * (state.mass - self._slow_mass))
         if self.start and self.step and self.step.order == 2:
             state = replace(state, mass_before=self.start.mass, dt=self.step.dt)
         capped = it.solid & (it.pressure >= self.cap)

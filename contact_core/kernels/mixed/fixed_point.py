@@ -201,10 +201,11 @@ class Iteration:
             constants = (*q.terms, _SWEEPS_UNDER_CONTACTS, q.floor, *q.tables)
             if reynolds.fluid_under_contacts(p, f, solid, *balance, *constants, full, *flow.nodes, first, q.wrapped):
                 self._carry(full)
+        part = None if flow.passed is None else flow.share
         scales = (*q.layer, *q.terms, q.compliance, self.patch)
         out = (self.r, self.stiff, self.dh, self.sums)
         state = (p, f, q.cap, solid, *balance)
-        self.zone = corrections.correct_gap(*state, *scales, self.stiff_of_unit, *out, filling, first)
+        self.zone = corrections.correct_gap(*state, *scales, self.stiff_of_unit, *out, part, filling, first)
         if q.wrapped:
             wrap(solid)
 

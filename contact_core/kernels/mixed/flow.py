@@ -11,6 +11,11 @@ change there. Where the half space is stiff against the flow, the film is carrie
 upstream, kept between the masses of both nodes. m_f = t m_c + (1 - t) m_u, t = s^2 / (1 + s^2),
 s = e_f / (compliance dx^2).
 
+A moving pattern must not spread because time goes by in steps: bodies of nearly one speed would pump oil under each
+other's asperities. In a time step of at most a node, what deviates from a slowly changing film M is therefore carried
+over exactly: the mass that passes a face is that upstream of it at the beginning of the step, of third order in C, the
+nodes per step (Leonard's QUICKEST). m_u is that of the deviation, and of M as before.
+
 The gap within a cell along the flow is the cubic through four nodes; across the flow it is straight, 1 / I_3 =
 2 h_1^2 h_2^2 / (h_1 + h_2). Source of fitted fluxes: Scharfetter & Gummel, IEEE Trans. Electron Devices 16 (1969) 64,
 doi:10.1109/T-ED.1969.16566, for drift and diffusion; of m_u: Leonard, Comput. Methods Appl. Mech. Eng. 19 (1979) 59,
@@ -110,13 +115,39 @@ def gap_means(gap, conductance, width, across):  # type: ignore[no-untyped-def]
 
 
 @jit
+def carried_over(mass, slow, nodes, out):  # type: ignore[no-untyped-def]
+    """Compute m_u of a time step: the mean mass that passes each face while the film moves by `nodes`, at most 1.
+
+    mass [ny, nx] is that at the beginning of the step, slow [ny, nx] the part of it that hardly changes in time.
+    """
+    ny, nx = mass.shape
+    for j in range(ny):
+        for i in range(nx - 1):
+            left, right = mass[j, i] - slow[j, i], mass[j, i + 1] - slow[j, i + 1]
+            before = mass[j, i - 1] - slow[j, i - 1] if i > 0 else 2.0 * left - right
+            moving = 0.5 * (left + right) - 0.5 * nodes * (right - left)
+            moving -= (1.0 - nodes * nodes) / 6.0 * (right - 2.0 * left + before)
+            out[j, i] = min(max(moving, min(left, right)), max(left, right))
+            before = slow[j, i - 1] if i > 0 else 2.0 * slow[j, i] - slow[j, i + 1]
+            out[j, i] += _upstream(before, slow[j, i], slow[j, i + 1])
+
+
+@jit
+def _upstream(before, left, right):  # type: ignore[no-untyped-def]
+    """Return the mass at a face by third order upstream, kept between those of its nodes."""
+    value = 0.375 * right + 0.75 * left - 0.125 * before
+    return min(max(value, min(left, right)), max(left, right))
+
+
+@jit
 def face_flows(  # type: ignore[no-untyped-def]
     f, gap, mass, rho, fluid, potential, mobility, thinned, floor, step, per_stiff, fitted, conductance, width, across,
-    ex, ey, share, carried,
+    ex, ey, share, carried, passed,
 ):  # fmt: skip
     """Compute mobilities ex, ey, the share t and the carried mass m_f of all faces, from properties of the nodes.
 
     per_stiff: 1 / (compliance dx^2). fitted: False for second order upstream and means of the nodes' mobilities.
+    passed: m_u of a time step, see `carried_over`; None: that of the mass now.
     """
     ny, nx = f.shape
     for j in range(ny):
@@ -142,8 +173,10 @@ def face_flows(  # type: ignore[no-untyped-def]
             if gap[j, i] > floor and gap[j, i + 1] > floor:
                 s = e * per_stiff
                 t = 1.0 - 1.0 / (1.0 + s * s)
-            upstream = 0.375 * right + 0.75 * left - 0.125 * (mass[j, i - 1] if i > 0 else 2.0 * left - right)
-            upstream = min(max(upstream, min(left, right)), max(left, right))
+            if passed is None:
+                upstream = _upstream(mass[j, i - 1] if i > 0 else 2.0 * left - right, left, right)
+            else:
+                upstream = passed[j, i]
             share[j, i] = t
             carried[j, i] = t * dense * width[j, i] + (1.0 - t) * upstream
     for j in range(ny - 1):
@@ -168,11 +201,12 @@ class Flow:
     """Properties of the oil at the nodes and flows through the faces of a film, all [ny, nx].
 
     floor: gap beside which the film is carried along as it is; step of the tables; per_stiff: 1 / (compliance dx^2);
-    fitted: see `face_flows`.
+    fitted, passed: see `face_flows`.
     """
 
     def __init__(self, shape: tuple[int, int], floor: float, step: float, per_stiff: float, fitted: bool) -> None:
         self._scales, self.fitted = (floor, step, per_stiff), fitted
+        self.passed: Array | None = None
         scratch: list[Array] = [np.zeros(shape) for _ in range(11)]
         self.gap, self.rho, self.fluid, self.potential = scratch[:4]
         self.conductance, self.width, self.across = scratch[4:7]
@@ -182,7 +216,11 @@ class Flow:
     def of(problem: Problem) -> "Flow":
         """Return the flows of a problem."""
         per_stiff = 1.0 / (problem.compliance * problem.spacing**2)
-        return Flow(problem.cap.shape, problem.floor, problem.step, per_stiff, problem.fitted)
+        flow = Flow(problem.cap.shape, problem.floor, problem.step, per_stiff, problem.fitted)
+        if problem.slow_mass is not None:
+            flow.passed = np.zeros(problem.cap.shape)
+            carried_over(problem.mass_old, problem.slow_mass, problem.nodes_per_step, flow.passed)
+        return flow
 
     @property
     def nodes(self) -> tuple[Array, Array, Array, Array]:
@@ -208,4 +246,4 @@ class Flow:
         """Compute the flows through all faces from fluid pressure, full masses and properties of the oil."""
         nodes = (self.gap, full, self.rho, self.fluid, self.potential, mobility, thinned)
         means = (self.conductance, self.width, self.across)
-        face_flows(f, *nodes, *self._scales, self.fitted, *means, self.ex, self.ey, self.share, self.carried)
+        face_flows(f, *nodes, *self._scales, self.fitted, *means, *self.faces, self.share, self.carried, self.passed)
