@@ -249,7 +249,7 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
         if found is None:
             continue
         spent += found.iterations
-        worst = excess(found, settings.tolerance, solver.problem.per_dt)
+        worst = excess(found, settings.tolerance, solver.problem)
         touches = apart and bool(found.iterate.solid.any())
         rank = touches, not found.converged, worst
         if _usable(found) and rank < least:

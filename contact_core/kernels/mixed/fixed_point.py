@@ -19,7 +19,7 @@ from .cavities import Carried
 from .edge import load_beyond, set_edge, wrap
 from .flow import Flow
 from .problem import Iterate, Problem, Solution, failed
-from .stopping_rule import shortfall
+from .stopping_rule import allowed_imbalance, shortfall
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -242,7 +242,7 @@ class Iteration:
         imbalance = wrong / max(film, 1e-300) * fluid / q.load
         if q.conserving:  # pockets that fill up carry little now, and more later
             imbalance = wrong / max(film, 1e-300) * max(fluid / q.load, _LEAST_PART) + gained / max(held, 1e-300)
-        why = shortfall(tolerance, self.change, load_error, complementarity, imbalance, q.per_dt)
+        why = shortfall(tolerance, self.change, load_error, complementarity, imbalance, allowed_imbalance(q))
         if abs(share - self.share) >= _SHARE_TOLERANCE:
             why = "; ".join(filter(None, (why, "the share of the solids still changes")))
         self.share = share

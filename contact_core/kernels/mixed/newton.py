@@ -29,7 +29,7 @@ from .edge import set_edge, wrap
 from .flow import Flow, node_pass
 from .linear_solver import elimination_order, gmres
 from .problem import Iterate, Problem, Solution, failed
-from .stopping_rule import shortfall
+from .stopping_rule import allowed_imbalance, shortfall
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -309,7 +309,7 @@ class _Film:
             mean = float((p * self.mass).sum()) / total
             imbalance += float(light) * q.spacing / (mean * self.r[self.rows].shape[0])
         change += self.sought / q.load
-        why = shortfall(tolerance, change if whole else np.inf, load_error, complementarity, imbalance, q.per_dt)
+        why = shortfall(tolerance, change if whole else np.inf, load_error, complementarity, imbalance, allowed_imbalance(q))
         iterate = Iterate(p, self.f, self.solid, self.rigid)
         return Solution(
             iterate,

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..far_field import far_field
 from ..mixed.problem import Iterate, Problem, Solution
-from ..mixed.stopping_rule import shortfall
+from ..mixed.stopping_rule import STEADY_IMBALANCE_PER_TOLERANCE, shortfall
 from . import transfer
 from .level import Level
 
@@ -53,7 +53,7 @@ class _Progress:
 
     def shortfall(self, tolerance: float) -> str:
         """Return which parts of the stopping rule do not hold."""
-        return shortfall(tolerance, self.change, self.load_error, 0.0, self.imbalance, per_dt=0.0)
+        return shortfall(tolerance, self.change, self.load_error, 0.0, self.imbalance, STEADY_IMBALANCE_PER_TOLERANCE)
 
 
 class _Multigrid:
