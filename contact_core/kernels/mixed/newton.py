@@ -309,7 +309,8 @@ class _Film:
             mean = float((p * self.mass).sum()) / total
             imbalance += float(light) * q.spacing / (mean * self.r[self.rows].shape[0])
         change += self.sought / q.load
-        why = shortfall(tolerance, change if whole else np.inf, load_error, complementarity, imbalance, allowed_imbalance(q))
+        allowed, change_seen = allowed_imbalance(q), change if whole else np.inf
+        why = shortfall(tolerance, change_seen, load_error, complementarity, imbalance, allowed)
         iterate = Iterate(p, self.f, self.solid, self.rigid)
         return Solution(
             iterate,
