@@ -35,7 +35,7 @@ def solve_dry_asperities(
     tolerance: float,
     iterations: int,
 ) -> tuple[Array, float, bool, int]:
-    """Return pressure [ny, nx], rigid gap, convergence and iterations of conjugate gradients.
+    """Return pressure [ny, nx], rigid gap, convergence and iterations.
 
     `asperities` are stress and depth; the other arguments are those of `dry.dry_solution`. The error counts the change
     of pressure that would close the gap of each node by itself.
@@ -57,6 +57,8 @@ def solve_dry_asperities(
             break
         step, count = _newton_step(half_space, pull, bend, free)
         spent += count
+        if count == 0:  # rounding
+            break
         energy, part = _energy(p, deformed + gap, stress, depth), 1.0
         for _ in range(_HALVINGS):
             with np.errstate(over="ignore"):
