@@ -309,8 +309,6 @@ class _Solver:
     def run(self, method: str, begin: str) -> Solution | None:
         """Return the solution of a method from a start; None where they do not apply."""
         scaled, settings, steady = self.scaled, self.scaled.settings, self.step is None
-        if scaled.now.depth > 0.0 and method in ("multigrid", "direct"):  # the other methods know no asperities below the grid
-            return None
         if method == "multigrid":
             if not (steady and is_applicable(self.problem)):
                 return None
