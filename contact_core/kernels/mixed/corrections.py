@@ -141,6 +141,7 @@ def correct_gap(  # type: ignore[no-untyped-def]
 @jit
 def relax_lines(  # type: ignore[no-untyped-def]
     p,
+    f,
     solid,
     stiff,
     h,
@@ -166,7 +167,7 @@ def relax_lines(  # type: ignore[no-untyped-def]
 ):
     """Relax the linearised equation outside the stiff zone by lines, dp given inside it.
 
-    Updates dp; keeps p + dp >= 0.
+    Updates dp; keeps p + dp >= 0, and so the fluid pressure f of nodes at which asperities carry some.
     """
     ny, nx = p.shape
     per_dx2 = 1.0 / (dx * dx)
@@ -241,6 +242,9 @@ def relax_lines(  # type: ignore[no-untyped-def]
             for i in range(last, first - 1, -1):
                 value = known[i] - ratio[i] * value
                 if free[i]:
-                    dp[j, i] = max(dp[j, i] + over * (value - dp[j, i]), -p[j, i])
+                    least = -p[j, i]
+                    if depth > 0.0 and f[j, i] < p[j, i]:
+                        least = -f[j, i] / (1.0 + carried_at(h[j, i], floor, stress, depth) * k0 / depth)
+                    dp[j, i] = max(dp[j, i] + over * (value - dp[j, i]), least)
             if wrapped and (j == 1 or j == ny - 2):
                 wrap(dp)
