@@ -14,6 +14,7 @@ import numpy as np
 from ..errors import ConvergenceError, FilmTooWideError
 from ..kernels.grids import prolong, restrict
 from ..kernels.mixed.advection import advected
+from ..kernels.mixed.asperities import REACH
 from ..kernels.mixed.direct import solve_direct
 from ..kernels.mixed.fixed_point import solve_mixed
 from ..kernels.mixed.marched import solve_marched
@@ -319,16 +320,18 @@ class _Solver:
         """Return the solution of a method from a start; None where they do not apply."""
         scaled, settings, steady = self.scaled, self.scaled.settings, self.step is None
         if method == "multigrid":
-            if not (steady and is_applicable(self.problem)):
+            reach = self.problem.floor + REACH * self.problem.depth  # of asperities, which this method ignores
+            film, layered = scaled.smooth_film / scaled.h_unit, self.problem.depth > 0.0
+            if not (steady and is_applicable(self.problem)) or (layered and film < reach):
                 return None
-            film, shape = scaled.smooth_film / scaled.h_unit, (scaled.depth, scaled.curvature)
+            shape = scaled.depth, scaled.curvature
             given = (self.problem, scaled.x, scaled.y, settings.fft, film)
             tries = ((1.0, _CYCLES),) if begin == "none" else _DAMPED
             for part, cycles in tries:
                 found = solve_smooth(*given, settings.tolerance, cycles, *shape, part)[0]
                 if found.converged:
                     break
-            return found
+            return None if layered and found.gap.min() < reach else found
         start = self._start(begin)
         if start is None:
             return None

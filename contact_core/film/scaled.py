@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import ConvergenceError
+from ..errors import ConvergenceError, SceneError
 from ..kernels.dry import solve_dry
 from ..kernels.far_field import far_field
 from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
@@ -72,6 +72,11 @@ class Scaled:
         closing: float = 0.0,
         apart: float | None = None,
     ) -> None:
+        if settings.lumped and now.depth > 0.0:
+            raise SceneError(
+                f"film.criterion = 'lumped' has one pressure for oil and solids; asperities below the grid (depth = "
+                f"{now.depth:g} m) carry a part of it. Use film.criterion = 'split', or no roughness below the grid."
+            )
         self.now, self.grid, self.settings = now, grid, settings
         self.closing, self.apart = closing, apart
         self.step = step if start else None

@@ -40,6 +40,7 @@ _SWEEPS_UNDER_CONTACTS = 6
 _SWEEPS_AT_CAVITY = 30
 _LIGHT = 1e-2  # share of the largest pressure below which the cavity's edge is sought
 _FALL = 0.75  # rms relative fall of the film in a step, weighted by pressure
+_FELT = 0.05  # share of the pressure that asperities carry, from which on they limit a step
 _RISE = (2.0, 1.0)  # largest rise of a fluid pressure in a step, and by how much more if it is high already
 _TOUCH = 0.95  # gap in floors below which a node becomes solid
 _TRIAL = 1e-6  # largest relative change of a gap, or change of a pressure, of a difference of flows
@@ -292,6 +293,8 @@ class _Film:
         wet = self.inner & ~self.solid & (old > 0.0)
         weight = np.where(wet, old, 0.0)
         thinner = np.maximum(-dh, 0.0) / np.maximum(self.h, q.floor)
+        if q.depth > 0.0:  # what asperities carry changes by the factor e over their depth, up or down
+            thinner = np.where(self.sorted[2] * q.depth > _FELT * old, np.abs(dh) / q.depth, thinner)
         fall = float(np.sqrt((weight * thinner**2).sum() / max(float(weight.sum()), 1e-300))) / _FALL
         rise = float((np.where(wet, np.minimum(dp, q.cap - old), 0.0) / (_RISE[0] + _RISE[1] * old)).max())
         share = 1.0 / max(fall, rise, 1.0)
