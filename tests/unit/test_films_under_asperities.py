@@ -89,7 +89,7 @@ def test_every_algorithm_finds_the_same_film_of_a_line_steady_and_in_a_time_step
         begin = before.iterate
 
 
-@pytest.mark.parametrize("depth", [0.1, 0.4])
+@pytest.mark.parametrize("depth", [0.3, 0.8])
 def test_under_a_rigid_roller_asperities_add_their_load_to_that_of_the_closed_form(depth):
     """The gap is a parabola; oil of constant viscosity carries what `ParabolicSlider` says at that gap."""
     case = line(1.0, 1e-3, 513)
@@ -137,7 +137,7 @@ def test_without_speed_asperities_carry_all_and_the_film_is_the_dry_contact(meth
     dry, gap = dense_contact(case, case.undeformed, axis(25)[1] - axis(25)[0])
     solve, most = METHODS[method]
     begin = Iterate(dry * 0.0 + start(case, smooth).pressure, 0.0 * dry, smooth > 0.0, -0.9)
-    found = solve(half_space, case, begin, 1e-3, 2 * most)
+    found = solve(half_space, case, begin, 1e-6, 2 * most)
     share = outputs(found)[0]
     assert share == approx(1.0, abs=2e-3)
     inside = smooth > 0.1
@@ -153,7 +153,7 @@ def rough(ratio, rms, nodes=65):
 
 
 def test_a_steady_film_that_stays_short_of_its_balance_closes_at_the_end_of_a_march():
-    now, grid = rough(0.02, 10e-9)
+    now, grid = rough(0.05, 20e-9)
     settings = Settings(1e-9, 3e-3, 2000, "scipy", fitted=True)
     scaled = Scaled(now, grid, settings)
     case, begin = scaled.problem(), scaled.shared_start()

@@ -31,6 +31,15 @@ def rest_gap(q, floor, stress, depth):  # type: ignore[no-untyped-def]
 
 
 @jit
+def missing(p, h, solid, floor, stress, depth):  # type: ignore[no-untyped-def]
+    """Return what a pressure is short of that of the asperities at its gap, at most 0; 0 on solid contacts.
+
+    The fluid pressure is zero there, and stays so until the pressure has risen by that much.
+    """
+    return 0.0 if solid else min(p - carried_at(h, floor, stress, depth), 0.0)
+
+
+@jit
 def sort_nodes(p, f, r, h, cap, solid, floor, stress, depth, held, rest, give, gain, lack):  # type: ignore[no-untyped-def]
     """Compute the nodes that asperities or solids hold, and how asperities change with pressure and gap, [ny, nx].
 

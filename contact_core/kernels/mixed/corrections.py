@@ -6,7 +6,7 @@ Equation, arrays and units are those of `reynolds`.
 import numpy as np
 
 from ..compiled import jit
-from .asperities import carried_at, rest_gap
+from .asperities import carried_at, missing, rest_gap
 from .edge import wrap
 from .reynolds import inflow, returned, transport
 
@@ -218,6 +218,14 @@ def relax_lines(  # type: ignore[no-untyped-def]
                     diag -= returned(filling, first, per_dt, wedge, dx, j, i) * west * over_own
                 lower, upper = rho * w_1, rho * w1
                 rhs = r[j, i] - rho * far
+                if depth > 0.0:
+                    back = 0.0 if filling is None else returned(filling, first, per_dt, wedge, dx, j, i)
+                    own = (1.0 - back) * west + east + south + north
+                    rhs -= own * missing(p[j, i], h[j, i], solid[j, i], floor, stress, depth)
+                    rhs += west * missing(p[j, i - 1], h[j, i - 1], solid[j, i - 1], floor, stress, depth)
+                    rhs += east * missing(p[j, i + 1], h[j, i + 1], solid[j, i + 1], floor, stress, depth)
+                    rhs += south * missing(p[j - 1, i], h[j - 1, i], solid[j - 1, i], floor, stress, depth)
+                    rhs += north * missing(p[j + 1, i], h[j + 1, i], solid[j + 1, i], floor, stress, depth)
                 # the fluid pressure of a solid contact stays in this step
                 if lumped or not solid[j, i - 1]:
                     lower -= west * over_west

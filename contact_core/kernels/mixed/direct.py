@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..compiled import jit
 from ..half_space import HalfSpace
 from . import reynolds
-from .asperities import carried_at
+from .asperities import carried_at, missing
 from .cavities import Carried
 from .edge import set_edge, wrap
 from .fixed_point import Iteration, iterate_on
@@ -32,25 +32,29 @@ _PROBE = 1e-6  # part of a film by which the rigid gap is moved for the derivati
 
 
 @jit
-def _number_free(p, f, solid, stiff, h, r, floor, stress, depth, wrapped, number, gain):  # type: ignore[no-untyped-def]
+def _number_free(p, f, solid, stiff, h, r, floor, stress, depth, wrapped, number, gain, lack):  # type: ignore[no-untyped-def]
     """Number the free nodes in `number` (-1: not free) and return their count.
 
-    gain: rise of the fluid pressure with the gap, of nodes at which asperities share the load with the oil.
+    gain: rise of the fluid pressure with the gap, of nodes at which asperities share the load with the oil. lack: of
+    the pressure, up to that of the asperities.
     """
     ny, nx = p.shape
     n = 0
     for j in range(ny):
         for i in range(nx):
-            number[j, i], gain[j, i] = -1, 0.0
+            number[j, i], gain[j, i], lack[j, i] = -1, 0.0, 0.0
             inner = 0 < j < ny - 1 and 0 < i < nx - 1
             if inner and not stiff[j, i] and not solid[j, i] and not (p[j, i] <= 0.0 and r[j, i] <= 0.0):
                 number[j, i] = n
                 n += 1
-            if depth > 0.0 and inner and not solid[j, i] and f[j, i] > 0.0 and h[j, i] > floor:
-                gain[j, i] = carried_at(h[j, i], floor, stress, depth) / depth
+            if depth > 0.0 and inner and not solid[j, i]:
+                lack[j, i] = missing(p[j, i], h[j, i], False, floor, stress, depth)
+                if f[j, i] > 0.0 and h[j, i] > floor:
+                    gain[j, i] = carried_at(h[j, i], floor, stress, depth) / depth
     if wrapped:
         wrap(number)
         wrap(gain)
+        wrap(lack)
     return n
 
 
@@ -75,7 +79,7 @@ def _equations(  # type: ignore[no-untyped-def]
     unit,
     response,
     gain,
-    given_fluid,
+    extra,
     wrapped,
     number,
     starts,
@@ -89,8 +93,8 @@ def _equations(  # type: ignore[no-untyped-def]
 
     An image has the number of its node: of few rows, some columns stand in a row more than once, and add up.
 
-    given, unit: step of the stiff nodes and its fall with the rigid gap; given_fluid: what asperities add to that of
-    the fluid pressure. rhs [2, n]: what is asked for, and its change with the rigid gap.
+    given, unit: step of the stiff nodes and its fall with the rigid gap; extra: what asperities add to the step of
+    the fluid pressure besides. rhs [2, n]: what is asked for, and its change with the rigid gap.
     """
     ny, nx = p.shape
     per_dx2 = 1.0 / (dx * dx)
@@ -117,11 +121,16 @@ def _equations(  # type: ignore[no-untyped-def]
                 dj, di = (-1, 0, 0, 1)[side], (0, -1, 1, 0)[side]
                 face = per_dx2 * (ex[j, i + min(di, 0)] if dj == 0 else ey[j + min(dj, 0), i])
                 diagonal += face * over_own
+                own_share = 1.0
                 if filling is not None and side == 1:
-                    diagonal -= reynolds.returned(filling, first, per_dt, wedge, dx, j, i) * face * over_own
+                    back = reynolds.returned(filling, first, per_dt, wedge, dx, j, i)
+                    diagonal -= back * face * over_own
+                    own_share -= back
                 diagonal -= face * edge[j + dj, i + di]
+                asked -= own_share * face * extra[j, i]
                 if solid[j + dj, i + di] or edge[j + dj, i + di] > 0.0:  # the fluid pressure of a contact stays
                     face = 0.0
+                asked += face * extra[j + dj, i + di]
                 if dj == 0:
                     faces[3 + di], fluid_faces[3 + di] = face * (1.0 + gain[j, i + di] * k0), face
                     continue
@@ -129,7 +138,7 @@ def _equations(  # type: ignore[no-untyped-def]
                     columns[filled], values[filled] = number[j - 1, i], -face * (1.0 + gain[j - 1, i] * k0)
                     filled += 1
                 elif side == 0:
-                    asked += face * given[j - 1, i] + face * given_fluid[j - 1, i]
+                    asked += face * given[j - 1, i]
                     moved -= face * unit[j - 1, i]
             for m in range(6):
                 k = i + m - 3
@@ -142,14 +151,14 @@ def _equations(  # type: ignore[no-untyped-def]
                         filled += 1
                     else:
                         value = rho * lifts[m] - fluid_faces[m]
-                        asked -= value * given[j, k] - fluid_faces[m] * given_fluid[j, k]
+                        asked -= value * given[j, k]
                         moved += value * unit[j, k]
             north = 0.0 if solid[j + 1, i] or edge[j + 1, i] > 0.0 else per_dx2 * ey[j, i]
             if number[j + 1, i] >= 0:
                 columns[filled], values[filled] = number[j + 1, i], -north * (1.0 + gain[j + 1, i] * k0)
                 filled += 1
             else:
-                asked += north * given[j + 1, i] + north * given_fluid[j + 1, i]
+                asked += north * given[j + 1, i]
                 moved -= north * unit[j + 1, i]
             rhs[0, row], rhs[1, row] = asked, moved
     return filled
@@ -178,7 +187,7 @@ class _Direct(Iteration):
     def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate) -> None:
         super().__init__(half_space, problem, start, _DEPTH, _STIFF_STEP)
         shape, size = self.p.shape, self.p.size
-        self.number, self.gain = np.zeros(shape, np.int64), np.zeros(shape)
+        self.number, self.gain, self.lack = np.zeros(shape, np.int64), np.zeros(shape), np.zeros(shape)
         self.response, self.lever = np.zeros(shape), np.zeros(shape)
         self.moved = Flow.of(problem)
         self.moved_fluid, self.full_mass, self.moved_mass = np.zeros(shape), np.zeros(shape), np.zeros(shape)
@@ -217,14 +226,14 @@ class _Direct(Iteration):
         q, p = self.problem, self.p
         scale = _PROBE * float(np.maximum(self.h, q.floor).min())
         state = (p, self.f, self.solid, self.stiff, self.h, self.r, *q.layer)
-        n = _number_free(*state, q.wrapped, self.number, self.gain)
+        n = _number_free(*state, q.wrapped, self.number, self.gain, self.lack)
         if n == 0:
             return
         self._respond(scale)
         filling = () if self.carried is None else (self.carried.filling, self.carried.first)
         film = (self.h, self.mass, *self.flow.faces, self.r, q.edge, q.floor, *q.terms)
-        given_fluid = np.where(self.stiff, self.stiff_step * self.gain * self.dh, 0.0)
-        given = (self.half_space.near, self.patch_wide, base, -self.lever, self.response, self.gain, given_fluid)
+        extra = np.where(self.stiff, self.stiff_step * self.gain * self.dh, 0.0) + self.lack
+        given = (self.half_space.near, self.patch_wide, base, -self.lever, self.response, self.gain, extra)
         system = (self.number, self.starts, self.columns, self.values, self.rhs)
         filled = _equations(p, self.solid, self.stiff, *film, *given, q.wrapped, *system, *filling)
         self.starts[n] = filled
