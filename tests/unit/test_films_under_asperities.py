@@ -1,4 +1,4 @@
-"""Films of oil under asperities below the grid: every algorithm, against closed forms, dense algebra and one another."""
+"""Films of oil under asperities below the grid: every algorithm, against closed forms, dense algebra and the others."""
 
 from dataclasses import replace
 
@@ -89,7 +89,7 @@ def test_every_algorithm_finds_the_same_film_of_a_line_steady_and_in_a_time_step
         begin = before.iterate
 
 
-@pytest.mark.parametrize("depth", [0.3, 0.8])
+@pytest.mark.parametrize("depth", [0.4, 0.8])
 def test_under_a_rigid_roller_asperities_add_their_load_to_that_of_the_closed_form(depth):
     """The gap is a parabola; oil of constant viscosity carries what `ParabolicSlider` says at that gap."""
     case = line(1.0, 1e-3, 513)
@@ -119,7 +119,8 @@ def dense_contact(case, undeformed, dx):
     p, rigid = np.full(n * n, case.load / n**2), 0.0
     for _ in range(200):
         h = rigid + undeformed.ravel() + by_p @ p
-        system = np.block([[by_p + np.diag(case.depth / p), np.ones((n * n, 1))], [np.ones((1, n * n)), np.zeros((1, 1))]])
+        whole = np.ones((n * n, 1))
+        system = np.block([[by_p + np.diag(case.depth / p), whole], [whole.T, np.zeros((1, 1))]])
         rest = case.floor + case.depth * np.log(case.stress / p)
         step = np.linalg.solve(system, np.append(rest - h, case.load - p.sum()))
         p = np.maximum(p + step[:-1], 0.2 * p)
@@ -136,7 +137,7 @@ def test_without_speed_asperities_carry_all_and_the_film_is_the_dry_contact(meth
     case = replace(case, fitted=True, stress=5.0, depth=0.02)
     dry, gap = dense_contact(case, case.undeformed, axis(25)[1] - axis(25)[0])
     solve, most = METHODS[method]
-    begin = Iterate(dry * 0.0 + start(case, smooth).pressure, 0.0 * dry, smooth > 0.0, -0.9)
+    begin = Iterate(start(case, smooth).pressure, 0.0 * dry, smooth > 0.0, -0.9)
     found = solve(half_space, case, begin, 1e-6, 2 * most)
     share = outputs(found)[0]
     assert share == approx(1.0, abs=2e-3)

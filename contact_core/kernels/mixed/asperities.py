@@ -10,6 +10,7 @@ import numpy as np
 from ..compiled import jit
 
 REACH = 14.0  # depths above the floor at which the asperities end
+_PART = 0.15  # of a lack that an iteration takes away: neighbours that rise as well part the bodies further
 
 
 @jit
@@ -32,20 +33,19 @@ def rest_gap(q, floor, stress, depth):  # type: ignore[no-untyped-def]
 
 @jit
 def missing(p, h, solid, floor, stress, depth):  # type: ignore[no-untyped-def]
-    """Return what a pressure is short of that of the asperities at its gap, at most 0; 0 on solid contacts.
+    """Return a part of what a pressure is short of that of the asperities at its gap, at most 0; 0 on solid contacts.
 
-    The fluid pressure is zero there, and stays so until the pressure has risen by that much.
+    The fluid pressure is zero there, and stays so until the pressure has risen by all of it.
     """
-    return 0.0 if solid else min(p - carried_at(h, floor, stress, depth), 0.0)
+    return 0.0 if solid else _PART * min(p - carried_at(h, floor, stress, depth), 0.0)
 
 
 @jit
-def sort_nodes(p, f, r, h, cap, solid, floor, stress, depth, held, rest, give, gain, lack):  # type: ignore[no-untyped-def]
+def sort_nodes(p, f, r, h, solid, floor, stress, depth, held, rest, give, gain, lack):  # type: ignore[no-untyped-def]
     """Compute the nodes that asperities or solids hold, and how asperities change with pressure and gap, [ny, nx].
 
     held: solid contacts, and nodes without fluid pressure that lose mass: p = s(h). There rest: the gap at which they
     rest, and give: its fall with p. Elsewhere gain: the rise of f with the gap, and lack: what p is short of s(h), < 0.
-    Nodes at the cap that overlap are free of both.
     """
     ny, nx = p.shape
     for j in range(ny):

@@ -43,13 +43,20 @@ def _assemble(by_f, by_h, scale, kernel, nodes, column, held, give, edge, wide, 
 
 
 def band_inverse(
-    by_f: Array, by_h: Array, scale: Array, response: Array, nodes: NDArray[np.int64], held: Array, give: Array, edge: Array
+    by_f: Array,
+    by_h: Array,
+    scale: Array,
+    response: Array,
+    nodes: NDArray[np.int64],
+    held: Array,
+    give: Array,
+    edge: Array,
 ) -> Callable[[Array], Array] | None:
     """Return a function that solves the local system of the `nodes`, ascending, of a row; None if it is singular.
 
     by_f, by_h [6, nx]: derivatives of the net inflow on the stencil; scale [nx] of the equations; response [nx]:
-    deformation by the unit pressure of a node at a distance; held, give [nx] as by `asperities.sort_nodes`, edge [nx] as
-    in `problem`.
+    deformation by the unit pressure of a node at a distance; held, give [nx] as by `asperities.sort_nodes`,
+    edge [nx] as in `problem`.
     """
     size = nodes.size
     wide = max(min(_WIDE, size - 1), 2)

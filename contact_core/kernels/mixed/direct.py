@@ -33,7 +33,7 @@ _PROBE = 1e-6  # part of a film by which the rigid gap is moved for the derivati
 
 @jit
 def _number_free(p, f, solid, stiff, h, r, floor, stress, depth, wrapped, number, gain, lack):  # type: ignore[no-untyped-def]
-    """Number the free nodes in `number` (-1: not free) and return their count.
+    """Put the numbers of the free nodes into `number` (-1: not free); return their count.
 
     gain: rise of the fluid pressure with the gap, of nodes at which asperities share the load with the oil. lack: of
     the pressure, up to that of the asperities.

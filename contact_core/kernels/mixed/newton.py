@@ -131,7 +131,8 @@ class _Film:
         shape = self.p.shape
         self.h, self.mass, self.r, self.scale = (np.zeros(shape) for _ in range(4))
         self.slope, self.by_f, self.by_h = np.zeros((2, *shape)), np.zeros((6, *shape)), np.zeros((6, *shape))
-        self.held, self.sorted = np.zeros(shape, np.bool_), tuple(np.zeros(shape) for _ in range(4))
+        self.held = np.zeros(shape, np.bool_)
+        self.rest, self.give, self.gain, self.lack = (np.zeros(shape) for _ in range(4))
         self.flow, self.trial = Flow.of(problem), _Trial(problem)
         self.inner_weight = _inner_weight(problem.weight, problem.edge)
         self.order = elimination_order(*shape, problem.wrapped)
@@ -163,7 +164,8 @@ class _Film:
         self.sought = float(np.abs(self.p - old)[self.rows].sum())
         self._residual(self.solid, self.r)
         self.releases += before & ~self.solid
-        sort_nodes(self.p, self.f, self.r, self.h, q.cap, self.solid, *q.layer, self.held, *self.sorted)
+        sorted_into = self.held, self.rest, self.give, self.gain, self.lack
+        sort_nodes(self.p, self.f, self.r, self.h, self.solid, *q.layer, *sorted_into)
 
     def _residual(self, solid: Mask, out: Array) -> None:
         """Compute the net inflow of every node that is full and not `solid`."""
@@ -209,7 +211,7 @@ class _Film:
     def correction(self) -> tuple[Array, Array, float] | None:
         """Return Newton's changes of pressure, gap [ny, nx] and rigid gap; None if there are none."""
         q, solid, held, near = self.problem, self.solid, self.held, self.half_space.near
-        rest, give, gain, lack = self.sorted
+        rest, give, gain, lack = self.rest, self.give, self.gain, self.lack
         by_f, by_h, scale, flow = self.by_f, self.by_h, self.scale, self.flow
         linearisation.slopes(self.f, solid, self.h, q.floor, q.step, q.density, self.slope)
         film = (self.f, flow.gap, flow.fluid, q.thinned, *flow.faces, flow.share, q.fitted, *q.terms, self.slope)
@@ -266,7 +268,7 @@ class _Film:
 
     def _local_inverse(self, nodes: Indices) -> Callable[[Array], Array] | None:
         """Return a function that solves the local system of the nodes; None if it is singular."""
-        q, held, give, by_f, by_h, scale = self.problem, self.held, self.sorted[1], self.by_f, self.by_h, self.scale
+        q, held, give, by_f, by_h, scale = self.problem, self.held, self.give, self.by_f, self.by_h, self.scale
         size, shape = nodes.size, held.shape
         if self.response is not None:
             row = (by_f[:, 1], by_h[:, 1], scale[1], self.response, nodes - shape[1], held[1], give[1], q.edge[1])
@@ -294,7 +296,7 @@ class _Film:
         weight = np.where(wet, old, 0.0)
         thinner = np.maximum(-dh, 0.0) / np.maximum(self.h, q.floor)
         if q.depth > 0.0:  # what asperities carry changes by the factor e over their depth, up or down
-            thinner = np.where(self.sorted[2] * q.depth > _FELT * old, np.abs(dh) / q.depth, thinner)
+            thinner = np.where(self.gain * q.depth > _FELT * old, np.abs(dh) / q.depth, thinner)
         fall = float(np.sqrt((weight * thinner**2).sum() / max(float(weight.sum()), 1e-300))) / _FALL
         rise = float((np.where(wet, np.minimum(dp, q.cap - old), 0.0) / (_RISE[0] + _RISE[1] * old)).max())
         share = 1.0 / max(fall, rise, 1.0)
@@ -313,7 +315,7 @@ class _Film:
         load_error = float((q.weight * p).sum()) / q.load - 1.0
         below_cap = self.held & (p < q.cap)
         total = max(float(p.sum()), 1e-300)
-        complementarity = float((p * np.abs(self.sorted[0] - self.h))[below_cap].sum()) / (q.floor * total)
+        complementarity = float((p * np.abs(self.rest - self.h))[below_cap].sum()) / (q.floor * total)
         inflow, nowhere = np.zeros_like(p), np.zeros_like(self.solid)
         self._residual(nowhere, inflow)
         film = (self.solid, self.h, self.mass, inflow, *q.layer, q.spacing)
