@@ -241,7 +241,7 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
     regime = next(row for row in REGIMES if row.holds(scaled))
     by_flux = scaled.now.conserving or scaled.now.meniscus is not None
     algorithms = regime.by_flux if by_flux and regime.by_flux else regime.algorithms
-    if scaled.now.depth > 0.0 and not step:
+    if (settings.fitted or scaled.now.depth > 0.0) and not step:
         algorithms = _with_march(algorithms)
     tries = (*_first_tries(scaled, step), *algorithms) if step else algorithms
     solver, used, spent, least = _Solver(scaled, start, step), "", 0, (True, True, math.inf)
@@ -276,8 +276,14 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
 
 
 def _with_march(algorithms: tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
-    """Return the algorithms of a steady film under asperities: a march before any factorisation, which costs more."""
-    at = next((n for n, (method, _) in enumerate(algorithms) if method == "direct"), len(algorithms))
+    """Return the algorithms of a steady film with a march after the hybrid, before any factorisation: that costs more.
+
+    Films of fitted flow and films under asperities need it where solids carry much.
+    """
+    methods = [method for method, _ in algorithms]
+    if "hybrid" not in methods:
+        return algorithms
+    at = methods.index("direct") if "direct" in methods else len(methods)
     return (*algorithms[:at], ("marched", "last"), *algorithms[at:])
 
 

@@ -131,7 +131,7 @@ class _Film:
         shape = self.p.shape
         self.h, self.mass, self.r, self.scale = (np.zeros(shape) for _ in range(4))
         self.slope, self.by_f, self.by_h = np.zeros((2, *shape)), np.zeros((6, *shape)), np.zeros((6, *shape))
-        self.held = np.zeros(shape, np.bool_)
+        self.held: Mask = np.zeros(shape, np.bool_)
         self.rest, self.give, self.gain, self.lack = (np.zeros(shape) for _ in range(4))
         self.flow, self.trial = Flow.of(problem), _Trial(problem)
         self.inner_weight = _inner_weight(problem.weight, problem.edge)
