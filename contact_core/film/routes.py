@@ -14,8 +14,10 @@ import numpy as np
 from ..errors import ConvergenceError, FilmTooWideError
 from ..kernels.grids import prolong, restrict
 from ..kernels.mixed.advection import advected
+from ..kernels.mixed.asperities import REACH
 from ..kernels.mixed.direct import solve_direct
 from ..kernels.mixed.fixed_point import solve_mixed
+from ..kernels.mixed.marched import solve_marched
 from ..kernels.mixed.newton import solve_newton
 from ..kernels.mixed.problem import Iterate, Solution
 from ..kernels.mixed.stopping_rule import excess
@@ -29,7 +31,7 @@ _LASTING = 4 * (("hybrid", "last"),)  # lines couple contacts over long distance
 _FULL_FILM = 3.0  # formula film over rms roughness, above which a dry contact is no substitute
 _MOST_BEYOND = 0.3  # share of the load that may lie beyond the grid
 _NESTED_FROM = 65  # nodes along an axis, from which on a film starts on the grid of half of them
-_HYBRID_ITERATIONS, _DIRECT_ITERATIONS = 150, 80  # of one try at a steady film
+_HYBRID_ITERATIONS, _DIRECT_ITERATIONS, _MARCHED_ITERATIONS = 150, 80, 2000  # of one try at a steady film
 _CYCLES, _NEWTON_STEPS = 15, 30
 _DAMPED = ((0.5, 15), (0.25, 40))  # multigrid's next tries, and cycles: nearly rigid bodies under thickening oil
 # film of smooth bodies over rms roughness of a line, from which on Newton's method is more reliable: without side
@@ -239,6 +241,8 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
     regime = next(row for row in REGIMES if row.holds(scaled))
     by_flux = scaled.now.conserving or scaled.now.meniscus is not None
     algorithms = regime.by_flux if by_flux and regime.by_flux else regime.algorithms
+    if (settings.fitted or scaled.fade > 0.0) and not step:
+        algorithms = _with_march(algorithms)
     tries = (*_first_tries(scaled, step), *algorithms) if step else algorithms
     solver, used, spent, least = _Solver(scaled, start, step), "", 0, (True, True, math.inf)
     apart = _stays_apart(scaled, start, step)
@@ -269,6 +273,18 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
         )
     why = "no mixed solution was found; the dry contact replaces it"
     return replace(scaled.dry("fallback"), converged=False, shortfall=why, iterations=spent)
+
+
+def _with_march(algorithms: tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
+    """Return the algorithms of a steady film with a march after the hybrid, before any factorisation: that costs more.
+
+    Films of fitted flow and films under asperities need it where solids carry much.
+    """
+    methods = [method for method, _ in algorithms]
+    if "hybrid" not in methods:
+        return algorithms
+    at = methods.index("direct") if "direct" in methods else len(methods)
+    return (*algorithms[:at], ("marched", "last"), *algorithms[at:])
 
 
 def _stays_apart(scaled: Scaled, start: FilmState | None, step: Step | None) -> bool:
@@ -309,25 +325,26 @@ class _Solver:
     def run(self, method: str, begin: str) -> Solution | None:
         """Return the solution of a method from a start; None where they do not apply."""
         scaled, settings, steady = self.scaled, self.scaled.settings, self.step is None
-        if scaled.fade > 0.0 and method != "hybrid":  # the other methods know no asperities below the grid
-            return None
         if method == "multigrid":
-            if not (steady and is_applicable(self.problem)):
+            reach = self.problem.floor + REACH * self.problem.depth  # of asperities, which this method ignores
+            film, layered = scaled.smooth_film / scaled.h_unit, self.problem.depth > 0.0
+            if not (steady and is_applicable(self.problem)) or (layered and film < reach):
                 return None
-            film, shape = scaled.smooth_film / scaled.h_unit, (scaled.depth, scaled.curvature)
+            shape = scaled.depth, scaled.curvature
             given = (self.problem, scaled.x, scaled.y, settings.fft, film)
             tries = ((1.0, _CYCLES),) if begin == "none" else _DAMPED
             for part, cycles in tries:
                 found = solve_smooth(*given, settings.tolerance, cycles, *shape, part)[0]
                 if found.converged:
                     break
-            return found
+            return None if layered and found.gap.min() < reach else found
         start = self._start(begin)
         if start is None:
             return None
         solve, most = {
             "hybrid": (solve_mixed, _HYBRID_ITERATIONS if steady else settings.iterations),
             "direct": (solve_direct, _DIRECT_ITERATIONS),
+            "marched": (solve_marched, _MARCHED_ITERATIONS),
             "newton": (solve_newton, _NEWTON_STEPS),
         }[method]
         limits = settings.tolerance, min(most, settings.iterations)

@@ -2,6 +2,7 @@
 
     half_space      deformation of an elastic half space by DC-FFT, free or periodic along y, and its inverse
     dry             contact without a fluid: coarse grids and windows
+    dry_asperities  the same with asperities that are too short for the grid
     dry_faces       conjugate gradients in one window
     mixed/          fluid and solids together, on rough bodies
     multigrid/      smooth films

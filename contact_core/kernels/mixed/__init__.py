@@ -3,6 +3,7 @@
     problem         one instant in the units of the kernels; iterate and solution of it
     stopping_rule   when a solution counts as converged
     fixed_point     the iteration for rough contacts
+    marched         steady film at the end of a march in time by that iteration
     direct          the same with the fluid, the rigid gap and the load solved at once
     newton          Newton's method with the whole half space, for light loads and smooth lines
     reynolds        Reynolds' equation: gap and mass, residual, fluid pressure under contacts, imbalance
@@ -17,5 +18,5 @@
     advection       prediction after the surfaces have moved
 
 Imports run one way: problem, asperities, edge <- flow <- stopping_rule, reynolds, cavities <- corrections <-
-fixed_point <- direct; newton stands beside fixed_point.
+fixed_point <- direct, marched; newton stands beside fixed_point.
 """

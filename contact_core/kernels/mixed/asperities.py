@@ -10,6 +10,7 @@ import numpy as np
 from ..compiled import jit
 
 REACH = 14.0  # depths above the floor at which the asperities end
+_PART = 0.15  # of a lack that an iteration takes away: neighbours that rise as well part the bodies further
 
 
 @jit
@@ -28,3 +29,38 @@ def rest_gap(q, floor, stress, depth):  # type: ignore[no-untyped-def]
     if q <= stress * np.exp(-REACH):
         return floor + REACH * depth
     return floor + depth * np.log(stress / q)
+
+
+@jit
+def missing(p, h, solid, floor, stress, depth):  # type: ignore[no-untyped-def]
+    """Return a part of what a pressure is short of that of the asperities at its gap, at most 0; 0 on solid contacts.
+
+    The fluid pressure is zero there, and stays so until the pressure has risen by all of it.
+    """
+    return 0.0 if solid else _PART * min(p - carried_at(h, floor, stress, depth), 0.0)
+
+
+@jit
+def sort_nodes(p, f, r, h, solid, floor, stress, depth, held, rest, give, gain, lack):  # type: ignore[no-untyped-def]
+    """Compute the nodes that asperities or solids hold, and how asperities change with pressure and gap, [ny, nx].
+
+    held: solid contacts, and nodes without fluid pressure that lose mass: p = s(h). There rest: the gap at which they
+    rest, and give: its fall with p. Elsewhere gain: the rise of f with the gap, and lack: what p is short of s(h), < 0.
+    """
+    ny, nx = p.shape
+    for j in range(ny):
+        for i in range(nx):
+            here, own = p[j, i], h[j, i]
+            held[j, i], rest[j, i], give[j, i], gain[j, i], lack[j, i] = solid[j, i], floor, 0.0, 0.0, 0.0
+            carried = carried_at(own, floor, stress, depth)
+            if solid[j, i] or carried <= 0.0:
+                continue
+            if f[j, i] <= 0.0 and r[j, i] <= 0.0:
+                held[j, i] = True
+                rest[j, i] = rest_gap(here, floor, stress, depth)
+                if here < stress:
+                    give[j, i] = depth / max(here, stress * np.exp(-REACH))
+                continue
+            lack[j, i] = min(here - carried, 0.0)
+            if own > floor:
+                gain[j, i] = carried / depth

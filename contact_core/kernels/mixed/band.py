@@ -18,19 +18,19 @@ _WIDE = 64  # nodes on either side that a node is coupled to
 
 
 @jit
-def _assemble(by_f, by_h, scale, kernel, nodes, column, solid, edge, wide, band):  # type: ignore[no-untyped-def]
-    nx = solid.size
+def _assemble(by_f, by_h, scale, kernel, nodes, column, held, give, edge, wide, band):  # type: ignore[no-untyped-def]
+    nx = held.size
     for k in range(nodes.size):
         i, factor = nodes[k], scale[nodes[k]]
         for m in range(max(k - wide, 0), min(k + wide + 1, nodes.size)):
             at = nodes[m]
-            if solid[i]:
-                value = kernel[abs(i - at)]
+            if held[i]:
+                value = kernel[abs(i - at)] + (give[i] if at == i else 0.0)
             else:
                 value = by_h[0, i] * kernel[abs(i - at)] + by_h[1, i] * kernel[abs(i - 1 - at)]
                 value += by_h[2, i] * kernel[abs(i + 1 - at)] + by_h[5, i] * kernel[abs(i - 2 - at)]
             band[2 * wide + k - m, m] = value * factor
-        if solid[i]:
+        if held[i]:
             continue
         for n in range(6 if i > 1 else 5):
             at, part = i + (0, -1, 1, 0, 0, -2)[n], by_f[n, i]
@@ -38,25 +38,33 @@ def _assemble(by_f, by_h, scale, kernel, nodes, column, solid, edge, wide, band)
                 part *= edge[at]
                 at = min(max(at, 1), nx - 2)
             m = column[at]
-            if m >= 0 and not solid[at]:
+            if m >= 0 and not held[at]:
                 band[2 * wide + k - m, m] += part * factor
 
 
 def band_inverse(
-    by_f: Array, by_h: Array, scale: Array, response: Array, nodes: NDArray[np.int64], solid: Array, edge: Array
+    by_f: Array,
+    by_h: Array,
+    scale: Array,
+    response: Array,
+    nodes: NDArray[np.int64],
+    held: Array,
+    give: Array,
+    edge: Array,
 ) -> Callable[[Array], Array] | None:
     """Return a function that solves the local system of the `nodes`, ascending, of a row; None if it is singular.
 
     by_f, by_h [6, nx]: derivatives of the net inflow on the stencil; scale [nx] of the equations; response [nx]:
-    deformation by the unit pressure of a node at a distance; solid, edge [nx] as in `problem`.
+    deformation by the unit pressure of a node at a distance; held, give [nx] as by `asperities.sort_nodes`,
+    edge [nx] as in `problem`.
     """
     size = nodes.size
     wide = max(min(_WIDE, size - 1), 2)
     kernel = response - response[min(wide, response.size - 1)]  # what is constant belongs to the rigid gap
-    column = np.full(solid.size, -1)
+    column = np.full(held.size, -1)
     column[nodes] = np.arange(size)
     band = np.zeros((3 * wide + 1, size), order="F")
-    _assemble(by_f, by_h, scale, kernel, nodes, column, solid, edge, wide, band)
+    _assemble(by_f, by_h, scale, kernel, nodes, column, held, give, edge, wide, band)
     lapack = scipy.linalg.lapack
     factors, pivots, fault = lapack.dgbtrf(band, wide, wide, overwrite_ab=1)
     if fault:

@@ -6,7 +6,7 @@ Equation, arrays and units are those of `reynolds`.
 import numpy as np
 
 from ..compiled import jit
-from .asperities import carried_at, rest_gap
+from .asperities import carried_at, missing, rest_gap
 from .edge import wrap
 from .reynolds import inflow, returned, transport
 
@@ -145,6 +145,7 @@ def correct_gap(  # type: ignore[no-untyped-def]
 @jit
 def relax_lines(  # type: ignore[no-untyped-def]
     p,
+    f,
     solid,
     stiff,
     h,
@@ -170,7 +171,7 @@ def relax_lines(  # type: ignore[no-untyped-def]
 ):
     """Relax the linearised equation outside the stiff zone by lines, dp given inside it.
 
-    Updates dp; keeps p + dp >= 0.
+    Updates dp; keeps p + dp >= 0, and so the fluid pressure f of nodes at which asperities carry some.
     """
     ny, nx = p.shape
     per_dx2 = 1.0 / (dx * dx)
@@ -221,6 +222,14 @@ def relax_lines(  # type: ignore[no-untyped-def]
                     diag -= returned(filling, first, per_dt, wedge, dx, j, i) * west * over_own
                 lower, upper = rho * w_1, rho * w1
                 rhs = r[j, i] - rho * far
+                if depth > 0.0:
+                    back = 0.0 if filling is None else returned(filling, first, per_dt, wedge, dx, j, i)
+                    own = (1.0 - back) * west + east + south + north
+                    rhs -= own * missing(p[j, i], h[j, i], solid[j, i], floor, stress, depth)
+                    rhs += west * missing(p[j, i - 1], h[j, i - 1], solid[j, i - 1], floor, stress, depth)
+                    rhs += east * missing(p[j, i + 1], h[j, i + 1], solid[j, i + 1], floor, stress, depth)
+                    rhs += south * missing(p[j - 1, i], h[j - 1, i], solid[j - 1, i], floor, stress, depth)
+                    rhs += north * missing(p[j + 1, i], h[j + 1, i], solid[j + 1, i], floor, stress, depth)
                 # the fluid pressure of a solid contact stays in this step
                 if lumped or not solid[j, i - 1]:
                     lower -= west * over_west
@@ -245,6 +254,9 @@ def relax_lines(  # type: ignore[no-untyped-def]
             for i in range(last, first - 1, -1):
                 value = known[i] - ratio[i] * value
                 if free[i]:
-                    dp[j, i] = max(dp[j, i] + over * (value - dp[j, i]), -p[j, i])
+                    least = -p[j, i]
+                    if depth > 0.0 and f[j, i] < p[j, i]:
+                        least = -f[j, i] / (1.0 + carried_at(h[j, i], floor, stress, depth) * k0 / depth)
+                    dp[j, i] = max(dp[j, i] + over * (value - dp[j, i]), least)
             if wrapped and (j == 1 or j == ny - 2):
                 wrap(dp)

@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 from ..compiled import jit
 from ..half_space import HalfSpace
 from . import reynolds
+from .asperities import carried_at, missing
 from .cavities import Carried
 from .edge import set_edge, wrap
 from .fixed_point import Iteration, iterate_on
-from .flow import Flow
+from .flow import Flow, node_pass
 from .problem import Iterate, Problem, Solution
 
 Array = NDArray[np.float64]
@@ -28,6 +29,33 @@ _LARGEST_STEP = 0.3  # of the load, that pressures may change by in an iteration
 _LARGEST_FALL = 0.5  # of the mean film, that the rigid gap may fall by
 _JUMP = 10.0  # times the change before, above which the memory is discarded
 _PROBE = 1e-6  # part of a film by which the rigid gap is moved for the derivative
+
+
+@jit
+def _number_free(p, f, solid, stiff, h, r, floor, stress, depth, wrapped, number, gain, lack):  # type: ignore[no-untyped-def]
+    """Put the numbers of the free nodes into `number` (-1: not free); return their count.
+
+    gain: rise of the fluid pressure with the gap, of nodes at which asperities share the load with the oil. lack: of
+    the pressure, up to that of the asperities.
+    """
+    ny, nx = p.shape
+    n = 0
+    for j in range(ny):
+        for i in range(nx):
+            number[j, i], gain[j, i], lack[j, i] = -1, 0.0, 0.0
+            inner = 0 < j < ny - 1 and 0 < i < nx - 1
+            if inner and not stiff[j, i] and not solid[j, i] and not (p[j, i] <= 0.0 and r[j, i] <= 0.0):
+                number[j, i] = n
+                n += 1
+            if depth > 0.0 and inner and not solid[j, i]:
+                lack[j, i] = missing(p[j, i], h[j, i], False, floor, stress, depth)
+                if f[j, i] > 0.0 and h[j, i] > floor:
+                    gain[j, i] = carried_at(h[j, i], floor, stress, depth) / depth
+    if wrapped:
+        wrap(number)
+        wrap(gain)
+        wrap(lack)
+    return n
 
 
 @jit
@@ -50,6 +78,8 @@ def _equations(  # type: ignore[no-untyped-def]
     given,
     unit,
     response,
+    gain,
+    extra,
     wrapped,
     number,
     starts,
@@ -59,24 +89,14 @@ def _equations(  # type: ignore[no-untyped-def]
     filling=None,
     first=1,
 ):
-    """Assemble the linearised equation of the free nodes, numbered in `number` (-1: not free); return their count.
+    """Assemble the linearised equation of the free nodes, `number` from `_number_free`; return the count of entries.
 
     An image has the number of its node: of few rows, some columns stand in a row more than once, and add up.
 
-    given, unit: step of the stiff nodes and its fall with the rigid gap. rhs [2, n]: what is asked for, and its change
-    with the rigid gap.
+    given, unit: step of the stiff nodes and its fall with the rigid gap; extra: what asperities add to the step of
+    the fluid pressure besides. rhs [2, n]: what is asked for, and its change with the rigid gap.
     """
     ny, nx = p.shape
-    n = 0
-    for j in range(ny):
-        for i in range(nx):
-            number[j, i] = -1
-            inner = 0 < j < ny - 1 and 0 < i < nx - 1
-            if inner and not stiff[j, i] and not solid[j, i] and not (p[j, i] <= 0.0 and r[j, i] <= 0.0):
-                number[j, i] = n
-                n += 1
-    if wrapped:
-        wrap(number)
     per_dx2 = 1.0 / (dx * dx)
     k0, k1, k2, k3, k4 = near[0, 0], near[0, 1], near[0, 2], near[0, 3], near[0, 4]
     lifts = np.empty(6)  # d(deformation wedge)_i / dp_(i + m), m = -3 ... 2
@@ -95,22 +115,27 @@ def _equations(  # type: ignore[no-untyped-def]
             starts[row] = filled
             rho = mass[j, i] / h[j, i] if h[j, i] > floor else 0.0  # at the floor the flow does not depend on it
             asked, moved = r[j, i], response[j, i]
-            diagonal = rho * lifts[3]
-            faces = np.zeros(6)
+            diagonal, over_own = rho * lifts[3], 1.0 + gain[j, i] * k0
+            faces, fluid_faces = np.zeros(6), np.zeros(6)  # of steps of free nodes, and of given ones
             for side in range(4):  # south, west, east, north
                 dj, di = (-1, 0, 0, 1)[side], (0, -1, 1, 0)[side]
                 face = per_dx2 * (ex[j, i + min(di, 0)] if dj == 0 else ey[j + min(dj, 0), i])
-                diagonal += face
+                diagonal += face * over_own
+                own_share = 1.0
                 if filling is not None and side == 1:
-                    diagonal -= reynolds.returned(filling, first, per_dt, wedge, dx, j, i) * face
+                    back = reynolds.returned(filling, first, per_dt, wedge, dx, j, i)
+                    diagonal -= back * face * over_own
+                    own_share -= back
                 diagonal -= face * edge[j + dj, i + di]
+                asked -= own_share * face * extra[j, i]
                 if solid[j + dj, i + di] or edge[j + dj, i + di] > 0.0:  # the fluid pressure of a contact stays
                     face = 0.0
+                asked += face * extra[j + dj, i + di]
                 if dj == 0:
-                    faces[3 + di] = face
+                    faces[3 + di], fluid_faces[3 + di] = face * (1.0 + gain[j, i + di] * k0), face
                     continue
                 if side == 0 and number[j - 1, i] >= 0:
-                    columns[filled], values[filled] = number[j - 1, i], -face
+                    columns[filled], values[filled] = number[j - 1, i], -face * (1.0 + gain[j - 1, i] * k0)
                     filled += 1
                 elif side == 0:
                     asked += face * given[j - 1, i]
@@ -121,23 +146,22 @@ def _equations(  # type: ignore[no-untyped-def]
                     columns[filled], values[filled] = row, diagonal
                     filled += 1
                 elif 0 <= k < nx:
-                    value = rho * lifts[m] - faces[m]
                     if number[j, k] >= 0:
-                        columns[filled], values[filled] = number[j, k], value
+                        columns[filled], values[filled] = number[j, k], rho * lifts[m] - faces[m]
                         filled += 1
                     else:
+                        value = rho * lifts[m] - fluid_faces[m]
                         asked -= value * given[j, k]
                         moved += value * unit[j, k]
             north = 0.0 if solid[j + 1, i] or edge[j + 1, i] > 0.0 else per_dx2 * ey[j, i]
             if number[j + 1, i] >= 0:
-                columns[filled], values[filled] = number[j + 1, i], -north
+                columns[filled], values[filled] = number[j + 1, i], -north * (1.0 + gain[j + 1, i] * k0)
                 filled += 1
             else:
                 asked += north * given[j + 1, i]
                 moved -= north * unit[j + 1, i]
             rhs[0, row], rhs[1, row] = asked, moved
-    starts[n] = filled
-    return n, filled
+    return filled
 
 
 @jit
@@ -163,8 +187,10 @@ class _Direct(Iteration):
     def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate) -> None:
         super().__init__(half_space, problem, start, _DEPTH, _STIFF_STEP)
         shape, size = self.p.shape, self.p.size
-        self.number, self.response, self.lever = np.zeros(shape, np.int64), np.zeros(shape), np.zeros(shape)
-        self.moved, self.moved_mass = Flow.of(problem), np.zeros(shape)
+        self.number, self.gain, self.lack = np.zeros(shape, np.int64), np.zeros(shape), np.zeros(shape)
+        self.response, self.lever = np.zeros(shape), np.zeros(shape)
+        self.moved = Flow.of(problem)
+        self.moved_fluid, self.full_mass, self.moved_mass = np.zeros(shape), np.zeros(shape), np.zeros(shape)
         self.moved_oil = None if self.carried is None else Carried(problem)
         self.starts, self.columns = np.zeros(size + 1, np.int64), np.zeros(8 * size, np.int64)
         self.values, self.rhs = np.zeros(8 * size), np.zeros((2, size))
@@ -199,14 +225,18 @@ class _Direct(Iteration):
         """Put the steps of the free nodes into `base`, their change with the rigid gap into the lever."""
         q, p = self.problem, self.p
         scale = _PROBE * float(np.maximum(self.h, q.floor).min())
+        state = (p, self.f, self.solid, self.stiff, self.h, self.r, *q.layer)
+        n = _number_free(*state, q.wrapped, self.number, self.gain, self.lack)
+        if n == 0:
+            return
         self._respond(scale)
         filling = () if self.carried is None else (self.carried.filling, self.carried.first)
         film = (self.h, self.mass, *self.flow.faces, self.r, q.edge, q.floor, *q.terms)
-        given = (self.half_space.near, self.patch_wide, base, -self.lever, self.response)
+        extra = np.where(self.stiff, self.stiff_step * self.gain * self.dh, 0.0) + self.lack
+        given = (self.half_space.near, self.patch_wide, base, -self.lever, self.response, self.gain, extra)
         system = (self.number, self.starts, self.columns, self.values, self.rhs)
-        n, filled = _equations(p, self.solid, self.stiff, *film, *given, q.wrapped, *system, *filling)
-        if n == 0:
-            return
+        filled = _equations(p, self.solid, self.stiff, *film, *given, q.wrapped, *system, *filling)
+        self.starts[n] = filled
         rows = (self.values[:filled], self.columns[:filled], self.starts[: n + 1])
         # rows read as columns: the transpose. Its pattern is all but symmetric, which saves a third of the time
         matrix, how = scipy.sparse.csc_matrix(rows, shape=(n, n)), {"SymmetricMode": True}
@@ -222,22 +252,22 @@ class _Direct(Iteration):
         """Compute the change of every fluid node's net inflow with the rigid gap, by a trial change of that."""
         q, here, moved = self.problem, self.flow, self.moved
         rise = np.maximum(self.h + trial, q.floor) - np.maximum(self.h, q.floor)
-        np.add(here.gap, np.where(self.solid, 0.0, rise), out=moved.gap)
-        for mine, its in zip(moved.nodes[1:], here.nodes[1:], strict=True):
-            np.copyto(mine, its)
+        f, full = self.moved_fluid, self.full_mass
+        given_up = np.where(self.number >= 0, self.gain, 0.0) * rise  # by asperities, to the oil
+        change = (self.solid, given_up, rise, 1.0)
+        node_pass(self.f, here.gap, *change, q.floor, *q.tables, f, full, *moved.nodes)
         moved.measure()
-        full = moved.rho * moved.gap
-        moved.drive(self.f, full, q.mobility, q.thinned)
+        moved.drive(f, full, q.mobility, q.thinned)
         mass, flux, old = full, moved.carried, here.carried
         filling, filling_before, first = None, None, 1
         if self.carried is not None and self.moved_oil is not None:
             np.copyto(self.moved_oil.full, full)
             mass = self.moved_mass
-            self.moved_oil.carry(self.f, moved, mass)
+            self.moved_oil.carry(f, moved, mass)
             flux, old, first = self.moved_oil.flux, self.carried.flux, self.carried.first
             filling, filling_before = self.moved_oil.filling, self.carried.filling
         balance = (mass, q.mass_old, *moved.faces, flux, *q.terms)
-        reynolds.residual(self.f, self.solid, *balance, self.response, filling, first)
+        reynolds.residual(f, self.solid, *balance, self.response, filling, first)
         balance, before = (self.mass, q.mass_old, *here.faces, old, *q.terms), np.empty_like(self.response)
         reynolds.residual(self.f, self.solid, *balance, before, filling_before, first)
         self.response -= before

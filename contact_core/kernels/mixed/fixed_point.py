@@ -164,7 +164,7 @@ class Iteration:
         near = (self.half_space.near, self.patch_wide)
         inlet = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
         relaxation = (q.lumped, _LINE_SWEEPS, self.dp, *inlet, q.wrapped)
-        corrections.relax_lines(p, self.solid, self.stiff, *film, *near, *relaxation)
+        corrections.relax_lines(p, self.f, self.solid, self.stiff, *film, *near, *relaxation)
         lever = (self.stiff, self.unit, self.damping, q.load, q.edge, q.weight, q.wrapped)
         vector = self.memory.image
         shift, change = _next_pressure(p, q.cap, self.dh, *lever, self.dp, self._pressure_of(vector))

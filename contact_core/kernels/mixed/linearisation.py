@@ -79,31 +79,41 @@ def linearise(  # type: ignore[no-untyped-def]
 
 
 @jit
-def assemble(by_f, by_h, scale, patch, nodes, column, solid, edge, wrapped, start, index, value):  # type: ignore[no-untyped-def]
+def follow_gap(by_f, gain, by_h):  # type: ignore[no-untyped-def]
+    """Add to by_h what the fluid pressure changes as the gap does, by `gain`: asperities leave it more or less."""
+    ny, nx = gain.shape
+    for j in range(1, ny - 1):
+        for i in range(1, nx - 1):
+            for n in range(6 if i > 1 else 5):
+                by_h[n, j, i] += by_f[n, j, i] * gain[j + DJ[n], i + DI[n]]
+
+
+@jit
+def assemble(by_f, by_h, scale, patch, nodes, column, held, give, edge, wrapped, start, index, value):  # type: ignore[no-untyped-def]
     """Assemble compressed rows of the local Jacobian of `nodes`.
 
-    patch [10, 6]: deformation of the stencil by the patch.
+    patch [10, 6]: deformation of the stencil by the patch. held, give: as by `asperities.sort_nodes`.
 
     An image has the column of its node: of few rows, some columns stand in a row more than once, and add up.
     """
-    ny, nx = solid.shape
+    ny, nx = held.shape
     row = np.empty(10)
     count = 0
     start[0] = 0
     for k in range(nodes.size):
         j, i = nodes[k] // nx, nodes[k] % nx
         for o in range(10):
-            if solid[j, i]:
-                row[o] = patch[o, 0]
+            if held[j, i]:
+                row[o] = patch[o, 0] + (give[j, i] if o == 0 else 0.0)
                 continue
             row[o] = 0.0
             for n in range(6):
                 row[o] += by_h[n, j, i] * patch[o, n]
-        if not solid[j, i]:
+        if not held[j, i]:
             for n in range(6 if i > 1 else 5):
                 jn, im = j + DJ[n], i + DI[n]
                 if (wrapped or 0 < jn < ny - 1) and 0 < im < nx - 1:
-                    if not solid[jn, im]:
+                    if not held[jn, im]:
                         row[n] += by_f[n, j, i]
                 else:  # an edge follows its inner neighbour
                     row[1 if n == 5 else 0] += by_f[n, j, i] * edge[jn, im]

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from ..compiled import jit
 from ..half_space import HalfSpace
 from . import cavities, linearisation, reynolds
+from .asperities import REACH, sort_nodes
 from .band import band_inverse
 from .cavities import Carried
 from .edge import set_edge, wrap
@@ -39,6 +40,7 @@ _SWEEPS_UNDER_CONTACTS = 6
 _SWEEPS_AT_CAVITY = 30
 _LIGHT = 1e-2  # share of the largest pressure below which the cavity's edge is sought
 _FALL = 0.75  # rms relative fall of the film in a step, weighted by pressure
+_FELT = 0.05  # share of the pressure that asperities carry, from which on they limit a step
 _RISE = (2.0, 1.0)  # largest rise of a fluid pressure in a step, and by how much more if it is high already
 _TOUCH = 0.95  # gap in floors below which a node becomes solid
 _TRIAL = 1e-6  # largest relative change of a gap, or change of a pressure, of a difference of flows
@@ -129,6 +131,8 @@ class _Film:
         shape = self.p.shape
         self.h, self.mass, self.r, self.scale = (np.zeros(shape) for _ in range(4))
         self.slope, self.by_f, self.by_h = np.zeros((2, *shape)), np.zeros((6, *shape)), np.zeros((6, *shape))
+        self.held: Mask = np.zeros(shape, np.bool_)
+        self.rest, self.give, self.gain, self.lack = (np.zeros(shape) for _ in range(4))
         self.flow, self.trial = Flow.of(problem), _Trial(problem)
         self.inner_weight = _inner_weight(problem.weight, problem.edge)
         self.order = elimination_order(*shape, problem.wrapped)
@@ -153,12 +157,15 @@ class _Film:
             rigid = 30.0 * self.half_space.near[0, 0] / q.spacing  # there light pressures do not change the gap
             balance = (*self.flow.faces, self.flow.carried, self.mass, q.mass_old, *q.terms)
             light = _LIGHT * self.p.max()
-            _seek_cavity(self.f, self.p, self.solid, *balance, rigid, light, _SWEEPS_AT_CAVITY, q.wrapped)
+            pressed = self.solid | (self.h < q.floor + REACH * q.depth) if q.depth > 0.0 else self.solid
+            _seek_cavity(self.f, self.p, pressed, *balance, rigid, light, _SWEEPS_AT_CAVITY, q.wrapped)
             set_edge(self.p, q.edge, q.wrapped)
             self._pass()
         self.sought = float(np.abs(self.p - old)[self.rows].sum())
         self._residual(self.solid, self.r)
         self.releases += before & ~self.solid
+        sorted_into = self.held, self.rest, self.give, self.gain, self.lack
+        sort_nodes(self.p, self.f, self.r, self.h, self.solid, *q.layer, *sorted_into)
 
     def _residual(self, solid: Mask, out: Array) -> None:
         """Compute the net inflow of every node that is full and not `solid`."""
@@ -170,8 +177,12 @@ class _Film:
     def _pass(self) -> None:
         q, p, f, solid, flow = self.problem, self.p, self.f, self.solid, self.flow
         oil = (*q.layer, *q.tables)
-        deformation = self.half_space.deform(p)
-        solid |= self.inner & (self.rigid + q.undeformed + deformation < _TOUCH * q.floor)
+        deformation, room = self.half_space.deform(p), p
+        gap = self.rigid + q.undeformed + deformation
+        solid |= self.inner & (gap < _TOUCH * q.floor)
+        if q.depth > 0.0:  # solids themselves touch where asperities carry all they can
+            room = np.maximum(p - q.stress, 0.0)
+            solid &= (gap <= q.floor) & (room > 0.0)
         if q.wrapped:
             wrap(solid)
         full, flux, first = self.mass, flow.carried, 1
@@ -179,7 +190,7 @@ class _Film:
             full, flux, first = carried.full, carried.flux, carried.first
             cavities.close_inlet(p, f, solid, q.first)
         reynolds.film_pass(p, f, solid, q.undeformed, deformation, self.rigid, *oil, self.h, full, *flow.nodes)
-        solid &= self.inner  # the edge does not touch
+        solid &= self.inner & (room > 0.0) if q.depth > 0.0 else self.inner  # the edge does not touch
         if q.wrapped:
             wrap(solid)
         settled = solid & (self.releases >= _RELEASES)
@@ -187,7 +198,7 @@ class _Film:
         self._carry(full)
         balance = (self.h, self.mass, q.mass_old, *flow.faces, flux, *q.terms, _SWEEPS_UNDER_CONTACTS)
         inner = (q.floor, *q.tables, full, *flow.nodes, first, q.wrapped)
-        if reynolds.fluid_under_contacts(p, f, solid, *balance, *inner):
+        if reynolds.fluid_under_contacts(room, f, solid, *balance, *inner):
             self._carry(full)
         solid |= settled
 
@@ -199,29 +210,31 @@ class _Film:
 
     def correction(self) -> tuple[Array, Array, float] | None:
         """Return Newton's changes of pressure, gap [ny, nx] and rigid gap; None if there are none."""
-        q, solid, near = self.problem, self.solid, self.half_space.near
+        q, solid, held, near = self.problem, self.solid, self.held, self.half_space.near
+        rest, give, gain, lack = self.rest, self.give, self.gain, self.lack
         by_f, by_h, scale, flow = self.by_f, self.by_h, self.scale, self.flow
         linearisation.slopes(self.f, solid, self.h, q.floor, q.step, q.density, self.slope)
         film = (self.f, flow.gap, flow.fluid, q.thinned, *flow.faces, flow.share, q.fitted, *q.terms, self.slope)
         filling, first = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
         linearisation.linearise(*film, first, filling, by_f, by_h)
-        yields = solid & (self.p >= q.cap) & (self.h < q.floor)
-        wet = ((self.p > 0.0) | (self.r > 0.0)) & ~((self.p >= q.cap) & (self.r >= 0.0))
-        nodes = self.order[np.where(solid, ~yields, wet).ravel()[self.order]]
+        linearisation.follow_gap(by_f, gain, by_h)
+        yields = held & (self.p >= q.cap) & (self.h < rest)
+        wet = ((self.f > 0.0) | (self.r > 0.0)) & ~((self.p >= q.cap) & (self.r >= 0.0))
+        nodes = self.order[np.where(held, ~yields, wet).ravel()[self.order]]
         size, shape = nodes.size, solid.shape
         if size == 0:
             return None
         own = -(by_f[0] + by_h[0] * near[0, 0] + by_h[1] * near[0, 1])
-        scale[:] = np.where(solid, -1.0 / near[0, 0], 1.0 / np.maximum(own, -by_f[0] + 1e-300))
+        scale[:] = np.where(held, -1.0 / (near[0, 0] + give), 1.0 / np.maximum(own, -by_f[0] + 1e-300))
         inverse = self._local_inverse(nodes)
         if inverse is None:
             return None
 
         self.trial.start(self.f, solid, self.h, flow.gap, self.r)
 
-        def product(df: Array, dh: Array, out: Array) -> None:
-            change = self.trial.change(df, dh)
-            out[:] = (np.where(solid, dh, change) * scale).ravel()[nodes]
+        def product(dp: Array, dh: Array, out: Array) -> None:
+            change = self.trial.change(np.where(held, 0.0, dp + gain * dh), dh)
+            out[:] = (np.where(held, dh + give * dp, change) * scale).ravel()[nodes]
 
         lift = np.empty(size)
         product(np.zeros(shape), np.ones(shape), lift)
@@ -238,7 +251,7 @@ class _Film:
         def operator(x: Array) -> Array:
             dp, dh = spread(x)
             out = np.empty(size + 1)
-            product(np.where(solid, 0.0, dp), dh, out[:-1])
+            product(dp, dh, out[:-1])
             out[-1] = weight @ x[:-1]
             return out
 
@@ -247,24 +260,25 @@ class _Film:
             rigid = (weight @ y - b[-1]) / lever
             return np.append(y - rigid * lifted, rigid)
 
-        wanted = (np.where(solid, q.floor - self.h, -self.r) * scale).ravel()[nodes]
+        missing = self.trial.change(lack, np.zeros(shape)) if lack.any() else 0.0
+        wanted = (np.where(held, rest - self.h, -self.r - missing) * scale).ravel()[nodes]
         short = (q.load - float((q.weight * self.p).sum())) / np.sqrt(q.load)
         x = gmres(operator, invert, np.append(wanted, short))
         return *spread(x), float(x[-1])
 
     def _local_inverse(self, nodes: Indices) -> Callable[[Array], Array] | None:
         """Return a function that solves the local system of the nodes; None if it is singular."""
-        q, solid, by_f, by_h, scale = self.problem, self.solid, self.by_f, self.by_h, self.scale
-        size, shape = nodes.size, solid.shape
+        q, held, give, by_f, by_h, scale = self.problem, self.held, self.give, self.by_f, self.by_h, self.scale
+        size, shape = nodes.size, held.shape
         if self.response is not None:
-            row = (by_f[:, 1], by_h[:, 1], scale[1], self.response, nodes - shape[1], solid[1], q.edge[1])
+            row = (by_f[:, 1], by_h[:, 1], scale[1], self.response, nodes - shape[1], held[1], give[1], q.edge[1])
             return band_inverse(*row)
         column = np.full(shape, -1, np.int32)
         column.ravel()[nodes] = np.arange(size)
         if q.wrapped:
             wrap(column)
         start, index, value = np.empty(size + 1, np.int32), np.empty(10 * size, np.int32), np.empty(10 * size)
-        args = (by_f, by_h, scale, self.patch, nodes, column, solid, q.edge, q.wrapped)
+        args = (by_f, by_h, scale, self.patch, nodes, column, held, give, q.edge, q.wrapped)
         count = linearisation.assemble(*args, start, index, value)
         # the transpose, by columns
         rows = scipy.sparse.csc_matrix((value[:count], index[:count], start), shape=(size, size))
@@ -281,6 +295,8 @@ class _Film:
         wet = self.inner & ~self.solid & (old > 0.0)
         weight = np.where(wet, old, 0.0)
         thinner = np.maximum(-dh, 0.0) / np.maximum(self.h, q.floor)
+        if q.depth > 0.0:  # what asperities carry changes by the factor e over their depth, up or down
+            thinner = np.where(self.gain * q.depth > _FELT * old, np.abs(dh) / q.depth, thinner)
         fall = float(np.sqrt((weight * thinner**2).sum() / max(float(weight.sum()), 1e-300))) / _FALL
         rise = float((np.where(wet, np.minimum(dp, q.cap - old), 0.0) / (_RISE[0] + _RISE[1] * old)).max())
         share = 1.0 / max(fall, rise, 1.0)
@@ -297,12 +313,12 @@ class _Film:
         """
         q, p = self.problem, self.p
         load_error = float((q.weight * p).sum()) / q.load - 1.0
-        below_cap = self.solid & (p < q.cap)
+        below_cap = self.held & (p < q.cap)
         total = max(float(p.sum()), 1e-300)
-        complementarity = float((p * np.abs(q.floor - self.h))[below_cap].sum()) / (q.floor * total)
+        complementarity = float((p * np.abs(self.rest - self.h))[below_cap].sum()) / (q.floor * total)
         inflow, nowhere = np.zeros_like(p), np.zeros_like(self.solid)
         self._residual(nowhere, inflow)
-        film = (self.solid, self.h, self.mass, inflow, q.floor, q.spacing)
+        film = (self.solid, self.h, self.mass, inflow, *q.layer, q.spacing)
         imbalance = float(reynolds.imbalance(p, self.f, q.cap, *film))
         if q.conserving:  # where the film forms, it carries nothing yet
             light = np.abs(self.r[self.rows][p[self.rows] < _LIGHT * p.max()]).sum()
@@ -311,7 +327,7 @@ class _Film:
         change += self.sought / q.load
         allowed, change_seen = allowed_imbalance(q), change if whole else np.inf
         why = shortfall(tolerance, change_seen, load_error, complementarity, imbalance, allowed)
-        iterate = Iterate(p, self.f, self.solid, self.rigid)
+        iterate = Iterate(p, self.f, self.held, self.rigid)
         return Solution(
             iterate,
             self.h,

@@ -17,7 +17,7 @@ it, `first` is the first column in which the oil has pressure.
 import numpy as np
 
 from ..compiled import jit
-from .asperities import carried_at
+from .asperities import carried_at, rest_gap
 from .edge import wrap
 from .flow import properties
 
@@ -191,7 +191,7 @@ def residual(f, solid, mass, mass_old, ex, ey, flux, per_dt, wedge, dx, r, filli
 
 
 @jit
-def imbalance(p, f, cap, solid, h, mass, r, floor, dx):  # type: ignore[no-untyped-def]
+def imbalance(p, f, cap, solid, h, mass, r, floor, stress, depth, dx):  # type: ignore[no-untyped-def]
     """Return the mass that the film gains or loses without a cause.
 
     It is relative to the film, weighted by pressure, and multiplied by the oil's share of the load.
@@ -208,10 +208,11 @@ def imbalance(p, f, cap, solid, h, mass, r, floor, dx):  # type: ignore[no-untyp
                     wrong += lack * here
                 continue
             if r[j, i] < 0.0:
-                lack = min(lack, mass[j, i] * max(h[j, i] / floor - 1.0, 0.0) / dx)
+                rest = rest_gap(here, floor, stress, depth)
+                lack = min(lack, mass[j, i] * max(h[j, i] / rest - 1.0, 0.0) / dx)
             elif here >= cap[j, i]:
                 lack = 0.0
-            wrong += lack * here
-            film += mass[j, i] * here
-            fluid += here
+            wrong += lack * f[j, i]
+            film += mass[j, i] * f[j, i]
+            fluid += f[j, i]
     return wrong / film * fluid / total
