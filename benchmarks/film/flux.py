@@ -2,14 +2,10 @@
 
     python -m benchmarks.film.flux
 
-Writes docs/measured/film/flux.md in about five minutes.
+Writes docs/measured/film/flux.md in about eight minutes.
 """
 
-from collections.abc import Callable
-from statistics import median
-
-import numpy as np
-
+from benchmarks.film.flux_errors import BARS, FLUXES, Errors, Solve, limit_of
 from benchmarks.film.flux_films import LENGTH, Film, line_film, point_film, roller_film, scene_film
 from benchmarks.pages import Page
 from contact_core import Scene, advance, initial_state
@@ -18,52 +14,6 @@ SCENES = ("azam_case_a", "mtm_zddp")
 GRIDS, FINEST = (65, 129, 257), 513
 LOADS, LUBRICANTS, RATIOS = (20.0, 200.0, 1000.0, 4000.0), (2.0, 5.0, 10.0, 15.0), (0.2, 0.5, 2.0, 5.0)
 LINES, ROLLERS = (20.0, 50.0, 200.0, 1000.0), ((20.0, 5.0), (50.0, 10.0), (100.0, 10.0))
-FLUXES = ("fitted", "upwind")
-BARS = {65: 6.0, 129: 1.0}  # nodes, %
-Solve = Callable[[int, str], Film]
-
-
-def limit_of(solve: Solve, coarse: int, fine: int, flux: str = "fitted") -> np.ndarray:
-    """Return central and smallest film [m] of two grids, extrapolated at second order."""
-    first, second = (np.array((found.central, found.least)) for found in (solve(coarse, flux), solve(fine, flux)))
-    return second + (second - first) / 3.0
-
-
-def errors(solve: Solve, flux: str, limit: np.ndarray) -> list[tuple[float, float]]:
-    """Return the errors [%] of central and smallest film on the coarse grids."""
-    found = [solve(nodes, flux) for nodes in BARS]
-    return [tuple(100.0 * (np.array((one.central, one.least)) / limit - 1.0)) for one in found]
-
-
-class Errors:
-    """A table of errors; keeps the largest ones and the orders."""
-
-    def __init__(self, page: Page, *names: str) -> None:
-        self.page, self.worst, self.orders = page, {nodes: (0.0, "") for nodes in BARS}, {flux: [] for flux in FLUXES}
-        columns = (f"{flux}: {what} {n}" for flux in FLUXES for what in ("h_central", "h_min") for n in BARS)
-        page.header(*names, *columns)
-
-    def add(self, place: dict[str, float], solve: Solve, limit: np.ndarray) -> None:
-        """Add a row."""
-        cells: list[float] = []
-        for flux in FLUXES:
-            found = errors(solve, flux, limit)
-            cells += [one[what] for what in (0, 1) for one in found]
-            self.orders[flux].append(float(np.log2(abs(found[0][0] / found[1][0]))))
-            if flux == "fitted":
-                at = ", ".join(f"{name} = {value:g}" for name, value in place.items())
-                for nodes, one in zip(BARS, found, strict=True):
-                    self.worst[nodes] = max(self.worst[nodes], (abs(one[0]), at))
-        self.page.row(*place.values(), *map(float, cells))
-
-    def close(self, of: str) -> None:
-        """Add the verdicts and the order."""
-        for nodes, most in BARS.items():
-            error, at = self.worst[nodes]
-            asked = f"{of}: h_central within {most:g} % on {nodes} nodes"
-            self.page.verdict(asked, f"{error:.2f} % at {at}", error <= most)
-        orders = ", ".join(f"{median(self.orders[flux]):.1f} {flux}" for flux in FLUXES)
-        self.page.say(f"Order of h_central from 65 to 129 nodes, median: {orders}.")
 
 
 def scenes(page: Page) -> None:
@@ -92,6 +42,32 @@ def scenes(page: Page) -> None:
             page.row(name, flux, *off, finest.central * 1e9, float(other) * 1e9)
             if flux == "fitted":
                 page.verdict(f"{name}: h_central within 0.5 % on 129 nodes", f"{off[2]:+.2f} %", abs(off[2]) <= 0.5)
+
+
+def smallest(page: Page) -> None:
+    """Add the smallest film at and between the nodes."""
+    page.say(
+        f"### Smallest film at the nodes and between them\n\nFitted flow; errors in % of the smallest node, and of the minimum of splines through "
+        f"the nodes around it, against the splines on {GRIDS[-1]} and {FINEST} nodes, extrapolated at second order. The smallest film stands in "
+        "both side lobes. The valley there is one to two nodes wide on 129 nodes: its solution is too deep and the nodes miss its bottom, two "
+        "errors that offset each other."
+    )
+    page.header("contact", *(f"{what} {n}" for n in GRIDS for what in ("node", "between")))
+    solves: dict[str, Solve] = {name: lambda nodes, flux, name=name: scene_film(name, nodes, flux) for name in SCENES}
+    for load in LOADS[1:3]:
+        for lubricant in (2.0, 10.0):
+            name = f"circle, M = {load:g}, L = {lubricant:g}"
+            solves[name] = lambda nodes, flux, of=(load, lubricant): point_film(*of, 1.0, nodes, flux)
+    better = 0
+    for name, solve in solves.items():
+        films = [solve(nodes, "fitted") for nodes in (*GRIDS, FINEST)]
+        limit = films[-1].between + (films[-1].between - films[-2].between) / 3.0
+        off = [(100.0 * (one.least / limit - 1.0), 100.0 * (one.between / limit - 1.0)) for one in films[:-1]]
+        page.row(name, *(value for pair in off for value in pair))
+        better += abs(off[1][1]) < abs(off[1][0])
+    page.verdict(
+        "the splines' minimum is the better one on 129 nodes", f"{better} of {len(solves)}", better == len(solves)
+    )
 
 
 def circles(page: Page) -> None:
@@ -148,7 +124,11 @@ def lines(page: Page) -> None:
             if load <= 200.0:
                 light = {nodes: table.worst[nodes][0] for nodes in BARS}
     found = ", ".join(f"{light[nodes]:.2f} % on {nodes}" for nodes in BARS)
-    page.verdict("lines with M to 200: the same", found, all(light[nodes] <= most for nodes, most in BARS.items()))
+    page.verdict(
+        "lines, M to 200: h_central within 6 % on 65 and 1 % on 129 nodes",
+        found,
+        all(light[nodes] <= most for nodes, most in BARS.items()),
+    )
     table.close("lines")
 
 
@@ -189,7 +169,7 @@ def rough(page: Page) -> None:
 
 def main() -> None:
     page = Page("film/flux", "Flow through faces: films against the grid")
-    for part in (scenes, circles, ellipses, lines, rollers, rough):
+    for part in (scenes, smallest, circles, ellipses, lines, rollers, rough):
         part(page)
     page.write()
 
