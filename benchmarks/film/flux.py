@@ -2,10 +2,10 @@
 
     python -m benchmarks.film.flux
 
-Writes docs/measured/film/flux.md in about eight minutes.
+Writes docs/measured/film/flux.md in about five minutes.
 """
 
-from benchmarks.film.flux_errors import BARS, FLUXES, Errors, Solve, limit_of
+from benchmarks.film.flux_errors import FLUXES, Errors, Solve, limit_of
 from benchmarks.film.flux_films import LENGTH, Film, line_film, point_film, roller_film, scene_film
 from benchmarks.pages import Page
 from contact_core import Scene, advance, initial_state
@@ -41,7 +41,7 @@ def scenes(page: Page) -> None:
             ]
             page.row(name, flux, *off, finest.central * 1e9, float(other) * 1e9)
             if flux == "fitted":
-                page.verdict(f"{name}: h_central within 0.5 % on 129 nodes", f"{off[2]:+.2f} %", abs(off[2]) <= 0.5)
+                page.verdict(f"{name}: h_central within 0.5 % on 129 nodes", f"{off[2]:+.3f} %", abs(off[2]) <= 0.5)
 
 
 def smallest(page: Page) -> None:
@@ -65,9 +65,7 @@ def smallest(page: Page) -> None:
         off = [(100.0 * (one.least / limit - 1.0), 100.0 * (one.between / limit - 1.0)) for one in films[:-1]]
         page.row(name, *(value for pair in off for value in pair))
         better += abs(off[1][1]) < abs(off[1][0])
-    page.verdict(
-        "the splines' minimum is the better one on 129 nodes", f"{better} of {len(solves)}", better == len(solves)
-    )
+    page.say(f"On 129 nodes the minimum of the splines is the better one in {better} of {len(solves)} contacts.")
 
 
 def circles(page: Page) -> None:
@@ -76,7 +74,7 @@ def circles(page: Page) -> None:
         f"### Circular contacts on grids that fit them\n\nErrors in %, of the fitted flow on {GRIDS[-1]} and {FINEST} nodes, extrapolated "
         f"at second order; for M = {LOADS[0]:g} on {GRIDS[1]} and {GRIDS[2]} nodes, as M = 20, L = 15 does not converge on {FINEST}."
     )
-    table = Errors(page, "M", "L")
+    table = Errors(page, 1000.0, "M", "L")
     for load in LOADS:
         for lubricant in LUBRICANTS:
 
@@ -95,7 +93,7 @@ def ellipses(page: Page) -> None:
         f"{GRIDS[1]} and {GRIDS[2]} nodes, extrapolated at second order. At R_y / R_x = 5, M = 20 the spike of the pressure stands at x = 0, "
         "where h_central is read."
     )
-    table = Errors(page, "R_y / R_x", "M")
+    table = Errors(page, 1000.0, "R_y / R_x", "M")
     for ratio in RATIOS:
         for load in LOADS:
 
@@ -113,7 +111,7 @@ def lines(page: Page) -> None:
         f"### Lines without ends on one row of nodes\n\nM and L of lines. Errors in %, of the fitted flow on {FINEST} and {finest} nodes, "
         "extrapolated at second order. The inlet of heavily loaded lines is a small part of their grid: at M = 1000 nodes are as long as it."
     )
-    table, light = Errors(page, "M", "L"), {nodes: 0.0 for nodes in BARS}
+    table = Errors(page, 200.0, "M", "L")
     for load in LINES:
         for lubricant in LUBRICANTS[:3]:
 
@@ -121,14 +119,6 @@ def lines(page: Page) -> None:
                 return line_film(*of, nodes, flux)
 
             table.add({"M": load, "L": lubricant}, solve, limit_of(solve, FINEST, finest))
-            if load <= 200.0:
-                light = {nodes: table.worst[nodes][0] for nodes in BARS}
-    found = ", ".join(f"{light[nodes]:.2f} % on {nodes}" for nodes in BARS)
-    page.verdict(
-        "lines, M to 200: h_central within 6 % on 65 and 1 % on 129 nodes",
-        found,
-        all(light[nodes] <= most for nodes, most in BARS.items()),
-    )
     table.close("lines")
 
 
