@@ -32,7 +32,8 @@ _FULL_FILM = 3.0  # formula film over rms roughness, above which a dry contact i
 _MOST_BEYOND = 0.3  # share of the load that may lie beyond the grid
 _NESTED_FROM = 65  # nodes along an axis, from which on a film starts on the grid of half of them
 _HYBRID_ITERATIONS, _DIRECT_ITERATIONS, _MARCHED_ITERATIONS = 150, 80, 2000  # of one try at a steady film
-_CYCLES, _NEWTON_STEPS = 15, 30
+_CYCLES = {True: 25, False: 15}  # of multigrid, by `Problem.fitted`
+_NEWTON_STEPS = 30
 _DAMPED = ((0.5, 15), (0.25, 40))  # multigrid's next tries, and cycles: nearly rigid bodies under thickening oil
 # film of smooth bodies over rms roughness of a line, from which on Newton's method is more reliable: without side
 # flow, a residual of the hybrid in the inlet stays in the film
@@ -332,7 +333,7 @@ class _Solver:
                 return None
             shape = scaled.depth, scaled.curvature
             given = (self.problem, scaled.x, scaled.y, settings.fft, film)
-            tries = ((1.0, _CYCLES),) if begin == "none" else _DAMPED
+            tries = ((1.0, _CYCLES[self.problem.fitted]),) if begin == "none" else _DAMPED
             for part, cycles in tries:
                 found = solve_smooth(*given, settings.tolerance, cycles, *shape, part)[0]
                 if found.converged:

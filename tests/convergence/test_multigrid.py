@@ -175,6 +175,35 @@ def test_multigrid_and_hybrid_agree_on_the_same_grid():
     assert np.abs(hybrid.iterate.pressure - ours.pressure).sum() < 3e-3 * ours.pressure.sum()
 
 
+@pytest.mark.parametrize(
+    ("load", "lubricant", "points", "domain", "light"),
+    [
+        (20.0, 10.0, 65, FILM_SIZED, True),
+        (200.0, 15.0, 257, (-2.2, 1.4, 1.7), False),
+        (1000.0, 15.0, 257, CLOSE, False),
+    ],
+)
+def test_a_fitted_flow_converges_where_viscosity_rises_from_node_to_node(load, lubricant, points, domain, light):
+    case = Case(load, lubricant, points, domain, light=light)
+    case.problem = replace(case.problem, fitted=True)
+    solution, _ = case.solve(tolerance=3e-4, cycles=15)
+    assert solution.converged, solution.shortfall
+
+
+def test_multigrid_and_hybrid_agree_on_a_fitted_flow():
+    case = Case(200.0, 10.0, 65, CLOSE)
+    case.problem = problem = replace(case.problem, fitted=True)
+    solution, _ = case.solve(tolerance=1e-6, cycles=60)
+    assert solution.converged, solution.shortfall
+    ours = solution.iterate
+    half_space = HalfSpace(65, 65, problem.compliance * 2.0 / np.pi**2 * problem.spacing, "pyfftw")
+    start = replace(ours, pressure=0.95 * ours.pressure, fluid=0.95 * ours.pressure)
+    hybrid = solve_mixed(half_space, problem, start, 1e-5, 400)
+    assert hybrid.converged, hybrid.shortfall
+    assert case.films(hybrid) == approx(case.films(solution), rel=1e-3)
+    assert np.abs(hybrid.iterate.pressure - ours.pressure).sum() < 3e-3 * ours.pressure.sum()
+
+
 def test_smooth_films_of_any_light_or_moderate_load_converge():
     rng = np.random.Generator(np.random.Philox(7))
     for _ in range(20):

@@ -32,7 +32,7 @@ def test_asperities_carry_what_their_law_gives_at_the_gap_of_every_node(depth):
 
 
 def test_shallow_asperities_are_a_hard_floor():
-    p, h, _, given = contact(1e-5)
+    p, _, _, given = contact(1e-5)
     hard = solve_dry(*given, 1e-6, 1000)[0]
     assert float(np.abs(p - hard).sum()) < 0.01 * given[3]
     deep = contact(0.02)[0]
@@ -51,7 +51,7 @@ def test_nodes_at_their_cap_yield_and_carry_no_more():
 def test_rigid_flat_bodies_part_by_the_law_alone():
     """Without waves, and so soft a law that elasticity does not matter, the gap is depth ln(stress / p)."""
     n, depth = 33, 1e6
-    case, smooth, half_space = problem(n, n)
+    _, smooth, half_space = problem(n, n)
     load = 0.5 * n * n
     p, rigid, converged, _ = solve_dry_asperities(
         half_space, np.zeros((n, n)), np.full((n, n), 5.0), load, smooth, (STRESS, depth), 1e-6, 500

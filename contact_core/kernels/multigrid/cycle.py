@@ -25,7 +25,9 @@ _COARSEST = 9  # nodes along an axis, at least
 _DENSE = 400  # unknowns that Newton's method is given at most
 _START = 2  # grid level of the first guess: coarser ones do not resolve a thin film
 _DOWN, _UP = 2, 1  # sweeps before and after the coarse correction
-_VISITS = 2  # of the coarser level by a cycle from above the starting level: W there, V below
+# visits of the coarser level by a cycle from above the starting level, by `Problem.fitted`: W there, V below. More
+# visits solve corrections better than they fit a fitted flow, and diverge
+_VISITS = {True: 1, False: 2}
 _NESTED_CHANGE, _NESTED_CYCLES = 1e-2, 6  # where the grid levels below the finest stop
 _LOST = 10.0  # change of a cycle, in loads, after which a solution is lost
 _DAMPING_PARTS = (1.0, 0.75, 0.5)  # one after the other where a solution is lost
@@ -59,8 +61,10 @@ class _Progress:
 class _Multigrid:
     """Grid levels from the coarsest to the finest, and the damping of their changes."""
 
-    def __init__(self, levels: list[Level], load: float, depth: float, single: float, spread: float) -> None:
-        self.levels, self.load, self.depth, self.damping = levels, load, depth, (single, spread)
+    def __init__(
+        self, levels: list[Level], load: float, depth: float, damping: tuple[float, float], visits: int
+    ) -> None:
+        self.levels, self.load, self.depth, self.damping, self.visits = levels, load, depth, damping, visits
         self._found: tuple[Array, float] | None = None  # pressure and rigid gap of the last level but one
 
     def nested(self, film: float, tolerance: float, cycles: int) -> tuple[_Progress, list[LevelFilm]]:
@@ -133,7 +137,7 @@ class _Multigrid:
             level.film()
         coarse = self.levels[k - 1]
         coarse.restrict(level)
-        for visit in range(_VISITS if k > _START else 1):
+        for visit in range(self.visits if k > _START else 1):
             if visit > 0:
                 coarse.film()
             self._cycle(k - 1)
@@ -228,8 +232,9 @@ def solve_smooth(
     depth = problem.compliance ** (2.0 / 3.0) if depth is None else depth  # a^2 / R
     found, films = _failure(problem), list[LevelFilm]()
     single, spread = (damping * part for part in _damping(problem, film))
+    load, visits = problem.load * problem.spacing**2, _VISITS[problem.fitted]
     for part in _DAMPING_PARTS:
-        solver = _Multigrid(levels, problem.load * problem.spacing**2, depth, part * single, spread)
+        solver = _Multigrid(levels, load, depth, (part * single, spread), visits)
         progress, films = solver.nested(film, tolerance, cycles)
         found = _solution(problem, levels[-1], progress, tolerance)
         if progress.change < _LOST:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from ..half_space import HalfSpace, influence
 from ..mixed.flow import Flow
 from ..mixed.problem import Problem
-from . import coarsest, relaxation, transfer
+from . import blended, coarsest, relaxation, transfer
 from .mirrored import MirroredHalfSpace
 
 Array = NDArray[np.float64]
@@ -104,6 +104,10 @@ class Level:
         relaxation.oil_pass(p, h, *self._problem.tables, self.mass, self.soft, *self.flow.nodes)
         self.flow.measure()
         self.flow.drive(p, self.mass, self.mobility, self.thinned)
+        if self._problem.fitted and not self.flow.fitted:
+            oil = (self.flow.fluid, self.flow.potential, self.thinned)
+            per_stiff = 1.0 / (self.compliance * self.dx**2)
+            blended.blend(p, *oil, per_stiff, self._problem.step, *self.flow.faces)
 
     def relax(self, single: float, spread: float) -> None:
         """Relax once; the film must be up to date before, and is not afterwards."""
@@ -129,7 +133,7 @@ class Level:
     def restrict(self, fine: "Level") -> None:
         """State the problem that corrects the finer level, whose film is up to date; start from its fields."""
         fine.defect()
-        self.flow.fitted = False  # a correction needs no more, and is smoother
+        self.flow.fitted = False  # a correction needs no more, and is smoother: see `blended`
         transfer.inject(fine.p, self.p)
         transfer.inject(fine.h, self.h)
         self.before[:] = self.p
@@ -144,7 +148,7 @@ class Level:
 
     def correct(self, coarse: "Level") -> None:
         """Add the changes of the coarser level."""
-        transfer.add_interpolated(coarse.p, coarse.before, self.p)
+        transfer.add_interpolated(coarse.p, coarse.before, self.p, self._problem.fitted)
         self.set_edges()
         self.rigid += coarse.rigid - coarse.rigid_before
 

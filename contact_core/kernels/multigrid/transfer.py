@@ -51,8 +51,12 @@ def edge_offset(p, edge, mirror, offset):  # type: ignore[no-untyped-def]
 
 
 @jit
-def add_interpolated(new, old, p):  # type: ignore[no-untyped-def]
-    """Add the bilinear interpolation of new - old of the coarser grid to p where it is positive; p >= 0."""
+def add_interpolated(new, old, p, steep):  # type: ignore[no-untyped-def]
+    """Add the bilinear interpolation of new - old of the coarser grid to p where it is positive; p >= 0.
+
+    steep: nodes whose p is less than the interpolation of old take as much less of it: beside the outlet, where the
+    pressure ends within a cell of the coarser grid, they would overshoot.
+    """
     rows, nx = p.shape
     for j in range(rows):
         low, high = j // 2, (j + 1) // 2
@@ -61,6 +65,9 @@ def add_interpolated(new, old, p):  # type: ignore[no-untyped-def]
                 left, right = i // 2, (i + 1) // 2
                 change = new[low, left] - old[low, left] + new[low, right] - old[low, right]
                 change += new[high, left] - old[high, left] + new[high, right] - old[high, right]
+                if steep:
+                    around = old[low, left] + old[low, right] + old[high, left] + old[high, right]
+                    change *= min(1.0, 4.0 * p[j, i] / max(around, 1e-300))
                 p[j, i] = max(p[j, i] + 0.25 * change, 0.0)
 
 
