@@ -96,7 +96,7 @@ def dry_contact(
         For values that cannot be used.
 
     """
-    from ..film.scaled import half_space  # the kernels: loaded where a contact is solved
+    from ..film.shared import half_space  # the kernels: loaded where a contact is solved
     from ..kernels.dry import dry_solution
 
     z = _heights(heights)

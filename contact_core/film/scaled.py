@@ -1,10 +1,8 @@
 """An instant of the film in the dimensionless units that the kernels work in."""
 
 import math
-import threading
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache, partial
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -14,17 +12,16 @@ from ..errors import ConvergenceError, SceneError
 from ..kernels.dry import solve_dry
 from ..kernels.dry_asperities import solve_dry_asperities
 from ..kernels.far_field import far_field
-from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
 from ..kernels.mixed.problem import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
 from ..reference.starvation import film_behind_meniscus, supplied_film
 from ..shapes import Shape
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .outputs import disc
+from .shared import ENTRIES, half_space, tables
 
 Array = NDArray[np.float64]
 
-_TABLE = 16385  # entries over 0 <= p <= hardness: relative error of the viscosity below 1e-4
 _TABLE_TOP = 2e10  # Pa: no oil flows above
 _DRY_TOLERANCE = 1e-6
 _DRY_ITERATIONS = 1000
@@ -226,7 +223,7 @@ class Scaled:
         """Return the problem that the kernels solve."""
         now, (per_dt, mass) = self.now, self._history()
         top = min(now.hardness, _TABLE_TOP)
-        fluidity, density, viscosity = _tables(now.viscosity, now.density, now.temperature, top)
+        fluidity, density, viscosity = tables(now.viscosity, now.density, now.temperature, top)
         mobility = self.size**3 * self.p_unit / (12.0 * viscosity * self.speed * now.shape.radius_x**2)
         edge, weight = self._beyond
         ease, thinned = self._oil(viscosity)
@@ -247,7 +244,7 @@ class Scaled:
             mass_old=images(mass / self.h_unit),
             fluidity=fluidity,
             density=density,
-            step=top / self.p_unit / (_TABLE - 1),
+            step=top / self.p_unit / (ENTRIES - 1),
             compliance=self.compliance,
             edge=images(edge),
             weight=weight,
@@ -455,29 +452,3 @@ def film_size(a: float, radius: float, film: float) -> float:
 def inlet_length(a: float, shape: Shape, film: float) -> float:
     """Return the distance d [m] before Hertz's contact at which its gap, (d/a)^1.5 a^2 / R opening, is the film [m]."""
     return float(a * (film * shape.radius_x / a**2 / shape.opening) ** (2.0 / 3.0))
-
-
-_LOCAL = threading.local()  # plans and scratch may not be shared between threads
-
-
-def half_space(shape: tuple[int, int], scale: float, library: str, reference: float | None = None) -> HalfSpace:
-    """Return the half space of a grid, with stored plans; with a `reference` [nodes] that of a periodic grid."""
-    store: dict[tuple[tuple[int, int], float, str, float | None], HalfSpace]
-    store = _LOCAL.__dict__.setdefault("half_spaces", {})
-    key = (shape, scale, library, reference)
-    if key not in store:
-        if len(store) >= 8:
-            store.pop(next(iter(store)))
-        made = HalfSpace if reference is None else partial(PeriodicHalfSpace, reference=reference)
-        store[key] = made(*shape, scale, library)
-    return store[key]
-
-
-@lru_cache(maxsize=8)
-def _tables(
-    viscosity: Callable[[Array, float], Array], density: Callable[[Array], Array], temperature: float, top: float
-) -> tuple[Array, Array, float]:
-    """Return tables of 1 / viscosity over that at p = 0 and of the density ratio, and the viscosity at p = 0."""
-    pressure = np.linspace(0.0, top, _TABLE)
-    values = viscosity(pressure, temperature)
-    return values[0] / values, density(pressure), float(values[0])

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from scipy.special import erf
 
 from ..quantities import parameter
 from .elementary import Numbers
@@ -107,5 +106,7 @@ def touching(pressure: Numbers, firmness: float, hardness: Numbers) -> Numbers:
 
     firmness [Pa] is E'/2 times the rms slope.
     """
+    from scipy.special import erf  # loaded where roughness below the grid is used
+
     elastic = erf(np.sqrt(np.pi) / 2.0 * AREA * pressure / firmness)
     return np.minimum((elastic**4 + (pressure / hardness) ** 4) ** 0.25, 1.0)
