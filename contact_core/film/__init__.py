@@ -4,6 +4,7 @@
     regression      the record of the regression level in a scene
     instant         grid, instant and solution, in SI
     scaled          an instant in the dimensionless units of the kernels
+    lengths         size of the loaded zone and of the inlet
     shared          half spaces and tables of oils that many instants share
     routes          table of algorithms, and its execution
     thinning        flow of an oil that shear thins or heat warms

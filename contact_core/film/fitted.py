@@ -7,7 +7,7 @@ import numpy as np
 
 from ..shapes import Line, Point
 from .instant import Grid
-from .scaled import film_size, inlet_length
+from .lengths import film_size, inlet_length
 
 _LEFT, _RIGHT, _SIDES = 4.5, 2.5, 3.5  # half widths of a thick film, in its size
 _LEFT_OF_LINE = 16.0  # no side flow, and no far field as of points

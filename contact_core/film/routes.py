@@ -23,7 +23,8 @@ from ..kernels.mixed.problem import Iterate, Solution
 from ..kernels.mixed.stopping_rule import excess
 from ..kernels.multigrid.cycle import is_applicable, solve_smooth
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
-from .scaled import LOAD_ACCEPTED, Scaled, inlet_length
+from .lengths import inlet_length
+from .scaled import LOAD_ACCEPTED, Scaled
 
 _ALL = (0.0, math.inf)
 _SEVERAL = (2, math.inf)

@@ -15,8 +15,8 @@ from ..kernels.far_field import far_field
 from ..kernels.mixed.problem import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
 from ..reference.starvation import film_behind_meniscus, supplied_film
-from ..shapes import Shape
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
+from .lengths import film_size, inlet_length
 from .outputs import disc
 from .shared import ENTRIES, half_space, tables
 
@@ -442,13 +442,3 @@ class Scaled:
         if self.now.entrainment_speed > 0.0:  # roughness holds the gap open, but the inlet is that of the oil's film
             film = min(film, self.smooth_film)
         return inlet_length(self.a, self.now.shape, film) / self.grid.spacing
-
-
-def film_size(a: float, radius: float, film: float) -> float:
-    """Return the half width [m] of the loaded zone under a film [m] of smooth bodies; Hertz's a [m] if thin."""
-    return float(np.sqrt(a**2 + 1.4 * radius * film))
-
-
-def inlet_length(a: float, shape: Shape, film: float) -> float:
-    """Return the distance d [m] before Hertz's contact at which its gap, (d/a)^1.5 a^2 / R opening, is the film [m]."""
-    return float(a * (film * shape.radius_x / a**2 / shape.opening) ** (2.0 / 3.0))

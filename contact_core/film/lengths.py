@@ -1,0 +1,15 @@
+"""Lengths of a lubricated contact: of its loaded zone, and of the inlet in which the film builds up."""
+
+import numpy as np
+
+from ..shapes import Shape
+
+
+def film_size(a: float, radius: float, film: float) -> float:
+    """Return the half width [m] of the loaded zone under a film [m] of smooth bodies; Hertz's a [m] if thin."""
+    return float(np.sqrt(a**2 + 1.4 * radius * film))
+
+
+def inlet_length(a: float, shape: Shape, film: float) -> float:
+    """Return the distance d [m] before Hertz's contact at which its gap, (d/a)^1.5 a^2 / R opening, is the film [m]."""
+    return float(a * (film * shape.radius_x / a**2 / shape.opening) ** (2.0 / 3.0))
