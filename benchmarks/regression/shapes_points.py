@@ -12,7 +12,7 @@ from benchmarks.folders import RESULTS
 from benchmarks.regression.points import Columns, with_numbers
 from contact_core import ContactError, ContactState, OperatingPoint, Scene, advance, initial_state
 from contact_core.film.fitted import Extent
-from contact_core.film.scaled import inlet_length
+from contact_core.film.lengths import inlet_length
 from contact_core.reference import Hertz
 from contact_core.reference.point_films import at_no_pressure
 from contact_core.shapes import Point
