@@ -11,7 +11,7 @@ from benchmarks.pages import Page
 from contact_core import Outputs, Scene, advance, initial_state
 
 SCENES = ("azam_case_a", "mtm_zddp")
-GRIDS, FINEST = (65, 129), 257
+GRIDS, FINEST = (65, 129), {"azam_case_a": (257,), "mtm_zddp": ()}  # mtm_zddp takes half an hour on 257
 BALL, DISC, LONGEST = 4e-9, 16e-9, 4e-6  # m: assumed for a lapped ball and ground steel
 SEEDS = (None, 11, 12)
 RMS = (0.0, 5e-9, 10e-9, 20e-9, 40e-9, 60e-9)  # m, of the disc
@@ -48,19 +48,23 @@ def grids(page: Page) -> None:
     page.say(
         f"### Against the grid\n\nFirst block of the shipped scenes on fresh surfaces, flux fitted, microroughness of {BALL * 1e9:g} nm (ball) "
         f"and {DISC * 1e9:g} nm (disc) below {LONGEST * 1e6:g} um, both assumed. Every row is a mean over {len(SEEDS)} realisations; "
-        f"{FINEST} nodes are one, beside which the same one stands on the other grids."
+        "those of a single one stand beside the finest grid's."
     )
     page.header("scene", "nodes", "realisations", *NAMES)
     for name in SCENES:
-        first = {n: values(first_block(name, n)) for n in (*GRIDS, FINEST)}
+        first = {n: values(first_block(name, n)) for n in (*GRIDS, *FINEST[name])}
         rest = {n: [first[n]] + [values(first_block(name, n, seed)) for seed in SEEDS[1:]] for n in GRIDS}
         for n, found in first.items():
             page.row(name, n, 1, *found)
         for n, found in rest.items():
             page.row(name, n, len(found), *np.mean(found, axis=0))
+        finest = max(first)
         for n, most in zip(GRIDS, (5.0, 2.0), strict=True):
-            off = max(abs(100.0 * (a / b - 1.0)) for a, b in zip(first[n][:5], first[FINEST][:5], strict=True))
-            page.verdict(f"{name}: {n} nodes within {most:g} % of {FINEST}", f"{off:.1f} %", off <= most)
+            if n == finest:
+                continue
+            apart = [100.0 * (a / b - 1.0) for a, b in zip(first[n][:5], first[finest][:5], strict=True)]
+            said = ", ".join(f"{what} {off:+.1f}" for what, off in zip(NAMES, apart, strict=False))
+            page.verdict(f"{name}: {n} nodes within {most:g} % of {finest}", said, max(map(abs, apart)) <= most)
 
 
 def sensitivity(page: Page) -> None:
