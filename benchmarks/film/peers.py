@@ -30,7 +30,7 @@ from matplotlib.figure import Figure
 
 from benchmarks.folders import MEASURED
 from contact_core.calls.dry_contact import dry_contact
-from contact_core.film import scaled
+from contact_core.film import shared
 from contact_core.kernels.half_space import influence
 from contact_core.reference import hertz_point
 from contact_core.scene import Surface
@@ -130,7 +130,7 @@ class Case:
 
 def tribofmu(case, hardness=None):
     influence.cache_clear()  # cold: every table, spectrum and plan is made anew
-    scaled._LOCAL.__dict__.clear()
+    shared._LOCAL.__dict__.clear()
     return tribofmu_again(case, hardness)
 
 

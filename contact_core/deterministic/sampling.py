@@ -18,11 +18,10 @@ from .accumulator import Accumulator
 from .instant import Transient, solve_instant
 from .transient import dry_instant, next_instant, rolled
 
-# transient steps after a new start before the march is sampled: about one passage of the oil in near rolling, in
+# way of the oil after a new start before the march is sampled, in halves of the contact's length: in near rolling; in
 # proportion more where the faster body runs ahead of the oil
-_SETTLING = 80  # at least
-_PASSAGE = 1.8  # of half the contact's length
-_MOST_SETTLING = 400
+_PASSAGE = 3.0
+_MOST_SETTLING = 400  # transient steps
 _AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which that is near rolling
 _ITERATIONS = 150  # at most, of one transient step; a warm one needs about 16, over rough lines up to 100
 _DRY_PASS = 8  # dry instants that stand for one pass of a surface point through the contact
@@ -77,7 +76,7 @@ def sample_mixed(
     elif same:
         state, unsampled = rolled(scene, state, jumps_of(case, smoother, 1.0)), _CALMING
     length = case.sides[scene.rougher].surface.length / scene.film.spacing
-    stride = max(1, round((0.5 * length) ** 2))  # instants in which oil between asperities gets used to a jump
+    stride = max(1, round(length))  # as many jumps on the way on every grid
     for k in range(-unsampled, mixed_instants(scene)):
         jump_now = k % stride == 0
         moves = [step + jump * jump_now for step, jump in zip(steps, jumps, strict=True)]
@@ -105,7 +104,7 @@ def _first_film(case: Case, state: ContactState) -> FilmState:
 def settling_instants(case: Case) -> int:
     """Return the instants, a node of the faster body apart, until the film has settled."""
     fastest, entrained = case.fastest, abs(case.op.entrainment_speed)
-    across = max(_SETTLING, math.ceil(_PASSAGE * case.hertz.a / case.scene.film.spacing))
+    across = math.ceil(_PASSAGE * case.hertz.a / case.scene.film.spacing)
     if fastest <= _AHEAD * entrained:
         return across
     return min(math.ceil(across * fastest / entrained), _MOST_SETTLING) if entrained > 0.0 else _MOST_SETTLING

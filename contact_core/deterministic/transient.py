@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..errors import FilmTooWideError, OperatingPointError
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState
-from ..surfaces.patches import on_patches, patch_nodes
+from ..surfaces.patches import on_patches
 from .instant import ContactFields, Transient, solve, solve_instant
 
 Array = NDArray[np.float64]
@@ -64,8 +64,8 @@ def next_instant(case: Case, state: ContactState, steps: Sequence[float], transi
 
     The nodes moved by in `transient` are filled in here.
     """
-    before, state = state, rolled(case.scene, state, steps)
-    moved = _moved_nodes(case.scene, before, state)
+    state = rolled(case.scene, state, steps)
+    moved = round(steps[case.scene.rougher] / case.scene.film.spacing)
     fields = solve_instant(case, state, replace(transient, moved=moved))
     return _after(case.scene, state, fields), fields
 
@@ -117,10 +117,3 @@ def rolled(scene: Scene, state: ContactState, steps: Sequence[float]) -> Contact
         for body, step in zip(state.bodies, steps, strict=True)
     )
     return replace(state, bodies=(first, second))
-
-
-def _moved_nodes(scene: Scene, before: ContactState, after: ContactState) -> int:
-    """Return the whole nodes by which the rougher body has moved along +x, by half a patch at most."""
-    rougher, columns = scene.rougher, scene.film.points - 1
-    early, late = (patch_nodes(scene, state.bodies[rougher]) for state in (before, after))
-    return (late - early + columns // 2) % columns - columns // 2

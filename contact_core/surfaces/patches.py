@@ -5,6 +5,7 @@ the edge adds rows, except on a line, which has no edge. The track is |y| < b; b
 load and the scene's own radii, whatever load and radii are now: a mean over the track does not jump with them.
 """
 
+import math
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -19,6 +20,7 @@ from .roughness import generate, groove_free
 
 Array = NDArray[np.float64]
 
+_ON_NODE = 1e-9  # part of a node that is none
 _MIDDLE = 2.0 / 3.0  # share of the track over which roughness is measured
 
 
@@ -43,19 +45,18 @@ class FacingSurfaces(NamedTuple):
 def facing_surfaces(scene: Scene, state: ContactState) -> FacingSurfaces:
     """Return the surfaces of a state where the bodies lie now."""
     nodes = [patch_nodes(scene, body) for body in state.bodies]
+    parts = [part_of_node(scene, body) for body in state.bodies]
     bare = bare_heights(scene, state.rows)
     patches = [heights_of(z, body) for z, body in zip(bare, state.bodies, strict=True)]
+    heights, roughness = (
+        on_grid(between(first, parts[0]), nodes[0]) + on_grid(between(second, parts[1]), nodes[1])
+        for first, second in (patches, [roughness_of(z, patch) for z, patch in zip(bare, patches, strict=True)])
+    )
     films = [on_grid(body.tribofilm, n) for body, n in zip(state.bodies, nodes, strict=True)]
     plastic = np.zeros((state.rows, scene.film.points))
     if scene.plasticity.indentation == "total":
         plastic += sum(on_grid(body.plastic, n) for body, n in zip(state.bodies, nodes, strict=True))
-    return FacingSurfaces(
-        heights=on_grid(patches[0], nodes[0]) + on_grid(patches[1], nodes[1]),
-        roughness=on_grid(roughness_of(bare[0], patches[0]), nodes[0])
-        + on_grid(roughness_of(bare[1], patches[1]), nodes[1]),
-        tribofilms=(films[0], films[1]),
-        plastic=plastic,
-    )
+    return FacingSurfaces(heights, roughness, (films[0], films[1]), plastic)
 
 
 def surface_now(scene: Scene, body: Body, index: int) -> SurfaceNow:
@@ -90,6 +91,25 @@ def middle_rows(scene: Scene, rows: int) -> NDArray[np.bool_]:
 def patch_nodes(scene: Scene, body: Body) -> int:
     """Return the whole nodes by which a body's patch is shifted along +x."""
     return round(body.offset / scene.film.spacing) % (scene.film.points - 1)
+
+
+def part_of_node(scene: Scene, body: Body) -> float:
+    """Return the part of a node, -1/2 to 1/2, by which a body lies further along +x than `patch_nodes`."""
+    where = body.offset / scene.film.spacing
+    return where - round(where)
+
+
+def between(patch: Array, part: float) -> Array:
+    """Return a patch shifted along +x by a part of a node, -1/2 to 1/2, by polynomials through the eight nearest."""
+    if abs(part) < _ON_NODE:
+        return patch
+    first = -4 if part > 0.0 else -3  # of the eight, from the node that the new place is nearest to
+    nodes = range(first, first + 8)
+    moved = np.zeros_like(patch)
+    for k in nodes:
+        weight = math.prod((-part - m) / (k - m) for m in nodes if m != k)
+        moved += weight * np.roll(patch, -k, axis=1)
+    return moved
 
 
 def on_grid(patch: Array, nodes: int) -> Array:

@@ -8,7 +8,7 @@ from comparison import approx
 from wavy_contact import problem
 
 from contact_core import Scene, initial_state
-from contact_core.deterministic.instant import Transient
+from contact_core.deterministic.instant import Transient, solve_instant
 from contact_core.deterministic.transient import begin, next_instant
 from contact_core.kernels.mixed.flow import carried_over
 from contact_core.kernels.mixed.stopping_rule import allowed_imbalance
@@ -61,7 +61,7 @@ def test_a_step_that_carries_the_film_over_has_to_balance_it_better():
     case, _, _ = problem(17, 17)
     step = replace(case, per_dt=20.0)
     assert allowed_imbalance(step) == 100.0
-    assert allowed_imbalance(replace(step, slow_mass=np.ones((17, 17)))) == 10.0
+    assert allowed_imbalance(replace(step, slow_mass=np.ones((17, 17)))) == 20.0
     assert allowed_imbalance(case) == allowed_imbalance(replace(case, slow_mass=np.ones((17, 17)))) == 5.0
 
 
@@ -98,3 +98,21 @@ def test_without_sliding_rough_bodies_keep_the_oil_that_is_between_their_asperit
     other = after.gap[28:37][:, np.roll(inner, 4)]
     stayed = float(np.abs(after.gap[28:37][:, inner] - one).mean())
     assert float(np.abs(other - one).mean()) < 0.35 * stayed
+
+
+def test_instants_of_rough_bodies_close_where_asperities_below_the_grid_carry_most():
+    """Asperities are stiff there: oil and solids have to be told apart, or their pressures swing about for ever."""
+    fine = {f"surface_{k}.microroughness.rms": "14 nm" for k in (1, 2)}
+    fine |= {f"surface_{k}.microroughness.longest": "4 um" for k in (1, 2)}
+    scene = Scene.from_toml("mtm_zddp", {"film.points": "65", "film.flux": "fitted"} | fine)
+    case = Case.bind(scene, scene.operation.point)
+    state, dt = replace(initial_state(scene), share=0.9), scene.film.spacing / case.fastest
+    state = replace(state, film=solve_instant(case, state, dry=True, solid_share=0.9).film)
+    iterations, share = [], []
+    for _ in range(16):
+        state, fields = next_instant(case, state, [speed * dt for speed in case.speeds], Transient(dt, 0, 150))
+        assert fields.converged, fields.shortfall
+        iterations.append(fields.iterations)
+        share.append(float(fields.solid_pressure.sum() / fields.pressure.sum()))
+    assert max(iterations[4:]) < 30  # 37 to 51 if they are not
+    assert min(share) > 0.7

@@ -175,7 +175,7 @@ def rough(ratio, rms, nodes=65):
 
 
 def test_a_steady_film_that_stays_short_of_its_balance_closes_at_the_end_of_a_march():
-    now, grid = rough(0.05, 20e-9)
+    now, grid = rough(0.05, 10e-9)
     settings = Settings(1e-9, 3e-3, 2000, "scipy", fitted=True)
     scaled = Scaled(now, grid, settings)
     case, begin = scaled.problem(), scaled.shared_start()

@@ -10,6 +10,11 @@ import numpy as np
 from ..compiled import jit
 
 REACH = 14.0  # depths above the floor at which the asperities end
+# from which on asperities rule a node, and down to which they go on ruling it: rise of their pressure per gap over that
+# of a half space, mobility of a face next to it over that of the stiff zone, share of the pressure
+_STIFFER, _STILL_STIFFER = 0.2, 0.1
+_FREE, _STILL_FREE = 0.1, 0.03
+_MOST, _STILL_MOST = 0.5, 0.25
 _PART = 0.15  # of a lack that an iteration takes away: neighbours that rise as well part the bodies further
 
 
@@ -29,6 +34,26 @@ def rest_gap(q, floor, stress, depth):  # type: ignore[no-untyped-def]
     if q <= stress * np.exp(-REACH):
         return floor + REACH * depth
     return floor + depth * np.log(stress / q)
+
+
+@jit
+def rule(p, h, ex, ey, floor, stress, depth, patch, limit, ruled):  # type: ignore[no-untyped-def]
+    """Update the nodes at which asperities rule the gap, from gap and mobilities of the last iteration, [ny, nx].
+
+    There asperities carry most and are stiff against the half space, and oil flows freely: a small error of the gap is
+    a large one of the fluid pressure p - s(h). As on solid contacts, the flow gives the fluid pressure, p - f the gap.
+    patch: opening of a gap by a unit pressure on it and its eight neighbours; limit: mobility of the stiff zone.
+    """
+    ny, nx = h.shape
+    for j in range(1, ny - 1):
+        for i in range(1, nx - 1):
+            carried = carried_at(h[j, i], floor, stress, depth)
+            stiffness, share = carried * patch / depth, carried / max(p[j, i], 1e-300)
+            mobility = max(max(ex[j, i - 1], ex[j, i]), max(ey[j - 1, i], ey[j, i])) / limit
+            if ruled[j, i]:
+                ruled[j, i] = stiffness > _STILL_STIFFER and mobility > _STILL_FREE and share > _STILL_MOST
+            else:
+                ruled[j, i] = stiffness > _STIFFER and mobility > _FREE and share > _MOST
 
 
 @jit

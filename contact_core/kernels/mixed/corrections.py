@@ -51,9 +51,10 @@ def correct_gap(  # type: ignore[no-untyped-def]
     off the stiff zone. `patch`: opening of a gap by a unit pressure on it and its eight neighbours.
 
     Returns the first row, the row after the last, first column and column after the last of dh, and how many nodes are
-    stiff and how many of them differ from `stiff_before`. sums [7]: of |r| p, m p and p over nodes that fluid alone
-    carries; of p - f and, below the cap, of p |floor - h| over solid contacts; with `filling`, of r over nodes that are
-    full and have no pressure yet, and of what all others gain together, and of m over nodes that have some.
+    stiff and how many of them differ from `stiff_before`. sums [7]: of |r| f, m f and f over nodes that fluid carries
+    or shares with asperities; of p - f and, below the cap, of p |floor - h| over solid contacts; with `filling`, of r
+    over nodes that are full and have no pressure yet, and of what all others gain together, and of m over nodes that
+    have some.
     """
     ny, nx = p.shape
     per_dx2, per_dx, wedge_per_dx = 1.0 / (dx * dx), 1.0 / dx, wedge / dx
@@ -86,7 +87,13 @@ def correct_gap(  # type: ignore[no-untyped-def]
                     change = (pressing - alone) / (per_patch + pressing * per_depth) + max(floor - own, 0.0)
                 else:
                     change = rest_gap(alone, floor, stress, depth) - own
+                    change /= 1.0 + depth * per_patch / max(alone, 1e-300)
                 solids += alone
+                if depth > 0.0 and 0.0 < f[j, i] < here:  # its oil has to be in balance, too
+                    gain = inflow(f, ex, ey, per_dx2, j, i)
+                    wrong += abs(gain - transport(mass, flux, mass_old, per_dt, wedge, dx, j, i)) * f[j, i]
+                    film += m * f[j, i]
+                    fluid += f[j, i]
                 if here > 0.0 and f[j, i] >= here and here < cap[j, i]:  # oil alone carries it and should lift it
                     gain = inflow(f, ex, ey, per_dx2, j, i)
                     wrong += max(gain - transport(mass, flux, mass_old, per_dt, wedge, dx, j, i), 0.0) * here

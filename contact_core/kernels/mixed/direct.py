@@ -184,6 +184,8 @@ def _carried(base, lever, shift, cap, edge, weight, wrapped, out):  # type: igno
 class _Direct(Iteration):
     """The fixed-point iteration with the free nodes solved by factorisation."""
 
+    splits = False
+
     def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate) -> None:
         super().__init__(half_space, problem, start, _DEPTH, _STIFF_STEP)
         shape, size = self.p.shape, self.p.size

@@ -15,6 +15,7 @@ from ..anderson import Anderson
 from ..compiled import jit
 from ..half_space import HalfSpace
 from . import cavities, corrections, reynolds
+from .asperities import rule
 from .cavities import Carried
 from .edge import load_beyond, set_edge, wrap
 from .flow import Flow
@@ -129,6 +130,8 @@ def _bounded(p, image, cap, edge, weight, wrapped):  # type: ignore[no-untyped-d
 class Iteration:
     """One fixed-point iteration and its scratch arrays."""
 
+    splits = True  # nodes that asperities rule into fluid and solid pressure
+
     def __init__(self, half_space: HalfSpace, problem: Problem, start: Iterate, depth: int, stiff_step: float) -> None:
         self.half_space, self.problem, self.start, self.stiff_step = half_space, problem, start, stiff_step
         shape = start.pressure.shape
@@ -140,6 +143,7 @@ class Iteration:
         self.h, self.mass, self.r, self.dh, self.dp, self.unit = (np.zeros(shape) for _ in range(6))
         self.flow = Flow.of(problem)
         self.stiff, self.stiff_of_unit = (np.zeros(shape, np.bool_) for _ in range(2))
+        self.ruled = self.solid.copy() if self.splits and problem.depth > 0.0 else None
         self.sums = np.zeros(7)
         self.carried = Carried(problem) if problem.by_flux else None
         near = half_space.near
@@ -193,7 +197,7 @@ class Iteration:
             full, flux, first, filling = carried.full, carried.flux, carried.first, carried.filling
             cavities.close_inlet(p, f, solid, q.first)
         bodies = (q.undeformed, self.half_space.deform_padded(p), self.rigid)
-        reynolds.film_pass(p, f, solid, *bodies, *oil, self.h, full, *flow.nodes, q.lumped)
+        reynolds.film_pass(p, f, solid, *bodies, *oil, self.h, full, *flow.nodes, q.lumped, self.ruled)
         flow.measure()
         self._carry(full)
         balance = (self.h, self.mass, q.mass_old, *flow.faces, flux)
@@ -206,6 +210,8 @@ class Iteration:
         out = (self.r, self.stiff, self.dh, self.sums)
         state = (p, f, q.cap, solid, *balance)
         self.zone = corrections.correct_gap(*state, *scales, self.stiff_of_unit, *out, part, filling, first)
+        if self.ruled is not None:
+            rule(p, self.h, *flow.faces, *q.layer, self.patch, q.compliance * q.spacing**2, self.ruled)
         if q.wrapped:
             wrap(solid)
 

@@ -47,11 +47,13 @@ def film_pass(  # type: ignore[no-untyped-def]
     fluid,
     driven,
     lumped=False,
+    ruled=None,
 ):
     """Compute gap, new solid contacts, full mass and the nodes' properties of `flow` from the pressure.
 
     `deformation` may have more columns than there are nodes. lumped: f = p on solid contacts, too; where that is zero
-    they are released.
+    they are released. ruled: nodes that count as solid contacts although asperities share the load with oil there, see
+    `asperities.rule`; None: there are none.
     """
     ny, nx = p.shape
     touch = _TOUCH * floor
@@ -63,9 +65,9 @@ def film_pass(  # type: ignore[no-untyped-def]
             if touches and p[j, i] <= 0.0 and own <= 0.0 and (lumped or here > floor):
                 touches = False  # it carries no load
             elif touches and depth > 0.0 and own < p[j, i] and here > floor:
-                touches = False  # asperities share the load with the oil
+                touches = ruled is not None and ruled[j, i]  # else asperities share the load with the oil
             elif not touches:
-                touches = here < touch
+                touches = here < touch or (ruled is not None and ruled[j, i])
             if lumped:
                 f[j, i] = p[j, i]
             elif not (solid[j, i] and touches):
