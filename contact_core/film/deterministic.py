@@ -103,7 +103,7 @@ class Deterministic:
     )
     iterations: int = parameter(
         "",
-        "most iterations of one steady solution; an instant of a block gets at most 150",
+        "most iterations of one steady solution; an instant of a block gets at most 300",
         least=1,
         most=100_000,
         default=2000,
