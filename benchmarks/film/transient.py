@@ -358,7 +358,7 @@ def main() -> None:
         *steps_of_callers(),
         "## Limits",
         "",
-        "- Rough surfaces move by whole nodes: a march makes one instant for each node of a rough body, and shorter steps sample the same jumps. The time step can tend to zero only with a rough body at rest.",
+        "- A march makes one instant for each node of a rough body.",
         "- A contact at rest without an earlier film has none: a contact that starts at rest is dry (`route`).",
         "- Without a load the contact is open and loses its film; likewise where a film is too wide for the grid. The next load begins with a steady film of any width.",
         "- A load that jumps by ten within a step is solved, but the flow of the oil in that step is of first order.",
