@@ -180,7 +180,7 @@ def solve_call(
         meniscus=supply[1],
     )
     lumped = options["criterion"] == "lumped"
-    settings = Settings(numbers.floor, numbers.tolerance, numbers.iterations, options["fft"], lumped)
+    settings = Settings(numbers.floor, numbers.tolerance, numbers.iterations, options["fft"], lumped, fitted=True)
     found, values, errors = solve_with_estimate(now, nodes, settings)
     state = found.state
     return found_as(
