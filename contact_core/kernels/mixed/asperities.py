@@ -37,32 +37,41 @@ def rest_gap(q, floor, stress, depth):  # type: ignore[no-untyped-def]
 
 
 @jit
-def rule(p, h, ex, ey, floor, stress, depth, patch, limit, ruled):  # type: ignore[no-untyped-def]
-    """Update the nodes at which asperities rule the gap, from gap and mobilities of the last iteration, [ny, nx].
-
-    There asperities carry most and are stiff against the half space, and oil flows freely: a small error of the gap is
-    a large one of the fluid pressure p - s(h). As on solid contacts, the flow gives the fluid pressure, p - f the gap.
-    patch: opening of a gap by a unit pressure on it and its eight neighbours; limit: mobility of the stiff zone.
-    """
-    ny, nx = h.shape
-    for j in range(1, ny - 1):
-        for i in range(1, nx - 1):
-            carried = carried_at(h[j, i], floor, stress, depth)
-            stiffness, share = carried * patch / depth, carried / max(p[j, i], 1e-300)
-            mobility = max(max(ex[j, i - 1], ex[j, i]), max(ey[j - 1, i], ey[j, i])) / limit
-            if ruled[j, i]:
-                ruled[j, i] = stiffness > _STILL_STIFFER and mobility > _STILL_FREE and share > _STILL_MOST
-            else:
-                ruled[j, i] = stiffness > _STIFFER and mobility > _FREE and share > _MOST
-
-
-@jit
 def missing(p, h, solid, floor, stress, depth):  # type: ignore[no-untyped-def]
     """Return a part of what a pressure is short of that of the asperities at its gap, at most 0; 0 on solid contacts.
 
     The fluid pressure is zero there, and stays so until the pressure has risen by all of it.
     """
     return 0.0 if solid else _PART * min(p - carried_at(h, floor, stress, depth), 0.0)
+
+
+@jit
+def share_out(  # type: ignore[no-untyped-def]
+    p, h, solid, ex, ey, floor, stress, depth, softness, patch, limit, ruled, over_oil, lack
+):
+    """Update the nodes that asperities rule; compute how the fluid pressure rises with p, and `missing`, [ny, nx].
+
+    Asperities rule a node where they carry most and are stiff against the half space, and oil flows freely: there a
+    small error of the gap is a large one of the fluid pressure p - s(h). As on solid contacts, the flow gives the fluid
+    pressure, p - f the gap. softness: opening of a gap by a unit pressure on it; patch: by that on its eight
+    neighbours, too; limit: mobility of the stiff zone. over_oil: d(p - s)/dp of a node.
+    """
+    ny, nx = p.shape
+    for j in range(ny):
+        for i in range(nx):
+            carried = carried_at(h[j, i], floor, stress, depth)
+            rise = carried / depth
+            over_oil[j, i] = 1.0 + rise * softness
+            lack[j, i] = 0.0 if solid[j, i] else _PART * min(p[j, i] - carried, 0.0)
+            if carried <= 0.0 or i == 0 or j == 0 or i == nx - 1 or j == ny - 1:
+                ruled[j, i] = False
+                continue
+            stiffness, share = rise * patch, carried / max(p[j, i], 1e-300)
+            mobility = max(max(ex[j, i - 1], ex[j, i]), max(ey[j - 1, i], ey[j, i])) / limit
+            if ruled[j, i]:
+                ruled[j, i] = stiffness > _STILL_STIFFER and mobility > _STILL_FREE and share > _STILL_MOST
+            else:
+                ruled[j, i] = stiffness > _STIFFER and mobility > _FREE and share > _MOST
 
 
 @jit

@@ -6,7 +6,7 @@ Equation, arrays and units are those of `reynolds`.
 import numpy as np
 
 from ..compiled import jit
-from .asperities import carried_at, missing, rest_gap
+from .asperities import carried_at, rest_gap
 from .edge import wrap
 from .reynolds import inflow, returned, transport
 
@@ -162,7 +162,6 @@ def relax_lines(  # type: ignore[no-untyped-def]
     r,
     edge,
     floor,
-    stress,
     depth,
     per_dt,
     wedge,
@@ -172,13 +171,16 @@ def relax_lines(  # type: ignore[no-untyped-def]
     lumped,
     sweeps,
     dp,
+    over_oil,
+    lack,
     filling=None,
     first=1,
     wrapped=False,
 ):
     """Relax the linearised equation outside the stiff zone by lines, dp given inside it.
 
-    Updates dp; keeps p + dp >= 0, and so the fluid pressure f of nodes at which asperities carry some.
+    Updates dp; keeps p + dp >= 0, and so the fluid pressure f of nodes at which asperities carry some. over_oil, lack:
+    from `asperities.share_out`, of no meaning where depth is 0.
     """
     ny, nx = p.shape
     per_dx2 = 1.0 / (dx * dx)
@@ -214,11 +216,8 @@ def relax_lines(  # type: ignore[no-untyped-def]
                 # of an asperity that presses less as the bodies part, the oil takes over
                 over_west, over_east, over_south, over_north, over_own = 1.0, 1.0, 1.0, 1.0, 1.0
                 if depth > 0.0:
-                    over_own = 1.0 + carried_at(h[j, i], floor, stress, depth) * k0 / depth
-                    over_west = 1.0 + carried_at(h[j, i - 1], floor, stress, depth) * k0 / depth
-                    over_east = 1.0 + carried_at(h[j, i + 1], floor, stress, depth) * k0 / depth
-                    over_south = 1.0 + carried_at(h[j - 1, i], floor, stress, depth) * k0 / depth
-                    over_north = 1.0 + carried_at(h[j + 1, i], floor, stress, depth) * k0 / depth
+                    over_own, over_west, over_east = over_oil[j, i], over_oil[j, i - 1], over_oil[j, i + 1]
+                    over_south, over_north = over_oil[j - 1, i], over_oil[j + 1, i]
                 # at the floor the flow does not depend on the deformation
                 rho = mass[j, i] / h[j, i] if h[j, i] > floor else 0.0
                 far = w2 * dp[j, i + 2] if i < nx - 2 else 0.0
@@ -232,11 +231,8 @@ def relax_lines(  # type: ignore[no-untyped-def]
                 if depth > 0.0:
                     back = 0.0 if filling is None else returned(filling, first, per_dt, wedge, dx, j, i)
                     own = (1.0 - back) * west + east + south + north
-                    rhs -= own * missing(p[j, i], h[j, i], solid[j, i], floor, stress, depth)
-                    rhs += west * missing(p[j, i - 1], h[j, i - 1], solid[j, i - 1], floor, stress, depth)
-                    rhs += east * missing(p[j, i + 1], h[j, i + 1], solid[j, i + 1], floor, stress, depth)
-                    rhs += south * missing(p[j - 1, i], h[j - 1, i], solid[j - 1, i], floor, stress, depth)
-                    rhs += north * missing(p[j + 1, i], h[j + 1, i], solid[j + 1, i], floor, stress, depth)
+                    rhs += west * lack[j, i - 1] + east * lack[j, i + 1] - own * lack[j, i]
+                    rhs += south * lack[j - 1, i] + north * lack[j + 1, i]
                 # the fluid pressure of a solid contact stays in this step
                 if lumped or not solid[j, i - 1]:
                     lower -= west * over_west
@@ -263,7 +259,7 @@ def relax_lines(  # type: ignore[no-untyped-def]
                 if free[i]:
                     least = -p[j, i]
                     if depth > 0.0 and f[j, i] < p[j, i]:
-                        least = -f[j, i] / (1.0 + carried_at(h[j, i], floor, stress, depth) * k0 / depth)
+                        least = -f[j, i] / over_oil[j, i]
                     dp[j, i] = max(dp[j, i] + over * (value - dp[j, i]), least)
             if wrapped and (j == 1 or j == ny - 2):
                 wrap(dp)

@@ -15,7 +15,7 @@ from ..anderson import Anderson
 from ..compiled import jit
 from ..half_space import HalfSpace
 from . import cavities, corrections, reynolds
-from .asperities import rule
+from .asperities import share_out
 from .cavities import Carried
 from .edge import load_beyond, set_edge, wrap
 from .flow import Flow
@@ -143,6 +143,7 @@ class Iteration:
         self.h, self.mass, self.r, self.dh, self.dp, self.unit = (np.zeros(shape) for _ in range(6))
         self.flow = Flow.of(problem)
         self.stiff, self.stiff_of_unit = (np.zeros(shape, np.bool_) for _ in range(2))
+        self.over_oil, self.lack = np.zeros(shape), np.zeros(shape)
         self.ruled = self.solid.copy() if self.splits and problem.depth > 0.0 else None
         self.sums = np.zeros(7)
         self.carried = Carried(problem) if problem.by_flux else None
@@ -164,10 +165,14 @@ class Iteration:
         self._film()
         self._press()
         q, p = self.problem, self.p
-        film = (self.h, self.mass, *self.flow.faces, self.r, q.edge, *q.layer, *q.terms)
+        film = (self.h, self.mass, *self.flow.faces, self.r, q.edge, q.floor, q.depth, *q.terms)
         near = (self.half_space.near, self.patch_wide)
         inlet = (None, 1) if self.carried is None else (self.carried.filling, self.carried.first)
-        relaxation = (q.lumped, _LINE_SWEEPS, self.dp, *inlet, q.wrapped)
+        layer = (self.over_oil, self.lack)
+        if self.ruled is not None:
+            scales = (self.half_space.near[0, 0], self.patch, q.compliance * q.spacing**2)
+            share_out(p, self.h, self.solid, *self.flow.faces, *q.layer, *scales, self.ruled, *layer)
+        relaxation = (q.lumped, _LINE_SWEEPS, self.dp, *layer, *inlet, q.wrapped)
         corrections.relax_lines(p, self.f, self.solid, self.stiff, *film, *near, *relaxation)
         lever = (self.stiff, self.unit, self.damping, q.load, q.edge, q.weight, q.wrapped)
         vector = self.memory.image
@@ -210,8 +215,6 @@ class Iteration:
         out = (self.r, self.stiff, self.dh, self.sums)
         state = (p, f, q.cap, solid, *balance)
         self.zone = corrections.correct_gap(*state, *scales, self.stiff_of_unit, *out, part, filling, first)
-        if self.ruled is not None:
-            rule(p, self.h, *flow.faces, *q.layer, self.patch, q.compliance * q.spacing**2, self.ruled)
         if q.wrapped:
             wrap(solid)
 

@@ -53,7 +53,7 @@ def film_pass(  # type: ignore[no-untyped-def]
 
     `deformation` may have more columns than there are nodes. lumped: f = p on solid contacts, too; where that is zero
     they are released. ruled: nodes that count as solid contacts although asperities share the load with oil there, see
-    `asperities.rule`; None: there are none.
+    `asperities.share_out`; None: there are none.
     """
     ny, nx = p.shape
     touch = _TOUCH * floor
