@@ -67,7 +67,7 @@ def films(coefficient: float, grid: int = 129) -> Comparison:
         speed = row["entrainment_speed_mm_s"] * 1e-3
         answer = point_contact(
             load=row["load_N"], radius_x=BALL, reduced_modulus=MODULUS, speed_1=speed, speed_2=speed,
-            viscosity=viscosity, pressure_viscosity=coefficient, grid=grid,
+            viscosity=viscosity, pressure_viscosity=coefficient, grid=grid, flux="fitted",
         )  # fmt: skip
         assert answer.converged, answer.shortfall
         found.append(answer.h_central)
@@ -110,7 +110,7 @@ def optical(page: Page, axes) -> None:  # type: ignore[no-untyped-def]
     """Add the central films."""
     page.say(
         "### 21 central films, 5 mm/s to 4 m/s\n\nSteel ball on glass, 50 N, pure rolling, mineral oil, by optical interferometry. "
-        "`point_contact` with its defaults; viscosity by ASTM D341 at the measured temperature, "
+        "`point_contact` with flux fitted, else its defaults; viscosity by ASTM D341 at the measured temperature, "
         f"density {DENSITY:g} kg/m3 at 15 degC (assumed). The pressure coefficient is not given: the slope and the scatter about one factor count. "
         f"Above {SLOW:g} m/s the inlet warms up, which is left out here."
     )

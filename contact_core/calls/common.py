@@ -30,6 +30,7 @@ _CHOICES = {
     "density_law": tuple(_DENSITY),
     "criterion": ("split", "lumped"),
     "cavitation": ("reynolds", "mass_conserving"),
+    "flux": ("upwind", "fitted"),
     "fft": ("pyfftw", "scipy"),
 }
 
@@ -179,8 +180,8 @@ def solve_call(
         supply=supply[0],
         meniscus=supply[1],
     )
-    lumped = options["criterion"] == "lumped"
-    settings = Settings(numbers.floor, numbers.tolerance, numbers.iterations, options["fft"], lumped, fitted=True)
+    lumped, fitted = options["criterion"] == "lumped", options["flux"] == "fitted"
+    settings = Settings(numbers.floor, numbers.tolerance, numbers.iterations, options["fft"], lumped, fitted)
     found, values, errors = solve_with_estimate(now, nodes, settings)
     state = found.state
     return found_as(

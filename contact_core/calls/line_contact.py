@@ -67,6 +67,7 @@ def line_contact(
     meniscus: float | None = None,
     tolerance: float = 1e-3,
     iterations: int = 2000,
+    flux: str = "upwind",
     fft: str = "pyfftw",
 ) -> LineContact:
     """Solve for steady mixed lubrication of a line contact, from full film to dry.
@@ -91,7 +92,7 @@ def line_contact(
         Length of the line [m]; 1 m if not given.
     profile
         Ends of a roller, such as `Rounded` or `Logarithmic`.
-    viscosity_law, density_law, hardness, floor, cavitation, supply, meniscus, tolerance, iterations, fft
+    viscosity_law, density_law, hardness, floor, cavitation, supply, meniscus, tolerance, iterations, flux, fft
         As in `point_contact`.
     heights_1, heights_2
         Heights [ny, nx] of each body [m], positive toward the other one, centred on the contact. Without ends their
@@ -122,7 +123,7 @@ def line_contact(
     )  # fmt: skip
     options = {
         "viscosity_law": viscosity_law, "density_law": density_law, "criterion": "split", "cavitation": cavitation,
-        "fft": fft,
+        "flux": flux, "fft": fft,
     }  # fmt: skip
     check_choices(options)
     if profile is not None and length is None:

@@ -53,6 +53,7 @@ def point_contact(
     meniscus: float | None = None,
     tolerance: float = 1e-3,
     iterations: int = 2000,
+    flux: str = "upwind",
     fft: str = "pyfftw",
 ) -> PointContact:
     """Solve for steady mixed lubrication of a point contact, from full film to dry.
@@ -102,6 +103,9 @@ def point_contact(
         Relative pressure change of a converged solution.
     iterations
         Largest number of iterations.
+    flux
+        Flow between nodes: "upwind", of second order, or "fitted", exact for a constant flow in each cell: on usual
+        grids the better one for thin films. The error estimate was measured with "upwind".
     fft
         "pyfftw" or "scipy"; FFTW is under the GPL.
 
@@ -125,7 +129,7 @@ def point_contact(
     refuse(_too_slim(numbers))
     options = {
         "viscosity_law": viscosity_law, "density_law": density_law, "criterion": criterion, "cavitation": cavitation,
-        "fft": fft,
+        "flux": flux, "fft": fft,
     }  # fmt: skip
     check_choices(options)
     heights, shape = heights_of(heights_1, heights_2), Point(numbers.radius_x, numbers.radius_y)

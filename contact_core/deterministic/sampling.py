@@ -20,7 +20,7 @@ from .transient import dry_instant, next_instant, rolled
 
 # way of the oil after a new start before the march is sampled, in halves of the contact's length: in near rolling; in
 # proportion more where the faster body runs ahead of the oil
-_PASSAGE = 3.0
+_PASSAGE = 4.0
 _MOST_SETTLING = 400  # transient steps
 _AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which that is near rolling
 _ITERATIONS = 300  # at most, of one transient step; a warm one needs about 16, after a jump up to 200
@@ -48,9 +48,8 @@ def _dry_jumps(case: Case) -> list[float]:
     """
     film = case.scene.film
     columns = film.points - 1
-    behind = next(k for k in range(round(0.382 * columns), columns + 1) if math.gcd(k, columns) == 1)
-    first = _GOLDEN * film.domain
-    second = first - behind * film.spacing
+    behind = _sharing_no_factor(0.382, columns)
+    first, second = _leap(case.scene), _leap(case.scene) - behind * film.spacing
     return [jump * side.moves for jump, side in zip((first, second), case.sides, strict=True)]
 
 
@@ -123,10 +122,20 @@ def blocks_per_pass(scene: Scene, driver: str) -> float:
 
 
 def jumps_of(case: Case, index: int, most: float = _SMOOTHER) -> list[float]:
-    """Return how far [m] both bodies jump under a sampled film.
+    """Return how far [m] both bodies jump under a sampled film, by whole nodes.
 
     Only body 1 (`index` 0) or 2 (1) jumps, if it moves and its roughness is at most `most` times the other's.
     """
     side, other = case.sides[index], case.sides[1 - index]
     jumping = side.moves and side.surface.rms <= most * other.surface.rms
-    return [case.scene.film.domain * _GOLDEN * (jumping and k == index) for k in (0, 1)]
+    return [_leap(case.scene) * (jumping and k == index) for k in (0, 1)]
+
+
+def _leap(scene: Scene) -> float:
+    """Return a golden ratio of the patch [m], in whole nodes that share no factor with the patch's."""
+    return _sharing_no_factor(_GOLDEN, scene.film.points - 1) * scene.film.spacing
+
+
+def _sharing_no_factor(part: float, columns: int) -> int:
+    """Return the least number from a part of the columns on that shares no factor with them."""
+    return next(k for k in range(round(part * columns), 2 * columns + 2) if math.gcd(k, columns) == 1)

@@ -5,7 +5,6 @@ the edge adds rows, except on a line, which has no edge. The track is |y| < b; b
 load and the scene's own radii, whatever load and radii are now: a mean over the track does not jump with them.
 """
 
-import math
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any, NamedTuple
@@ -100,15 +99,15 @@ def part_of_node(scene: Scene, body: Body) -> float:
 
 
 def between(patch: Array, part: float) -> Array:
-    """Return a patch shifted along +x by a part of a node, -1/2 to 1/2, by polynomials through the eight nearest."""
+    """Return a patch shifted along +x by a part of a node: the sum of its waves, shifted.
+
+    All waves keep their heights, up to the shortest: roughness of a node's length does not flatten between nodes.
+    """
     if abs(part) < _ON_NODE:
         return patch
-    first = -4 if part > 0.0 else -3  # of the eight, from the node that the new place is nearest to
-    nodes = range(first, first + 8)
-    moved = np.zeros_like(patch)
-    for k in nodes:
-        weight = math.prod((-part - m) / (k - m) for m in nodes if m != k)
-        moved += weight * np.roll(patch, -k, axis=1)
+    columns = patch.shape[1]
+    waves = np.exp(-2j * np.pi * part * np.fft.rfftfreq(columns))
+    moved: Array = np.fft.irfft(np.fft.rfft(patch, axis=1) * waves, columns, axis=1)
     return moved
 
 
