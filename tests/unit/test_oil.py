@@ -190,7 +190,7 @@ def test_spin_wears_and_grows_film_without_sliding(level):
     assert still.wear_volume_1 == still.tribofilm_1 == still.power_loss == 0.0
     assert spun.wear_volume_1 > 0.0 and spun.wear_volume_2 > 0.0 and spun.tribofilm_1 > 0.0
     assert spun.power_loss == approx(-spun.spin_torque * 500.0, rel=1e-9)
-    assert abs(spun.friction_force) < 0.02 * spun.friction_coefficient * point.load + 1e-3 * point.load
+    assert abs(spun.friction_force) < 4e-3 * point.load  # what few asperities of a coarse grid leave over
 
 
 def test_a_solution_knows_the_temperatures_that_the_scene_gives_its_bodies():
