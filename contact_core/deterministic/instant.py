@@ -109,7 +109,7 @@ def solve_instant(
     scene = case.scene
     level, full = scene.film, scene.tribofilm.full_thickness
     assert isinstance(level, Deterministic)
-    faced, grid = facing_surfaces(scene, state), scene.grid(state.rows)
+    faced, grid = facing_surfaces(scene, state, moving=transient is not None), scene.grid(state.rows)
     film_1, film_2 = faced.tribofilms
     limit = scene.plasticity.limit(film_1, film_2, faced.plastic, full)
     covers = film_1 / full, film_2 / full

@@ -49,7 +49,8 @@ def _dry_jumps(case: Case) -> list[float]:
     film = case.scene.film
     columns = film.points - 1
     behind = _sharing_no_factor(0.382, columns)
-    first, second = _leap(case.scene), _leap(case.scene) - behind * film.spacing
+    first = _GOLDEN * film.domain
+    second = first - behind * film.spacing
     return [jump * side.moves for jump, side in zip((first, second), case.sides, strict=True)]
 
 
@@ -128,12 +129,9 @@ def jumps_of(case: Case, index: int, most: float = _SMOOTHER) -> list[float]:
     """
     side, other = case.sides[index], case.sides[1 - index]
     jumping = side.moves and side.surface.rms <= most * other.surface.rms
-    return [_leap(case.scene) * (jumping and k == index) for k in (0, 1)]
-
-
-def _leap(scene: Scene) -> float:
-    """Return a golden ratio of the patch [m], in whole nodes that share no factor with the patch's."""
-    return _sharing_no_factor(_GOLDEN, scene.film.points - 1) * scene.film.spacing
+    film = case.scene.film
+    leap = _sharing_no_factor(_GOLDEN, film.points - 1) * film.spacing
+    return [leap * (jumping and k == index) for k in (0, 1)]
 
 
 def _sharing_no_factor(part: float, columns: int) -> int:

@@ -41,10 +41,13 @@ class FacingSurfaces(NamedTuple):
     plastic: Array  # permanent depth of both bodies that plasticity.indentation = "total" counts [m], else 0
 
 
-def facing_surfaces(scene: Scene, state: ContactState) -> FacingSurfaces:
-    """Return the surfaces of a state where the bodies lie now."""
+def facing_surfaces(scene: Scene, state: ContactState, *, moving: bool = False) -> FacingSurfaces:
+    """Return the surfaces of a state where the bodies lie now.
+
+    moving: at their very places, as a film that follows their motion needs it; else at the nearest nodes.
+    """
     nodes = [patch_nodes(scene, body) for body in state.bodies]
-    parts = [part_of_node(scene, body) for body in state.bodies]
+    parts = [part_of_node(scene, body) * moving for body in state.bodies]
     bare = bare_heights(scene, state.rows)
     patches = [heights_of(z, body) for z, body in zip(bare, state.bodies, strict=True)]
     heights, roughness = (
