@@ -37,12 +37,12 @@ def rest_gap(q, floor, stress, depth):  # type: ignore[no-untyped-def]
 
 
 @jit
-def missing(p, h, solid, floor, stress, depth):  # type: ignore[no-untyped-def]
-    """Return a part of what a pressure is short of that of the asperities at its gap, at most 0; 0 on solid contacts.
+def missing(p, carried, solid):  # type: ignore[no-untyped-def]
+    """Return a part of what a pressure is short of what the asperities carry, at most 0; 0 on solid contacts.
 
     The fluid pressure is zero there, and stays so until the pressure has risen by all of it.
     """
-    return 0.0 if solid else _PART * min(p - carried_at(h, floor, stress, depth), 0.0)
+    return 0.0 if solid else _PART * min(p - carried, 0.0)
 
 
 @jit
@@ -62,7 +62,7 @@ def share_out(  # type: ignore[no-untyped-def]
             carried = carried_at(h[j, i], floor, stress, depth)
             rise = carried / depth
             over_oil[j, i] = 1.0 + rise * softness
-            lack[j, i] = 0.0 if solid[j, i] else _PART * min(p[j, i] - carried, 0.0)
+            lack[j, i] = missing(p[j, i], carried, solid[j, i])
             if carried <= 0.0 or i == 0 or j == 0 or i == nx - 1 or j == ny - 1:
                 ruled[j, i] = False
                 continue

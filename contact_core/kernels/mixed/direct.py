@@ -48,9 +48,10 @@ def _number_free(p, f, solid, stiff, h, r, floor, stress, depth, wrapped, number
                 number[j, i] = n
                 n += 1
             if depth > 0.0 and inner and not solid[j, i]:
-                lack[j, i] = missing(p[j, i], h[j, i], False, floor, stress, depth)
+                carried = carried_at(h[j, i], floor, stress, depth)
+                lack[j, i] = missing(p[j, i], carried, False)
                 if f[j, i] > 0.0 and h[j, i] > floor:
-                    gain[j, i] = carried_at(h[j, i], floor, stress, depth) / depth
+                    gain[j, i] = carried / depth
     if wrapped:
         wrap(number)
         wrap(gain)
