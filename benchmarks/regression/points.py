@@ -21,6 +21,7 @@ STORE = RESULTS / "regression"
 SCENES = ("azam_case_a", "mtm_zddp")
 LAMBDAS = (0.003, 5.0)
 LOADS = (0.3, 1.3)  # of the reference load
+BELOW = (0.2, 2.0)  # of the microroughness
 FASTEST = 95.0  # m/s, of the mean speed: the faster surface stays below 100 m/s
 OBSERVED = (
     "friction_coefficient",
@@ -49,6 +50,7 @@ class Point:
     temperature: float  # K
     roughness: float = 1.0  # of the scene's rms roughness
     length: float = 1.0  # of the scene's correlation length
+    below: float = 1.0  # of the scene's microroughness
     seed: int = 0  # added to the scene's
 
     def build(self, overrides: Overrides) -> Scene:
@@ -58,6 +60,7 @@ class Point:
         for name, surface in (("surface_1", shipped.surface_1), ("surface_2", shipped.surface_2)):
             changes[f"{name}.rq"] = f"{surface.rq * self.roughness:.17g} m"
             changes[f"{name}.correlation_length"] = f"{surface.correlation_length * self.length:.17g} m"
+            changes[f"{name}.microroughness.rms"] = f"{surface.microroughness.rms * self.below:.17g} m"
             changes[f"{name}.seed"] = str(surface.seed + self.seed)
         return Scene.from_toml(self.scene, changes)
 
@@ -77,6 +80,11 @@ def smooth_film(scene: Scene, load: float, speed: float, temperature: float) -> 
 def composite_roughness(scene: Scene) -> float:
     """Rms roughness of both bodies together [m]."""
     return float(np.hypot(scene.surface_1.rq, scene.surface_2.rq))
+
+
+def microroughness(scene: Scene) -> float:
+    """Rms height [m] of what no grid carries of both bodies together."""
+    return float(np.hypot(*(s.microroughness.rms if s.microroughness else 0.0 for s in (scene.surface_1, scene.surface_2))))
 
 
 def speed_for(scene: Scene, ratio: float, load: float, temperature: float) -> float:
@@ -146,6 +154,7 @@ def numbers_of(scene: Scene, op: OperatingPoint) -> dict[str, float]:
         "correlation_length": lengths[int(np.argmax(rq))],
         "spacing": scene.film.spacing,
         "floor": scene.film.floor,
+        "microroughness": microroughness(scene),
         "spin": op.spin,
     }
 
@@ -218,9 +227,13 @@ def sweep_points(scene: str) -> list[Point]:
         ("shipped", 30, (1.0, 1.0), (1.0, 1.0)),
         ("amplitude", 14, (0.3, 1.0), (1.0, 1.0)),
         ("length", 12, (1.0, 1.0), (1.25, 3.0)),
+        ("microroughness", 16, (1.0, 1.0), (1.0, 1.0)),
     )
     return [
-        _swept(scene, group, tuple(cube.tolist()), roughness, length, 0 if group == "shipped" else 10 * (k + 1))
+        replace(
+            _swept(scene, group, tuple(cube.tolist()), roughness, length, 0 if group == "shipped" else 10 * (k + 1)),
+            below=between(*BELOW, float(cube[3])) if group == "microroughness" else 1.0,
+        )
         for group, count, roughness, length in groups
         for k, cube in enumerate(spread(count, 4))
     ]

@@ -37,6 +37,7 @@ RACES = (5.1093e-3, 7.590e-3)  # m, radii along x on the inner and the outer rin
 NODES = (65, 81, 97, 129)  # along x, of an ellipse
 INLET = 3.0  # nodes that resolve an inlet
 SPINNING = 0.5  # share of the ellipses that spin
+BELOW = (2e-9, 20e-9)  # m, rms of the microroughness
 PRESSED = 0.8  # of the hardness, at most, by Hertz's pressure
 OBSERVED = (
     "friction_coefficient",
@@ -72,6 +73,8 @@ class ShapePoint:
     temperature: float  # K
     rq_1: float  # m
     rq_2: float  # m
+    below_1: float  # m, rms of the microroughness
+    below_2: float
     hardness: float = STEEL  # Pa, of bodies without a tribofilm
 
     def build(self, changes: dict[str, str] | None = None) -> Scene:
@@ -83,6 +86,8 @@ class ShapePoint:
             "operation.load": f"{self.load} N",
             "surface_1.rq": f"{self.rq_1} m",
             "surface_2.rq": f"{self.rq_2} m",
+            "surface_1.microroughness.rms": f"{self.below_1} m",
+            "surface_2.microroughness.rms": f"{self.below_2} m",
         }
         if self.shape == "ellipse":
             made |= self._grid(shipped)
@@ -152,7 +157,8 @@ def points(shape: str, seed: int, count: int) -> list[ShapePoint]:
             radius, load = 9.525e-3, log(5.0, 75.0)
             speed, srr, warm = log(5e-3, 4.0), sign() * log(5e-3, 2.0), draw.uniform(40.0, 120.0)
             rough = log(10e-9, 40e-9), log(10e-9, 200e-9)
-        numbers = float(radius), load, speed, float(srr), spin, KELVIN + float(warm), *rough, float(hardness)
+        below = log(*BELOW), log(*BELOW)
+        numbers = float(radius), load, speed, float(srr), spin, KELVIN + float(warm), *rough, *below, float(hardness)
         point = ShapePoint(shape, *numbers)
         if point.resolved and not point.squashed:
             found.append(point)

@@ -67,7 +67,7 @@ def line_contact(
     meniscus: float | None = None,
     tolerance: float = 1e-3,
     iterations: int = 2000,
-    flux: str = "upwind",
+    flux: str = "fitted",
     fft: str = "pyfftw",
 ) -> LineContact:
     """Solve for steady mixed lubrication of a line contact, from full film to dry.

@@ -53,7 +53,7 @@ def point_contact(
     meniscus: float | None = None,
     tolerance: float = 1e-3,
     iterations: int = 2000,
-    flux: str = "upwind",
+    flux: str = "fitted",
     fft: str = "pyfftw",
 ) -> PointContact:
     """Solve for steady mixed lubrication of a point contact, from full film to dry.

@@ -118,8 +118,8 @@ class Deterministic:
     flux: str = parameter(
         "",
         "flow through the faces between nodes. upwind: of second order; fitted: exact for a constant flow in each cell",
-        choices=("upwind", "fitted"),
-        default="upwind",
+        choices=("fitted", "upwind"),
+        default="fitted",
     )
 
     @property
