@@ -50,8 +50,8 @@ class Point:
     temperature: float  # K
     roughness: float = 1.0  # of the scene's rms roughness
     length: float = 1.0  # of the scene's correlation length
-    below: float = 1.0  # of the scene's microroughness
     seed: int = 0  # added to the scene's
+    below: float = 1.0  # of the scene's microroughness
 
     def build(self, overrides: Overrides) -> Scene:
         """The scene with this roughness; further `overrides` by dotted name."""
