@@ -249,7 +249,7 @@ def _warnings(found: FilmSolution, grid: Grid, a: float) -> list[str]:
     sentences = [] if found.converged else [f"The solution has not converged: {found.shortfall}."]
     if found.route == "fallback":
         sentences.append("No film was found; the dry contact replaces it.")
-    if found.route == "mixed" and found.inlet_nodes < 3.0:
+    if not found.resolved:
         sentences.append(
             f"The film builds up across {found.inlet_nodes:.1f} nodes: its thickness depends on this grid. "
             "Use more nodes or a smaller domain."

@@ -207,4 +207,5 @@ def _open(case: Case, grid: Grid, heights: Array) -> FilmSolution:
         complementarity=0.0,
         imbalance=0.0,
         inlet_nodes=np.inf,
+        resolved=True,
     )

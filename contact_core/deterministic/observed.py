@@ -51,7 +51,7 @@ def instant_flags(case: Case, fields: ContactFields) -> RangeFlag:
         return RangeFlag.LAMBDA_CAPPED
     if fields.route == "fallback":
         flags |= RangeFlag.FALLBACK
-    if fields.route == "mixed" and fields.inlet_nodes < 3.0:
+    if not fields.resolved:
         flags |= RangeFlag.INLET_UNRESOLVED
     edges = [fields.solid_pressure[:, [1, -2]]]
     if not case.shape.periodic:

@@ -9,7 +9,6 @@ from .scaled import Scaled
 # these cover nine in ten of random contacts of another seed than the one benchmarks/film/error_estimate.py reports
 _FACTORS = {"contact_load_ratio": 2.0, "pressure_max": 2.5}
 _FACTOR = 1.5  # of the others
-_RESOLVED = 3.0  # nodes across the inlet, from which on a grid resolves the film
 _PARTING = 0.3  # film of smooth bodies over rms roughness, from which on the solids may carry almost nothing
 
 
@@ -31,7 +30,7 @@ def solve_with_estimate(
         name: _FACTORS.get(name, _FACTOR) * abs(value - less[name]) + settings.tolerance * abs(value)
         for name, value in values.items()
     }
-    if found.route == "mixed" and found.inlet_nodes < _RESOLVED:  # both grids may agree on a wrong film
+    if not found.resolved:  # both grids may agree on a wrong film
         scaled = Scaled(now, grid, settings)
         for name in ("h_central", "h_c", "h_min", "approach"):  # bodies are closer by as much as their film is too thin
             errors[name] = max(errors[name], scaled.smooth_film)

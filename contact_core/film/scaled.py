@@ -16,7 +16,7 @@ from ..kernels.mixed.problem import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
 from ..reference.starvation import film_behind_meniscus, supplied_film
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
-from .lengths import film_size, inlet_length
+from .lengths import film_size, inlet_length, resolves_inlet
 from .outputs import disc
 from .shared import ENTRIES, half_space, tables
 
@@ -424,6 +424,7 @@ class Scaled:
         capped = it.solid & (it.pressure >= self.cap)
         overlap = np.where(capped, np.maximum(self.floor - found.gap, 0.0), 0.0) * self.h_unit
         gap = np.maximum(found.gap, self.floor) * self.h_unit
+        inlet_nodes = self._inlet_nodes(gap)
         return FilmSolution(
             state=state,
             gap=gap,
@@ -432,7 +433,8 @@ class Scaled:
             route=route,
             algorithm=algorithm,
             load_beyond=1.0 + found.load_error - float(it.pressure.sum()) / self.load,
-            inlet_nodes=self._inlet_nodes(gap),
+            inlet_nodes=inlet_nodes,
+            resolved=route != "mixed" or resolves_inlet(inlet_nodes, fitted=self.settings.fitted),
             **found.convergence,
         )
 

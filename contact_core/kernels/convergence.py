@@ -29,7 +29,8 @@ class Convergence(SolverConvergence):
     route: str  # "mixed", "dry" (asked for, or no entrainment), "fallback" (dry, no film was found) or "open" (no load)
     algorithm: str  # row of `film.routes.REGIMES` and its algorithm that found the film: "smooth: multigrid from none"
     load_beyond: float  # share of the load that a film wider than the grid carries beyond its edge
-    inlet_nodes: float  # grid nodes across the inlet zone of the film; below 3 the film depends on the grid
+    inlet_nodes: float  # grid nodes across the inlet zone of the film
+    resolved: bool  # True if those are enough for a film that does not depend on the grid
 
     @property
     def convergence(self) -> dict[str, Any]:
