@@ -11,7 +11,7 @@ from scipy.optimize import least_squares
 from benchmarks.pages import cells
 from benchmarks.regression.points import SCENES, Columns, solved
 from contact_core import RangeFlag, Scene
-from contact_core.laws.load_sharing import FittedSharing, LineSharing
+from contact_core.laws.load_sharing import FittedSharing, LineSharing, layer_height
 
 RANGES = ((0.0, 0.05), (0.05, 0.2), (0.2, 1.0), (1.0, np.inf))
 FAR = 0.1  # residuals beyond which a point counts by its distance
@@ -36,12 +36,9 @@ class Table:
         return c["mean_pressure"] / (0.5 * c["modulus"] * c["slope"])
 
     @property
-    def resolution(self) -> Array:
-        return self.columns["correlation_length"] / self.columns["spacing"]
-
-    @property
-    def floors(self) -> Array:
-        return self.columns["lambda"] * self.columns["sigma"] / self.columns["floor"]
+    def layers(self) -> Array:
+        c = self.columns
+        return c["lambda"] * c["sigma"] / layer_height(c["floor"], c["microroughness"])
 
     @property
     def dense(self) -> Array:
@@ -97,8 +94,8 @@ class Fit:
         self.all = rows = self.sweep if others is None else Table(shared([self.sweep.columns, told(solved(others))]))
         further = ("load_flattening", "load_bending") if isinstance(law, LineSharing) else ()
         self._fit(
-            ("load_factor", "load_exponent", *further),
-            lambda law: law.load_ratio(rows.clearance, rows.flattening, rows.resolution, rows.floors) - rows.load_ratio,
+            ("load_factor", "load_exponent", "layer_factor", "layer_exponent", *further),
+            lambda law: law.load_ratio(rows.clearance, rows.flattening, rows.layers) - rows.load_ratio,
         )
         self._fit(
             ("area_factor", "area_exponent"), self._area_residual(rows, None if dry is None else Table(solved(dry)))
@@ -107,7 +104,7 @@ class Fit:
         self._fit(
             ("film_dry", "film_parted", "film_mixed", "film_factor", "film_exponent"),
             lambda law: np.log(
-                law.film_ratio(open_gap.dense, open_gap.load_ratio, open_gap.flattening, open_gap.resolution)
+                law.film_ratio(open_gap.dense, open_gap.load_ratio, open_gap.flattening)
                 / open_gap.film_ratio
             ),
         )
@@ -221,53 +218,42 @@ def covered(table: Table) -> Array:
     return np.minimum(table.columns["width"] / reference, 1.0)
 
 
-def reduced_clearance(table: Table) -> Array:
-    """L of the law."""
-    return table.clearance * (table.flattening / 0.2) ** 2 * table.resolution / 2.0
-
-
 def predicted(law: FittedSharing, table: Table) -> Columns:
-    """Return the outputs of the law for lambda, flattening and resolution; h_c in sigma."""
-    share = law.load_ratio(table.clearance, table.flattening, table.resolution, table.floors)
+    """Return the outputs of the law for lambda, flattening and layers; h_c in sigma."""
+    share = law.load_ratio(table.clearance, table.flattening, table.layers)
     return {
         "W_c": share,
         "A_c": law.area_ratio(share, table.flattening),
-        "h_c": law.film_ratio(table.dense, share, table.flattening, table.resolution),
+        "h_c": law.film_ratio(table.dense, share, table.flattening),
     }
-
-
-def free_exponents(sweep: Table) -> tuple[float, float]:
-    """Return the exponents of s and r beside lambda to the power of one."""
-    found, _, _ = fitted(
-        lambda p: (
-            np.exp(-p[0] * (sweep.clearance * sweep.flattening ** p[2] * sweep.resolution ** p[3]) ** p[1])
-            - sweep.load_ratio
-        ),
-        [10.0, 0.6, 2.0, 1.0],
-    )
-    return float(found[2]), float(found[3])
 
 
 def alternatives(sweep: Table) -> list[tuple[str, int, float, float]]:
     """Forms of W_c: what, how many constants, standard deviation and largest distance of the residuals."""
-    lam, flat, fine, share = sweep.clearance, sweep.flattening / 0.2, sweep.resolution / 2.0, sweep.load_ratio
-    relative = sweep.columns["correlation_length"] / sweep.columns["width"]
+    lam, flat, film, share = sweep.clearance, sweep.flattening / 0.2, sweep.layers, sweep.load_ratio
+    fine = sweep.columns["correlation_length"] / sweep.columns["spacing"]
+
+    def rough(p: Array, *further: Array) -> Array:
+        product = lam.copy()
+        for power, number in zip(p[2:], further, strict=True):
+            product *= number**power
+        return np.exp(-p[0] * product ** p[1])
+
+    def layer(p: Array) -> Array:
+        return np.exp(-p[0] * film ** p[1])
+
+    def either(p: Array, *further: Array) -> Array:
+        one, other = rough(p[2:], *further), layer(p[:2])
+        return one + other - one * other
+
     forms: list[tuple[str, Callable[[Array], Array], list[float]]] = [
-        ("exp(-B lambda^C)", lambda p: np.exp(-p[0] * lam ** p[1]), [2.0, 0.6]),
-        (
-            "exp(-B lambda^C (l/a)^p)",
-            lambda p: np.exp(-p[0] * lam ** p[1] * (relative / 0.05) ** p[2]),
-            [2.0, 0.6, 0.0],
-        ),
-        ("exp(-B lambda^C r^q)", lambda p: np.exp(-p[0] * lam ** p[1] * fine ** p[2]), [2.0, 0.6, 0.0]),
-        ("exp(-B lambda^C s^m)", lambda p: np.exp(-p[0] * lam ** p[1] * flat ** p[2]), [2.0, 0.6, 0.0]),
-        (
-            "exp(-B lambda^C s^m r^q)",
-            lambda p: np.exp(-p[0] * lam ** p[1] * flat ** p[2] * fine ** p[3]),
-            [2.0, 0.6, 1.0, 0.6],
-        ),
-        ("**exp(-B (lambda s^2 r)^C)**", lambda p: np.exp(-p[0] * (lam * flat**2 * fine) ** p[1]), [2.0, 0.6]),
-        ("1 / (1 + B (lambda s^2 r)^C)", lambda p: 1.0 / (1.0 + p[0] * (lam * flat**2 * fine) ** p[1]), [6.0, 0.9]),
+        ("exp(-B lambda^C)", rough, [2.0, 0.6]),
+        ("exp(-B (lambda s^m)^C)", lambda p: rough(p, flat), [2.0, 0.6, 1.0]),
+        ("exp(-b f^c)", layer, [0.3, 0.8]),
+        ("both, without s", either, [0.3, 0.8, 2.0, 0.6]),
+        ("**both, lambda s^2**", lambda p: either(np.append(p, 2.0), flat), [0.3, 0.8, 2.0, 0.6]),
+        ("both, lambda s^m", lambda p: either(p, flat), [0.3, 0.8, 2.0, 0.6, 2.0]),
+        ("both, lambda s^m r^q", lambda p: either(p, flat, fine), [0.3, 0.8, 2.0, 0.6, 2.0, 0.1]),
     ]
     found = []
     for name, form, start in forms:

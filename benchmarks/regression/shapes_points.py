@@ -26,8 +26,8 @@ ORIGIN = {  # scene of each shape; soft: lines under a tribofilm's hardness
     "soft line": "fzg_flank",
 }
 FIT, WIDTH, CHECK = 1, 2, 5  # seeds: what constants are fitted to, what half widths, too, and what tells if they hold
-COUNTS = {"line": 90, "ellipse": 45, "circle": 45, "soft line": 20}  # points of the fit
-OTHERS = {"line": 40, "ellipse": 40, "circle": 40, "soft line": 10}  # of the other seeds
+COUNTS = {"line": 80, "ellipse": 35, "circle": 25, "soft line": 20}  # points of the fit
+OTHERS = {"line": 30, "ellipse": 25, "circle": 15, "soft line": 8}  # of the other seeds
 RUBBED, RUNS, MINUTES = 3, 6, 10.0  # seed, contacts of each shape, and for how long they rub
 LIGHT = 600.0  # N, at most, of ellipses that rub: others take long
 KELVIN = 273.15
@@ -35,7 +35,7 @@ STEEL = 6e9  # Pa, hardness
 BALL = 6.35e-3  # m, radius
 RACES = (5.1093e-3, 7.590e-3)  # m, radii along x on the inner and the outer ring
 NODES = (65, 81, 97, 129)  # along x, of an ellipse
-INLET = 3.0  # nodes that resolve an inlet
+INLET = 1.5  # nodes that resolve an inlet
 SPINNING = 0.5  # share of the ellipses that spin
 BELOW = (2e-9, 20e-9)  # m, rms of the microroughness
 PRESSED = 0.8  # of the hardness, at most, by Hertz's pressure

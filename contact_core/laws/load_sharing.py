@@ -8,7 +8,6 @@ from .elementary import Numbers, exp, expm1, log1p, maximum, minimum, sqrt
 from .equations import Equations
 
 _FLATTENING = 0.2  # reference of the constants: about that of the shipped circles
-_RESOLUTION = 2.0  # reference of the constants: that of the shipped circles on their grids
 # films and flattening beyond which no solid carries anything, and power of the film: no power of them may overflow
 _THICKEST, _FLATTEST, _STEEPEST = 1e30, 1e3, 10.0
 
@@ -30,6 +29,14 @@ def flattening_of(mean_pressure: Numbers, reduced_modulus: float, slope: Numbers
     doi:10.1063/1.1388626.
     """
     return mean_pressure / (0.5 * reduced_modulus * slope)
+
+
+def layer_height(floor: Numbers, rms: Numbers) -> Numbers:
+    """Return the height [m] to which roughness below the grid reaches, of the rms height `rms` [m] of both bodies.
+
+    It stands on the floor [m], where solids touch.
+    """
+    return floor + rms
 
 
 class Widths(NamedTuple):
@@ -70,12 +77,10 @@ class FittedSharing:
 
     clearance   Z, film of the smooth bodies by the formula of their shape / composite rms roughness,
     flattening  s, see `flattening_of`,
-    resolution  r, correlation length of the rougher body / distance of the nodes,
-    floors      f, that film / the gap at which solids touch.
+    layers      f, that film / the height to which roughness below the grid reaches, see `layer_height`.
 
-    `equations` states them. W_c at a given Z is a number of the grid: the constants hold for resolutions as those of
-    the fit. They were fitted over the ranges `FITTED`; `HALF_WIDTHS` are those of their 95 % intervals
-    (docs/measured/regression/curves.md).
+    `equations` states them. The constants were fitted over the ranges `FITTED`; `HALF_WIDTHS` are those of their 95 %
+    intervals (docs/measured/regression/curves.md).
     """
 
     name: ClassVar[str] = "fitted"
@@ -85,24 +90,24 @@ class FittedSharing:
     )
     equations: ClassVar[Equations] = Equations(
         (
-            "1 − W_c = [1 − exp(−B t^{m C} Z′^{C′})] [1 − exp(−b f^c)]",
-            "t = s/0.2,   Z′ = Z r/2,   C′ = C t^{−v}",
+            "1 − W_c = [1 − exp(−B t^{m C} Z^{C′})] [1 − exp(−b f^c)]",
+            "t = s/0.2,   C′ = C t^{−v}",
             "A_c = [1 − exp(−A s)] W_c^D",
             "h_c/σ = W_c g + (1 − W_c) [(E Z/ρ)^n + j^n]^{1/n}",
-            "g = (G/k) ln[1 + k t^{−1.5}],   j = max[F (t r/2)^{−0.75}, g]",
+            "g = (G/k) ln[1 + k t^{−1.5}],   j = max[F t^{−0.75}, g]",
         ),
-        "Z: film of the smooth bodies by the formula of their shape over composite roughness; f: that film over "
-        "film.floor; s: mean Hertz pressure over what would press the roughness flat; r: correlation length over the "
-        "distance of the nodes; ρ: density of the oil under Hertz's mean pressure, over that without pressure.",
+        "Z: film of the smooth bodies by the formula of their shape over composite roughness; f: that film over film.floor "
+        "and the microroughness of both bodies; s: mean Hertz pressure over what would press the roughness flat; ρ: "
+        "density of the oil under Hertz's mean pressure, over that without pressure.",
     )
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
         "clearance": (0.003, 70.0),
         "flattening": (0.068, 6.4),
-        "resolution": (2.0, 9.3),
+        "layers": (0.01, 1e3),
     }
     WIDTHS: ClassVar[Widths] = Widths(0.23, 0.25, 0.44, 0.6, 0.12, 0.25, 0.65)
     CHOSEN: ClassVar[frozenset[str]] = frozenset(
-        {"load_flattening", "load_bending", "floor_factor", "floor_exponent", "oil_pressure_power", "oil_spread"}
+        {"load_flattening", "load_bending", "oil_pressure_power", "oil_spread"}
     )
     HALF_WIDTHS: ClassVar[dict[str, float]] = {
         "load_factor": 0.2,
@@ -129,8 +134,8 @@ class FittedSharing:
     load_bending: float = parameter(
         "", "v, how much less Z decides where roughness is pressed flat", least=0.0, most=2.0, default=0.0
     )
-    floor_factor: float = parameter("", "b, of films as thin as the floor", above=0.0, most=100.0, default=0.8)
-    floor_exponent: float = parameter("", "c, of them", above=0.0, most=10.0, default=0.8)
+    layer_factor: float = parameter("", "b, of films as thin as the layer", above=0.0, most=100.0, default=0.8)
+    layer_exponent: float = parameter("", "c, of them", above=0.0, most=10.0, default=0.8)
     area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.84)
     area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.812)
     film_dry: float = parameter(
@@ -166,26 +171,26 @@ class FittedSharing:
         "", "k of the smoother body in blocks driven dry", above=0.0, most=1e3, default=3.97
     )
 
-    def load_ratio(self, clearance: Numbers, flattening: Numbers, resolution: Numbers, floors: Numbers) -> Numbers:
-        """Return contact_load_ratio at Z = `clearance`, for a film of smooth bodies `floors` floors thick."""
-        flat, film = flattening / _FLATTENING, minimum(clearance * resolution / _RESOLUTION, _THICKEST)
+    def load_ratio(self, clearance: Numbers, flattening: Numbers, layers: Numbers) -> Numbers:
+        """Return contact_load_ratio at Z = `clearance`, for a film of smooth bodies `layers` layers thick."""
+        flat, film = flattening / _FLATTENING, minimum(clearance, _THICKEST)
         flat = minimum(flat, _FLATTEST)
         steep = flat ** (self.load_flattening * self.load_exponent)
         power = minimum(self.load_exponent * flat**-self.load_bending, _STEEPEST)
         rough = exp(-self.load_factor * steep * film**power)
-        layers = exp(-self.floor_factor * minimum(floors, _THICKEST) ** self.floor_exponent)
-        return rough + layers - rough * layers
+        layer = exp(-self.layer_factor * minimum(layers, _THICKEST) ** self.layer_exponent)
+        return rough + layer - rough * layer
 
     def area_ratio(self, load_ratio: Numbers, flattening: Numbers) -> Numbers:
         """Return contact_area_ratio where the solids carry `load_ratio` of the load."""
         return -expm1(-self.area_factor * flattening) * load_ratio**self.area_exponent
 
-    def film_ratio(self, dense: Numbers, load_ratio: Numbers, flattening: Numbers, resolution: Numbers) -> Numbers:
+    def film_ratio(self, dense: Numbers, load_ratio: Numbers, flattening: Numbers) -> Numbers:
         """Return h_c / sigma at Z / rho = `dense` where the solids carry `load_ratio` of the load."""
         share, flat = load_ratio, flattening / _FLATTENING
         flat = flat**-0.75
         dry = self.film_dry * log1p(self.film_parted * (flat * flat)) / self.film_parted
-        mixed = maximum(self.film_mixed * flat * (resolution / _RESOLUTION) ** -0.75, dry)
+        mixed = maximum(self.film_mixed * flat, dry)
         film = self.film_factor * dense
         larger = maximum(film, mixed)  # in front, because powers of large numbers overflow
         ratio = minimum(film, mixed) / larger
@@ -206,18 +211,17 @@ class FittedSharing:
         raised = 1.0 + self.oil_pressure_excess * steep * exp(-fall)
         return raised / sqrt((1.0 + self.oil_spread * thick_x) * (1.0 + self.oil_spread * thick_y))
 
-    def covers(self, clearance: float, flattening: float, resolution: float) -> bool:
-        """Return True if the point lies within those of the fit."""
-        (low, high), (flat, flatter), (coarse, fine) = self.FITTED.values()
-        return low <= clearance <= high and flat <= flattening <= flatter and coarse <= resolution <= fine
+    def covers(self, clearance: float, flattening: float, layers: float) -> bool:
+        """Return True if the point lies within those of the fit, or has a film that no layer reaches across."""
+        (low, high), (flat, flatter), (thin, _) = self.FITTED.values()
+        return low <= clearance <= high and flat <= flattening <= flatter and thin <= layers
 
-    def nearest(self, flattening: float, resolution: float) -> tuple[float, float]:
-        """Return the nearest flattening and resolution in the range of validity of the curves.
+    def nearest(self, flattening: float) -> float:
+        """Return the nearest flattening in the range of validity of the curves.
 
         It is that of the fit, and roughness that is pressed flatter than there.
         """
-        _, (flat, _), (coarse, fine) = self.FITTED.values()
-        return max(flattening, flat), min(max(resolution, coarse), fine)
+        return max(flattening, self.FITTED["flattening"][0])
 
     def exposed(self, area_ratio: Numbers, *, rougher: bool, dry: bool = False) -> Numbers:
         """Return the share of a body's points within Hertz's width that touch the other body in one pass.
@@ -239,9 +243,9 @@ class LineSharing(FittedSharing):
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
         "clearance": (0.05, 5.0),
         "flattening": (0.03, 0.74),
-        "resolution": (3.9, 4.1),
+        "layers": (0.01, 1e3),
     }
-    CHOSEN: ClassVar[frozenset[str]] = frozenset({"floor_factor", "floor_exponent", "oil_pressure_power", "oil_spread"})
+    CHOSEN: ClassVar[frozenset[str]] = frozenset({"oil_pressure_power", "oil_spread"})
     HALF_WIDTHS: ClassVar[dict[str, float]] = {
         "load_factor": 0.16,
         "load_exponent": 0.1,

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from ..laws.load_sharing import flattening_of, rms_slope
+from ..laws.load_sharing import flattening_of, layer_height, rms_slope
 from ..scene import Case
 from .oil import Law
 from .surfaces import Tribofilms, composite_roughness, hardness_of, mean_cover, regression_film
@@ -14,10 +14,10 @@ class Fit(NamedTuple):
 
     clearance: float
     flattening: float
-    resolution: float
+    layers: float
 
 
-UNFITTED = Fit(math.inf, 0.0, 0.0)  # no load
+UNFITTED = Fit(math.inf, 0.0, math.inf)  # no load
 
 
 class Surfaces(NamedTuple):
@@ -27,7 +27,7 @@ class Surfaces(NamedTuple):
     cover: float  # mean cover of both bodies where they touch
     hardness: float  # where they touch [Pa]
     flattening: float  # per Hertz's largest pressure [1/Pa]
-    resolution: float  # correlation length of the rougher body over the distance of the nodes
+    layer: float  # height to which roughness below the grid reaches [m]
 
 
 class Shares(NamedTuple):
@@ -42,17 +42,16 @@ class Shares(NamedTuple):
 
 def surfaces_of(case: Case, tribofilms: Tribofilms) -> Surfaces:
     """Return the properties of the surfaces under their tribofilms."""
-    scene, hertz = case.scene, case.unit_hertz
+    scene, hertz, below = case.scene, case.unit_hertz, case.microroughness
     first, second = scene.surface_1, scene.surface_2
     slope = rms_slope(tribofilms[0].both, first.length, tribofilms[1].both, second.length)
-    rougher = case.sides[scene.rougher].surface
     per_pressure = flattening_of(hertz.mean_share, scene.solids.reduced_modulus, slope) if slope > 0.0 else math.inf
     return Surfaces(
         sigma=composite_roughness(tribofilms),
         cover=mean_cover(scene, tribofilms),
         hardness=hardness_of(scene, tribofilms),
         flattening=per_pressure,
-        resolution=rougher.length / scene.film.spacing,
+        layer=layer_height(scene.film.floor, below.rms if below else 0.0),
     )
 
 
@@ -66,13 +65,13 @@ def shared(case: Case, surfaces: Surfaces, film: float, grown: tuple[float, floa
     floor, sharing = scene.film.floor, regression_film(scene).sharing
     sigma = max(surfaces.sigma, floor)  # smooth bodies touch where their adsorbed layers do
     pressure, half = root * hertz.pressure_max, root * hertz.a
-    clearance, flattening, resolution = fit = Fit(film / sigma, surfaces.flattening * pressure, surfaces.resolution)
-    if not sharing.covers(*fit):  # powers of them have no meaning far from the fit
-        flattening, resolution = sharing.nearest(flattening, resolution)
+    clearance, flattening, layers = fit = Fit(film / sigma, surfaces.flattening * pressure, film / surfaces.layer)
+    if not sharing.covers(*fit):  # powers of it have no meaning far from the fit
+        flattening = sharing.nearest(flattening)
     density: Law = scene.lubricant.density
-    share = sharing.load_ratio(clearance, flattening, resolution, film / floor)
+    share = sharing.load_ratio(clearance, flattening, layers)
     dense = clearance / float(density(hertz.mean_share * pressure))
-    gap = max(sigma * sharing.film_ratio(dense, share, flattening, resolution), floor)
+    gap = max(sigma * sharing.film_ratio(dense, share, flattening), floor)
     raised = sharing.oil_pressure(clearance, flattening, *case.shape.depths(film, half, wide * hertz.b))
     # no pressure is above the hardness
     return Shares(

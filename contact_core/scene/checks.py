@@ -165,11 +165,6 @@ def warnings(scene: SceneFields) -> list[str]:
                 f"{name} is taken for Gaussian roughness without lay by film.model = '{scene.film.name}': its curves "
                 "are fitted to that, and their errors do not hold."
             )
-        if not scene.film.on_grid and surface.microroughness is not None:
-            found.append(
-                f"{name}.microroughness does not act with film.model = '{scene.film.name}': its curves hold for "
-                "surfaces without."
-            )
     if not scene.tribofilm.covers(scene.operation.temperature):
         found.append(
             f"The tribofilm's constants are extrapolated: they do not hold at {scene.operation.temperature:g} K."

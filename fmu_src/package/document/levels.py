@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from contact_core.laws.load_sharing import flattening_of, rms_slope
-from contact_core.scene import Scene
+from contact_core.laws.load_sharing import flattening_of, layer_height, rms_slope
+from contact_core.scene import Case, Scene
 
 from .markup import number
 
@@ -67,14 +67,14 @@ def _fitted_ranges(scene: Scene) -> Iterator[Row]:
     film: Any = scene.film
     first, second = scene.surface_1, scene.surface_2
     slope = rms_slope(first.rms, first.length, second.rms, second.length)
-    rougher = max(first, second, key=lambda surface: surface.rms)
     pressure = scene.hertz(scene.operation.load).pressure_mean
+    below = Case.bind(scene, scene.operation.point).microroughness
     here = {
         "clearance": "see above",
         "flattening": number(flattening_of(pressure, scene.solids.reduced_modulus, slope)) if slope > 0.0 else "none",
-        "resolution": number(rougher.length / film.spacing),
+        "layers": f"film / {number(1e9 * layer_height(film.floor, below.rms if below else 0.0), 'nm')}",
     }
-    symbols = {"clearance": "Z", "flattening": "s", "resolution": "r"}
+    symbols = {"clearance": "Z", "flattening": "s", "layers": "f"}
     for name, (low, high) in film.sharing.FITTED.items():
         yield f"{symbols[name]} of the fit", here[name], f"fitted from {low:g} to {high:g}"
 
