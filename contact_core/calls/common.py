@@ -30,7 +30,7 @@ _CHOICES = {
     "density_law": tuple(_DENSITY),
     "criterion": ("split", "lumped"),
     "cavitation": ("reynolds", "mass_conserving"),
-    "flux": ("upwind", "fitted"),
+    "flux": ("fitted", "upwind"),
     "fft": ("pyfftw", "scipy"),
 }
 

@@ -104,8 +104,7 @@ def point_contact(
     iterations
         Largest number of iterations.
     flux
-        Flow between nodes: "upwind", of second order, or "fitted", exact for a constant flow in each cell: on usual
-        grids the better one for thin films. The error estimate was measured with "upwind".
+        Flow between nodes: "fitted", exact for a constant flow in each cell, or "upwind", of second order.
     fft
         "pyfftw" or "scipy"; FFTW is under the GPL.
 
