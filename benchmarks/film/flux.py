@@ -13,6 +13,7 @@ from contact_core import Scene, advance, initial_state
 SCENES = ("azam_case_a", "mtm_zddp")
 GRIDS, FINEST = (65, 129, 257), 513
 LOADS, LUBRICANTS, RATIOS = (20.0, 200.0, 1000.0, 4000.0), (2.0, 5.0, 10.0, 15.0), (0.2, 0.5, 2.0, 5.0)
+HARD = {"surface_1.microroughness.rms": "0 m", "surface_2.microroughness.rms": "0 m"}
 LINES, ROLLERS = (20.0, 50.0, 200.0, 1000.0), ((20.0, 5.0), (50.0, 10.0), (100.0, 10.0))
 
 
@@ -151,7 +152,7 @@ def rough(page: Page) -> None:
     for name in SCENES:
         for flux in FLUXES:
             for nodes in GRIDS[:2]:
-                scene = Scene.from_toml(name, {"film.points": str(nodes), "film.flux": flux})
+                scene = Scene.from_toml(name, {"film.points": str(nodes), "film.flux": flux} | HARD)
                 _, out = advance(scene, scene.operation.point, initial_state(scene), 0.0)
                 values = (out.contact_load_ratio, out.contact_area_ratio, out.friction_coefficient, out.h_c * 1e9)
                 page.row(name, flux, nodes, *values, out.unconverged)

@@ -56,7 +56,8 @@ def scene_film(name: str, nodes: int, flux: str) -> Film:
     scene = Scene.from_toml(name, {"film.points": str(nodes)})
     case = Case.bind(scene, scene.operation.point)
     grid = scene.grid(scene.rows)
-    return film(replace(instant_of(case, np.zeros(grid.shape), np.full(grid.shape, 1e11)), hardness=1e11), grid, flux)
+    bare = instant_of(case, np.zeros(grid.shape), np.full(grid.shape, 1e11))
+    return film(replace(bare, hardness=1e11, microroughness=None), grid, flux)
 
 
 def point_film(load: float, lubricant: float, ratio: float, nodes: int, flux: str) -> Film:

@@ -9,10 +9,10 @@ import time
 
 import numpy as np
 
-from benchmarks.film.moving import BALL, DISC, LONGEST, SCENES, microrough
+from benchmarks.film.moving import SCENES
 from benchmarks.pages import Page
 from benchmarks.timing import work_unit
-from contact_core import advance, initial_state
+from contact_core import Scene, advance, initial_state
 
 GRIDS = (65, 129)
 MINUTES, STEP = 120, 60.0  # s
@@ -31,7 +31,7 @@ NAMES = {
 
 def run(name: str, nodes: int) -> tuple[np.ndarray, float, float, float]:
     """Return the outputs of every minute [minutes, names], the share of instants that missed, and the CPU time [s]."""
-    scene = microrough(name, nodes)
+    scene = Scene.from_toml(name, {"film.points": str(nodes)})
     state, rows, missed = initial_state(scene), [], []
     start = time.process_time()
     for _ in range(MINUTES):
@@ -45,8 +45,7 @@ def run(name: str, nodes: int) -> tuple[np.ndarray, float, float, float]:
 def main() -> None:
     page = Page("film/two_hours", "Two hours of rubbing on two grids")
     page.say(
-        f"The shipped scenes with flux fitted and microroughness of {BALL * 1e9:g} nm (ball) and {DISC * 1e9:g} nm (disc) below {LONGEST * 1e6:g} um, "
-        "both assumed. Means over windows of time. Where the solids carry more than `control.dry_above` of the load, dry contacts of the same share drive the blocks. "
+        "The shipped scenes. Means over windows of time. Where the solids carry more than `control.dry_above` of the load, dry contacts of the same share drive the blocks. "
         "A work unit is the time of one deformation on the same grid."
     )
     page.header("scene", "nodes", "minutes", *NAMES.values())

@@ -37,7 +37,7 @@ def formula(given):
     return nijenbanning_venner_moes(SmoothContact(*(given[name] for name in names)))
 
 
-def films(given, grids, tolerance=1e-4, by="smooth: multigrid"):
+def films(given, grids, tolerance=1e-4, by="smooth: multigrid", flux="fitted"):
     """Central films on one domain, `grids` nodes along its shorter side, solved `by` that wherever 65 see the inlet."""
     bodies = Point(given["radius_x"], given["radius_y"])
     ny, nx = Extent.of(bodies, given["load"], MODULUS, formula(given)).shape(shorter=grids[0])
@@ -45,7 +45,7 @@ def films(given, grids, tolerance=1e-4, by="smooth: multigrid"):
     for nodes in grids:
         factor = (nodes - 1) // (grids[0] - 1)
         shape = (ny - 1) * factor + 1, (nx - 1) * factor + 1
-        answer = point_contact(**given, grid=shape, tolerance=tolerance)
+        answer = point_contact(**given, grid=shape, tolerance=tolerance, flux=flux)
         assert answer.converged
         assert answer.algorithm.startswith(by) or nodes < 65
         found.append(answer.h_central)
@@ -83,19 +83,27 @@ def test_a_dry_ellipse_converges_to_hertz_and_lies_the_other_way_if_turned(ratio
     assert across.pressure == approx(found.pressure.T, abs=1e-6 * hertz.pressure_max)
 
 
-@pytest.mark.parametrize(
+LIMITS = pytest.mark.parametrize(
     ("ratio", "load", "limit"),
     [(0.3518, 100.0, 3.644), (2.843, 100.0, 5.397), (11.83, 200.0, 5.768)],
     ids=["along the long axis", "across the long axis", "far across"],
 )
-def test_films_converge_to_second_order_on_the_limit_of_finer_grids(ratio, load, limit):
+UNIT = RADIUS * np.sqrt((10.0 / (2.2e-8 * MODULUS)) ** 4)
+
+
+@LIMITS
+def test_films_of_the_upwind_flow_converge_to_second_order_on_the_limit_of_finer_grids(ratio, load, limit):
     """Limits in Moes' units: docs/measured/film/elliptical.md, 129, 257 nodes along the shorter side."""
-    given = of_moes(load, 10.0, ratio)
-    unit = RADIUS * np.sqrt((10.0 / (2.2e-8 * MODULUS)) ** 4)
-    found = films(given, (33, 65, 129)) / unit
+    found = films(of_moes(load, 10.0, ratio), (33, 65, 129), flux="upwind") / UNIT
     order = np.log2((found[1] - found[0]) / (found[2] - found[1]))
     assert 1.8 < order < 2.2
     assert found[2] + (found[2] - found[1]) / 3.0 == approx(limit, rel=0.01)
+
+
+@LIMITS
+def test_films_of_the_fitted_flow_are_near_that_limit_on_33_nodes_already(ratio, load, limit):
+    found = films(of_moes(load, 10.0, ratio), (33, 65)) / UNIT
+    assert found == approx(np.full(2, limit), rel=0.03)
 
 
 @pytest.mark.parametrize(("ratio", "load"), [(2.843, 20.0), (2.843, 100.0), (2.843, 500.0), (11.83, 100.0)])
