@@ -11,11 +11,11 @@ from scipy.optimize import least_squares
 from benchmarks.pages import cells
 from benchmarks.regression.points import SCENES, Columns, solved
 from contact_core import RangeFlag, Scene
-from contact_core.laws.load_sharing import FittedSharing, LineSharing, layer_height
+from contact_core.laws.load_sharing import FittedSharing, layer_height
 
 RANGES = ((0.0, 0.05), (0.05, 0.2), (0.2, 1.0), (1.0, np.inf))
 FAR = 0.1  # residuals beyond which a point counts by its distance
-SWEPT = ("shipped", "amplitude", "length")  # groups of the sweep
+SWEPT = ("shipped", "amplitude", "length", "microroughness")  # groups of the sweep
 STUDENT = 1.96  # half width of a 95 % interval, in standard deviations
 Array = np.ndarray
 
@@ -34,6 +34,11 @@ class Table:
     def flattening(self) -> Array:
         c = self.columns
         return c["mean_pressure"] / (0.5 * c["modulus"] * c["slope"])
+
+    @property
+    def flattening_all(self) -> Array:
+        c = self.columns
+        return c["mean_pressure"] / (0.5 * c["modulus"] * c["slope_all"])
 
     @property
     def layers(self) -> Array:
@@ -92,10 +97,9 @@ class Fit:
         self.law, self.half_widths = law, dict[str, float]()
         self.sweep = Table(solved(sweep))
         self.all = rows = self.sweep if others is None else Table(shared([self.sweep.columns, told(solved(others))]))
-        further = ("load_flattening", "load_bending") if isinstance(law, LineSharing) else ()
         self._fit(
-            ("load_factor", "load_exponent", "layer_factor", "layer_exponent", *further),
-            lambda law: law.load_ratio(rows.clearance, rows.flattening, rows.layers) - rows.load_ratio,
+            ("load_factor", "load_exponent", "load_flattening"),
+            lambda law: law.load_ratio(rows.layers, rows.flattening) - rows.load_ratio,
         )
         self._fit(
             ("area_factor", "area_exponent"), self._area_residual(rows, None if dry is None else Table(solved(dry)))
@@ -131,10 +135,10 @@ class Fit:
     @staticmethod
     def _area_residual(rows: Table, dry: Table | None) -> Callable[[FittedSharing], Array]:
         def residual(law: FittedSharing) -> Array:
-            off = law.area_ratio(rows.load_ratio, rows.flattening) - rows.area_ratio
+            off = law.area_ratio(rows.load_ratio, rows.flattening_all) - rows.area_ratio
             if dry is None:
                 return off
-            alone = law.area_ratio(np.ones_like(dry.flattening), dry.flattening) - dry.area_ratio
+            alone = law.area_ratio(np.ones_like(dry.flattening), dry.flattening_all) - dry.area_ratio
             return np.concatenate([off, alone])
 
         return residual
@@ -220,40 +224,35 @@ def covered(table: Table) -> Array:
 
 def predicted(law: FittedSharing, table: Table) -> Columns:
     """Return the outputs of the law for lambda, flattening and layers; h_c in sigma."""
-    share = law.load_ratio(table.clearance, table.flattening, table.layers)
+    share = law.load_ratio(table.layers, table.flattening)
     return {
         "W_c": share,
-        "A_c": law.area_ratio(share, table.flattening),
+        "A_c": law.area_ratio(share, table.flattening_all),
         "h_c": law.film_ratio(table.dense, share, table.flattening),
     }
 
 
 def alternatives(sweep: Table) -> list[tuple[str, int, float, float]]:
     """Forms of W_c: what, how many constants, standard deviation and largest distance of the residuals."""
-    lam, flat, film, share = sweep.clearance, sweep.flattening / 0.2, sweep.layers, sweep.load_ratio
-    fine = sweep.columns["correlation_length"] / sweep.columns["spacing"]
+    lam, film, share = sweep.clearance, sweep.layers, sweep.load_ratio
+    flat, fine = sweep.flattening / 0.2, sweep.columns["correlation_length"] / sweep.columns["spacing"]
 
-    def rough(p: Array, *further: Array) -> Array:
-        product = lam.copy()
-        for power, number in zip(p[2:], further, strict=True):
-            product *= number**power
-        return np.exp(-p[0] * product ** p[1])
+    def of(film: Array, *further: Array) -> Callable[[Array], Array]:
+        def form(p: Array) -> Array:
+            product = film.copy()
+            for power, number in zip(p[2:], further, strict=True):
+                product *= number**power
+            return np.exp(-p[0] * product ** p[1])
 
-    def layer(p: Array) -> Array:
-        return np.exp(-p[0] * film ** p[1])
+        return form
 
-    def either(p: Array, *further: Array) -> Array:
-        one, other = rough(p[2:], *further), layer(p[:2])
-        return one + other - one * other
-
-    forms: list[tuple[str, Callable[[Array], Array], list[float]]] = [
-        ("exp(-B lambda^C)", rough, [2.0, 0.6]),
-        ("exp(-B (lambda s^m)^C)", lambda p: rough(p, flat), [2.0, 0.6, 1.0]),
-        ("exp(-b f^c)", layer, [0.3, 0.8]),
-        ("both, without s", either, [0.3, 0.8, 2.0, 0.6]),
-        ("**both, lambda s^2**", lambda p: either(np.append(p, 2.0), flat), [0.3, 0.8, 2.0, 0.6]),
-        ("both, lambda s^m", lambda p: either(p, flat), [0.3, 0.8, 2.0, 0.6, 2.0]),
-        ("both, lambda s^m r^q", lambda p: either(p, flat, fine), [0.3, 0.8, 2.0, 0.6, 2.0, 0.1]),
+    forms = [
+        ("exp(-B lambda^C)", of(lam), [2.0, 1.0]),
+        ("exp(-B (lambda s^m)^C)", of(lam, flat), [2.0, 1.0, 1.0]),
+        ("exp(-B f^C)", of(film), [0.3, 1.0]),
+        ("**exp(-B (f s^m)^C)**", of(film, flat), [0.3, 1.0, 1.0]),
+        ("exp(-B (f s^m lambda^k)^C)", of(film, flat, lam), [0.3, 1.0, 1.0, 0.0]),
+        ("exp(-B (f s^m r^q)^C)", of(film, flat, fine), [0.3, 1.0, 1.0, 0.0]),
     ]
     found = []
     for name, form, start in forms:
@@ -294,7 +293,7 @@ def errors_of(law: FittedSharing, data: Table) -> Columns:
 
 def ends(rows: Table) -> dict[str, tuple[float, float]]:
     """Between which numbers the rows lie."""
-    found = (("lambda", rows.clearance), ("s", rows.flattening), ("r", rows.resolution))
+    found = (("lambda", rows.clearance), ("s", rows.flattening), ("f", rows.layers))
     return {name: (float(x.min()), float(x.max())) for name, x in found}
 
 
@@ -312,19 +311,12 @@ def constants_page(fit: Fit) -> list[str]:
     sweep, rows, dry, whole = fit.sweep, fit.all, fit.dry, fit.whole
     many = int((sweep.columns["unconverged"] > 0.1).sum())
     span = ", ".join(f"{name} {low:.3g} to {high:.3g}" for name, (low, high) in ends(rows).items())
-    dry_off = fit.law.area_ratio(np.ones_like(dry.flattening), dry.flattening) / dry.area_ratio - 1.0
-    area_off = fit.law.area_ratio(rows.load_ratio, rows.flattening) - rows.area_ratio
-    film_off = fit.law.film_ratio(rows.dense, rows.load_ratio, rows.flattening, rows.resolution)
+    dry_off = fit.law.area_ratio(np.ones_like(dry.flattening), dry.flattening_all) / dry.area_ratio - 1.0
+    area_off = fit.law.area_ratio(rows.load_ratio, rows.flattening_all) - rows.area_ratio
+    film_off = fit.law.film_ratio(rows.dense, rows.load_ratio, rows.flattening)
     film_off = np.log(film_off / rows.film_ratio)
-    early = sweep.of(reduced_clearance(sweep) < 0.015)
-    light = sweep.of((sweep.clearance > 1.0) & (sweep.flattening < 0.17))
-
-    def curve(part: Table) -> Array:
-        return fit.law.load_ratio(part.clearance, part.flattening, part.resolution, part.floors)
-
     oil = Traction(rows)
     plain = oil.misfit(replace(fit.law, oil_pressure_excess=1e-9, oil_spread=1e-9))
-    m, q = free_exponents(sweep)
     exposed = []
     for rougher in (True, False):
         seen = whole.columns["exposed_rougher" if rougher else "exposed_smoother"]
@@ -337,7 +329,8 @@ def constants_page(fit: Fit) -> list[str]:
         "",
         f"{sweep.clearance.size} first blocks on fresh surfaces, {' and '.join(SCENES)} on their own grids (129 nodes over 0.5 mm), "
         "sliding as shipped; speed, load (0.3 to 1.3 of the reference), temperature (40 K below to 20 K above, for the viscosity), "
-        "34 of each scene with the roughness as shipped, 14 with 0.3 to 1 of its amplitude, 12 with 1.25 to 3 times its correlation length. "
+        "34 of each scene with the roughness as shipped, 14 with 0.3 to 1 of its amplitude, 12 with 1.25 to 3 times its correlation length, "
+        "16 with 0.2 to 2 times the rms height of its microroughness. "
         f"{rows.clearance.size - sweep.clearance.size} more circles and ellipses over the ranges of a rig and of a ball bearing (shapes.md). "
         f"Covered: {span}. {dry.clearance.size} dry contacts for the area, {whole.clearance.size} blocks of a whole pass for the exposure. "
         f"Refused by the solver: {fit.refused}. {many} blocks of the sweep had more than a tenth of their instants not converged; they are kept.",
@@ -357,20 +350,14 @@ def constants_page(fit: Fit) -> list[str]:
         *table(("body", "scatter", "largest error"), exposed),
         "## Variables of W_c",
         "",
-        "W_c does not depend on lambda alone: at the same lambda, roughness of a smaller slope or under a higher pressure carries less. "
-        "s = p_m / (E* slope), slope = rms gradient of both roughnesses; r = correlation length / distance of the nodes; a = Hertz's half width.",
+        "W_c does not depend on lambda alone: at the same lambda, roughness that is pressed flatter carries less, and so do bodies with less "
+        "roughness below the grid. f = film of the smooth bodies / height to which roughness below the grid reaches (floor and rms height); "
+        "s = p_m / (E* slope), slope = rms gradient of both roughnesses and of the longest wave below the grid; r = correlation length / distance of the nodes.",
         *table(
             ("form", "constants", "scatter", "largest error"),
             [(n, k, f"{a:.3f}", f"{b:.3f}") for n, k, a, b in alternatives(sweep)],
         ),
-        "**The variable r shows that W_c at a given lambda depends on the grid** (film/core_lambda.md, film/grid.md), so these constants hold for the grids of the shipped scenes. "
-        f"Left free, the exponents of s and r beside lambda come out at {m:.2f} and {q:.2f}; 2 and 1 fit as well.",
-        "",
-        "## Deviations of the curve",
-        "",
-        f"Below 0.015 in the reduced lambda the solved W_c is {np.median(early.load_ratio):.3f} "
-        f"(median of {early.clearance.size}), the curve {np.median(curve(early)):.3f}; the film is then thinner than the floor of 1 nm, or little thicker. The variable s has less effect where the bodies hardly touch: above lambda 1 and below s = 0.17 the solved W_c is {np.median(light.load_ratio):.3f} "
-        f"(median of {light.clearance.size}), the curve {np.median(curve(light)):.3f}.",
+        "Neither lambda nor r adds anything: the amplitude of the roughness on the grid acts by its slope alone, and W_c does not depend on the distance of the nodes.",
         "",
         "## Curves against the sweep they were fitted to",
         *by_range(sweep.clearance, errors_of(fit.law, sweep)),
@@ -382,8 +369,13 @@ def draw(fit: Fit) -> Figure:
     figure = Figure(figsize=(10.5, 7.0), layout="constrained")
     axes = figure.subplots(2, 2)
     sweep, dry = fit.sweep, fit.dry
-    looks = {"shipped": ("#2471a3", "o"), "amplitude": ("#e59866", "s"), "length": ("#27ae60", "^")}
-    reduced = reduced_clearance(sweep)
+    looks = {
+        "shipped": ("#2471a3", "o"),
+        "amplitude": ("#e59866", "s"),
+        "length": ("#27ae60", "^"),
+        "microroughness": ("#8e44ad", "v"),
+    }
+    reduced = sweep.layers * (sweep.flattening / 0.2) ** fit.law.load_flattening
     found = predicted(fit.law, sweep)
     for group, (colour, marker) in looks.items():
         kept = sweep.columns["group"] == group
@@ -391,18 +383,17 @@ def draw(fit: Fit) -> Figure:
         axes[0, 0].plot(reduced[kept], sweep.load_ratio[kept], **style)
         axes[0, 1].plot(sweep.clearance[kept], sweep.load_ratio[kept], **style)
         axes[1, 0].plot(found["h_c"][kept], sweep.film_ratio[kept], **style)
-        axes[1, 1].plot((sweep.flattening * sweep.load_ratio)[kept], sweep.area_ratio[kept], **style)
-    line = np.geomspace(1e-3, 20.0, 200)
-    axes[0, 0].plot(line, fit.law.load_ratio(line, 0.2, 2.0, np.inf), "k-", lw=1)
-    axes[0, 0].set(xscale="log", xlabel="lambda (s / 0.2)$^2$ (r / 2)", ylabel="W_c")
-    axes[0, 1].plot(line, fit.law.load_ratio(line, 0.2, 2.0, np.inf), "k-", lw=1, label="s = 0.2, r = 2")
+        axes[1, 1].plot((sweep.flattening_all * sweep.load_ratio)[kept], sweep.area_ratio[kept], **style)
+    line = np.geomspace(1e-2, 1e2, 200)
+    axes[0, 0].plot(line, fit.law.load_ratio(line, 0.2), "k-", lw=1)
+    axes[0, 0].set(xscale="log", xlabel="f (s / 0.2)$^m$", ylabel="W_c")
     axes[0, 1].set(xscale="log", xlabel="lambda", ylabel="W_c", xlim=(2e-3, 10.0))
     axes[1, 0].plot([0.05, 5.0], [0.05, 5.0], "k-", lw=1)
     axes[1, 0].set(xscale="log", yscale="log", xlabel="h_c / sigma by the curve", ylabel="h_c / sigma, solved")
-    axes[1, 1].plot(dry.flattening, dry.area_ratio, color="0.4", marker="x", ls="none", ms=4, label="dry")
+    axes[1, 1].plot(dry.flattening_all, dry.area_ratio, color="0.4", marker="x", ls="none", ms=4, label="dry")
     flat = np.linspace(0.0, 0.75, 100)
     axes[1, 1].plot(flat, fit.law.area_ratio(1.0, flat), "k-", lw=1, label="W_c = 1")
-    axes[1, 1].set(xlabel="s W_c", ylabel="A_c")
+    axes[1, 1].set(xlabel="s_A W_c", ylabel="A_c")
     for panel in axes.ravel():
         panel.spines[["top", "right"]].set_visible(False)
         panel.grid(color="0.93")

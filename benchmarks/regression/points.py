@@ -13,8 +13,9 @@ from benchmarks.folders import RESULTS
 from contact_core import ContactError, OperatingPoint, Scene, advance, initial_state, solve
 from contact_core.film.instant import Grid
 from contact_core.film.outputs import film_outputs
-from contact_core.laws.load_sharing import rms_slope
+from contact_core.laws.load_sharing import rms_slope, slopes_of
 from contact_core.reference.point_films import at_no_pressure
+from contact_core.scene import Case
 from contact_core.surfaces.patches import track_rows
 
 STORE = RESULTS / "regression"
@@ -82,11 +83,6 @@ def composite_roughness(scene: Scene) -> float:
     return float(np.hypot(scene.surface_1.rq, scene.surface_2.rq))
 
 
-def microroughness(scene: Scene) -> float:
-    """Rms height [m] of what no grid carries of both bodies together."""
-    return float(np.hypot(*(s.microroughness.rms if s.microroughness else 0.0 for s in (scene.surface_1, scene.surface_2))))
-
-
 def speed_for(scene: Scene, ratio: float, load: float, temperature: float) -> float:
     """Mean speed [m/s] at which the smooth film is `ratio` times the roughness, at most the fastest one."""
     film = ratio * composite_roughness(scene)
@@ -138,11 +134,13 @@ def numbers_of(scene: Scene, op: OperatingPoint) -> dict[str, float]:
     sigma, hertz, shape = composite_roughness(scene), scene.hertz(op.load), scene.shape()
     rq, lengths = zip(*((s.rq, s.correlation_length) for s in (scene.surface_1, scene.surface_2)), strict=True)
     film = smooth_film(scene, op.load, op.entrainment_speed, op.temperature)
-    thick = shape.depths(film, hertz.a, hertz.b)
+    thick, below = shape.depths(film, hertz.a, hertz.b), Case.bind(scene, op).microroughness
+    slopes = slopes_of(float(rms_slope(rq[0], lengths[0], rq[1], lengths[1])), below)
     return {
         "sigma": sigma,
         "lambda": film / sigma,
-        "slope": float(rms_slope(rq[0], lengths[0], rq[1], lengths[1])),
+        "slope": slopes.load,
+        "slope_all": slopes.area,
         "mean_pressure": hertz.pressure_mean,
         "largest_pressure": hertz.pressure_max,
         "density": float(scene.lubricant.density(np.array(hertz.pressure_mean))),
@@ -154,7 +152,7 @@ def numbers_of(scene: Scene, op: OperatingPoint) -> dict[str, float]:
         "correlation_length": lengths[int(np.argmax(rq))],
         "spacing": scene.film.spacing,
         "floor": scene.film.floor,
-        "microroughness": microroughness(scene),
+        "microroughness": below.rms if below else 0.0,
         "spin": op.spin,
     }
 

@@ -7,8 +7,9 @@ from .scaled import Scaled
 
 # error of an output over its difference between the two grids: 1/3 at second order, more where little is resolved;
 # these cover nine in ten of random contacts of another seed than the one benchmarks/film/error_estimate.py reports
-_FACTORS = {"contact_load_ratio": 2.0, "pressure_max": 2.5}
-_FACTOR = 1.5  # of the others
+_UPWIND = {"contact_load_ratio": 2.0, "pressure_max": 2.5}, 1.5  # by name, and of the others
+_FITTED = {"h_central": 0.5, "approach": 0.5, "contact_load_ratio": 2.0, "pressure_max": 2.0}, 1.0
+_HALF_RESOLVED = 0.5  # nodes across the inlet, below which flow fitted to cells may miss the whole film
 _PARTING = 0.3  # film of smooth bodies over rms roughness, from which on the solids may carry almost nothing
 
 
@@ -26,14 +27,16 @@ def solve_with_estimate(
     found = solve_film(now, grid, settings, prolonged(before.state, grid.shape))
     values = film_outputs(grid, found.state, found.gap, found.touching, *bodies)
     less = film_outputs(coarse, before.state, before.gap, before.touching, *bodies)
+    factors, factor = _FITTED if settings.fitted else _UPWIND
     errors = {
-        name: _FACTORS.get(name, _FACTOR) * abs(value - less[name]) + settings.tolerance * abs(value)
+        name: factors.get(name, factor) * abs(value - less[name]) + settings.tolerance * abs(value)
         for name, value in values.items()
     }
     if not found.resolved:  # both grids may agree on a wrong film
         scaled = Scaled(now, grid, settings)
+        missed = min((_HALF_RESOLVED / found.inlet_nodes) ** 2, 1.0) if settings.fitted else 1.0
         for name in ("h_central", "h_c", "h_min", "approach"):  # bodies are closer by as much as their film is too thin
-            errors[name] = max(errors[name], scaled.smooth_film)
+            errors[name] = max(errors[name], missed * scaled.smooth_film)
         if scaled.smooth_film > _PARTING * scaled.roughness:
             for name in ("contact_area_ratio", "contact_load_ratio"):
                 errors[name] = max(errors[name], values[name])

@@ -4,7 +4,6 @@ import numpy as np
 
 from ..shapes import Shape
 
-
 _NODES = {True: 1.0, False: 3.0}  # across the inlet that flow needs which is fitted to cells, or upwind
 
 

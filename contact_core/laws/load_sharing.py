@@ -1,15 +1,17 @@
 """Load shared between solids and oil of rough bodies: curves fitted to deterministic solutions."""
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 from ..quantities import parameter
+from .asperity_layer import SLOPE, AsperityLayer
 from .elementary import Numbers, exp, expm1, log1p, maximum, minimum, sqrt
 from .equations import Equations
 
 _FLATTENING = 0.2  # reference of the constants: about that of the shipped circles
-# films and flattening beyond which no solid carries anything, and power of the film: no power of them may overflow
-_THICKEST, _FLATTEST, _STEEPEST = 1e30, 1e3, 10.0
+# films and flattening beyond which no solid carries anything: no power of them may overflow
+_THICKEST, _FLATTEST = 1e30, 1e3
 
 
 def rms_slope(rq_1: Numbers, length_1: Numbers, rq_2: Numbers, length_2: Numbers) -> Numbers:
@@ -18,6 +20,19 @@ def rms_slope(rq_1: Numbers, length_1: Numbers, rq_2: Numbers, length_2: Numbers
     A surface with the autocorrelation rq^2 exp(-(r/l)^2) has the rms gradient 2 rq / l.
     """
     return 2.0 * sqrt((rq_1 / length_1) ** 2 + (rq_2 / length_2) ** 2)
+
+
+class Slopes(NamedTuple):
+    """Rms gradients of the roughness of two bodies together, on the grid and below it."""
+
+    load: float  # of waves down to the longest below the grid: they share the load with the oil
+    area: float  # of all waves: they decide the real area
+
+
+def slopes_of(rough: float, below: AsperityLayer | None) -> Slopes:
+    """Return the gradients for one of `rough` on the grid, and microroughness of both bodies together."""
+    wave = below.slope if below else 0.0
+    return Slopes(math.hypot(rough, wave), math.hypot(rough, SLOPE * wave))
 
 
 def flattening_of(mean_pressure: Numbers, reduced_modulus: float, slope: Numbers) -> Numbers:
@@ -76,7 +91,7 @@ class FittedSharing:
     """W_c, A_c, h_c and the exposure of both bodies as functions of a few numbers, for circles and ellipses.
 
     clearance   Z, film of the smooth bodies by the formula of their shape / composite rms roughness,
-    flattening  s, see `flattening_of`,
+    flattening  s, see `flattening_of` and `Slopes`: of the load, and s_A of the area,
     layers      f, that film / the height to which roughness below the grid reaches, see `layer_height`.
 
     `equations` states them. The constants were fitted over the ranges `FITTED`; `HALF_WIDTHS` are those of their 95 %
@@ -90,15 +105,15 @@ class FittedSharing:
     )
     equations: ClassVar[Equations] = Equations(
         (
-            "1 − W_c = [1 − exp(−B t^{m C} Z^{C′})] [1 − exp(−b f^c)]",
-            "t = s/0.2,   C′ = C t^{−v}",
-            "A_c = [1 − exp(−A s)] W_c^D",
+            "W_c = exp[−B (f t^m)^C],   t = s/0.2",
+            "A_c = [1 − exp(−A s_A)] W_c^D",
             "h_c/σ = W_c g + (1 − W_c) [(E Z/ρ)^n + j^n]^{1/n}",
             "g = (G/k) ln[1 + k t^{−1.5}],   j = max[F t^{−0.75}, g]",
         ),
-        "Z: film of the smooth bodies by the formula of their shape over composite roughness; f: that film over film.floor "
-        "and the microroughness of both bodies; s: mean Hertz pressure over what would press the roughness flat; ρ: "
-        "density of the oil under Hertz's mean pressure, over that without pressure.",
+        "Z: film of the smooth bodies by the formula of their shape over composite roughness; f: that film over "
+        "film.floor and the microroughness of both bodies; s, sA: mean Hertz pressure over what would press flat the "
+        "roughness on the grid and the longest wave below it, and all roughness; ρ: density of the oil under Hertz's "
+        "mean pressure, over that without pressure.",
     )
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
         "clearance": (0.003, 70.0),
@@ -107,7 +122,7 @@ class FittedSharing:
     }
     WIDTHS: ClassVar[Widths] = Widths(0.23, 0.25, 0.44, 0.6, 0.12, 0.25, 0.65)
     CHOSEN: ClassVar[frozenset[str]] = frozenset(
-        {"load_flattening", "load_bending", "oil_pressure_power", "oil_spread"}
+        {"oil_pressure_power", "oil_spread"}
     )
     HALF_WIDTHS: ClassVar[dict[str, float]] = {
         "load_factor": 0.2,
@@ -130,12 +145,7 @@ class FittedSharing:
 
     load_factor: float = parameter("", "B", above=0.0, most=100.0, default=2.08)
     load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=0.597)
-    load_flattening: float = parameter("", "m, power of s beside Z", above=0.0, most=10.0, default=2.0)
-    load_bending: float = parameter(
-        "", "v, how much less Z decides where roughness is pressed flat", least=0.0, most=2.0, default=0.0
-    )
-    layer_factor: float = parameter("", "b, of films as thin as the layer", above=0.0, most=100.0, default=0.8)
-    layer_exponent: float = parameter("", "c, of them", above=0.0, most=10.0, default=0.8)
+    load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=2.0)
     area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.84)
     area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.812)
     film_dry: float = parameter(
@@ -171,18 +181,14 @@ class FittedSharing:
         "", "k of the smoother body in blocks driven dry", above=0.0, most=1e3, default=3.97
     )
 
-    def load_ratio(self, clearance: Numbers, flattening: Numbers, layers: Numbers) -> Numbers:
-        """Return contact_load_ratio at Z = `clearance`, for a film of smooth bodies `layers` layers thick."""
-        flat, film = flattening / _FLATTENING, minimum(clearance, _THICKEST)
-        flat = minimum(flat, _FLATTEST)
-        steep = flat ** (self.load_flattening * self.load_exponent)
-        power = minimum(self.load_exponent * flat**-self.load_bending, _STEEPEST)
-        rough = exp(-self.load_factor * steep * film**power)
-        layer = exp(-self.layer_factor * minimum(layers, _THICKEST) ** self.layer_exponent)
-        return rough + layer - rough * layer
+    def load_ratio(self, layers: Numbers, flattening: Numbers) -> Numbers:
+        """Return contact_load_ratio under a film of smooth bodies `layers` layers thick."""
+        flat = minimum(flattening / _FLATTENING, _FLATTEST) ** self.load_flattening
+        film = minimum(minimum(layers, _THICKEST) * flat, _THICKEST)
+        return exp(-self.load_factor * film**self.load_exponent)
 
     def area_ratio(self, load_ratio: Numbers, flattening: Numbers) -> Numbers:
-        """Return contact_area_ratio where the solids carry `load_ratio` of the load."""
+        """Return contact_area_ratio where the solids carry `load_ratio` of the load; `flattening` by all slopes."""
         return -expm1(-self.area_factor * flattening) * load_ratio**self.area_exponent
 
     def film_ratio(self, dense: Numbers, load_ratio: Numbers, flattening: Numbers) -> Numbers:
@@ -250,7 +256,6 @@ class LineSharing(FittedSharing):
         "load_factor": 0.16,
         "load_exponent": 0.1,
         "load_flattening": 0.25,
-        "load_bending": 0.17,
         "area_factor": 0.12,
         "area_exponent": 0.032,
         "film_dry": 0.35,
@@ -266,10 +271,7 @@ class LineSharing(FittedSharing):
 
     load_factor: float = parameter("", "B", above=0.0, most=100.0, default=2.04)
     load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=0.649)
-    load_flattening: float = parameter("", "m, power of s beside Z", above=0.0, most=10.0, default=1.63)
-    load_bending: float = parameter(
-        "", "v, how much less Z decides where roughness is pressed flat", least=0.0, most=2.0, default=0.592
-    )
+    load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=1.63)
     area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.9)
     area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.939)
     film_dry: float = parameter(

