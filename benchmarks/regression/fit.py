@@ -11,7 +11,8 @@ from scipy.optimize import least_squares
 from benchmarks.pages import cells
 from benchmarks.regression.points import SCENES, Columns, solved
 from contact_core import RangeFlag, Scene
-from contact_core.laws.load_sharing import FittedSharing, layer_height
+from contact_core.laws.asperity_layer import SLOPE
+from contact_core.laws.load_sharing import FittedSharing, LineSharing, flattening_together, layer_height
 
 RANGES = ((0.0, 0.05), (0.05, 0.2), (0.2, 1.0), (1.0, np.inf))
 FAR = 0.1  # residuals beyond which a point counts by its distance
@@ -36,9 +37,13 @@ class Table:
         return c["mean_pressure"] / (0.5 * c["modulus"] * c["slope"])
 
     @property
-    def flattening_all(self) -> Array:
+    def below(self) -> Array:
         c = self.columns
-        return c["mean_pressure"] / (0.5 * c["modulus"] * c["slope_all"])
+        return c["mean_pressure"] / (0.5 * c["modulus"] * c["slope_below"])
+
+    @property
+    def layer(self) -> Array:
+        return self.clearance / self.layers
 
     @property
     def layers(self) -> Array:
@@ -99,16 +104,16 @@ class Fit:
         self.all = rows = self.sweep if others is None else Table(shared([self.sweep.columns, told(solved(others))]))
         self._fit(
             ("load_factor", "load_exponent", "load_flattening"),
-            lambda law: law.load_ratio(rows.layers, rows.flattening) - rows.load_ratio,
+            lambda law: law.load_ratio(rows.layers, rows.flattening, rows.below) - rows.load_ratio,
         )
         self._fit(
             ("area_factor", "area_exponent"), self._area_residual(rows, None if dry is None else Table(solved(dry)))
         )
         open_gap = rows.of(rows.columns["h_c"] > 3.0 * rows.columns["floor"])
         self._fit(
-            ("film_dry", "film_parted", "film_mixed", "film_factor", "film_exponent"),
+            ("film_dry", "film_parted", "film_layer", "film_mixed", "film_factor", "film_exponent"),
             lambda law: np.log(
-                law.film_ratio(open_gap.dense, open_gap.load_ratio, open_gap.flattening)
+                law.film_ratio(open_gap.dense, open_gap.load_ratio, open_gap.flattening, open_gap.layer)
                 / open_gap.film_ratio
             ),
         )
@@ -135,10 +140,10 @@ class Fit:
     @staticmethod
     def _area_residual(rows: Table, dry: Table | None) -> Callable[[FittedSharing], Array]:
         def residual(law: FittedSharing) -> Array:
-            off = law.area_ratio(rows.load_ratio, rows.flattening_all) - rows.area_ratio
+            off = law.area_ratio(rows.load_ratio, rows.flattening, rows.below) - rows.area_ratio
             if dry is None:
                 return off
-            alone = law.area_ratio(np.ones_like(dry.flattening), dry.flattening_all) - dry.area_ratio
+            alone = law.area_ratio(np.ones_like(dry.flattening), dry.flattening, dry.below) - dry.area_ratio
             return np.concatenate([off, alone])
 
         return residual
@@ -224,18 +229,18 @@ def covered(table: Table) -> Array:
 
 def predicted(law: FittedSharing, table: Table) -> Columns:
     """Return the outputs of the law for lambda, flattening and layers; h_c in sigma."""
-    share = law.load_ratio(table.layers, table.flattening)
+    share = law.load_ratio(table.layers, table.flattening, table.below)
     return {
         "W_c": share,
-        "A_c": law.area_ratio(share, table.flattening_all),
-        "h_c": law.film_ratio(table.dense, share, table.flattening),
+        "A_c": law.area_ratio(share, table.flattening, table.below),
+        "h_c": law.film_ratio(table.dense, share, table.flattening, table.layer),
     }
 
 
 def alternatives(sweep: Table) -> list[tuple[str, int, float, float]]:
     """Forms of W_c: what, how many constants, standard deviation and largest distance of the residuals."""
     lam, film, share = sweep.clearance, sweep.layers, sweep.load_ratio
-    flat, fine = sweep.flattening / 0.2, sweep.columns["correlation_length"] / sweep.columns["spacing"]
+    flat, fine = flattening_together(sweep.flattening, sweep.below, 1.0) / 0.2, sweep.columns["correlation_length"] / sweep.columns["spacing"]
 
     def of(film: Array, *further: Array) -> Callable[[Array], Array]:
         def form(p: Array) -> Array:
@@ -311,9 +316,9 @@ def constants_page(fit: Fit) -> list[str]:
     sweep, rows, dry, whole = fit.sweep, fit.all, fit.dry, fit.whole
     many = int((sweep.columns["unconverged"] > 0.1).sum())
     span = ", ".join(f"{name} {low:.3g} to {high:.3g}" for name, (low, high) in ends(rows).items())
-    dry_off = fit.law.area_ratio(np.ones_like(dry.flattening), dry.flattening_all) / dry.area_ratio - 1.0
-    area_off = fit.law.area_ratio(rows.load_ratio, rows.flattening_all) - rows.area_ratio
-    film_off = fit.law.film_ratio(rows.dense, rows.load_ratio, rows.flattening)
+    dry_off = fit.law.area_ratio(np.ones_like(dry.flattening), dry.flattening, dry.below) / dry.area_ratio - 1.0
+    area_off = fit.law.area_ratio(rows.load_ratio, rows.flattening, rows.below) - rows.area_ratio
+    film_off = fit.law.film_ratio(rows.dense, rows.load_ratio, rows.flattening, rows.layer)
     film_off = np.log(film_off / rows.film_ratio)
     oil = Traction(rows)
     plain = oil.misfit(replace(fit.law, oil_pressure_excess=1e-9, oil_spread=1e-9))
@@ -352,7 +357,7 @@ def constants_page(fit: Fit) -> list[str]:
         "",
         "W_c does not depend on lambda alone: at the same lambda, roughness that is pressed flatter carries less, and so do bodies with less "
         "roughness below the grid. f = film of the smooth bodies / height to which roughness below the grid reaches (floor and rms height); "
-        "s = p_m / (E* slope), slope = rms gradient of both roughnesses and of the longest wave below the grid; r = correlation length / distance of the nodes.",
+        "s = p_m / (E* slope), slope = rms gradient of both roughnesses and of the longest wave below the grid together; r = correlation length / distance of the nodes.",
         *table(
             ("form", "constants", "scatter", "largest error"),
             [(n, k, f"{a:.3f}", f"{b:.3f}") for n, k, a, b in alternatives(sweep)],
@@ -375,7 +380,9 @@ def draw(fit: Fit) -> Figure:
         "length": ("#27ae60", "^"),
         "microroughness": ("#8e44ad", "v"),
     }
-    reduced = sweep.layers * (sweep.flattening / 0.2) ** fit.law.load_flattening
+    flat = flattening_together(sweep.flattening, sweep.below, 1.0) / 0.2
+    touching, alone = (flattening_together(part.flattening, part.below, SLOPE) for part in (sweep, dry))
+    reduced = sweep.layers * flat**fit.law.load_flattening
     found = predicted(fit.law, sweep)
     for group, (colour, marker) in looks.items():
         kept = sweep.columns["group"] == group
@@ -383,16 +390,16 @@ def draw(fit: Fit) -> Figure:
         axes[0, 0].plot(reduced[kept], sweep.load_ratio[kept], **style)
         axes[0, 1].plot(sweep.clearance[kept], sweep.load_ratio[kept], **style)
         axes[1, 0].plot(found["h_c"][kept], sweep.film_ratio[kept], **style)
-        axes[1, 1].plot((sweep.flattening_all * sweep.load_ratio)[kept], sweep.area_ratio[kept], **style)
+        axes[1, 1].plot((touching * sweep.load_ratio)[kept], sweep.area_ratio[kept], **style)
     line = np.geomspace(1e-2, 1e2, 200)
-    axes[0, 0].plot(line, fit.law.load_ratio(line, 0.2), "k-", lw=1)
+    axes[0, 0].plot(line, fit.law.load_ratio(line, 0.2, np.inf), "k-", lw=1)
     axes[0, 0].set(xscale="log", xlabel="f (s / 0.2)$^m$", ylabel="W_c")
     axes[0, 1].set(xscale="log", xlabel="lambda", ylabel="W_c", xlim=(2e-3, 10.0))
     axes[1, 0].plot([0.05, 5.0], [0.05, 5.0], "k-", lw=1)
     axes[1, 0].set(xscale="log", yscale="log", xlabel="h_c / sigma by the curve", ylabel="h_c / sigma, solved")
-    axes[1, 1].plot(dry.flattening_all, dry.area_ratio, color="0.4", marker="x", ls="none", ms=4, label="dry")
-    flat = np.linspace(0.0, 0.75, 100)
-    axes[1, 1].plot(flat, fit.law.area_ratio(1.0, flat), "k-", lw=1, label="W_c = 1")
+    axes[1, 1].plot(alone, dry.area_ratio, color="0.4", marker="x", ls="none", ms=4, label="dry")
+    steps = np.linspace(1e-3, 0.75, 100)
+    axes[1, 1].plot(steps, fit.law.area_ratio(1.0, steps, np.inf), "k-", lw=1, label="W_c = 1")
     axes[1, 1].set(xlabel="s_A W_c", ylabel="A_c")
     for panel in axes.ravel():
         panel.spines[["top", "right"]].set_visible(False)

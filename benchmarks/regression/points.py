@@ -13,7 +13,7 @@ from benchmarks.folders import RESULTS
 from contact_core import ContactError, OperatingPoint, Scene, advance, initial_state, solve
 from contact_core.film.instant import Grid
 from contact_core.film.outputs import film_outputs
-from contact_core.laws.load_sharing import rms_slope, slopes_of
+from contact_core.laws.load_sharing import rms_slope
 from contact_core.reference.point_films import at_no_pressure
 from contact_core.scene import Case
 from contact_core.surfaces.patches import track_rows
@@ -135,12 +135,11 @@ def numbers_of(scene: Scene, op: OperatingPoint) -> dict[str, float]:
     rq, lengths = zip(*((s.rq, s.correlation_length) for s in (scene.surface_1, scene.surface_2)), strict=True)
     film = smooth_film(scene, op.load, op.entrainment_speed, op.temperature)
     thick, below = shape.depths(film, hertz.a, hertz.b), Case.bind(scene, op).microroughness
-    slopes = slopes_of(float(rms_slope(rq[0], lengths[0], rq[1], lengths[1])), below)
     return {
         "sigma": sigma,
         "lambda": film / sigma,
-        "slope": slopes.load,
-        "slope_all": slopes.area,
+        "slope": float(rms_slope(rq[0], lengths[0], rq[1], lengths[1])),
+        "slope_below": below.slope if below else 0.0,
         "mean_pressure": hertz.pressure_mean,
         "largest_pressure": hertz.pressure_max,
         "density": float(scene.lubricant.density(np.array(hertz.pressure_mean))),

@@ -1,17 +1,17 @@
 """Load shared between solids and oil of rough bodies: curves fitted to deterministic solutions."""
 
-import math
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 from ..quantities import parameter
-from .asperity_layer import SLOPE, AsperityLayer
+from .asperity_layer import SLOPE
 from .elementary import Numbers, exp, expm1, log1p, maximum, minimum, sqrt
 from .equations import Equations
 
 _FLATTENING = 0.2  # reference of the constants: about that of the shipped circles
 # films and flattening beyond which no solid carries anything: no power of them may overflow
 _THICKEST, _FLATTEST = 1e30, 1e3
+_FLAT = 1e-12  # square of the inverse flattening of bodies without any roughness
 
 
 def rms_slope(rq_1: Numbers, length_1: Numbers, rq_2: Numbers, length_2: Numbers) -> Numbers:
@@ -20,19 +20,6 @@ def rms_slope(rq_1: Numbers, length_1: Numbers, rq_2: Numbers, length_2: Numbers
     A surface with the autocorrelation rq^2 exp(-(r/l)^2) has the rms gradient 2 rq / l.
     """
     return 2.0 * sqrt((rq_1 / length_1) ** 2 + (rq_2 / length_2) ** 2)
-
-
-class Slopes(NamedTuple):
-    """Rms gradients of the roughness of two bodies together, on the grid and below it."""
-
-    load: float  # of waves down to the longest below the grid: they share the load with the oil
-    area: float  # of all waves: they decide the real area
-
-
-def slopes_of(rough: float, below: AsperityLayer | None) -> Slopes:
-    """Return the gradients for one of `rough` on the grid, and microroughness of both bodies together."""
-    wave = below.slope if below else 0.0
-    return Slopes(math.hypot(rough, wave), math.hypot(rough, SLOPE * wave))
 
 
 def flattening_of(mean_pressure: Numbers, reduced_modulus: float, slope: Numbers) -> Numbers:
@@ -52,6 +39,11 @@ def layer_height(floor: Numbers, rms: Numbers) -> Numbers:
     It stands on the floor [m], where solids touch.
     """
     return floor + rms
+
+
+def flattening_together(flattening: Numbers, below: Numbers, weight: float) -> Numbers:
+    """Return the flattening by both slopes, that of roughness below the grid `weight` times as steep."""
+    return 1.0 / sqrt(1.0 / flattening**2 + (weight / below) ** 2 + _FLAT)
 
 
 class Widths(NamedTuple):
@@ -91,8 +83,9 @@ class FittedSharing:
     """W_c, A_c, h_c and the exposure of both bodies as functions of a few numbers, for circles and ellipses.
 
     clearance   Z, film of the smooth bodies by the formula of their shape / composite rms roughness,
-    flattening  s, see `flattening_of` and `Slopes`: of the load, and s_A of the area,
-    layers      f, that film / the height to which roughness below the grid reaches, see `layer_height`.
+    layers      f, that film / the height to which roughness below the grid reaches, see `layer_height`,
+    flattening  s, see `flattening_of`, of the roughness on the grid,
+    below       s_m, the same of one wave of the longest length and the rms height of what is below the grid.
 
     `equations` states them. The constants were fitted over the ranges `FITTED`; `HALF_WIDTHS` are those of their 95 %
     intervals (docs/measured/regression/curves.md).
@@ -105,15 +98,15 @@ class FittedSharing:
     )
     equations: ClassVar[Equations] = Equations(
         (
-            "W_c = exp[−B (f t^m)^C],   t = s/0.2",
-            "A_c = [1 − exp(−A s_A)] W_c^D",
+            "W_c = exp[−B (f t_1^m)^C],   t_1 = t(1)",
+            "A_c = [1 − exp(−0.2 A t_A)] W_c^D,   t_A = t(2.3)",
             "h_c/σ = W_c g + (1 − W_c) [(E Z/ρ)^n + j^n]^{1/n}",
-            "g = (G/k) ln[1 + k t^{−1.5}],   j = max[F t^{−0.75}, g]",
+            "g = (G/k) ln[1 + k t_0^{−1.5}] + H Z/f,   j = max[F t_0^{−0.75}, g],   t_0 = t(0)",
         ),
-        "Z: film of the smooth bodies by the formula of their shape over composite roughness; f: that film over "
-        "film.floor and the microroughness of both bodies; s, sA: mean Hertz pressure over what would press flat the "
-        "roughness on the grid and the longest wave below it, and all roughness; ρ: density of the oil under Hertz's "
-        "mean pressure, over that without pressure.",
+        "t(x) = 5 [s^{−2} + (x/sm)²]^{−1/2}. Z: film of the smooth bodies by the formula of their shape over composite "
+        "roughness; f: that film over film.floor and the microroughness of both bodies together; s: mean Hertz "
+        "pressure over what would press flat the roughness on the grid, sm: the longest wave below it; ρ: density of "
+        "the oil under Hertz's mean pressure, over that without pressure.",
     )
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
         "clearance": (0.003, 70.0),
@@ -131,6 +124,7 @@ class FittedSharing:
         "area_exponent": 0.011,
         "film_dry": 0.039,
         "film_parted": 0.26,
+        "film_layer": 0.1,
         "film_mixed": 0.035,
         "film_factor": 0.032,
         "film_exponent": 0.91,
@@ -152,6 +146,9 @@ class FittedSharing:
         "", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.322
     )
     film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=0.352)
+    film_layer: float = parameter(
+        "", "H, part of the height of roughness below the grid that dry bodies keep", least=0.0, most=10.0, default=0.48
+    )
     film_mixed: float = parameter(
         "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.649
     )
@@ -181,21 +178,24 @@ class FittedSharing:
         "", "k of the smoother body in blocks driven dry", above=0.0, most=1e3, default=3.97
     )
 
-    def load_ratio(self, layers: Numbers, flattening: Numbers) -> Numbers:
+    def load_ratio(self, layers: Numbers, flattening: Numbers, below: Numbers) -> Numbers:
         """Return contact_load_ratio under a film of smooth bodies `layers` layers thick."""
-        flat = minimum(flattening / _FLATTENING, _FLATTEST) ** self.load_flattening
-        film = minimum(minimum(layers, _THICKEST) * flat, _THICKEST)
+        flat = flattening_together(flattening, below, 1.0) / _FLATTENING
+        film = minimum(minimum(layers, _THICKEST) * minimum(flat, _FLATTEST) ** self.load_flattening, _THICKEST)
         return exp(-self.load_factor * film**self.load_exponent)
 
-    def area_ratio(self, load_ratio: Numbers, flattening: Numbers) -> Numbers:
-        """Return contact_area_ratio where the solids carry `load_ratio` of the load; `flattening` by all slopes."""
-        return -expm1(-self.area_factor * flattening) * load_ratio**self.area_exponent
+    def area_ratio(self, load_ratio: Numbers, flattening: Numbers, below: Numbers) -> Numbers:
+        """Return contact_area_ratio where the solids carry `load_ratio` of the load."""
+        flat = flattening_together(flattening, below, SLOPE)
+        return -expm1(-self.area_factor * flat) * load_ratio**self.area_exponent
 
-    def film_ratio(self, dense: Numbers, load_ratio: Numbers, flattening: Numbers) -> Numbers:
-        """Return h_c / sigma at Z / rho = `dense` where the solids carry `load_ratio` of the load."""
-        share, flat = load_ratio, flattening / _FLATTENING
-        flat = flat**-0.75
-        dry = self.film_dry * log1p(self.film_parted * (flat * flat)) / self.film_parted
+    def film_ratio(self, dense: Numbers, load_ratio: Numbers, flattening: Numbers, layer: Numbers) -> Numbers:
+        """Return h_c / sigma at Z / rho = `dense` where the solids carry `load_ratio` of the load.
+
+        `layer` is Z / f, the height to which roughness below the grid reaches over sigma.
+        """
+        share, flat = load_ratio, (flattening / _FLATTENING) ** -0.75
+        dry = self.film_dry * log1p(self.film_parted * (flat * flat)) / self.film_parted + self.film_layer * layer
         mixed = maximum(self.film_mixed * flat, dry)
         film = self.film_factor * dense
         larger = maximum(film, mixed)  # in front, because powers of large numbers overflow
@@ -260,6 +260,7 @@ class LineSharing(FittedSharing):
         "area_exponent": 0.032,
         "film_dry": 0.35,
         "film_parted": 1.2,
+        "film_layer": 0.1,
         "film_mixed": 0.16,
         "film_factor": 0.12,
         "film_exponent": 0.69,
@@ -278,6 +279,9 @@ class LineSharing(FittedSharing):
         "", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.584
     )
     film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=1.03)
+    film_layer: float = parameter(
+        "", "H, part of the height of roughness below the grid that dry bodies keep", least=0.0, most=10.0, default=0.48
+    )
     film_mixed: float = parameter(
         "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.747
     )

@@ -3,7 +3,7 @@
 import math
 from typing import NamedTuple
 
-from ..laws.load_sharing import flattening_of, layer_height, rms_slope, slopes_of
+from ..laws.load_sharing import flattening_of, layer_height, rms_slope
 from ..scene import Case
 from .oil import Law
 from .surfaces import Tribofilms, composite_roughness, hardness_of, mean_cover, regression_film
@@ -27,7 +27,7 @@ class Surfaces(NamedTuple):
     cover: float  # mean cover of both bodies where they touch
     hardness: float  # where they touch [Pa]
     flattening: float  # per Hertz's largest pressure [1/Pa]
-    flattening_all: float  # by all slopes, likewise
+    below: float  # of the longest wave below the grid, likewise
     layer: float  # height to which roughness below the grid reaches [m]
 
 
@@ -45,17 +45,17 @@ def surfaces_of(case: Case, tribofilms: Tribofilms) -> Surfaces:
     """Return the properties of the surfaces under their tribofilms."""
     scene, hertz, below = case.scene, case.unit_hertz, case.microroughness
     first, second = scene.surface_1, scene.surface_2
-    slopes = slopes_of(rms_slope(tribofilms[0].both, first.length, tribofilms[1].both, second.length), below)
-    per_pressure = [
+    rough = rms_slope(tribofilms[0].both, first.length, tribofilms[1].both, second.length)
+    flattening = [
         flattening_of(hertz.mean_share, scene.solids.reduced_modulus, slope) if slope > 0.0 else math.inf
-        for slope in slopes
+        for slope in (rough, below.slope if below else 0.0)
     ]
     return Surfaces(
         sigma=composite_roughness(tribofilms),
         cover=mean_cover(scene, tribofilms),
         hardness=hardness_of(scene, tribofilms),
-        flattening=per_pressure[0],
-        flattening_all=per_pressure[1],
+        flattening=flattening[0],
+        below=flattening[1],
         layer=layer_height(scene.film.floor, below.rms if below else 0.0),
     )
 
@@ -74,10 +74,11 @@ def shared(case: Case, surfaces: Surfaces, film: float, grown: tuple[float, floa
     if not sharing.covers(*fit):  # powers of it have no meaning far from the fit
         flattening = sharing.nearest(flattening)
     density: Law = scene.lubricant.density
-    share = sharing.load_ratio(layers, flattening)
+    below = surfaces.below * pressure
+    share = sharing.load_ratio(layers, flattening, below)
     dense = clearance / float(density(hertz.mean_share * pressure))
-    gap = max(sigma * sharing.film_ratio(dense, share, flattening), floor)
+    gap = max(sigma * sharing.film_ratio(dense, share, flattening, surfaces.layer / sigma), floor)
     raised = sharing.oil_pressure(clearance, flattening, *case.shape.depths(film, half, wide * hertz.b))
     # no pressure is above the hardness
-    area = sharing.area_ratio(share, surfaces.flattening_all * pressure)
+    area = sharing.area_ratio(share, flattening, below)
     return Shares(fit, gap, share, area, min(raised, scene.plasticity.hardness / pressure))

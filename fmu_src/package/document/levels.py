@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from contact_core.laws.load_sharing import flattening_of, layer_height, rms_slope, slopes_of
+from contact_core.laws.load_sharing import flattening_of, layer_height, rms_slope
 from contact_core.scene import Case, Scene
 
 from .markup import number
@@ -68,7 +68,7 @@ def _fitted_ranges(scene: Scene) -> Iterator[Row]:
     first, second = scene.surface_1, scene.surface_2
     pressure = scene.hertz(scene.operation.load).pressure_mean
     below = Case.bind(scene, scene.operation.point).microroughness
-    slope = slopes_of(rms_slope(first.rms, first.length, second.rms, second.length), below).load
+    slope = rms_slope(first.rms, first.length, second.rms, second.length)
     here = {
         "clearance": "see above",
         "flattening": number(flattening_of(pressure, scene.solids.reduced_modulus, slope)) if slope > 0.0 else "none",
