@@ -12,7 +12,7 @@ from benchmarks.pages import cells
 from benchmarks.regression.points import SCENES, Columns, solved
 from contact_core import RangeFlag, Scene
 from contact_core.laws.asperity_layer import SLOPE
-from contact_core.laws.load_sharing import FittedSharing, LineSharing, flattening_together, layer_height
+from contact_core.laws.load_sharing import FittedSharing, flattening_together, layer_height
 
 RANGES = ((0.0, 0.05), (0.05, 0.2), (0.2, 1.0), (1.0, np.inf))
 FAR = 0.1  # residuals beyond which a point counts by its distance
@@ -240,7 +240,10 @@ def predicted(law: FittedSharing, table: Table) -> Columns:
 def alternatives(sweep: Table) -> list[tuple[str, int, float, float]]:
     """Forms of W_c: what, how many constants, standard deviation and largest distance of the residuals."""
     lam, film, share = sweep.clearance, sweep.layers, sweep.load_ratio
-    flat, fine = flattening_together(sweep.flattening, sweep.below, 1.0) / 0.2, sweep.columns["correlation_length"] / sweep.columns["spacing"]
+    flat, fine = (
+        flattening_together(sweep.flattening, sweep.below, 1.0) / 0.2,
+        sweep.columns["correlation_length"] / sweep.columns["spacing"],
+    )
 
     def of(film: Array, *further: Array) -> Callable[[Array], Array]:
         def form(p: Array) -> Array:

@@ -125,7 +125,9 @@ def observe_dry(point: Point, overrides: Overrides) -> dict[str, float]:
     """The same of the dry contact, whose area is all that is asked, at one instant."""
     scene, op = point.build(overrides), point.operating_point
     fields = solve(scene, op, initial_state(scene), dry=True)
-    out = film_outputs(Grid(fields.x, fields.y), fields.film, fields.gap, fields.touching, op.load, scene.hertz(op.load))
+    out = film_outputs(
+        Grid(fields.x, fields.y), fields.film, fields.gap, fields.touching, op.load, scene.hertz(op.load)
+    )
     return {name: out[name] for name in ("contact_area_ratio", "h_c", "pressure_max")} | numbers_of(scene, op)
 
 

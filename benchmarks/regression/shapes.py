@@ -306,7 +306,7 @@ def page() -> None:
         "",
         "Written by `python -m benchmarks.regression.shapes page`.",
         "",
-        'Random contacts on fresh surfaces, at the deterministic level and at the regression level:',
+        "Random contacts on fresh surfaces, at the deterministic level and at the regression level:",
         "",
         *(f"* {shape}: {said}." for shape, said in TOLD.items()),
         "",

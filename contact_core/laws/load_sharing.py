@@ -114,22 +114,21 @@ class FittedSharing:
         "layers": (0.01, 1e3),
     }
     WIDTHS: ClassVar[Widths] = Widths(0.23, 0.25, 0.44, 0.6, 0.12, 0.25, 0.65)
-    CHOSEN: ClassVar[frozenset[str]] = frozenset(
-        {"oil_pressure_power", "oil_spread"}
-    )
+    CHOSEN: ClassVar[frozenset[str]] = frozenset({"oil_pressure_power", "oil_spread"})
     HALF_WIDTHS: ClassVar[dict[str, float]] = {
-        "load_factor": 0.2,
-        "load_exponent": 0.061,
-        "area_factor": 0.02,
-        "area_exponent": 0.011,
-        "film_dry": 0.039,
-        "film_parted": 0.26,
-        "film_layer": 0.1,
-        "film_mixed": 0.035,
-        "film_factor": 0.032,
-        "film_exponent": 0.91,
-        "oil_pressure_excess": 0.26,
-        "oil_pressure_decay": 0.28,
+        "load_factor": 0.022,
+        "load_exponent": 0.04,
+        "load_flattening": 0.15,
+        "area_factor": 0.015,
+        "area_exponent": 0.025,
+        "film_dry": 0.053,
+        "film_parted": 0.31,
+        "film_layer": 0.071,
+        "film_mixed": 0.1,
+        "film_factor": 0.12,
+        "film_exponent": 0.44,
+        "oil_pressure_excess": 0.23,
+        "oil_pressure_decay": 0.25,
         "exposure_rougher": 0.2,
         "exposure_exponent": 0.083,
         "exposure_smoother": 14.0,
@@ -137,28 +136,30 @@ class FittedSharing:
         "exposure_dry_smoother": 0.36,
     }
 
-    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=2.08)
-    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=0.597)
-    load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=2.0)
-    area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.84)
-    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.812)
-    film_dry: float = parameter(
-        "", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.322
-    )
-    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=0.352)
+    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.444)
+    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=1.01)
+    load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=1.32)
+    area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.47)
+    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.856)
+    film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.293)
+    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=0.127)
     film_layer: float = parameter(
-        "", "H, part of the height of roughness below the grid that dry bodies keep", least=0.0, most=10.0, default=0.48
+        "",
+        "H, part of the height of roughness below the grid that dry bodies keep",
+        least=0.0,
+        most=10.0,
+        default=0.485,
     )
     film_mixed: float = parameter(
-        "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.649
+        "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.614
     )
-    film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.876)
-    film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=2.86)
+    film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.849)
+    film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=1.34)
     oil_pressure_excess: float = parameter(
-        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=1.85
+        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=0.528
     )
     oil_pressure_decay: float = parameter(
-        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=0.711
+        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=0.454
     )
     oil_pressure_power: float = parameter("", "q, the more so of rougher bodies", least=0.0, most=5.0, default=1.0)
     oil_spread: float = parameter(
@@ -270,14 +271,12 @@ class LineSharing(FittedSharing):
     }
     WIDTHS: ClassVar[Widths] = Widths(0.2, 0.25, 0.4, 0.8, 0.16, 0.4, 0.45)
 
-    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=2.04)
-    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=0.649)
-    load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=1.63)
+    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.444)
+    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=1.01)
+    load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=1.32)
     area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.9)
     area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.939)
-    film_dry: float = parameter(
-        "", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.584
-    )
+    film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.584)
     film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=1.03)
     film_layer: float = parameter(
         "", "H, part of the height of roughness below the grid that dry bodies keep", least=0.0, most=10.0, default=0.48

@@ -130,8 +130,9 @@ class Case:
     @cached_property
     def microroughness(self) -> AsperityLayer | None:
         """Asperities of both bodies together that are too short for the grid; None without any."""
-        given = [side.surface.microroughness for side in self.sides if side.surface.microroughness is not None]
-        return reduce(AsperityLayer.beside, given) if given else None
+        given = [side.surface.microroughness for side in self.sides]
+        rough = [layer for layer in given if layer is not None and layer.rms > 0.0]
+        return reduce(AsperityLayer.beside, rough) if rough else None
 
     @property
     def speeds(self) -> Pair:
