@@ -301,7 +301,7 @@ def errors_of(law: FittedSharing, data: Table) -> Columns:
 
 def ends(rows: Table) -> dict[str, tuple[float, float]]:
     """Between which numbers the rows lie."""
-    found = (("lambda", rows.clearance), ("s", rows.flattening), ("f", rows.layers))
+    found = (("lambda", rows.clearance), ("f", rows.layers), ("s", rows.flattening), ("s_m", rows.below))
     return {name: (float(x.min()), float(x.max())) for name, x in found}
 
 

@@ -26,8 +26,8 @@ ORIGIN = {  # scene of each shape; soft: lines under a tribofilm's hardness
     "soft line": "fzg_flank",
 }
 FIT, WIDTH, CHECK = 1, 2, 5  # seeds: what constants are fitted to, what half widths, too, and what tells if they hold
-COUNTS = {"line": 80, "ellipse": 35, "circle": 25, "soft line": 20}  # points of the fit
-OTHERS = {"line": 30, "ellipse": 25, "circle": 15, "soft line": 8}  # of the other seeds
+COUNTS = {"line": 50, "ellipse": 20, "circle": 12, "soft line": 12}  # points of the fit
+OTHERS = {"line": 20, "ellipse": 15, "circle": 8, "soft line": 6}  # of the other seeds
 RUBBED, RUNS, MINUTES = 3, 6, 10.0  # seed, contacts of each shape, and for how long they rub
 LIGHT = 600.0  # N, at most, of ellipses that rub: others take long
 KELVIN = 273.15

@@ -98,20 +98,21 @@ class FittedSharing:
     )
     equations: ClassVar[Equations] = Equations(
         (
-            "W_c = exp[−B (f t_1^m)^C],   t_1 = t(1)",
-            "A_c = [1 − exp(−0.2 A t_A)] W_c^D,   t_A = t(2.3)",
+            "W_c = exp[−B (f t^m)^C],   t = 5 [s^{−2} + s_m^{−2}]^{−1/2}",
+            "A_c = {1 − exp[−A (s^{−2} + 5.29 s_m^{−2})^{−1/2}]} W_c^D",
             "h_c/σ = W_c g + (1 − W_c) [(E Z/ρ)^n + j^n]^{1/n}",
-            "g = (G/k) ln[1 + k t_0^{−1.5}] + H Z/f,   j = max[F t_0^{−0.75}, g],   t_0 = t(0)",
+            "g = (G/k) ln[1 + k (5 s)^{−1.5}] + H Z/f,   j = max[F (5 s)^{−0.75}, g]",
         ),
-        "t(x) = 5 [s^{−2} + (x/sm)²]^{−1/2}. Z: film of the smooth bodies by the formula of their shape over composite "
-        "roughness; f: that film over film.floor and the microroughness of both bodies together; s: mean Hertz "
-        "pressure over what would press flat the roughness on the grid, sm: the longest wave below it; ρ: density of "
-        "the oil under Hertz's mean pressure, over that without pressure.",
+        "Z: film of the smooth bodies by the formula of their shape over composite roughness; f: that film over "
+        "film.floor and the microroughness of both bodies together; s: mean Hertz pressure over what would press flat "
+        "the roughness on the grid, sm: the longest wave below it; ρ: density of the oil under Hertz's mean pressure, "
+        "over that without pressure.",
     )
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
         "clearance": (0.003, 70.0),
-        "flattening": (0.068, 6.4),
         "layers": (0.01, 1e3),
+        "flattening": (0.068, 6.4),
+        "below": (0.1, 1.0),
     }
     WIDTHS: ClassVar[Widths] = Widths(0.23, 0.25, 0.44, 0.6, 0.12, 0.25, 0.65)
     CHOSEN: ClassVar[frozenset[str]] = frozenset({"oil_pressure_power", "oil_spread"})
@@ -218,10 +219,10 @@ class FittedSharing:
         raised = 1.0 + self.oil_pressure_excess * steep * exp(-fall)
         return raised / sqrt((1.0 + self.oil_spread * thick_x) * (1.0 + self.oil_spread * thick_y))
 
-    def covers(self, clearance: float, flattening: float, layers: float) -> bool:
-        """Return True if the point lies within those of the fit, or has a film that no layer reaches across."""
-        (low, high), (flat, flatter), (thin, _) = self.FITTED.values()
-        return low <= clearance <= high and flat <= flattening <= flatter and thin <= layers
+    def covers(self, clearance: float, layers: float, flattening: float, below: float) -> bool:
+        """Return True if the point lies within those of the fit."""
+        point = clearance, layers, flattening, below
+        return all(low <= here <= high for here, (low, high) in zip(point, self.FITTED.values(), strict=True))
 
     def nearest(self, flattening: float) -> float:
         """Return the nearest flattening in the range of validity of the curves.
@@ -249,8 +250,9 @@ class LineSharing(FittedSharing):
     name: ClassVar[str] = "fitted_lines"
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
         "clearance": (0.05, 5.0),
-        "flattening": (0.03, 0.74),
         "layers": (0.01, 1e3),
+        "flattening": (0.03, 0.74),
+        "below": (0.1, 1.0),
     }
     CHOSEN: ClassVar[frozenset[str]] = frozenset({"oil_pressure_power", "oil_spread"})
     HALF_WIDTHS: ClassVar[dict[str, float]] = {

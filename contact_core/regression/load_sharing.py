@@ -13,11 +13,12 @@ class Fit(NamedTuple):
     """Place of a contact among the points of the fit; see `laws.load_sharing.FittedSharing`."""
 
     clearance: float
-    flattening: float
     layers: float
+    flattening: float
+    below: float
 
 
-UNFITTED = Fit(math.inf, 0.0, math.inf)  # no load
+UNFITTED = Fit(math.inf, math.inf, 0.0, 0.0)  # no load
 
 
 class Surfaces(NamedTuple):
@@ -70,11 +71,11 @@ def shared(case: Case, surfaces: Surfaces, film: float, grown: tuple[float, floa
     floor, sharing = scene.film.floor, regression_film(scene).sharing
     sigma = max(surfaces.sigma, floor)  # smooth bodies touch where their adsorbed layers do
     pressure, half = root * hertz.pressure_max, root * hertz.a
-    clearance, flattening, layers = fit = Fit(film / sigma, surfaces.flattening * pressure, film / surfaces.layer)
+    fit = Fit(film / sigma, film / surfaces.layer, surfaces.flattening * pressure, surfaces.below * pressure)
+    clearance, layers, flattening, below = fit
     if not sharing.covers(*fit):  # powers of it have no meaning far from the fit
         flattening = sharing.nearest(flattening)
     density: Law = scene.lubricant.density
-    below = surfaces.below * pressure
     share = sharing.load_ratio(layers, flattening, below)
     dense = clearance / float(density(hertz.mean_share * pressure))
     gap = max(sigma * sharing.film_ratio(dense, share, flattening, surfaces.layer / sigma), floor)

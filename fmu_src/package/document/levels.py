@@ -72,9 +72,10 @@ def _fitted_ranges(scene: Scene) -> Iterator[Row]:
     here = {
         "clearance": "see above",
         "flattening": number(flattening_of(pressure, scene.solids.reduced_modulus, slope)) if slope > 0.0 else "none",
+        "below": number(flattening_of(pressure, scene.solids.reduced_modulus, below.slope)) if below else "none",
         "layers": f"film / {number(1e9 * layer_height(film.floor, below.rms if below else 0.0), 'nm')}",
     }
-    symbols = {"clearance": "Z", "flattening": "s", "layers": "f"}
+    symbols = {"clearance": "Z", "layers": "f", "flattening": "s", "below": "s_m"}
     for name, (low, high) in film.sharing.FITTED.items():
         yield f"{symbols[name]} of the fit", here[name], f"fitted from {low:g} to {high:g}"
 
