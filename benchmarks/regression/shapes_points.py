@@ -26,8 +26,8 @@ ORIGIN = {  # scene of each shape; soft: lines under a tribofilm's hardness
     "soft line": "fzg_flank",
 }
 FIT, WIDTH, CHECK = 1, 2, 5  # seeds: what constants are fitted to, what half widths, too, and what tells if they hold
-COUNTS = {"line": 50, "ellipse": 20, "circle": 12, "soft line": 12}  # points of the fit
-OTHERS = {"line": 20, "ellipse": 15, "circle": 8, "soft line": 6}  # of the other seeds
+COUNTS = {"line": 30, "ellipse": 12, "circle": 6, "soft line": 6}  # points of the fit
+OTHERS = {"line": 8, "ellipse": 6, "circle": 4, "soft line": 3}  # of the other seeds
 RUBBED, RUNS, MINUTES = 3, 6, 10.0  # seed, contacts of each shape, and for how long they rub
 LIGHT = 600.0  # N, at most, of ellipses that rub: others take long
 KELVIN = 273.15

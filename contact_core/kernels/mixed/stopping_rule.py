@@ -9,7 +9,7 @@ _COMPLEMENTARITY_TOLERANCE = 0.2
 _IMBALANCE_PER_TOLERANCE = 100.0
 STEADY_IMBALANCE_PER_TOLERANCE = 5.0
 _IMBALANCE_PER_STEP = 6.0
-_CARRIED_PER_STEP = 1.0  # where the film is carried over as it is: nothing levels out what a step leaves there
+_CARRIED_PER_STEP = 2.0  # where the film is carried over as it is: nothing levels out what a step leaves there
 
 
 def allowed_imbalance(problem: Problem) -> float:
