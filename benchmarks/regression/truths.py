@@ -1,11 +1,14 @@
 """Solutions of a few contacts at the deterministic level, for tests of the error outputs of the regression level.
 
-    python -m benchmarks.regression.truths    # 20 min
+    python -m benchmarks.regression.truths               # 20 min
+    python -m benchmarks.regression.truths --tribofilms  # 10 min
 
 Random contacts that no curve was fitted to (the seed `check` of regression_shapes.py): within the fit, beyond it, and
-rubbed for ten minutes. Writes tests/golden/regression_level.json; what stands there is kept.
+rubbed for ten minutes. Writes tests/golden/regression_level.json; what stands there is kept. With --tribofilms: solves the contacts named in
+tests/golden/regression_level_tribofilms.json anew.
 """
 
+import argparse
 import json
 from collections.abc import Iterator
 from dataclasses import asdict, replace
@@ -13,10 +16,11 @@ from typing import Any
 
 from benchmarks.folders import ROOT
 from benchmarks.regression.shapes_points import CHECK, MINUTES, RUBBED, RUNS, ShapePoint, points
-from contact_core import Scene, advance, initial_state
+from contact_core import OperatingPoint, Scene, advance, initial_state
 from contact_core.surfaces.track_means import means_of
 
 GOLDEN = ROOT / "tests" / "golden" / "regression_level.json"
+TRIBOFILMS = GOLDEN.with_name("regression_level_tribofilms.json")
 COUNT = 8  # of each shape
 HEAVIEST = {"line": 1500.0, "circle": 75.0}  # N: others take long
 BEYOND = {f"surface_{i}.microroughness.rms": "0 m" for i in (1, 2)}  # solids that touch at the floor alone
@@ -60,7 +64,23 @@ def flat(tree: dict[str, Any], prefix: str = "") -> dict[str, Any]:
     return found
 
 
+def tribofilms() -> None:
+    """Solve anew the tribofilms of circles that have rubbed, in place."""
+    rows = json.loads(TRIBOFILMS.read_text())
+    for name, row in rows.items():
+        scene = Scene.from_toml(row["scene"], {key: str(value) for key, value in row["changes"].items()})
+        _, out = advance(scene, OperatingPoint(**row["point"]), initial_state(scene), row["seconds"])
+        row["truth"] = {body: getattr(out, body) for body in row["truth"]}
+        print(name, row["truth"], flush=True)
+        TRIBOFILMS.write_text(json.dumps(rows, indent=1) + "\n")
+
+
 def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--tribofilms", action="store_true")
+    if parser.parse_args().tribofilms:
+        tribofilms()
+        return
     rows = json.loads(GOLDEN.read_text()) if GOLDEN.exists() else {}
     for name, *case in cases():
         if name not in rows:
