@@ -11,7 +11,7 @@ from contact_core import Scene, advance, initial_state
 from contact_core.laws.load_sharing import FittedSharing
 from contact_core.state import Outputs
 
-COUNT = 100  # random points of each scene
+COUNT = 24  # random points of each scene
 MINUTES = (0, 20, 60, 120)
 RUN = {
     "mu": ("friction_coefficient", 1.0),
