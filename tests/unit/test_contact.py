@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from comparison import approx
+from comparison import HARD, approx
 from independent import judge
 
 from contact_core import OperatingPoint, OperatingPointError, Scene, Transient, initial_state, solve
 
-ROUGH = {  # 4 nodes per correlation length
+ROUGH = HARD | {  # 4 nodes per correlation length
     "film.points": "65",
     "surface_1.correlation_length": "31 um",
     "surface_2.correlation_length": "31 um",
