@@ -146,8 +146,9 @@ def test_ellipses_starve_less_the_wider_they_are(ratio, near):
     """On about 65 nodes along the shorter side: on 33, the slim one's starved film is 20 % too thick."""
     shape, nodes = Point(RADIUS, ratio * RADIUS), 65 if ratio > 1.0 else 193
     given = {
-        "load": 100.0, "radius_x": shape.radius_x, "radius_y": shape.radius_y, "reduced_modulus": MODULUS, "grid": nodes,
+        "load": 100.0, "radius_x": shape.radius_x, "radius_y": shape.radius_y, "reduced_modulus": MODULUS,
         "speed_1": 1.0, "speed_2": 1.0, "viscosity": VISCOSITY, "pressure_viscosity": ALPHA, "tolerance": 5e-4,
+        "grid": nodes,
     }  # fmt: skip
     flooded = point_contact(**given)
     middle = flooded.pressure[np.abs(flooded.y).argmin(), np.abs(flooded.x).argmin()]
