@@ -266,7 +266,7 @@ def answer(given: dict[str, Any], found: PointContact) -> Answer:
 
 
 def answer_in_time(scene: Scene, op: OperatingPoint, found: ContactFields, before: Array, dt: float) -> Answer:
-    """One instant of `contact_core.solve`."""
+    """One instant of `contact_core.solve` with upwind flow over a hard floor."""
     return Answer(
         x=found.x,
         y=found.y,
@@ -286,4 +286,5 @@ def answer_in_time(scene: Scene, op: OperatingPoint, found: ContactFields, befor
         viscosity=lambda p: scene.lubricant.viscosity(p, op.temperature),
         before=before,
         step=dt,
+        fitted=False,
     )
