@@ -4,6 +4,9 @@ from typing import Any
 
 import pytest
 
+# scene changes: bodies without roughness below the grid, so that solids touch at the floor
+HARD = {"surface_1.microroughness.rms": "0 m", "surface_2.microroughness.rms": "0 m"}
+
 
 def approx(expected: Any, rel: float | None = None, abs: float | None = None, nan_ok: bool = False) -> Any:
     """Return what is equal to `expected` within a relative error, 1e-6 unless told, or an absolute one that is given.

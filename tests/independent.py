@@ -5,6 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import fftconvolve
 
+from benchmarks.film.independent import fitted_flow, upwind_flow
+
 
 def love(dx, dy):
     """Integral of 1/r over a unit square cell whose centre is (dx, dy) cells away."""
@@ -40,18 +42,23 @@ def gap(scene, fields):
 def volume_flow(scene, op, fluid, film):
     """What pressure brings into each inner node and what entrainment along +x carries away from it [m/s at p = 0].
 
-    div(rho h^3 / (12 eta) grad p) and u_e d(rho h)/dx, NaN on the edge of the grid.
+    div(rho h^3 / (12 eta) grad p) and u_e d(rho h)/dx by the scene's rule of flow, NaN on the edge of the grid.
     """
-    spacing = scene.film.spacing
-    mass = scene.lubricant.density(fluid) * film
-    ease = mass * film**2 / (12.0 * scene.lubricant.viscosity(fluid, op.temperature))
-    along = 0.5 * (ease[:, 1:] + ease[:, :-1]) * np.diff(fluid, axis=1) / spacing
-    across = 0.5 * (ease[1:] + ease[:-1]) * np.diff(fluid, axis=0) / spacing
-    first = 0.5 * (mass[:, :1] + mass[:, 1:2])  # the face behind node 0; behind the others by extrapolation
-    faces = np.concatenate([first, 1.5 * mass[:, 1:] - 0.5 * mass[:, :-1]], axis=1)
+    spacing, speed = scene.film.spacing, op.entrainment_speed
+    density = scene.lubricant.density(fluid)
+
+    def viscosity(pressure):
+        return scene.lubricant.viscosity(pressure, op.temperature)
+
+    if scene.film.flux == "fitted":
+        stiffness = np.pi * speed * spacing**2 / scene.solids.reduced_modulus
+        ease_x, ease_y, faces = fitted_flow(film, fluid, density, viscosity, stiffness, scene.film.floor)
+    else:
+        ease_x, ease_y, faces = upwind_flow(film, density * film, viscosity(fluid))
+    along, across = ease_x * np.diff(fluid, axis=1) / spacing, ease_y * np.diff(fluid, axis=0) / spacing
     brought, carried = np.full_like(fluid, np.nan), np.full_like(fluid, np.nan)
     brought[1:-1, 1:-1] = (np.diff(along, axis=1)[1:-1] + np.diff(across, axis=0)[:, 1:-1]) / spacing
-    carried[1:-1, 1:-1] = op.entrainment_speed * np.diff(faces, axis=1)[1:-1, :-1] / spacing
+    carried[1:-1, 1:-1] = speed * np.diff(faces, axis=1)[1:-1] / spacing
     return brought, carried
 
 

@@ -22,6 +22,8 @@ _INNER = 0.03  # residual of a Newton step, relative
 _NEAR = 1e-3  # change of pressure over the load, below which steps are taken in full: rounding hides the energy
 _INNER_ITERATIONS = 200
 _HALVINGS = 12
+_LEAST = 1e-250  # of the stress, below which a pressure holds bodies no further apart
+_FAINT = 1e-3  # of the largest pressure, below which a node of a light contact counts as open
 _FALL = 0.9  # of a pressure, at most, that one step takes away where the asperities do not bend
 
 
@@ -71,11 +73,12 @@ def solve_dry_asperities(
                 break
             part *= 0.5
         p, deformed = trial, moved
-    return np.where(p > stress * np.exp(-REACH), p, 0.0), rigid, error < tolerance, spent
+    open_below = min(stress * np.exp(-REACH), _FAINT * float(p.max()))  # a light contact is fainter than that all over
+    return _loaded(np.where(p > open_below, p, 0.0), cap, load), rigid, error < tolerance, spent
 
 
 def _held_open(p: Array, stress: float, depth: float) -> Array:
-    return depth * np.log(np.maximum(stress / np.maximum(p, 1e-300), 1.0))
+    return depth * np.log(np.maximum(stress / np.maximum(p, _LEAST * stress), 1.0))
 
 
 def _energy(p: Array, twice: Array, stress: float, depth: float) -> float:

@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
-from comparison import approx
+from comparison import HARD, approx
 
 from contact_core import Scene, initial_state, march
 from contact_core.film.instant import FilmState, Grid, Instant, Settings, Step
@@ -111,13 +111,13 @@ def test_a_cylinder_sinks_as_by_its_closed_form():
     assert ends[1] + (ends[1] - ends[0]) / 3.0 == approx(first / 2.25, rel=4e-3)
 
 
-RAMP = 1e-4  # s: about a passage of the oil
+RAMP = 1e-4  # s: about a passage of the oil; in 32 steps or fewer more than a node each, in 64 less
 
 
 @lru_cache
 def rolling():
     """A smooth scene and the first instant of its marches."""
-    changes = {
+    changes = HARD | {
         "film.points": "65",
         "film.domain": "0.4 mm",
         "surface_1.rq": "0 m",
@@ -138,7 +138,7 @@ def ramped(name, time):
     radius = scene.radii(op)[0] * (1.0 + 0.5 * part)
     return {
         "load": replace(op, load=10.0 * (1.0 + part)),
-        "speed": replace(op, speed_1=3.2 * (1.0 - 0.5 * part), speed_2=2.8 * (1.0 - 0.5 * part)),
+        "speed": replace(op, speed_1=3.2 * (1.0 + 0.5 * part), speed_2=2.8 * (1.0 + 0.5 * part)),
         "radius": replace(op, radius_x=radius, radius_y=radius),
     }[name]
 
@@ -161,9 +161,12 @@ def test_ramps_converge_in_time_with_the_order_asked_for(name, order):
     assert errors[2] < 4e-3 / order
 
 
-def test_both_orders_converge_to_the_same_films_where_the_load_is_ramped():
-    first = 2.0 * after_ramp("load", 64, 1) - after_ramp("load", 32, 1)
-    assert first == approx(after_ramp("load", 64, 2), rel=1e-3)
+@pytest.mark.parametrize(("steps", "near"), [(32, 1e-3), (128, 2e-3)])
+@pytest.mark.parametrize("name", ["load", "radius"])
+def test_both_orders_converge_to_the_same_films(name, steps, near):
+    """First-order steps of less than a node carry the film over by another rule, which differs on this grid."""
+    first = 2.0 * after_ramp(name, steps, 1) - after_ramp(name, steps // 2, 1)
+    assert first == approx(after_ramp(name, 64, 2), rel=near)
 
 
 def test_a_film_settles_to_the_steady_one_of_the_new_load():

@@ -72,7 +72,24 @@ def test_the_end_film_falls_more_steeply_with_load_than_that_of_the_middle_and_l
     assert (slopes > -0.8).all()
 
 
-def test_both_films_converge_with_the_grid():
-    found = [roller(Rounded(2.2e-3, 0.01), 2e5, nx=nx) for nx in (33, 65, 129)]
-    for films in ([f.h_min for f in found], [f.film[middle(f)].min() for f in found]):
-        assert np.log2((films[1] - films[0]) / (films[2] - films[1])) > 1.2
+@pytest.fixture(scope="module")
+def on_grids():
+    """Smallest film of a roller, and that of its middle, by flux on 33, 65 and 129 nodes along the flow."""
+    films = {}
+    for flux in ("upwind", "fitted"):
+        found = [roller(Rounded(2.2e-3, 0.01), 2e5, nx=nx, flux=flux) for nx in (33, 65, 129)]
+        assert all(film.converged for film in found)
+        films[flux] = np.array([[film.h_min, film.film[middle(film)].min()] for film in found])
+    return films
+
+
+def test_both_films_of_upwind_flow_converge_with_the_grid(on_grids):
+    coarse, fine, finest = on_grids["upwind"]
+    assert (np.log2((fine - coarse) / (finest - fine)) > 1.2).all()
+
+
+def test_both_films_of_fitted_flow_have_the_limit_of_upwind_flow_on_33_nodes_already(on_grids):
+    _, fine, finest = on_grids["upwind"]
+    errors = np.abs(on_grids["fitted"] / (finest + (finest - fine) / 3.0) - 1.0)
+    assert errors[0].max() < 0.05
+    assert errors[-1].max() < 0.01

@@ -45,6 +45,7 @@ _RISE = (2.0, 1.0)  # largest rise of a fluid pressure in a step, and by how muc
 _TOUCH = 0.95  # gap in floors below which a node becomes solid
 _TRIAL = 1e-6  # largest relative change of a gap, or change of a pressure, of a difference of flows
 _RELEASES = 1  # a contact that returns after so many releases stays: some would change for ever
+_LEAST_SCALE = 1e-3  # rise of the inflow by the own pressure, over that of the oil that moves with the gap
 
 
 @jit
@@ -225,7 +226,9 @@ class _Film:
         if size == 0:
             return None
         own = -(by_f[0] + by_h[0] * near[0, 0] + by_h[1] * near[0, 1])
-        scale[:] = np.where(held, -1.0 / (near[0, 0] + give), 1.0 / np.maximum(own, -by_f[0] + 1e-300))
+        # what a node loses may not depend on its own gap: then the oil that moves with it gives the scale
+        least = _LEAST_SCALE * near[0, 0] * (q.wedge / q.spacing + q.per_dt) + 1e-300
+        scale[:] = np.where(held, -1.0 / (near[0, 0] + give), 1.0 / np.maximum(own, least - by_f[0]))
         inverse = self._local_inverse(nodes)
         if inverse is None:
             return None
