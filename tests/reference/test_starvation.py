@@ -143,7 +143,7 @@ def test_closed_forms_meet_their_limits():
 
 @pytest.mark.parametrize(("ratio", "near"), [(0.2, 0.06), (10.0, 0.02)])
 def test_ellipses_starve_less_the_wider_they_are(ratio, near):
-    """On about 65 nodes along the shorter side: on 33, the slim one's starved film is 20 % too thick."""
+    """On at least 65 nodes along the shorter side: on 33, the slim one's starved film is 20 % too thick."""
     shape, nodes = Point(RADIUS, ratio * RADIUS), 65 if ratio > 1.0 else 193
     given = {
         "load": 100.0, "radius_x": shape.radius_x, "radius_y": shape.radius_y, "reduced_modulus": MODULUS,
