@@ -75,7 +75,7 @@ def solve_dry_asperities(
 
 
 def _held_open(p: Array, stress: float, depth: float) -> Array:
-    return depth * np.log(np.maximum(stress / np.maximum(p, 1e-300), 1.0))
+    return depth * np.maximum(np.log(stress) - np.log(np.maximum(p, 1e-300)), 0.0)
 
 
 def _energy(p: Array, twice: Array, stress: float, depth: float) -> float:
