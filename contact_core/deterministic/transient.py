@@ -34,8 +34,13 @@ def parted(scene: Scene, op: OperatingPoint, state: ContactState, gap: float) ->
 
 
 def longest_instant(case: Case) -> float:
-    """Return the longest time [s] of an instant of a march, infinite at rest."""
+    """Return the longest time [s] of an instant of a march, infinite at rest.
+
+    Over rough bodies that move, the oil moves by a node at most as well: further, fitted flow does not carry it over.
+    """
     fastest = max(case.rough_speed, case.fastest / _SMOOTH_STEP)
+    if case.rough_speed > 0.0:
+        fastest = max(fastest, abs(case.op.entrainment_speed))
     return case.scene.film.spacing / fastest if fastest > 0.0 else math.inf
 
 
