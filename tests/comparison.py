@@ -4,6 +4,8 @@ from typing import Any
 
 import pytest
 
+HARD = {f"surface_{i}.microroughness.rms": "0 m" for i in (1, 2)}  # solids that touch at the floor alone
+
 
 def approx(expected: Any, rel: float | None = None, abs: float | None = None, nan_ok: bool = False) -> Any:
     """Return what is equal to `expected` within a relative error, 1e-6 unless told, or an absolute one that is given.
