@@ -1,8 +1,8 @@
 """A contact whose load, speeds and radii change while it runs: consecutive instants in time.
 
-The film remembers (squeeze term), at every speed and at rest. Both bodies move on with their speeds, no rough one by
-more than a node from instant to instant. `run_cycle` applies the exposure of one sampled cycle, such as the mesh of a
-tooth, to many.
+The film remembers (squeeze term), at every speed and at rest. Both bodies move on with their speeds, no rough one, and
+no oil on it, by more than a node from instant to instant. `run_cycle` applies the exposure of one sampled cycle, such
+as the mesh of a tooth, to many.
 """
 
 import itertools
