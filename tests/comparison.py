@@ -4,8 +4,7 @@ from typing import Any
 
 import pytest
 
-# scene changes: bodies without roughness below the grid, so that solids touch at the floor
-HARD = {"surface_1.microroughness.rms": "0 m", "surface_2.microroughness.rms": "0 m"}
+HARD = {f"surface_{i}.microroughness.rms": "0 m" for i in (1, 2)}  # solids that touch at the floor alone
 
 
 def approx(expected: Any, rel: float | None = None, abs: float | None = None, nan_ok: bool = False) -> Any:

@@ -103,8 +103,8 @@ class Fit:
         self.sweep = Table(solved(sweep))
         self.all = rows = self.sweep if others is None else Table(shared([self.sweep.columns, told(solved(others))]))
         self._fit(
-            ("load_factor", "load_exponent", "load_flattening"),
-            lambda law: law.load_ratio(rows.layers, rows.flattening, rows.below) - rows.load_ratio,
+            ("load_factor", "load_exponent", "load_flattening", "load_parted"),
+            lambda law: law.load_ratio(rows.clearance, rows.layers, rows.flattening, rows.below) - rows.load_ratio,
         )
         self._fit(
             ("area_factor", "area_exponent"), self._area_residual(rows, None if dry is None else Table(solved(dry)))
@@ -229,7 +229,7 @@ def covered(table: Table) -> Array:
 
 def predicted(law: FittedSharing, table: Table) -> Columns:
     """Return the outputs of the law for lambda, flattening and layers; h_c in sigma."""
-    share = law.load_ratio(table.layers, table.flattening, table.below)
+    share = law.load_ratio(table.clearance, table.layers, table.flattening, table.below)
     return {
         "W_c": share,
         "A_c": law.area_ratio(share, table.flattening, table.below),
@@ -254,13 +254,17 @@ def alternatives(sweep: Table) -> list[tuple[str, int, float, float]]:
 
         return form
 
+    def parting(*further: Array) -> Callable[[Array], Array]:
+        within = of(film, flat, *further)
+        return lambda p: within(p[1:]) * np.exp(-p[0] * lam**2)
+
     forms = [
         ("exp(-B lambda^C)", of(lam), [2.0, 1.0]),
         ("exp(-B (lambda s^m)^C)", of(lam, flat), [2.0, 1.0, 1.0]),
         ("exp(-B f^C)", of(film), [0.3, 1.0]),
-        ("**exp(-B (f s^m)^C)**", of(film, flat), [0.3, 1.0, 1.0]),
-        ("exp(-B (f s^m lambda^k)^C)", of(film, flat, lam), [0.3, 1.0, 1.0, 0.0]),
-        ("exp(-B (f s^m r^q)^C)", of(film, flat, fine), [0.3, 1.0, 1.0, 0.0]),
+        ("exp(-B (f s^m)^C)", of(film, flat), [0.3, 1.0, 1.0]),
+        ("**exp(-B (f s^m)^C - b lambda^2)**", parting(), [1.0, 0.3, 1.0, 1.0]),
+        ("exp(-B (f s^m r^q)^C - b lambda^2)", parting(fine), [1.0, 0.3, 1.0, 1.0, 0.0]),
     ]
     found = []
     for name, form, start in forms:
@@ -365,7 +369,7 @@ def constants_page(fit: Fit) -> list[str]:
             ("form", "constants", "scatter", "largest error"),
             [(n, k, f"{a:.3f}", f"{b:.3f}") for n, k, a, b in alternatives(sweep)],
         ),
-        "Neither lambda nor r adds anything: the amplitude of the roughness on the grid acts by its slope alone, and W_c does not depend on the distance of the nodes.",
+        "r adds nothing: W_c does not depend on the distance of the nodes.",
         "",
         "## Curves against the sweep they were fitted to",
         *by_range(sweep.clearance, errors_of(fit.law, sweep)),
@@ -395,7 +399,7 @@ def draw(fit: Fit) -> Figure:
         axes[1, 0].plot(found["h_c"][kept], sweep.film_ratio[kept], **style)
         axes[1, 1].plot((touching * sweep.load_ratio)[kept], sweep.area_ratio[kept], **style)
     line = np.geomspace(1e-2, 1e2, 200)
-    axes[0, 0].plot(line, fit.law.load_ratio(line, 0.2, np.inf), "k-", lw=1)
+    axes[0, 0].plot(line, fit.law.load_ratio(0.0, line, 0.2, np.inf), "k-", lw=1)
     axes[0, 0].set(xscale="log", xlabel="f (s / 0.2)$^m$", ylabel="W_c")
     axes[0, 1].set(xscale="log", xlabel="lambda", ylabel="W_c", xlim=(2e-3, 10.0))
     axes[1, 0].plot([0.05, 5.0], [0.05, 5.0], "k-", lw=1)

@@ -1,8 +1,8 @@
 """A contact whose load, speeds and radii change while it runs: consecutive instants in time.
 
-The film remembers (squeeze term), at every speed and at rest. Both bodies move on with their speeds, no rough one by
-more than a node from instant to instant. `run_cycle` applies the exposure of one sampled cycle, such as the mesh of a
-tooth, to many.
+The film remembers (squeeze term), at every speed and at rest. Both bodies move on with their speeds, no rough one, and
+no oil on it, by more than a node from instant to instant. `run_cycle` applies the exposure of one sampled cycle, such
+as the mesh of a tooth, to many.
 """
 
 import itertools
@@ -21,7 +21,7 @@ from .accumulator import Accumulator
 from .growth_and_wear import area_of_node, wear_speed, with_exposure
 from .instant import ContactFields
 from .observed import observed
-from .transient import begin, follow
+from .transient import begin, follow, node_speed
 
 Array = NDArray[np.float64]
 Duty = Callable[[float], OperatingPoint]
@@ -90,8 +90,8 @@ def march(scene: Scene, state: ContactState, duty: Duty, times: Sequence[float],
 
 
 def _instants(early: Case, late: Case, dt: float) -> int:
-    """Return into how many instants a time [s] is cut, so that no rough body moves on by more than a node in one."""
-    fastest = max(early.rough_speed, late.rough_speed)
+    """Return into how many instants a time [s] is cut; no rough body, and no oil on it, moves by more than a node."""
+    fastest = max(node_speed(early), node_speed(late))
     return max(1, math.ceil(fastest * dt / early.scene.film.spacing - _ROUNDING))
 
 

@@ -69,7 +69,7 @@ def sample_mixed(
     jumps = jumps_of(case, smoother) if jumping else [0.0, 0.0]
     unsampled = settling_instants(case)
     if state.film is None:
-        state = replace(state, film=_first_film(case, state))
+        state = replace(state, film=first_film(case, state))
         unsampled = unsampled if state.share == 1.0 else _CALMING
     elif same and (any(jumps) or not jumping):
         unsampled = 0
@@ -87,7 +87,7 @@ def sample_mixed(
     return state
 
 
-def _first_film(case: Case, state: ContactState) -> FilmState:
+def first_film(case: Case, state: ContactState) -> FilmState:
     """Return the film that a march begins with.
 
     It is the steady one where smooth bodies' film clears the roughness by far, else that of a dry contact, whose solids

@@ -33,9 +33,17 @@ def parted(scene: Scene, op: OperatingPoint, state: ContactState, gap: float) ->
     return replace(state, film=film, solved_for=None)
 
 
+def node_speed(case: Case) -> float:
+    """Return the speed [m/s] of what moves on by a node at most in an instant, 0 if nothing has to.
+
+    That are rough bodies, and the oil on those that move: further than a node, fitted flow does not carry it over.
+    """
+    return max(case.rough_speed, abs(case.op.entrainment_speed)) if case.rough_speed > 0.0 else 0.0
+
+
 def longest_instant(case: Case) -> float:
     """Return the longest time [s] of an instant of a march, infinite at rest."""
-    fastest = max(case.rough_speed, case.fastest / _SMOOTH_STEP)
+    fastest = max(node_speed(case), case.fastest / _SMOOTH_STEP)
     return case.scene.film.spacing / fastest if fastest > 0.0 else math.inf
 
 

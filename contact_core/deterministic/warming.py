@@ -5,12 +5,14 @@ from dataclasses import replace
 from ..scene import Case
 from ..state import ContactState
 from .instant import Transient, solve_instant
+from .sampling import first_film
 
 _ITERATIONS = 40
 
 
 def warm_up(case: Case, state: ContactState) -> None:
-    """Solve a dry instant and a mixed one after it."""
-    state = replace(state, film=solve_instant(case, state, dry=True).film)
+    """Solve a dry instant, the film with which a march begins, and a mixed instant after it."""
+    solve_instant(case, state, dry=True)
+    state = replace(state, film=first_film(case, state))
     dt = case.scene.film.spacing / abs(case.op.entrainment_speed)
     solve_instant(case, state, Transient(dt, 1, _ITERATIONS))

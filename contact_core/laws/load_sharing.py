@@ -4,13 +4,13 @@ from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
 from ..quantities import parameter
-from .asperity_layer import SLOPE
 from .elementary import Numbers, exp, expm1, log1p, maximum, minimum, sqrt
 from .equations import Equations
 
 _FLATTENING = 0.2  # reference of the constants: about that of the shipped circles
 # films and flattening beyond which no solid carries anything: no power of them may overflow
 _THICKEST, _FLATTEST = 1e30, 1e3
+_ALL_WAVES = 2.3  # their rms slope over that of the longest wave alone, see `asperity_layer`
 _FLAT = 1e-12  # square of the inverse flattening of bodies without any roughness
 
 
@@ -98,7 +98,7 @@ class FittedSharing:
     )
     equations: ClassVar[Equations] = Equations(
         (
-            "W_c = exp[−B (f t^m)^C],   t = 5 [s^{−2} + s_m^{−2}]^{−1/2}",
+            "W_c = exp[−B (f t^m)^C − b Z^2],   t = 5 [s^{−2} + s_m^{−2}]^{−1/2}",
             "A_c = {1 − exp[−A (s^{−2} + 5.29 s_m^{−2})^{−1/2}]} W_c^D",
             "h_c/σ = W_c g + (1 − W_c) [(E Z/ρ)^n + j^n]^{1/n}",
             "g = (G/k) ln[1 + k (5 s)^{−1.5}] + H Z/f,   j = max[F (5 s)^{−0.75}, g]",
@@ -120,6 +120,7 @@ class FittedSharing:
         "load_factor": 0.022,
         "load_exponent": 0.04,
         "load_flattening": 0.15,
+        "load_parted": 0.1,
         "area_factor": 0.015,
         "area_exponent": 0.025,
         "film_dry": 0.053,
@@ -140,6 +141,7 @@ class FittedSharing:
     load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.444)
     load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=1.01)
     load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=1.32)
+    load_parted: float = parameter("", "b, of asperities that part", least=0.0, most=1e3, default=1.0)
     area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.47)
     area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.856)
     film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.293)
@@ -180,15 +182,18 @@ class FittedSharing:
         "", "k of the smoother body in blocks driven dry", above=0.0, most=1e3, default=3.97
     )
 
-    def load_ratio(self, layers: Numbers, flattening: Numbers, below: Numbers) -> Numbers:
-        """Return contact_load_ratio under a film of smooth bodies `layers` layers thick."""
+    def load_ratio(self, clearance: Numbers, layers: Numbers, flattening: Numbers, below: Numbers) -> Numbers:
+        """Return contact_load_ratio at Z = `clearance`, for a film of smooth bodies `layers` layers thick.
+
+        Oil between the asperities takes the load from what is below the grid; as Z grows, the asperities part.
+        """
         flat = flattening_together(flattening, below, 1.0) / _FLATTENING
         film = minimum(minimum(layers, _THICKEST) * minimum(flat, _FLATTEST) ** self.load_flattening, _THICKEST)
-        return exp(-self.load_factor * film**self.load_exponent)
+        return exp(-self.load_factor * film**self.load_exponent - self.load_parted * minimum(clearance, _THICKEST) ** 2)
 
     def area_ratio(self, load_ratio: Numbers, flattening: Numbers, below: Numbers) -> Numbers:
         """Return contact_area_ratio where the solids carry `load_ratio` of the load."""
-        flat = flattening_together(flattening, below, SLOPE)
+        flat = flattening_together(flattening, below, _ALL_WAVES)
         return -expm1(-self.area_factor * flat) * load_ratio**self.area_exponent
 
     def film_ratio(self, dense: Numbers, load_ratio: Numbers, flattening: Numbers, layer: Numbers) -> Numbers:
@@ -259,6 +264,7 @@ class LineSharing(FittedSharing):
         "load_factor": 0.16,
         "load_exponent": 0.1,
         "load_flattening": 0.25,
+        "load_parted": 0.1,
         "area_factor": 0.12,
         "area_exponent": 0.032,
         "film_dry": 0.35,
@@ -276,6 +282,7 @@ class LineSharing(FittedSharing):
     load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.444)
     load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=1.01)
     load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=1.32)
+    load_parted: float = parameter("", "b, of asperities that part", least=0.0, most=1e3, default=10.0)
     area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.9)
     area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.939)
     film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.584)

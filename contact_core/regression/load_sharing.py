@@ -69,14 +69,14 @@ def shared(case: Case, surfaces: Surfaces, film: float, grown: tuple[float, floa
     root, wide = grown
     scene, hertz = case.scene, case.unit_hertz
     floor, sharing = scene.film.floor, regression_film(scene).sharing
-    sigma = max(surfaces.sigma, floor)  # smooth bodies touch where their adsorbed layers do
+    sigma = max(surfaces.sigma, surfaces.layer)  # bodies smooth on the grid touch by what is below it
     pressure, half = root * hertz.pressure_max, root * hertz.a
     fit = Fit(film / sigma, film / surfaces.layer, surfaces.flattening * pressure, surfaces.below * pressure)
     clearance, layers, flattening, below = fit
     if not sharing.covers(*fit):  # powers of it have no meaning far from the fit
         flattening = sharing.nearest(flattening)
     density: Law = scene.lubricant.density
-    share = sharing.load_ratio(layers, flattening, below)
+    share = sharing.load_ratio(clearance, layers, flattening, below)
     dense = clearance / float(density(hertz.mean_share * pressure))
     gap = max(sigma * sharing.film_ratio(dense, share, flattening, surfaces.layer / sigma), floor)
     raised = sharing.oil_pressure(clearance, flattening, *case.shape.depths(film, half, wide * hertz.b))

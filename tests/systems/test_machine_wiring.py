@@ -137,7 +137,7 @@ def test_motors_of_a_rig_give_what_its_contact_takes(rig: xr.Dataset) -> None:
     first = rig.isel(time=1)
     given = sum(float(first[f"{name}.power"]) for name in ("ball", "disc"))
     rolled = float(first["contact.rolling_resistance"] * (first["contact.speed_1"] + first["contact.speed_2"]))
-    assert rolled > 5e-4 * given
+    assert rolled > 2e-4 * given  # ten times what may be missing
     assert given == approx(float(first["contact.power_loss"]) + rolled, rel=2e-5)
 
 

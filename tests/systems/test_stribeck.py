@@ -177,7 +177,7 @@ def test_rubbing_stops_between_the_steps_of_a_run(scene: Scene, duty: Duty) -> N
 
 def test_a_rougher_disc_needs_more_speed() -> None:
     found = []
-    for rq in ("60 nm", "120 nm"):
+    for rq, fine in (("60 nm", "8 nm"), ("120 nm", "16 nm")):  # twice as rough at all lengths
         scene = Scene.from_toml(
             "mtm_zddp",
             {
@@ -185,6 +185,7 @@ def test_a_rougher_disc_needs_more_speed() -> None:
                 "surface_1.correlation_length": "16 um",
                 "surface_2.correlation_length": "16 um",
                 "surface_2.rq": rq,
+                "surface_2.microroughness.rms": fine,
             },
         )
         duty = Duty.of_scene(scene)

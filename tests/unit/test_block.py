@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from cheap_scene import CHEAP, cheap
-from comparison import approx
+from comparison import HARD, approx
 
 from contact_core import ContactState, RangeFlag, advance, solve
 from contact_core.deterministic.accumulator import Accumulator
@@ -52,13 +52,15 @@ def test_bodies_of_like_roughness_do_not_jump_while_the_film_is_sampled():
     assert moved == (24 + 4) % 32  # it calmed down after one jump of the other before it was sampled
 
 
+# asperities below the grid are cut off where they press by e^-14 of their most: together that is no more than 1e-6
+@pytest.mark.parametrize(("floor", "near"), [(HARD, 1e-9), ({}, 1e-6)], ids=["hard", "microrough"])
 @pytest.mark.parametrize("share", [1.0, 0.8, 0.4])
-def test_solids_of_a_dry_contact_under_oil_carry_their_share(share):
-    scene, state, op = cheap()
+def test_solids_of_a_dry_contact_under_oil_carry_their_share(share, floor, near):
+    scene, state, op = cheap(CHEAP | floor)
     fields = solve(scene, op, state, dry=True, solid_share=share)
     cell = scene.film.spacing**2
-    assert fields.solid_pressure.sum() * cell == approx(share * op.load, rel=1e-9)
-    assert fields.pressure.sum() * cell == approx(op.load, rel=1e-9)
+    assert fields.solid_pressure.sum() * cell == approx(share * op.load, rel=near)
+    assert fields.pressure.sum() * cell == approx(op.load, rel=near)
     assert fields.gap.min() >= scene.film.floor * (1.0 - 1e-9)
     assert fields.converged
 
@@ -66,7 +68,7 @@ def test_solids_of_a_dry_contact_under_oil_carry_their_share(share):
 def test_dry_contact_under_oil_touches_and_rubs_like_the_mixed_one_and_not_like_the_dry_one():
     """Blocks above control.dry_above rest on this claim; shipped scenes: docs/measured/surfaces/evolution.md."""
     scene, state, op = cheap(film__points=65, control__mixed_instants=64, control__dry_instants=16)
-    slow = replace(op, speed_1=0.006 * op.speed_1, speed_2=0.006 * op.speed_2)
+    slow = replace(op, speed_1=0.1 * op.speed_1, speed_2=0.1 * op.speed_2)
     mixed = Accumulator.before(state)
     sample_mixed(Case(scene, slow), state, mixed, False)
     means = mixed.means()
@@ -126,7 +128,7 @@ def test_the_sequence_of_instants_goes_on_after_a_restart():
 
 
 def test_a_march_is_settled_before_it_is_sampled_however_far_the_faster_body_runs_ahead():
-    smooth = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.model": "none"}
+    smooth = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.model": "none"} | HARD
     scene, state, point = cheap(CHEAP | smooth, film__points=97)
     op = replace(point, speed_1=9.0, speed_2=-1.0)
     steady = solve(scene, op, state)
@@ -146,7 +148,7 @@ def test_another_tribofilm_law_asks_for_a_new_solution():
 
 def test_a_dose_of_the_contact_length_is_the_clock_of_a_point_on_the_middle_of_a_smooth_track():
     """It counts for as long as the point is between Hertz's ends, and no longer for a wider grid."""
-    smooth = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.dose": "contact_length"}
+    smooth = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.dose": "contact_length"} | HARD
     for domain in ("0.5 mm", "0.7 mm"):
         scene, state, op = cheap(DRY | smooth, film__points=65, film__domain=domain, control__dry_instants=64)
         state, _ = advance(scene, op, state, 0.0)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from cheap_scene import CHEAP, cheap
-from comparison import approx
+from comparison import HARD, approx
 from scipy.constants import Boltzmann
 
 from contact_core import ContactState, Scene, advance, initial_state, solve
@@ -183,8 +183,10 @@ def test_each_body_is_exposed_at_the_temperature_of_its_own_surface():
     assert rubbed.any() and np.all(second[rubbed] >= alike[1][rubbed]) and second.max() > alike[1].max()
 
 
-def test_a_law_is_asked_once_for_two_bodies_of_one_temperature(monkeypatch):
-    scene, state, op = cheap(CHEAP | {"control.mixed_instants": "3"})
+@pytest.mark.parametrize(("floor", "once"), [(HARD, 1), ({}, 2)], ids=["hard", "microrough"])
+def test_a_law_is_asked_once_for_two_bodies_of_one_temperature(monkeypatch, floor, once):
+    """Microroughness touches on a share of a node's area: the law is asked for that share and for the rest."""
+    scene, state, op = cheap(CHEAP | {"control.mixed_instants": "3"} | floor)
     asked = []
 
     def counted(self, *node):
@@ -195,10 +197,10 @@ def test_a_law_is_asked_once_for_two_bodies_of_one_temperature(monkeypatch):
     sums = Accumulator.before(state)
     fields = solve(scene, op, state)
     sums.add(Case(scene, op), state, fields)
-    assert len(asked) == 1
+    assert len(asked) == once
     warmer = replace(fields.temperatures, surface_2=fields.temperatures.surface_1 + 1.0)
     sums.add(Case(scene, op), state, replace(fields, temperatures=warmer))
-    assert len(asked) == 3
+    assert len(asked) == 3 * once
 
 
 DRY = CHEAP | {"control.driver": "dry", "control.dry_instants": "4"}
@@ -227,7 +229,7 @@ def test_a_body_is_abraded_by_the_mean_of_its_instants():
 def test_removal_at_the_edges_leaves_the_middle_of_the_track_as_thick():
     films = {}
     for weight in ("0", "5"):
-        changes = DRY | {"tribofilm.set": "gosvami", "tribofilm.edge_weight": weight, "wear.model": "none"}
+        changes = DRY | HARD | {"tribofilm.set": "gosvami", "tribofilm.edge_weight": weight, "wear.model": "none"}
         scene, state, op = cheap(changes | {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm"})
         state, _ = advance(scene, op, state, 3600.0)
         films[weight] = state.bodies[0].growth.mean(axis=1)

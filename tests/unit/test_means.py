@@ -6,7 +6,7 @@ from dataclasses import asdict, fields, replace
 import numpy as np
 import pytest
 from cheap_scene import cheap
-from comparison import approx
+from comparison import HARD, approx
 from scipy.stats import norm
 
 from contact_core import (
@@ -30,7 +30,7 @@ from contact_core.state import Mean
 from contact_core.surfaces.track_means import folded, means_of
 
 FAST = {"film.model": "regression"}
-SMOOTH = FAST | {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm"}
+SMOOTH = FAST | {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm"} | HARD
 DERIVATIVES = {"speed_1": 1e-6, "speed_2": 1e-6, "load": 1e-5, "temperature": 1e-5}  # step of the test, relative
 
 
@@ -163,10 +163,10 @@ def test_a_thick_film_carries_all_and_its_friction_is_the_oils():
     film = sharing.film_factor * formula / oil.density(hertz.pressure_mean)
     spread = 1.0 + sharing.oil_spread * formula * shape.radius_x / hertz.a**2  # of the load, over Hertz's area
     r = (np.arange(20_000) + 0.5) / 20_000
-    shear = oil.viscosity(hertz.pressure_max / spread * np.sqrt(1.0 - r**2), op.temperature) * 1e-9 / film
+    shear = oil.viscosity(hertz.pressure_max / spread * np.sqrt(1.0 - r**2), op.temperature) * 1e-9 / found.h_c
     assert spread > 1.01
     assert found.contact_load_ratio < 1e-18  # an exponential, never quite zero
-    assert found.h_c == approx(film, rel=1e-9)
+    assert found.h_c == approx(film, rel=5e-3)  # the floor, a hundredth of it, adds a little
     assert found.friction_force == approx(-hertz.area * spread * float((2.0 * r * shear).mean()), rel=1e-6)
 
 
@@ -222,9 +222,12 @@ def test_the_exposed_ball_grows_the_laws_film(grown):
     seconds = np.array([state.time])
     hot = op.temperature + state.outputs.flash_temperature_rise
     growth, removal = law.evolve(np.zeros(1), np.zeros(1), seconds, np.zeros(1), hot)
-    assert 0.999999 < ball.coverage < 1.0  # an exponential of the solids' share: the rest is bare, and without film
-    assert ball.growth == approx(ball.coverage * growth[0], rel=1e-6)
-    assert ball.removal == approx(ball.coverage * removal[0], rel=1e-6)
+    exposed = scene.film.sharing.exposed(state.outputs.contact_area_ratio, rougher=False)
+    assert ball.coverage == approx(exposed, rel=1e-3)  # an exponential: the rest is bare, and without film
+    assert 0.99 < ball.coverage < 1.0
+    late = 1.0 - ball.coverage  # more than the part that the first passes have missed
+    assert ball.growth == approx(ball.coverage * growth[0], rel=late)
+    assert ball.removal == approx(ball.coverage * removal[0], rel=late)
     assert 0.1 < disc.coverage < 0.6
 
 
@@ -278,7 +281,7 @@ def test_the_solids_carry_no_more_than_their_hardness_on_the_real_contact(model)
     hardness = {"plasticity.hardness": "1.4 GPa", "plasticity.film_hardness": "1.4 GPa"}
     pressures = []
     for rq in ("5 nm", "50 nm", "600 nm"):
-        scene, state, op = fast(FAST | hardness | geometry | {"surface_2.rq": rq})
+        scene, state, op = fast(FAST | HARD | hardness | geometry | {"surface_2.rq": rq})
         for share in (1e-3, 0.1, 0.9):
             load = share * (1.4e9 / scene.unit_hertz_at(op).pressure_max) ** (2.0 if model == "line" else 3.0)
             at = replace(op, load=load, speed_1=1e-3, speed_2=0.0)
@@ -369,8 +372,19 @@ def test_an_input_that_cannot_be_used_is_refused(grown):
 def test_beyond_the_fit_a_flag_is_raised(grown):
     scene, state, op = grown
     assert RangeFlag.OUTSIDE_FIT not in RangeFlag(now(scene, op, state).range_flags)
+    steep, fresh, _ = fast(surface_2__rq="1.27 um")  # ten times as rough: pressed flat by too little of its height
+    assert RangeFlag.OUTSIDE_FIT in RangeFlag(now(steep, op, fresh).range_flags)
+    slow = point(op, 1e-6, 0.0)  # of hardly any film
+    assert RangeFlag.OUTSIDE_FIT in RangeFlag(now(scene, slow, state).range_flags)
+
+
+def test_the_nodes_of_the_patches_change_a_contact_by_the_roughness_found_on_them_alone(grown):
+    scene, _, op = grown
     fine = replace(scene, film=replace(scene.film, points=1025))
-    assert RangeFlag.OUTSIDE_FIT in RangeFlag(now(fine, op, initial_state(fine)).range_flags)
+    one, other = (now(given, op, initial_state(given)) for given in (scene, fine))
+    assert one.roughness_2 == approx(other.roughness_2, rel=2e-3)
+    for name in ("friction_force", "contact_load_ratio", "contact_area_ratio", "h_c", "error_friction"):
+        assert getattr(one, name) == approx(getattr(other, name), rel=5e-3), name
 
 
 def test_only_what_the_level_can_tell_is_told(grown):
@@ -518,7 +532,8 @@ def test_elliptical_contacts_have_the_formulas_film():
         op.load, op.entrainment_speed, oil.viscosity, op.temperature, 0.01, shape.radius_y, scene.solids.reduced_modulus
     )
     factor = scene.film.sharing.film_factor / oil.density(scene.hertz(op.load).pressure_mean)
-    assert now(scene, op, initial_state(scene)).h_c == approx(factor * nijenbanning_venner_moes(smooth), rel=1e-9)
+    film = factor * nijenbanning_venner_moes(smooth)
+    assert now(scene, op, initial_state(scene)).h_c == approx(film, rel=5e-3)  # the floor adds a little
     assert now(scene, op, state).h_c != approx(
         factor * nijenbanning_venner_moes(replace(smooth, radius_y=0.01)), rel=0.01
     )

@@ -4,7 +4,8 @@ import re
 
 import numpy as np
 import pytest
-from comparison import approx
+from cheap_scene import CHEAP
+from comparison import HARD, approx
 
 from contact_core import Scene, SceneError, advance, initial_state
 from contact_core.deterministic.accumulator import Accumulator
@@ -23,7 +24,7 @@ FINE = {
 
 
 def scene(**changes):
-    return Scene.from_toml("azam_case_a", {"film.points": "65", "film.flux": "fitted"} | changes)
+    return Scene.from_toml("azam_case_a", {"film.points": "65"} | HARD | changes)
 
 
 def bound(given):
@@ -43,7 +44,7 @@ def test_it_survives_the_tables_of_the_scene_and_is_part_of_its_identity():
     rough = scene(**FINE)
     assert Scene.from_dict(rough.to_dict()) == rough
     assert rough.digest() != scene().digest()
-    assert "microroughness" not in str(scene().to_dict())
+    assert "microroughness" not in str(Scene.from_toml("dimple_rolling").to_dict())  # none is given
 
 
 def test_heights_too_steep_for_a_surface_are_refused_with_the_field_named():
@@ -51,10 +52,16 @@ def test_heights_too_steep_for_a_surface_are_refused_with_the_field_named():
         scene(**FINE | {"surface_2.microroughness.rms": "1 um"})
 
 
-def test_the_level_of_curves_says_that_it_leaves_it_out():
-    said = [text for text in scene(**FINE).at_level("regression").warnings() if "microroughness" in text]
-    assert len(said) == 2
-    assert not [text for text in scene().at_level("regression").warnings() if "microroughness" in text]
+def test_at_both_levels_solids_carry_more_with_it_on_less_real_area_each():
+    for level in ("deterministic", "regression"):
+        share, pressure = {}, {}
+        for floor in ("hard", "fine"):
+            given = scene(**CHEAP, **(FINE if floor == "fine" else {})).at_level(level)
+            out = advance(given, given.operation.point, initial_state(given), 0.0)[1]
+            share[floor], pressure[floor] = out.contact_load_ratio, out.contact_load_ratio / out.contact_area_ratio
+            assert not [text for text in given.warnings() if "microroughness" in text]
+        assert share["fine"] > 1.2 * share["hard"] > 0.0, level
+        assert pressure["fine"] > 1.2 * pressure["hard"], level
 
 
 def test_the_area_and_the_share_of_the_solids_follow_from_the_pressure_at_every_node():

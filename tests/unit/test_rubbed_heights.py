@@ -12,7 +12,7 @@ from contact_core.surfaces.profiles import track_of
 FEW = {"control.mixed_instants": "4", "control.dry_instants": "4", "surface_2.rq": "0 nm"}
 LINE = {
     "film.points": "33", "film.width": "0.2 mm", "surface_1.correlation_length": "50 um", "film.tolerance": "1e-2",
-    "film.iterations": "60",
+    "film.iterations": "60", "operation.speed_1": "0.4 m/s", "operation.speed_2": "0.26 m/s",  # for solids that touch
 }  # fmt: skip
 SCENES = {"point": ("azam_case_a", CHEAP | FEW), "line": ("fzg_flank", LINE | FEW)}
 

@@ -234,10 +234,11 @@ class _Film:
             return None
 
         self.trial.start(self.f, solid, self.h, flow.gap, self.r)
+        own_scale = scale.ravel()[nodes]  # of the others, which may have no flow at all, nothing is used
 
         def product(dp: Array, dh: Array, out: Array) -> None:
             change = self.trial.change(np.where(held, 0.0, dp + gain * dh), dh)
-            out[:] = (np.where(held, dh + give * dp, change) * scale).ravel()[nodes]
+            out[:] = np.where(held, dh + give * dp, change).ravel()[nodes] * own_scale
 
         lift = np.empty(size)
         product(np.zeros(shape), np.ones(shape), lift)
@@ -264,7 +265,7 @@ class _Film:
             return np.append(y - rigid * lifted, rigid)
 
         missing = self.trial.change(lack, np.zeros(shape)) if lack.any() else 0.0
-        wanted = (np.where(held, rest - self.h, -self.r - missing) * scale).ravel()[nodes]
+        wanted = np.where(held, rest - self.h, -self.r - missing).ravel()[nodes] * own_scale
         short = (q.load - float((q.weight * self.p).sum())) / np.sqrt(q.load)
         x = gmres(operator, invert, np.append(wanted, short))
         return *spread(x), float(x[-1])
