@@ -129,7 +129,9 @@ class Fit:
             "friction of the oil": float(np.std(sliding.misfit(self.law))),
         }
 
-    def _fit(self, names: tuple[str, ...], residual: Callable[[FittedSharing], Array]) -> None:
+    def _fit(self, of_curve: tuple[str, ...], residual: Callable[[FittedSharing], Array]) -> None:
+        names = tuple(name for name in of_curve if name not in self.law.CHOSEN)
+
         def of(x: Array) -> Array:
             return residual(replace(self.law, **dict(zip(names, np.maximum(x, 1e-6).tolist(), strict=True))))
 

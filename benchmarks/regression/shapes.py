@@ -326,7 +326,7 @@ def page() -> None:
         *coverage_page(found),
         "Where the deterministic film depends on its grid or has not converged (solved well: no), both values are uncertain, and the deviation does not characterise the regression level alone.",
         "",
-        f"{_softly(found)} The curves do not depend on hardness: asperities that yield before the oil has pressed them flat have more contact than those of steel. Error outputs are up to 1.6 times as wide where a tribofilm has grown; these points have none.",
+        f"{_softly(found)} The curves do not depend on hardness: asperities that yield before the oil has pressed them flat have more contact than those of steel. Error outputs are up to 3 times as wide where a tribofilm has grown; these points have none.",
         "",
         "## Surfaces that have rubbed for ten minutes",
         "",

@@ -1,6 +1,7 @@
 """Load shared between solids and oil of rough bodies: curves fitted to deterministic solutions."""
 
 from dataclasses import dataclass
+from math import inf
 from typing import ClassVar, NamedTuple
 
 from ..quantities import parameter
@@ -109,77 +110,77 @@ class FittedSharing:
         "over that without pressure.",
     )
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
-        "clearance": (0.003, 70.0),
-        "layers": (0.01, 1e3),
-        "flattening": (0.068, 6.4),
-        "below": (0.1, 1.0),
+        "clearance": (0.003, 47.0),
+        "layers": (0.014, 94.0),
+        "flattening": (0.137, 5.4),
+        "below": (0.118, 1.13),
     }
-    WIDTHS: ClassVar[Widths] = Widths(0.23, 0.25, 0.44, 0.6, 0.12, 0.25, 0.65)
+    WIDTHS: ClassVar[Widths] = Widths(0.14, 0.25, 0.44, 0.6, 0.12, 0.25, 0.65)
     CHOSEN: ClassVar[frozenset[str]] = frozenset({"oil_pressure_power", "oil_spread"})
     HALF_WIDTHS: ClassVar[dict[str, float]] = {
-        "load_factor": 0.022,
-        "load_exponent": 0.04,
-        "load_flattening": 0.15,
-        "load_parted": 0.1,
+        "load_factor": 0.019,
+        "load_exponent": 0.047,
+        "load_flattening": 0.26,
+        "load_parted": 0.22,
         "area_factor": 0.015,
-        "area_exponent": 0.025,
+        "area_exponent": 0.022,
         "film_dry": 0.053,
-        "film_parted": 0.31,
-        "film_layer": 0.071,
-        "film_mixed": 0.1,
-        "film_factor": 0.12,
-        "film_exponent": 0.44,
-        "oil_pressure_excess": 0.23,
-        "oil_pressure_decay": 0.25,
-        "exposure_rougher": 0.2,
-        "exposure_exponent": 0.083,
-        "exposure_smoother": 14.0,
-        "exposure_dry_rougher": 0.047,
-        "exposure_dry_smoother": 0.36,
+        "film_parted": 0.3,
+        "film_layer": 0.083,
+        "film_mixed": 0.082,
+        "film_factor": 0.06,
+        "film_exponent": 0.32,
+        "oil_pressure_excess": 0.28,
+        "oil_pressure_decay": 0.27,
+        "exposure_rougher": 0.43,
+        "exposure_exponent": 0.18,
+        "exposure_smoother": 1.5,
+        "exposure_dry_rougher": 0.032,
+        "exposure_dry_smoother": 0.19,
     }
 
-    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.444)
-    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=1.01)
-    load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=1.32)
-    load_parted: float = parameter("", "b, of asperities that part", least=0.0, most=1e3, default=1.0)
+    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.425)
+    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=0.822)
+    load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=2.13)
+    load_parted: float = parameter("", "b, of asperities that part", least=0.0, most=1e3, default=1.25)
     area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.47)
-    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.856)
-    film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.293)
-    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=0.127)
+    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.87)
+    film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.271)
+    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=0.0334)
     film_layer: float = parameter(
         "",
         "H, part of the height of roughness below the grid that dry bodies keep",
         least=0.0,
         most=10.0,
-        default=0.485,
+        default=0.539,
     )
     film_mixed: float = parameter(
-        "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.614
+        "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.623
     )
-    film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.849)
-    film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=1.34)
+    film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.901)
+    film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=1.45)
     oil_pressure_excess: float = parameter(
-        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=0.528
+        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=0.722
     )
     oil_pressure_decay: float = parameter(
-        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=0.454
+        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=0.486
     )
     oil_pressure_power: float = parameter("", "q, the more so of rougher bodies", least=0.0, most=5.0, default=1.0)
     oil_spread: float = parameter(
         "", "S, how far thick films spread the load beyond Hertz's contact", least=0.0, most=100.0, default=0.35
     )
     exposure_rougher: float = parameter(
-        "", "k in exposed = 1 - exp(-k A_c^m) of the rougher body", above=0.0, most=1e3, default=1.34
+        "", "k in exposed = 1 - exp(-k A_c^m) of the rougher body", above=0.0, most=1e3, default=1.08
     )
-    exposure_exponent: float = parameter("", "m, of the rougher body", above=0.0, most=10.0, default=0.641)
+    exposure_exponent: float = parameter("", "m, of the rougher body", above=0.0, most=10.0, default=0.78)
     exposure_smoother: float = parameter(
-        "", "k in exposed = 1 - exp(-k A_c) of the smoother body", above=0.0, most=1e4, default=53.0
+        "", "k in exposed = 1 - exp(-k A_c) of the smoother body", above=0.0, most=1e4, default=10.3
     )
     exposure_dry_rougher: float = parameter(
-        "", "k of the rougher body in blocks driven dry, m = 1", above=0.0, most=1e3, default=1.52
+        "", "k of the rougher body in blocks driven dry, m = 1", above=0.0, most=1e3, default=1.35
     )
     exposure_dry_smoother: float = parameter(
-        "", "k of the smoother body in blocks driven dry", above=0.0, most=1e3, default=3.97
+        "", "k of the smoother body in blocks driven dry", above=0.0, most=1e3, default=3.16
     )
 
     def load_ratio(self, clearance: Numbers, layers: Numbers, flattening: Numbers, below: Numbers) -> Numbers:
@@ -225,9 +226,10 @@ class FittedSharing:
         return raised / sqrt((1.0 + self.oil_spread * thick_x) * (1.0 + self.oil_spread * thick_y))
 
     def covers(self, clearance: float, layers: float, flattening: float, below: float) -> bool:
-        """Return True if the point lies within those of the fit."""
+        """Return True if the point lies within those of the fit, or has a film across which no layer reaches."""
+        ends = self.FITTED | {"layers": (self.FITTED["layers"][0], inf)}
         point = clearance, layers, flattening, below
-        return all(low <= here <= high for here, (low, high) in zip(point, self.FITTED.values(), strict=True))
+        return all(low <= here <= high for here, (low, high) in zip(point, ends.values(), strict=True))
 
     def nearest(self, flattening: float) -> float:
         """Return the nearest flattening in the range of validity of the curves.
@@ -254,52 +256,52 @@ class LineSharing(FittedSharing):
 
     name: ClassVar[str] = "fitted_lines"
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
-        "clearance": (0.05, 5.0),
-        "layers": (0.01, 1e3),
-        "flattening": (0.03, 0.74),
-        "below": (0.1, 1.0),
+        "clearance": (0.096, 4.1),
+        "layers": (2.4, 116.0),
+        "flattening": (0.041, 0.69),
+        "below": (0.093, 1.22),
     }
-    CHOSEN: ClassVar[frozenset[str]] = frozenset({"oil_pressure_power", "oil_spread"})
+    CHOSEN: ClassVar[frozenset[str]] = frozenset({"load_exponent", "oil_pressure_power", "oil_spread"})
     HALF_WIDTHS: ClassVar[dict[str, float]] = {
-        "load_factor": 0.16,
-        "load_exponent": 0.1,
-        "load_flattening": 0.25,
-        "load_parted": 0.1,
-        "area_factor": 0.12,
-        "area_exponent": 0.032,
-        "film_dry": 0.35,
-        "film_parted": 1.2,
-        "film_layer": 0.1,
-        "film_mixed": 0.16,
-        "film_factor": 0.12,
+        "load_factor": 0.038,
+        "load_flattening": 1.8,
+        "load_parted": 3.9,
+        "area_factor": 0.077,
+        "area_exponent": 0.033,
+        "film_dry": 1.4,
+        "film_parted": 13.0,
+        "film_layer": 1.8,
+        "film_mixed": 0.092,
+        "film_factor": 0.16,
         "film_exponent": 0.69,
-        "oil_pressure_excess": 3.8,
-        "oil_pressure_decay": 0.41,
+        "oil_pressure_excess": 4.9,
+        "oil_pressure_decay": 1.0,
         "exposure_rougher": 1.34,  # all of it: it is that of circles, and films of lines are off by up to 97 %
     }
-    WIDTHS: ClassVar[Widths] = Widths(0.2, 0.25, 0.4, 0.8, 0.16, 0.4, 0.45)
+    WIDTHS: ClassVar[Widths] = Widths(0.2, 0.25, 0.24, 0.8, 0.1, 0.4, 0.45)
 
-    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.444)
-    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=1.01)
-    load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=1.32)
-    load_parted: float = parameter("", "b, of asperities that part", least=0.0, most=1e3, default=10.0)
-    area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.9)
-    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.939)
-    film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.584)
-    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=1.03)
+    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.0853)
+    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=1.5)
+    load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=3.02)
+    load_parted: float = parameter("", "b, of asperities that part", least=0.0, most=1e3, default=12.6)
+    area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.18)
+    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.86)
+    film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=1.62)
+    film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=1.62)
+    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=9.3)
     film_layer: float = parameter(
-        "", "H, part of the height of roughness below the grid that dry bodies keep", least=0.0, most=10.0, default=0.48
+        "", "H, part of the height of roughness below the grid that dry bodies keep", least=0.0, most=10.0, default=2.4
     )
     film_mixed: float = parameter(
-        "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.747
+        "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.444
     )
-    film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.961)
-    film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=1.72)
+    film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.954)
+    film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=1.63)
     oil_pressure_excess: float = parameter(
-        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=5.39
+        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=4.54
     )
     oil_pressure_decay: float = parameter(
-        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=1.0
+        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=1.43
     )
     oil_pressure_power: float = parameter("", "q, the more so of rougher bodies", least=0.0, most=5.0, default=0.0)
 

@@ -58,7 +58,8 @@ def _dose(
     scene = case.scene
     first, second = scene.surface_1.rms, scene.surface_2.rms
     as_rougher = (True, False) if first == second else ((first > second) == (side.body == 0),)  # alike: between both
-    dry = contact.load_ratio > scene.control.dry_above
+    driver = scene.control.driver
+    dry = driver == "dry" or (driver == "auto" and contact.load_ratio > scene.control.dry_above)
     sharing = regression_film(scene).sharing
     curves = [sharing.exposed(contact.area_ratio, rougher=rougher, dry=dry) for rougher in as_rougher]
     exposed = sum(curves) / len(curves)

@@ -16,7 +16,7 @@ _TRIBOFILM_TEMPERATURE = int(RangeFlag.TRIBOFILM_TEMPERATURE)  # numbers are fas
 _BLANK = Outputs()
 # half widths of errors grow: twice beyond the fit, and by so much where a film or wear has changed the heights by this
 # share of the roughness or more, for curves of fresh surfaces
-_BEYOND, _RUN_IN, _CHANGED = 2.0, 1.6, 0.1
+_BEYOND, _RUN_IN, _CHANGED = 2.0, 3.0, 0.1
 _UNKNOWN = 1e3  # relative, of wear where next to no solids touch: nobody knows
 _LOCAL = 1.0  # error of tribofilms that depend on local stresses, of which this level knows the mean
 
@@ -99,7 +99,8 @@ def _flags(case: Case, contact: MeanContact) -> int:
     flags = 0
     if contact.sigma == 0.0 or not case.loaded:
         flags |= _LAMBDA_CAPPED
-    elif not regression_film(case.scene).sharing.covers(*contact.fit):
+    rough = contact.sigma > 0.0 or case.microroughness is not None
+    if rough and case.loaded and not regression_film(case.scene).sharing.covers(*contact.fit):
         flags |= _OUTSIDE_FIT
     one, two = case.op.bodies
     if not (case.scene.tribofilm.covers(one) and case.scene.tribofilm.covers(two)):
@@ -119,16 +120,19 @@ def _errors(case: Case, contact: MeanContact) -> dict[str, Any]:
     sharing = regression_film(case.scene).sharing
     widths, clearance = sharing.WIDTHS, contact.fit.clearance
     wider = _run_in(case, contact) * (1.0 if sharing.covers(*contact.fit) else _BEYOND)
-    load = wider * widths.of_load(share)
+    bare = contact.sigma > 0.0 and case.microroughness is None  # the curves know no solids that touch at the floor alone
+    load = 1.0 if bare else wider * widths.of_load(share)
     oil = wider * widths.of_oil(clearance, contact.oil_slope)
     solid = abs(contact.solid) / share if share > 0.0 else case.scene.boundary_friction.bare * case.op.load
     fluid = abs(contact.fluid) / (1.0 - share) if share < 1.0 else 0.0
     friction = math.hypot(abs(solid - fluid) * load, abs(contact.fluid) * oil) / force
+    wear = min(load / share, _UNKNOWN) if share > 0.0 else _UNKNOWN * bare
+    exposed = min(math.hypot(_exposure_error(sharing), wear), _UNKNOWN)
     return {
         "error_friction": min(friction, max(solid / force, 1.0)),
         "error_film": min(wider * widths.of_film(clearance), 1.0),
-        "error_tribofilm": _LOCAL if case.scene.tribofilm.abrades else _exposure_error(sharing),
-        "error_wear": min(load / share, _UNKNOWN) if share > 0.0 else 0.0,
+        "error_tribofilm": _LOCAL if case.scene.tribofilm.abrades else exposed,
+        "error_wear": wear,
     }
 
 

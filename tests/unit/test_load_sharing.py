@@ -128,7 +128,7 @@ def test_the_fit_covers_its_own_points_and_nothing_beyond_its_edges(golden):
         assert law.covers(**middle)
         for name, (low, high) in law.FITTED.items():
             assert not law.covers(**middle | {name: 0.99 * low})
-            assert not law.covers(**middle | {name: 1.01 * high})
+            assert law.covers(**middle | {name: 1.01 * high}) is (name == "layers")  # none reaches across thick films
 
 
 def test_the_nearest_point_of_the_fit_is_the_point_itself_or_lies_on_its_edge_or_is_flatter():
