@@ -287,7 +287,6 @@ class LineSharing(FittedSharing):
     area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.18)
     area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.86)
     film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=1.62)
-    film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=1.62)
     film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=9.3)
     film_layer: float = parameter(
         "", "H, part of the height of roughness below the grid that dry bodies keep", least=0.0, most=10.0, default=2.4

@@ -120,7 +120,7 @@ def _errors(case: Case, contact: MeanContact) -> dict[str, Any]:
     sharing = regression_film(case.scene).sharing
     widths, clearance = sharing.WIDTHS, contact.fit.clearance
     wider = _run_in(case, contact) * (1.0 if sharing.covers(*contact.fit) else _BEYOND)
-    bare = contact.sigma > 0.0 and case.microroughness is None  # the curves know no solids that touch at the floor alone
+    bare = contact.sigma > 0.0 and case.microroughness is None  # the curves know no solids that touch at a hard floor
     load = 1.0 if bare else wider * widths.of_load(share)
     oil = wider * widths.of_oil(clearance, contact.oil_slope)
     solid = abs(contact.solid) / share if share > 0.0 else case.scene.boundary_friction.bare * case.op.load
