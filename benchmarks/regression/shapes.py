@@ -229,7 +229,8 @@ def scenes_page(all_compared: dict[tuple[str, int], Compared]) -> list[str]:
         part = all_compared[shape, CHECK]
         ratio = part.solved["rolling_resistance"] / part.column("rolling_resistance")
         thick = part.sure & (part.solved["lambda"] > 1.0)
-        rows.append((shape, int(thick.sum()), *(f"{np.quantile(ratio[thick], q):.2f}" for q in (0.05, 0.5, 0.95))))
+        if thick.any():
+            rows.append((shape, int(thick.sum()), *(f"{np.quantile(ratio[thick], q):.2f}" for q in (0.05, 0.5, 0.95))))
     return table(("shape", "points above lambda 1", "5 %", "median", "95 %"), rows)
 
 
