@@ -56,8 +56,8 @@ def test_smooth_bodies_have_the_film_of_lines_and_the_oils_friction_under_hertzs
     shear = spread * scene.lubricant.viscosity(pressure, op.temperature) * 1e-9 / film
     assert spread > 1.1
     assert found.contact_load_ratio < 1e-9
-    assert found.h_c == approx(film, rel=1e-4)
-    assert found.friction_force == approx(-4.0 * hertz.a * hertz.b * float(shear.mean()), rel=1e-4)
+    assert found.h_c == approx(film, rel=1e-3)  # the floor adds to it
+    assert found.friction_force == approx(-4.0 * hertz.a * hertz.b * float(shear.mean()), rel=1e-3)
     assert found.approach == approx(hertz.approach - found.h_c, rel=1e-12)
 
 
@@ -201,6 +201,8 @@ def test_a_line_short_of_oil_has_the_film_that_comes_in(share):
 
 def test_bodies_as_rough_as_each_other_get_films_as_thick():
     scene = Scene.from_toml("fzg_flank").at_level("regression")
-    _, found = advance(scene, scene.operation.point, initial_state(scene), 300.0)
+    op = scene.operation.point
+    slow = replace(op, speed_1=0.1 * op.speed_1, speed_2=0.1 * op.speed_2)
+    _, found = advance(scene, slow, initial_state(scene), 300.0)
     assert found.tribofilm_1 == approx(found.tribofilm_2, rel=0.1)
     assert found.tribofilm_1 > 1e-9

@@ -384,7 +384,7 @@ def test_the_nodes_of_the_patches_change_a_contact_by_the_roughness_found_on_the
     one, other = (now(given, op, initial_state(given)) for given in (scene, fine))
     assert one.roughness_2 == approx(other.roughness_2, rel=2e-3)
     for name in ("friction_force", "contact_load_ratio", "contact_area_ratio", "h_c", "error_friction"):
-        assert getattr(one, name) == approx(getattr(other, name), rel=5e-3), name
+        assert getattr(one, name) == approx(getattr(other, name), rel=1e-2), name
 
 
 def test_only_what_the_level_can_tell_is_told(grown):
@@ -589,7 +589,7 @@ def test_long_steps_keep_a_tribofilm_at_its_balance_where_more_of_it_grows_less(
         films[step] = np.array(found)
     settled = films[300.0][30:]
     assert settled.mean() > 100e-9
-    assert (np.diff(settled) < 0.0).all()  # as wear goes on
+    assert np.abs(np.diff(settled)).max() < 1e-3 * settled.mean()
     assert settled == approx(films[20.0][464::15][: len(settled)], rel=3e-3)
 
 
