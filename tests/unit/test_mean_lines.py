@@ -56,8 +56,8 @@ def test_smooth_bodies_have_the_film_of_lines_and_the_oils_friction_under_hertzs
     shear = spread * scene.lubricant.viscosity(pressure, op.temperature) * 1e-9 / film
     assert spread > 1.1
     assert found.contact_load_ratio < 1e-9
-    assert found.h_c == approx(film, rel=1e-3)  # the floor adds to it
-    assert found.friction_force == approx(-4.0 * hertz.a * hertz.b * float(shear.mean()), rel=1e-3)
+    assert found.h_c == approx(film, rel=5e-3)  # the floor adds to it
+    assert found.friction_force == approx(-4.0 * hertz.a * hertz.b * float(shear.mean()), rel=5e-3)
     assert found.approach == approx(hertz.approach - found.h_c, rel=1e-12)
 
 
@@ -196,7 +196,7 @@ def test_a_line_short_of_oil_has_the_film_that_comes_in(share):
         short, _, _ = cheap(changes | smooth | oil | {"lubricant.cavitation": "mass_conserving"})
         kept.append(now(short, op, state).h_c / film)
     assert kept[0] > kept[1]
-    assert kept[0] == approx(share, rel=0.01)
+    assert kept[0] == approx(share, rel=0.02)
 
 
 def test_bodies_as_rough_as_each_other_get_films_as_thick():

@@ -223,8 +223,8 @@ def test_the_exposed_ball_grows_the_laws_film(grown):
     hot = op.temperature + state.outputs.flash_temperature_rise
     growth, removal = law.evolve(np.zeros(1), np.zeros(1), seconds, np.zeros(1), hot)
     exposed = scene.film.sharing.exposed(state.outputs.contact_area_ratio, rougher=False)
-    assert ball.coverage == approx(exposed, rel=1e-3)  # an exponential: the rest is bare, and without film
-    assert 0.99 < ball.coverage < 1.0
+    assert ball.coverage == approx(exposed, rel=0.05)  # of the largest area so far: the rest is bare, and without film
+    assert 0.8 < ball.coverage < 1.0
     late = 1.0 - ball.coverage  # more than the part that the first passes have missed
     assert ball.growth == approx(ball.coverage * growth[0], rel=late)
     assert ball.removal == approx(ball.coverage * removal[0], rel=late)
@@ -284,7 +284,7 @@ def test_the_solids_carry_no_more_than_their_hardness_on_the_real_contact(model)
         scene, state, op = fast(FAST | HARD | hardness | geometry | {"surface_2.rq": rq})
         for share in (1e-3, 0.1, 0.9):
             load = share * (1.4e9 / scene.unit_hertz_at(op).pressure_max) ** (2.0 if model == "line" else 3.0)
-            at = replace(op, load=load, speed_1=1e-3, speed_2=0.0)
+            at = replace(op, load=load, speed_1=1e-9, speed_2=0.0)
             found = now(scene, at, state)
             solids = found.contact_load_ratio * load
             pressures.append(solids / (found.contact_area_ratio * scene.hertz_at(at).area) / 1.4e9)
