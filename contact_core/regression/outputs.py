@@ -127,7 +127,7 @@ def _errors(case: Case, contact: MeanContact) -> dict[str, Any]:
     fluid = abs(contact.fluid) / (1.0 - share) if share < 1.0 else 0.0
     friction = math.hypot(abs(solid - fluid) * load, abs(contact.fluid) * oil) / force
     wear = min(load / share, _UNKNOWN) if share > 0.0 else _UNKNOWN * bare
-    exposed = min(math.hypot(_exposure_error(sharing), wear), _UNKNOWN)
+    exposed = min(math.hypot(wider * _exposure_error(sharing), wear), _UNKNOWN)
     return {
         "error_friction": min(friction, max(solid / force, 1.0)),
         "error_film": min(wider * widths.of_film(clearance), 1.0),
