@@ -1,8 +1,8 @@
 """Load-sharing curves of the regression level: fitted points, fit, and comparison with the deterministic level.
 
-    python -m benchmarks.regression.curves sweep                         # solve the sweep: 6 min
+    python -m benchmarks.regression.curves sweep                         # solve the sweep: an hour
     python -m benchmarks.regression.curves fit                           # fit the curves: the page without the regression level
-    python -m benchmarks.regression.curves check [--deterministic-only]  # both levels on 100 random points of each scene, and over two hours: 10 min
+    python -m benchmarks.regression.curves check [--deterministic-only]  # both levels on 24 random points of each scene, and over two hours: half an hour
 
 Solved points stay in results/regression. `fit` and `check` write docs/measured/regression/curves.md, docs/measured/regression/curves.png and
 tests/golden/load_sharing.csv.

@@ -10,6 +10,8 @@ import pytest
 from comparison import approx
 
 from contact_core.film.regression import Regression
+from contact_core.laws import load_sharing
+from contact_core.laws.asperity_layer import SLOPE
 from contact_core.laws.load_sharing import FittedSharing, LineSharing, flattening_of, rms_slope
 
 LAW = FittedSharing()
@@ -177,6 +179,10 @@ def test_the_slope_is_that_of_a_surface_with_the_given_spectrum():
     found = np.sqrt(np.mean(np.abs(np.fft.ifft2(1j * q[None, :] * noise)) ** 2) * 2.0) / z.std()
     assert rms_slope(1.0, length, 0.0, 1.0) == approx(found, rel=0.05)
     assert rms_slope(3.0, 2.0, 4.0, 2.0) == approx(5.0)
+
+
+def test_the_slope_of_all_waves_below_the_grid_is_that_of_the_asperity_layer():
+    assert load_sharing._ALL_WAVES == SLOPE
 
 
 def test_flattening_is_pressure_over_modulus_and_slope():
