@@ -89,7 +89,7 @@ def hours_page() -> list[str]:
     lines = [
         "## Two hours of rubbing",
         "",
-        "Deterministic / regression level. The curves were fitted to fresh surfaces only.",
+        "Deterministic / regression level. The curves were fitted to fresh surfaces only, but for the coverage and the smoothing.",
         "",
         f"| scene | min | {' | '.join(RUN)} | CPU s |",
         "|---" * (len(RUN) + 3) + "|",

@@ -17,12 +17,15 @@ from contact_core.laws.load_sharing import rms_slope
 from contact_core.reference.point_films import at_no_pressure
 from contact_core.scene import Case
 from contact_core.surfaces.patches import track_rows
+from contact_core.surfaces.track_means import means_of
 
 STORE = RESULTS / "regression"
 SCENES = ("azam_case_a", "mtm_zddp")
 LAMBDAS = (0.003, 5.0)
 LOADS = (0.3, 1.3)  # of the reference load
 BELOW = (0.2, 2.0)  # of the microroughness
+RUBBING = (5, 10, 20, 40, 60, 90, 120)  # minutes at which rubbed tracks are observed
+AVERAGED = 5  # minutes of exposure that count as the present one
 FASTEST = 95.0  # m/s, of the mean speed: the faster surface stays below 100 m/s
 OBSERVED = (
     "friction_coefficient",
@@ -119,6 +122,38 @@ def observe(point: Point, overrides: Overrides) -> dict[str, float]:
     for name, i in (("exposed_rougher", rougher), ("exposed_smoother", 1 - rougher)):
         found[name] = float(state.bodies[i].exposure[rows].mean())
     return found | numbers_of(scene, op)
+
+
+def observe_rubbed(point: Point, overrides: Overrides) -> dict[str, float]:
+    """What two hours of rubbing make of both bodies' tracks, for each of `RUBBING` minutes and each body.
+
+    Its mean exposure, its growth over the law's full thickness, and its coverage: that growth over the same where it is
+    rubbed, each node counting by its exposure. The rms roughness of its solid over the new one's, and the depth worn,
+    summed over the composite roughness of its time.
+    """
+    scene, op = point.build(overrides), point.operating_point
+    start = time.process_time()
+    state, out = advance(scene, op, initial_state(scene), 0.0)
+    rows, rougher = track_rows(scene, state.rows), 0 if scene.surface_1.rq > scene.surface_2.rq else 1
+    new, depths, last = means_of(scene, state), np.zeros(2), list[tuple[np.ndarray, ...]]()
+    found = {name: float(getattr(out, name)) for name in OBSERVED}
+    for minute in range(1, RUBBING[-1] + 1):
+        worn, sigma = np.array([out.wear_depth_1, out.wear_depth_2]), np.hypot(out.roughness_1, out.roughness_2)
+        state, out = advance(scene, op, state, 60.0)
+        depths += (np.array([out.wear_depth_1, out.wear_depth_2]) - worn) / sigma
+        last = [*last[1 - AVERAGED :], tuple(body.exposure[rows] for body in state.bodies)]
+        if minute not in RUBBING:
+            continue
+        now = means_of(scene, state)
+        for name, i in (("rougher", rougher), ("smoother", 1 - rougher)):
+            exposed, growth = np.mean([moment[i] for moment in last], axis=0), state.bodies[i].growth[rows]
+            where = float((exposed * growth).mean() / exposed.mean())
+            found[f"exposure_{name}_{minute}"] = float(exposed.mean())
+            found[f"growth_{name}_{minute}"] = float(growth.mean()) / scene.tribofilm.full_thickness
+            found[f"coverage_{name}_{minute}"] = float(growth.mean()) / where
+            found[f"smoothed_{name}_{minute}"] = now[i].roughness / new[i].roughness
+            found[f"worn_{name}_{minute}"] = float(depths[i])
+    return found | {"seconds": time.process_time() - start} | numbers_of(scene, op)
 
 
 def observe_dry(point: Point, overrides: Overrides) -> dict[str, float]:
@@ -251,6 +286,19 @@ def end_points(scene: str) -> list[Point]:
 def pass_points(scene: str) -> list[Point]:
     """A few over film and load for whole passes, as shipped."""
     return [_swept(scene, "pass", tuple(cube.tolist()), (1.0, 1.0), (1.0, 1.0), 0) for cube in spread(12, 4)]
+
+
+def rubbed_points(scene: str) -> list[Point]:
+    """For hours of rubbing: as shipped, at two fifths of the load, and with a film of 0.3 of the roughness."""
+    shipped = Scene.from_toml(scene)
+    duty = shipped.operation.point
+    srr = duty.sliding_speed / duty.entrainment_speed
+    point = Point(scene, "rubbed", duty.load, duty.entrainment_speed, srr, duty.temperature)
+    return [
+        point,
+        replace(point, load=0.4 * duty.load),
+        replace(point, speed=speed_for(shipped, 0.3, duty.load, duty.temperature)),
+    ]
 
 
 def dry_points(scene: str) -> list[Point]:

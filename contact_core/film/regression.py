@@ -20,7 +20,7 @@ class Regression:
     name: ClassVar[str] = "regression"
     source: ClassVar[str] = (
         "film: Nijenbanning, Venner & Moes 1994, doi:10.1016/0043-1648(94)90150-3; sharing: see its source; "
-        "smoothing: assumed"
+        "smoothing: benchmarks/regression/curves.py"
     )
 
     on_grid: ClassVar[bool] = False
@@ -62,7 +62,7 @@ class Regression:
         "mean height of what touches, over composite roughness: wear takes it away",
         least=0.0,
         most=5.0,
-        default=1.2,
+        default=2.3,
     )
 
     tolerance: ClassVar[None] = None  # of a solution: nothing is iterated

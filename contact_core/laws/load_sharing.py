@@ -137,6 +137,8 @@ class FittedSharing:
         "exposure_smoother": 1.5,
         "exposure_dry_rougher": 0.032,
         "exposure_dry_smoother": 0.19,
+        "exposure_spread_rougher": 0.023,
+        "exposure_spread_smoother": 0.021,
     }
 
     load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.425)
@@ -182,6 +184,10 @@ class FittedSharing:
     exposure_dry_smoother: float = parameter(
         "", "k of the smoother body in blocks driven dry", above=0.0, most=1e3, default=3.16
     )
+    exposure_spread_rougher: float = parameter(
+        "", "V, variance of the exposure over that of all or nothing, rougher body", above=0.0, most=0.99, default=0.557
+    )
+    exposure_spread_smoother: float = parameter("", "V of the smoother body", above=0.0, most=0.99, default=0.231)
 
     def load_ratio(self, clearance: Numbers, layers: Numbers, flattening: Numbers, below: Numbers) -> Numbers:
         """Return contact_load_ratio at Z = `clearance`, for a film of smooth bodies `layers` layers thick.
@@ -249,6 +255,21 @@ class FittedSharing:
             return -expm1(-self.exposure_rougher * area_ratio**self.exposure_exponent)
         return -expm1(-self.exposure_smoother * area_ratio)
 
+    def coverage(self, exposed: Numbers, growth: Numbers, *, rougher: bool) -> Numbers:
+        """Return the coverage of a body: its mean growth over the growth where it is rubbed, by exposure.
+
+        `exposed` is the mean exposure, 0 to 1, and `growth` the mean growth over its full thickness.
+
+        Some points are rubbed hard and some hardly at all. Exposures m of variance V m (1 - m) begin with a coverage
+        of m / [m + V (1 - m)]; points rubbed little follow as the others fill up. That growth is the closed form of
+        exposures of a beta distribution, to 11 %; for V = 1, all or nothing, the coverage stays m.
+        """
+        spread = self.exposure_spread_rougher if rougher else self.exposure_spread_smoother
+        first, power = exposed / (exposed + spread * (1.0 - exposed)), 2.0 / (1.0 - spread)
+        larger = maximum(first, growth)  # in front, because powers of small numbers vanish
+        later = (1.0 - first**power) * (growth / larger) ** power
+        return larger * ((first / larger) ** power + later) ** (1.0 / power)
+
 
 @dataclass(frozen=True)
 class LineSharing(FittedSharing):
@@ -276,7 +297,7 @@ class LineSharing(FittedSharing):
         "film_exponent": 0.54,
         "oil_pressure_excess": 4.7,
         "oil_pressure_decay": 0.96,
-        "exposure_rougher": 1.34,  # all of it: it is that of circles, and films of lines are off by up to 97 %
+        "exposure_rougher": FittedSharing.exposure_rougher,  # all of it: it is that of circles
     }
     WIDTHS: ClassVar[Widths] = Widths(0.2, 0.25, 0.24, 0.8, 0.1, 0.4, 0.45)
 

@@ -8,6 +8,7 @@ import numpy as np
 from ..film.instant import Grid
 from ..laws.tribofilm import DOSES, MeanPasses
 from ..scene import Case, Side
+from ..state import Mean
 from .contact import MeanContact
 from .oil import Law
 from .surfaces import Means, hardness_of, regression_film
@@ -19,7 +20,7 @@ _ROWS = 0.5 + 0.5 * np.polynomial.legendre.leggauss(6)[0]
 _OF_ROWS = 0.5 * np.polynomial.legendre.leggauss(6)[1]
 _ROWS_PRESSURE = 1.5 * (1.0 - _ROWS**2)
 
-Dose = tuple[float, float]  # share of a track that has been rubbed, and exposure of that share per test time
+Dose = tuple[float, float]  # share of a track that carries a tribofilm, and exposure of that share per test time
 
 
 def doses(case: Case, contact: MeanContact, means: Means) -> tuple[Dose, Dose]:
@@ -31,8 +32,7 @@ def doses(case: Case, contact: MeanContact, means: Means) -> tuple[Dose, Dose]:
     touching = _touching(case, contact, warm)
     oiled = float(exposure(0.0, contact.fluid_shear, contact.slide, warm))
     first, second = (
-        _dose(case, side, contact, mean.coverage, touching, oiled)
-        for side, mean in zip(case.sides, means, strict=True)
+        _dose(case, side, contact, mean, touching, oiled) for side, mean in zip(case.sides, means, strict=True)
     )
     return first, second
 
@@ -51,19 +51,10 @@ def _touching(case: Case, contact: MeanContact, warm: float) -> float:
     return float(_OF_PARTS @ exposure)
 
 
-def _dose(
-    case: Case, side: Side, contact: MeanContact, coverage: float, touching: float, oiled: float
-) -> Dose:
+def _dose(case: Case, side: Side, contact: MeanContact, mean: Mean, touching: float, oiled: float) -> Dose:
     """Return the dose of one body, for the exposures of a point in solid contact and of one under oil."""
-    scene = case.scene
-    first, second = scene.surface_1.rms, scene.surface_2.rms
-    as_rougher = (True, False) if first == second else ((first > second) == (side.body == 0),)  # alike: between both
-    driver = scene.control.driver
-    dry = driver == "dry" or (driver == "auto" and contact.load_ratio > scene.control.dry_above)
-    sharing = regression_film(scene).sharing
-    curves = [sharing.exposed(contact.area_ratio, rougher=rougher, dry=dry) for rougher in as_rougher]
-    exposed = sum(curves) / len(curves)
-    coverage = max(coverage, 1.0 if oiled > 0.0 else exposed if touching > 0.0 else 0.0)
+    exposed, rubbed = _exposed(case, side, contact, mean)
+    coverage = max(mean.coverage, 1.0 if oiled > 0.0 else rubbed if touching > 0.0 else 0.0)
     if coverage == 0.0:
         return 0.0, 0.0
     passes = MeanPasses(
@@ -73,7 +64,24 @@ def _dose(
         chord=case.unit_hertz.chord_share,
         residence=_residence(case, side),
     )
-    return coverage, DOSES[scene.tribofilm.dose].mean(touching, oiled, passes) / coverage
+    return coverage, DOSES[case.scene.tribofilm.dose].mean(touching, oiled, passes) / coverage
+
+
+def _exposed(case: Case, side: Side, contact: MeanContact, mean: Mean) -> tuple[float, float]:
+    """Return the mean exposure of a track to solids in a pass, and the share of it that they rub."""
+    scene = case.scene
+    first, second = scene.surface_1.rms, scene.surface_2.rms
+    as_rougher = (True, False) if first == second else ((first > second) == (side.body == 0),)  # alike: between both
+    driver = scene.control.driver
+    dry = driver == "dry" or (driver == "auto" and contact.load_ratio > scene.control.dry_above)
+    sharing = regression_film(scene).sharing
+    curves = [sharing.exposed(contact.area_ratio, rougher=rougher, dry=dry) for rougher in as_rougher]
+    exposed = sum(curves) / len(curves)
+    if case.microroughness is None or exposed == 0.0:  # a point touches with all of its area, or not at all
+        return exposed, exposed
+    growth = mean.growth / scene.tribofilm.full_thickness
+    shares = [sharing.coverage(exposed, growth, rougher=rougher) for rougher in as_rougher]
+    return exposed, sum(shares) / len(shares)
 
 
 def abrasion(case: Case, side: Side, contact: MeanContact) -> float:

@@ -15,7 +15,7 @@ _LAMBDA_CAPPED, _OUTSIDE_FIT = int(RangeFlag.LAMBDA_CAPPED), int(RangeFlag.OUTSI
 _TRIBOFILM_TEMPERATURE = int(RangeFlag.TRIBOFILM_TEMPERATURE)  # numbers are faster to add up
 _BLANK = Outputs()
 # half widths of errors grow: twice beyond the fit, and by so much where a film or wear has changed the heights by this
-# share of the roughness or more, for curves of fresh surfaces
+# share of the roughness or more, for curves of fresh surfaces; not that of the exposure, which changes little in hours
 _BEYOND, _RUN_IN, _CHANGED = 2.0, 3.0, 0.1
 _UNKNOWN = 1e3  # relative, of wear where next to no solids touch: nobody knows
 _LOCAL = 1.0  # error of tribofilms that depend on local stresses, of which this level knows the mean
@@ -119,7 +119,8 @@ def _errors(case: Case, contact: MeanContact) -> dict[str, Any]:
         return {}
     sharing = regression_film(case.scene).sharing
     widths, clearance = sharing.WIDTHS, contact.fit.clearance
-    wider = _run_in(case, contact) * (1.0 if sharing.covers(*contact.fit) else _BEYOND)
+    beyond = 1.0 if sharing.covers(*contact.fit) else _BEYOND
+    wider = _run_in(case, contact) * beyond
     bare = contact.sigma > 0.0 and case.microroughness is None  # the curves know no solids that touch at a hard floor
     load = 1.0 if bare else wider * widths.of_load(share)
     oil = wider * widths.of_oil(clearance, contact.oil_slope)
@@ -127,7 +128,7 @@ def _errors(case: Case, contact: MeanContact) -> dict[str, Any]:
     fluid = abs(contact.fluid) / (1.0 - share) if share < 1.0 else 0.0
     friction = math.hypot(abs(solid - fluid) * load, abs(contact.fluid) * oil) / force
     wear = min(load / share, _UNKNOWN) if share > 0.0 else _UNKNOWN * bare
-    exposed = min(math.hypot(wider * _exposure_error(sharing), wear), _UNKNOWN)
+    exposed = min(math.hypot(beyond * _exposure_error(sharing), wear), _UNKNOWN)
     return {
         "error_friction": min(friction, max(solid / force, 1.0)),
         "error_film": min(wider * widths.of_film(clearance), 1.0),

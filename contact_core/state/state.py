@@ -80,7 +80,7 @@ class Mean:
 
     growth: float  # tribofilm formed [m]; all of it lies on the covered part
     removal: float  # tribofilm removed [m]
-    coverage: float  # share of the track that has been rubbed and may carry a tribofilm
+    coverage: float  # share of the track that carries the tribofilm, taken as even there
     wear: float  # depth worn [m]
     roughness: float  # rms roughness of the solid under its tribofilm [m]
     worn: float  # wear volume of the whole track [m3]

@@ -1,5 +1,6 @@
 """From patches to the track means of the regression level, and back."""
 
+import math
 from dataclasses import replace
 from typing import Any
 
@@ -31,7 +32,7 @@ def _mean_of(scene: Scene, state: ContactState, i: int) -> Mean:
     return Mean(
         growth=float(body.growth[track].mean()),
         removal=float(body.removal[track].mean()),
-        coverage=float((body.growth[track] > 0.0).mean()),
+        coverage=_coverage(body.growth[track]),
         wear=float(body.wear[track].mean()),
         roughness=rms_roughness(solid, middle_rows(scene, rows)),
         worn=body.worn,
@@ -39,10 +40,22 @@ def _mean_of(scene: Scene, state: ContactState, i: int) -> Mean:
     )
 
 
+def _coverage(growth: Array) -> float:
+    """Return the share of a track that would carry its growth [m] with the same mean and rms if it were even there.
+
+    Most of the track has touched at some time; much of that carries next to no tribofilm.
+    """
+    scale = float(growth.max())  # in front, because squares of small numbers vanish
+    if scale == 0.0:
+        return 0.0
+    share = growth / scale
+    return float(share.mean()) ** 2 / float((share * share).mean())
+
+
 def folded(scene: Scene, state: ContactState) -> ContactState:
     """Return the state with its patches brought up to date: the change of the track means is added to them.
 
-    Tribofilm is added where there is some and on the highest points without any. Wear cuts off the highest points as
+    Tribofilm is added where there is most and on the highest points without any. Wear cuts off the highest points as
     far as the roughness has to fall, and takes the rest in proportion to the last pressure on each point. Unchanged
     means change nothing.
     """
@@ -63,7 +76,7 @@ def _folded(scene: Scene, rows: int, i: int, body: Body, then: Mean, now: Mean) 
     heights = (bare - body.wear - body.plastic)[track]
     pressure = body.pressure[track]
     share = pressure / pressure.mean() if pressure.any() else np.ones_like(pressure)
-    covered = _covered(heights, body.growth[track] > 0.0, now.coverage)
+    covered = _covered(heights, body.growth[track], now.coverage)
     full = scene.tribofilm.full_thickness
     changed: dict[str, Any] = {
         "growth": _raised(body.growth[track], covered, then.growth, now.growth, full),
@@ -114,15 +127,12 @@ def _level(heights: Array, mean: float) -> float:
     return high
 
 
-def _covered(heights: Array, before: NDArray[np.bool_], coverage: float) -> NDArray[np.bool_]:
-    """Return the nodes that carry a tribofilm: those that did, and as many of the highest as make up the coverage."""
-    more = round(coverage * heights.size) - int(before.sum())
-    if more <= 0:
-        return before
-    order = np.argsort(np.where(before, -np.inf, heights), axis=None, kind="stable")
-    after = before.copy()
-    after.flat[order[-more:]] = True
-    return after
+def _covered(heights: Array, growth: Array, coverage: float) -> NDArray[np.bool_]:
+    """Return the nodes that make up the coverage: those that have grown most, and the highest of those without any."""
+    order = np.lexsort((-heights.ravel(), -growth.ravel()))
+    covered = np.zeros(heights.shape, bool)
+    covered.flat[order[: math.ceil(coverage * heights.size)]] = True
+    return covered
 
 
 def _raised(field: Array, covered: NDArray[np.bool_], then: float, now: float, most: float) -> Array:

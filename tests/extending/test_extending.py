@@ -134,7 +134,8 @@ def test_the_law_is_in_the_fmu_and_law_and_output_are_in_the_results(tree: Tree)
     assert "Quinn 1983" in page
     (code,) = examples(LAW, "python")
     film, coverage = map(float, tree.python(code).split())
-    assert film == approx(coverage * 100e-9 * 0.5**0.5, rel=0.02)
+    closed = 100e-9 * 0.5**0.5  # of a point that is rubbed all the time: the covered part is for some of it
+    assert 0.6 * coverage * closed < film < coverage * closed
     (line,) = examples(LAW, "sh")
     tree.command(line)
     last = columns(tree, "mtm_zddp")[-1]

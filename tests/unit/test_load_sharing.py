@@ -2,12 +2,13 @@
 
 import math
 import re
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from comparison import approx
+from scipy.special import hyp1f1
 
 from contact_core.film.regression import Regression
 from contact_core.laws import load_sharing
@@ -153,6 +154,29 @@ def test_the_smoother_body_meets_more_of_the_other_than_the_rougher_one():
     area = np.linspace(0.01, 0.5, 50)
     for dry in (True, False):
         assert (LAW.exposed(area, rougher=False, dry=dry) > LAW.exposed(area, rougher=True, dry=dry)).all()
+
+
+@pytest.mark.parametrize("rougher", [True, False])
+def test_coverage_is_that_of_exposures_of_a_beta_distribution(rougher):
+    """Of the law's variance, for growth by 1 - exp(-exposure): its mean is 1 - 1F1(a; a + b; -s)."""
+    spread = LAW.exposure_spread_rougher if rougher else LAW.exposure_spread_smoother
+    for mean in (0.01, 0.1, 0.3, 0.6):
+        a, both = mean * (1.0 / spread - 1.0), 1.0 / spread - 1.0
+        times = np.geomspace(1e-6, 10.0 / mean, 40)
+        growth = 1.0 - hyp1f1(a, both, -times)
+        where = 1.0 - hyp1f1(a + 1.0, both + 1.0, -times)  # each point counting by its exposure
+        found = LAW.coverage(mean, growth, rougher=rougher)
+        assert found[0] == approx(growth[0] / where[0], rel=1e-4)  # new surfaces: the variance alone counts
+        assert found == approx(growth / where, rel=0.12)
+        assert (np.diff(found) >= 0.0).all()
+        assert (found >= growth).all()  # no film where it is rubbed is thicker than a full one
+
+
+@pytest.mark.parametrize("rougher", [True, False])
+def test_coverage_goes_to_all_with_the_exposure_and_to_nothing_with_none(rougher):
+    assert LAW.coverage(1.0, 0.3, rougher=rougher) == approx(1.0)
+    assert 0.0 < LAW.coverage(1e-200, 0.0, rougher=rougher) < 1e-198
+    assert replace(LAW, exposure_spread_rougher=0.99).coverage(0.2, 0.19, rougher=True) == approx(0.2, rel=0.01)
 
 
 def test_arrays_give_what_their_numbers_give():

@@ -27,6 +27,7 @@ from contact_core.quantities import OF_CALLER, OUTPUTS
 from contact_core.reference import SmoothContact, nijenbanning_venner_moes
 from contact_core.regression.surfaces import tribofilms_of
 from contact_core.state import Mean
+from contact_core.surfaces.patches import track_rows
 from contact_core.surfaces.track_means import folded, means_of
 
 FAST = {"film.model": "regression"}
@@ -216,19 +217,34 @@ def test_wear_is_archards_for_the_load_on_the_solids():
     assert found.wear_volume_2 == approx(1e-3 * expected, rel=1e-9)
 
 
-def test_the_exposed_ball_grows_the_laws_film(grown):
+def test_new_bodies_grow_by_their_mean_exposure():
+    """However it is spread over the track: a film much thinner than a full one does not yet slow its growth."""
+    scene, state, op = fast()
+    state, found = advance(scene, op, state, 1e-3)
+    rate = scene.tribofilm.full_thickness * scene.tribofilm.rate(op.temperature + found.flash_temperature_rise)
+    for rougher, mean in zip((False, True), state.means, strict=True):
+        exposed = scene.film.sharing.exposed(found.contact_area_ratio, rougher=rougher)
+        assert mean.growth == approx(1e-3 * rate * exposed, rel=1e-4)
+
+
+def test_the_rubbed_ball_grows_the_laws_film_and_the_disc_what_its_rubbed_part_does(grown):
     scene, state, op = grown
     law, ball, disc = scene.tribofilm, *state.means
-    seconds = np.array([state.time])
-    hot = op.temperature + state.outputs.flash_temperature_rise
-    growth, removal = law.evolve(np.zeros(1), np.zeros(1), seconds, np.zeros(1), hot)
     exposed = scene.film.sharing.exposed(state.outputs.contact_area_ratio, rougher=False)
-    assert ball.coverage == approx(exposed, rel=0.05)  # of the largest area so far: the rest is bare, and without film
-    assert 0.8 < ball.coverage < 1.0
-    late = 1.0 - ball.coverage  # more than the part that the first passes have missed
-    assert ball.growth == approx(ball.coverage * growth[0], rel=late)
-    assert ball.removal == approx(ball.coverage * removal[0], rel=late)
-    assert 0.1 < disc.coverage < 0.6
+    hot = op.temperature + state.outputs.flash_temperature_rise
+    growth, removal = law.evolve(np.zeros(1), np.zeros(1), np.array([exposed * state.time]), np.zeros(1), hot)
+    assert ball.coverage > 0.98
+    assert ball.growth == approx(growth[0], rel=0.03)
+    assert ball.removal == approx(removal[0], rel=0.1)
+    assert 0.3 < disc.coverage < 0.6  # of a mean exposure of 0.2: its points are not rubbed all or nothing
+    assert disc.growth < disc.coverage * law.full_thickness
+
+
+def test_asperities_on_the_grid_alone_rub_all_or_nothing():
+    scene, state, op = fast(HARD | FAST)
+    state, found = advance(scene, op, state, 1800.0)
+    exposed = scene.film.sharing.exposed(found.contact_area_ratio, rougher=True)
+    assert state.means[1].coverage == approx(exposed, rel=0.05)  # of the largest area so far
 
 
 def test_time_may_be_cut_anywhere():
@@ -237,7 +253,7 @@ def test_time_may_be_cut_anywhere():
     for _ in range(360):
         state, _ = advance(scene, op, state, 10.0)
     for once, often in zip(whole.means, state.means, strict=True):
-        assert asdict(often) == approx(asdict(once), rel=0.02)
+        assert asdict(often) == approx(asdict(once), rel=0.03)  # a step has the coverage of its beginning
 
 
 def test_without_load_nothing_rubs_and_nothing_is_infinite(grown):
@@ -445,6 +461,15 @@ def test_a_change_of_level_and_back_changes_nothing(deterministic):
     assert back == replace(state, solved_for=None, outputs=back.outputs)
 
 
+def test_means_have_the_mean_and_the_rms_of_the_tribofilm_on_the_patches(deterministic):
+    scene, state, _ = deterministic
+    for mean, body in zip(means_of(scene, state), state.bodies, strict=True):
+        growth = body.growth[track_rows(scene, state.rows)]
+        found = tribofilms_of((replace(mean, removal=0.0),) * 2)[0]
+        assert mean.growth == approx(growth.mean(), rel=1e-12)
+        assert found.roughness == approx(growth.std(), rel=1e-9)
+
+
 def test_both_levels_see_the_same_roughness_of_the_same_worn_and_pressed_surfaces():
     scene, state, op = cheap(control__driver="dry", tribofilm__model="none", plasticity__hardness="3 GPa")
     state, found = advance(scene, op, state, 60.0)
@@ -489,7 +514,7 @@ def test_patches_get_what_means_have_gained(deterministic):
     for mean, again in zip(quick.means, found, strict=True):
         for name in ("growth", "removal", "wear", "worn", "cycles"):
             assert getattr(again, name) == approx(getattr(mean, name), rel=1e-12), name
-        assert again.coverage == approx(mean.coverage, abs=1e-3)
+        assert again.coverage == approx(mean.coverage, abs=0.03)  # beside it, there is a little tribofilm
 
 
 def test_fresh_patches_get_their_film_on_the_highest_points():

@@ -109,6 +109,19 @@ def test_tribofilms_of_circles_are_covered_and_a_tenth_of_the_error_would_not_do
     assert both.max() > 0.1
 
 
+@pytest.mark.parametrize("scene", ["azam_case_a", "mtm_zddp"])
+def test_tribofilms_of_two_hours_are_those_of_the_deterministic_level(scene):
+    rows = json.loads(TRIBOFILMS.read_text(encoding="utf-8"))
+    hours = [row for name, row in rows.items() if name.startswith(f"{scene} shipped")]
+    assert max(row["seconds"] for row in hours) == 7200.0
+    for row in hours:
+        scene = scene_of(row).at_level("regression")
+        _, found = advance(scene, OperatingPoint(**row["point"]), initial_state(scene), row["seconds"])
+        for body in ("tribofilm_1", "tribofilm_2"):
+            film = row["truth"][body]
+            assert getattr(found, body) == approx(film, rel=0.25), (body, row["seconds"])
+
+
 def test_tribofilms_of_lines_are_covered_and_a_tenth_of_the_error_would_not_do(rows):
     """Their exposures are those of circles. The films of ten minutes are the means with which rubbed lines begin."""
     ratios = []
