@@ -371,7 +371,12 @@ def constants_page(fit: Fit) -> list[str]:
     plain = oil.misfit(replace(fit.law, oil_pressure_excess=1e-9, oil_spread=1e-9))
     smoothing = np.sort(fit.rubbed.smoothing())
     covers = [
-        (body, f"{np.std(off[fit.rubbed.fresh]):.3f}", f"{np.abs(off[fit.rubbed.fresh]).max():.3f}", f"{np.abs(off).max():.3f}")
+        (
+            body,
+            f"{np.std(off[fit.rubbed.fresh]):.3f}",
+            f"{np.abs(off[fit.rubbed.fresh]).max():.3f}",
+            f"{np.abs(off).max():.3f}",
+        )
         for body, off in ((body, fit.rubbed.coverage_misfit(fit.law, body)) for body in BODIES)
     ]
     exposed = []
