@@ -6,7 +6,7 @@ Equation, arrays and units are those of `reynolds`.
 import numpy as np
 
 from ..compiled import jit
-from .asperities import carried_at, rest_gap
+from .asperities import REACH, carried_at, rest_gap
 from .edge import wrap
 from .reynolds import inflow, returned, transport
 
@@ -61,6 +61,7 @@ def correct_gap(  # type: ignore[no-untyped-def]
     limit = dx * dx * compliance
     a0, a1, a2 = 1.5 * wedge_per_dx + per_dt, -2.0 * wedge_per_dx, 0.5 * wedge_per_dx
     per_patch, per_depth = 1.0 / patch, 1.0 / depth if depth > 0.0 else 0.0
+    clear = floor + REACH * depth  # of the asperities: the gap at which a node rests is at most so wide
     wrong, film, fluid, solids, intrusion, gained, held = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     net = 0.0
     top, bottom, left, right, count, changed = ny, 0, nx, 0, 0, 0
@@ -75,10 +76,12 @@ def correct_gap(  # type: ignore[no-untyped-def]
                 sinks = value < 0.0
                 if filling is not None and (filling[j, i] < 1.0 or i < first):  # no residual there
                     sinks, value = True, 0.0
-                own_rest = rest_gap(here, floor, stress, depth)
-                if own < own_rest and sinks:
-                    touches, value = True, 0.0  # the film sinks further: solids carry the rest
-                    solid[j, i] = True
+                own_rest = clear
+                if own < clear:
+                    own_rest = rest_gap(here, floor, stress, depth)
+                    if own < own_rest and sinks:
+                        touches, value = True, 0.0  # the film sinks further: solids carry the rest
+                        solid[j, i] = True
             if touches:
                 is_stiff = True
                 alone = here - f[j, i]
@@ -103,15 +106,17 @@ def correct_gap(  # type: ignore[no-untyped-def]
                     change = 0.0
             elif here > 0.0:
                 gap, pressed = max(own, floor), f[j, i]
+                west, east, south, north = ex[j, i - 1], ex[j, i], ey[j - 1, i], ey[j, i]
+                is_stiff = max(max(west, east), max(south, north)) < limit
                 # a film that loses mass sinks at most until solids carry all: near that, the residual is no larger
+                if own >= clear and (-value > m * (gap / clear - 1.0) * per_dx or is_stiff):
+                    own_rest = rest_gap(here, floor, stress, depth)
                 loss = min(-value, m * (max(gap / own_rest, 1.0) - 1.0) * per_dx)
                 gain = value if here < cap[j, i] else 0.0  # the solids yield to the film
                 wrong += max(loss, gain) * pressed
                 film += m * pressed
                 fluid += pressed
                 solids += here - pressed
-                west, east, south, north = ex[j, i - 1], ex[j, i], ey[j - 1, i], ey[j, i]
-                is_stiff = max(max(west, east), max(south, north)) < limit
                 if is_stiff:
                     faces = (west + east + south + north) * per_dx2
                     give = per_patch + carried_at(own, floor, stress, depth) * per_depth
