@@ -15,8 +15,9 @@ from ..state import Body, ContactState, RangeFlag
 from ..state.trends import RATES_FOLLOWED
 from ..surfaces.patches import widened
 from .accumulator import Accumulator
-from .growth_and_wear import after_block, stable_time
+from .growth_and_wear import followed, stable_time, with_exposure
 from .instant import solve_instant
+from .resting import conformed, scar_time
 from .sampling import blocks_per_pass, jumps_of, sample_dry, sample_mixed
 
 _DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
@@ -98,7 +99,9 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
     driver = sums.driver
     kind = "dry" if driver == "dry" else "mixed"
     sums.flags = sums.all_flags | _flags_of_motion(case, state, driver)
-    bodies, surfaces = after_block(case, state, sums, _ALIKE[kind])
+    first, second = (with_exposure(case, side, state, sums, _ALIKE[kind]) for side in case.sides)
+    bodies = conformed(case, state, (first, second), sums.fluid / sums.count)
+    surfaces = {k: v for pair in zip(case.sides, bodies, strict=True) for k, v in followed(case, *pair).items()}
     state = replace(state, bodies=bodies)
     seen, spread = _observed(sums, surfaces, apart=driver == "dry")
     trends = state.trends.followed(seen, spread, _MEMORY[kind], _lag(case.scene, driver))
@@ -160,6 +163,7 @@ def _longest(case: Case, state: ContactState, before: float) -> float:
     limits = [control.longest]
     if case.loaded:
         limits += [max(_stable_time(case, state.bodies), _SHORTEST * control.longest)]
+        limits += [scar_time(case, *pair) for pair in zip(case.sides, state.bodies, strict=True)]
         if before > 0.0:
             step = abs(state.trends.slope_of("contact_load_ratio"))
             limits += [before * min(_LONGER, _SHARE_STEP / max(step, 1e-6))]
