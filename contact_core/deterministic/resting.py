@@ -63,8 +63,6 @@ def conformed(case: Case, state: ContactState, bodies: tuple[Body, Body], fluid:
     pressure = scene.film.conformed(now, case.grid(state.rows), fluid, load, soft)
     first, second = (
         body if side.moves else replace(body, pressure=solid)
-        for side, body, solid in zip(
-            case.sides, bodies, on_patches(scene, state, (pressure, pressure)), strict=True
-        )
+        for side, body, solid in zip(case.sides, bodies, on_patches(scene, state, (pressure, pressure)), strict=True)
     )
     return first, second
