@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..film import Deterministic
 from ..scene import Case, Side
 from ..state import Body, ContactState
 from ..surfaces.patches import bare_heights, heights_of, on_grid, on_patches, patch_nodes
@@ -43,6 +44,8 @@ def conformed(case: Case, state: ContactState, bodies: tuple[Body, Body], fluid:
     `fluid` is the mean pressure [Pa] of the oil in the last block, on the grid.
     """
     scene = case.scene
+    level = scene.film
+    assert isinstance(level, Deterministic)
     time = min(scar_time(case, *pair) for pair in zip(case.sides, bodies, strict=True))
     if time == math.inf:
         return bodies
@@ -50,17 +53,17 @@ def conformed(case: Case, state: ContactState, bodies: tuple[Body, Body], fluid:
     heights, soft = np.zeros_like(fluid), np.zeros_like(fluid)
     load = 0.0
     for side, body, bare in zip(case.sides, bodies, bare_heights(scene, state.rows), strict=True):
-        now = heights_of(bare, body)
+        patch = heights_of(bare, body)
         if side.moves:
-            heights += now.mean(axis=1, keepdims=True)
+            heights += patch.mean(axis=1, keepdims=True)
             continue
         nodes = patch_nodes(scene, body)
-        heights += on_grid(now, nodes)
+        heights += on_grid(patch, nodes)
         unit = replace(body, pressure=np.ones_like(body.pressure))
         soft += time * on_grid(wear_speed(case, side, unit, body.tribofilm), nodes)
         load = float(body.pressure.sum()) * area_of_node(case, side)
     now = instant_of(case, heights, np.full_like(fluid, scene.plasticity.hardness))
-    pressure = scene.film.conformed(now, case.grid(state.rows), fluid, load, soft)
+    pressure = level.conformed(now, case.grid(state.rows), fluid, load, soft)
     first, second = (
         body if side.moves else replace(body, pressure=solid)
         for side, body, solid in zip(case.sides, bodies, on_patches(scene, state, (pressure, pressure)), strict=True)
