@@ -171,7 +171,7 @@ class Deterministic:
         return solve_film(now, grid, replace(self.settings, iterations=most), start, step)
 
     def conformed(self, now: Instant, grid: Grid, fluid: Array, load: float, soft: Array) -> Array:
-        """Return the pressure [Pa] of solids that give way by `soft` [m/Pa] times it, as `Scaled.conformed`."""
-        from .scaled import Scaled  # the kernels: loaded where a contact is solved
+        """Return the pressure [Pa] of solids that give way by `soft` [m/Pa] times it, as `routes.conformed`."""
+        from .routes import conformed  # the kernels: loaded where a contact is solved
 
-        return Scaled(replace(now, dry=True), grid, self.settings).conformed(fluid, load, soft)
+        return conformed(now, grid, self.settings, fluid, load, soft)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ConvergenceError, SceneError
-from ..kernels.dry import dry_solution, solve_dry
+from ..kernels.dry import solve_dry
 from ..kernels.dry_asperities import solve_dry_asperities
 from ..kernels.far_field import far_field
 from ..kernels.mixed.problem import Iterate, Problem, Solution
@@ -25,7 +25,6 @@ Array = NDArray[np.float64]
 _TABLE_TOP = 2e10  # Pa: no oil flows above
 _DRY_TOLERANCE = 1e-6
 _DRY_ITERATIONS = 1000
-_WORN_TOLERANCE = 1e-4  # of the pressure that wears a body at rest
 _START_TOLERANCE = 1e-2
 _SOLID_SHARE = 0.85  # of the load in `shared_start`: the best of 0.03 to 0.95, from light contact to nearly dry
 _LEAST_EASE = 1e-6  # below it, oil does not flow
@@ -377,20 +376,6 @@ class Scaled:
         else:
             solid, rigid, converged, iterations = solve_dry(*contact, *limits)
         return Iterate(solid + fluid, fluid, solid > 0.0, rigid + self.floor), converged, iterations
-
-    def conformed(self, fluid: Array, load: float, soft: Array) -> Array:
-        """Return the pressure [Pa] of solids that carry `load` [N] in dry contact, beside that of the oil [Pa].
-
-        Each node gives way by `soft` [m/Pa] times its solid pressure, on top of the half space. The last column, which
-        repeats the first one of the patches, carries none.
-        """
-        oil = fluid / self.p_unit
-        room = np.maximum(self.cap - oil, 0.0)
-        room[:, -1] = 0.0
-        gap = self.undeformed + self.half_space.deform(oil)
-        limits = load / self.now.load * self.load, self.smooth, _WORN_TOLERANCE, _DRY_ITERATIONS
-        found = dry_solution(self.half_space, gap, room, *limits, soft * (self.p_unit / self.h_unit))
-        return found.pressure * self.p_unit
 
     def dry(self, route: str, share: float = 1.0) -> FilmSolution:
         """Return the contact without a film: its gap is the floor where solids touch.
