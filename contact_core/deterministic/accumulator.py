@@ -26,6 +26,7 @@ class Accumulator:
     exposures: tuple[Array, Array]
     since: tuple[Array, Array]  # passes since a node had the exposure in `peaks`
     peaks: tuple[Array, Array]  # largest exposure in the last pass
+    fluid: Array  # pressure of the oil, on the grid
     outputs: list[dict[str, float]] = field(default_factory=list)
     iterations: int = 0
     mixed: int = 0
@@ -39,7 +40,9 @@ class Accumulator:
         """Return empty sums at the beginning of a block."""
         since, peaks = ([getattr(body, name).copy() for body in state.bodies] for name in ("since", "peak"))
         zeros = [np.zeros_like(since[0]) for _ in range(4)]
-        return Accumulator((zeros[0], zeros[1]), (zeros[2], zeros[3]), (since[0], since[1]), (peaks[0], peaks[1]))
+        rows, columns = since[0].shape
+        tracks = (zeros[0], zeros[1]), (zeros[2], zeros[3]), (since[0], since[1]), (peaks[0], peaks[1])
+        return Accumulator(*tracks, np.zeros((rows, columns + 1)))
 
     def restarted(self, state: ContactState, kept: RangeFlag) -> "Accumulator":
         """Return empty sums that keep the iterations and, of the flags, those in `kept`."""
@@ -87,6 +90,7 @@ class Accumulator:
         for i in (0, 1):
             self.pressures[i][:] += pressures[i]
             self.exposures[i][:] += exposures[i]
+        self.fluid += fields.fluid_pressure
         self.outputs.append(observed(case, fields))
         self.sheared = fields.sheared
         self.iterations += fields.iterations

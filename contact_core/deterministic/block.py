@@ -13,10 +13,11 @@ from ..laws.tribofilm import DOSES
 from ..scene import Case, Scene
 from ..state import Body, ContactState, RangeFlag
 from ..state.trends import RATES_FOLLOWED
-from ..surfaces.patches import widened
+from ..surfaces.patches import on_grid, patch_nodes, widened
 from .accumulator import Accumulator
-from .growth_and_wear import after_block, stable_time
+from .growth_and_wear import followed, stable_time, with_exposure
 from .instant import solve_instant
+from .resting import conformed, scar_time
 from .sampling import blocks_per_pass, jumps_of, sample_dry, sample_mixed
 
 _DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
@@ -30,7 +31,7 @@ _SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most
 _OF_FILM = RangeFlag.INLET_UNRESOLVED | RangeFlag.NOT_CONVERGED
 _SHORTEST = 0.05  # of control.longest: no block is shorter to keep wear stable; a flag says where it should be
 _LONGER = 2.0  # a block may be so much longer than the one before
-_EDGE = 3  # rows at the edge that the scar must not reach
+_EDGE = 3  # rows and columns at the edge that the scar must not reach
 _WIDEST = 4  # times the scene's rows
 
 
@@ -77,9 +78,12 @@ def _sampled(case: Case, state: ContactState, same: bool) -> tuple[ContactState,
 
 
 def _wide_enough(case: Case, state: ContactState) -> ContactState:
-    """Return the state with more rows if the scar has reached the edge of the patches."""
+    """Return the state with more rows if the scar has reached the edge of the patches.
+
+    Rows are no help to a body at rest whose scar has reached the ends of the grid along x as well.
+    """
     rows = state.rows
-    if not _worn_at_the_edge(case, state) or rows >= _WIDEST * case.scene.rows:
+    if not _worn_at_the_edge(case, state) or rows >= _WIDEST * case.scene.rows or _worn_at_the_ends(case, state):
         return state
     more = 8 * math.ceil(rows / 64)  # an eighth on either side
     first, second = (widened(body, more) for body in state.bodies)
@@ -93,12 +97,24 @@ def _worn_at_the_edge(case: Case, state: ContactState) -> bool:
     return any(body.wear[rows].max() > 1e-3 * body.wear.max() for body in state.bodies)
 
 
+def _worn_at_the_ends(case: Case, state: ContactState) -> bool:
+    """Return True if the scar of a body at rest has reached the ends of the grid along x."""
+    scars = [
+        on_grid(state.bodies[side.body].wear, patch_nodes(case.scene, state.bodies[side.body]))
+        for side in case.sides
+        if not side.moves
+    ]
+    return any(scar[:, [*range(_EDGE), *range(-_EDGE, 0)]].max() > 1e-3 * scar.max() for scar in scars)
+
+
 def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1) -> ContactState:
     """Return the state with a block's results: exposure of the surfaces, outputs, limits of the next block."""
     driver = sums.driver
     kind = "dry" if driver == "dry" else "mixed"
     sums.flags = sums.all_flags | _flags_of_motion(case, state, driver)
-    bodies, surfaces = after_block(case, state, sums, _ALIKE[kind])
+    first, second = (with_exposure(case, side, state, sums, _ALIKE[kind]) for side in case.sides)
+    bodies = conformed(case, state, (first, second), sums.fluid / sums.count)
+    surfaces = {k: v for pair in zip(case.sides, bodies, strict=True) for k, v in followed(case, *pair).items()}
     state = replace(state, bodies=bodies)
     seen, spread = _observed(sums, surfaces, apart=driver == "dry")
     trends = state.trends.followed(seen, spread, _MEMORY[kind], _lag(case.scene, driver))
@@ -160,6 +176,7 @@ def _longest(case: Case, state: ContactState, before: float) -> float:
     limits = [control.longest]
     if case.loaded:
         limits += [max(_stable_time(case, state.bodies), _SHORTEST * control.longest)]
+        limits += [scar_time(case, *pair) for pair in zip(case.sides, state.bodies, strict=True)]
         if before > 0.0:
             step = abs(state.trends.slope_of("contact_load_ratio"))
             limits += [before * min(_LONGER, _SHARE_STEP / max(step, 1e-6))]
@@ -170,13 +187,11 @@ def _flags_of_motion(case: Case, state: ContactState, driver: str) -> RangeFlag:
     """Return what the speeds and the scar make less sure."""
     flags = RangeFlag(0)
     slow, fast = sorted(abs(speed) for speed in case.speeds)
-    jumping = driver == "dry" or any(
-        any(jumps_of(case, side.body)) and abs(side.speed) == slow for side in case.sides
-    )
+    jumping = driver == "dry" or any(any(jumps_of(case, side.body)) and abs(side.speed) == slow for side in case.sides)
     if case.loaded and 0.0 < slow < (_CREEP if jumping else 0.9) * fast:
         flags |= RangeFlag.SLOW_BODY
     if case.loaded and _stable_time(case, state.bodies) < _SHORTEST * case.scene.control.longest:
         flags |= RangeFlag.STIFF_WEAR
-    if _worn_at_the_edge(case, state):
+    if _worn_at_the_edge(case, state) or _worn_at_the_ends(case, state):
         flags |= RangeFlag.DOMAIN_EDGE
     return flags

@@ -79,7 +79,8 @@ def _longest_step(case: Case, state: ContactState, left: float) -> tuple[float, 
     samples = _thinned(case.scene, state)
     while True:  # the tribofilm's growth slows down: this ends within few rounds
         after = _evolved(case, state, samples, step)
-        change = max(geometry_change(*pair) for pair in zip(samples, after, strict=True))
+        pairs = zip(case.sides, samples, after, strict=True)
+        change = max(geometry_change(*pair, wears=side.moves) for side, *pair in pairs)
         if change <= 1.01 * budget:
             return step, change if change < 0.9 * budget else budget  # near enough: the block is used up
         step *= min(max(budget / change, 0.05), 0.95)
@@ -94,13 +95,13 @@ def _thinned(scene: Scene, state: ContactState) -> tuple[Body, Body]:
     return first, second
 
 
-def geometry_change(before: Body, after: Body) -> float:
+def geometry_change(before: Body, after: Body, *, wears: bool = True) -> float:
     """Return the rms change [m] of the heights by tribofilm and wear.
 
     Wear that is the same all along a row deepens the groove; it changes the contact far less than asperities do, and
-    has a small weight.
+    has a small weight. Not `wears`: wear does not count; that of bodies at rest has a limit of its own (`resting`).
     """
     film = after.tribofilm - before.tribofilm
-    worn = after.wear - before.wear
+    worn = (after.wear - before.wear) * wears
     groove = worn.mean(axis=1, keepdims=True)
     return float(np.sqrt(np.mean((film - worn + (1.0 - _GROOVE) * groove) ** 2)))

@@ -16,14 +16,6 @@ from .accumulator import Accumulator
 Array = NDArray[np.float64]
 
 
-def after_block(
-    case: Case, state: ContactState, sums: Accumulator, alike: float
-) -> tuple[tuple[Body, Body], dict[str, float]]:
-    """Return both bodies with the exposure of a block, and what the trends follow of them."""
-    first, second = (with_exposure(case, side, state, sums, alike) for side in case.sides)
-    return (first, second), _followed(case, case.sides[0], first) | _followed(case, case.sides[1], second)
-
-
 def with_exposure(case: Case, side: Side, state: ContactState, sums: Accumulator, alike: float) -> Body:
     """Return a body with the mean pressure over its track, the abrasion by it, and the exposure per test time.
 
@@ -48,7 +40,7 @@ def with_exposure(case: Case, side: Side, state: ContactState, sums: Accumulator
     abrasion = law.abrasion(pressure, sliding_on_track(case, state.rows), across_track(scene, state.rows))
     after = replace(body, pressure=pressure, exposure=exposure, abrasion=abrasion)
     after = replace(after, since=sums.since[i], peak=sums.peaks[i])
-    return replace(after, noise=body.noise + _noise(case, side, state, after, alike))
+    return replace(after, noise=body.noise + _noise(case, side, state, after, alike)) if side.moves else after
 
 
 def _noise(case: Case, side: Side, state: ContactState, after: Body, alike: float) -> float:
@@ -107,7 +99,7 @@ def area_of_node(case: Case, side: Side) -> float:
     return film.spacing**2 * case.scene.repeats * (side.track_length / film.domain if side.moves else 1.0)
 
 
-def _followed(case: Case, side: Side, body: Body) -> dict[str, float]:
+def followed(case: Case, side: Side, body: Body) -> dict[str, float]:
     """Return what the trends follow of a body: roughness, mean tribofilm and the mean speed [m/s] of its wear."""
     now = surface_now(case.scene, body, side.body)
     k = side.body + 1
@@ -132,12 +124,12 @@ def stable_time(case: Case, side: Side, body: Body) -> float:
     below twice the time of that decay; beyond, they make new waves.
     """
     scene = case.scene
-    if not scene.wear.wears:
+    if not scene.wear.wears or not side.moves:  # of bodies at rest see `resting`
         return math.inf
     track = track_rows(scene, body.wear.shape[0])
     cover = body.tribofilm[track].mean(keepdims=True) / scene.tribofilm.full_thickness
     width = 2.0 * case.hertz.a
-    duty = min(width / side.track_length, 1.0) if side.moves else 1.0
+    duty = min(width / side.track_length, 1.0)
     shortest = math.sqrt(2.0) * math.pi / scene.film.spacing
     stiffness = 0.25 * scene.solids.reduced_modulus * shortest
     slide = scene.wear.slide(case.speeds, side.body)

@@ -71,7 +71,7 @@ def sample_mixed(
     if state.film is None:
         state = replace(state, film=first_film(case, state))
         unsampled = unsampled if state.share == 1.0 else _CALMING
-    elif same and (any(jumps) or not jumping):
+    elif same and (any(jumps) or not (jumping and case.sides[smoother].moves)):
         unsampled = 0
     elif same:
         state, unsampled = rolled(scene, state, jumps_of(case, smoother, 1.0)), _CALMING

@@ -1,13 +1,18 @@
 """Deterministic mixed lubrication: fluid and solid pressure node by node, from full film to dry contact."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ..laws.base import Rheology, Tribofilm
 from ..laws.equations import Equations, OfShape
 from ..laws.load_sharing import FittedSharing
 from ..quantities import parameter
 from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
+
+Array = NDArray[np.float64]
 
 _GOVERNING = (
     Equations(
@@ -145,6 +150,12 @@ class Deterministic:
         shared = _CAVITATION[lubricant.cavitation], _SHARING[self.criterion]
         return *_GOVERNING, geometry.deformation, geometry.load_balance, *shared
 
+    @property
+    def settings(self) -> Settings:
+        """Accuracy and algorithms of a solution."""
+        fitted = self.flux == "fitted"
+        return Settings(self.floor, self.tolerance, self.iterations, self.fft, self.lumped, fitted)
+
     def solve(
         self,
         now: Instant,
@@ -157,6 +168,10 @@ class Deterministic:
         from .routes import solve_film  # the kernels: loaded where a film is solved
 
         most = min(iterations or self.iterations, self.iterations)
-        fitted = self.flux == "fitted"
-        settings = Settings(self.floor, self.tolerance, most, self.fft, self.lumped, fitted)
-        return solve_film(now, grid, settings, start, step)
+        return solve_film(now, grid, replace(self.settings, iterations=most), start, step)
+
+    def conformed(self, now: Instant, grid: Grid, fluid: Array, load: float, soft: Array) -> Array:
+        """Return the pressure [Pa] of solids that give way by `soft` [m/Pa] times it, as `routes.conformed`."""
+        from .routes import conformed  # the kernels: loaded where a contact is solved
+
+        return conformed(now, grid, self.settings, fluid, load, soft)

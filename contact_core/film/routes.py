@@ -10,8 +10,10 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..errors import ConvergenceError, FilmTooWideError
+from ..kernels.dry import dry_solution
 from ..kernels.grids import prolong, restrict
 from ..kernels.mixed.advection import advected
 from ..kernels.mixed.asperities import REACH
@@ -26,6 +28,8 @@ from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .lengths import inlet_length
 from .scaled import LOAD_ACCEPTED, Scaled
 
+Array = NDArray[np.float64]
+
 _ALL = (0.0, math.inf)
 _SEVERAL = (2, math.inf)
 _LASTING = 4 * (("hybrid", "last"),)  # lines couple contacts over long distances: they converge slowly
@@ -35,6 +39,7 @@ _NESTED_FROM = 65  # nodes along an axis, from which on a film starts on the gri
 _HYBRID_ITERATIONS, _DIRECT_ITERATIONS, _MARCHED_ITERATIONS = 150, 80, 2000  # of one try at a steady film
 _CYCLES = {True: 25, False: 15}  # of multigrid, by `Problem.fitted`
 _NEWTON_STEPS = 30
+_WORN_TOLERANCE, _WORN_ITERATIONS = 1e-4, 1000  # of the pressure that wears a body at rest
 _DAMPED = ((0.5, 15), (0.25, 40))  # multigrid's next tries, and cycles: nearly rigid bodies under thickening oil
 # film of smooth bodies over rms roughness of a line, from which on Newton's method is more reliable: without side
 # flow, a residual of the hybrid in the inlet stays in the film
@@ -235,6 +240,22 @@ def solve_film(
         return found
     why = f"load error {balance.error:.2g}, with what lies beyond the grid"
     return replace(found, converged=False, shortfall=why, load_error=balance.error)
+
+
+def conformed(now: Instant, grid: Grid, settings: Settings, fluid: Array, load: float, soft: Array) -> Array:
+    """Return the pressure [Pa] of solids that carry `load` [N] in dry contact, beside that of the oil [Pa].
+
+    Each node gives way by `soft` [m/Pa] times its solid pressure, on top of the half space. The last column, which
+    repeats the first one of the patches, carries none.
+    """
+    scaled = Scaled(replace(now, dry=True), grid, settings)
+    oil = fluid / scaled.p_unit
+    room = np.maximum(scaled.cap - oil, 0.0)
+    room[:, -1] = 0.0
+    gap = scaled.undeformed + scaled.half_space.deform(oil)
+    limits = load / now.load * scaled.load, scaled.smooth, _WORN_TOLERANCE, _WORN_ITERATIONS
+    found = dry_solution(scaled.half_space, gap, room, *limits, soft * (scaled.p_unit / scaled.h_unit))
+    return found.pressure * scaled.p_unit
 
 
 def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSolution:

@@ -49,15 +49,23 @@ def solve_dry(
 
 
 def dry_solution(
-    half_space: HalfSpace, gap: Array, cap: Array, load: float, start: Array, tolerance: float, iterations: int
+    half_space: HalfSpace,
+    gap: Array,
+    cap: Array,
+    load: float,
+    start: Array,
+    tolerance: float,
+    iterations: int,
+    soft: Array | None = None,
 ) -> DrySolution:
     """Return the pressure [ny, nx] of sum `load` with 0 <= p <= cap, and its gap.
 
     gap [ny, nx] is that of the undeformed bodies up to a constant; start is any pressure of about the right place. The
     caps must carry more than the load. `tolerance` is the largest error of the pressure, sum |p - exact p| / load.
+    Each node gives way by `soft` [ny, nx] times its own pressure, on top of the half space; None: by nothing.
     """
     lowest = float(gap.min())
-    grids = _grids(gap - lowest, cap, load, half_space.periodic)
+    grids = _grids(gap - lowest, cap, load, half_space.periodic, soft)
     window, p = _coarse_solution(half_space, grids, start, iterations)
     done, whole = 0, (0, gap.shape[0], 0, gap.shape[1])
     while True:
@@ -69,6 +77,8 @@ def dry_solution(
         p = np.zeros_like(gap)
         _cut(p, window)[:] = part.pressure
         h = grids[0].gap + half_space.deform(p) - part.datum
+        if soft is not None:
+            h += soft * p
         inside = _cut(h, window)
         drift = contact.give * float(np.abs(inside - part.gap)[part.pressure > 0.0].sum()) / load
         outside = (h < 0.0) & (p <= 0.0) & (cap > 0.0)
@@ -91,20 +101,23 @@ class _Grid(NamedTuple):
     cap: Array
     load: float
     lowest: Array  # least gap of the nodes in each cell
+    soft: Array | None  # by which a node gives way per pressure of its own; None: by nothing
 
 
-def _grids(gap: Array, cap: Array, load: float, periodic: bool) -> list[_Grid]:
+def _grids(gap: Array, cap: Array, load: float, periodic: bool, soft: Array | None) -> list[_Grid]:
     """Return the grid and coarser ones, each of half the nodes of the one before."""
-    grids = [_Grid(gap, cap, load, gap)]
+    grids = [_Grid(gap, cap, load, gap, soft)]
     while True:
-        gap, cap, load, lowest = grids[-1]
+        gap, cap, load, lowest, soft = grids[-1]
         ny, nx = gap.shape
         if max(ny, nx) <= _COARSEST or min(nx if periodic else ny, nx) <= _COARSEST // 4:
             return grids
         coarse = _halved(cap, _mean, periodic)
         load *= 0.5 if periodic and ny % 2 else 0.25
         coarse *= max(1.01 * load / coarse.sum(), 1.0)  # cells that stick out of the grid took some of it
-        grids.append(_Grid(_halved(gap, _mean, periodic), coarse, load, _halved(lowest, np.minimum, periodic)))
+        lowest = _halved(lowest, np.minimum, periodic)
+        soft = None if soft is None else _halved(soft, _mean, periodic)
+        grids.append(_Grid(_halved(gap, _mean, periodic), coarse, load, lowest, soft))
 
 
 def _mean(a: Array, b: Array) -> Array:
@@ -194,15 +207,19 @@ def _contact(half_space: HalfSpace, grid: _Grid, window: Window, width: int) -> 
         part = half_space if same else half_space.window(ny, nx, width)
         store[key] = (None if same else part, _periodic_inverse(part))
     deformed, inverse = store[key]
-    return Contact(deformed or half_space, inverse, gap, cap, grid.load)
+    deformed = deformed or half_space
+    if grid.soft is None:
+        return Contact(deformed, inverse, gap, cap, grid.load)
+    soft = np.ascontiguousarray(_cut(grid.soft, window))
+    return Contact(deformed, _periodic_inverse(deformed, float(soft.mean())), gap, cap, grid.load, soft)
 
 
-def _periodic_inverse(half_space: HalfSpace) -> Convolution:
-    """Return the inverse of the half space on the smallest periodic plane.
+def _periodic_inverse(half_space: HalfSpace, soft: float = 0.0) -> Convolution:
+    """Return the inverse of the half space, with nodes that give way by `soft`, on the smallest periodic plane.
 
     Its kernel falls like 1 / r^3.
     """
     ny, nx = half_space.shape
-    spectrum = half_space.spectrum(half_space.plane(ny, nx))
+    spectrum = half_space.spectrum(half_space.plane(ny, nx)) + soft
     spectrum[0, 0] = spectrum[0, 1]  # the mean belongs to the load
     return Convolution(ny, 1.0 / np.maximum(spectrum, 1e-3 * spectrum.max()), half_space.library)

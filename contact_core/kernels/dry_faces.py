@@ -36,10 +36,24 @@ class Part(NamedTuple):
 class Contact:
     """A dry contact on one window: energy, bounds, load."""
 
-    def __init__(self, half_space: HalfSpace, inverse: Convolution, gap: Array, cap: Array, load: float) -> None:
+    def __init__(
+        self,
+        half_space: HalfSpace,
+        inverse: Convolution,
+        gap: Array,
+        cap: Array,
+        load: float,
+        soft: Array | None = None,
+    ) -> None:
         self.half_space, self.inverse = half_space, inverse
-        self.gap, self.cap, self.load = gap, cap, load
-        self.give = 1.0 / float(self.half_space.near[0, 0])  # pressure that closes the gap of a node alone
+        self.gap, self.cap, self.load, self.soft = gap, cap, load, soft
+        # pressure that closes the gap of a node alone
+        self.give = 1.0 / (float(self.half_space.near[0, 0]) + (0.0 if soft is None else float(soft.mean())))
+
+    def bent(self, p: Array) -> Array:
+        """Return by how much nodes give way under a pressure."""
+        bent = self.half_space.deform(p)
+        return bent if self.soft is None else bent + self.soft * p
 
     def solve(self, start: Array, tolerance: float, iterations: int) -> Part:
         """Run conjugate gradients on one face after another."""
@@ -73,7 +87,7 @@ class Contact:
                 continue
             _turn(t, z, 0.0 if fresh else product / old)
             fresh = False
-            _move(p, g, r, t, self.half_space.deform(t))
+            _move(p, g, r, t, self.bent(t))
         if excess > 0.0:
             p, g = self.allowed(np.clip(p, 0.0, self.cap))
         return Part(p, g - datum, datum, error, n)
@@ -88,14 +102,14 @@ class Contact:
         """Bring a pressure within its bounds and to the load; return it and its gap."""
         if not _scale(p, self.cap, self.load):
             p = _project(p, self.cap, self.load)
-        return p, self.gap + self.half_space.deform(p)
+        return p, self.gap + self.bent(p)
 
     def downhill(self, p: Array, g: Array, datum: float) -> tuple[Array, Array]:
         """Return pressure and gap after a step along the projected gradient that lowers the energy."""
         step = self.give
         for _ in range(2):
             q = _project(p - step * (g - datum), self.cap, self.load)
-            gq = self.gap + self.half_space.deform(q)
+            gq = self.gap + self.bent(q)
             down, curve = _descent(p, g, q, gq, datum)
             if down >= curve:
                 return q, gq
