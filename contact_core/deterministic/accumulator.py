@@ -31,6 +31,7 @@ class Accumulator:
     iterations: int = 0
     mixed: int = 0
     unconverged: int = 0  # solutions that have not converged
+    before_dry: float = 0.0  # share of them among the mixed solutions that a dry block relies on
     fallbacks: int = 0
     flags: RangeFlag = field(default_factory=lambda: RangeFlag(0))
     sheared: Film | None = None  # the last instant's
@@ -45,16 +46,20 @@ class Accumulator:
         return Accumulator(*tracks, np.zeros((rows, columns + 1)))
 
     def restarted(self, state: ContactState, kept: RangeFlag) -> "Accumulator":
-        """Return empty sums that keep the iterations and, of the flags, those in `kept`."""
+        """Return empty sums that keep iterations, the share of unconverged solutions and, of the flags, those in `kept`."""
         sums = Accumulator.before(state)
-        sums.flags, sums.iterations = self.all_flags & kept, self.iterations
+        sums.flags, sums.iterations, sums.before_dry = self.flags & kept, self.iterations, self.share_unconverged
         return sums
 
     @property
     def all_flags(self) -> RangeFlag:
         """The instants' flags, and one if many of them are not converged."""
-        many = self.count > 0 and self.unconverged > MANY * self.count
-        return self.flags | (RangeFlag.NOT_CONVERGED if many else RangeFlag(0))
+        return self.flags | (RangeFlag.NOT_CONVERGED if self.share_unconverged > MANY else RangeFlag(0))
+
+    @property
+    def share_unconverged(self) -> float:
+        """Share of the solutions that have not converged, those that a dry block relies on included."""
+        return max(self.unconverged / max(self.count, 1), self.before_dry)
 
     @property
     def count(self) -> int:

@@ -27,8 +27,8 @@ _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
 _ALIKE = {"dry": 0.1, "mixed": 0.5}
 _CREEP = 0.01  # of the other body's speed: of a slower body a block samples only a piece of the track
 _SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most
-# flags of the mixed solutions that measured the share; they also hold for the dry blocks that use it
-_OF_FILM = RangeFlag.INLET_UNRESOLVED | RangeFlag.NOT_CONVERGED
+# flags of the mixed solutions that measured the share: they also hold for the dry blocks that use it
+_OF_FILM = RangeFlag.INLET_UNRESOLVED
 _SHORTEST = 0.05  # of control.longest: no block is shorter to keep wear stable; a flag says where it should be
 _LONGER = 2.0  # a block may be so much longer than the one before
 _EDGE = 3  # rows and columns at the edge that the scar must not reach
@@ -73,7 +73,7 @@ def _sampled(case: Case, state: ContactState, same: bool) -> tuple[ContactState,
         state = replace(state, share=share, dry_blocks_left=_DRY_BLOCKS, film=None)
         sums = sums.restarted(state, _OF_FILM)
     else:  # the flags of the mixed solutions that measured the share still hold
-        sums.flags = RangeFlag(state.outputs.range_flags) & _OF_FILM
+        sums.flags, sums.before_dry = RangeFlag(state.outputs.range_flags) & _OF_FILM, state.outputs.unconverged
     return sample_dry(case, state, sums), sums
 
 
@@ -127,7 +127,7 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
         friction_coefficient=abs(smooth["friction_force"]) / case.op.load if case.loaded else 0.0,
         range_flags=int(sums.flags),
         iterations=sums.iterations,
-        unconverged=sums.unconverged / sums.count,
+        unconverged=sums.share_unconverged,
     )
     left = max(state.dry_blocks_left - 1, 0) if driver == "dry" else 0
     state = replace(

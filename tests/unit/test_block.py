@@ -127,6 +127,17 @@ def test_the_sequence_of_instants_goes_on_after_a_restart():
     assert advance(scene, op, restored, 60.0)[0].to_bytes() == advance(scene, op, state, 60.0)[0].to_bytes()
 
 
+def test_a_dry_block_says_how_many_of_the_mixed_solutions_it_relies_on_have_not_converged():
+    scene, state, op = cheap(control__dry_above="0", film__iterations=2)
+    state, first = advance(scene, op, state, 0.0)
+    assert first.blocks_dry == 1.0 and state.dry_blocks_left > 1
+    later = advance(scene, op, state, 120.0)[1]
+    assert later.blocks_dry > 1.0
+    for outputs in (first, later):
+        assert outputs.unconverged > 0.1
+        assert RangeFlag.NOT_CONVERGED in RangeFlag(outputs.range_flags)
+
+
 def test_a_march_is_settled_before_it_is_sampled_however_far_the_faster_body_runs_ahead():
     smooth = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "tribofilm.model": "none"} | HARD
     scene, state, point = cheap(CHEAP | smooth, film__points=97)
