@@ -9,6 +9,7 @@
     accumulator        sums over the instants of a block
     sampling           choice of the instants at which a block is solved
     growth_and_wear    exposure, tribofilm and wear of one body
+    resting            wear of bodies at rest, which conform to the other one
     block              one block: when it is due, which contacts drive it
     changing_inputs    instants in place of blocks while inputs change
     outputs            outputs of a step and their errors
