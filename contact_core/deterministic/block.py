@@ -98,9 +98,12 @@ def _worn_at_the_edge(case: Case, state: ContactState) -> bool:
 
 
 def _worn_at_the_ends(case: Case, state: ContactState) -> bool:
-    """Return True if the scar of a body at rest has reached the ends of the grid along x."""
+    """Return True if the scar of a body at rest has reached the ends of the grid along x.
+
+    Its pressure tells: wear may also be a groove from earlier motion, which goes on beyond the ends.
+    """
     scars = [
-        on_grid(state.bodies[side.body].wear, patch_nodes(case.scene, state.bodies[side.body]))
+        on_grid(state.bodies[side.body].pressure, patch_nodes(case.scene, state.bodies[side.body]))
         for side in case.sides
         if not side.moves
     ]
@@ -111,11 +114,11 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
     """Return the state with a block's results: exposure of the surfaces, outputs, limits of the next block."""
     driver = sums.driver
     kind = "dry" if driver == "dry" else "mixed"
-    sums.flags = sums.all_flags | _flags_of_motion(case, state, driver)
     first, second = (with_exposure(case, side, state, sums, _ALIKE[kind]) for side in case.sides)
     bodies = conformed(case, state, (first, second), sums.fluid / sums.count)
     surfaces = {k: v for pair in zip(case.sides, bodies, strict=True) for k, v in followed(case, *pair).items()}
     state = replace(state, bodies=bodies)
+    sums.flags = sums.all_flags | _flags_of_motion(case, state, driver)
     seen, spread = _observed(sums, surfaces, apart=driver == "dry")
     trends = state.trends.followed(seen, spread, _MEMORY[kind], _lag(case.scene, driver))
     smooth, count = trends.values(), f"blocks_{driver}"
