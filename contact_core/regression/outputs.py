@@ -100,12 +100,18 @@ def _flags(case: Case, contact: MeanContact) -> int:
     if contact.sigma == 0.0 or not case.loaded:
         flags |= _LAMBDA_CAPPED
     rough = contact.sigma > 0.0 or case.microroughness is not None
-    if rough and case.loaded and not regression_film(case.scene).sharing.covers(*contact.fit):
+    if rough and case.loaded and not _fitted(case, contact):
         flags |= _OUTSIDE_FIT
     one, two = case.op.bodies
     if not (case.scene.tribofilm.covers(one) and case.scene.tribofilm.covers(two)):
         flags |= _TRIBOFILM_TEMPERATURE
     return flags
+
+
+def _fitted(case: Case, contact: MeanContact) -> bool:
+    """Return True within the fit of the curves; those of exposure and coverage are of bodies that both move."""
+    rubs_at_rest = case.op.slides and 0.0 in case.speeds
+    return not rubs_at_rest and regression_film(case.scene).sharing.covers(*contact.fit)
 
 
 def _errors(case: Case, contact: MeanContact) -> dict[str, Any]:
@@ -119,7 +125,7 @@ def _errors(case: Case, contact: MeanContact) -> dict[str, Any]:
         return {}
     sharing = regression_film(case.scene).sharing
     widths, clearance = sharing.WIDTHS, contact.fit.clearance
-    beyond = 1.0 if sharing.covers(*contact.fit) else _BEYOND
+    beyond = 1.0 if _fitted(case, contact) else _BEYOND
     wider = _run_in(case, contact) * beyond
     bare = contact.sigma > 0.0 and case.microroughness is None  # the curves know no solids that touch at a hard floor
     load = 1.0 if bare else wider * widths.of_load(share)

@@ -7,7 +7,7 @@ import pytest
 from cheap_scene import CHEAP, cheap
 from comparison import HARD, approx
 
-from contact_core import ContactState, RangeFlag, advance, solve
+from contact_core import ContactState, RangeFlag, advance, initial_state, solve
 from contact_core.deterministic.accumulator import Accumulator
 from contact_core.deterministic.evolution import geometry_change
 from contact_core.deterministic.sampling import sample_dry, sample_mixed
@@ -167,6 +167,18 @@ def test_a_dose_of_the_contact_length_is_the_clock_of_a_point_on_the_middle_of_a
             assert body.exposure[32].mean() == approx(
                 1.0, abs=2.0 * scene.film.spacing / (2.0 * scene.hertz(op.load).a)
             )
+
+
+@pytest.mark.parametrize("level", ["deterministic", "regression"])
+def test_a_body_at_rest_is_exposed_all_the_time_by_the_contact_length_as_by_the_clock(level):
+    smooth = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm"}
+    films = []
+    for dose in ("clock", "contact_length"):
+        scene = cheap(DRY | smooth, tribofilm__dose=dose)[0].at_level(level)
+        _, outputs = advance(scene, replace(scene.operation.point, speed_1=0.0), initial_state(scene), 60.0)
+        films.append(outputs.tribofilm_1)
+    assert films[0] > 0.0
+    assert films[1] == approx(films[0], rel=1e-3)  # the other body grows by another dose
 
 
 def test_a_groove_counts_for_a_fifth_of_what_happens_to_asperities():

@@ -394,6 +394,15 @@ def test_beyond_the_fit_a_flag_is_raised(grown):
     assert RangeFlag.OUTSIDE_FIT in RangeFlag(now(scene, slow, state).range_flags)
 
 
+@pytest.mark.parametrize("resting", ["speed_1", "speed_2"])
+def test_a_body_at_rest_under_a_moving_one_lies_beyond_the_fit(grown, resting):
+    scene, state, op = grown
+    creeping, still = (now(scene, replace(op, **{resting: speed}), state) for speed in (1e-6, 0.0))
+    assert RangeFlag.OUTSIDE_FIT not in RangeFlag(creeping.range_flags)
+    assert RangeFlag.OUTSIDE_FIT in RangeFlag(still.range_flags)
+    assert still.error_friction > 1.5 * creeping.error_friction
+
+
 def test_the_nodes_of_the_patches_change_a_contact_by_the_roughness_found_on_them_alone(grown):
     scene, _, op = grown
     fine = replace(scene, film=replace(scene.film, points=1025))

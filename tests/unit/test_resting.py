@@ -112,6 +112,31 @@ def test_a_scar_that_outgrows_the_grid_is_flagged_and_asks_for_no_more_rows():
     assert 0.9 * volume < outputs.wear_volume_1 < volume  # the last column, which carries none on a patch, has a part
 
 
+def test_a_groove_of_earlier_motion_neither_flags_a_scar_at_rest_nor_keeps_it_from_more_rows():
+    scene, state, op = cheap(
+        PIN | {"film.points": "33", "film.domain": "0.65 mm", "geometry.radius_y": "16 mm", "wear.bare": "1e-6"},
+        control__dry_instants=8,
+    )
+    state, _ = advance(scene, replace(op, speed_2=0.05), state, 60.0)
+    assert state.bodies[0].wear[16].min() > 5e-9 and state.rows == scene.rows
+    for _ in range(6):
+        state, outputs = slid(scene, state, op, [30.0])
+        assert not RangeFlag(outputs.range_flags) & RangeFlag.DOMAIN_EDGE
+    assert state.rows > scene.rows
+
+
+def test_a_scar_made_at_rest_is_flagged_while_its_body_moves():
+    """The patch repeats it all along the track; the volume is that of the one scar."""
+    scene, state, op = cheap(PIN, control__dry_instants=8)
+    moved, outputs = advance(scene, replace(op, speed_2=0.05), state, 600.0)
+    assert not RangeFlag(outputs.range_flags) & RangeFlag.DOMAIN_EDGE
+    scarred, still = slid(scene, moved, op, [600.0])
+    assert not RangeFlag(still.range_flags) & RangeFlag.DOMAIN_EDGE
+    _, outputs = advance(scene, op, scarred, 1.0)
+    assert RangeFlag(outputs.range_flags) & RangeFlag.DOMAIN_EDGE
+    assert outputs.wear_volume_1 == approx(still.wear_volume_1, rel=1e-3)
+
+
 @pytest.mark.parametrize("shape", [LINE, ROLLER], ids=["line", "roller"])
 def test_archards_volume_is_met_by_bodies_at_rest_of_other_shapes(shape):
     scene, state, op = cheap(shape | {"tribofilm.model": "none", "wear.bare": "1e-8"})

@@ -88,13 +88,15 @@ class ContactLength:
     )
 
     def on_patch(self, exposure: Array, passes: Passes) -> Array:
-        """Return the mean over the contact's length in place of the grid's."""
-        if passes.contact_length is None:
+        """Return the mean over the contact's length in place of the grid's; a point at rest crosses nothing."""
+        if passes.contact_length is None or not passes.moves:
             return exposure
         return exposure * passes.domain / passes.contact_length
 
     def mean(self, touching: float, oiled: float, passes: MeanPasses) -> float:
         """Return the mean over the contact, by the mean length of a crossing."""
+        if not passes.moves:
+            return Residence().mean(touching, oiled, passes)
         return (passes.touching * touching + (1.0 - passes.touching) * oiled) * passes.chord
 
 
