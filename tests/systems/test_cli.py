@@ -60,6 +60,7 @@ def test_a_run_prints_a_table_and_writes_three_files(
     assert out.startswith("Azam's case B")
     assert {"friction", "h_c", "lambda", "A_c", "W_c"} < set(out.splitlines()[1].split())
     assert "Pressures that drive tribofilm and wear: dry contact" in out
+    assert "\nBody 1: microroughness 4 nm rms, waves below 4 um (assumed in shipped scenes).\nBody 2: microro" in out
     assert "0.6/0.6 min" in err
     folder = tmp_path / "results" / "mtm_zddp"
     assert {path.name for path in folder.iterdir()} == {"result.nc", "result.csv", "overview.png"}
@@ -70,8 +71,10 @@ def test_a_run_prints_a_table_and_writes_three_files(
 
 
 def test_a_run_of_the_regression_level_says_what_it_knows(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    assert main(["run", "azam_case_a", "--set", "film.model=regression", "--hours", "2", "--out", str(tmp_path)]) == 0
+    settings = ["film.model=regression", *(f"{field}={value}" for field, value in HARD.items())]
+    assert main(["run", "azam_case_a", "--set", *settings, "--hours", "2", "--out", str(tmp_path)]) == 0
     out = capsys.readouterr().out
+    assert all(f"\nBody {body}: no microroughness: solids touch at the floor.\n" in out for body in (1, 2))
     assert "Load cycles: 28 361 of body 1, 7 419 of body 2." in out
     assert "Blocks" not in out
     assert (tmp_path / "overview.png").stat().st_size > 10_000
