@@ -207,10 +207,11 @@ def out_of_range(record: Any, path: str) -> Iterator[str]:
         elif isinstance(value, tuple):
             for i, item in enumerate(value):
                 yield from out_of_range(item, f"{name}[{i}]")
+        elif f.metadata.get("choices"):
+            if value not in f.metadata["choices"]:
+                yield f"{name} = {value!r} is not one of {', '.join(f.metadata['choices'])}."
         elif isinstance(value, (int, float)) and not isinstance(value, bool) and "unit" in f.metadata:
             yield from _number_sentence(name, value, f.metadata)
-        elif f.metadata.get("choices") and value not in f.metadata["choices"]:
-            yield f"{name} = {value!r} is not one of {', '.join(f.metadata['choices'])}."
 
 
 def numbers(record: Any, path: str = "") -> Iterator[tuple[str, float | int, "Field[Any]"]]:

@@ -73,7 +73,7 @@ CHOICES = (
     {"control.driver": "mixed"},
     {"control.driver": "dry"},
     {"control.inputs": "transient"},
-    {"film.criterion": "lumped", "film.floor": "0.47 nm"},
+    {"film.criterion": "lumped", "film.floor": "0.47 nm"} | {f"surface_{i}.microroughness.rms": "0 nm" for i in (1, 2)},
     {"film.fft": "scipy"},
     {"heat.model": "none"},
     {"heat.model": "field"},

@@ -29,6 +29,8 @@ NUMERICS: dict[str, dict[str, str]] = {
         "film.domain": "0.5 mm",
         "film.criterion": "lumped",
         "film.floor": "0.47 nm",
+        "surface_1.microroughness.rms": "0 nm",
+        "surface_2.microroughness.rms": "0 nm",
         "control.driver": "mixed",
     },
 }

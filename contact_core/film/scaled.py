@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import ConvergenceError, SceneError
+from ..errors import ConvergenceError
 from ..kernels.dry import solve_dry
 from ..kernels.dry_asperities import solve_dry_asperities
 from ..kernels.far_field import far_field
@@ -72,12 +72,6 @@ class Scaled:
         closing: float = 0.0,
         apart: float | None = None,
     ) -> None:
-        if settings.lumped and now.microroughness is not None:
-            raise SceneError(
-                f"film.criterion = 'lumped' has one pressure for oil and solids; microroughness (rms = "
-                f"{now.microroughness.rms:g} m) carries a part of it. Use film.criterion = 'split', or leave "
-                "microroughness out."
-            )
         self.now, self.grid, self.settings = now, grid, settings
         self.closing, self.apart = closing, apart
         self.step = step if start else None

@@ -106,6 +106,15 @@ def _roughness_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
     for name, surface in (("surface_1", scene.surface_1), ("surface_2", scene.surface_2)):
         for sentence in surface.errors(scene.film.spacing, scene.patch_size):
             yield "resolution", f"{name}.{sentence}"
+    given = (scene.surface_1.microroughness, scene.surface_2.microroughness)
+    rms = {f"surface_{i}.microroughness.rms": below.rms for i, below in enumerate(given, 1) if below and below.rms}
+    if scene.film.lumped and rms:
+        yield (
+            "criterion",
+            "film.criterion = 'lumped' has one pressure for oil and solids; "
+            f"{' and '.join(f'{field} = {value:g} m' for field, value in rms.items())} carry a part of it. Set "
+            f"{' and '.join(rms)} to 0 nm, or use film.criterion = 'split'.",
+        )
 
 
 def _oil_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:

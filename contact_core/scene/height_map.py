@@ -34,7 +34,10 @@ class HeightMap(str):
     @staticmethod
     def of(name: str, heights: ArrayLike) -> "HeightMap":
         """Return the map of an array that a caller gives; SceneError, about the field `name`, if it cannot be used."""
-        array = np.asarray(heights, dtype=np.float64)
+        try:
+            array = _real(heights)
+        except ValueError as error:
+            raise SceneError(f"{name} cannot be used: {error}. Give real numbers in rows of equal length.") from None
         said = _refusal(array)
         if said:
             raise SceneError(f"{name} {said}")
@@ -104,12 +107,23 @@ def _refusal(array: Array) -> str:
 
 def _numbers(path: Path) -> Array:
     if path.suffix == ".npy":
-        array = np.load(path, allow_pickle=False)
-        if not (np.issubdtype(array.dtype, np.floating) or np.issubdtype(array.dtype, np.integer)):
-            raise ValueError(f"its type is {array.dtype}")
-        return np.asarray(array, dtype=np.float64)
+        with path.open("rb") as stream:
+            if stream.read(2) == b"PK":
+                raise ValueError("it is a .npz archive; save one of its arrays with numpy.save")
+        return _real(np.load(path, allow_pickle=False))
     if path.suffix != ".csv":
         raise ValueError(f"its name ends with '{path.suffix}'")
     rows = [line.partition("#")[0] for line in path.read_text("utf-8-sig").splitlines()]
     delimiter = next((mark for mark in ";,\t" if any(mark in row for row in rows)), None)
     return np.loadtxt(rows, dtype=np.float64, delimiter=delimiter, ndmin=2)
+
+
+def _real(given: ArrayLike) -> Array:
+    """Return numbers in double precision; ValueError for what is no array of whole or real ones."""
+    try:
+        array = np.asarray(given)
+    except ValueError:  # numpy's words are about sequences
+        raise ValueError("its rows are of unequal length") from None
+    if not (np.issubdtype(array.dtype, np.floating) or np.issubdtype(array.dtype, np.integer)):
+        raise ValueError(f"its type is {array.dtype}")
+    return np.asarray(array, dtype=np.float64)

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import fields, replace
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from .heights import Heights
 from .operation import OperatingPoint
 from .surface import SEEDS
 from .toml import build, completed, did_you_mean, folder_of, full_key, override, override_order, read_table
+from .units import parse
 
 _SEED_STEP = 1_327_217_885  # the odd number nearest to SEEDS over the golden ratio
 
@@ -49,17 +51,20 @@ class Scene(SceneFields):
         return checked(replace(scene, surface_1=first, surface_2=second))
 
     def with_heights(
-        self, body: int, heights: ArrayLike, spacing: float, unit: str = "m", beyond: str = "mirrored"
+        self, body: int, heights: ArrayLike, spacing: float | str, unit: str = "m", beyond: str = "mirrored"
     ) -> "Scene":
         """Return the scene with heights [ny, nx] in a unit added to the roughness of body 1 or 2.
 
-        `spacing` [m] is the distance between neighbours, rows run along x; `Heights` says what `unit` and `beyond`
-        may be. Raises SceneError if they cannot be used.
+        `spacing` is the distance between neighbours, a number in m or text such as "8 um"; rows run along x. `Heights`
+        says what `unit` and `beyond` may be. Raises SceneError if they cannot be used.
         """
         if body not in (1, 2):
             raise SceneError(f"body = {body!r} must be 1 or 2.")
         name = f"surface_{body}"
-        given = Heights(spacing, unit, beyond=beyond, digest=HeightMap.of(f"{name}.heights", heights))
+        if not isinstance(spacing, Real) or isinstance(spacing, bool):
+            spacing = parse(spacing, "m", f"{name}.heights.spacing")
+        digest = HeightMap.of(f"{name}.heights", heights)
+        given = Heights(float(spacing), unit, beyond=beyond, digest=digest)
         surface: Any = replace(getattr(self, name), heights=given)
         return checked(replace(self, **{name: surface}))
 

@@ -65,6 +65,10 @@ class SelfAffine(RoughBody):
     def _own_length(self) -> float:
         return self.roll_off
 
+    @property
+    def _shortest(self) -> float:
+        return self.cut_off
+
     def _moment(self, order: int, shortest: float) -> float:
         """Return the rms of the derivative of an order (0 or 2: gradient), over rq, of waves down to a length [m].
 

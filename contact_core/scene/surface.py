@@ -59,6 +59,16 @@ class RoughBody:
     def _own_length(self) -> float:
         raise NotImplementedError
 
+    @property
+    def shortest(self) -> float:
+        """Shortest wave [m] of roughness and of the file of heights, infinite of a smooth body."""
+        own = self._shortest if self.rq > 0.0 else math.inf
+        return own if self.heights is None else min(own, 2.0 * self.heights.spacing)
+
+    @property
+    def _shortest(self) -> float:
+        raise NotImplementedError
+
     def with_file(self, name: str, folders: tuple[Path, ...]) -> Any:
         """Return the surface with the file of its heights read; `name` is the surface's in the scene.
 
@@ -90,6 +100,13 @@ class RoughBody:
             yield from self._warnings(spacing)
         if self.heights is not None:
             yield from _unresolved(2.0 * self.heights.statistics.rms / self.heights.statistics.slope, spacing)
+        below, shown = self.microroughness, max(self.shortest, 2.0 * spacing)
+        if below is not None and below.rms > 0.0 and shown < 0.99 * below.longest:  # told in 3 digits
+            yield (
+                f"has microroughness.longest = {below.longest:g} m, but the grid shows waves down to {shown:.3g} m: "
+                f"those between count twice. Set microroughness.longest to {shown:.3g} m at most, with the rms height "
+                "of what is shorter, or use a coarser grid."
+            )
 
     def _warnings(self, spacing: float) -> Iterator[str]:
         raise NotImplementedError
@@ -166,6 +183,10 @@ class Surface(RoughBody):
     @property
     def _own_length(self) -> float:
         return self.correlation_length
+
+    @property
+    def _shortest(self) -> float:
+        return 2.0 * math.pi / self.reach * min(self.correlation_length, self.correlation_length_across or math.inf)
 
     def coarsened(self, spacing: float) -> "Surface":
         """Return the surface without correlation lengths below the spacing [m] of a grid."""

@@ -9,7 +9,7 @@ from contact_core.scene import Scene
 
 from .console import note, output_folder
 from .progress import continued_by_resume, note_replaced, shown
-from .scenes import contact, warn
+from .scenes import contact, microroughness, warn
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -74,7 +74,8 @@ def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path) -> 
     from ..store import results
 
     dataset = origin.with_scene(dataset, scene, duty)
-    print(scene.description, report.table(dataset), *report.closing_lines(dataset), sep="\n")
+    below = (f"Body {body}: {text}." for body, text in enumerate(microroughness(scene), 1))
+    print(scene.description, report.table(dataset), *below, *report.closing_lines(dataset), sep="\n")
     written = [*results.write(dataset, folder), report.write_overview(dataset, folder / "overview.png")]
     print(f"Written: {', '.join(map(str, written))}")
     return 1 if report.invalid_rows(dataset) else 0

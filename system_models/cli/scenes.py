@@ -49,6 +49,21 @@ def warn(scene: Scene) -> None:
         print(f"tribofmu: warning: {warning}", file=sys.stderr)
 
 
+def microroughness(scene: Scene) -> tuple[str, str]:
+    """Return a few words for each body on its roughness below the grid."""
+    layers = [surface.microroughness for surface in (scene.surface_1, scene.surface_2)]
+    bare = not any(layer and layer.rms > 0.0 for layer in layers)
+    none = "no microroughness" + (": solids touch at the floor" if bare else "")
+    first, second = (
+        f"microroughness {1e9 * layer.rms:.3g} nm rms, waves below {1e6 * layer.longest:.3g} um "
+        "(assumed in shipped scenes)"
+        if layer and layer.rms > 0.0
+        else none
+        for layer in layers
+    )
+    return first, second
+
+
 def _overrides(arguments: argparse.Namespace) -> dict[str, str]:
     refuse_empty(arguments)
     settings = dict(arguments.settings)

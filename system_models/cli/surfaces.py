@@ -6,7 +6,7 @@ from contact_core.errors import ContactError
 from contact_core.scene import Scene
 
 from .console import add_settings
-from .scenes import warn
+from .scenes import microroughness, warn
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -26,12 +26,14 @@ def run(arguments: argparse.Namespace) -> int:
     scene = Scene.from_toml(arguments.scene, settings)
     warn(scene)
     print(f"Grid of {scene.film.points} nodes, {1e6 * scene.film.spacing:.3g} um apart")
-    for body, surface in ((1, scene.surface_1), (2, scene.surface_2)):
+    surfaces = (scene.surface_1, scene.surface_2)
+    for body, (surface, below) in enumerate(zip(surfaces, microroughness(scene), strict=True), 1):
         heights = surface.heights
         made_of = ([surface.name] if surface.rq > 0.0 else []) + ([heights.file or "array"] if heights else [])
         print(f"\nBody {body}: {' and '.join(made_of) or 'smooth'}")
         if made_of:
             print("\n".join(_table(scene, body)))
+        print(below)
     return 0
 
 

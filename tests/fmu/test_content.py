@@ -16,7 +16,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from comparison import approx
+from comparison import HARD, approx
 from fmu_host import SHAPES, SMALL, hosted, unpacked
 
 from contact_core import ConvergenceError, RangeFlag, Scene
@@ -47,6 +47,7 @@ OTHERS = {  # laws that the shipped scenes do not use
     "heat.bulk": "inputs",
     "tribofilm.set": "combined_80c",
     "film.criterion": "lumped",
+    **HARD,
 }
 
 

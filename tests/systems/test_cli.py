@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 import xarray as xr
-from comparison import approx
+from comparison import HARD, approx
 
 from contact_core import OperatingPoint, Scene, shipped_scenes
 from system_models.cli.main import COMMANDS, main
@@ -15,6 +15,12 @@ from system_models.run.duty import Duty
 STILL = [  # nothing grows or wears: one solution serves for ever
     part for setting in ("tribofilm.model=none", "wear.model=none", "heat.model=none") for part in ("--set", setting)
 ]
+
+LUMPED = (
+    "film.criterion = 'lumped' has one pressure for oil and solids; surface_1.microroughness.rms = 4e-09 m and "
+    "surface_2.microroughness.rms = 1.6e-08 m carry a part of it. Set surface_1.microroughness.rms and "
+    "surface_2.microroughness.rms to 0 nm, or use film.criterion = 'split'."
+)
 
 
 def test_list_names_the_shipped_scenes_and_machines(capsys: pytest.CaptureFixture[str]) -> None:
@@ -54,6 +60,7 @@ def test_a_run_prints_a_table_and_writes_three_files(
     assert out.startswith("Azam's case B")
     assert {"friction", "h_c", "lambda", "A_c", "W_c"} < set(out.splitlines()[1].split())
     assert "Pressures that drive tribofilm and wear: dry contact" in out
+    assert "\nBody 1: microroughness 4 nm rms, waves below 4 um (assumed in shipped scenes).\nBody 2: microro" in out
     assert "0.6/0.6 min" in err
     folder = tmp_path / "results" / "mtm_zddp"
     assert {path.name for path in folder.iterdir()} == {"result.nc", "result.csv", "overview.png"}
@@ -64,8 +71,10 @@ def test_a_run_prints_a_table_and_writes_three_files(
 
 
 def test_a_run_of_the_regression_level_says_what_it_knows(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    assert main(["run", "azam_case_a", "--set", "film.model=regression", "--hours", "2", "--out", str(tmp_path)]) == 0
+    settings = ["film.model=regression", *(f"{field}={value}" for field, value in HARD.items())]
+    assert main(["run", "azam_case_a", "--set", *settings, "--hours", "2", "--out", str(tmp_path)]) == 0
     out = capsys.readouterr().out
+    assert all(f"\nBody {body}: no microroughness: solids touch at the floor.\n" in out for body in (1, 2))
     assert "Load cycles: 28 361 of body 1, 7 419 of body 2." in out
     assert "Blocks" not in out
     assert (tmp_path / "overview.png").stat().st_size > 10_000
@@ -120,6 +129,7 @@ def test_a_duty_in_a_scenes_file_is_looked_for_beside_it(
         (["mtm_zddp", "--out", ""], "--out is empty."),
         (["mtm_zddp", "--grid", "40"], "surface_1.correlation_length = 8e-06 m is 0.62 nodes of the grid"),
         (["mtm_zddp", "--grid", "many"], "film.points = 'many' does not start with a number"),
+        (["mtm_zddp", "--set", "film.criterion=lumped"], LUMPED),
         (["mtm_zddp", "--duty", "nowhere.csv"], "The duty file 'nowhere.csv' cannot be read"),
         (["mtm_zddp", "--out", "taken"], "The folder 'taken' cannot be made"),
     ],
@@ -138,6 +148,14 @@ def test_bad_input_is_refused_with_one_sentence_and_code_2(
     assert not out
     assert err.startswith(f"tribofmu: {said}")
     assert err.count("\n") == 1
+
+
+def test_one_pressure_for_oil_and_solids_goes_without_microroughness_alone(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    assert main(["build", "mtm_zddp", "--set", "film.criterion=lumped", "--out", str(tmp_path / "a.fmu")]) == 2
+    assert capsys.readouterr().err == f"tribofmu: {LUMPED}\n"
+    assert Scene.from_toml("mtm_zddp", {"film.criterion": "lumped"} | HARD).film.lumped
 
 
 @pytest.mark.parametrize("command", ["build", "stribeck"])

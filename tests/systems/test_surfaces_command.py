@@ -55,5 +55,41 @@ def test_heights_in_a_wrong_unit_end_the_command_with_a_sentence(
 
 
 def test_smooth_surfaces_are_called_so(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["surfaces", "mtm_zddp", *NO_ROUGHNESS]) == 0
-    assert capsys.readouterr().out.endswith("Body 2: smooth\n")
+    assert main(["surfaces", "dimple_rolling"]) == 0
+    assert "Body 1: smooth\nno microroughness: solids touch at the floor\n" in capsys.readouterr().out
+
+
+def test_roughness_below_the_grid_is_told_of_each_body(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["surfaces", "mtm_zddp", *NO_ROUGHNESS, "surface_1.microroughness.rms=0 nm"]) == 0
+    out = capsys.readouterr().out
+    assert "\nno microroughness\n\nBody 2: smooth\n" in out
+    assert out.endswith("microroughness 16 nm rms, waves below 4 um (assumed in shipped scenes)\n")
+
+
+AFFINE = ["surface_1.model=self_affine", "surface_1.hurst=0.8", "surface_1.roll_off=60 um", "surface_1.cut_off=3 um"]
+
+
+@pytest.mark.parametrize(
+    ("changes", "shown"),
+    [
+        (["film.points=257"], None),
+        (["film.points=257", "surface_1.microroughness.longest=8 um"], "5.59e-06"),  # of Gaussian roughness none below
+        (["film.points=129", "surface_1.microroughness.longest=8 um"], "7.81e-06"),  # two nodes
+        (["film.points=513", *AFFINE], "3e-06"),
+        (["film.points=257", *AFFINE], "3.91e-06"),
+        (["film.points=129", *AFFINE], None),
+        (["film.points=513", *AFFINE, "surface_1.microroughness.rms=0 nm"], None),
+        (["film.points=129", "surface_1.rq=0 nm", "surface_1.microroughness.longest=8 um"], None),
+    ],
+)
+def test_waves_that_count_twice_are_warned_about(
+    capsys: pytest.CaptureFixture[str], changes: list[str], shown: str | None
+) -> None:
+    assert main(["surfaces", "mtm_zddp", "--set", *changes]) == 0
+    err = capsys.readouterr().err
+    assert ("count twice" in err) == (shown is not None)
+    if shown:
+        assert f"but the grid shows waves down to {shown} m: those between count twice." in err
+        assert f"Set microroughness.longest to {shown} m at most" in err
+        assert main(["surfaces", "mtm_zddp", "--set", *changes, f"surface_1.microroughness.longest={shown} m"]) == 0
+        assert "count twice" not in capsys.readouterr().err

@@ -11,7 +11,6 @@ from scipy.integrate import quad
 from wavy_contact import axis, problem
 
 from benchmarks.film.cases import RoughCase, grid_of, instant_of_call
-from contact_core.errors import SceneError
 from contact_core.film.instant import Settings
 from contact_core.film.routes import solve_film
 from contact_core.film.scaled import Scaled
@@ -186,12 +185,6 @@ def test_a_steady_film_that_stays_short_of_its_balance_closes_at_the_end_of_a_ma
     assert closed.iterations > 300 or closed.imbalance < alone.imbalance
     it = alone.iterate
     assert share == approx((it.pressure - it.fluid).sum() / it.pressure.sum(), abs=0.05)
-
-
-def test_one_pressure_for_both_is_refused_with_the_fields_named():
-    now, grid = rough(0.3, 10e-9, 33)
-    with pytest.raises(SceneError, match=r"film.criterion = 'lumped'.*'split'"):
-        solve_film(now, grid, Settings(1e-9, 3e-3, 200, "scipy", lumped=True, fitted=True))
 
 
 def test_multigrid_ignores_asperities_out_of_reach_and_declines_others():

@@ -2,6 +2,7 @@
 
 import json
 import pickle
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -205,6 +206,8 @@ def test_a_wrong_unit_is_refused_with_value_range_and_way_out(folder, file, unit
         ({"file": "patch.txt"}, r"file = 'patch\.txt' cannot be read: its name ends with '\.txt'"),
         ({"file": "words.csv"}, r"file = 'words\.csv' cannot be read: .* Give numbers as \.npy, or as \.csv"),
         ({"file": "objects.npy"}, r"file = 'objects\.npy' cannot be read: .*"),
+        ({"file": "several.npy"}, r"several\.npy' cannot be read: it is a \.npz archive; save one of its arrays with"),
+        ({"file": "complex.npy"}, r"file = 'complex\.npy' cannot be read: its type is complex128\. Give numbers"),
         ({"file": "holes.npy"}, r"file = 'holes\.npy' has 2 of 400 numbers that are not finite\. Fill them in\."),
         ({"file": "line.npy"}, r"holds numbers of the shape \(20,\); rows and columns are needed"),
         ({"file": "flat.npy"}, r"makes the rms height of the file 0 m; .* for a smooth surface leave heights out"),
@@ -223,6 +226,9 @@ def test_heights_that_cannot_be_used_are_refused_with_a_way_out(folder, changes,
     holes[3, 4:6] = np.nan
     np.save("holes.npy", holes)
     np.save("line.npy", np.ones(20))
+    np.save("complex.npy", np.ones((20, 20), dtype=complex))
+    with Path("several.npy").open("wb") as archive:
+        np.savez(archive, one=np.ones((20, 20)), two=np.ones((20, 20)))
     np.save("objects.npy", np.array([[{}, 1], [2, 3]], dtype=object), allow_pickle=True)
     Path("patch.txt").write_text("1,2\n3,4\n")
     Path("words.csv").write_text("x,y\n3,4\n")
@@ -276,6 +282,30 @@ def test_an_array_is_copied_and_checked():
         scene.with_heights(3, array, 1e-6)
     with pytest.raises(SceneError, match=r"surface_1\.heights holds numbers of the shape \(7,\)"):
         scene.with_heights(1, np.ones(7), 1e-6)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"heights": [[1.0, 2.0], [3.0]]}, "surface_2.heights cannot be used: its rows are of unequal length. Give"),
+        ({"heights": measured() * 1j}, "surface_2.heights cannot be used: its type is complex128. Give real numbers"),
+        ({"spacing": "8"}, "surface_2.heights.spacing = '8' has no unit. Write for example '1.0 m'."),
+        ({"spacing": None}, "surface_2.heights.spacing = None is not a number. Write for example '1.0 m'."),
+        ({"spacing": np.nan}, "surface_2.heights.spacing = nan m"),
+        ({"unit": 1e-9}, "surface_2.heights.unit = 1e-09 is not one of m, mm, um, nm."),
+        ({"beyond": True}, "surface_2.heights.beyond = True is not one of mirrored, repeated, flat."),
+    ],
+)
+def test_arrays_that_cannot_be_used_are_refused_with_a_way_out(changes, said):
+    given = {"heights": measured(), "spacing": 1e-6} | changes
+    with pytest.raises(SceneError, match=re.escape(said)):
+        Scene.from_toml("azam_case_a").with_heights(2, **given)
+
+
+def test_the_spacing_of_an_array_is_a_number_in_metres_or_text_with_a_unit():
+    scene = Scene.from_toml("azam_case_a")
+    asked = scene.with_heights(2, measured(), 1e-6)
+    assert scene.with_heights(2, measured(), "1 um") == asked == scene.with_heights(2, measured(), np.float64(1e-6))
 
 
 def test_a_smooth_line_with_heights_is_solved_in_all_its_rows():
