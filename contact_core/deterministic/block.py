@@ -9,6 +9,8 @@ share anew every few blocks. `sampling` has the instants of both.
 import math
 from dataclasses import replace
 
+import numpy as np
+
 from ..laws.tribofilm import DOSES
 from ..scene import Case, Scene
 from ..state import Body, ContactState, RangeFlag
@@ -33,6 +35,9 @@ _SHORTEST = 0.05  # of control.longest: no block is shorter to keep wear stable;
 _LONGER = 2.0  # a block may be so much longer than the one before
 _EDGE = 3  # rows and columns at the edge that the scar must not reach
 _WIDEST = 4  # times the scene's rows
+# of the depth that Hertz's contact flattens: a moving body whose wear has a higher first wave along x has a scar made
+# at rest or at a creep; faster motion alone has made less than a fifth of it, also where wear is heavy
+_UNEVEN = 0.02
 
 
 def is_due(case: Case, state: ContactState) -> bool:
@@ -108,6 +113,15 @@ def _worn_at_the_ends(case: Case, state: ContactState) -> bool:
         if not side.moves
     ]
     return any(scar[:, [*range(_EDGE), *range(-_EDGE, 0)]].max() > 1e-3 * scar.max() for scar in scars)
+
+
+def _scar_moves(case: Case, state: ContactState) -> bool:
+    """Return True if a moving body carries a scar made at rest, which its patch repeats all along the track."""
+    if not case.loaded:
+        return False
+    least = _UNEVEN * 0.5 * case.hertz.a**2 / case.shape.radius_x
+    along = [state.bodies[side.body].wear.mean(axis=0) for side in case.sides if side.moves]
+    return any(2.0 * abs(np.fft.rfft(wear, norm="forward")[1]) > least for wear in along)
 
 
 def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1) -> ContactState:
@@ -195,6 +209,6 @@ def _flags_of_motion(case: Case, state: ContactState, driver: str) -> RangeFlag:
         flags |= RangeFlag.SLOW_BODY
     if case.loaded and _stable_time(case, state.bodies) < _SHORTEST * case.scene.control.longest:
         flags |= RangeFlag.STIFF_WEAR
-    if _worn_at_the_edge(case, state) or _worn_at_the_ends(case, state):
+    if _worn_at_the_edge(case, state) or _worn_at_the_ends(case, state) or _scar_moves(case, state):
         flags |= RangeFlag.DOMAIN_EDGE
     return flags

@@ -25,7 +25,7 @@ class RangeFlag(IntFlag):
     INLET_UNRESOLVED = 4, "the grid is too coarse for the film in the inlet: the film depends on this grid"
     NOT_CONVERGED = 8, "over a tenth of the block's film solutions did not converge and were used as they were"
     FALLBACK = 16, "the dry solution replaced a film solution in part of the block"
-    DOMAIN_EDGE = 32, "the contact or the wear scar reaches the edge of the grid"
+    DOMAIN_EDGE = 32, "the contact or a wear scar reaches the edge of the grid, or a scar made at rest moves across it"
     FEW_NODES = 64, "fewer than 8 nodes across the Hertz contact at this load"
     SLOW_BODY = 128, "a block samples only part of the slower body's track: its tribofilm and wear are uneven along it"
     STIFF_WEAR = 256, "blocks are longer than the limit of stable wear: fine roughness and A_c are less sure"

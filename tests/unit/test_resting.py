@@ -125,6 +125,18 @@ def test_a_groove_of_earlier_motion_neither_flags_a_scar_at_rest_nor_keeps_it_fr
     assert state.rows > scene.rows
 
 
+def test_a_scar_made_at_rest_is_flagged_while_its_body_moves():
+    """The patch repeats it all along the track; the volume is that of the one scar."""
+    scene, state, op = cheap(PIN, control__dry_instants=8)
+    moved, outputs = advance(scene, replace(op, speed_2=0.05), state, 600.0)
+    assert not RangeFlag(outputs.range_flags) & RangeFlag.DOMAIN_EDGE
+    scarred, still = slid(scene, moved, op, [600.0])
+    assert not RangeFlag(still.range_flags) & RangeFlag.DOMAIN_EDGE
+    _, outputs = advance(scene, op, scarred, 1.0)
+    assert RangeFlag(outputs.range_flags) & RangeFlag.DOMAIN_EDGE
+    assert outputs.wear_volume_1 == approx(still.wear_volume_1, rel=1e-3)
+
+
 @pytest.mark.parametrize("shape", [LINE, ROLLER], ids=["line", "roller"])
 def test_archards_volume_is_met_by_bodies_at_rest_of_other_shapes(shape):
     scene, state, op = cheap(shape | {"tribofilm.model": "none", "wear.bare": "1e-8"})
