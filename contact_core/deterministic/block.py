@@ -35,8 +35,8 @@ _SHORTEST = 0.05  # of control.longest: no block is shorter to keep wear stable;
 _LONGER = 2.0  # a block may be so much longer than the one before
 _EDGE = 3  # rows and columns at the edge that the scar must not reach
 _WIDEST = 4  # times the scene's rows
-# of the depth that Hertz's contact flattens: a moving body whose wear has a higher first wave along x has a scar made at
-# rest or at a creep; faster motion alone has made less than a fifth of it, also where wear is heavy
+# of the depth that Hertz's contact flattens: a moving body whose wear has a higher first wave along x has a scar made
+# at rest or at a creep; faster motion alone has made less than a fifth of it, also where wear is heavy
 _UNEVEN = 0.02
 
 
