@@ -46,7 +46,7 @@ class Accumulator:
         return Accumulator(*tracks, np.zeros((rows, columns + 1)))
 
     def restarted(self, state: ContactState, kept: RangeFlag) -> "Accumulator":
-        """Return empty sums that keep iterations, the share that has not converged and, of the flags, those in `kept`."""
+        """Return empty sums that keep iterations, the share not converged and, of the flags, those in `kept`."""
         sums = Accumulator.before(state)
         sums.flags, sums.iterations, sums.before_dry = self.flags & kept, self.iterations, self.share_unconverged
         return sums
