@@ -26,19 +26,18 @@ Everything inside is SI; heights are metres above a body's mean plane, positive 
 [ny, nx], x along entrainment.
 """
 
-from .advance import advance, warm_up
+from .advance import advance, uncertainty, warm_up
 from .calls.dry_contact import DryContact, dry_contact
 from .calls.line_contact import LineContact, line_contact
 from .calls.point_contact import PointContact, point_contact
 from .deterministic.instant import ContactFields, Transient, solve
 from .deterministic.march import Moment, march, run_cycle
-from .deterministic.outputs import uncertainty
 from .deterministic.transient import parted
 from .errors import ContactError, ConvergenceError, FilmTooWideError, OperatingPointError, SceneError, StateError
 from .laws.profile import Logarithmic, Rounded
 from .scene import OperatingPoint, Scene
 from .scene.toml import shipped_scenes
-from .state import ContactState, Outputs, RangeFlag, initial_state
+from .state import ContactState, Error, Outputs, RangeFlag, initial_state
 from .surfaces.profiles import Track, track_of
 
 __version__ = "0.1.0"
@@ -49,6 +48,7 @@ __all__ = [
     "ContactState",
     "ConvergenceError",
     "DryContact",
+    "Error",
     "FilmTooWideError",
     "LineContact",
     "Logarithmic",

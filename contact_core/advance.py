@@ -11,7 +11,7 @@ from . import deterministic, regression
 from .errors import ContactError, OperatingPointError
 from .film import Deterministic, Regression
 from .scene import Case, OperatingPoint, Scene
-from .state import ContactState, Outputs, initial_state
+from .state import ContactState, Error, Outputs, initial_state
 
 _LONGEST_STEP = 1e9  # s: a longer one is a mistake, and would never end
 _POINTS = 25  # nodes along an axis: enough for each stage of a contact, too few to cost time
@@ -26,6 +26,9 @@ class Level(Protocol):
 
     def warm_up(self, case: Case, state: ContactState) -> None:
         """Load what the first steps need, by solving once."""
+
+    def errors_of(self, scene: Scene, state: ContactState) -> dict[str, Error]:
+        """Return the errors of the outputs of a state."""
 
 
 LEVELS: dict[str, Level] = {Deterministic.name: deterministic, Regression.name: regression}
@@ -50,6 +53,15 @@ def advance(scene: Scene, op: OperatingPoint, state: ContactState, dt: float) ->
     if not 0.0 <= dt <= _LONGEST_STEP:
         raise OperatingPointError(f"The step dt = {dt!r} s must be at least 0 and at most {_LONGEST_STEP:g} s.")
     return LEVELS[scene.film.name].advance(case, state, dt)
+
+
+def uncertainty(scene: Scene, state: ContactState) -> dict[str, Error]:
+    """Return the errors of the outputs of a state by name: half widths (95 %), each in the unit of its output.
+
+    Each is apart by its causes (time steps, sampling, grid, iteration, fitted curves) and, by `Error.together`, one
+    number. `scene` is that of the last step, at its level.
+    """
+    return LEVELS[scene.film.name].errors_of(scene, state)
 
 
 def warm_up(scene: Scene) -> None:

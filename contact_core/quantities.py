@@ -67,6 +67,7 @@ class Quantity:
     relative: bool = False  # a temperature difference, not a temperature
     levels: tuple[str, ...] = LEVELS  # fidelity levels that have it; others keep its last value, or zero
     trend: Trend = ""  # how the deterministic level follows it from block to block, see `Trend`
+    error: str = ""  # output that states the half width of its error: relative, or absolute where it says so
 
     @property
     def quantity(self) -> str:
@@ -95,8 +96,8 @@ INPUTS: tuple[Quantity, ...] = (
 )
 
 OUTPUTS: tuple[Quantity, ...] = (
-    Quantity("friction_force", "F", "N", "friction force on body 1 along +x", nominal=1.0, trend="level"),
-    Quantity("friction_coefficient", "mu", "1", "|friction_force| / load, 0 at zero load", nominal=0.1, minimum=0.0),
+    Quantity("friction_force", "F", "N", "friction force on body 1 along +x", nominal=1.0, trend="level", error="error_friction"),
+    Quantity("friction_coefficient", "mu", "1", "|friction_force| / load, 0 at zero load", nominal=0.1, minimum=0.0, error="error_friction"),
     Quantity("rolling_resistance", "F_r", "N",
              "integral of (h/2) dp/dx over the fluid film; the force on each surface is the opposite along +x; not in power_loss", nominal=0.1, trend="level"),
     Quantity("friction_solid", "F_s", "N", "part of friction_force where solids touch", nominal=1.0, trend="level"),
@@ -110,24 +111,24 @@ OUTPUTS: tuple[Quantity, ...] = (
           ("load", "W", "1", 0.1, "load"),
           ("temperature", "T", "N/K", 0.01, "the temperature of oil and bodies together"))),
     *_pair("wear_rate", "dV/dt", "m3/s", "wear volume of the step divided by the step; at a step of 0 the rate now", nominal=1e-17, minimum=0.0, display="um3/s"),
-    *_pair("wear_volume", "V", "m3", "wear volume of the whole track", nominal=1e-14, minimum=0.0, display="um3"),
-    *_pair("wear_depth", "w", "m", "mean wear depth over the track |y| < b", nominal=1e-8, minimum=0.0, display="nm", trend="rate"),
-    Quantity("h_c", "h_c", "m", "central film thickness: mean gap over the inner 2/3 of Hertz's contact, r < 2a/3, or such an ellipse or strip", nominal=1e-8, minimum=0.0, display="nm", trend="level"),
+    *_pair("wear_volume", "V", "m3", "wear volume of the whole track", nominal=1e-14, minimum=0.0, display="um3", error="error_wear"),
+    *_pair("wear_depth", "w", "m", "mean wear depth over the track |y| < b", nominal=1e-8, minimum=0.0, display="nm", trend="rate", error="error_wear"),
+    Quantity("h_c", "h_c", "m", "central film thickness: mean gap over the inner 2/3 of Hertz's contact, r < 2a/3, or such an ellipse or strip", nominal=1e-8, minimum=0.0, display="nm", trend="level", error="error_film"),
     Quantity("h_central", "h_central", "m", "gap at the centre of the contact: one node, of a rough contact no film thickness", nominal=1e-8, minimum=0.0, display="nm", trend="level"),
     Quantity("h_min", "h_min", "m", "smallest gap", nominal=1e-9, minimum=0.0, display="nm", levels=_FIELDS, trend="level"),
-    Quantity("lambda_ratio", "lambda", "1", "h_c / composite rms roughness over the same area, at most 1000; of rough, deformed bodies: not the lambda of handbooks", minimum=0.0, trend="level"),
-    *_pair("tribofilm", "h_t", "m", "mean tribofilm thickness over the track |y| < b, all nodes", nominal=1e-8, minimum=0.0, display="nm", trend="slope"),
+    Quantity("lambda_ratio", "lambda", "1", "h_c / composite rms roughness over the same area, at most 1000; of rough, deformed bodies: not the lambda of handbooks", minimum=0.0, trend="level", error="error_film"),
+    *_pair("tribofilm", "h_t", "m", "mean tribofilm thickness over the track |y| < b, all nodes", nominal=1e-8, minimum=0.0, display="nm", trend="slope", error="error_tribofilm"),
     *_pair("tribofilm_roughness", "Rq_t", "m", "rms deviation of the tribofilm thickness over |y| < 2b/3", nominal=1e-8, minimum=0.0, display="nm"),
     *_pair("roughness", "Rq", "m", "rms roughness over |y| < 2b/3, free of the groove's shape", nominal=1e-8, minimum=0.0, display="nm", trend="slope"),
     Quantity("contact_area_ratio", "A_c", "1", "real contact area / Hertz area", minimum=0.0, trend="level"),
-    Quantity("contact_load_ratio", "W_c", "1", "load carried by the solids / load", minimum=0.0, maximum=1.0, trend="level"),
+    Quantity("contact_load_ratio", "W_c", "1", "load carried by the solids / load", minimum=0.0, maximum=1.0, trend="level", error="error_load_ratio"),
     Quantity("pressure_max", "p_max", "Pa", "largest pressure", nominal=1e9, minimum=0.0, display="GPa", levels=_FIELDS, trend="level"),
     Quantity("flash_temperature_rise", "dT_f", "K", "mean rise of the surfaces over the bulk temperatures in the real contact", relative=True, trend="level"),
     *_pair("temperature", "T", "K", "bulk temperature", nominal=350.0, minimum=0.0, display="degC"),
     Quantity("heat_flow_1", "Q_1", "W", "heat that the contact puts into the body, body 1", nominal=1.0, trend="level"),
     Quantity("heat_flow_2", "Q_2", "W", "heat that the contact puts into the body, body 2", nominal=1.0),
     Quantity("approach", "delta", "m", "approach of the bodies from first touching of the undeformed, smooth shapes", nominal=1e-6, display="um", trend="level"),
-    Quantity("valid", "", "", "false: the last input could not be used; state and outputs stand as they were", kind="Boolean"),
+    Quantity("valid", "", "", "false: the last input could not be used, and state and outputs stand as they were; or the stated error of friction or film is 100 % or more", kind="Boolean"),
     Quantity("fidelity_used", "", "", "fidelity level that gave the outputs: 1 regression, 2 deterministic, 0 none yet", kind="Integer", minimum=0, maximum=2),
     Quantity("range_flags", "", "", "sum of the RangeFlag values raised (see RangeFlag)", kind="Integer", minimum=0),
     Quantity("iterations", "", "", "film iterations in the last step", kind="Integer", minimum=0, levels=_FIELDS),
@@ -142,10 +143,11 @@ OUTPUTS: tuple[Quantity, ...] = (
     *_pair("roughness_ra", "Ra", "m", "arithmetic mean roughness over |y| < 2b/3, free of the groove's shape", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm", levels=_FIELDS),
     *_pair("coverage", "C", "1", "share of the track |y| < b with a tribofilm above 1 nm", role="diagnostic", minimum=0.0, maximum=1.0),
     *_pair("roughness_raw", "Rq_raw", "m", "rms roughness over |y| < 2b/3, groove included", role="diagnostic", nominal=1e-8, minimum=0.0, display="nm", levels=_FIELDS),
-    Quantity("error_friction", "", "1", "half width of friction_coefficient's error, relative: by time steps and sampling, or by the fit of the level", role="diagnostic", minimum=0.0),
-    Quantity("error_film", "", "1", "half width of h_c's error, relative: by time steps and sampling, or by the fit of the level", role="diagnostic", minimum=0.0),
-    Quantity("error_tribofilm", "", "1", "half width of the mean tribofilms' error, relative, the larger one: by time steps and sampling, or by the fit of the level", role="diagnostic", minimum=0.0),
-    Quantity("error_wear", "", "1", "half width of the wear depths' error, relative, the larger one: by time steps and sampling, or by the fit of the level", role="diagnostic", minimum=0.0),
+    Quantity("error_friction", "", "1", "half width (95 %) of friction_coefficient's error by all causes, relative", role="diagnostic", minimum=0.0),
+    Quantity("error_film", "", "1", "half width (95 %) of h_c's error by all causes, relative", role="diagnostic", minimum=0.0),
+    Quantity("error_load_ratio", "", "1", "half width (95 %) of contact_load_ratio's error by all causes, absolute", role="diagnostic", minimum=0.0),
+    Quantity("error_tribofilm", "", "1", "half width (95 %) of the mean tribofilms' error by all causes, relative, the larger one", role="diagnostic", minimum=0.0),
+    Quantity("error_wear", "", "1", "half width (95 %) of the wear depths' error by all causes, relative, the larger one", role="diagnostic", minimum=0.0),
     Quantity("unconverged", "", "1", "share of the last block's film solutions that did not converge", role="diagnostic", minimum=0.0, maximum=1.0, levels=_FIELDS),
     Quantity("blocks_dry", "", "1", "solved blocks so far that dry contact pressures drove", role="diagnostic", minimum=0.0, levels=_FIELDS),
     Quantity("blocks_mixed", "", "1", "solved blocks so far that mixed lubrication pressures drove", role="diagnostic", minimum=0.0, levels=_FIELDS),
@@ -159,6 +161,9 @@ OF_CALLER = {"valid", "fidelity_used"}  # outputs that the core leaves to its ca
 OF_CORE = tuple(q for q in OUTPUTS if q.name not in OF_CALLER)
 
 TABLE: dict[str, Quantity] = {q.name: q for q in (*INPUTS, *OUTPUTS)}
+
+STATED = {q.name: q.error for q in OUTPUTS if q.error}  # outputs whose error is an output, and which one
+ABSOLUTE = frozenset({"error_load_ratio"})  # errors in the unit of their output; the others are relative to it
 
 
 def parameter(

@@ -3,13 +3,12 @@
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
-from ..scene import Case, Side
-from ..state import Body, ContactState, Outputs, RangeFlag
+from ..scene import Case, Scene, Side
+from ..state import Body, ContactState, Error, Outputs, RangeFlag, flag_of_errors
 from ..state.bulk_temperature import heat_flows, power_loss
 from ..surfaces.patches import surface_now
 from ..surfaces.roughness import mean_roughness, rms_roughness
+from .solution_error import with_errors_of_the_solution
 
 _COVERED = 1e-9  # a thinner tribofilm does not count as coverage [m]
 _UPPER = 0.8  # of the thickest tribofilm: nodes of the mean of the thick film
@@ -25,10 +24,12 @@ def outputs_of(case: Case, state: ContactState, suggested_step: float) -> Output
     flags = RangeFlag(out.range_flags) & ~RangeFlag.TRIBOFILM_TEMPERATURE
     if not all(case.scene.tribofilm.covers(side.temperature) for side in case.sides):
         flags |= RangeFlag.TRIBOFILM_TEMPERATURE
+    errors = _error_outputs(case.scene, replace(state, outputs=replace(out, **values)), values)
+    flags = flags & ~RangeFlag.UNSURE | flag_of_errors(errors, case.scene.control.accuracy)
     return replace(
         out,
         **values,
-        **_errors(state, values),
+        **errors,
         range_flags=int(flags),
         friction_fluid=out.friction_force - out.friction_solid,
         heat_flow_2=heat_flows(case, out)[1],
@@ -58,34 +59,33 @@ def _of_surface(case: Case, side: Side, body: Body) -> dict[str, float]:
     }
 
 
-def uncertainty(state: ContactState) -> dict[str, tuple[float, float]]:
-    """Return the errors by time steps and by sampling of the moving surfaces, apart from each other.
-
-    Keys are names of outputs, values half widths (two sigma) in the unit of the output. The grid's error is in neither.
-    """
-    found = state.trends.half_widths()
-    force = abs(state.outputs.friction_force)
-    scale = state.outputs.friction_coefficient / force if force > 0.0 else 0.0
+def errors_of(scene: Scene, state: ContactState) -> dict[str, Error]:
+    """Return the errors of the outputs by name, each in the unit of its output, apart by their causes."""
+    out, trends = state.outputs, state.trends
+    found = {name: Error(time=time, sampling=sampling) for name, (time, sampling) in trends.half_widths().items()}
     for i, body in enumerate(state.bodies):
         name = f"roughness_{i + 1}"
-        roughness = getattr(state.outputs, name)
+        roughness = getattr(out, name)
         if roughness > 0.0:  # the noise of wear adds to its square
-            found[name] = found[name][0], min(0.5 * body.noise / roughness, roughness)
-    time, sampling = found["friction_force"]
-    return found | {"friction_coefficient": (time * scale, sampling * scale)}
+            found[name] = found[name]._replace(sampling=min(0.5 * body.noise / roughness, roughness))
+    if state.solved_for is not None and state.solved_for.load > 0.0:
+        found = with_errors_of_the_solution(Case(scene, state.solved_for), out, found)
+    force = abs(out.friction_force)
+    scale = out.friction_coefficient / force if force > 0.0 else 0.0
+    return found | {"friction_coefficient": found["friction_force"].scaled(scale)}
 
 
-def _errors(state: ContactState, values: dict[str, Any]) -> dict[str, Any]:
-    """Return both errors together, relative to the outputs they belong to."""
-    found = uncertainty(state)
+def _error_outputs(scene: Scene, state: ContactState, values: dict[str, Any]) -> dict[str, Any]:
+    """Return the errors by all causes together, relative to the outputs they belong to."""
+    found, out = errors_of(scene, state), state.outputs
 
     def relative(name: str, value: float) -> float:
-        return float(np.hypot(*found[name])) / abs(value) if value != 0.0 else 0.0
+        return found[name].together / abs(value) if value != 0.0 else 0.0
 
-    out = state.outputs
     return {
         "error_friction": relative("friction_coefficient", out.friction_coefficient),
         "error_film": relative("h_c", out.h_c),
+        "error_load_ratio": found["contact_load_ratio"].together,
         "error_tribofilm": max(relative(name, values[name]) for name in ("tribofilm_1", "tribofilm_2")),
         "error_wear": max(relative(name, values[name]) for name in ("wear_depth_1", "wear_depth_2")),
     }

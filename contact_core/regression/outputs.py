@@ -4,8 +4,8 @@ import math
 from typing import Any
 
 from ..laws.load_sharing import FittedSharing
-from ..scene import Case
-from ..state import Outputs, RangeFlag, changed
+from ..scene import Case, Scene
+from ..state import ContactState, Error, Outputs, RangeFlag, changed, flag_of_errors
 from .contact import MeanContact
 from .surfaces import Means, Tribofilms, regression_film
 
@@ -34,7 +34,7 @@ def outputs_of(
     force = contact.solid + contact.fluid
     hot_1, hot_2 = case.op.bodies
     first, second = means
-    longest = _LONGEST * case.scene.operation.duration
+    longest, errors = _LONGEST * case.scene.operation.duration, _errors(case, contact)
     return changed(
         _BLANK,
         friction_force=force,
@@ -71,7 +71,7 @@ def outputs_of(
         heat_flow_2=contact.power - contact.into_1,
         spin_torque=contact.spin_torque,
         approach=case.unit_hertz.approach_at(case.op.load) - contact.gap,
-        range_flags=_flags(case, contact),
+        range_flags=_flags(case, contact) | int(flag_of_errors(errors, case.scene.control.accuracy)),
         suggested_step=min(case.scene.control.change / speed, longest) if speed > 0.0 else longest,
         load_cycles_1=first.cycles,
         load_cycles_2=second.cycles,
@@ -80,7 +80,7 @@ def outputs_of(
         blocks_dry=before.blocks_dry,
         blocks_mixed=before.blocks_mixed,
         blocks_fallback=before.blocks_fallback,
-        **_errors(case, contact),
+        **errors,
     )
 
 
@@ -138,9 +138,28 @@ def _errors(case: Case, contact: MeanContact) -> dict[str, Any]:
     return {
         "error_friction": min(friction, max(solid / force, 1.0)),
         "error_film": min(wider * widths.of_film(clearance), 1.0),
+        "error_load_ratio": min(load, 1.0),
         "error_tribofilm": _LOCAL if case.scene.tribofilm.abrades else exposed,
         "error_wear": wear,
     }
+
+
+def errors_of(scene: Scene, state: ContactState) -> dict[str, Error]:
+    """Return the errors of the outputs by name, each in the unit of its output; all by the curves."""
+    out = state.outputs
+    given = {
+        "friction_force": abs(out.friction_force) * out.error_friction,
+        "friction_coefficient": out.friction_coefficient * out.error_friction,
+        "h_c": out.h_c * out.error_film,
+        "lambda_ratio": out.lambda_ratio * out.error_film,
+        "contact_load_ratio": out.error_load_ratio,
+    }
+    for body in (1, 2):
+        given |= {
+            f"{name}_{body}": getattr(out, f"{name}_{body}") * error
+            for name, error in (("tribofilm", out.error_tribofilm), ("wear_depth", out.error_wear))
+        }
+    return {name: Error(curves=half) for name, half in given.items()}
 
 
 def _run_in(case: Case, contact: MeanContact) -> float:

@@ -134,7 +134,7 @@ def _duty_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
     times = [step.time for step in scene.operation.steps]
     if times and scene.operation.file:
         yield "duty", f"operation.steps and operation.file = '{scene.operation.file}' exclude each other. Keep one."
-    for name, point in _duty_points(scene):
+    for name, point in duty_points(scene):
         said = refusal(scene, point)
         if said:
             yield "radii", f"{name}: {said}"
@@ -146,7 +146,7 @@ def _duty_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
         yield "duty", f"The times of operation.steps, {times} s, must be above 0 and increase."
 
 
-def _duty_points(scene: SceneFields) -> Iterator[tuple[str, OperatingPoint]]:
+def duty_points(scene: SceneFields) -> Iterator[tuple[str, OperatingPoint]]:
     """Yield names and values of the duty's operating points."""
     yield "operation", scene.operation.point
     for i, step in enumerate(scene.operation.steps):
@@ -157,7 +157,7 @@ def _duty_points(scene: SceneFields) -> Iterator[tuple[str, OperatingPoint]]:
 
 def _temperatures(scene: SceneFields) -> Iterator[tuple[str, float]]:
     """Yield the temperatures of the duty that act on the tribofilm, and the words before their name."""
-    for name, point in _duty_points(scene):
+    for name, point in duty_points(scene):
         if scene.heat.bulk.from_inputs:
             yield from ((f"{name}: body {i + 1}, ", warm) for i, warm in enumerate(point.bodies))
         else:

@@ -6,6 +6,16 @@ from ..laws.base import Density, Rheology, Supply, Viscosity
 from ..laws.supply import Flooded
 from ..quantities import parameter
 
+ACCURACY = "control.accuracy"
+CHOSEN = (  # fields that it chooses where a scene does not give them
+    "film.points",
+    "film.domain",
+    "film.tolerance",
+    "control.change",
+    "control.mixed_instants",
+    "control.dry_instants",
+)
+
 
 @dataclass(frozen=True)
 class Solids:
@@ -73,4 +83,13 @@ class Control:
         "follows the change",
         choices=("quasi_steady", "transient"),
         default="quasi_steady",
+    )
+    accuracy: float | None = parameter(
+        "",
+        "half width (95 %) asked for of the error of friction_coefficient and h_c, relative, and of "
+        "contact_load_ratio: chooses grid, tolerance, blocks and instants that the scene does not give",
+        above=0.0,
+        most=1.0,
+        shapes_arrays=True,
+        default=None,
     )

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from ..errors import SceneError
 from ..film import FILMS
 from . import checks
+from .accuracy import planned, provisional
 from .fields import SceneFields
 from .height_map import HeightMap
 from .heights import Heights
@@ -44,11 +45,12 @@ class Scene(SceneFields):
 
         Files of heights are looked for in the folders, in their order; without any in the working folder.
         """
-        scene: Scene = build(Scene, completed(table), "")
+        filled, open_fields = provisional(completed(table))
+        scene: Scene = build(Scene, filled, "")
         first, second = (
             getattr(scene, name).with_file(name, folders or (Path(),)) for name in ("surface_1", "surface_2")
         )
-        return checked(replace(scene, surface_1=first, surface_2=second))
+        return checked(planned(replace(scene, surface_1=first, surface_2=second), open_fields))
 
     def with_heights(
         self, body: int, heights: ArrayLike, spacing: float | str, unit: str = "m", beyond: str = "mirrored"

@@ -15,6 +15,7 @@ from ..laws import SLOTS
 from ..laws.base import Model
 from ..shapes import GEOMETRIES
 from . import units
+from .records import ACCURACY, CHOSEN
 from .self_affine import SelfAffine
 from .surface import Surface
 
@@ -78,8 +79,12 @@ def models_of(path: str) -> tuple[type[Model], ...]:
 def override(table: dict[str, Any], key: str, value: str) -> None:
     """Set a dotted key.
 
-    A new `model` keeps the keys it shares with the old one and drops the others; a new `set` drops all other keys.
+    A new `model` keeps the keys it shares with the old one and drops the others; a new `set` drops all other keys;
+    `control.accuracy` drops those that it chooses, but for film.domain.
     """
+    if key == ACCURACY:
+        for part, field in (name.split(".") for name in CHOSEN if name != "film.domain"):
+            table.get(part, {}).pop(field, None)
     *path, last = key.split(".")
     where = ".".join(path)
     for part in path:
@@ -253,8 +258,8 @@ def full_key(key: str, value: str) -> str:
 
 
 def override_order(item: tuple[str, str]) -> int:
-    """Return the rank in which an override is applied: sets and models first, for they decide what keys there are."""
-    return {"set": 0, "model": 1}.get(item[0].rpartition(".")[2], 2)
+    """Return the rank in which an override is applied: sets, models and accuracy first; they decide on other keys."""
+    return {"set": 0, "model": 1, "accuracy": 2}.get(item[0].rpartition(".")[2], 3)
 
 
 def completed(table: Mapping[str, Any]) -> dict[str, Any]:

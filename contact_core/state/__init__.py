@@ -2,6 +2,7 @@
 
     state              `ContactState` with its bodies and track means, as records and as bytes
     outputs            `Outputs` and `RangeFlag`
+    error              `Error` of an output, by its causes
     trends             outputs without their noise, errors of time steps and of sampling
     storage            records of numbers and arrays as bytes and back
     bulk_temperature   temperatures of the bodies from the heat of the contact, for both levels
@@ -9,7 +10,19 @@
 Records are frozen: a step returns new ones.
 """
 
-from .outputs import Outputs, RangeFlag
+from .error import Error
+from .outputs import Outputs, RangeFlag, flag_of_errors, is_known
 from .state import Body, ContactState, Mean, changed, initial_state
 
-__all__ = ["Body", "ContactState", "Mean", "Outputs", "RangeFlag", "changed", "initial_state"]
+__all__ = [
+    "Body",
+    "ContactState",
+    "Error",
+    "Mean",
+    "Outputs",
+    "RangeFlag",
+    "changed",
+    "flag_of_errors",
+    "initial_state",
+    "is_known",
+]

@@ -1,5 +1,6 @@
 """The outputs of the core, and flags for answers that are less sure than usual."""
 
+from collections.abc import Mapping
 from dataclasses import make_dataclass
 from enum import IntFlag
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -31,6 +32,7 @@ class RangeFlag(IntFlag):
     STIFF_WEAR = 256, "blocks are longer than the limit of stable wear: fine roughness and A_c are less sure"
     OUTSIDE_FIT = 512, "outside the points to which the curves of the regression level were fitted"
     OTHER_LEVEL = 1024, "outputs of the deterministic level alone keep their last values, or are zero"
+    UNSURE = 2048, "friction or film is less sure than control.accuracy asks for, or without it than 50 %"
 
 
 if TYPE_CHECKING:
@@ -52,3 +54,18 @@ else:
         namespace={"__doc__": "The output quantities of `quantities.OF_CORE`, in SI; zero by default."},
     )
     Outputs.__module__ = __name__
+
+
+_ASKED = 0.5  # accuracy of a scene that asks for none
+
+
+def flag_of_errors(errors: Mapping[str, float], accuracy: float | None) -> RangeFlag:
+    """Return UNSURE if friction, film or W_c have errors above the accuracy asked for, by the outputs' names."""
+    asked = _ASKED if accuracy is None else accuracy
+    names = ("error_friction", "error_film", *(("error_load_ratio",) if accuracy is not None else ()))
+    return RangeFlag.UNSURE if any(errors.get(name, 0.0) > asked for name in names) else RangeFlag(0)
+
+
+def is_known(outputs: Outputs) -> bool:
+    """Return True if the errors of friction and film are below 100 %."""
+    return bool(outputs.error_friction < 1.0 and outputs.error_film < 1.0)

@@ -1,5 +1,6 @@
 """The report of a contact's run: a short table, closing lines, and one picture."""
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -7,6 +8,8 @@ import numpy as np
 import xarray as xr
 
 from contact_core.state import RangeFlag
+
+from ..store.results import ERROR
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,6 +27,9 @@ _COLUMNS = (
     ("A_c", "", "contact_area_ratio", 1.0, 3),
     ("W_c", "", "contact_load_ratio", 1.0, 3),
 )
+_WITH_ERRORS = {  # in the table; of the others the result has them
+    "friction_coefficient", "h_c", "tribofilm_1", "tribofilm_2", "wear_depth_1", "wear_depth_2", "contact_load_ratio"
+}  # fmt: skip
 _SHARES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0)  # of the run: running-in is early
 _FEW_ROWS = 12
 _DIGITS, _MOST_DIGITS = 2, 6  # of the time [min]
@@ -65,12 +71,32 @@ def table(dataset: xr.Dataset) -> str:
         rows = sorted({int(np.abs(time - share * time[-1]).argmin()) for share in _SHARES})
     columns = [["time", "min", *_apart(time[rows] / 60.0)]]
     columns += [
-        [heading, unit, *(f"{factor * dataset[name].values[row]:.{digits}f}" for row in rows)]
+        [heading, unit, *_stated(dataset, name, rows, factor, digits)]
         for heading, unit, name, factor, digits in _COLUMNS
     ]
     widths = [max(map(len, column)) for column in columns]
     padded = [[cell.rjust(width) for cell in column] for column, width in zip(columns, widths, strict=True)]
     return "\n".join("  ".join(line) for line in zip(*padded, strict=True))
+
+
+def _stated(dataset: xr.Dataset, name: str, rows: list[int], factor: float, digits: int) -> list[str]:
+    """Return values as text, each with the half width of its error where one is stated."""
+    values = factor * dataset[name].values[rows]
+    if name not in _WITH_ERRORS or f"{name}{ERROR}" not in dataset.coords:
+        return [f"{value:.{digits}f}" for value in values]
+    halves = factor * dataset[f"{name}{ERROR}"].values[rows]
+    return [with_error(value, half, digits) for value, half in zip(values, halves, strict=True)]
+
+
+def with_error(value: float, half: float, digits: int) -> str:
+    """Return a value and the half width of its error as text, "0.106 +- 0.004", to the error's first digit.
+
+    There are at most so many digits after the point.
+    """
+    if not 0.0 < half < math.inf:
+        return f"{value:.{digits}f}" + (" +- ?" if half else "")
+    first = min(max(-math.floor(math.log10(half)), 0), digits)
+    return f"{value:.{first}f} +- {half:.{first}f}"
 
 
 def _apart(minutes: np.ndarray) -> list[str]:
@@ -127,8 +153,8 @@ def _validity(dataset: xr.Dataset) -> str:
         return f"Validity: all {total} rows are valid."
     first = float(dataset["time"].values[~dataset["valid"].values][0])
     return (
-        f"Validity: {count} of {total} rows are INVALID, the first at {first:g} s; "
-        "their outputs stand as they were before."
+        f"Validity: {count} of {total} rows are INVALID, the first at {first:g} s: their inputs could not be used, and "
+        "their outputs stand as they were before, or their stated errors are 100 % or more."
     )
 
 
@@ -166,7 +192,11 @@ def overview(dataset: xr.Dataset) -> "Figure":
 def _draw(axis: "Axes", dataset: xr.Dataset, label: str, factor: float, lines: tuple[_Line, ...]) -> None:
     minutes = dataset["time"].values / 60.0
     for name, legend, colour in lines:
-        axis.plot(minutes, factor * dataset[name].values, color=colour, linewidth=1.4, label=legend)
+        values = factor * dataset[name].values
+        axis.plot(minutes, values, color=colour, linewidth=1.4, label=legend)
+        if f"{name}{ERROR}" in dataset.coords:
+            half = factor * dataset[f"{name}{ERROR}"].values
+            axis.fill_between(minutes, values - half, values + half, color=colour, alpha=0.2, linewidth=0.0)
     for start, end, valid in zip(minutes[:-1], minutes[1:], dataset["valid"].values[1:], strict=True):
         if not valid:
             axis.axvspan(start, end, color="0.85", linewidth=0.0)

@@ -8,6 +8,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from contact_core.quantities import ABSOLUTE, STATED
+
+ERROR = "_error"  # after the name of an output: the half width of its error
+
 
 def to_dataset(
     times: ArrayLike,
@@ -21,7 +25,27 @@ def to_dataset(
         for name, values in columns.items()
     }
     time = ("time", np.asarray(times, dtype=float), {"units": "s", "long_name": "test time"})
-    return xr.Dataset(variables, coords={"time": time})
+    return with_half_widths(xr.Dataset(variables, coords={"time": time}))
+
+
+def with_half_widths(dataset: xr.Dataset) -> xr.Dataset:
+    """Return the dataset with the half width of each output's stated error as a coordinate, in the output's unit.
+
+    That of `h_c` is `h_c_error`, that of `mesh.h_c` is `mesh.h_c_error`; the attribute `ancillary_variables` of the
+    output names it (CF conventions, 3.4).
+    """
+    found = dataset.copy()
+    for name, variable in dataset.data_vars.items():
+        prefix, output = str(name).rpartition(".")[::2]
+        stated = STATED.get(output, "")
+        source = f"{prefix}.{stated}" if prefix else stated
+        if stated and source in dataset:
+            half = dataset[source] * (1.0 if stated in ABSOLUTE else abs(variable))
+            text = f"half width (95 %) of the error of {name}"
+            half.attrs = {"units": variable.attrs.get("units", "1"), "long_name": text}
+            found = found.assign_coords({f"{name}{ERROR}": half})
+            found[name].attrs["ancillary_variables"] = f"{name}{ERROR}"
+    return found
 
 
 def find(origin: Mapping[str, str], folder: Path) -> xr.Dataset | None:

@@ -1,0 +1,136 @@
+"""Choice of grid, tolerance, blocks and instants of a scene that asks for an accuracy.
+
+`control.accuracy` is the half width (95 %) of the error of friction and h_c, relative, and of W_c, absolute, that a
+scene asks for. What the scene says of the fields in `records.CHOSEN` stays; the others are chosen, the cheapest that
+will do.
+"""
+
+import math
+from collections.abc import Collection, Mapping
+from dataclasses import fields, replace
+from typing import TYPE_CHECKING, Any
+
+from ..errors import SceneError
+from ..film.grid_error import grid_error
+from ..film.lengths import inlet_length
+from .checks import duty_points
+from .fields import ROOM
+from .operation import OperatingPoint
+from .records import CHOSEN
+
+if TYPE_CHECKING:
+    from .scene import Scene
+
+POINTS = (65, 97, 129, 193, 257, 385, 513)
+_GRID = 0.9  # part of the accuracy that is left to the grid: errors add up as squares
+_TYPICAL_SHARE = 0.5  # W_c: which it will be is not known before
+# of time steps and sampling at an accuracy of 5 %: stated errors of the shipped scenes are then 2 to 5 %
+_AT = 0.05
+_CHANGE, _LEAST_CHANGE, _LARGEST_CHANGE = 3e-9, 0.3e-9, 6e-9  # m
+_DRY_INSTANTS, _MOST_DRY = 3, 24
+_INSTANTS = 16  # of a mixed block: as many on every grid
+_TOLERANCE, _LEAST_TOLERANCE = 3e-3, 3e-4
+
+
+def provisional(table: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
+    """Return a scene's table with values in place of those that are to be chosen, and the dotted names of these.
+
+    Without `control.accuracy` the table stays as it is, and there are none.
+    """
+    control = table.get("control")
+    if not isinstance(control, Mapping) or "accuracy" not in control:
+        return dict(table), []
+    values = {"film.points": POINTS[0], "film.domain": "1 m", "control.change": f"{_CHANGE} m"}
+    filled: dict[str, Any] = {**table, "film": dict(table.get("film", {})), "control": dict(control)}
+    open_fields = []
+    for name in CHOSEN:
+        part, field = name.split(".")
+        if field in filled[part]:
+            continue
+        open_fields.append(name)
+        if name in values:
+            filled[part][field] = values[name]
+    return filled, open_fields
+
+
+def planned(scene: "Scene", open_fields: Collection[str]) -> "Scene":
+    """Return the scene with its open fields chosen for its `control.accuracy`.
+
+    Raises SceneError if no grid that could be chosen is fine enough.
+    """
+    accuracy = scene.control.accuracy
+    if accuracy is None or not open_fields:
+        return scene
+    finer = _AT / accuracy
+    values: dict[str, Any] = {
+        "film.tolerance": min(max(_TOLERANCE / finer, _LEAST_TOLERANCE), _TOLERANCE),
+        "control.change": min(max(_CHANGE / finer, _LEAST_CHANGE), _LARGEST_CHANGE),
+        "control.dry_instants": min(max(math.ceil(_DRY_INSTANTS * finer), 1), _MOST_DRY),
+    }
+    if "film.domain" in open_fields:
+        values["film.domain"] = _domain(scene)
+        scene = _with(scene, {"film.domain": values["film.domain"]})
+    if "film.points" in open_fields:
+        values["film.points"] = _points(scene, accuracy)
+    points = values.get("film.points", scene.film.points)
+    values["control.mixed_instants"] = max(math.ceil(_INSTANTS * min(finer, 1.0)), math.ceil((points - 1) / 8))
+    return _with(scene, {name: values[name] for name in open_fields})
+
+
+def _with(scene: "Scene", values: Mapping[str, Any]) -> "Scene":
+    """Return the scene with values of dotted fields, unchecked."""
+    for name, value in values.items():
+        part, field = name.split(".")
+        record = getattr(scene, part)
+        if field in {f.name for f in fields(record)}:  # the regression level has fewer
+            scene = replace(scene, **{part: replace(record, **{field: value})})
+    return scene
+
+
+def _domain(scene: "Scene") -> float:
+    """Return the length [m] of a grid that the largest contact and its inlet leave room on."""
+    hertz = scene.hertz(scene.largest_load)
+    square = scene.geometry.bounded_across and scene.film.width == 0.0
+    half = max(hertz.a, hertz.b if square else 0.0)
+    return 1.2 * ROOM * half
+
+
+def _points(scene: "Scene", accuracy: float) -> int:
+    """Return the fewest nodes along x that keep the error by the grid below the accuracy."""
+    least = min(_error(scene, points) for points in POINTS)
+    for points in POINTS:
+        if _error(scene, points) <= _GRID * accuracy:
+            return points
+    raise SceneError(
+        f"control.accuracy = {accuracy:g} is more than a grid of {POINTS[-1]} nodes can give this scene: its error is "
+        f"{least:.2g} by the grid alone. Ask for less, or set film.points yourself."
+    )
+
+
+def _error(scene: "Scene", points: int) -> float:
+    """Return the largest error by a grid over the operating points of the scene."""
+    found = []
+    for op in (point for _, point in duty_points(scene) if point.load > 0.0):
+        rougher = (scene.surface_1, scene.surface_2)[scene.rougher]
+        spacing = scene.film.domain / (points - 1)
+        rough = 0.0 if rougher.smooth else rougher.length / spacing
+        inlet = _inlet(scene, op) / spacing
+        share = 0.0 if rougher.smooth and not _layered(scene) else _TYPICAL_SHARE
+        found += [
+            factor * grid_error(name, rough, inlet, share)
+            for name, factor in (("friction_force", 1.0), ("h_c", 1.0), ("contact_load_ratio", share))
+        ]
+    return max(found)
+
+
+def _layered(scene: "Scene") -> bool:
+    return any(s.microroughness and s.microroughness.rms > 0.0 for s in (scene.surface_1, scene.surface_2))
+
+
+def _inlet(scene: "Scene", op: OperatingPoint) -> float:
+    """Return the length [m] of the inlet at an operating point, 0 without entrainment."""
+    if op.entrainment_speed == 0.0:
+        return 0.0
+    shape, modulus = scene.shape(op), scene.solids.reduced_modulus
+    smooth = shape.smooth(op.load, op.entrainment_speed, scene.lubricant.viscosity, op.inlet_temperature, modulus)
+    return inlet_length(shape.hertz(op.load, modulus).a, shape, smooth.film)
