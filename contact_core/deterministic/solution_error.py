@@ -1,26 +1,48 @@
 """Errors of the contact's solution: by the grid, and by iterations that stop early."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
-from ..film.grid_error import grid_error
+from ..film.grid_error import (
+    area_error,
+    film_error,
+    friction_error,
+    load_ratio_error,
+    other_error,
+    solids_error,
+    tribofilm_error,
+)
 from ..film.lengths import inlet_length
 from ..scene import Case
 from ..state import Error, Outputs
 
-_STOPPED = 0.01  # of an output: what four times as many iterations still change over roughness
-_UNCONVERGED = 0.3  # of an output that a solution has which did not converge
+# of an output over roughness: what four times as many iterations still change, and what a solution has at most that did
+# not converge
+_STOPPED, _UNCONVERGED = 0.01, 0.3
+_RELATIVE: dict[str, Callable[[float, float, float], float]] = {
+    "h_c": film_error,
+    "lambda_ratio": film_error,
+    "contact_area_ratio": area_error,
+    "friction_solid": solids_error,
+    "wear_depth": solids_error,
+    "tribofilm": tribofilm_error,
+}
 
 
 def with_errors_of_the_solution(case: Case, out: Outputs, found: Mapping[str, Error]) -> dict[str, Error]:
     """Return errors of outputs, by name and in their units, with those by the grid and by iterations."""
-    rough, inlet = _nodes(case)
-    share = min(out.contact_load_ratio, 1.0)
+    nodes, share = _nodes(case), min(out.contact_load_ratio, 1.0)
     stopped = _STOPPED + _UNCONVERGED * out.unconverged
     errors = {}
     for name, error in found.items():
         value = abs(getattr(out, name))
-        by_grid = grid_error(name, rough, inlet, share)
-        errors[name] = error._replace(grid=by_grid * value, iteration=stopped * value)
+        if name == "friction_force":
+            grid = friction_error(share, out.friction_solid, out.friction_force - out.friction_solid, *nodes)
+        elif name == "contact_load_ratio":
+            grid = load_ratio_error(share, *nodes)
+        else:
+            relative = _RELATIVE.get(name.removesuffix("_1").removesuffix("_2"), other_error)
+            grid = relative(share, *nodes) * value
+        errors[name] = error._replace(grid=grid, iteration=stopped * value)
     return errors
 
 

@@ -1,51 +1,74 @@
 """Errors of a moving rough contact by the distance of the nodes, as measured against finer grids.
 
-Two lengths decide: the correlation length of the roughness and the inlet in which the film builds up, both in nodes.
-The constants cover nine in ten of the differences that `python -m benchmarks.film.grid_error` finds between grids.
+Two lengths decide: the correlation length of the rougher body and the inlet in which the film builds up, both in nodes.
+A contact of smooth bodies has 0 nodes per correlation length, one without entrainment 0 across its inlet. The constants
+cover nine in ten of the differences between grids in `python -m benchmarks.film.grid_error`.
 """
 
 import math
 
-# relative half width at one node per correlation length, and the power with which it falls; of others `_OTHER`
-_ROUGH: dict[str, tuple[float, float]] = {
-    "friction_force": (0.05, 0.3),
-    "contact_load_ratio": (0.08, 0.5),
-    "wear_depth": (0.08, 0.5),
-    "contact_area_ratio": (0.09, 0.8),
-    "h_c": (0.15, 1.5),
-    "lambda_ratio": (0.15, 1.5),
-    "tribofilm": (0.30, 1.0),
-    "roughness": (0.05, 1.0),
-}
-_OTHER = 0.15, 0.5
-_SOLIDS = {"contact_load_ratio", "contact_area_ratio", "wear_depth", "tribofilm"}  # what the solids' share decides
+_SOLIDS, _SHARE = 0.07, 0.4  # absolute error of W_c at one node per correlation length, times this power of W_c
+_AREA = 0.09  # relative error of A_c beside that of W_c
+_GAP, _PEAK, _TRIBOFILM = 0.18, 0.25, 0.3  # relative errors of h_c, the largest pressure, the mean tribofilm
+# powers with which these fall as the nodes come closer
+_SOLIDS_FALL, _AREA_FALL, _GAP_FALL, _PEAK_FALL, _TRIBOFILM_FALL = 0.5, 1.0, 2.0, 1.0, 1.0
 # relative error of the film of smooth bodies at one node across the inlet, the power with which it falls, and the least
-_INLET, _FALL, _LEAST = 0.08, 3.0, 0.003
-_SHARE = 0.82  # d ln(W_c) / d ln(film) over ln(W_c): the exponent C of `laws.load_sharing`
+_INLET, _INLET_FALL, _INLET_LEAST = 0.08, 3.0, 0.003
+_SENSITIVE = 0.82  # d ln(W_c) / d ln(film) over ln(W_c): the exponent C of `laws.load_sharing`
 _FEWEST = 0.1  # nodes: with fewer, nothing is known
 
 
-def grid_error(name: str, rough: float, inlet: float, load_ratio: float) -> float:
-    """Return the relative half width (95 %) of an output's error by the distance of the nodes, at most 1.
-
-    Parameters
-    ----------
-    name : of the output.
-    rough : nodes per correlation length of the rougher body; 0 of smooth ones.
-    inlet : nodes across the inlet; 0 without entrainment.
-    load_ratio : share of the load on the solids.
-
-    """
-    kind = name.removesuffix("_1").removesuffix("_2")
-    factor, power = _ROUGH.get(kind, _OTHER)
-    by_roughness = factor * max(rough, _FEWEST) ** -power if rough > 0.0 else 0.0
-    film = film_error(inlet) if inlet > 0.0 else 0.0
-    part = 1.0 - load_ratio
-    if kind in _SOLIDS:
-        part = -_SHARE * math.log(max(load_ratio, 1e-12))
-    return min(math.hypot(by_roughness, part * film), 1.0)
+def _fall(factor: float, nodes: float, power: float) -> float:
+    return factor * max(nodes, _FEWEST) ** -power if nodes > 0.0 else 0.0
 
 
-def film_error(inlet: float) -> float:
+def inlet_error(inlet: float) -> float:
     """Return the relative half width (95 %) of the error of a film of smooth bodies with `inlet` nodes across it."""
-    return min(max(_INLET * max(inlet, _FEWEST) ** -_FALL, _LEAST), 1.0)
+    return min(max(_fall(_INLET, inlet, _INLET_FALL), _INLET_LEAST * (inlet > 0.0)), 1.0)
+
+
+def load_ratio_error(load_ratio: float, rough: float, inlet: float) -> float:
+    """Return the half width (95 %) of the error of contact_load_ratio, absolute."""
+    if load_ratio <= 0.0:
+        return 0.0
+    asperities = _fall(_SOLIDS, rough, _SOLIDS_FALL) * load_ratio**_SHARE
+    film = _SENSITIVE * load_ratio * abs(math.log(min(load_ratio, 1.0))) * inlet_error(inlet)
+    return min(math.hypot(asperities, film), 1.0)
+
+
+def film_error(load_ratio: float, rough: float, inlet: float) -> float:
+    """Return the half width (95 %) of the error of h_c, relative."""
+    return min(math.hypot(_fall(_GAP, rough, _GAP_FALL), (1.0 - load_ratio) * inlet_error(inlet)), 1.0)
+
+
+def area_error(load_ratio: float, rough: float, inlet: float) -> float:
+    """Return the half width (95 %) of the error of contact_area_ratio, relative."""
+    return math.hypot(_fall(_AREA, rough, _AREA_FALL), solids_error(load_ratio, rough, inlet))
+
+
+def solids_error(load_ratio: float, rough: float, inlet: float) -> float:
+    """Return the half width (95 %) of the error of what is in proportion to the load on the solids, relative."""
+    return min(load_ratio_error(load_ratio, rough, inlet) / load_ratio, 1.0) if load_ratio > 0.0 else 0.0
+
+
+def tribofilm_error(load_ratio: float, rough: float, inlet: float) -> float:
+    """Return the half width (95 %) of the error of a mean tribofilm, relative."""
+    return math.hypot(_fall(_TRIBOFILM, rough, _TRIBOFILM_FALL), solids_error(load_ratio, rough, inlet))
+
+
+def other_error(load_ratio: float, rough: float, inlet: float) -> float:
+    """Return the half width (95 %) of the error of any other output, relative: as of the largest pressure."""
+    return math.hypot(_fall(_PEAK, rough, _PEAK_FALL), inlet_error(inlet))
+
+
+def friction_error(load_ratio: float, solid: float, fluid: float, rough: float, inlet: float) -> float:
+    """Return the half width (95 %) of the error of the friction force [N].
+
+    `solid` and `fluid` are its parts [N], in either direction. Load taken from the solids rubs as oil does, and the
+    oil's friction falls as its film grows.
+    """
+    solid, fluid = abs(solid), abs(fluid)
+    of_solids = solid / load_ratio if load_ratio > 0.0 else 0.0
+    of_oil = fluid / (1.0 - load_ratio) if load_ratio < 1.0 else 0.0
+    shifted = abs(of_solids - of_oil) * load_ratio_error(load_ratio, rough, inlet)
+    return math.hypot(shifted, fluid * film_error(load_ratio, rough, inlet))

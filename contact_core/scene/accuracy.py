@@ -11,7 +11,7 @@ from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
 from ..errors import SceneError
-from ..film.grid_error import grid_error
+from ..film.grid_error import film_error, load_ratio_error
 from ..film.lengths import inlet_length
 from .checks import duty_points
 from .fields import ROOM
@@ -108,18 +108,17 @@ def _points(scene: "Scene", accuracy: float) -> int:
 
 
 def _error(scene: "Scene", points: int) -> float:
-    """Return the largest error by a grid over the operating points of the scene."""
+    """Return the largest error by a grid over the operating points of the scene.
+
+    Friction has no larger one than W_c, which is absolute, where solids carry half of the load.
+    """
     found = []
     for op in (point for _, point in duty_points(scene) if point.load > 0.0):
         rougher = (scene.surface_1, scene.surface_2)[scene.rougher]
         spacing = scene.film.domain / (points - 1)
-        rough = 0.0 if rougher.smooth else rougher.length / spacing
-        inlet = _inlet(scene, op) / spacing
+        nodes = 0.0 if rougher.smooth else rougher.length / spacing, _inlet(scene, op) / spacing
         share = 0.0 if rougher.smooth and not _layered(scene) else _TYPICAL_SHARE
-        found += [
-            factor * grid_error(name, rough, inlet, share)
-            for name, factor in (("friction_force", 1.0), ("h_c", 1.0), ("contact_load_ratio", share))
-        ]
+        found += [film_error(share, *nodes), load_ratio_error(share, *nodes)]
     return max(found)
 
 
