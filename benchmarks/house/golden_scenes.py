@@ -70,5 +70,5 @@ def _advanced(record: Record, name: str, scene: Scene, op: OperatingPoint, state
         return None
     record.put(name, outputs)
     record.put(f"{name}: state", state.to_bytes())
-    record.put(f"{name}: uncertainty", uncertainty(state))
+    record.put(f"{name}: uncertainty", uncertainty(scene, state))
     return state

@@ -77,7 +77,7 @@ def compute(scene: Scene, file: Path) -> None:
         if k:
             state, out = advance(scene, op, state, INTERVAL)
         rows.append(asdict(out))
-        widths.append(uncertainty(state))
+        widths.append(uncertainty(scene, state))
     seconds = time.process_time() - start
     found = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     for k, kind in enumerate(("time", "sampling")):

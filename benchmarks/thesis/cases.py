@@ -173,10 +173,10 @@ def compute(case: Case, numerics: str, trial: Trial) -> dict[str, Any]:
     scene = case.in_numerics(numerics, trial)
     op, start = scene.operation.point, time.process_time()
     state, out = advance(scene, op, initial_state(scene), 0.0)
-    rows, films = [_row(state)], {}
+    rows, films = [_row(scene, state)], {}
     for minute in range(1, 1 + round(trial.hours * 3600.0 / INTERVAL) if case.rubs else 1):
         state, out = advance(scene, op, state, INTERVAL)
-        rows.append(_row(state))
+        rows.append(_row(scene, state))
         if minute in SNAPSHOTS:
             films |= {f"film_{i}_{minute}": film for i, film in enumerate(_films(state), 1)}
     hertz = scene.hertz(op.load)
@@ -202,11 +202,11 @@ def _films(state: ContactState) -> list[Array]:
     return [thickness(body.growth, body.removal) for body in state.bodies]
 
 
-def _row(state: ContactState) -> dict[str, float]:
+def _row(scene: Scene, state: ContactState) -> dict[str, float]:
     """Outputs, their errors by time steps and by sampling, and means over the whole patches."""
     row: dict[str, float] = {"time": state.time, **asdict(state.outputs)}
-    for name, (steps, sampling) in uncertainty(state).items():
-        row |= {f"{name}.by_steps": steps, f"{name}.by_sampling": sampling}
+    for name, error in uncertainty(scene, state).items():
+        row |= {f"{name}.by_steps": error.time, f"{name}.by_sampling": error.sampling}
     for i, (body, film) in enumerate(zip(state.bodies, _films(state), strict=True), 1):
         row |= {f"grown_{i}": body.growth.mean(), f"removed_{i}": body.removal.mean(), f"film_{i}": film.mean()}
         row |= {f"plastic_{i}": body.plastic.mean()}

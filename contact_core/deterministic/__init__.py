@@ -12,6 +12,7 @@
     resting            wear of bodies at rest, which conform to the other one
     block              one block: when it is due, which contacts drive it
     changing_inputs    instants in place of blocks while inputs change
+    solution_error     errors by the grid and by iterations that stop early
     outputs            outputs of a step and their errors
     evolution          `advance`: the sequence of blocks, and evolution between them
     warming            loads compiled kernels before the first step of a process

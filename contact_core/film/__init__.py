@@ -11,6 +11,7 @@
     outputs         outputs of a film from its fields
     fitted          grids that fit a film
     estimate        error estimate from the grid of half the nodes
+    grid_error      errors of moving rough contacts by the distance of the nodes
 
 `FILMS` are the records that `scene.film` may be.
 """

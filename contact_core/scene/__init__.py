@@ -8,6 +8,7 @@
     heights     heights of a body from a file or an array; height_map: the array
     operation   operating points, and the duty of a scene
     case        a scene at an operating point, bound once per step
+    accuracy    grid, tolerance, blocks and instants for an accuracy that is asked for
     checks      what makes a scene or an operating point unusable
     toml        TOML to records and back
     tunables    numbers that may be changed in a scene

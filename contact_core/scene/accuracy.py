@@ -8,18 +8,17 @@ will do.
 import math
 from collections.abc import Collection, Mapping
 from dataclasses import fields, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any, TypeVar
 
 from ..errors import SceneError
 from ..film.grid_error import film_error, load_ratio_error
 from ..film.lengths import inlet_length
 from .checks import duty_points
-from .fields import ROOM
+from .fields import ROOM, SceneFields
 from .operation import OperatingPoint
 from .records import CHOSEN
 
-if TYPE_CHECKING:
-    from .scene import Scene
+Scene = TypeVar("Scene", bound=SceneFields)
 
 POINTS = (65, 97, 129, 193, 257, 385, 513)
 _GRID = 0.9  # part of the accuracy that is left to the grid: errors add up as squares
@@ -53,13 +52,13 @@ def provisional(table: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
     return filled, open_fields
 
 
-def planned(scene: "Scene", open_fields: Collection[str]) -> "Scene":
+def planned(scene: Scene, open_fields: Collection[str]) -> Scene:
     """Return the scene with its open fields chosen for its `control.accuracy`.
 
     Raises SceneError if no grid that could be chosen is fine enough.
     """
     accuracy = scene.control.accuracy
-    if accuracy is None or not open_fields:
+    if accuracy is None or not open_fields or not 0.0 < accuracy <= 1.0:  # what is out of range is refused later
         return scene
     finer = _AT / accuracy
     values: dict[str, Any] = {
@@ -77,7 +76,7 @@ def planned(scene: "Scene", open_fields: Collection[str]) -> "Scene":
     return _with(scene, {name: values[name] for name in open_fields})
 
 
-def _with(scene: "Scene", values: Mapping[str, Any]) -> "Scene":
+def _with(scene: Scene, values: Mapping[str, Any]) -> Scene:
     """Return the scene with values of dotted fields, unchecked."""
     for name, value in values.items():
         part, field = name.split(".")
@@ -87,7 +86,7 @@ def _with(scene: "Scene", values: Mapping[str, Any]) -> "Scene":
     return scene
 
 
-def _domain(scene: "Scene") -> float:
+def _domain(scene: SceneFields) -> float:
     """Return the length [m] of a grid that the largest contact and its inlet leave room on."""
     hertz = scene.hertz(scene.largest_load)
     square = scene.geometry.bounded_across and scene.film.width == 0.0
@@ -95,7 +94,7 @@ def _domain(scene: "Scene") -> float:
     return 1.2 * ROOM * half
 
 
-def _points(scene: "Scene", accuracy: float) -> int:
+def _points(scene: SceneFields, accuracy: float) -> int:
     """Return the fewest nodes along x that keep the error by the grid below the accuracy."""
     least = min(_error(scene, points) for points in POINTS)
     for points in POINTS:
@@ -107,7 +106,7 @@ def _points(scene: "Scene", accuracy: float) -> int:
     )
 
 
-def _error(scene: "Scene", points: int) -> float:
+def _error(scene: SceneFields, points: int) -> float:
     """Return the largest error by a grid over the operating points of the scene.
 
     Friction has no larger one than W_c, which is absolute, where solids carry half of the load.
@@ -122,11 +121,11 @@ def _error(scene: "Scene", points: int) -> float:
     return max(found)
 
 
-def _layered(scene: "Scene") -> bool:
+def _layered(scene: SceneFields) -> bool:
     return any(s.microroughness and s.microroughness.rms > 0.0 for s in (scene.surface_1, scene.surface_2))
 
 
-def _inlet(scene: "Scene", op: OperatingPoint) -> float:
+def _inlet(scene: SceneFields, op: OperatingPoint) -> float:
     """Return the length [m] of the inlet at an operating point, 0 without entrainment."""
     if op.entrainment_speed == 0.0:
         return 0.0

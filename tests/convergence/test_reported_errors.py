@@ -26,7 +26,7 @@ OUTPUTS = {
     "error_wear": ("wear_depth_1", "wear_depth_2"),
 }
 MINUTES = (5, 10, 20, 30, 45, 60)
-# points that each error output covers at least, and the share of it at which no more than half of them are left: in
+# points that each error by blocks covers at least, and the share of it at which no more than half of them are left: in
 # this run films and wear are off by so little that a tenth of their errors would still cover five and four of six
 COVERED = {
     "error_friction": (5, 0.1),
@@ -42,7 +42,7 @@ def course(changes):
     for minute in MINUTES:
         state, out = advance(scene, scene.operation.point, state, 60.0 * (minute - last))
         last = minute
-        found.append((out, uncertainty(state)))
+        found.append((out, uncertainty(scene, state)))
     return found
 
 
@@ -64,7 +64,7 @@ def test_most_differences_to_the_finer_run_are_within_the_reported_half_widths(r
     mine, fine = runs
     inside = {
         name: [
-            abs(getattr(a, name) - getattr(b, name)) <= sum(width[name])
+            abs(getattr(a, name) - getattr(b, name)) <= width[name].time + width[name].sampling
             for (a, width), (b, _) in zip(mine, fine, strict=True)
         ]
         for name in NAMES
@@ -79,23 +79,28 @@ def test_half_widths_are_not_so_wide_that_they_say_nothing(runs):
         if name in NOISY:
             continue
         out, width = mine[-1]
-        assert sum(width[name]) < 0.1 * abs(getattr(out, name)), name
+        assert width[name].time + width[name].sampling < 0.1 * abs(getattr(out, name)), name
 
 
 @pytest.mark.parametrize("error", OUTPUTS)
 def test_an_error_output_is_that_of_the_body_of_which_less_is_sure(runs, error):
     for out, width in runs[0]:
-        relative = [float(np.hypot(*width[name])) / abs(getattr(out, name)) for name in OUTPUTS[error]]
+        relative = [width[name].together / abs(getattr(out, name)) for name in OUTPUTS[error]]
         assert getattr(out, error) == approx(max(relative), rel=1e-12)
 
 
 @pytest.mark.parametrize("error", OUTPUTS)
-def test_error_outputs_cover_the_differences_to_the_finer_run_and_a_tenth_of_them_would_not(runs, error):
+def test_errors_by_blocks_cover_the_differences_to_the_finer_run_and_a_tenth_of_them_would_not(runs, error):
     off = [
         max(abs(getattr(b, name) / getattr(a, name) - 1.0) for name in OUTPUTS[error])
         for (a, _), (b, _) in zip(*runs, strict=True)
     ]
-    stated = np.array([getattr(out, error) for out, _ in runs[0]])
+    stated = np.array(
+        [
+            max(np.hypot(width[name].time, width[name].sampling) / getattr(out, name) for name in OUTPUTS[error])
+            for out, width in runs[0]
+        ]
+    )
     least, share = COVERED[error]
     assert (off <= stated).sum() >= least > (off <= 0.1 * stated).sum()
     assert (off <= share * stated).sum() <= len(MINUTES) // 2

@@ -227,7 +227,7 @@ for level in ("deterministic", "regression"):
     unloaded = advance(scene, type(scene.operation.point)(0.0, 0.1, 0.1, 353.15), state, 1.0)[1]
     found[level] += [unloaded.asperity_pressure]
     if level == "deterministic":
-        found["error"] = uncertainty(state)["asperity_pressure"]
+        found["error"] = uncertainty(scene, state)["asperity_pressure"]
 print(json.dumps(found))
 """,
     )

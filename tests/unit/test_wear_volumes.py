@@ -197,7 +197,7 @@ def test_ten_times_the_wear_in_a_tenth_of_the_time_is_the_same_run():
     for faster in (1.0, 10.0):
         scene, state, op = cheap(DRY | BARE, wear__bare=1e-5 * faster, control__longest=f"{60.0 / faster} s")
         state, outputs = ran(scene, state, op, [90.0 / faster, 90.0 / faster])
-        found.append((asdict(outputs[-1]), uncertainty(state), [body.noise for body in state.bodies]))
+        found.append((asdict(outputs[-1]), uncertainty(scene, state), [body.noise for body in state.bodies]))
     (one, widths, noise), (other, others, quick) = found
     for name in (
         "wear_volume_1",
