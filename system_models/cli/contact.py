@@ -9,7 +9,7 @@ from contact_core.scene import Scene
 
 from .console import note, output_folder
 from .progress import continued_by_resume, note_replaced, shown
-from .scenes import contact, microroughness, warn
+from .scenes import chosen, contact, microroughness, warn
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -75,7 +75,7 @@ def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path) -> 
 
     dataset = origin.with_scene(dataset, scene, duty)
     below = (f"Body {body}: {text}." for body, text in enumerate(microroughness(scene), 1))
-    print(scene.description, report.table(dataset), *below, *report.closing_lines(dataset), sep="\n")
+    print(scene.description, report.table(dataset), *chosen(scene), *below, *report.closing_lines(dataset), sep="\n")
     written = [*results.write(dataset, folder), report.write_overview(dataset, folder / "overview.png")]
     print(f"Written: {', '.join(map(str, written))}")
     return 1 if report.invalid_rows(dataset) else 0

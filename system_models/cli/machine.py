@@ -33,6 +33,8 @@ def _changes(arguments: argparse.Namespace) -> dict[str, str]:
     changes = dict(arguments.settings)
     if arguments.hours:
         changes["simulate.stop_time"] = f"{arguments.hours} h"
+    if arguments.accuracy:
+        changes["contact.control.accuracy"] = arguments.accuracy
     if arguments.grid:
         changes["contact.film.points"] = arguments.grid
     return changes

@@ -24,6 +24,12 @@ def add_scene(command: argparse.ArgumentParser, kinds: str) -> None:
     command.add_argument(
         "--grid", metavar="N", help="nodes along x and y: replaces film.points, of machines contact.film.points"
     )
+    command.add_argument(
+        "--accuracy",
+        metavar="A",
+        help="error of friction, film and W_c asked for, such as 5%%: replaces control.accuracy, which chooses grid, "
+        "blocks and instants; of machines contact.control.accuracy",
+    )
     add_settings(command, f"change values of the {kinds}, e.g. tribofilm.model=none surface_2.rq='50 nm'")
 
 
@@ -64,11 +70,24 @@ def microroughness(scene: Scene) -> tuple[str, str]:
     return first, second
 
 
+def chosen(scene: Scene) -> list[str]:
+    """Return a sentence on what a scene's accuracy has chosen, if it asks for one."""
+    accuracy, film, control = scene.control.accuracy, scene.film, scene.control
+    if accuracy is None:
+        return []
+    return [
+        f"Accuracy {100.0 * accuracy:g} %: {film.points} nodes over {1e3 * film.domain:.3g} mm, blocks of "
+        f"{1e9 * control.change:.3g} nm, {control.dry_instants} dry and {control.mixed_instants} mixed instants."
+    ]
+
+
 def _overrides(arguments: argparse.Namespace) -> dict[str, str]:
     refuse_empty(arguments)
     settings = dict(arguments.settings)
     if getattr(arguments, "hours", None):
         settings["operation.duration"] = f"{arguments.hours} h"
+    if arguments.accuracy:
+        settings["control.accuracy"] = arguments.accuracy
     if arguments.grid:
         settings["film.points"] = arguments.grid
     if getattr(arguments, "duty", None):

@@ -97,7 +97,7 @@ def test_the_regression_level_states_the_error_of_its_curves_alone():
 
 def test_every_stated_error_is_an_output():
     assert {*STATED.values()} <= {*TABLE}
-    assert ABSOLUTE <= {*STATED.values()}
+    assert {*STATED.values()} >= ABSOLUTE
 
 
 def test_an_error_above_the_accuracy_asked_for_raises_a_flag():
@@ -106,7 +106,7 @@ def test_an_error_above_the_accuracy_asked_for_raises_a_flag():
     assert flag_of_errors(errors, 0.05) == RangeFlag.UNSURE
     assert flag_of_errors(errors, None) == RangeFlag(0)
     assert flag_of_errors(errors | {"error_film": 0.6}, None) == RangeFlag.UNSURE
-    scene, _, out = cheap()
+    out = cheap()[2]
     assert not out.range_flags & RangeFlag.UNSURE
     asked = cheap(control__accuracy="1 %", control__change="3 nm", control__dry_instants="3", film__points="33")[2]
     assert asked.range_flags & RangeFlag.UNSURE

@@ -94,9 +94,9 @@ LEVELS = {
         _period,
         _loads_on_grid,
         "The derivatives of friction_force hold the film: pressures grow with the load, the gap does not change.",
-        "They come from time steps and sampling. They do not include the error of the grid, which is larger where "
-        "solids carry load: compare two grids. With control.driver = 'auto', the error of wear was found outside them "
-        "more often than inside.",
+        "They include the distance of the nodes, time steps, sampling, and iterations that stop early. That of the "
+        "nodes follows a rule fitted to differences between grids of the shipped scenes; another kind of surface may "
+        "lie outside it: compare two grids.",
         _steps_of_blocks,
     ),
     "regression": LevelText(
