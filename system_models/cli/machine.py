@@ -77,6 +77,7 @@ def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str
     from ..store import results
     from .simulation import EXIT_CODE
 
+    dataset = results.with_half_widths(dataset)
     print(assembly.description, "", *KINDS[kind].lines(assembly, dataset), "", sep="\n")
     print(*machine_report.lines(assembly, dataset), "", *cosim_report.closing_lines(dataset), "", sep="\n")
     code = 1 if cosim_report.unreliable_steps(dataset) or machine_report.invalid_rows(assembly, dataset) else 0

@@ -19,6 +19,7 @@ from contact_core import ContactState, OperatingPoint, Outputs, Scene, advance, 
 from contact_core.errors import ContactError, ConvergenceError
 from contact_core.quantities import TABLE
 
+from ..store.results import with_half_widths
 from .contact import communication_points
 from .duty import Duty
 from .origin import with_scene
@@ -36,6 +37,7 @@ _SWEPT = (  # at every speed
     "pressure_max",
     "error_friction",
     "error_film",
+    "error_load_ratio",
     "unconverged",
 )
 _RUBBED = tuple(  # at every rubbing time
@@ -144,7 +146,7 @@ class Curves:
             "transition_speed": (along_times, half, _described("m/s", at_half)),
             "transition_speed_friction": (along_times, midway, _described("m/s", at_midway)),
         }
-        found = xr.Dataset(variables, self._coordinates())
+        found = with_half_widths(xr.Dataset(variables, self._coordinates()))
         missing = self._valid.size - self.count
         sentences = [*self._failures, *([f"{missing} points were not reached."] if missing else [])]
         return with_scene(found, scene, duty).assign_attrs(

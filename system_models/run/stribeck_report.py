@@ -8,6 +8,8 @@ import xarray as xr
 
 from contact_core.state import RangeFlag
 
+from ..store.results import ERROR
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -123,6 +125,9 @@ def figure(dataset: xr.Dataset, title: str = "") -> "Figure":
         values = shown[name] if name == "lambda_ratio" else dataset[name]
         for text, colour, row in zip(minutes(dataset), colours, values.values, strict=True):
             axis.plot(speeds, row, "o-", color=colour, markersize=3.5, linewidth=1.4, label=text)
+        if f"{name}{ERROR}" in dataset.coords:
+            for colour, row, half in zip(colours, values.values, dataset[f"{name}{ERROR}"].values, strict=True):
+                axis.fill_between(speeds, row - half, row + half, color=colour, alpha=0.15, linewidth=0.0)
         for colour, row, doubtful in zip(colours, values.values, unsure, strict=True):
             axis.plot(speeds[doubtful], row[doubtful], "o", color=colour, markersize=3.5, markerfacecolor="white")
         if level is not None:

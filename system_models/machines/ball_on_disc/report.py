@@ -12,6 +12,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ...run.cosim_report import aligned
+from ...store.results import ERROR
 from ..assembly import Assembly
 from ..report import heat_stored
 
@@ -214,7 +215,11 @@ def overview(assembly: Assembly, dataset: xr.Dataset) -> "Figure":
         axes.append(figure.add_subplot(grid[n // 2 + above, n % 2], sharex=axes[0] if axes else None))
     for axis, (label, factor, drawn) in zip(axes, _PANELS, strict=False):
         for name, legend, colour in drawn:
-            _line(axis, dataset, factor * dataset[name].values, legend, colour)
+            values = factor * dataset[name].values
+            _line(axis, dataset, values, legend, colour)
+            if f"{name}{ERROR}" in dataset.coords:
+                half, minutes = factor * dataset[f"{name}{ERROR}"].values, dataset["time"].values / 60.0
+                axis.fill_between(minutes, values - half, values + half, color=colour, alpha=0.2, linewidth=0.0)
         axis.set_ylabel(label)
         axis.set_ylim(bottom=0.0)
     _draw_temperatures(axes[-2], dataset)
