@@ -9,7 +9,7 @@ import math
 
 _SOLIDS, _SHARE = 0.07, 0.4  # absolute error of W_c at one node per correlation length, times this power of W_c
 _AREA = 0.09  # relative error of A_c beside that of W_c
-_GAP, _PEAK, _TRIBOFILM = 0.18, 0.25, 0.3  # relative errors of h_c, the largest pressure, the mean tribofilm
+_GAP, _PEAK, _TRIBOFILM = 0.22, 0.25, 0.35  # relative errors of h_c, the largest pressure, the mean tribofilm
 # powers with which these fall as the nodes come closer
 _SOLIDS_FALL, _AREA_FALL, _GAP_FALL, _PEAK_FALL, _TRIBOFILM_FALL = 0.5, 1.0, 2.0, 1.0, 1.0
 # relative error of the film of smooth bodies at one node across the inlet, the power with which it falls, and the least

@@ -1,3 +1,4 @@
+import math
 from pathlib import Path
 
 import numpy as np
@@ -6,9 +7,9 @@ import xarray as xr
 from comparison import approx
 
 from contact_core import RangeFlag
-from contact_core.quantities import TABLE
+from contact_core.quantities import STATED, TABLE
 from system_models.run import report
-from system_models.store.results import to_dataset
+from system_models.store.results import to_dataset, with_half_widths
 
 
 @pytest.fixture
@@ -17,6 +18,7 @@ def long_run() -> xr.Dataset:
     time = 60.0 * np.arange(121)
     columns = {name: np.full(121, 0.5) for name in TABLE}
     columns |= {"valid": np.full(121, True), "range_flags": np.zeros(121, int)}
+    columns |= {name: np.zeros(121) for name in STATED.values()}
     columns["friction_coefficient"] = 0.13 - 1e-6 * time
     columns["lambda_ratio"] = np.full(121, 0.25)
     columns["h_c"] = 3e-8 + 1e-12 * time
@@ -47,6 +49,40 @@ def test_the_table_converts_to_the_units_of_its_heading(long_run: xr.Dataset) ->
     assert heading[:3] == ["time", "friction", "h_c"]
     assert units == ["min", *["nm"] * 5]
     assert rows_of(report.table(long_run))[-1][:4] == [120.0, 0.1228, 37.2, 0.25]
+
+
+def test_a_value_is_printed_with_the_half_width_of_its_error_to_the_first_digit_of_that(long_run: xr.Dataset) -> None:
+    columns = {str(name): long_run[name].values for name in long_run.data_vars}
+    columns |= {"error_friction": np.full(121, 0.04), "error_load_ratio": np.full(121, 0.03)}
+    units, texts = (
+        {str(name): long_run[name].attrs[key] for name in long_run.data_vars} for key in ("units", "long_name")
+    )
+    last = report.table(to_dataset(long_run["time"].values, columns, units, texts)).splitlines()[-1]
+    assert "0.123 +- 0.005" in last  # 4 % of it
+    assert "0.50 +- 0.03" in last  # absolute
+    assert last.count("+-") == 2
+
+
+@pytest.mark.parametrize(
+    ("value", "half", "text"),
+    [
+        (0.10637, 0.0043, "0.106 +- 0.004"),
+        (52.31, 6.2, "52 +- 6"),
+        (0.5, 0.0, "0.5000"),
+        (1.0, math.inf, "1.0000 +- ?"),
+    ],
+)
+def test_digits_of_a_value_follow_its_error(value: float, half: float, text: str) -> None:
+    assert report.with_error(value, half, 4) == text
+
+
+def test_half_widths_are_coordinates_that_the_outputs_name(long_run: xr.Dataset) -> None:
+    found = with_half_widths(long_run.assign(error_film=("time", np.full(121, 0.1))))
+    half = found["h_c"].attrs["ancillary_variables"]
+    assert half == "h_c_error"
+    assert found[half].values == approx(0.1 * found["h_c"].values)
+    assert found[half].attrs["units"] == "m"
+    assert half in found.coords
 
 
 def test_load_cycles_are_whole_passes(long_run: xr.Dataset) -> None:

@@ -43,6 +43,7 @@ DEFINED = {
     "error_friction": ("friction_coefficient friction_coefficient^-1",),
     "error_film": ("h_c h_c^-1",),
     "error_tribofilm": ("tribofilm_1 tribofilm_1^-1",),
+    "error_load_ratio": ("contact_load_ratio",),
     "error_wear": ("wear_depth_1 wear_depth_1^-1",),
     **dict.fromkeys(("unconverged", "blocks_dry", "blocks_mixed", "blocks_fallback"), ("load_cycles_1",)),
 }
