@@ -40,10 +40,10 @@ def with_half_widths(dataset: xr.Dataset) -> xr.Dataset:
         stated = STATED.get(output, "")
         source = f"{prefix}.{stated}" if prefix else stated
         if stated and source in dataset:
-            half = dataset[source] * (1.0 if stated in ABSOLUTE else abs(variable))
+            half = dataset[source].values * (1.0 if stated in ABSOLUTE else np.abs(variable.values))
             text = f"half width (95 %) of the error of {name}"
-            half.attrs = {"units": variable.attrs.get("units", "1"), "long_name": text}
-            found = found.assign_coords({f"{name}{ERROR}": half})
+            attributes = {"units": variable.attrs.get("units", "1"), "long_name": text}
+            found = found.assign_coords({f"{name}{ERROR}": (variable.dims, half, attributes)})
             found[name].attrs["ancillary_variables"] = f"{name}{ERROR}"
     return found
 
