@@ -10,6 +10,7 @@ from ..film.grid_error import (
     other_error,
     solids_error,
     tribofilm_error,
+    wear_error,
 )
 from ..film.lengths import inlet_length
 from ..scene import Case
@@ -23,14 +24,14 @@ _RELATIVE: dict[str, Callable[[float, float, float], float]] = {
     "lambda_ratio": film_error,
     "contact_area_ratio": area_error,
     "friction_solid": solids_error,
-    "wear_depth": solids_error,
-    "tribofilm": tribofilm_error,
+    "wear_depth": wear_error,
 }
 
 
 def with_errors_of_the_solution(case: Case, out: Outputs, found: Mapping[str, Error]) -> dict[str, Error]:
     """Return errors of outputs, by name and in their units, with those by the grid and by iterations."""
     nodes, share = _nodes(case), min(out.contact_load_ratio, 1.0)
+    rougher = f"tribofilm_{case.scene.rougher + 1}"
     stopped = _STOPPED + _UNCONVERGED * out.unconverged
     errors = {}
     for name, error in found.items():
@@ -39,6 +40,8 @@ def with_errors_of_the_solution(case: Case, out: Outputs, found: Mapping[str, Er
             grid = friction_error(share, out.friction_solid, out.friction_force - out.friction_solid, *nodes)
         elif name == "contact_load_ratio":
             grid = load_ratio_error(share, *nodes)
+        elif name.startswith("tribofilm_"):
+            grid = tribofilm_error(share, *nodes, smoother=name != rougher) * value
         else:
             relative = _RELATIVE.get(name.removesuffix("_1").removesuffix("_2"), other_error)
             grid = relative(share, *nodes) * value
