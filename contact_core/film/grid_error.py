@@ -59,7 +59,7 @@ def wear_error(load_ratio: float, rough: float, inlet: float) -> float:
 
 
 def tribofilm_error(load_ratio: float, rough: float, inlet: float, *, smoother: bool = False) -> float:
-    """Return the half width (95 %) of the error of the mean tribofilm of the rougher body or the other one, relative."""
+    """Return the half width (95 %) of the error of the mean tribofilm of the rougher or the smoother body, relative."""
     own = _ON_SMOOTHER if smoother else _TRIBOFILM
     return math.hypot(_fall(own, rough, _TRIBOFILM_FALL), wear_error(load_ratio, rough, inlet))
 
