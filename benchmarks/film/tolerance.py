@@ -16,6 +16,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from benchmarks.folders import MEASURED
+from benchmarks.pages import save
 from benchmarks.timing import work_unit
 from contact_core import Scene, Transient, initial_state, solve
 
@@ -75,7 +76,7 @@ def main() -> None:
             f"| {tolerance} | {iterations:.1f} | {1e3 * seconds:.1f} | {seconds / unit:.0f} | {100 * error:.2f} % "
             f"| {share:.3f} | {missed} of {STEPS} |"
         )
-    (DOCS / "tolerance.md").write_text("\n".join(lines) + "\n")
+    save("film/tolerance", "\n".join(lines))
     figure = Figure(figsize=(5.2, 3.6), layout="constrained")
     axes = figure.add_subplot()
     axes.loglog(cost[1:], errors[1:], "ko-")
