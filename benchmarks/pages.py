@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from benchmarks.dependencies import stamp
+from benchmarks.dependencies import PAGES, stamp
 from benchmarks.folders import MEASURED
 
 
@@ -38,6 +38,10 @@ class Page:
     options: str = ""  # of its command
     body: list[str] = field(default_factory=list)
     verdicts: list[str] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        if self.name not in PAGES:  # before hours of work, not after
+            raise LookupError(f"{self.name} is not among PAGES of benchmarks/dependencies.py: add it, with its command and groups")
 
     @property
     def name(self) -> str:

@@ -8,6 +8,7 @@ import pytest
 from benchmarks.dependencies import ITSELF, PAGES, SOURCES, UNMARKED, Tree, changed, stamp
 from benchmarks.digests import meaning
 from benchmarks.house.pages import lines, states
+from benchmarks.pages import Page
 
 ROOT = Path(__file__).parents[2]
 MEASURED = ROOT / "docs" / "measured"
@@ -95,6 +96,11 @@ def test_python_is_read_by_what_it_does() -> None:
 
 def test_every_group_of_a_page_has_files() -> None:
     assert [name for page in PAGES.values() for name in page.groups if not SOURCES.members(name)] == []
+
+
+def test_a_page_that_is_not_declared_is_refused_before_it_is_measured() -> None:
+    with pytest.raises(LookupError, match="dependencies"):
+        Page("film/nowhere", "Nowhere")
 
 
 def test_a_page_of_no_benchmark_is_refused(tmp_path: Path) -> None:
