@@ -99,7 +99,7 @@ PAGES: dict[str, Source] = {
     "machines/bearing_torque": Source("machines.bearing_torque", RIGS),
     "machines/bearing_memory": Source("machines.bearing_memory", RIGS),
     "machines/gear_path": Source("machines.gear_path", RIGS),
-    "machines/gear_friction": Source("machines.gear_friction", RIGS),
+    "machines/gear_friction": Source("machines.gear_friction", (*RIGS, "evolution", "control")),
     "machines/rig_levels": Source("machines.rig_levels", (*RIGS, "evolution", "control")),
     "machines/tolerance": Source("machines.tolerance", RIGS),
     "fmu/overhead": Source("fmu.overhead", ("regression", "fmu", "models")),
