@@ -34,7 +34,7 @@ def march(name: str, tolerance: str) -> tuple[list[np.ndarray], float, float, fl
     pressures, iterations, shares, missed, start = [], 0, [], 0, 0.0
     for k in range(2 * STEPS):
         if k == STEPS:
-            start = time.perf_counter()
+            start = time.process_time()
         bodies = tuple(
             replace(body, offset=(body.offset + speed * dt) % scene.film.domain)
             for body, speed in zip(state.bodies, (op.speed_1, op.speed_2), strict=True)
@@ -47,7 +47,7 @@ def march(name: str, tolerance: str) -> tuple[list[np.ndarray], float, float, fl
             iterations += fields.iterations
             shares.append(fields.solid_pressure.sum() / fields.pressure.sum())
             missed += not fields.converged
-    return pressures, iterations / STEPS, (time.perf_counter() - start) / STEPS, float(np.mean(shares)), missed
+    return pressures, iterations / STEPS, (time.process_time() - start) / STEPS, float(np.mean(shares)), missed
 
 
 def main() -> None:
