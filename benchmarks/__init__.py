@@ -10,9 +10,10 @@ thesis      the shipped cases against the thesis that they are from
 machines    ball bearings, gear pairs, the test rig
 coupling    the co-simulation master, other masters and importers
 fmu         cost of a step, memory, lost processes
-house       faults put into the code, numbers of two revisions (`golden.py`), arguments, figures of the README
+house       faults put into the code, numbers of two revisions (`golden.py`), arguments, figures of the README, stale pages
 models      small FMUs with exact solutions, for benchmarks and tests
 hosts       programs that load FMUs, and importers of SSP, for benchmarks and tests
 
-`pages`, `timing` and `folders` are shared by all rooms.
+`pages`, `timing` and `folders` are shared by all rooms. `dependencies` declares what each page depends on and what its
+command is; `digests` reads sources without their wording; `python -m benchmarks.house.pages` lists pages of older sources.
 """

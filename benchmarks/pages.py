@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from benchmarks.dependencies import PAGES, stamp
 from benchmarks.folders import MEASURED
 
 
@@ -22,6 +23,11 @@ def cells(values: Sequence[Any]) -> str:
     return "| " + " | ".join(map(text, values)) + " |"
 
 
+def save(page: str, text: str) -> None:
+    """Write a page, room/name, with what it depends on."""
+    (MEASURED / f"{page}.md").write_text(f"{text.rstrip()}\n\n{stamp(page)}\n", encoding="utf-8")
+
+
 @dataclass
 class Page:
     """A page, printed while it grows. It begins with the figures asked for and found."""
@@ -33,10 +39,19 @@ class Page:
     body: list[str] = field(default_factory=list)
     verdicts: list[str] = field(default_factory=list)
 
+    def __post_init__(self) -> None:
+        if self.name not in PAGES:  # before hours of work, not after
+            raise LookupError(f"{self.name} is not among PAGES of benchmarks/dependencies.py: add it, with its command and groups")
+
+    @property
+    def name(self) -> str:
+        """Room and file of the page."""
+        return f"{self.benchmark}{self.part and '_'}{self.part}"
+
     @property
     def path(self) -> Path:
         """The file of the page."""
-        return MEASURED / f"{self.benchmark}{self.part and '_'}{self.part}.md"
+        return MEASURED / f"{self.name}.md"
 
     def _add(self, line: str) -> None:
         self.body.append(line)
@@ -71,4 +86,4 @@ class Page:
         command = " ".join(filter(None, ("python -m", module, self.part, self.options)))
         intro = f"# {self.title}\n\nWritten by `{command}`. One process, one thread.\n"
         asked = ["## Asked", "", cells(("asked", "found", "met?")), "|---|---|---|", *self.verdicts, "", "## Found"]
-        self.path.write_text("\n".join([intro, *asked, *self.body]).rstrip() + "\n")
+        save(self.name, "\n".join([intro, *asked, *self.body]))

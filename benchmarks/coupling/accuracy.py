@@ -19,6 +19,7 @@ from matplotlib.figure import Figure
 
 from benchmarks.folders import MEASURED
 from benchmarks.models import build, exact
+from benchmarks.pages import save
 from system_models.master import CouplingError, System, simulate
 
 DOCS = MEASURED / "coupling"
@@ -370,7 +371,7 @@ def main() -> None:
         "At rest to 1 %, and converged in every step: " + "; ".join(rests) + ".",
         "A negative x is a mass that has left the contact.",
     ]
-    (DOCS / "accuracy.md").write_text("\n".join(lines) + "\n")
+    save("coupling/accuracy", "\n".join(lines))
 
 
 if __name__ == "__main__":

@@ -26,6 +26,7 @@ from matplotlib.figure import Figure
 
 from benchmarks.folders import MEASURED
 from benchmarks.models import build
+from benchmarks.pages import save
 from system_models.master import System, simulate
 from system_models.master.coupled import Coupled
 from system_models.master.recorder import STATISTICS, Recorder
@@ -309,7 +310,7 @@ def main() -> None:
         "|---|---|---|---|---|",
         *kept,
     ]
-    (DOCS / "cost.md").write_text("\n".join(lines) + "\n")
+    save("coupling/cost", "\n".join(lines))
 
 
 if __name__ == "__main__":

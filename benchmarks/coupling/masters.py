@@ -25,6 +25,7 @@ from benchmarks.coupling.masters_cases import CASES, Case
 from benchmarks.coupling.masters_rivals import MODULES, UNUSABLE
 from benchmarks.folders import MEASURED
 from benchmarks.models import build
+from benchmarks.pages import save
 from system_models.master import CouplingError, System, simulate
 
 DOCS = MEASURED / "coupling"
@@ -297,7 +298,7 @@ def main() -> None:
                     missing.add(rival)
             results[case.name] = curves
             print("\n".join([*table(case, curves), *comparison(case, curves)]), flush=True)
-    (DOCS / "masters.md").write_text(page(results, sorted(missing)))
+    save("coupling/masters", page(results, sorted(missing)))
     plot(results)
 
 

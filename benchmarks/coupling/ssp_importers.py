@@ -24,6 +24,7 @@ from typing import Any, NamedTuple
 from benchmarks.folders import MEASURED
 from benchmarks.hosts import omsimulator, ssp_runner
 from benchmarks.hosts.ssp_runner import IMPORTERS, UNUSABLE
+from benchmarks.pages import save
 from system_models.machines import reading
 from system_models.machines.export import with_timetable
 from system_models.master import System, export_ssp, simulate
@@ -221,5 +222,5 @@ if __name__ == "__main__":
         with tempfile.TemporaryDirectory() as scratch:
             sections.append(section(entry, Path(scratch)))
         print("\n".join(sections[-1][0]), flush=True)
-    PAGE.write_text(page(sections), "utf-8")
+    save("coupling/ssp_importers", page(sections))
     sys.exit(int(largest(sections, fed) > 1.0))

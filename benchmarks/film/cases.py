@@ -122,7 +122,7 @@ def grid_of(domain: Sequence[float], nodes: int) -> Grid:
 
 
 def scaled_of(arguments: dict[str, Any], domain: Sequence[float], nodes: int, tolerance: float) -> Scaled:
-    """A smooth contact in the units of the kernels, on a grid of nodes x nodes."""
+    """A smooth contact in the units of the kernels, on a grid of nodes x nodes, with the upwind flow."""
     now = instant_of_call(arguments, np.zeros((nodes, nodes)))
     return Scaled(now, grid_of(domain, nodes), Settings(1e-9, tolerance, 2000, "pyfftw"))
 

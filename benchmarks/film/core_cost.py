@@ -1,12 +1,13 @@
 """Cost of solutions: smooth films cold, a warm step of moving roughness, the same cold."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from benchmarks.film.cases import MoesCase, domain_of, instant_of_call, scaled_of, waves
+from benchmarks.film.cases import MoesCase, domain_of, grid_of, instant_of_call, waves
 from benchmarks.pages import Page
 from benchmarks.timing import timed, unit_of
 from contact_core import Scene
@@ -52,7 +53,7 @@ TOLERANCES = (0.1, 6e-2, 3e-2, 1e-2, 3e-3)
 LEAD, STEPS, MANY = 30, 6, 400  # steps before the measured ones, measured ones, iterations of a reference
 ERROR = 0.02
 RATIOS = (1.0, 0.2, 5.0)  # radius along y over that along x
-SETTINGS = Settings(1e-9, 1e-3, 2000, "pyfftw")
+SETTINGS = Settings(1e-9, 1e-3, 2000, "pyfftw", fitted=True)
 
 
 def smooth(report: Page) -> None:
@@ -94,9 +95,15 @@ def smooth(report: Page) -> None:
         )
 
 
+def fitted_of(arguments: dict[str, Any], domain: Sequence[float], nodes: int, tolerance: float) -> Scaled:
+    """A smooth contact in the units of the kernels, on a grid of nodes x nodes, with the fitted flow."""
+    now = instant_of_call(arguments, np.zeros((nodes, nodes)))
+    return Scaled(now, grid_of(domain, nodes), replace(SETTINGS, tolerance=tolerance))
+
+
 def cold(nodes: int, cycles: int, tolerance: float) -> np.ndarray:
     """H_central and H_min in Moes' units."""
-    scaled = scaled_of(CASE.arguments(), domain_of(CASE, DOMAIN), nodes, tolerance)
+    scaled = fitted_of(CASE.arguments(), domain_of(CASE, DOMAIN), nodes, tolerance)
     film = scaled.smooth_film / scaled.h_unit
     found, _ = solve_smooth(scaled.problem(), scaled.x, scaled.y, "pyfftw", film, tolerance, cycles)
     return np.array([at_centre(scaled.grid, found.gap), found.gap.min()]) * scaled.h_unit / CASE.unit
@@ -123,7 +130,7 @@ def case_a(report: Page) -> None:
         def richardson(nodes=nodes):
             grid = fitted_grid(Point(10e-3, 10e-3), 77.85, 230.47e9, film, nodes, nodes)
             domain = (grid.x[0], grid.x[-1], grid.y[0], grid.y[-1])
-            scaled = scaled_of(CASE_A, domain, nodes, 1e-3)
+            scaled = fitted_of(CASE_A, domain, nodes, 1e-3)
             start = scaled.smooth_film / scaled.h_unit
             found, films = solve_smooth(scaled.problem(), scaled.x, scaled.y, "pyfftw", start, 1e-3, 30)
             return extrapolated(films)[0] * scaled.h_unit, found
@@ -182,7 +189,7 @@ def from_dry(scene: Scene, now: Instant, step: float, before: FilmState, iterati
 
 
 def settings_of(scene: Scene, tolerance: float, iterations: int) -> Settings:
-    return Settings(scene.film.floor, tolerance, iterations, "pyfftw")
+    return Settings(scene.film.floor, tolerance, iterations, "pyfftw", fitted=True)
 
 
 def off(pressure: np.ndarray, reference: np.ndarray) -> float:

@@ -53,7 +53,7 @@ def run() -> None:
     for name, (floor, lumped, grids) in SERIES.items():
         for ratio in LAMBDAS:
             case = at(ratio)
-            settings = Settings(floor, 1e-3, ITERATIONS, "pyfftw", lumped)
+            settings = Settings(floor, 1e-3, ITERATIONS, "pyfftw", lumped, fitted=True)
             thick = ratio >= THICK and not lumped
             for level in cascade(case, GRIDS if thick else grids, settings):
                 found = level.outputs | {"gap": mean_gap(level, case)}

@@ -62,7 +62,7 @@ def off(pressure: np.ndarray, reference: np.ndarray) -> float:
 def run() -> None:
     report = Page("film/core", "Starts and limits", "starts")
     scene = Scene.from_toml("mtm_zddp")
-    grid, settings = scene.grid(scene.film.points), Settings(scene.film.floor, 1e-3, 400, "pyfftw")
+    grid, settings = scene.grid(scene.film.points), Settings(scene.film.floor, 1e-3, 400, "pyfftw", fitted=True)
     report.say(
         "Case B, fresh surfaces, 129 nodes, steady films to a pressure change of 1e-3, started from the dry contact and from a Hertz-like pressure under a film that clears the asperities, each algorithm by itself. (`point_contact` chooses its start.) Marched: in time, surfaces standing still, 120 steps of three nodes and 15 iterations. Gap: mean over r < 2a/3. Pairs: from dry, from thick."
     )

@@ -13,7 +13,7 @@ from scipy.special import elliprd
 
 from benchmarks.film.cases import MoesCase
 from benchmarks.folders import MEASURED
-from benchmarks.pages import cells
+from benchmarks.pages import cells, save
 from benchmarks.timing import timed
 from contact_core.calls.point_contact import point_contact
 from contact_core.film.fitted import Extent
@@ -177,7 +177,7 @@ def main() -> None:
         "",
         *convergence,
     ]
-    (DOCS / "elliptical.md").write_text("\n".join(page) + "\n")
+    save("film/elliptical", "\n".join(page))
 
 
 if __name__ == "__main__":

@@ -13,10 +13,9 @@ import time
 import numpy as np
 
 from benchmarks.film.random_points import draw
-from benchmarks.folders import MEASURED
+from benchmarks.pages import save
 from contact_core import ConvergenceError, point_contact
 
-DOCS = MEASURED / "film"
 OUTPUTS = ("h_central", "h_c", "h_min", "contact_area_ratio", "contact_load_ratio", "pressure_max", "approach")
 NODES = (65, 129, 257)
 TOLERANCE = 3e-3
@@ -64,8 +63,8 @@ def main() -> None:
         r, t = np.array(reported[name]), np.array(true[name])
         ratio = np.median(r[t > 0.0] / t[t > 0.0]) if (t > 0.0).any() else np.nan
         lines.append(f"| {name} | {(t <= r).mean():.0%} | {(r <= 10.0 * t).mean():.0%} | {ratio:.2g} |")
-    name = "error_estimate" + ("" if args.shape == "circle" else f"_{args.shape}")
-    (DOCS / f"{name}.md").write_text("\n".join(lines) + "\n")
+    if args.shape == "circle":
+        save("film/error_estimate", "\n".join(lines))
     print("\n".join(lines))
 
 

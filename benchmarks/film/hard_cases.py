@@ -5,7 +5,7 @@
     python -m benchmarks.film.hard_cases report
 
 `random` solves 2000 points of `random_points.py` with `point_contact` on 129x129 nodes at a tolerance of 3e-3 and adds
-a line for each to results/hard_cases/random_K_of_N.csv; what stands there already is not solved again. Of ellipses,
+a line for each to random_K_of_N.csv in results/film/hard_cases; what stands there already is not solved again. Of ellipses,
 whose radii are in a ratio of 0.1 to 10, the nodes are those along the shorter side. Lines have the same radius and
 largest pressure, and rows that repeat themselves; their answers are not checked. `rows` solves the listed cases on
 three grids. `report` writes docs/measured/film/hard_cases.md and docs/measured/film/hard_cases.png from those files.

@@ -1,15 +1,15 @@
-"""Kept rows of the hard cases: results/hard_cases/*.csv, all with the same columns."""
+"""Kept rows of the hard cases: results/film/hard_cases, all with the same columns."""
 
 import csv
 from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+from benchmarks.dependencies import kept
 from benchmarks.film.independent import Judgement
 from benchmarks.film.random_points import Point
-from benchmarks.folders import RESULTS
 
-KEPT = RESULTS / "hard_cases"
+KEPT = kept("film/hard_cases")
 NODES, TOLERANCE = 129, 3e-3
 GRIDS = (65, 129, 257)
 SAID = ("iterations", "pressure_change", "load_error", "h_c", "h_min", "contact_load_ratio", "contact_area_ratio")

@@ -1,4 +1,4 @@
-"""The page of the hard cases: tables and a map of the rows in results/hard_cases."""
+"""The page of the hard cases: tables and a map of the rows in results/film/hard_cases."""
 
 import sys
 from collections import Counter
@@ -12,6 +12,7 @@ from benchmarks.film.hard_cases_kept import GRIDS, KEPT, NODES, TOLERANCE, read
 from benchmarks.film.independent import LIMITS, Judgement, limit
 from benchmarks.film.random_points import ROWS
 from benchmarks.folders import MEASURED
+from benchmarks.pages import save
 
 DOCS = MEASURED / "film"
 Array = np.ndarray
@@ -168,7 +169,7 @@ def report() -> None:
         text += ["## Random lines", "", LINE_NOTE, "", *_random_tables(lines), ""]
     if listed:
         text += ["## Rows", ROWS_NOTE, "", *_row_table(listed), ""]
-    (DOCS / "hard_cases.md").write_text("\n".join(text))
+    save("film/hard_cases", "\n".join(text))
     wrong = sum("0 of them fail" not in line for line in text if "of them fail" in line)
     sys.exit(f"{wrong} groups of points have answers that are called converged and fail the check" if wrong else 0)
 

@@ -67,8 +67,11 @@ def lines(report: Page) -> None:
             dowson = dowson_line(SmoothLine(*bodies))[1] / unit
             every = all(film.converged for film in found)
             solved = solved and every
-            orders.append(order)
-            off.append((abs(limit[0] / formula - 1.0), load, lubricant))
+            if every:
+                orders.append(order)
+                off.append((abs(limit[0] / formula - 1.0), load, lubricant))
+            else:  # what a grid says that has not converged extrapolates to nothing
+                limit = order = np.full(2, math.nan)
             report.row(
                 load, lubricant, limit[0], formula, 100.0 * (limit[0] / formula - 1.0), order[0], limit[1], order[1],
                 dowson, 100.0 * (limit[1] / dowson - 1.0), 1e3 * seconds,
@@ -77,10 +80,10 @@ def lines(report: Page) -> None:
     worst = max(off)
     report.verdict("every smooth line converges", "all" if solved else "not all", solved)
     report.verdict(
-        "order of H_c >= 1.9", f"from {min(o[0] for o in orders):.2f}", bool(min(o[0] for o in orders) >= 1.9)
+        "order of H_c >= 1.9 where all grids converge", f"from {min(o[0] for o in orders):.2f}", bool(min(o[0] for o in orders) >= 1.9)
     )
     at = f"{100.0 * worst[0]:.1f} % at M = {worst[1]:g}, L = {worst[2]:g}"
-    report.verdict("H_c within 10 % of Moes' formula", at, worst[0] <= 0.1)
+    report.verdict("H_c within 10 % of Moes' formula where all grids converge", at, worst[0] <= 0.1)
 
 
 def rough_lines(report: Page) -> None:

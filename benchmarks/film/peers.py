@@ -29,6 +29,7 @@ import scipy.fft
 from matplotlib.figure import Figure
 
 from benchmarks.folders import MEASURED
+from benchmarks.pages import save
 from contact_core.calls.dry_contact import dry_contact
 from contact_core.film import shared
 from contact_core.kernels.half_space import influence
@@ -353,7 +354,7 @@ def main() -> int:
     absent = f"Not installed, so not in the tables: {', '.join(missing)}." if missing else ""
     text = HEAD.format(missing=absent, repeats=args.repeats) + "\n".join(lines) + "\n"
     text += CAPPED.format(hardness=HARDNESS / 1e9) + "\n".join(capped) + "\n" + SLIPPY
-    (DOCS / "peers.md").write_text(text)
+    save("film/peers", text)
     plot(args.sizes, times)
     print(*wrong, sep="\n", file=sys.stderr)
     return 1 if wrong else 2 if len(missing) == len(PEERS) else 0

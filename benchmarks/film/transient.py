@@ -15,6 +15,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from benchmarks.folders import MEASURED
+from benchmarks.pages import save
 from contact_core import ContactState, Moment, OperatingPoint, Scene, advance, initial_state, march, parted
 from contact_core.film.instant import FilmState, Grid, Instant, Settings, Step
 from contact_core.film.routes import solve_film
@@ -366,7 +367,7 @@ def main() -> None:
         "- Bodies have no mass: the load balance holds at every instant.",
         "",
     ]
-    (DOCS / "transient.md").write_text("\n".join(lines))
+    save("film/transient", "\n".join(lines))
     print("\n".join(lines))
 
 

@@ -18,9 +18,9 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.fmu.overhead import SCENE, STEP, Flavour, unpacked
-from benchmarks.folders import MEASURED
 from benchmarks.hosts.native_host import ERROR, OK, Instance, NativeHost, compiled, plain_environment
 from benchmarks.hosts.processes import alive, children, descriptors, resident, soon
+from benchmarks.pages import save
 from contact_core import Scene
 from fmu_src.package.build import build
 
@@ -147,7 +147,7 @@ def main() -> None:
         lines += ["", "| lost process | model | restored after, median [ms] | least | most |", "|---|---|---|---|---|"]
         for model in models:
             add(losses(program, *model))
-    (MEASURED / "fmu" / "endurance.md").write_text("\n".join(lines) + "\n")
+    save("fmu/endurance", "\n".join(lines))
 
 
 if __name__ == "__main__":

@@ -31,10 +31,10 @@ import fmpy
 import numpy as np
 from fmpy.simulation import instantiate_fmu
 
-from benchmarks.folders import MEASURED
 from benchmarks.hosts.empty_slave import Empty, pack
 from benchmarks.hosts.native_host import Instance, NativeHost, compiled, embedding_environment, plain_environment
 from benchmarks.hosts.processes import children
+from benchmarks.pages import save
 from benchmarks.regression.cost import unit
 from contact_core import ContactState, Scene, advance, initial_state
 from fmu_src.package.build import build
@@ -293,7 +293,7 @@ def main() -> None:
         lines += ["| flavour | instances | ready after [s] | memory [MB] | processes |", "|---|---|---|---|---|"]
         lines += shown(crowds(program, folder))
     lines += ["", "| surfaces | state [kB] | made in [us] | read in [us] |", "|---|---|---|---|", *shown(states())]
-    (MEASURED / "fmu" / "overhead.md").write_text("\n".join(lines) + "\n")
+    save("fmu/overhead", "\n".join(lines))
 
 
 if __name__ == "__main__":

@@ -12,8 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from benchmarks.folders import MEASURED
-from benchmarks.pages import cells
+from benchmarks.pages import cells, save
 from benchmarks.timing import timed, unit_of
 from contact_core import ContactFields, Scene, Transient, initial_state, solve
 from contact_core.deterministic.friction import derivatives, shear
@@ -23,7 +22,6 @@ from contact_core.laws.rheology import Carreau, Eyring, Newtonian
 from contact_core.laws.temperatures import Rubbing
 from contact_core.scene import Case
 
-DOCS = MEASURED / "friction"
 CASE = {
     "operation.speed_1": "0.3125 m/s",
     "operation.speed_2": "0.1875 m/s",
@@ -160,7 +158,7 @@ def main() -> None:
                 lines.append(cells(row))
                 print(lines[-1], flush=True)
     if not sys.argv[1:]:
-        (DOCS / "laws_cost.md").write_text("\n".join(lines) + "\n")
+        save("friction/laws_cost", "\n".join(lines))
 
 
 if __name__ == "__main__":

@@ -7,14 +7,13 @@ Writes docs/measured/friction/traction.md and docs/measured/friction/traction.pn
 
 import argparse
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
 from scipy.integrate import quad
 
 from benchmarks.folders import MEASURED
-from benchmarks.pages import cells
+from benchmarks.pages import cells, save
 from contact_core import OperatingPoint, Scene, advance, initial_state, solve
 
 DOCS = MEASURED / "friction"
@@ -231,7 +230,7 @@ def main() -> None:
     third = held_and_total()
     plot(curves, speeds)
     head = ["# Friction", "", "Written by `python -m benchmarks.friction.traction`.", "", "![friction](traction.png)", ""]
-    Path(DOCS / "traction.md").write_text("\n".join([*head, *first, "", *second, "", *third]) + "\n")
+    save("friction/traction", "\n".join([*head, *first, "", *second, "", *third]))
 
 
 if __name__ == "__main__":

@@ -29,6 +29,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from benchmarks.folders import MEASURED, RESULTS, ROOT
+from benchmarks.pages import save
 
 LISTS = Path(__file__).with_suffix("")
 FOUND = RESULTS / "faults.json"
@@ -276,7 +277,7 @@ def main() -> int:
         return at_once(faults)
     known = json.loads(FOUND.read_text()) if FOUND.exists() else {}
     each(faults, known, given.jobs)
-    PAGE.write_text(page(every, known), encoding="utf-8")
+    save("house/faults", page(every, known))
     print(f"wrote {PAGE.relative_to(ROOT)}")
     return int(any(not fault.harmless and state_of(fault, known) != NOTICED for fault in faults))
 

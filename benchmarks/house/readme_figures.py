@@ -25,7 +25,7 @@ HEAD = "## How good, how fast\n"
 INTRODUCTION = """
 `python -m benchmarks.house.readme_figures` writes this section from the linked pages, and the benchmarks named there write the
 pages. One thread; CPU seconds on a shared machine; a work unit (WU) is one deformation convolution on the same grid.
-Pages that [docs/index.md](docs/index.md) marks with a † were measured before the fitted flow and microroughness became the default.
+`python -m benchmarks.house.pages` lists those whose sources have changed since they were written.
 """
 
 

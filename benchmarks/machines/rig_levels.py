@@ -3,7 +3,7 @@
     OMP_NUM_THREADS=1 NUMBA_NUM_THREADS=1 python -m benchmarks.machines.rig_levels
 
 The machine `mtm_rig` rubs for two hours; before, after 30 min and at the end it runs through SPEEDS. Writes
-docs/measured/machines/rig_levels.md and docs/measured/machines/rig_levels.png. Results are kept in results/rig_levels: what is there of the same system is
+docs/measured/machines/rig_levels.md and docs/measured/machines/rig_levels.png. Results are kept in results/machines/rig_levels: what is there of the same system is
 not simulated again, and what was interrupted goes on.
 """
 
@@ -15,7 +15,9 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from benchmarks.folders import MEASURED, RESULTS
+from benchmarks.dependencies import kept
+from benchmarks.folders import MEASURED
+from benchmarks.pages import save
 from contact_core.quantities import LEVELS
 from system_models.machines import reading
 from system_models.machines.assembly import Assembly
@@ -24,7 +26,7 @@ from system_models.master import simulate
 from system_models.master.saving import identity
 from system_models.store import results
 
-DOCS, KEPT = MEASURED / "machines", RESULTS / "rig_levels"
+DOCS, KEPT = MEASURED / "machines", kept("machines/rig_levels")
 SPEEDS = (2.0, 0.5, 0.12, 0.03, 0.01)  # of entrainment in a sweep [m/s]
 HELD, SWEPT_SRR = 10.0, 0.5  # s at each; slide-to-roll ratio
 RUBBED = (0.0, 1800.0, 7200.0)  # s, before the sweeps
@@ -195,5 +197,5 @@ def figure(fast: xr.Dataset, deep: xr.Dataset) -> Figure:
 
 if __name__ == "__main__":
     runs = [run(level) for level in LEVELS]
-    (DOCS / "rig_levels.md").write_text(page(*runs), "utf-8")
+    save("machines/rig_levels", page(*runs))
     figure(*runs).savefig(DOCS / "rig_levels.png", dpi=120)

@@ -2,7 +2,7 @@
 
     OMP_NUM_THREADS=1 NUMBA_NUM_THREADS=1 python -m benchmarks.machines.tolerance [MACHINE ...]
 
-Simulations are kept in results/machine_tolerance until they are removed, so a run can be taken up again. Writes
+Simulations are kept in results/machines/tolerance, so a run can be taken up again. Writes
 docs/measured/machines/tolerance.md of all machines that are there.
 """
 
@@ -15,13 +15,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from benchmarks.folders import MEASURED, RESULTS
+from benchmarks.dependencies import kept
+from benchmarks.pages import save
 from system_models.machines import reading
 from system_models.machines.assembly import Assembly
 from system_models.machines.coupling_error import coarser, differences, relative, settled, stated
 from system_models.master import simulate
 
-KEPT = RESULTS / "machine_tolerance"
+KEPT = kept("machines/tolerance")
 # up to which time of its duty each is simulated, and into how many parts its steps are cut for the truth
 MACHINES = {
     "mtm_rig": ("", 8),
@@ -55,7 +56,7 @@ def simulated(name: str) -> None:
     with tempfile.TemporaryDirectory() as folder:
         system = assembly.system(Path(folder))
 
-        def kept(kind: str, settings: Mapping[str, Any]) -> xr.Dataset:
+        def made(kind: str, settings: Mapping[str, Any]) -> xr.Dataset:
             path = KEPT / f"{name}_{kind}.nc"
             if not path.exists():
                 KEPT.mkdir(parents=True, exist_ok=True)
@@ -65,9 +66,9 @@ def simulated(name: str) -> None:
                 print(name, kind, found.attrs["steps"], flush=True)
             return xr.load_dataset(path, engine="h5netcdf")
 
-        run = kept("run", assembly.settings)
-        kept("coarse", coarser(run, assembly.settings, assembly.schedule))
-        kept("fine", finer(run, assembly.settings, parts))
+        run = made("run", assembly.settings)
+        made("coarse", coarser(run, assembly.settings, assembly.schedule))
+        made("fine", finer(run, assembly.settings, parts))
 
 
 def rows(name: str) -> tuple[str, list[str]]:
@@ -133,4 +134,4 @@ The {MOST} outputs of each with the largest error stated, and all that are not c
 if __name__ == "__main__":
     for machine in sys.argv[1:] or MACHINES:
         simulated(machine)
-    (MEASURED / "machines" / "tolerance.md").write_text(page(), "utf-8")
+    save("machines/tolerance", page())

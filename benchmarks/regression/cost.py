@@ -14,7 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from benchmarks.folders import MEASURED
+from benchmarks.pages import save
 from contact_core import OperatingPoint, Scene, advance, initial_state
 
 STEPS, STEP = 10_000, 1e-3  # s
@@ -99,7 +99,7 @@ def main() -> None:
         cost = f"{middle:.1f} | {low:.1f} | {high:.1f} | {operation:.2f} | {ratio:.0f}"
         lines.append(f"| {name} | {laws} | {inputs} | {cost} |")
         print(lines[-1], flush=True)
-    (MEASURED / "regression" / "cost.md").write_text("\n".join(lines) + "\n")
+    save("regression/cost", "\n".join(lines))
 
 
 if __name__ == "__main__":

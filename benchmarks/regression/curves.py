@@ -13,6 +13,7 @@ import argparse
 import numpy as np
 
 from benchmarks.folders import MEASURED, ROOT
+from benchmarks.pages import save
 from benchmarks.regression.check import curves_page, deterministic, hours_page, level_page
 from benchmarks.regression.fit import Fit, Table, constants_page, draw, shared
 from benchmarks.regression.points import (
@@ -77,7 +78,7 @@ def write_page(*, fast: bool) -> None:
         "![load ratio over reduced and plain lambda, mean gap and area against their curves](curves.png)",
     ]
     page = "\n".join(lines)
-    (MEASURED / "regression" / "curves.md").write_text(page.replace("\n\n\n", "\n\n") + "\n")
+    save("regression/curves", page.replace("\n\n\n", "\n\n"))
     print(page)
     write_golden(fit.sweep)
 

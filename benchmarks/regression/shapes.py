@@ -14,6 +14,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from benchmarks.folders import MEASURED
+from benchmarks.pages import save
 from benchmarks.regression.fit import Fit, constants, ends, shared, table, told
 from benchmarks.regression.points import Columns
 from benchmarks.regression.points import solved as answered
@@ -350,7 +351,7 @@ def page() -> None:
         "![friction by both levels; deviation of friction and of film over their error outputs](shapes.png)",
     ]
     joined = "\n".join(text).replace("\n\n\n", "\n\n") + "\n"
-    (DOCS / "shapes.md").write_text(joined)
+    save("regression/shapes", joined)
     print(joined)
 
 

@@ -1,6 +1,6 @@
 """Two hours of rubbing: cost, errors and their causes.
 
-    python -m benchmarks.surfaces.evolution                run what is not yet in results/evolution, then write the page
+    python -m benchmarks.surfaces.evolution                run what is not yet in results/surfaces/evolution, then write the page
     python -m benchmarks.surfaces.evolution grid driver    these parts only
     python -m benchmarks.surfaces.evolution --again        run everything anew, after a change of the core
 
@@ -19,7 +19,9 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from benchmarks.folders import MEASURED, RESULTS
+from benchmarks.dependencies import kept
+from benchmarks.folders import MEASURED
+from benchmarks.pages import save
 from benchmarks.timing import work_unit
 from contact_core import OperatingPoint, Scene, advance, initial_state, solve, uncertainty
 from contact_core.deterministic.accumulator import Accumulator
@@ -27,7 +29,7 @@ from contact_core.deterministic.sampling import sample_dry, sample_mixed
 from contact_core.scene import Case
 from contact_core.surfaces.patches import track_rows
 
-DOCS, KEPT = MEASURED / "surfaces", RESULTS / "evolution"
+DOCS, KEPT = MEASURED / "surfaces", kept("surfaces/evolution")
 CASE, HOURS, INTERVAL = "azam_case_a", 2.0, 60.0
 TIMES = np.array([5, 10, 20, 30, 40, 50, 60, 70, 80, 90, 100, 110, 119])  # minutes at which runs are compared
 WINDOW = 2.0  # minutes to either side over which the finer run is averaged: its rows scatter, too
@@ -373,7 +375,7 @@ def main() -> None:
         text = KEPT / f"{name}.md"
         if text.exists():
             page += ["", f"## {part.__doc__.splitlines()[0].rstrip('.')} (`{name}`)", "", *text.read_text().splitlines()]
-    (DOCS / "evolution.md").write_text("\n".join(page) + "\n")
+    save("surfaces/evolution", "\n".join(page))
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from benchmarks.folders import MEASURED
+from benchmarks.pages import save
 from contact_core import Scene
 from contact_core.scene import SelfAffine, Surface
 from contact_core.surfaces.laid import Shown, shown
@@ -90,9 +91,7 @@ def main() -> None:
             )
             ax.set_title(f"{kind.replace(' and', chr(10) + 'and')}\n{points} nodes", fontsize="small")
             ax.set_xticks([]), ax.set_yticks([])
-    (DOCS / "grids.md").write_text(
-        "\n".join([*lines, "", "![The surfaces on the coarsest and finest grid](grids.png)", ""])
-    )
+    save("surfaces/grids", "\n".join([*lines, "", "![The surfaces on the coarsest and finest grid](grids.png)"]))
     figure.savefig(DOCS / "grids.png", dpi=80)
     print("\n".join(lines))
 

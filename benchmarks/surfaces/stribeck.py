@@ -1,6 +1,6 @@
 """Shift of the Stribeck curves of the shipped scenes after two hours of rubbing, with and without tribofilm.
 
-    python -m benchmarks.surfaces.stribeck                      what is not yet in results/stribeck, then the page
+    python -m benchmarks.surfaces.stribeck                      what is not yet in results/surfaces/stribeck, then the page
     python -m benchmarks.surfaces.stribeck mtm_zddp --again     this scene only, and anew, after a change of the core
     python -m benchmarks.surfaces.stribeck --times 0,30 --points 6 --set film.points=65 surface_1.correlation_length="16 um" \
 surface_2.correlation_length="16 um"              a quick look
@@ -20,14 +20,16 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from benchmarks.folders import MEASURED, RESULTS
+from benchmarks.dependencies import kept
+from benchmarks.folders import MEASURED
+from benchmarks.pages import save
 from contact_core import Scene, shipped_scenes
 from system_models.run import stribeck_report
 from system_models.run.duty import Duty
 from system_models.run.stribeck import Curves, Plan, measure
 from system_models.store.results import write
 
-DOCS, KEPT = MEASURED / "surfaces", RESULTS / "stribeck"
+DOCS, KEPT = MEASURED / "surfaces", kept("surfaces/stribeck")
 FASTEST, SLOWEST = 10.0, 0.003  # m/s, as the command has them
 BOUNDARY = 0.09, 0.14  # friction of ZDDP films
 TRIBOFILMS: dict[str, dict[str, str]] = {"ZDDP": {}, "none": {"tribofilm.model": "none"}}
@@ -35,7 +37,7 @@ COLOURS = {"ZDDP": "#D55E00", "none": "#0072B2"}
 
 
 def curves_of(name: str, tribofilm: str, args: argparse.Namespace) -> xr.Dataset:
-    """The curves of a scene, from results/stribeck if they are there."""
+    """The curves of a scene, from results/surfaces/stribeck if they are there."""
     scene = Scene.from_toml(name, dict(args.settings) | TRIBOFILMS[tribofilm])
     duty = Duty.of_scene(scene)
     curves = Curves(Plan.of(duty, args.times, FASTEST, SLOWEST, args.points))
@@ -215,7 +217,7 @@ def main() -> None:
     options = shlex.join(word for word in sys.argv[1:] if word != "--again")
     lines = page(all_curves, f" {options}" if options else "")
     picture(all_curves).savefig(DOCS / "stribeck.png", dpi=150)
-    (DOCS / "stribeck.md").write_text("\n".join(lines) + "\n", "utf-8")
+    save("surfaces/stribeck", "\n".join(lines))
     print("\n".join(lines))
 
 

@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.folders import RESULTS
+from benchmarks.dependencies import kept
 from contact_core import ContactError, ContactState, Scene, advance, initial_state, uncertainty
 from contact_core.laws.tribofilm import thickness
 from contact_core.surfaces.patches import bare_heights, heights_of
 
-KEPT = RESULTS / "thesis"
+KEPT = kept("thesis/validation")
 INTERVAL = 60.0  # s between two rows
 SNAPSHOTS = (1, 5, 10, 20)  # minutes at which the tribofilm is kept whole
 SRR = (-10.0, -5.0, -2.0, -0.5, 0.5, 2.0, 5.0, 10.0)  # percent

@@ -20,7 +20,7 @@ CHAPTERS = (
 KINDS = ("thesis", "ours")  # in the order of the columns
 NAMES = {"thesis": "thesis numerics", "ours": "ours"}
 HOW = """\
-Written by `python -m benchmarks.thesis.validation`, which runs the cases missing in results/thesis; `--report` writes this page from the existing ones, `--list` lists them. Each verdict follows from its numbers by the
+Written by `python -m benchmarks.thesis.validation`, which runs the cases missing in results/thesis/validation; `--report` writes this page from the existing ones, `--list` lists them. Each verdict follows from its numbers by the
 criterion beside it. The thesis: A. Azam, PhD thesis, University of Leeds, 2018. It prints most results as plots only, so shapes and
 orders are compared, and numbers where its text gives them.
 

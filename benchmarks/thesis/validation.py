@@ -1,13 +1,13 @@
 """Every figure of Azam's thesis (University of Leeds 2018, chapters 5 to 7), compared by its numbers.
 
-    python -m benchmarks.thesis.validation                 run what is not yet in results/thesis, then write the page
+    python -m benchmarks.thesis.validation                 run what is not yet in results/thesis/validation, then write the page
     python -m benchmarks.thesis.validation --list          the cases and which of them are there
     python -m benchmarks.thesis.validation --report        only the page
     python -m benchmarks.thesis.validation --case 'A_*' --numerics ours --again --jobs 2
 
 Writes docs/measured/thesis/validation.md and docs/validation_*.png. Results are found again by a fingerprint of the whole scene and of
-the test time; of the program they know nothing, so run with --again after a change of the core. A run that is killed
-loses the cases at work, no more. --hours and --points try the way quickly; they report to results/thesis/trial.
+the test time, as long as nothing has changed that the page depends on. A run that is killed
+loses the cases at work, no more. --hours and --points try the way quickly; they report to its trial.
 """
 
 import argparse
