@@ -21,6 +21,8 @@ from contact_core.surfaces.patches import bare_heights
 
 Array = NDArray[np.float64]
 
+SLOWEST, FASTEST = 1e-4, 60.0  # m/s, between which the film parameter may be 1
+
 
 def point_at(scene: Scene, speed: float) -> OperatingPoint:
     """Return the scene's own operating point at an entrainment speed [m/s], with the slide-to-roll ratio kept."""
@@ -88,10 +90,15 @@ class Peaks:
 
 
 def speed_of_one(scene: Scene, peaks: Peaks, *, deformed: bool) -> float:
-    """Return the entrainment speed [m/s] at which the film parameter is 1."""
-    low, high = 1e-4, 1e3
+    """Return the entrainment speed [m/s] at which the film parameter is 1; infinite above FASTEST."""
+
+    def too_thin(speed: float) -> bool:
+        return films(scene, speed)[1] < (peaks.deformed(speed) if deformed else peaks.rigid)
+
+    low, high = SLOWEST, FASTEST
+    if too_thin(high):
+        return math.inf
     while high > 1.002 * low:
         middle = math.sqrt(low * high)
-        needed = peaks.deformed(middle) if deformed else peaks.rigid
-        low, high = (middle, high) if films(scene, middle)[1] < needed else (low, middle)
+        low, high = (middle, high) if too_thin(middle) else (low, middle)
     return math.sqrt(low * high)
