@@ -29,6 +29,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "grid_error": ("contact_core/film/grid_error.py", "contact_core/deterministic/solution_error.py",
                    "contact_core/scene/accuracy.py"),
     "evolution": ("contact_core/deterministic/*.py", "-contact_core/deterministic/outputs.py",
+                  "-contact_core/deterministic/__init__.py",
                   "-contact_core/deterministic/solution_error.py", "contact_core/surfaces/*.py",
                   "-contact_core/surfaces/track_means.py",
                   "contact_core/state/bulk_temperature.py",

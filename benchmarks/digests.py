@@ -71,7 +71,7 @@ def defaults(content: bytes) -> str:
         elif isinstance(node, ast.ClassDef):
             fields = [part for part in node.body if isinstance(part, ast.AnnAssign) and part.value is not None]
             found += [f"{node.name}.{ast.unparse(part.target)}={written(part.value)}" for part in fields]
-    nothing = ("=Constant(value=None)", "=parameter([Constant(value=None)])", "=parameter([])")
+    nothing = ("=Constant()", "=parameter([Constant()])", "=parameter([])")  # `written` leaves out what is None
     return "\n".join(sorted(line for line in found if not line.endswith(nothing)))
 
 
