@@ -15,11 +15,38 @@ from .assembly import Assembly
 
 def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
     """Return a table of costs, and sentences."""
-    return [*_costs(assembly, dataset), "", *_solutions(assembly, dataset), *_invalid(assembly, dataset)]
+    ends = [*_stated(assembly, dataset), *_invalid(assembly, dataset)]
+    return [*_costs(assembly, dataset), "", *_solutions(assembly, dataset), *ends]
+
+
+def loss_error(assembly: Assembly, dataset: xr.Dataset) -> float:
+    """Return the relative error of the energy that the contacts lose, by the friction errors that they state.
+
+    As if all contacts were off the same way; NaN if they lose nothing.
+    """
+    lost = erred = 0.0
+    steps = np.diff(dataset["time"].values, prepend=0.0)
+    for name, contact in assembly.contacts.items():
+        count = dataset[contact.count].values if contact.count else 1.0
+        power = np.abs(count * dataset[f"{name}.power_loss"].values) * steps
+        error = dataset[f"{name}.error_friction"].values
+        lost, erred = lost + float(power.sum()), erred + float((power * error).sum())
+    return erred / lost if lost else float("nan")
+
+
+def _stated(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
+    """Return a sentence on the errors that the contacts state, beside those of the coupling."""
+    error = loss_error(assembly, dataset)
+    if np.isnan(error):
+        return []
+    return [
+        f"Errors that the contacts state: {error:.1%} of the energy they lose, as if all were off the same way; the "
+        "error of the coupling comes on top."
+    ]
 
 
 def invalid_rows(assembly: Assembly, dataset: xr.Dataset) -> int:
-    """Return rows in which a contact or component could not use its inputs."""
+    """Return rows in which a contact or component could not use its inputs, or does not know friction or film."""
     return int((~_valid(assembly, dataset)).sum())
 
 
@@ -80,5 +107,5 @@ def _invalid(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
     first = float(dataset["time"].values[np.flatnonzero(~_valid(assembly, dataset))[0]])
     return [
         f"WARNING: {count} rows are INVALID, the first at {first:g} s: {', '.join(names)} could not use the inputs and "
-        "stood still. The log has the reason."
+        "stood still (the log has the reason), or state errors of 100 % or more."
     ]
