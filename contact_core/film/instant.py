@@ -168,3 +168,14 @@ class FilmSolution(Convergence):
         """Return the solution mirrored along x."""
         gap, overlap, touching = (np.ascontiguousarray(f[:, ::-1]) for f in (self.gap, self.overlap, self.touching))
         return replace(self, state=self.state.mirrored(), gap=gap, overlap=overlap, touching=touching)
+
+
+@dataclass(frozen=True)
+class GridStep:
+    """One of the grids that were solved to meet an accuracy."""
+
+    nodes: tuple[int, int]  # along y and along x
+    iterations: int
+    converged: bool
+    output: str  # with the largest stated error for what is asked of it; empty on a first grid, which has no estimate
+    error: float  # stated one of that output: relative, of ratios absolute
