@@ -118,20 +118,6 @@ def refuse(sentences: list[str]) -> None:
         raise OperatingPointError(" ".join(sentences))
 
 
-def wants_accuracy(accuracy: float | None, grid: object, tolerance: float | None) -> bool:
-    """Return True if the call is asked for an accuracy, which leaves grid and tolerance to the program."""
-    given = {name: value for name, value in (("grid", grid), ("tolerance", tolerance)) if value is not None}
-    if accuracy is not None and given:
-        said = " and ".join(f"{name} = {value!r}" for name, value in given.items())
-        refuse(
-            [
-                f"accuracy = {accuracy!r} chooses grid and tolerance itself: leave {said} out, or give grid and "
-                "tolerance without accuracy."
-            ]
-        )
-    return accuracy is not None
-
-
 def film_of(shape: Shape, load: float, numbers: Numbers, supply: float | None) -> float:
     """Return the film [m] of smooth bodies by formula, behind an oil layer [m] or flooded; 0 at rest.
 
@@ -192,13 +178,13 @@ def solve_to_accuracy(
 
     `surface`: heights [m] on a grid, None if smooth; else as `solve_call`.
     """
-    from ..film.refined import refined  # kernels are loaded when a film is solved
+    from ..film.refined import refined_film  # kernels are loaded when a film is solved
 
     def on(grid: Grid) -> Instant:
         heights = None if surface is None else surface(grid)
         return _instant(shape, load, numbers, grid, heights, supply, options)
 
-    found = refined(on, grids, _settings(numbers, options), numbers.accuracy)
+    found = refined_film(on, grids, _settings(numbers, options), numbers.accuracy)
     best = found.best
     answer = _answer(found_as, on(best.grid), best.grid, best.solution, best.values, found.errors)
     return replace(answer, steps=found.steps, warnings=(*answer.warnings, *found.warnings))

@@ -21,9 +21,8 @@ from .common import (
     refuse,
     solve_call,
     solve_to_accuracy,
-    wants_accuracy,
 )
-from .refinement import MOST_NODES, grids_within, intervals, surface_of
+from .refinement import MOST_NODES, grids_within, intervals, surface_of, wants_accuracy
 
 Array = NDArray[np.float64]
 
@@ -97,9 +96,10 @@ def line_contact(
         Length of the line [m]; 1 m if not given.
     profile
         Ends of a roller, such as `Rounded` or `Logarithmic`.
-    viscosity_law, density_law, hardness, floor, cavitation, supply, meniscus, accuracy, tolerance, iterations, flux, \
-    fft
+    viscosity_law, density_law, hardness, floor, cavitation, supply, meniscus, tolerance, iterations, flux, fft
         As in `point_contact`.
+    accuracy
+        As in `point_contact`, too. Rows that repeat keep their period: finer grids have more of them.
     heights_1, heights_2
         Heights [ny, nx] of each body [m], positive toward the other one, centred on the contact. Without ends their
         first row follows their last: an even number of rows, or one.
@@ -150,7 +150,7 @@ def line_contact(
         )
     film = film_of(shape, total, numbers, supply)
     starved = (supply, meniscus)
-    if wants_accuracy(accuracy, grid, tolerance):
+    if wants_accuracy(accuracy, grid=grid, tolerance=tolerance):
         if heights is None:
             grids, surface = _grids(numbers, shape, total, film, domain), None
         else:

@@ -19,9 +19,8 @@ from .common import (
     refuse,
     solve_call,
     solve_to_accuracy,
-    wants_accuracy,
 )
-from .refinement import MOST_NODES, grids_within, intervals, surface_of
+from .refinement import MOST_NODES, grids_within, intervals, surface_of, wants_accuracy
 
 Array = NDArray[np.float64]
 
@@ -154,7 +153,7 @@ def point_contact(
     heights, shape = heights_of(heights_1, heights_2), Point(numbers.radius_x, numbers.radius_y)
     film = film_of(shape, numbers.load, numbers, supply)
     starved = (supply, meniscus)
-    if wants_accuracy(accuracy, grid, tolerance):
+    if wants_accuracy(accuracy, grid=grid, tolerance=tolerance):
         if heights is None:
             grids, surface = _grids(numbers, shape, film, domain), None
         else:

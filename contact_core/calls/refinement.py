@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import OperatingPointError
 from ..film.instant import Grid
 
 Array = NDArray[np.float64]
@@ -12,12 +13,28 @@ Array = NDArray[np.float64]
 _COARSEST, _FINEST = 32, 512  # intervals along the shorter side
 MOST_NODES = 600_000
 _FINER = 0.9  # spacing over that of the grid before, at most
+_MOST_DRY_NODES = 1_100_000  # of a dry contact, which costs less
+_PARTS, _MOST_PARTS, _LEAST_CELLS = 16, 8, 16
 _REACH = 8  # rows over which a spline forgets its ends
+
+
+def wants_accuracy(accuracy: float | None, **expert: object) -> bool:
+    """Return True if a call is asked for an accuracy, which leaves the `expert` arguments to the program.
+
+    Raises OperatingPointError if both are given.
+    """
+    given = [f"{name} = {value!r}" for name, value in expert.items() if value is not None]
+    if accuracy is not None and given:
+        raise OperatingPointError(
+            f"accuracy = {accuracy!r} chooses {' and '.join(expert)} itself: leave out {' and '.join(given)}, or give "
+            f"{' and '.join(expert)} without accuracy."
+        )
+    return accuracy is not None
 
 
 def intervals(least: int = _COARSEST, most: int = _FINEST) -> Iterator[int]:
     """Return 2^k and 3 2^k from `least` to `most`: grids that can be halved, each 4/3 or 3/2 as fine as the last."""
-    for power in range(4, 14):
+    for power in range(1, 14):
         for count in (2**power, 3 * 2 ** (power - 1)):
             if least <= count <= most:
                 yield count
@@ -53,6 +70,17 @@ def refined_grid(given: Grid, count: int) -> Grid:
     return Grid(_about(given.x, _cells(long, step) + 1, step), _about(given.y, rows, step), given.periodic, repeats)
 
 
+def refined_cells(ny: int, nx: int, spacing: float) -> list[Grid]:
+    """Return grids whose cells cover the same area as ny by nx cells of a spacing, from coarse to fine."""
+    grids = []
+    for count in intervals(1, _PARTS * _MOST_PARTS):  # cells on each `_PARTS` of the given ones
+        rows, columns = (n * count / _PARTS for n in (ny, nx))
+        whole = rows == int(rows) and columns == int(columns)
+        if whole and min(rows, columns) >= _LEAST_CELLS and (count <= _PARTS or rows * columns <= _MOST_DRY_NODES):
+            grids.append(Grid.centred(int(rows), int(columns), spacing * _PARTS / count))
+    return grids
+
+
 def surface_of(heights: Array, given: Grid) -> Callable[[Grid], Array]:
     """Return the surface between the nodes of `given` by a cubic spline, as a function of a grid."""
     from scipy.interpolate import CubicSpline, RectBivariateSpline  # loaded where it is needed
@@ -65,7 +93,7 @@ def surface_of(heights: Array, given: Grid) -> Callable[[Grid], Array]:
         more = _REACH
         rows = np.arange(-more, y.size + more)
         y, z = y[0] + rows * given.spacing, z[rows % y.size]
-    spline = RectBivariateSpline(y, x, z, kx=3, ky=3)
+    spline = RectBivariateSpline(y, x, z, kx=min(3, y.size - 1), ky=min(3, x.size - 1))
     return lambda grid: np.ascontiguousarray(spline(grid.y, grid.x))
 
 

@@ -51,6 +51,19 @@ def film_outputs(
     }
 
 
+def area_by_chance(touching: Mask, cell: float, area: float) -> float:
+    """Return how much of contact_area_ratio is chance: nodes at the edges of contacts touch or not.
+
+    Two standard deviations if each of them is on either side; `cell` of a node and `area` of Hertz's contact in m2.
+    """
+    inside = np.pad(touching, 1)
+    inside = inside[:-2, 1:-1] & inside[2:, 1:-1] & inside[1:-1, :-2] & inside[1:-1, 2:]
+    if touching.shape[0] == 1:  # rows beside it are alike
+        row = np.pad(touching[0], 1)
+        inside = (row[:-2] & row[2:])[None]
+    return 2.0 * float(np.sqrt(np.count_nonzero(touching & ~inside))) * cell / area
+
+
 def open_outputs(grid: Grid, state: FilmState, gap: Array) -> dict[str, float]:
     """Return the same for bodies that just touch: h_c is the gap at the centre."""
     centre = at_centre(grid, gap)

@@ -1,78 +1,134 @@
-"""One steady film to an accuracy: grids from coarse to fine, until the stated errors are within it.
+"""Solution of one instant to an accuracy: grids from coarse to fine, until the stated errors are within it.
 
-A grid starts from the film of the one before, and the next one is chosen by the error that is left: errors are taken to
-fall with the square of the spacing, but no step is finer than a half.
+The next grid is chosen by the error that is left: errors are taken to fall with the square of the spacing, but no step
+is finer than a half.
 """
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from ..errors import ConvergenceError
-from .estimate import OnGrid, stated_errors
+from .estimate import OnGrid, Outputs, stated_errors_of_film
 from .instant import FilmState, Grid, GridStep, Instant, Settings
 from .routes import solve_film
 
 Array = NDArray[np.float64]
 
-ASKED = ("h_central", "h_c", "pressure_max", "contact_load_ratio", "contact_area_ratio")
-_RATIOS = ASKED[3:]  # their errors are absolute, those of the others relative
+_RELATIVE, _ABSOLUTE = ("h_central", "h_c", "pressure_max"), ("contact_load_ratio", "contact_area_ratio")
 _TOLERANCE, _LARGEST_TOLERANCE = 0.1, 3e-3  # of the stopping rule, over the accuracy; and at most
 _FINER = 2.0  # largest ratio of the spacings of two grids in a row
 _ALLOWANCE = 1.1  # spacing over that at which the error is expected to be within the accuracy
-_FAILURES = 2  # grids in a row without a converged film, after which no finer one is tried
+_FAILURES = 2  # grids in a row without a converged solution, after which no finer one is tried
+
+
+class Solved(Outputs, Protocol):
+    """A solution on one grid."""
+
+    @property
+    def nodes(self) -> tuple[int, int]:
+        """Nodes along y and along x."""
+
+    @property
+    def converged(self) -> bool:
+        """True if it has converged."""
+
+    @property
+    def iterations(self) -> int:
+        """Iterations on this grid."""
+
+
+Found = TypeVar("Found", bound=Solved)
 
 
 @dataclass(frozen=True)
-class Refined:
-    """The film of the finest grid that converged, its stated errors, and how it was found."""
+class Refined(Generic[Found]):
+    """The solution on the finest grid that converged, its stated errors, and how it was found."""
 
-    best: OnGrid
+    best: Found
     errors: dict[str, float]  # half width of each output, in its unit
     steps: tuple[GridStep, ...]
     warnings: tuple[str, ...]
 
 
-def refined(on: Callable[[Grid], Instant], grids: Sequence[Grid], settings: Settings, accuracy: float) -> Refined:
-    """Solve for a steady film on some of the grids, from coarse to fine, until the accuracy is met.
+@dataclass(frozen=True)
+class Request:
+    """An accuracy, and the outputs whose relative and whose absolute errors it bounds."""
 
-    `on` gives the instant on a grid. A film that has not converged is the answer if no grid has one that has.
+    accuracy: float
+    relative: tuple[str, ...] = _RELATIVE
+    absolute: tuple[str, ...] = _ABSOLUTE
+
+    def errors(self, errors: dict[str, float], found: Outputs) -> dict[str, float]:
+        """Return the errors of these outputs as the accuracy counts them."""
+        relative = {name: errors[name] / abs(found.values[name]) for name in self.relative}
+        return relative | {name: errors[name] for name in self.absolute}
+
+
+def refined(
+    spacings: Sequence[float],
+    solve: Callable[[int, Found | None], Found],
+    stated: Callable[[Sequence[Found]], dict[str, float]],
+    request: Request,
+) -> Refined[Found]:
+    """Solve on some of the grids, from coarse to fine, until the stated errors are within the request.
+
+    `solve` gives the solution on a grid by its number and that on the grid before; `stated` the errors of the last of
+    some grids. A solution that has not converged is the answer if no grid has one that has.
 
     Raises
     ------
     ConvergenceError
-        If no film is found on any grid.
+        If no solution is found on any grid.
 
     """
-    settings = replace(settings, tolerance=min(_TOLERANCE * accuracy, _LARGEST_TOLERANCE))
-    solved, others, steps, failed, at = list[OnGrid](), list[OnGrid](), list[GridStep](), 0, 0
+    solved, others, steps, failed, at = list[Found](), list[Found](), list[GridStep](), 0, 0
     while True:
-        before = solved[-1] if solved else None
         try:
-            found = _solved(on(grids[at]), grids[at], settings, before)
+            found = solve(at, solved[-1] if solved else None)
         except ConvergenceError:
-            if not (solved or others) and (failed == _FAILURES - 1 or at == len(grids) - 1):
-                raise
-            found = None
-        converged = found is not None and found.solution.converged
-        if found is not None:
-            (solved if converged else others).append(found)
-        failed = 0 if converged else failed + 1
-        output, error = (
-            _worst(stated_errors(on(grids[at]), solved, settings), solved[-1]) if converged else ("", np.inf)
-        )
-        iterations = 0 if found is None else found.solution.iterations
-        steps.append(GridStep(grids[at].shape, iterations, converged, output, error))
-        if error <= accuracy or at == len(grids) - 1 or failed == _FAILURES:
+            failed += 1
+            if failed == _FAILURES or at == len(spacings) - 1:
+                if not (solved or others):
+                    raise
+                break
+            at += 1
+            continue
+        (solved if found.converged else others).append(found)
+        failed = 0 if found.converged else failed + 1
+        output, error = "", np.inf
+        if found.converged:
+            errors = request.errors(stated(solved), found)
+            output = max(errors, key=lambda name: errors[name])
+            error = errors[output]
+        steps.append(GridStep(found.nodes, found.iterations, found.converged, output, error))
+        if error <= request.accuracy or at == len(spacings) - 1 or failed == _FAILURES:
             break
-        at = _next(grids, at, error / accuracy)
+        at = _next(spacings, at, error / request.accuracy)
     best = solved or others
-    errors = stated_errors(on(best[-1].grid), best, settings)
-    return Refined(best[-1], errors, tuple(steps), _warnings(accuracy, best[-1], errors, failed))
+    errors = stated(best)
+    return Refined(best[-1], errors, tuple(steps), _warnings(request, best[-1], errors, failed))
+
+
+def refined_film(
+    on: Callable[[Grid], Instant], grids: Sequence[Grid], settings: Settings, accuracy: float
+) -> Refined[OnGrid]:
+    """Solve for a steady film to an accuracy; `on` gives the instant on a grid. As `refined`."""
+    settings = replace(settings, tolerance=min(_TOLERANCE * accuracy, _LARGEST_TOLERANCE))
+
+    def solve(at: int, before: OnGrid | None) -> OnGrid:
+        start = None if before is None else moved(before.solution.state, before.grid, grids[at])
+        now = on(grids[at])
+        return OnGrid.of(now, grids[at], solve_film(now, grids[at], settings, start))
+
+    def stated(solved: Sequence[OnGrid]) -> dict[str, float]:
+        return stated_errors_of_film(on(solved[-1].grid), solved, settings)
+
+    return refined([grid.spacing for grid in grids], solve, stated, Request(accuracy))
 
 
 def moved(state: FilmState, old: Grid, new: Grid) -> FilmState:
@@ -97,34 +153,23 @@ def _weights(nodes: Array, at: Array) -> csr_array:
     return csr_array(entries, shape=(at.size, nodes.size))
 
 
-def _solved(now: Instant, grid: Grid, settings: Settings, before: OnGrid | None) -> OnGrid:
-    start = None if before is None else moved(before.solution.state, before.grid, grid)
-    return OnGrid.of(now, grid, solve_film(now, grid, settings, start))
-
-
-def _worst(errors: dict[str, float], found: OnGrid) -> tuple[str, float]:
-    """Return the output with the largest error for what is asked of it, and that error."""
-    return max(((name, _asked(name, errors, found)) for name in ASKED), key=lambda pair: pair[1])
-
-
-def _asked(name: str, errors: dict[str, float], found: OnGrid) -> float:
-    """Return the error of an output as the accuracy counts it."""
-    return errors[name] if name in _RATIOS else errors[name] / abs(found.values[name])
-
-
-def _next(grids: Sequence[Grid], at: int, excess: float) -> int:
+def _next(spacings: Sequence[float], at: int, excess: float) -> int:
     """Return the grid after grid `at`, whose error is `excess` times the accuracy; infinite if unknown."""
-    least = max(_ALLOWANCE * excess**-0.5, 1.0 / _FINER - 1e-3) * grids[at].spacing
-    while at + 2 < len(grids) and grids[at + 2].spacing >= least:
+    least = max(_ALLOWANCE * excess**-0.5, 1.0 / _FINER - 1e-3) * spacings[at]
+    while at + 2 < len(spacings) and spacings[at + 2] >= least:
         at += 1
     return at + 1
 
 
-def _warnings(accuracy: float, best: OnGrid, errors: dict[str, float], failed: int) -> tuple[str, ...]:
-    missed = [name for name in ASKED if not _asked(name, errors, best) <= accuracy]
+def _warnings(request: Request, best: Solved, errors: dict[str, float], failed: int) -> tuple[str, ...]:
+    """Return a sentence if the request is not met."""
+    stated = request.errors(errors, best)
+    missed = [f"{error:.2g} of {name}" for name, error in stated.items() if not error <= request.accuracy]
     if not missed:
         return ()
-    ny, nx = best.grid.shape
-    said = ", ".join(f"{_asked(name, errors, best):.2g} of {name}" for name in missed)
-    why = "no finer grid gave a converged film" if failed else "no finer grid is tried"
-    return (f"accuracy = {accuracy:g} is not reached: the stated error on {ny} by {nx} nodes is {said}; {why}.",)
+    ny, nx = best.nodes
+    why = "no finer grid gave a converged solution" if failed else "this is the finest grid that is tried"
+    return (
+        f"accuracy = {request.accuracy:g} is not reached: the stated error on {ny} by {nx} nodes is "
+        f"{', '.join(missed)}; {why}.",
+    )
