@@ -6,7 +6,7 @@ Points of `random_points`, in turn circles, lines and ellipses, a fifth of them 
 truth is a film two grids of the sequence finer than the finest one used (of half its spacing), at a tolerance of 1e-4.
 Fixed settings are the calls with `grid` 33, 65, 129 and 257 (heights on as many nodes) at their default tolerance, up to
 the finest grid used. Solved points are kept in results/accuracy, one line each; what stands there is not solved again.
-A point is given up, and counted, when one of its calls takes more CPU time than `--seconds`. `--solve` leaves the page
+An accuracy is given up, and counted, when its call takes more CPU time than `--seconds`. `--solve` leaves the page
 docs/measured/film/accuracy.md as it is, `--report` writes it from the points kept.
 """
 
@@ -37,6 +37,7 @@ FIXED = (32, 64, 128, 256)  # intervals
 MOST_NODES, MOST_SMOOTH = 300_000, 1_100_000  # of a truth
 TRUTH_TOLERANCE = 1e-4
 BY_CHANCE = 0.01  # of the request: errors below it are left out of coverage and ratio
+LATE = "late"
 LEAST_FINER = 1.9  # intervals of a truth over those of the answer
 
 
@@ -95,7 +96,7 @@ def cases(seed: int) -> Iterator[Case]:
 
 
 def run(call: Callable[..., Any], given: dict[str, Any], seconds: float) -> tuple[dict[str, Any], Any]:
-    """Call once: a record with outputs and CPU time, and the answer if there is one. Raises TooLongError."""
+    """Call once: a record with outputs and CPU time, and the answer if there is one."""
 
     def task() -> tuple[Any, str]:
         try:
@@ -106,6 +107,8 @@ def run(call: Callable[..., Any], given: dict[str, Any], seconds: float) -> tupl
     signal.setitimer(signal.ITIMER_PROF, seconds)
     try:
         (found, why), cpu = timed(task, 2)
+    except TooLongError:
+        return {"cpu": seconds, "error": LATE}, None
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0.0)
     record: dict[str, Any] = {"cpu": cpu, "error": why}
@@ -124,6 +127,8 @@ def solved(case: Case, seconds: float) -> dict[str, Any]:
             steps = [[*step.nodes, step.iterations] for step in found.steps]
             record |= {"steps": steps, "warned": any(line.startswith("accuracy") for line in found.warnings)}
         asked[str(accuracy)] = record
+        if record["error"] == LATE:
+            break
     finest = max((named(case.shape, record["nodes"]) for record in asked.values() if "nodes" in record), default=0)
     fixed = {}
     for count in FIXED:
@@ -161,13 +166,10 @@ def solve(seed: int, points: int, seconds: float) -> None:
         if number in done:
             continue
         record: dict[str, Any] = {"number": number, "shape": case.shape, "rq": case.point.rq, "speed": case.point.speed}
-        try:
-            record |= solved(case, seconds)
-        except TooLongError:
-            record["late"] = True
+        record |= solved(case, seconds)
         with (KEPT / f"seed_{seed}.jsonl").open("a") as file:
             file.write(json.dumps(record, default=float) + "\n")
-        print(number, case.shape, f"{case.point.rq:.1e}", record.get("finest", "late"), flush=True)
+        print(number, case.shape, f"{case.point.rq:.1e}", record["finest"], flush=True)
 
 
 def kept(seed: int) -> list[dict[str, Any]]:
@@ -197,15 +199,17 @@ class Tally:
     covered: list[bool] = field(default_factory=list)
     ratio: list[float] = field(default_factory=list)
     cost: list[float] = field(default_factory=list)  # over the cheapest fixed grid
+    late: int = 0
     no_truth: int = 0
     no_film: int = 0
     no_fixed: int = 0
 
     def add(self, record: dict[str, Any], accuracy: float) -> None:
         """Add a point."""
-        found, truth = record["asked"][str(accuracy)], record["truth"]
+        found, truth = record["asked"].get(str(accuracy), {"error": LATE}), record["truth"]
         if "stated" not in found:
-            self.no_film += 1
+            self.no_film += found["error"] != LATE
+            self.late += found["error"] == LATE
             return
         used = named(record["shape"], found["nodes"])
         if "stated" not in truth or not truth["converged"] or truth["count"] < LEAST_FINER * used:
@@ -242,16 +246,15 @@ def share(values: list[bool]) -> str:
 def report(seed: int, points: int, seconds: float) -> None:
     """Write the page from the points kept."""
     records = [record for record in kept(seed) if record["number"] < points]
-    done = [record for record in records if "late" not in record]
-    kinds = {"all": done}
-    kinds |= {shape: [record for record in done if record["shape"] == shape] for shape in SHAPES}
-    kinds |= {"smooth": [record for record in done if record["rq"] == 0.0]}
-    kinds |= {"rough": [record for record in done if record["rq"] > 0.0]}
+    kinds = {"all": records}
+    kinds |= {shape: [record for record in records if record["shape"] == shape] for shape in SHAPES}
+    kinds |= {"smooth": [record for record in records if record["rq"] == 0.0]}
+    kinds |= {"rough": [record for record in records if record["rq"] > 0.0]}
     page = Page("film/accuracy", "An accuracy asked for, stated and true")
     page.say(
         f"{len(records)} random points of seed {seed}, for lines and ellipses 1000 and 2000 more (benchmarks/film/random_points.py), circles, lines and ellipses in turn, "
-        f"{sum(record['rq'] == 0.0 for record in records)} of them smooth, solved by `accuracy`. {len(records) - len(done)} "
-        f"more or less hard ones were given up because a call took over {seconds:g} s of CPU time. The factors of the error model "
+        f"{sum(record['rq'] == 0.0 for record in records)} of them smooth, solved by `accuracy`; given up where that takes "
+        f"over {seconds:g} s of CPU time. The factors of the error model "
         "were chosen on points of seed 11 (contact_core/film/estimate.py). The truth is a film on a grid of half the spacing of the "
         f"finest one used, two grids of the sequence, at a tolerance of {TRUTH_TOLERANCE:g}; where it did not converge or would "
         f"have over {MOST_NODES} nodes (smooth bodies: {MOST_SMOOTH}), the point is left out for the accuracies that need it. "
@@ -262,7 +265,7 @@ def report(seed: int, points: int, seconds: float) -> None:
     )
     page.header(
         "points", "accuracy", "within, no warning", "within, with a warning", "above 3x, no warning", "stated covers true",
-        "stated / true, median", "cost, median", "cost, 90 %", "no truth", "no film", "no fixed grid meets it",
+        "stated / true, median", "cost, median", "cost, 90 %", "given up", "no truth", "no film", "no fixed grid meets it",
     )  # fmt: skip
     whole: dict[float, Tally] = {}
     for kind, chosen in kinds.items():
@@ -276,7 +279,7 @@ def report(seed: int, points: int, seconds: float) -> None:
                 kind, f"{accuracy:.0%}", share(tally.within), share(tally.within_warned), len(tally.silent),
                 share(tally.covered), f"{np.median(tally.ratio):.2g}" if tally.ratio else "",
                 *(f"{np.quantile(tally.cost, part):.2g}" if tally.cost else "" for part in (0.5, 0.9)),
-                tally.no_truth, tally.no_film, tally.no_fixed,
+                tally.late, tally.no_truth, tally.no_film, tally.no_fixed,
             )  # fmt: skip
     for accuracy, tally in whole.items():
         if tally.silent:

@@ -115,9 +115,10 @@ def point_contact(
     accuracy
         Largest error of h_central, h_c and pressure_max, relative, and of contact_load_ratio and contact_area_ratio,
         absolute, instead of `grid` and `tolerance`: grids are refined until the stated errors (`error_estimate`) are
-        within it; `steps` tells which. Heights then define a surface, by a cubic spline between their nodes, that
-        coarser and finer grids sample; the first grid has at most as many nodes as they, and the fields of the result
-        lie on the last (`x`, `y`). Where the accuracy is not reached, `warnings` tells so.
+        within it; `steps` tells which. They have from 33 to 513 nodes along the shorter side. Heights then define a
+        surface, by a cubic spline between their nodes, and all grids, coarser and finer ones, sample it over the same
+        extent. The fields of the result lie on the last grid (`x`, `y`). `warnings` tells where the accuracy is not
+        reached.
     tolerance
         Relative pressure change of a converged solution; 1e-3 if not given.
     iterations

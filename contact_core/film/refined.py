@@ -23,7 +23,7 @@ _RELATIVE, _ABSOLUTE = ("h_central", "h_c", "pressure_max"), ("contact_load_rati
 _TOLERANCE, _LARGEST_TOLERANCE = 0.1, 3e-3  # of the stopping rule, over the accuracy; and at most
 _FINER = 2.0  # largest ratio of the spacings of two grids in a row
 _ALLOWANCE = 1.1  # spacing over that at which the error is expected to be within the accuracy
-_FAILURES = 2  # grids in a row without a converged solution, after which no finer one is tried
+_FAILURES = {True: 2, False: 3}  # grids in a row without a converged solution, by whether one had any, that are tried
 
 
 class Solved(Outputs, Protocol):
@@ -92,11 +92,11 @@ def refined(
             found = solve(at, solved[-1] if solved else None)
         except ConvergenceError:
             failed += 1
-            if failed == _FAILURES or at == len(spacings) - 1:
+            if failed == _FAILURES[bool(solved)] or at == len(spacings) - 1:
                 if not (solved or others):
                     raise
                 break
-            at += 1
+            at = _next(spacings, at, np.inf)
             continue
         (solved if found.converged else others).append(found)
         failed = 0 if found.converged else failed + 1
@@ -106,7 +106,7 @@ def refined(
             output = max(errors, key=lambda name: errors[name])
             error = errors[output]
         steps.append(GridStep(found.nodes, found.iterations, found.converged, output, error))
-        if error <= request.accuracy or at == len(spacings) - 1 or failed == _FAILURES:
+        if error <= request.accuracy or at == len(spacings) - 1 or failed == _FAILURES[bool(solved)]:
             break
         at = _next(spacings, at, error / request.accuracy)
     best = solved or others
