@@ -78,7 +78,7 @@ class Case:
         return self.given | {"accuracy": accuracy} | ({} if self.smooth else self._sampled(self.grid))
 
     def _sampled(self, grid: Grid) -> dict[str, Any]:
-        more = {"heights_2": self.surface(grid), "spacing": grid.spacing}
+        more = {"heights_2": self.surface.on(grid), "spacing": grid.spacing}
         if grid.periodic:
             return more
         return more | {"domain": (grid.x[0], grid.x[-1], grid.y[0], grid.y[-1])}
@@ -186,7 +186,7 @@ def errors(record: dict[str, Any], truth: dict[str, Any]) -> np.ndarray:
 
 def stated(record: dict[str, Any]) -> np.ndarray:
     """Stated errors of the outputs, as an accuracy counts them."""
-    return np.array(record["stated"]) / [abs(record[name]) for name in RELATIVE] + [1.0] * len(ABSOLUTE)
+    return np.array(record["stated"]) / ([abs(record[name]) for name in RELATIVE] + [1.0] * len(ABSOLUTE))
 
 
 @dataclass
@@ -246,6 +246,8 @@ def share(values: list[bool]) -> str:
 def report(seed: int, points: int, seconds: float) -> None:
     """Write the page from the points kept."""
     records = [record for record in kept(seed) if record["number"] < points]
+    given_up = [one["cpu"] for record in records for one in record["asked"].values() if one["error"] == LATE]
+    limits = sorted(set(given_up)) or [seconds]
     kinds = {"all": records}
     kinds |= {shape: [record for record in records if record["shape"] == shape] for shape in SHAPES}
     kinds |= {"smooth": [record for record in records if record["rq"] == 0.0]}
@@ -253,8 +255,8 @@ def report(seed: int, points: int, seconds: float) -> None:
     page = Page("film/accuracy", "An accuracy asked for, stated and true")
     page.say(
         f"{len(records)} random points of seed {seed}, for lines and ellipses 1000 and 2000 more (benchmarks/film/random_points.py), circles, lines and ellipses in turn, "
-        f"{sum(record['rq'] == 0.0 for record in records)} of them smooth, solved by `accuracy`; given up where that takes "
-        f"over {seconds:g} s of CPU time. The factors of the error model "
+        f"{sum(record['rq'] == 0.0 for record in records)} of them smooth, solved by `accuracy`; given up where that took over "
+        f"{' or '.join(f'{limit:g}' for limit in limits)} s of CPU time. The factors of the error model "
         "were chosen on points of seed 11 (contact_core/film/estimate.py). The truth is a film on a grid of half the spacing of the "
         f"finest one used, two grids of the sequence, at a tolerance of {TRUTH_TOLERANCE:g}; where it did not converge or would "
         f"have over {MOST_NODES} nodes (smooth bodies: {MOST_SMOOTH}), the point is left out for the accuracies that need it. "

@@ -1,6 +1,6 @@
 """Common parts of the calls that solve one film: checks of arguments, solution, result."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from operator import index
 from typing import Any, TypeVar
@@ -17,6 +17,7 @@ from ..quantities import TABLE, out_of_range, parameter
 from ..reference.starvation import supplied_film
 from ..scene.toml import did_you_mean
 from ..shapes import Shape
+from .refinement import Surface
 
 Array = NDArray[np.float64]
 
@@ -170,21 +171,22 @@ def solve_to_accuracy(
     load: float,
     numbers: Numbers,
     grids: Sequence[Grid],
-    surface: Callable[[Grid], Array] | None,
+    surface: Surface | None,
     supply: tuple[float | None, float | None],
     options: Mapping[str, str],
 ) -> Found:
     """Solve for one steady film on the first of the grids, from coarse to fine, that meets `numbers.accuracy`.
 
-    `surface`: heights [m] on a grid, None if smooth; else as `solve_call`.
+    `surface`: None if smooth; no grid that does not show it is the answer, but the finest. Else as `solve_call`.
     """
-    from ..film.refined import refined_film  # kernels are loaded when a film is solved
+    from ..film.refined import Request, refined_film  # kernels are loaded when a film is solved
 
     def on(grid: Grid) -> Instant:
-        heights = None if surface is None else surface(grid)
+        heights = None if surface is None else surface.on(grid)
         return _instant(shape, load, numbers, grid, heights, supply, options)
 
-    found = refined_film(on, grids, _settings(numbers, options), numbers.accuracy)
+    shown = np.inf if surface is None else max(surface.spacing, grids[-1].spacing)
+    found = refined_film(on, grids, _settings(numbers, options), Request(numbers.accuracy, coarsest=shown))
     best = found.best
     answer = _answer(found_as, on(best.grid), best.grid, best.solution, best.values, found.errors)
     return replace(answer, steps=found.steps, warnings=(*answer.warnings, *found.warnings))

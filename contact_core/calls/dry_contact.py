@@ -138,7 +138,8 @@ def dry_contact(
         Largest error of pressure_max and approach, relative, and of contact_area_ratio, absolute, by estimate; instead
         of `tolerance`. The heights then define a surface, by a cubic spline between their nodes, and coarser and finer
         grids over the same area sample it, from coarse to fine: `steps` tells which, and the fields of the result lie
-        on the last. Where the accuracy is not reached, `warnings` tells so. The approach of flat bodies is left out.
+        on the last, which is at least as fine as the heights. Where the accuracy is not reached, `warnings` tells so.
+        The approach of flat bodies is left out.
     fft
         "pyfftw" or "scipy"; FFTW is under the GPL.
 
@@ -176,13 +177,14 @@ def _refined(
 
     def solve(at: int, before: _Solved | None) -> _Solved:
         on = replace(numbers, spacing=grids[at].spacing)
-        return _Solved(_pressed(surface(grids[at]), on, radii, hardness))
+        return _Solved(_pressed(surface.on(grids[at]), on, radii, hardness))
 
     def stated(solved: Sequence[_Solved]) -> dict[str, float]:
         return stated_errors(solved, numbers.tolerance)
 
     relative = _RELATIVE if math.isfinite(radii[0]) else _RELATIVE[:1]
-    found = refined([grid.spacing for grid in grids], solve, stated, Request(accuracy, relative, _ABSOLUTE))
+    request = Request(accuracy, relative, _ABSOLUTE, max(surface.spacing, grids[-1].spacing))
+    found = refined([grid.spacing for grid in grids], solve, stated, request)
     return replace(found.best.contact, error_estimate=found.errors, steps=found.steps, warnings=found.warnings)
 
 

@@ -117,8 +117,8 @@ def point_contact(
         absolute, instead of `grid` and `tolerance`: grids are refined until the stated errors (`error_estimate`) are
         within it; `steps` tells which. They have from 33 to 513 nodes along the shorter side. Heights then define a
         surface, by a cubic spline between their nodes, and all grids, coarser and finer ones, sample it over the same
-        extent. The fields of the result lie on the last grid (`x`, `y`). `warnings` tells where the accuracy is not
-        reached.
+        extent. The fields of the result lie on the last grid (`x`, `y`), at least as fine as the heights. `warnings`
+        tells where the accuracy is not reached.
     tolerance
         Relative pressure change of a converged solution; 1e-3 if not given.
     iterations

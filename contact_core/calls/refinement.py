@@ -1,6 +1,7 @@
 """Grids from coarse to fine over one contact, and the one surface that all of them sample."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,20 +82,29 @@ def refined_cells(ny: int, nx: int, spacing: float) -> list[Grid]:
     return grids
 
 
-def surface_of(heights: Array, given: Grid) -> Callable[[Grid], Array]:
-    """Return the surface between the nodes of `given` by a cubic spline, as a function of a grid."""
+@dataclass(frozen=True)
+class Surface:
+    """Heights between nodes."""
+
+    on: Callable[[Grid], Array]  # heights [m] on the nodes of a grid
+    spacing: float  # [m] of the nodes that define it, infinite if it is flat: coarser grids do not show it
+
+
+def surface_of(heights: Array, given: Grid) -> Surface:
+    """Return the surface through heights on the nodes of `given`: a cubic spline."""
     from scipy.interpolate import CubicSpline, RectBivariateSpline  # loaded where it is needed
 
     x, y, z = given.x, given.y, heights
+    shown = given.spacing if heights.any() else np.inf
     if y.size == 1:
         line = CubicSpline(x, z[0])
-        return lambda grid: np.ascontiguousarray(line(grid.x)[None])
+        return Surface(lambda grid: np.ascontiguousarray(line(grid.x)[None]), shown)
     if given.periodic:  # its rows go on, as far as the spline reaches
         more = _REACH
         rows = np.arange(-more, y.size + more)
         y, z = y[0] + rows * given.spacing, z[rows % y.size]
     spline = RectBivariateSpline(y, x, z, kx=min(3, y.size - 1), ky=min(3, x.size - 1))
-    return lambda grid: np.ascontiguousarray(spline(grid.y, grid.x))
+    return Surface(lambda grid: np.ascontiguousarray(spline(grid.y, grid.x)), shown)
 
 
 def _cells(length: float, step: float) -> int:

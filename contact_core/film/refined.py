@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 
 _RELATIVE, _ABSOLUTE = ("h_central", "h_c", "pressure_max"), ("contact_load_ratio", "contact_area_ratio")
 _TOLERANCE, _LARGEST_TOLERANCE = 0.1, 3e-3  # of the stopping rule, over the accuracy; and at most
+_ABOUT = 1.0 + 1e-6  # for spacings that are equal but for rounding
 _FINER = 2.0  # largest ratio of the spacings of two grids in a row
 _ALLOWANCE = 1.1  # spacing over that at which the error is expected to be within the accuracy
 _FAILURES = {True: 2, False: 3}  # grids in a row without a converged solution, by whether one had any, that are tried
@@ -57,11 +58,15 @@ class Refined(Generic[Found]):
 
 @dataclass(frozen=True)
 class Request:
-    """An accuracy, and the outputs whose relative and whose absolute errors it bounds."""
+    """An accuracy, and the outputs whose relative and whose absolute errors it bounds.
+
+    No grid with a spacing above `coarsest` [m] is an answer: it does not show the surface, and may agree with others.
+    """
 
     accuracy: float
     relative: tuple[str, ...] = _RELATIVE
     absolute: tuple[str, ...] = _ABSOLUTE
+    coarsest: float = np.inf
 
     def errors(self, errors: dict[str, float], found: Outputs) -> dict[str, float]:
         """Return the errors of these outputs as the accuracy counts them."""
@@ -106,19 +111,20 @@ def refined(
             output = max(errors, key=lambda name: errors[name])
             error = errors[output]
         steps.append(GridStep(found.nodes, found.iterations, found.converged, output, error))
-        if error <= request.accuracy or at == len(spacings) - 1 or failed == _FAILURES[bool(solved)]:
+        shown = found.spacing <= _ABOUT * request.coarsest
+        if (shown and error <= request.accuracy) or at == len(spacings) - 1 or failed == _FAILURES[bool(solved)]:
             break
-        at = _next(spacings, at, error / request.accuracy)
+        at = _next(spacings, at, error / request.accuracy if shown else np.inf)
     best = solved or others
     errors = stated(best)
     return Refined(best[-1], errors, tuple(steps), _warnings(request, best[-1], errors, failed))
 
 
 def refined_film(
-    on: Callable[[Grid], Instant], grids: Sequence[Grid], settings: Settings, accuracy: float
+    on: Callable[[Grid], Instant], grids: Sequence[Grid], settings: Settings, request: Request
 ) -> Refined[OnGrid]:
     """Solve for a steady film to an accuracy; `on` gives the instant on a grid. As `refined`."""
-    settings = replace(settings, tolerance=min(_TOLERANCE * accuracy, _LARGEST_TOLERANCE))
+    settings = replace(settings, tolerance=min(_TOLERANCE * request.accuracy, _LARGEST_TOLERANCE))
 
     def solve(at: int, before: OnGrid | None) -> OnGrid:
         start = None if before is None else moved(before.solution.state, before.grid, grids[at])
@@ -128,7 +134,7 @@ def refined_film(
     def stated(solved: Sequence[OnGrid]) -> dict[str, float]:
         return stated_errors_of_film(on(solved[-1].grid), solved, settings)
 
-    return refined([grid.spacing for grid in grids], solve, stated, Request(accuracy))
+    return refined([grid.spacing for grid in grids], solve, stated, request)
 
 
 def moved(state: FilmState, old: Grid, new: Grid) -> FilmState:

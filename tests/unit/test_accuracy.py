@@ -216,7 +216,7 @@ def test_entrainment_the_other_way_is_the_mirror_image():
 def test_finer_grids_mean_the_same_surface():
     given = Grid.centred(33, 49, 1e-5)
     heights = np.random.Generator(np.random.Philox(3)).normal(size=(33, 49))
-    surface = surface_of(heights, given)
+    surface = surface_of(heights, given).on
     assert surface(given) == approx(heights, abs=1e-12)
     fine = surface(refined_grid(given, 64))
     assert fine[::2, ::2] == approx(heights, abs=1e-12)
@@ -237,7 +237,7 @@ def test_the_surface_of_a_line_repeats_with_its_period_on_every_grid():
         assert grid.shape[0] % 2 == 0
         assert grid.shape[0] * grid.spacing == approx(rows * spacing)
         assert grid.repeats == 3.0
-        assert surface_of(wave(given), given)(grid) == approx(wave(grid), abs=2e-3)
+        assert surface_of(wave(given), given).on(grid) == approx(wave(grid), abs=2e-3)
 
 
 def test_a_line_of_one_row_stands_for_its_whole_length_on_every_grid():
@@ -305,7 +305,7 @@ class Made:
 SPACINGS = [1 / 32, 1 / 48, 1 / 64, 1 / 96, 1 / 128, 1 / 192, 1 / 256]
 
 
-def climbed(accuracy, converged=lambda spacing: True, found=lambda spacing: True):
+def climbed(accuracy, converged=lambda spacing: True, found=lambda spacing: True, coarsest=np.inf):
     def solve(at, before):
         if not found(SPACINGS[at]):
             raise ConvergenceError("none")
@@ -314,7 +314,7 @@ def climbed(accuracy, converged=lambda spacing: True, found=lambda spacing: True
     def stated(solved):
         return {"film": np.inf if len(solved) == 1 else 2.0 * (10.0 * solved[-1].spacing) ** 2}
 
-    return refined(SPACINGS, solve, stated, Request(accuracy, ("film",), ()))
+    return refined(SPACINGS, solve, stated, Request(accuracy, ("film",), (), coarsest))
 
 
 def nodes_of(found):
@@ -327,6 +327,16 @@ def test_the_grid_after_one_is_as_fine_as_its_error_asks_for_but_at_most_twice_a
     assert nodes_of(climbed(0.0016)) == [32, 64, 128, 192, 256]
     assert climbed(0.012).best.spacing == 1 / 96
     assert climbed(0.012).warnings == ()
+
+
+def test_no_grid_is_the_answer_that_does_not_show_the_surface():
+    assert nodes_of(climbed(0.5)) == [32, 64]
+    assert nodes_of(climbed(0.5, coarsest=1 / 128)) == [32, 64, 128]
+    heights = np.zeros((64, 64))
+    assert dry_contact(heights, 5e-6, 10e-3, 20.0, 230e9, accuracy=0.3).pressure.shape < (64, 64)
+    heights[30, 30] = 1e-8
+    assert dry_contact(heights, 5e-6, 10e-3, 20.0, 230e9, accuracy=0.3).pressure.shape >= (64, 64)
+    assert rough_ball(accuracy=0.4).film.shape >= (65, 65)
 
 
 def test_a_grid_without_a_converged_solution_is_passed_over():
