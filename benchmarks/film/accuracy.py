@@ -252,7 +252,9 @@ def report(seed: int, points: int, seconds: float) -> None:
     kinds |= {shape: [record for record in records if record["shape"] == shape] for shape in SHAPES}
     kinds |= {"smooth": [record for record in records if record["rq"] == 0.0]}
     kinds |= {"rough": [record for record in records if record["rq"] > 0.0]}
-    page = Page("film/accuracy", "An accuracy asked for, stated and true", options=f"--points {points} --seconds {seconds:g}")
+    page = Page(
+        "film/accuracy", "An accuracy asked for, stated and true", options=f"--points {points} --seconds {seconds:g}"
+    )
     page.say(
         f"{len(records)} random points of seed {seed}, for lines and ellipses 1000 and 2000 more (benchmarks/film/random_points.py), circles, lines and ellipses in turn, "
         f"{sum(record['rq'] == 0.0 for record in records)} of them smooth, solved by `accuracy`; given up where that took over "
