@@ -265,7 +265,7 @@ def report(seed: int, points: int, seconds: float) -> None:
         f"Errors are those of {', '.join(RELATIVE)} (relative), {' and '.join(ABSOLUTE)} (absolute). Coverage and ratio count "
         f"errors above {BY_CHANCE:.0%} of the request. Cost: CPU time over that of the coarsest `grid` of "
         f"{', '.join(str(count + 1) for count in FIXED)} nodes from which on all of them, up to the grid used, meet the request, at its "
-        "default tolerance: an oracle, as nobody knows that grid before."
+        "default tolerance: an oracle, as nobody knows that grid before. Points that were given up are hard ones: the shares below are those of the others."
     )
     page.header(
         "points", "accuracy", "within, no warning", "within, with a warning", "above 3x, no warning", "stated covers true",
