@@ -21,11 +21,12 @@ DEFAULTS = ("calls", "control")  # of which only these count: what follows from 
 # checks and stores a scene or a state.
 GROUPS: dict[str, tuple[str, ...]] = {
     "film": (*(f"contact_core/{room}/*.py" for room in ("kernels", "laws", "shapes", "reference", "film")),
-             "-contact_core/film/estimate.py", "-contact_core/film/refined.py", "-contact_core/film/grid_error.py",
+             "-contact_core/film/estimate.py", "-contact_core/film/refined.py", "-contact_core/film/grid_steps.py", "-contact_core/film/grid_error.py",
              "-contact_core/film/regression.py", "-contact_core/kernels/cache.py", "-contact_core/laws/load_sharing.py"),
     "calls": ("contact_core/calls/*.py",),
     "control": ("contact_core/scene/records.py",),
-    "estimate": ("contact_core/film/estimate.py", "contact_core/film/refined.py"),
+    "estimate": ("contact_core/film/estimate.py", "contact_core/film/refined.py", "contact_core/film/grid_steps.py",
+                 "contact_core/calls/refinement.py"),
     "grid_error": ("contact_core/film/grid_error.py", "contact_core/deterministic/solution_error.py",
                    "contact_core/scene/accuracy.py"),
     "evolution": ("contact_core/deterministic/*.py", "-contact_core/deterministic/outputs.py",
@@ -90,6 +91,7 @@ PAGES: dict[str, Source] = {
         "film.measured", ("film", "calls", "evolution", "control", "data", "dimple_rolling", "measurements")
     ),
     "film/peers": Source("film.peers", ("film", "calls", "evolution")),
+    "film/accuracy": Source("film.accuracy", ("film", "calls", "estimate")),
     "film/grid_error": Source("film.grid_error", ("film", "evolution", "control", "uncertainty", "grid_error", *SHAPES)),
     "speed_error": Source("speed_error", (*LEVELS, "uncertainty", "grid_error", *SHAPES)),
     "surfaces/transition": Source("surfaces.transition", (*LEVELS, *SHAPES)),

@@ -4,6 +4,7 @@
     line_contact    the film of a line contact
     dry_contact     rough bodies without a film
     common          what the calls share
+    refinement      grids from coarse to fine, and the surface that all of them sample
 
 Each call takes SI numbers and returns a record with the convergence of its solution.
 """

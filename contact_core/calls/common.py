@@ -1,6 +1,6 @@
 """Common parts of the calls that solve one film: checks of arguments, solution, result."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from operator import index
 from typing import Any, TypeVar
@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import OperatingPointError
 from ..film import Convergence
+from ..film.grid_steps import GridStep
 from ..film.instant import FilmSolution, Grid, Instant, Settings
 from ..laws.density import DowsonHigginson, Incompressible
 from ..laws.viscosity import Barus, Roelands
@@ -17,6 +18,7 @@ from ..quantities import TABLE, out_of_range, parameter
 from ..reference.starvation import supplied_film
 from ..scene.toml import did_you_mean
 from ..shapes import Shape
+from .refinement import Surface
 
 Array = NDArray[np.float64]
 
@@ -53,8 +55,9 @@ class FilmContact(Convergence):
     contact_load_ratio: float
     pressure_max: float
     approach: float
-    error_estimate: dict[str, float]  # half width of each output above, in its unit, by two grids
+    error_estimate: dict[str, float]  # half width of each output above, in its unit, by coarser grids
     warnings: tuple[str, ...]  # reasons why the answer is less reliable
+    steps: tuple[GridStep, ...] = ()  # grids that were solved to meet `accuracy`, in their order
 
 
 Found = TypeVar("Found", bound=FilmContact)
@@ -71,7 +74,10 @@ class Numbers:
     pressure_viscosity: float = parameter("Pa^-1", "d ln(viscosity)/dp at p = 0", least=0.0, most=1e-7)
     hardness: float = parameter("Pa", "largest pressure", above=1e6, most=UNLIMITED, default=UNLIMITED)
     floor: float = parameter("m", "gap at which solids touch", above=1e-11, most=1e-6)
-    tolerance: float = parameter("", "relative pressure change that counts as converged", above=0.0, most=0.1)
+    tolerance: float = parameter(
+        "", "relative pressure change that counts as converged", above=0.0, most=0.1, default=1e-3
+    )
+    accuracy: float = parameter("", "largest error, relative, of ratios absolute", least=1e-4, most=0.5, default=0.5)
     iterations: int = parameter("", "most iterations", least=1, most=100_000)
     spacing: float = parameter("m", "distance between nodes along x and y", above=0.0, most=1.0, default=1.0)
     supply: float = parameter("m", "oil on both surfaces before the contact", above=0.0, most=1.0, default=1.0)
@@ -155,6 +161,47 @@ def solve_call(
     """
     from ..film.estimate import solve_with_estimate  # kernels are loaded when a film is solved
 
+    now = _instant(shape, load, numbers, nodes, heights, supply, options)
+    found, values, errors = solve_with_estimate(now, nodes, _settings(numbers, options))
+    return _answer(found_as, now, nodes, found, values, errors)
+
+
+def solve_to_accuracy(
+    found_as: type[Found],
+    shape: Shape,
+    load: float,
+    numbers: Numbers,
+    grids: Sequence[Grid],
+    surface: Surface | None,
+    supply: tuple[float | None, float | None],
+    options: Mapping[str, str],
+) -> Found:
+    """Solve for one steady film on the first of the grids, from coarse to fine, that meets `numbers.accuracy`.
+
+    `surface`: None if smooth; no grid that does not show it is the answer, but the finest. Else as `solve_call`.
+    """
+    from ..film.refined import Request, refined_film  # kernels are loaded when a film is solved
+
+    def on(grid: Grid) -> Instant:
+        heights = None if surface is None else surface.on(grid)
+        return _instant(shape, load, numbers, grid, heights, supply, options)
+
+    shown = np.inf if surface is None else max(surface.spacing, grids[-1].spacing)
+    found = refined_film(on, grids, _settings(numbers, options), Request(numbers.accuracy, coarsest=shown))
+    best = found.best
+    answer = _answer(found_as, on(best.grid), best.grid, best.solution, best.values, found.errors)
+    return replace(answer, steps=found.steps, warnings=(*answer.warnings, *found.warnings))
+
+
+def _instant(
+    shape: Shape,
+    load: float,
+    numbers: Numbers,
+    nodes: Grid,
+    heights: Array | None,
+    supply: tuple[float | None, float | None],
+    options: Mapping[str, str],
+) -> Instant:
     hertz = shape.hertz(load, numbers.reduced_modulus)
     if supply[1] is not None and supply[1] <= hertz.a:
         refuse(
@@ -165,7 +212,7 @@ def solve_call(
         )
     if supply[0] is not None and options["cavitation"] != "mass_conserving":
         refuse([f"supply = {supply[0]:g} m needs cavitation = 'mass_conserving'; otherwise every gap counts as full."])
-    now = Instant(
+    return Instant(
         load=load,
         entrainment_speed=numbers.entrainment_speed,
         temperature=_REFERENCE,
@@ -180,10 +227,22 @@ def solve_call(
         supply=supply[0],
         meniscus=supply[1],
     )
+
+
+def _settings(numbers: Numbers, options: Mapping[str, str]) -> Settings:
     lumped, fitted = options["criterion"] == "lumped", options["flux"] == "fitted"
-    settings = Settings(numbers.floor, numbers.tolerance, numbers.iterations, options["fft"], lumped, fitted)
-    found, values, errors = solve_with_estimate(now, nodes, settings)
-    state = found.state
+    return Settings(numbers.floor, numbers.tolerance, numbers.iterations, options["fft"], lumped, fitted)
+
+
+def _answer(
+    found_as: type[Found],
+    now: Instant,
+    nodes: Grid,
+    found: FilmSolution,
+    values: dict[str, float],
+    errors: dict[str, float],
+) -> Found:
+    state, hertz = found.state, now.shape.hertz(now.load, now.reduced_modulus)
     return found_as(
         x=nodes.x,
         y=nodes.y,

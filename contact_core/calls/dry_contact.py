@@ -1,19 +1,27 @@
 """Dry contact of two rough bodies in one call: heights in, pressure and gap out. SI, arrays [ny, nx]."""
 
 import math
-from dataclasses import dataclass, fields
+from collections.abc import Sequence
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import OperatingPointError
+from ..film.grid_steps import GridStep, area_by_chance
+from ..film.instant import Grid
 from ..quantities import out_of_range, parameter
 from ..reference import hertz_point
+from .refinement import refined_cells, surface_of, wants_accuracy
 
 Array = NDArray[np.float64]
 
 _ITERATIONS = 1000
+_RELATIVE, _ABSOLUTE = ("pressure_max", "approach"), ("contact_area_ratio",)  # errors that `accuracy` bounds
+_TOLERANCE, _TOLERANCE_OF_ACCURACY = 1e-8, 0.01  # by default, and over an accuracy
+_LEAST_ACCURACY, _MOST_ACCURACY = 1e-4, 0.5
+_LEAST_NODES = 8  # along each side of a surface to refine
 
 
 @dataclass(frozen=True)
@@ -33,6 +41,44 @@ class DryContact:
     error: float  # estimate of sum |pressure - exact pressure| / sum pressure
     load_error: float  # (sum of the pressure on its cells) / load - 1
     complementarity: float  # mean |gap| under pressures below the hardness, by pressure, in rms heights (see below)
+    spacing: float  # [m] of the nodes that the fields lie on
+    error_estimate: dict[str, float] = field(default_factory=dict)  # with `accuracy`: half widths, each in its unit
+    steps: tuple[GridStep, ...] = ()  # with `accuracy`: grids that were solved, in their order
+    warnings: tuple[str, ...] = ()  # with `accuracy`: what is not met
+
+
+@dataclass(frozen=True)
+class _Solved:
+    """A contact on one grid, as a sequence of grids needs it."""
+
+    contact: DryContact
+
+    @property
+    def spacing(self) -> float:
+        return self.contact.spacing
+
+    @property
+    def nodes(self) -> tuple[int, int]:
+        ny, nx = self.contact.pressure.shape
+        return ny, nx
+
+    @property
+    def converged(self) -> bool:
+        return self.contact.converged
+
+    @property
+    def iterations(self) -> int:
+        return self.contact.iterations
+
+    @property
+    def area_by_chance(self) -> float:
+        cell = self.spacing**2
+        area = self.contact.contact_area / self.contact.contact_area_ratio
+        return area_by_chance(self.contact.pressure > 0.0, cell, area)
+
+    @property
+    def values(self) -> dict[str, float]:
+        return {name: getattr(self.contact, name) for name in (*_RELATIVE, *_ABSOLUTE)}
 
 
 @dataclass(frozen=True)
@@ -56,9 +102,10 @@ def dry_contact(
     load: float,
     reduced_modulus: float,
     hardness: float | None = None,
-    tolerance: float = 1e-8,
+    tolerance: float | None = None,
     *,
     radius_y: float | None = None,
+    accuracy: float | None = None,
     fft: str = "pyfftw",
 ) -> DryContact:
     """Press two rough bodies together: no fluid, no friction, elastic half spaces that yield at the hardness.
@@ -84,9 +131,15 @@ def dry_contact(
     hardness
         Largest pressure [Pa]; None for elastic bodies.
     tolerance
-        Largest relative error of the pressure, sum |p - exact p| / sum p, by estimate.
+        Largest relative error of the pressure on the nodes, sum |p - exact p| / sum p, by estimate; 1e-8 if not given.
     radius_y
         Radius along y [m] where it differs; then both are finite.
+    accuracy
+        Largest error of pressure_max and approach, relative, and of contact_area_ratio, absolute, by estimate; instead
+        of `tolerance`. The heights then define a surface, by a cubic spline between their nodes, and coarser and finer
+        grids over the same area sample it, from coarse to fine: `steps` tells which, and the fields of the result lie
+        on the last, which is at least as fine as the heights. Where the accuracy is not reached, `warnings` tells so.
+        The approach of flat bodies is left out.
     fft
         "pyfftw" or "scipy"; FFTW is under the GPL.
 
@@ -96,14 +149,51 @@ def dry_contact(
         For values that cannot be used.
 
     """
+    z = _heights(heights)
+    wants_accuracy(accuracy, tolerance=tolerance)
+    if accuracy is not None:
+        tolerance = _TOLERANCE_OF_ACCURACY * _accuracy(accuracy, z)
+    elif tolerance is None:
+        tolerance = _TOLERANCE
+    numbers = _numbers(spacing, radius, radius_y, load, reduced_modulus, hardness, tolerance, fft)
+    radii = float(radius), float(radius if radius_y is None else radius_y)
+    limit = None if hardness is None else float(hardness)
+    _check_capacity(z, numbers.spacing, numbers.load, limit)
+    if accuracy is None:
+        return _pressed(z, numbers, radii, limit)
+    return _refined(z, numbers, radii, limit, accuracy)
+
+
+def _refined(
+    z: Array, numbers: _Numbers, radii: tuple[float, float], hardness: float | None, accuracy: float
+) -> DryContact:
+    """Return the contact on the first grid that meets the accuracy."""
+    from ..film.estimate import stated_errors  # the kernels: loaded where a contact is solved
+    from ..film.refined import Request, refined
+
+    ny, nx = z.shape
+    grids = refined_cells(ny, nx, numbers.spacing)
+    surface = surface_of(z, Grid.centred(ny, nx, numbers.spacing))
+
+    def solve(at: int, before: _Solved | None) -> _Solved:
+        on = replace(numbers, spacing=grids[at].spacing)
+        return _Solved(_pressed(surface.on(grids[at]), on, radii, hardness))
+
+    def stated(solved: Sequence[_Solved]) -> dict[str, float]:
+        return stated_errors(solved, numbers.tolerance)
+
+    relative = _RELATIVE if math.isfinite(radii[0]) else _RELATIVE[:1]
+    request = Request(accuracy, relative, _ABSOLUTE, max(surface.spacing, grids[-1].spacing))
+    found = refined([grid.spacing for grid in grids], solve, stated, request)
+    return replace(found.best.contact, error_estimate=found.errors, steps=found.steps, warnings=found.warnings)
+
+
+def _pressed(z: Array, numbers: _Numbers, radii: tuple[float, float], hardness: float | None) -> DryContact:
+    """Return the contact of heights [m] on the nodes that they are given on."""
     from ..film.shared import half_space  # the kernels: loaded where a contact is solved
     from ..kernels.dry import dry_solution
 
-    z = _heights(heights)
-    numbers = _numbers(spacing, radius, radius_y, load, reduced_modulus, hardness, tolerance, fft)
-    spacing, load, radius = numbers.spacing, numbers.load, float(radius)
-    radius_y = radius if radius_y is None else float(radius_y)
-    _check_capacity(z, spacing, load, hardness)
+    spacing, load, (radius, radius_y) = numbers.spacing, numbers.load, radii
     ny, nx = z.shape
     # pressures by their mean over the array; gaps by what gives the kernel a factor of one
     p_unit = load / (spacing**2 * z.size)
@@ -111,14 +201,14 @@ def dry_contact(
     x, y = (spacing * (np.arange(n) - 0.5 * (n - 1)) for n in (nx, ny))
     ratio = 1.0 if radius == radius_y else radius / radius_y
     radius_2 = x[None, :] ** 2 + ratio * y[:, None] ** 2
-    cap = np.full(z.shape, np.inf if hardness is None else float(hardness) / p_unit)
+    cap = np.full(z.shape, np.inf if hardness is None else hardness / p_unit)
     start, area = np.ones(z.shape), spacing**2 * z.size
     if math.isfinite(radius):
         hertz = hertz_point(load, radius, radius_y, numbers.reduced_modulus)
         ellipse = x[None, :] ** 2 + (hertz.a / hertz.b) ** 2 * y[:, None] ** 2
         start, area = np.sqrt(np.maximum(1.0 - ellipse / hertz.a**2, 0.0)), hertz.area
     found = dry_solution(
-        half_space((ny, nx), 1.0, fft),
+        half_space((ny, nx), 1.0, numbers.fft),
         (radius_2 / (2.0 * radius) - z) / h_unit,
         cap,
         float(z.size),
@@ -143,7 +233,23 @@ def dry_contact(
         error=found.error,
         load_error=float(p.sum()) / z.size - 1.0,
         complementarity=float((p * np.abs(found.gap))[below].sum()) / z.size * h_unit / rms,
+        spacing=spacing,
     )
+
+
+def _accuracy(accuracy: Any, z: Array) -> float:
+    """Return a checked accuracy for heights [m]."""
+    numbers = isinstance(accuracy, (int, float, np.integer, np.floating)) and not isinstance(accuracy, bool)
+    if not numbers or not _LEAST_ACCURACY <= accuracy <= _MOST_ACCURACY:
+        raise OperatingPointError(
+            f"accuracy = {accuracy!r} (largest error) must be a number from {_LEAST_ACCURACY:g} to {_MOST_ACCURACY:g}."
+        )
+    if min(z.shape) < _LEAST_NODES:
+        raise OperatingPointError(
+            f"heights of {z.shape} nodes [ny, nx] define no surface between them: accuracy needs {_LEAST_NODES} along "
+            "each side."
+        )
+    return float(accuracy)
 
 
 def _heights(heights: ArrayLike) -> Array:

@@ -20,12 +20,15 @@ from .common import (
     numbers_of,
     refuse,
     solve_call,
+    solve_to_accuracy,
 )
+from .refinement import MOST_NODES, grids_within, intervals, surface_of, wants_accuracy
 
 Array = NDArray[np.float64]
 
 _NODES = 257  # along x of smooth bodies
 _MOST = 8193  # nodes along an axis
+_COARSEST, _FINEST, _FINEST_ROUGH = 64, 4096, 1024  # intervals along x to meet an accuracy
 _BESIDE = 1.02  # grid over length of a line with ends
 
 
@@ -65,7 +68,8 @@ def line_contact(
     cavitation: str = "reynolds",
     supply: float | None = None,
     meniscus: float | None = None,
-    tolerance: float = 1e-3,
+    accuracy: float | None = None,
+    tolerance: float | None = None,
     iterations: int = 2000,
     flux: str = "fitted",
     fft: str = "pyfftw",
@@ -94,6 +98,9 @@ def line_contact(
         Ends of a roller, such as `Rounded` or `Logarithmic`.
     viscosity_law, density_law, hardness, floor, cavitation, supply, meniscus, tolerance, iterations, flux, fft
         As in `point_contact`.
+    accuracy
+        As in `point_contact`; smooth bodies without ends have from 65 to 4097 nodes along x, rough ones up to 1025.
+        Rows that repeat keep their period: finer grids have more of them.
     heights_1, heights_2
         Heights [ny, nx] of each body [m], positive toward the other one, centred on the contact. Without ends their
         first row follows their last: an even number of rows, or one.
@@ -118,7 +125,7 @@ def line_contact(
             "load": load, "radius": radius, "length": length, "reduced_modulus": reduced_modulus, "speed_1": speed_1,
             "speed_2": speed_2, "viscosity": viscosity, "pressure_viscosity": pressure_viscosity, "hardness": hardness,
             "floor": floor, "tolerance": tolerance, "iterations": iterations, "spacing": spacing, "supply": supply,
-            "meniscus": meniscus,
+            "meniscus": meniscus, "accuracy": accuracy,
         },
     )  # fmt: skip
     options = {
@@ -143,8 +150,15 @@ def line_contact(
             ]
         )
     film = film_of(shape, total, numbers, supply)
-    nodes = _grid(numbers, shape, total, film, heights, spacing, grid, domain)
     starved = (supply, meniscus)
+    if wants_accuracy(accuracy, grid=grid, tolerance=tolerance):
+        if heights is None:
+            grids, surface = _grids(numbers, shape, total, film, domain), None
+        else:
+            given = _grid(numbers, shape, total, film, heights, spacing, None, domain)
+            grids, surface = grids_within(given, _FINEST_ROUGH), surface_of(heights, given)
+        return solve_to_accuracy(LineContact, shape, total, numbers, grids, surface, starved, options)
+    nodes = _grid(numbers, shape, total, film, heights, spacing, grid, domain)
     return solve_call(LineContact, shape, total, numbers, nodes, heights, starved, options)
 
 
@@ -213,6 +227,13 @@ def _grid(
             ]
         )
     return Grid(x, (np.arange(rows, dtype=np.float64) - 0.5 * (rows - 1)) * spacing)
+
+
+def _grids(numbers: _Numbers, shape: Line, load: float, film: float, domain: tuple[float, float] | None) -> list[Grid]:
+    """Return grids for smooth bodies, from coarse to fine."""
+    counts = intervals(_COARSEST, _FINEST) if shape.periodic else intervals()
+    grids = (_grid(numbers, shape, load, film, None, None, count + 1, domain) for count in counts)
+    return [grid for grid in grids if grid.x.size * grid.y.size <= MOST_NODES]
 
 
 def _sides(domain: tuple[float, float]) -> tuple[float, float]:

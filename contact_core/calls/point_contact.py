@@ -8,7 +8,19 @@ from numpy.typing import ArrayLike, NDArray
 from ..film.instant import Grid
 from ..quantities import TABLE, parameter
 from ..shapes import Point
-from .common import FilmContact, Numbers, check_choices, film_of, grid_nodes, heights_of, numbers_of, refuse, solve_call
+from .common import (
+    FilmContact,
+    Numbers,
+    check_choices,
+    film_of,
+    grid_nodes,
+    heights_of,
+    numbers_of,
+    refuse,
+    solve_call,
+    solve_to_accuracy,
+)
+from .refinement import MOST_NODES, grids_within, intervals, surface_of, wants_accuracy
 
 Array = NDArray[np.float64]
 
@@ -51,7 +63,8 @@ def point_contact(
     cavitation: str = "reynolds",
     supply: float | None = None,
     meniscus: float | None = None,
-    tolerance: float = 1e-3,
+    accuracy: float | None = None,
+    tolerance: float | None = None,
     iterations: int = 2000,
     flux: str = "fitted",
     fft: str = "pyfftw",
@@ -99,8 +112,15 @@ def point_contact(
         Oil on both surfaces together before the contact [m]; None: flooded.
     meniscus
         Distance [m] before the centre at which the inlet begins to fill; None: at the edge of the grid.
+    accuracy
+        Largest error of h_central, h_c and pressure_max, relative, and of contact_load_ratio and contact_area_ratio,
+        absolute, instead of `grid` and `tolerance`: grids are refined until the stated errors (`error_estimate`) are
+        within it; `steps` tells which. They have from 33 to 513 nodes along the shorter side. Heights then define a
+        surface, by a cubic spline between their nodes, and all grids, coarser and finer ones, sample it over the same
+        extent. The fields of the result lie on the last grid (`x`, `y`), at least as fine as the heights. `warnings`
+        tells where the accuracy is not reached.
     tolerance
-        Relative pressure change of a converged solution.
+        Relative pressure change of a converged solution; 1e-3 if not given.
     iterations
         Largest number of iterations.
     flux
@@ -122,7 +142,7 @@ def point_contact(
             "load": load, "radius_x": radius_x, "radius_y": radius_x if radius_y is None else radius_y,
             "reduced_modulus": reduced_modulus, "speed_1": speed_1, "speed_2": speed_2, "viscosity": viscosity,
             "pressure_viscosity": pressure_viscosity, "hardness": hardness, "floor": floor, "tolerance": tolerance,
-            "iterations": iterations, "spacing": spacing, "supply": supply, "meniscus": meniscus,
+            "iterations": iterations, "spacing": spacing, "supply": supply, "meniscus": meniscus, "accuracy": accuracy,
         },
     )  # fmt: skip
     refuse(_too_slim(numbers))
@@ -133,8 +153,15 @@ def point_contact(
     check_choices(options)
     heights, shape = heights_of(heights_1, heights_2), Point(numbers.radius_x, numbers.radius_y)
     film = film_of(shape, numbers.load, numbers, supply)
-    nodes = _grid(numbers, shape, film, heights, spacing, grid, domain)
     starved = (supply, meniscus)
+    if wants_accuracy(accuracy, grid=grid, tolerance=tolerance):
+        if heights is None:
+            grids, surface = _grids(numbers, shape, film, domain), None
+        else:
+            given = _grid(numbers, shape, film, heights, spacing, None, domain)
+            grids, surface = grids_within(given), surface_of(heights, given)
+        return solve_to_accuracy(PointContact, shape, numbers.load, numbers, grids, surface, starved, options)
+    nodes = _grid(numbers, shape, film, heights, spacing, grid, domain)
     return solve_call(PointContact, shape, numbers.load, numbers, nodes, heights, starved, options)
 
 
@@ -188,6 +215,21 @@ def _grid(
         return Grid.centred(ny, nx, spacing)
     found = extent.grid(ny, nx)
     return found if numbers.speed_1 + numbers.speed_2 >= 0.0 else found.mirrored()
+
+
+def _grids(
+    numbers: _Numbers, shape: Point, film: float, domain: tuple[float, float, float, float] | None
+) -> list[Grid]:
+    """Return grids for smooth bodies, from coarse to fine."""
+    from ..film.fitted import Extent
+
+    if domain is not None:
+        sides = _sides(domain)
+        return grids_within(Grid(np.array(sides[:2]), np.array(sides[2:])))
+    extent = Extent.of(shape, numbers.load, numbers.reduced_modulus, film)
+    nodes = ((n, n) if shape.circular else extent.shape(shorter=n) for n in (count + 1 for count in intervals()))
+    grids = [extent.grid(*shape) for shape in nodes if shape[0] * shape[1] <= MOST_NODES]
+    return grids if numbers.entrainment_speed >= 0.0 else [grid.mirrored() for grid in grids]
 
 
 def _sides(domain: tuple[float, float, float, float]) -> tuple[float, float, float, float]:

@@ -10,7 +10,9 @@
     thinning        flow of an oil that shear thins or heat warms
     outputs         outputs of a film from its fields
     fitted          grids that fit a film
-    estimate        error estimate from the grid of half the nodes
+    estimate        error estimate from coarser grids
+    refined         grids from coarse to fine, until an accuracy is met
+    grid_steps      record of a grid that is solved on the way to an accuracy
     grid_error      errors of moving rough contacts by the distance of the nodes
 
 `FILMS` are the records that `scene.film` may be.

@@ -32,8 +32,8 @@ def test_the_python_example_runs(capsys: pytest.CaptureFixture[str]) -> None:
 def test_the_example_of_one_call_runs(capsys: pytest.CaptureFixture[str]) -> None:
     exec(block("python", "from contact_core import dry_contact"), {})
     film, error, *_ = capsys.readouterr().out.split()
-    assert 12e-9 < float(film) < 14.4e-9
-    assert float(error) > 0.0
+    assert float(film) == approx(14.37e-9, rel=0.02)  # on 513 nodes, and the accuracy asked for
+    assert 0.0 < float(error) <= 0.02 * float(film)
 
 
 def test_the_example_of_shapes_runs(capsys: pytest.CaptureFixture[str]) -> None:

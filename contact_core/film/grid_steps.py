@@ -1,0 +1,73 @@
+"""Grids that are solved one after the other to meet an accuracy: a record of each, and what chance adds to an area."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class GridStep:
+    """One of the grids that were solved to meet an accuracy."""
+
+    nodes: tuple[int, int]  # along y and along x
+    iterations: int
+    converged: bool
+    output: str  # with the largest stated error for what is asked of it; empty on a first grid, which has no estimate
+    error: float  # stated one of that output: relative, of ratios absolute
+
+
+def area_by_chance(self) -> float:
+        """Part of contact_area_ratio that is chance, as `area_by_chance`."""
+
+
+@dataclass(frozen=True)
+class OnGrid:
+    """A film on one grid, and its outputs."""
+
+    grid: Grid
+    solution: FilmSolution
+    values: dict[str, float]
+    area_by_chance: float
+
+    @staticmethod
+    def of(now: Instant, grid: Grid, found: FilmSolution) -> "OnGrid":
+        """Return the film of an instant with its outputs."""
+        hertz = now.shape.hertz(now.load, now.reduced_modulus)
+        values = film_outputs(grid, found.state, found.gap, found.touching, now.load, hertz)
+        return OnGrid(grid, found, values, area_by_chance(found.touching > 0.0, grid.cell, hertz.area))
+
+    @property
+    def spacing(self) -> float:
+        """Distance between nodes [m]."""
+        return self.grid.spacing
+
+    @property
+    def nodes(self) -> tuple[int, int]:
+        """Nodes along y and along x."""
+        return self.grid.shape
+
+    @property
+    def converged(self) -> bool:
+        """True if the film has converged."""
+        return self.solution.converged
+
+    @property
+    def iterations(self) -> int:
+        """Iterations on this grid."""
+        return self.solution.iterations
+
+
+def area_by_chance(touching: Mask, cell: float, area: float) -> float:
+    """Return how much of contact_area_ratio is chance: nodes at the edges of contacts touch or not.
+
+    Two standard deviations if each of them is on either side; `cell` of a node and `area` of Hertz's contact in m2.
+    """
+    inside = np.pad(touching, 1)
+    inside = inside[:-2, 1:-1] & inside[2:, 1:-1] & inside[1:-1, :-2] & inside[1:-1, 2:]
+    if touching.shape[0] == 1:  # rows beside it are alike
+        row = np.pad(touching[0], 1)
+        inside = (row[:-2] & row[2:])[None]
+    return 2.0 * float(np.sqrt(np.count_nonzero(touching & ~inside))) * cell / area
