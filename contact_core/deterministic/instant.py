@@ -91,9 +91,7 @@ def solve(
 
     """
     if not isinstance(scene.film, Deterministic):
-        raise SceneError(
-            f"film.model = '{scene.film.name}' has no fields. Solve scene.at_level('deterministic')."
-        )
+        raise SceneError(f"film.model = '{scene.film.name}' has no fields. Solve scene.at_level('deterministic').")
     return solve_instant(Case.bind(scene, op, state.temperatures), state, transient, dry=dry, solid_share=solid_share)
 
 

@@ -83,9 +83,7 @@ def _stepped(case: Case, state: ContactState, dt: float) -> tuple[ContactState, 
         rates = [(now.worn - then.worn) / dt for now, then in zip(means, before, strict=True)]
     else:
         speed = _substep(case, contact, means, _TRIAL)[3]
-        rates = [
-            wear_rate(case, side, contact, film.thickness) for side, film in zip(case.sides, films, strict=True)
-        ]
+        rates = [wear_rate(case, side, contact, film.thickness) for side, film in zip(case.sides, films, strict=True)]
     if not math.isfinite(contact.solid + contact.fluid + contact.gap):
         op = case.op
         raise ConvergenceError(

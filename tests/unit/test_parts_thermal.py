@@ -62,7 +62,8 @@ def test_stored_energy_and_heat_out_are_heat_in(name, step):
     given = sum(outputs[f"heater_energy_{held.node}"] for held in network.thermostats)
     content = sum(node.heat_capacity * node.temperature for node in network.nodes)
     assert stored + outputs["energy_to_ambient"] == approx(
-        came + given, abs=2e-14 * (moved + abs(given)) + 8e-14 * content  # rounding differs from machine to machine
+        came + given,
+        abs=2e-14 * (moved + abs(given)) + 8e-14 * content,  # rounding differs from machine to machine
     )
     assert abs(outputs["energy_to_ambient"]) > 1e-9 * moved
 
