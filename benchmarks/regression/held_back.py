@@ -3,7 +3,7 @@
     python -m benchmarks.regression.held_back solve  # the points by the deterministic level: an hour
     python -m benchmarks.regression.held_back page   # both levels: docs/measured/regression/held_back.md and .png
 
-Solved points stay in results/regression_held_back; what is missing there is solved when it is asked for.
+Solved points stay in results/regression_held_back: `solve` solves what is missing there, `page` shows what is there.
 """
 
 import argparse
@@ -14,7 +14,18 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from benchmarks.pages import Page
-from benchmarks.regression.held_back_points import FASTER, FRESH, MINUTES, RANGES, RUB, RUBBED, Held, solved
+from benchmarks.regression.held_back_points import (
+    FASTER,
+    FRESH,
+    MINUTES,
+    RANGES,
+    RUB,
+    RUBBED,
+    Held,
+    held,
+    solved,
+    stored,
+)
 from contact_core import RangeFlag, advance, initial_state
 from contact_core.state import Mean, Outputs
 
@@ -61,11 +72,13 @@ def compared() -> tuple[list[Compared], list[str]]:
     """Return all points that can be judged, and what the deterministic level refused or did not finish."""
     found, left = list[Compared](), list[str]()
     for name in RANGES:
-        for point, row in solved(name):
+        for point, row in stored(name):
             if "refused" in row:
                 left.append(f"{name}: {row['refused']}")
             elif int(row["range_flags"]) & UNSURE:
-                left.append(f"{name}: {' and '.join(f.name.lower() for f in RangeFlag(int(row['range_flags'])) & UNSURE)}")
+                left.append(
+                    f"{name}: {' and '.join(f.name.lower() for f in RangeFlag(int(row['range_flags'])) & UNSURE)}"
+                )
             else:
                 found.append(Compared(point, row, fast(point, row)))
     return found, left
@@ -160,12 +173,15 @@ def page() -> None:
         "new surfaces with seeds of their own. Deviation: deterministic over regression level, less one; of W_c the "
         "difference. Neither constants nor half widths were fitted to them."
     )
-    text.header("scene", "load over the reference", "lambda of the smooth film", "slide-roll ratio", "warmer than shipped [K]")
+    text.header(
+        "scene", "load over the reference", "lambda of the smooth film", "slide-roll ratio", "warmer than shipped [K]"
+    )
     for name, ends in RANGES.items():
         text.row(name, *(f"{low:g} to {high:g}" for low, high in ends))
+    asked = sum(len(held(name)) for name in RANGES)
     text.say(
         f"Rubbed points have a lambda of {FASTER[0]:g} to {FASTER[1]:g}. {len(left)} points could not be judged"
-        + (f": {'; '.join(left)}." if left else ".")
+        f", {asked - len(rows) - len(left)} of {asked} are not solved yet" + (f": {'; '.join(left)}." if left else ".")
     )
     for title, kept in (
         ("### All", rows),
@@ -173,8 +189,9 @@ def page() -> None:
         ("### Rubbed surfaces", [r for r in rows if r.rubbed]),
         ("### Within the fit", [r for r in rows if not r.outside]),
     ):
-        text.say(title)
-        summary(text, kept)
+        if kept:
+            text.say(title)
+            summary(text, kept)
     text.say("### Points")
     points_page(text, rows)
     text.picture(draw(rows), "held_back.png", "friction of both levels with the half widths stated")

@@ -127,13 +127,23 @@ def observe(point: Held) -> dict[str, Any]:
     return found | {"means": means, "sigma": composite_roughness(scene), "seconds": time.process_time() - start}
 
 
+def stored(name: str) -> list[tuple[Held, dict[str, Any]]]:
+    """Return the points of a scene that are solved."""
+    kept = _kept(name)
+    return [(point, kept[key]) for point in held(name) if (key := json.dumps(asdict(point))) in kept]
+
+
+def _kept(name: str) -> dict[str, dict[str, Any]]:
+    file = STORE / f"{name}.json"
+    return {row.pop("key"): row for row in json.loads(file.read_text())} if file.exists() else {}
+
+
 def solved(name: str, *, fresh: bool = True, rubbed: bool = True) -> list[tuple[Held, dict[str, Any]]]:
     """Return the points of a scene with what the deterministic level says of them; {"refused": why} if it refuses.
 
     What is kept in the store of the same point is not solved again.
     """
-    file = STORE / f"{name}.json"
-    kept = {row.pop("key"): row for row in json.loads(file.read_text())} if file.exists() else {}
+    file, kept = STORE / f"{name}.json", _kept(name)
     rows = []
     for k, point in enumerate(held(name)):
         if not (rubbed if point.minutes else fresh):

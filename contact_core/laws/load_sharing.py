@@ -12,6 +12,7 @@ _FLATTENING = 0.2  # reference of the constants: about that of the shipped circl
 # films and flattening beyond which no solid carries anything: no power of them may overflow
 _THICKEST, _MOST = 1e30, 1e60
 _ROLLING = 0.1  # sliding over entrainment below which oil moves along with the asperities, chosen
+_FURTHER = 1.25  # times the largest numbers of the fit, beyond which they count no more
 _YIELDING = 10.0  # hardness over the pressure at which asperities begin to yield, chosen
 _ALL_WAVES = 2.3  # their rms slope over that of the longest wave alone, see `asperity_layer`
 _FLAT = 1e-12  # square of the inverse flattening of bodies without any roughness
@@ -120,18 +121,18 @@ class FittedSharing:
         "Z: film of the smooth bodies by the formula of their shape over composite roughness; f: that film over "
         "film.floor and the microroughness of both bodies together; s: mean Hertz pressure over what would press flat "
         "the roughness on the grid, sm: the longest wave below it; Σ: sliding over entrainment speed; Π: Hertz's "
-        "largest pressure over the hardness; s, sm and Σ count at most as the largest of the fit; ρ: density of the "
-        "oil under Hertz's mean pressure, over that without pressure.",
+        "largest pressure over the hardness; s, sm and Σ count at most as 1.25 times the largest of the fit; "
+        "ρ: density of the oil under Hertz's mean pressure, over that without pressure.",
     )
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
         "clearance": (0.003, 47.0),
         "layers": (0.014, 94.0),
         "flattening": (0.137, 5.4),
         "below": (0.118, 1.63),
-        "slip": (0.0013, 1.6),
+        "slip": (0.0013, 2.0),  # solved to 1.6; at 2 a body rests
         "pressed": (0.072, 0.51),
     }
-    WIDTHS: ClassVar[Widths] = Widths(0.24, 0.0005, 0.3, 1.2, 0.1, 0.1, 0.25, 2.5)
+    WIDTHS: ClassVar[Widths] = Widths(0.28, 0.0005, 0.3, 1.2, 0.1, 0.1, 0.25, 2.5)
     CHOSEN: ClassVar[frozenset[str]] = frozenset({"load_yield", "oil_pressure_power", "oil_steepness"})
     HALF_WIDTHS: ClassVar[dict[str, float]] = {
         "load_factor": 0.064,
@@ -229,7 +230,7 @@ class FittedSharing:
 
         Oil between the asperities takes the load from what is below the grid; as Z grows, the asperities part.
         """
-        flattest, lowest, fastest = (self.FITTED[name][1] for name in ("flattening", "below", "slip"))
+        flattest, lowest, fastest = (_FURTHER * self.FITTED[name][1] for name in ("flattening", "below", "slip"))
         flat = minimum(flattening, flattest) / _FLATTENING
         fine = minimum(below, lowest) / _FLATTENING
         ease = (minimum(slip, fastest) + _ROLLING) ** self.load_slip * (1.0 + _YIELDING * pressed) ** -self.load_yield
@@ -324,8 +325,8 @@ class LineSharing(FittedSharing):
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
         "clearance": (0.086, 13.6),
         "layers": (2.4, 116.0),
-        "flattening": (0.034, 0.85),
-        "below": (0.0169, 1.22),
+        "flattening": (0.041, 0.85),
+        "below": (0.09, 1.22),  # solved from 0.017, where friction is off by up to 4 times
         "slip": (0.003, 5.0),
         "pressed": (0.014, 0.71),
     }
@@ -352,7 +353,7 @@ class LineSharing(FittedSharing):
         "oil_spread": 4.3,
         "exposure_rougher": FittedSharing.exposure_rougher,  # all of it: it is that of circles
     }
-    WIDTHS: ClassVar[Widths] = Widths(0.35, 0.003, 0.22, 0.3, 0.14, 0.28, 0.4, 0.2)
+    WIDTHS: ClassVar[Widths] = Widths(0.35, 0.003, 0.22, 0.3, 0.14, 0.33, 0.4, 0.2)
 
     load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.422)
     load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=1.16)

@@ -89,11 +89,11 @@ def test_flatter_roughness_carries_less():
 
 
 @pytest.mark.parametrize("law", LAWS)
-def test_asperities_that_slide_past_each_other_carry_less_up_to_the_fastest_of_the_fit(law):
+def test_asperities_that_slide_past_each_other_carry_less_up_to_a_quarter_beyond_the_fit(law):
     slips = np.array([0.0, 0.01, 0.1, 1.0])
     assert (np.diff(law.load_ratio(0.3, 3.0, 0.2, BELOW, slips, PRESSED)) < 0.0).all()
     fastest = law.FITTED["slip"][1]
-    ends = [law.load_ratio(0.3, 3.0, 0.2, BELOW, slip, PRESSED) for slip in (fastest, 10.0 * fastest, math.inf)]
+    ends = [law.load_ratio(0.3, 3.0, 0.2, BELOW, slip, PRESSED) for slip in (1.25 * fastest, 10.0 * fastest, math.inf)]
     assert ends == [ends[0]] * 3
 
 

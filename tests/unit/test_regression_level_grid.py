@@ -15,7 +15,7 @@ GRIDS = {
     "more nodes": lambda film: {"points": film.points + 32},
     "wider": lambda film: {"domain": 1.5 * film.domain},
 }
-ROUNDING, OF_DIFFERENCES = 1e-10, 1e-7  # the derivatives are differences over a millionth
+ROUNDING, OF_DIFFERENCES = 1e-9, 1e-7  # the derivatives are differences over a millionth, errors know one of them
 
 
 def outputs(scene, means, seconds):
@@ -37,7 +37,7 @@ def test_the_grid_changes_no_output(name, grid, means):
         expected, found = outputs(shipped, means, seconds), outputs(other, means, seconds)
         assert expected["friction_coefficient"] > 0.0
         for key, value in expected.items():
-            rel = OF_DIFFERENCES if key.startswith("dfriction") else ROUNDING
+            rel = OF_DIFFERENCES if key.startswith(("dfriction", "error")) else ROUNDING
             assert found[key] == approx(value, rel=rel), key
 
 
