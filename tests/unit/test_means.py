@@ -405,15 +405,6 @@ def test_a_body_at_rest_under_a_moving_one_lies_beyond_the_fit(grown, resting):
     assert still.error_friction > 1.5 * creeping.error_friction
 
 
-def test_the_nodes_of_the_patches_change_a_contact_by_the_roughness_found_on_them_alone(grown):
-    scene, _, op = grown
-    fine = replace(scene, film=replace(scene.film, points=1025))
-    one, other = (now(given, op, initial_state(given)) for given in (scene, fine))
-    assert one.roughness_2 == approx(other.roughness_2, rel=2e-3)
-    for name in ("friction_force", "contact_load_ratio", "contact_area_ratio", "h_c", "error_friction"):
-        assert getattr(one, name) == approx(getattr(other, name), rel=1e-2), name
-
-
 def test_only_what_the_level_can_tell_is_told(grown):
     scene, state, op = grown
     found = asdict(advance(scene, op, state, 1.0)[1])
