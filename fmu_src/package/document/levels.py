@@ -75,7 +75,7 @@ def _fitted_ranges(scene: Scene) -> Iterator[Row]:
         "below": number(flattening_of(pressure, scene.solids.reduced_modulus, below.slope)) if below else "none",
         "layers": f"film / {number(1e9 * layer_height(film.floor, below.rms if below else 0.0), 'nm')}",
     }
-    symbols = {"clearance": "Z", "layers": "f", "flattening": "s", "below": "s_m"}
+    symbols = {"clearance": "Z", "layers": "f", "flattening": "s", "below": "s_m", "slip": "Σ", "pressed": "Π"}
     for name, (low, high) in film.sharing.FITTED.items():
         yield f"{symbols[name]} of the fit", here[name], f"fitted from {low:g} to {high:g}"
 
