@@ -155,12 +155,15 @@ def case_a(report: Page) -> None:
 
 
 def march(scene: Scene) -> Iterator[tuple[Instant, float]]:
-    """Instants of the rough surfaces moving, body 2 by a node each, and the time between [s]."""
+    """Instants of the rough surfaces moving, the faster body 1 by a node each, and the time between [s].
+
+    Oil that moves further than a node is not carried over by the fitted flow.
+    """
     op = scene.operation.point
     first, second = bare_heights(scene, scene.film.points)
-    step = scene.film.spacing / op.speed_2
+    step = scene.film.spacing / op.speed_1
     for k in range(LEAD + STEPS + 1):
-        shifts = round(k * op.speed_1 / op.speed_2), k
+        shifts = k, round(k * op.speed_2 / op.speed_1)
         rolled = sum(np.roll(z, shift, axis=1) for z, shift in zip((first, second), shifts, strict=True))
         heights = np.concatenate([rolled, rolled[:, :1]], axis=1)
         yield (
