@@ -64,7 +64,7 @@ def planned(scene: Scene, open_fields: Collection[str]) -> Scene:
     values: dict[str, Any] = {
         "film.tolerance": min(max(_TOLERANCE / finer, _LEAST_TOLERANCE), _TOLERANCE),
         "control.change": min(max(_CHANGE / finer, _LEAST_CHANGE), _LARGEST_CHANGE),
-        "control.dry_instants": min(max(math.ceil(_DRY_INSTANTS * finer), 1), _MOST_DRY),
+        "control.dry_instants": min(max(math.ceil(_DRY_INSTANTS * finer), _DRY_INSTANTS), _MOST_DRY),
     }
     if "film.domain" in open_fields:
         values["film.domain"] = _domain(scene)

@@ -19,12 +19,18 @@ def test_a_smaller_error_takes_no_fewer_nodes_instants_and_blocks(scene):
     rough, fine = asked(scene, "20 %"), asked(scene, "5 %")
     assert rough.film.points <= fine.film.points in POINTS
     assert rough.control.change > fine.control.change
-    assert rough.control.dry_instants < fine.control.dry_instants
+    assert rough.control.dry_instants <= fine.control.dry_instants
     assert rough.control.mixed_instants < fine.control.mixed_instants
 
 
 def test_a_sharper_request_takes_a_finer_grid_somewhere():
     assert asked("mtm_zddp", "5 %").film.points > asked("mtm_zddp", "20 %").film.points
+
+
+def test_dry_blocks_have_more_instants_where_less_error_is_asked_for_and_never_fewer_than_shipped():
+    given = {"film.points": "129"}
+    fine, rough = (Scene.from_toml("mtm_zddp", {"control.accuracy": a} | given) for a in ("2 %", "50 %"))
+    assert fine.control.dry_instants > rough.control.dry_instants == Scene.from_toml("mtm_zddp").control.dry_instants
 
 
 def test_what_is_given_beside_the_accuracy_stays():
