@@ -21,7 +21,7 @@ from .records import CHOSEN
 Scene = TypeVar("Scene", bound=SceneFields)
 
 POINTS = (65, 97, 129, 193, 257, 385, 513)
-_GRID = 0.95  # part of the accuracy that is left to the grid: errors add up as squares
+_GRID = 0.97  # part of the accuracy that is left to the grid: errors add up as squares
 _TYPICAL_SHARE = 0.5  # W_c: which it will be is not known before
 # of time steps and sampling at an accuracy of 5 %: stated errors of the shipped scenes are then 2 to 5 %
 _AT = 0.05
