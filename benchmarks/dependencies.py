@@ -92,7 +92,7 @@ PAGES: dict[str, Source] = {
     ),
     "film/peers": Source("film.peers", ("film", "calls", "evolution")),
     "film/accuracy": Source("film.accuracy", ("film", "calls", "estimate")),
-    "film/grid_error": Source("film.grid_error", ("film", "evolution", "control", "uncertainty", "grid_error", *SHAPES)),
+    "film/grid_error": Source("film.grid_error", ("film", "evolution", "control", "uncertainty", "grid_error", *CIRCLES, "fzg_flank")),
     "speed_error": Source("speed_error", (*LEVELS, "uncertainty", "grid_error", *SHAPES)),
     "surfaces/transition": Source("surfaces.transition", (*LEVELS, *SHAPES)),
     "surfaces/asperity_layer": Source("surfaces.asperity_layer", ("film",)),

@@ -36,7 +36,6 @@ SCENES: dict[str, tuple[int, tuple[float, ...]]] = {
     "azam_case_a": (65, (1.0, 0.1, 10.0, 0.3, 3.0, 30.0)),
     "mtm_zddp": (65, (1.0, 0.1, 10.0, 0.3, 3.0, 30.0)),
     "fzg_flank": (65, (1.0, 0.3, 0.1)),
-    "ball_209_inner": (65, (1.0, 0.3, 0.1)),
 }
 GRIDS = 3
 Rows = dict[str, dict[str, Any]]
