@@ -128,7 +128,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("heat_flow_1", "Q_1", "W", "heat that the contact puts into the body, body 1", nominal=1.0, trend="level"),
     Quantity("heat_flow_2", "Q_2", "W", "heat that the contact puts into the body, body 2", nominal=1.0),
     Quantity("approach", "delta", "m", "approach of the bodies from first touching of the undeformed, smooth shapes", nominal=1e-6, display="um", trend="level"),
-    Quantity("valid", "", "", "false: the last input could not be used, and state and outputs stand as they were; or the stated error of friction or film is 100 % or more", kind="Boolean"),
+    Quantity("valid", "", "", "false: the last input could not be used; state and outputs stand as they were", kind="Boolean"),
     Quantity("fidelity_used", "", "", "fidelity level that gave the outputs: 1 regression, 2 deterministic, 0 none yet", kind="Integer", minimum=0, maximum=2),
     Quantity("range_flags", "", "", "sum of the RangeFlag values raised (see RangeFlag)", kind="Integer", minimum=0),
     Quantity("iterations", "", "", "film iterations in the last step", kind="Integer", minimum=0, levels=_FIELDS),

@@ -11,7 +11,7 @@ Records are frozen: a step returns new ones.
 """
 
 from .error import Error
-from .outputs import Outputs, RangeFlag, flag_of_errors, is_known
+from .outputs import Outputs, RangeFlag, flag_of_errors
 from .state import Body, ContactState, Mean, changed, initial_state
 
 __all__ = [
@@ -24,5 +24,4 @@ __all__ = [
     "changed",
     "flag_of_errors",
     "initial_state",
-    "is_known",
 ]

@@ -64,8 +64,3 @@ def flag_of_errors(errors: Mapping[str, float], accuracy: float | None) -> Range
     asked = _ASKED if accuracy is None else accuracy
     names = ("error_friction", "error_film", *(("error_load_ratio",) if accuracy is not None else ()))
     return RangeFlag.UNSURE if any(errors.get(name, 0.0) > asked for name in names) else RangeFlag(0)
-
-
-def is_known(outputs: Outputs) -> bool:
-    """Return True if the errors of friction and film are below 100 %."""
-    return bool(outputs.error_friction < 1.0 and outputs.error_film < 1.0)

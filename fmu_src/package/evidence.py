@@ -11,7 +11,6 @@ from xml.etree import ElementTree as ET
 
 from contact_core import ContactError, OperatingPoint, Outputs, advance, initial_state
 from contact_core.scene import Scene
-from contact_core.state import is_known
 
 from ..variables import variables
 
@@ -87,9 +86,9 @@ def _outputs(scene: Scene, points: list[OperatingPoint]) -> Iterator[dict[str, f
     state, found = initial_state(scene), Outputs()
     steps = [0.0, *(end - start for start, end in pairwise(TIMES))]
     for dt, point in zip(steps, [points[0], *points], strict=True):
+        valid = True
         try:
             state, found = advance(scene, point, state, dt)
-            valid = is_known(found)
         except ContactError:
             valid = False
         yield asdict(found) | {"valid": valid}

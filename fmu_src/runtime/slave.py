@@ -25,7 +25,7 @@ from contact_core import (
 from contact_core.kernels import NOTICE
 from contact_core.quantities import LEVELS, OF_CALLER
 from contact_core.scene import with_values
-from contact_core.state import changed, is_known
+from contact_core.state import changed
 
 from ..variables import FIDELITY, INITIAL_STATE, SEED, SPECIAL, Value, Variable, variables
 from . import resources
@@ -159,7 +159,7 @@ class ContactSlave(GuardedSlave):
         outputs_of_level.store(results, values)
         values[references["range_flags"]] = flags
         values[references["fidelity_used"]] = fidelity
-        values[references["valid"]] = is_known(outputs)
+        values[references["valid"]] = True
         if appeared:
             self._log_flags(RangeFlag(appeared))
 

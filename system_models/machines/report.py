@@ -46,7 +46,7 @@ def _stated(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
 
 
 def invalid_rows(assembly: Assembly, dataset: xr.Dataset) -> int:
-    """Return rows in which a contact or component could not use its inputs, or does not know friction or film."""
+    """Return rows in which a contact or component could not use its inputs."""
     return int((~_valid(assembly, dataset)).sum())
 
 
@@ -107,5 +107,5 @@ def _invalid(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
     first = float(dataset["time"].values[np.flatnonzero(~_valid(assembly, dataset))[0]])
     return [
         f"WARNING: {count} rows are INVALID, the first at {first:g} s: {', '.join(names)} could not use the inputs and "
-        "stood still (the log has the reason), or state errors of 100 % or more."
+        "stood still. The log has the reason."
     ]

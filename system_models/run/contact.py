@@ -135,8 +135,7 @@ def _warn_of_invalid_rows(dataset: xr.Dataset) -> None:
     invalid = dataset["time"].values[~dataset[f"{_NAME}.valid"].values]
     if len(invalid):
         log.warning(
-            "%d of %d rows are invalid, the first at %g s: their inputs could not be used, or their stated errors are "
-            "100 %% or more.",
+            "%d of %d rows are invalid, the first at %g s: the outputs stand as they were before.",
             len(invalid),
             dataset.sizes["time"],
             invalid[0],

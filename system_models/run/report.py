@@ -153,8 +153,8 @@ def _validity(dataset: xr.Dataset) -> str:
         return f"Validity: all {total} rows are valid."
     first = float(dataset["time"].values[~dataset["valid"].values][0])
     return (
-        f"Validity: {count} of {total} rows are INVALID, the first at {first:g} s: their inputs could not be used, and "
-        "their outputs stand as they were before, or their stated errors are 100 % or more."
+        f"Validity: {count} of {total} rows are INVALID, the first at {first:g} s; "
+        "their outputs stand as they were before."
     )
 
 

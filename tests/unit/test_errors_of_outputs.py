@@ -1,15 +1,12 @@
 """Errors of outputs by their causes: of the grid, of iterations, of fitted curves; flags and validity that follow."""
 
-import math
-from dataclasses import replace
-
 import pytest
 from comparison import approx
 
 from contact_core import Error, RangeFlag, Scene, advance, initial_state, uncertainty
 from contact_core.film.grid_error import film_error, friction_error, inlet_error, load_ratio_error, solids_error
 from contact_core.quantities import ABSOLUTE, STATED, TABLE
-from contact_core.state import flag_of_errors, is_known
+from contact_core.state import flag_of_errors
 
 # first blocks on fresh surfaces on 65 nodes and, of the same surfaces, on 257: rows of docs/measured/film/moving.md
 COARSE_AND_FINE = {
@@ -111,10 +108,3 @@ def test_an_error_above_the_accuracy_asked_for_raises_a_flag():
     asked = cheap(control__accuracy="1 %", control__change="3 nm", control__dry_instants="3", film__points="33")[2]
     assert asked.range_flags & RangeFlag.UNSURE
     assert asked.friction_coefficient == out.friction_coefficient
-
-
-def test_friction_or_a_film_with_an_error_of_100_per_cent_is_not_known():
-    out = cheap()[2]
-    assert is_known(out)
-    assert not is_known(replace(out, error_friction=1.0))
-    assert not is_known(replace(out, error_film=math.inf))
