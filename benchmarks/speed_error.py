@@ -158,13 +158,13 @@ def report(known: dict[str, Any]) -> None:
         page.header("case", "setting", "nodes", "CPU [s]", "WU", *names.values())
         for key, found in known.items():
             case, setting = key.split("|")
-            if ("two hours" in case) != rubbing:
-                continue
             truth, nodes, seconds = known.get(f"{case}|{TRUTH}"), found["nodes"], found["rows"][-1]["seconds"]
+            if ("two hours" in case) != rubbing or truth is None:
+                continue
             if nodes and nodes not in units:
                 units[nodes] = work_unit(nodes)
             cost = (nodes or "-"), seconds, f"{seconds / units[nodes]:.3g}" if nodes else "-"
-            if truth is None or setting == TRUTH:
+            if setting == TRUTH:
                 page.row(case, setting, *cost, *["-" for _ in names])
                 continue
             cells = []
