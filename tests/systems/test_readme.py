@@ -24,8 +24,9 @@ def test_the_python_example_runs(capsys: pytest.CaptureFixture[str]) -> None:
     assert [line.split()[0] for line in capsys.readouterr().out.splitlines()] == ["1", "2", "3"]
     assert isinstance(names["memory"], bytes)
     exec(block("python", "from contact_core import track_of"), names)
-    assert 0.0 < names["time_error"] < names["out"].wear_depth_1
-    assert 0.0 < names["sampling_error"] < names["out"].wear_depth_1
+    error, depth = names["error"], names["out"].wear_depth_1
+    assert all(0.0 < part < depth for part in (error.time, error.sampling, error.grid, error.iteration))
+    assert max(error) < error.together < depth
     assert names["profile"].shape == (65,)
 
 
