@@ -16,13 +16,10 @@ from contact_core.laws.asperity_layer import SLOPE
 from contact_core.laws.load_sharing import FittedSharing, flattening_together, layer_height
 
 RANGES = ((0.0, 0.05), (0.05, 0.2), (0.2, 1.0), (1.0, np.inf))
-MOST = 15.0  # of the weight of a load ratio
-LEAST = 1e-6  # of a constant
 FAR = 0.1  # residuals beyond which a point counts by its distance
 LITTLE = 0.25  # wear over composite roughness
 BODIES = ("rougher", "smoother")
 SWEPT = ("shipped", "amplitude", "length", "microroughness")  # groups of the sweep
-OF_OIL = ("oil_pressure_excess", "oil_pressure_decay", "oil_steepness", "oil_kept", "oil_spread")
 STUDENT = 1.96  # half width of a 95 % interval, in standard deviations
 Array = np.ndarray
 
@@ -57,27 +54,6 @@ class Table:
         return c["lambda"] * c["sigma"] / layer_height(c["floor"], c["microroughness"])
 
     @property
-    def slip(self) -> Array:
-        return self.columns["slip"]
-
-    @property
-    def pressed(self) -> Array:
-        return self.columns["largest_pressure"] / self.columns["hardness"]
-
-    def shared(self, law: FittedSharing) -> Array:
-        """Load ratio by the law."""
-        return law.load_ratio(self.clearance, self.layers, self.flattening, self.below, self.slip, self.pressed)
-
-    @property
-    def weight(self) -> Array:
-        """Relative change of friction per change of the load ratio, at most `MOST`: what an error of it does."""
-        c = self.columns
-        bare = np.array([Scene.from_toml(name).boundary_friction.bare for name in np.unique(c["scene"])])
-        solid = bare[np.unique(c["scene"], return_inverse=True)[1]]
-        oil = np.clip((c["friction_coefficient"] - solid * self.load_ratio) / (1.0 - self.load_ratio + 1e-9), 0.0, solid)
-        return np.minimum((solid - oil) / c["friction_coefficient"], MOST)
-
-    @property
     def dense(self) -> Array:
         return self.columns["lambda"] / self.columns["density"]
 
@@ -98,13 +74,11 @@ class Table:
         return Table({name: values[kept] for name, values in self.columns.items()})
 
 
-def fitted(
-    residual: Callable[[Array], Array], start: list[float], least: float = LEAST
-) -> tuple[Array, Array, float]:
+def fitted(residual: Callable[[Array], Array], start: list[float]) -> tuple[Array, Array, float]:
     """Least squares in which rows far off count by their distance: constants, half widths of their 95 % intervals,
     standard deviation of the residuals.
     """
-    found = least_squares(residual, start, loss="soft_l1", f_scale=FAR, bounds=(least, np.inf), x_scale="jac")
+    found = least_squares(residual, start, loss="soft_l1", f_scale=FAR)
     freedom = found.fun.size - found.x.size
     variance = float(found.fun @ found.fun) / freedom
     widths = STUDENT * np.sqrt(np.diag(np.linalg.pinv(found.jac.T @ found.jac)) * variance)
@@ -133,18 +107,9 @@ class Fit:
         self.law, self.half_widths = law, dict[str, float]()
         self.sweep = Table(solved(sweep))
         self.all = rows = self.sweep if others is None else Table(shared([self.sweep.columns, told(solved(others))]))
-        weight = rows.weight
         self._fit(
-            (
-                "load_factor",
-                "load_exponent",
-                "load_flattening",
-                "load_below",
-                "load_slip",
-                "load_yield",
-                "load_parted",
-            ),
-            lambda law: weight * (rows.shared(law) - rows.load_ratio),
+            ("load_factor", "load_exponent", "load_flattening", "load_parted"),
+            lambda law: law.load_ratio(rows.clearance, rows.layers, rows.flattening, rows.below) - rows.load_ratio,
         )
         self._fit(
             ("area_factor", "area_exponent"), self._area_residual(rows, None if dry is None else Table(solved(dry)))
@@ -158,7 +123,7 @@ class Fit:
             ),
         )
         sliding = Traction(rows)
-        self._fit(OF_OIL, sliding.misfit)
+        self._fit(("oil_pressure_excess", "oil_pressure_decay"), sliding.misfit)
         if dry is not None and whole is not None:
             self.dry, self.whole = Table(solved(dry)), Table(solved(whole))
             self._fit_exposure()
@@ -177,7 +142,7 @@ class Fit:
         names = tuple(name for name in of_curve if name not in self.law.CHOSEN)
 
         def of(x: Array) -> Array:
-            return residual(replace(self.law, **dict(zip(names, x.tolist(), strict=True))))
+            return residual(replace(self.law, **dict(zip(names, np.maximum(x, 1e-6).tolist(), strict=True))))
 
         found, widths, _ = fitted(of, [getattr(self.law, name) for name in names])
         self.law = replace(self.law, **dict(zip(names, found.tolist(), strict=True)))
@@ -244,7 +209,7 @@ def told(columns: Columns) -> Columns:
     the grid does not resolve.
     """
     flags = columns["range_flags"].astype(int)
-    unresolved = (columns["scene"] == "ball_209_inner") & (flags & RangeFlag.INLET_UNRESOLVED > 0)
+    unresolved = (columns["shape"] == "ellipse") & (flags & RangeFlag.INLET_UNRESOLVED > 0)
     kept = (flags & RangeFlag.NOT_CONVERGED == 0) & ~unresolved
     return {name: values[kept] for name, values in columns.items()}
 
@@ -278,7 +243,7 @@ class Traction:
         """Logarithm of the law's friction over the solved one."""
         t, c = self.table, self.table.columns
         raised = law.oil_pressure(t.clearance, t.flattening, c["thick_x"], c["thick_y"])
-        return np.log(law.oil_kept * self.friction(raised) / self.solved)
+        return np.log(self.friction(raised) / self.solved)
 
     def friction(self, factor: Array) -> Array:
         """Friction of the oil over the load."""
@@ -304,7 +269,7 @@ def covered(table: Table) -> Array:
 
 def predicted(law: FittedSharing, table: Table) -> Columns:
     """Return the outputs of the law for lambda, flattening and layers; h_c in sigma."""
-    share = table.shared(law)
+    share = law.load_ratio(table.clearance, table.layers, table.flattening, table.below)
     return {
         "W_c": share,
         "A_c": law.area_ratio(share, table.flattening, table.below),
@@ -312,33 +277,40 @@ def predicted(law: FittedSharing, table: Table) -> Columns:
     }
 
 
-def alternatives(rows: Table) -> list[tuple[str, int, float, float]]:
+def alternatives(sweep: Table) -> list[tuple[str, int, float, float]]:
     """Forms of W_c: what, how many constants, standard deviation and largest distance of the residuals."""
-    lam, film, flat, below = rows.clearance, rows.layers, rows.flattening / 0.2, rows.below / 0.2
-    slip, fine = rows.slip + 0.1, rows.columns["correlation_length"] / rows.columns["spacing"]
-    weight, share = rows.weight, rows.load_ratio
+    lam, film, share = sweep.clearance, sweep.layers, sweep.load_ratio
+    flat, fine = (
+        flattening_together(sweep.flattening, sweep.below, 1.0) / 0.2,
+        sweep.columns["correlation_length"] / sweep.columns["spacing"],
+    )
 
-    def of(*numbers: Array) -> Callable[[Array], Array]:
-        return lambda p: np.exp(-p[0] * np.prod([x**power for x, power in zip(numbers, p[1:], strict=True)], axis=0))
+    def of(film: Array, *further: Array) -> Callable[[Array], Array]:
+        def form(p: Array) -> Array:
+            product = film.copy()
+            for power, number in zip(p[2:], further, strict=True):
+                product *= number**power
+            return np.exp(-p[0] * product ** p[1])
 
-    def parting(*numbers: Array) -> Callable[[Array], Array]:
-        return lambda p: of(*numbers)(p[:-1]) * np.exp(-p[-1] * lam**2)
+        return form
+
+    def parting(*further: Array) -> Callable[[Array], Array]:
+        within = of(film, flat, *further)
+        return lambda p: within(p[1:]) * np.exp(-p[0] * lam**2)
 
     forms = [
-        ("exp(-B lambda^C)", of(lam), 2),
-        ("exp(-B f^C)", of(film), 2),
-        ("exp(-B f^C s^m)", of(film, flat), 3),
-        ("exp(-B f^C s^m s_m^l)", of(film, flat, below), 4),
-        ("exp(-B f^C s^m s_m^l - b lambda^2)", parting(film, flat, below), 5),
-        ("**exp(-B f^C s^m s_m^l (slip + 0.1)^v - b lambda^2)**", parting(film, flat, below, slip), 6),
-        ("exp(-B f^C s^m s_m^l (slip + 0.1)^v r^q - b lambda^2)", parting(film, flat, below, slip, fine), 7),
+        ("exp(-B lambda^C)", of(lam), [2.0, 1.0]),
+        ("exp(-B (lambda s^m)^C)", of(lam, flat), [2.0, 1.0, 1.0]),
+        ("exp(-B f^C)", of(film), [0.3, 1.0]),
+        ("exp(-B (f s^m)^C)", of(film, flat), [0.3, 1.0, 1.0]),
+        ("**exp(-B (f s^m)^C - b lambda^2)**", parting(), [1.0, 0.3, 1.0, 1.0]),
+        ("exp(-B (f s^m r^q)^C - b lambda^2)", parting(fine), [1.0, 0.3, 1.0, 1.0, 0.0]),
     ]
     found = []
-    for name, form, count in forms:
-        start = [0.5, 1.0, *([0.3] * (count - 2))]
-        constants, _, _ = fitted(lambda p, form=form: weight * (form(p) - share), start, -np.inf)
+    for name, form, start in forms:
+        constants, _, _ = fitted(lambda p, form=form: form(p) - share, start)
         off = form(constants) - share
-        found.append((name, count, float(np.std(off)), float(np.abs(off).max())))
+        found.append((name, len(start), float(np.std(off)), float(np.abs(off).max())))
     return found
 
 
@@ -373,7 +345,7 @@ def errors_of(law: FittedSharing, data: Table) -> Columns:
 
 def ends(rows: Table) -> dict[str, tuple[float, float]]:
     """Between which numbers the rows lie."""
-    found = (("lambda", rows.clearance), ("f", rows.layers), ("s", rows.flattening), ("s_m", rows.below), ("slip", rows.slip), ("pressed", rows.pressed))
+    found = (("lambda", rows.clearance), ("f", rows.layers), ("s", rows.flattening), ("s_m", rows.below))
     return {name: (float(x.min()), float(x.max())) for name, x in found}
 
 
@@ -396,7 +368,7 @@ def constants_page(fit: Fit) -> list[str]:
     film_off = fit.law.film_ratio(rows.dense, rows.load_ratio, rows.flattening, rows.layer)
     film_off = np.log(film_off / rows.film_ratio)
     oil = Traction(rows)
-    plain = oil.misfit(replace(fit.law, oil_pressure_excess=1e-9, oil_spread=1e-9, oil_kept=1.0))
+    plain = oil.misfit(replace(fit.law, oil_pressure_excess=1e-9, oil_spread=1e-9))
     smoothing = np.sort(fit.rubbed.smoothing())
     covers = [
         (
@@ -421,7 +393,7 @@ def constants_page(fit: Fit) -> list[str]:
         "sliding as shipped; speed, load (0.3 to 1.3 of the reference), temperature (40 K below to 20 K above, for the viscosity), "
         "34 of each scene with the roughness as shipped, 14 with 0.3 to 1 of its amplitude, 12 with 1.25 to 3 times its correlation length, "
         "16 with 0.2 to 2 times the rms height of its microroughness. "
-        f"{rows.clearance.size - sweep.clearance.size} more points: the random ones below, and circles and ellipses over the ranges of a rig and of a ball bearing (shapes.md). "
+        f"{rows.clearance.size - sweep.clearance.size} more circles and ellipses over the ranges of a rig and of a ball bearing (shapes.md). "
         f"Covered: {span}. {dry.clearance.size} dry contacts for the area, {whole.clearance.size} blocks of a whole pass for the exposure, {fit.rubbed.columns['load'].size} runs of two hours for the coverage. "
         f"Refused by the solver: {fit.refused}. {many} blocks of the sweep had more than a tenth of their instants not converged; they are kept.",
         "",
@@ -448,12 +420,12 @@ def constants_page(fit: Fit) -> list[str]:
         "",
         "## Variables of W_c",
         "",
-        "W_c does not depend on lambda alone: at the same lambda, roughness that is pressed flatter carries less, so do bodies with less "
-        "roughness below the grid, and asperities that slide past each other. f = film of the smooth bodies / height to which roughness below the grid reaches (floor and rms height); "
-        "s = p_m / (E* slope) of the roughness on the grid, s_m of the longest wave below it; slip = sliding over entrainment speed; r = correlation length / distance of the nodes.",
+        "W_c does not depend on lambda alone: at the same lambda, roughness that is pressed flatter carries less, and so do bodies with less "
+        "roughness below the grid. f = film of the smooth bodies / height to which roughness below the grid reaches (floor and rms height); "
+        "s = p_m / (E* slope), slope = rms gradient of both roughnesses and of the longest wave below the grid together; r = correlation length / distance of the nodes.",
         *table(
             ("form", "constants", "scatter", "largest error"),
-            [(n, k, f"{a:.3f}", f"{b:.3f}") for n, k, a, b in alternatives(rows)],
+            [(n, k, f"{a:.3f}", f"{b:.3f}") for n, k, a, b in alternatives(sweep)],
         ),
         "r adds nothing: W_c does not depend on the distance of the nodes.",
         "",
@@ -473,17 +445,20 @@ def draw(fit: Fit) -> Figure:
         "length": ("#27ae60", "^"),
         "microroughness": ("#8e44ad", "v"),
     }
+    flat = flattening_together(sweep.flattening, sweep.below, 1.0) / 0.2
     touching, alone = (flattening_together(part.flattening, part.below, SLOPE) for part in (sweep, dry))
+    reduced = sweep.layers * flat**fit.law.load_flattening
     found = predicted(fit.law, sweep)
     for group, (colour, marker) in looks.items():
         kept = sweep.columns["group"] == group
         style = {"color": colour, "marker": marker, "ls": "none", "ms": 4, "label": group}
-        axes[0, 0].plot(found["W_c"][kept], sweep.load_ratio[kept], **style)
+        axes[0, 0].plot(reduced[kept], sweep.load_ratio[kept], **style)
         axes[0, 1].plot(sweep.clearance[kept], sweep.load_ratio[kept], **style)
         axes[1, 0].plot(found["h_c"][kept], sweep.film_ratio[kept], **style)
         axes[1, 1].plot((touching * sweep.load_ratio)[kept], sweep.area_ratio[kept], **style)
-    axes[0, 0].plot([0.0, 1.0], [0.0, 1.0], "k-", lw=1)
-    axes[0, 0].set(xlabel="W_c by the curve", ylabel="W_c, solved")
+    line = np.geomspace(1e-2, 1e2, 200)
+    axes[0, 0].plot(line, fit.law.load_ratio(0.0, line, 0.2, np.inf), "k-", lw=1)
+    axes[0, 0].set(xscale="log", xlabel="f (s / 0.2)$^m$", ylabel="W_c")
     axes[0, 1].set(xscale="log", xlabel="lambda", ylabel="W_c", xlim=(2e-3, 10.0))
     axes[1, 0].plot([0.05, 5.0], [0.05, 5.0], "k-", lw=1)
     axes[1, 0].set(xscale="log", yscale="log", xlabel="h_c / sigma by the curve", ylabel="h_c / sigma, solved")

@@ -2,7 +2,7 @@
 
 import math
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
@@ -19,17 +19,15 @@ from contact_core.shapes import Point
 from contact_core.state import Outputs
 
 STORE = RESULTS / "regression_shapes"
-ORIGIN = {  # scene of each shape; soft: under a tribofilm's hardness, rolling, sliding: by the slide-roll ratio
+ORIGIN = {  # scene of each shape; soft: lines under a tribofilm's hardness
     "line": "fzg_flank",
     "ellipse": "ball_209_inner",
     "circle": "mtm_zddp",
     "soft line": "fzg_flank",
-    "rolling line": "fzg_flank",
-    "sliding line": "cam_tappet",
 }
-FIT, WIDTH, CHECK = 1, 2, 5  # seeds: the first two for constants and half widths, the last tells if they hold
-COUNTS = {"line": 30, "ellipse": 12, "circle": 6, "soft line": 6, "rolling line": 12, "sliding line": 8}  # points of the fit
-OTHERS = {"line": 8, "ellipse": 6, "circle": 4, "soft line": 3, "rolling line": 0, "sliding line": 0}  # of the other seeds
+FIT, WIDTH, CHECK = 1, 2, 5  # seeds: what constants are fitted to, what half widths, too, and what tells if they hold
+COUNTS = {"line": 30, "ellipse": 12, "circle": 6, "soft line": 6}  # points of the fit
+OTHERS = {"line": 8, "ellipse": 6, "circle": 4, "soft line": 3}  # of the other seeds
 RUBBED, RUNS, MINUTES = 3, 3, 10.0  # seed, contacts of each shape, and for how long they rub
 LIGHT = 600.0  # N, at most, of ellipses that rub: others take long
 KELVIN = 273.15
@@ -95,7 +93,7 @@ class ShapePoint:
             made |= self._grid(shipped)
         if self.hardness != STEEL:
             made |= {"plasticity.hardness": f"{self.hardness} Pa", "plasticity.film_hardness": f"{self.hardness} Pa"}
-        return Scene.from_toml(ORIGIN[self.shape], made | (changes or {})).at_level("deterministic")
+        return Scene.from_toml(ORIGIN[self.shape], made | (changes or {}))
 
     def _grid(self, shipped: Scene) -> dict[str, str]:
         """Grid of an ellipse: as wide as the film needs, and fine enough for its inlet if possible."""
@@ -143,15 +141,10 @@ def points(shape: str, seed: int, count: int) -> list[ShapePoint]:
     found = list[ShapePoint]()
     while len(found) < count:
         spin, hardness = 0.0, STEEL
-        if shape.endswith("line"):
-            radius, load = draw.uniform(3.9e-3, 8.8e-3), 14.0 * log(50.0 if shape == "soft line" else 5.0, 540.0)
+        if shape in ("line", "soft line"):
+            radius, load = draw.uniform(3.9e-3, 8.8e-3), 14.0 * log(5.0 if shape == "line" else 50.0, 540.0)
             speed, srr, warm = log(0.3, 5.0), draw.uniform(-1.3, 1.3), draw.uniform(40.0, 120.0)
             rough = log(0.1e-6, 0.4e-6), log(0.1e-6, 0.4e-6)
-            if shape == "rolling line":
-                srr = sign() * log(3e-3, 0.3)
-            if shape == "sliding line":
-                radius, load, speed = draw.uniform(10e-3, 30e-3), 14.0 * log(5.0, 120.0), log(0.1, 2.0)
-                srr, rough = sign() * log(0.5, 5.0), (log(0.05e-6, 0.3e-6), log(0.05e-6, 0.3e-6))
             if shape == "soft line":
                 hardness = draw.uniform(2e9, 4e9)
         elif shape == "ellipse":
@@ -221,17 +214,6 @@ def _stored(file: Path, asked: list[ShapePoint]) -> list[dict[str, float]]:
             break
         rows.append({name: float(kept[name][k]) for name in (*OBSERVED, "seconds")})
     return rows
-
-
-def fitted_to(shapes: Iterable[str]) -> list[Columns]:
-    """The points of shapes that constants are fitted to."""
-    asked = [(shape, seed, count_of(shape, seed)) for shape in shapes for seed in (FIT, WIDTH)]
-    return [solved(*each) for each in asked if each[2]]
-
-
-def count_of(shape: str, seed: int) -> int:
-    """How many points a shape has of a seed."""
-    return (COUNTS if seed == FIT else OTHERS)[shape]
 
 
 def rubbed(shape: str) -> Iterator[tuple[Outputs, Outputs]]:
