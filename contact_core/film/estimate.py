@@ -38,7 +38,48 @@ class Outputs(Protocol):
         """Outputs by name."""
 
     @property
-    def solve_with_estimate(
+    def area_by_chance(self) -> float:
+        """Part of contact_area_ratio that is chance, as `grid_steps.area_by_chance`."""
+
+
+@dataclass(frozen=True)
+class OnGrid:
+    """A film on one grid, and its outputs."""
+
+    grid: Grid
+    solution: FilmSolution
+    values: dict[str, float]
+    area_by_chance: float
+
+    @staticmethod
+    def of(now: Instant, grid: Grid, found: FilmSolution) -> "OnGrid":
+        """Return the film of an instant with its outputs."""
+        hertz = now.shape.hertz(now.load, now.reduced_modulus)
+        values = film_outputs(grid, found.state, found.gap, found.touching, now.load, hertz)
+        return OnGrid(grid, found, values, area_by_chance(found.touching > 0.0, grid.cell, hertz.area))
+
+    @property
+    def spacing(self) -> float:
+        """Distance between nodes [m]."""
+        return self.grid.spacing
+
+    @property
+    def nodes(self) -> tuple[int, int]:
+        """Nodes along y and along x."""
+        return self.grid.shape
+
+    @property
+    def converged(self) -> bool:
+        """True if the film has converged."""
+        return self.solution.converged
+
+    @property
+    def iterations(self) -> int:
+        """Iterations on this grid."""
+        return self.solution.iterations
+
+
+def solve_with_estimate(
     now: Instant, grid: Grid, settings: Settings
 ) -> tuple[FilmSolution, dict[str, float], dict[str, float]]:
     """Solve for the steady film; return it, its outputs, and the half width of the error of each in its unit.

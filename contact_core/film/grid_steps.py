@@ -19,47 +19,6 @@ class GridStep:
     error: float  # stated one of that output: relative, of ratios absolute
 
 
-def area_by_chance(self) -> float:
-        """Part of contact_area_ratio that is chance, as `area_by_chance`."""
-
-
-@dataclass(frozen=True)
-class OnGrid:
-    """A film on one grid, and its outputs."""
-
-    grid: Grid
-    solution: FilmSolution
-    values: dict[str, float]
-    area_by_chance: float
-
-    @staticmethod
-    def of(now: Instant, grid: Grid, found: FilmSolution) -> "OnGrid":
-        """Return the film of an instant with its outputs."""
-        hertz = now.shape.hertz(now.load, now.reduced_modulus)
-        values = film_outputs(grid, found.state, found.gap, found.touching, now.load, hertz)
-        return OnGrid(grid, found, values, area_by_chance(found.touching > 0.0, grid.cell, hertz.area))
-
-    @property
-    def spacing(self) -> float:
-        """Distance between nodes [m]."""
-        return self.grid.spacing
-
-    @property
-    def nodes(self) -> tuple[int, int]:
-        """Nodes along y and along x."""
-        return self.grid.shape
-
-    @property
-    def converged(self) -> bool:
-        """True if the film has converged."""
-        return self.solution.converged
-
-    @property
-    def iterations(self) -> int:
-        """Iterations on this grid."""
-        return self.solution.iterations
-
-
 def area_by_chance(touching: Mask, cell: float, area: float) -> float:
     """Return how much of contact_area_ratio is chance: nodes at the edges of contacts touch or not.
 
