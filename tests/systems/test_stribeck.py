@@ -122,7 +122,9 @@ def test_variables_lie_along_both_dimensions_with_units_and_texts_of_the_quantit
         "range_flags",
     ):
         assert swept[name].dims == ("rubbing_time", "entrainment_speed")
-        assert swept[name].attrs == {"units": TABLE[name].unit or "1", "long_name": TABLE[name].text}
+        error = {"ancillary_variables": f"{name}_error"} if TABLE[name].error else {}
+        assert swept[name].attrs == {"units": TABLE[name].unit or "1", "long_name": TABLE[name].text} | error
+        assert all(half in swept.coords for half in error.values())
     assert swept.sizes == {"rubbing_time": 2, "entrainment_speed": 3}
     assert all({"units", "long_name"} <= set(swept[name].attrs) for name in swept.variables)
     assert swept["valid"].values.all()
