@@ -100,7 +100,7 @@ def test_tribofilms_of_circles_are_covered_and_a_tenth_of_the_error_would_not_do
         scene = scene_of(row).at_level("regression")
         assert not scene.tribofilm.abrades
         _, found = advance(scene, OperatingPoint(**row["point"]), initial_state(scene), row["seconds"])
-        assert found.range_flags == 0
+        assert not found.range_flags & ~RangeFlag.UNSURE
         for body in ("tribofilm_1", "tribofilm_2"):
             off = abs(row["truth"][body] / getattr(found, body) - 1.0)
             ratios.setdefault(body, {})[name] = off / found.error_tribofilm
