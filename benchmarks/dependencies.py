@@ -104,6 +104,7 @@ PAGES: dict[str, Source] = {
     "thesis/validation": Source("thesis.validation", ("film", "evolution", "control", *CIRCLES)),
     "regression/curves": Source("regression.curves check", (*LEVELS, "azam_case_a", "mtm_zddp")),
     "regression/shapes": Source("regression.shapes page", (*LEVELS, "mtm_zddp", "fzg_flank", "ball_209_inner")),
+    "regression/held_back": Source("regression.held_back", (*LEVELS, *SHAPES, "cam_tappet")),
     "regression/cost": Source("regression.cost", ("film", "regression", *CIRCLES)),
     "friction/traction": Source("friction.traction", (*LEVELS, "azam_case_a", "mtm_zddp")),
     "friction/laws_cost": Source("friction.laws_cost", ("film", "evolution", "control", "data", "azam_case_a")),

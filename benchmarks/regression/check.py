@@ -58,7 +58,7 @@ def curves_page(law: FittedSharing, solved: Columns) -> list[str]:
     return [
         "## Curves on random points",
         "",
-        f"{COUNT} points of each scene that were not used in the fit: load 0.3 to 1.3 of the reference, speed log-uniform over the same lambda, "
+        f"{COUNT} points of each scene, which the fit has besides the sweep, for their slide-roll ratios: load 0.3 to 1.3 of the reference, speed log-uniform over the same lambda, "
         "temperature within 5 K, slide-roll ratio 0.5 to 100 % of either sign, log-uniform; roughness as shipped and fresh. "
         f"{refused} were refused by the deterministic solver.",
         *each_scene(solved, rows),

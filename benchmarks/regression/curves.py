@@ -1,7 +1,7 @@
 """Load-sharing curves of the regression level: fitted points, fit, and comparison with the deterministic level.
 
     python -m benchmarks.regression.curves sweep                         # solve the sweep: an hour
-    python -m benchmarks.regression.curves fit                           # fit the curves: the page without the regression level
+    python -m benchmarks.regression.curves fit                           # fit the curves: the page without two hours of rubbing
     python -m benchmarks.regression.curves check [--deterministic-only]  # both levels on 24 random points of each scene, and over two hours: half an hour
 
 Solved points stay in results/regression. `fit` and `check` write docs/measured/regression/curves.md, docs/measured/regression/curves.png and
@@ -29,8 +29,7 @@ from benchmarks.regression.points import (
     run,
     sweep_points,
 )
-from benchmarks.regression.shapes_points import COUNTS, FIT
-from benchmarks.regression.shapes_points import solved as solved_shapes
+from benchmarks.regression.shapes_points import fitted_to
 from contact_core.laws.load_sharing import FittedSharing
 
 WHOLE_PASS = {"control.mixed_instants": "128", "control.dry_instants": "8"}
@@ -53,7 +52,7 @@ def sweep() -> dict[str, Columns]:
 
 def write_golden(table: Table) -> None:
     """A few points of the sweep for the tests."""
-    named = ("clearance", "layers", "flattening", "below", "dense", "load_ratio", "area_ratio", "film_ratio")
+    named = ("clearance", "layers", "flattening", "below", "slip", "pressed", "dense", "load_ratio", "area_ratio", "film_ratio")
     rows = np.column_stack([getattr(table, name) for name in named])[::GOLDEN]
     file = ROOT / "tests" / "golden" / "load_sharing.csv"
     file.parent.mkdir(exist_ok=True)
@@ -63,7 +62,7 @@ def write_golden(table: Table) -> None:
 def write_page(*, fast: bool) -> None:
     """Fit, compare, and write what came out."""
     tables, solved = sweep(), deterministic()
-    others = shared([solved_shapes(shape, FIT, COUNTS[shape]) for shape in ("circle", "ellipse")])
+    others = shared([*fitted_to(("circle", "ellipse", "light circle")), solved])
     fit = Fit(FittedSharing(), tables["sweep"], others, tables["dry"], tables["pass"], tables["rubbed"])
     draw(fit).savefig(MEASURED / "regression" / "curves.png", dpi=130)
     lines = [
@@ -71,11 +70,13 @@ def write_page(*, fast: bool) -> None:
         "",
         f"Written by `python -m benchmarks.regression.curves {'check' if fast else 'fit'}`.",
         "",
-        *([*level_page(solved), "", *hours_page(), ""] if fast else []),
+        *level_page(solved),
+        "",
+        *([*hours_page(), ""] if fast else []),
         *constants_page(fit),
         *curves_page(FittedSharing(), solved),
         "",
-        "![load ratio over reduced and plain lambda, mean gap and area against their curves](curves.png)",
+        "![load ratio against its curve and over lambda, mean gap and area against their curves](curves.png)",
     ]
     page = "\n".join(lines)
     save("regression/curves", page.replace("\n\n\n", "\n\n"))

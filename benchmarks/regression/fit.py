@@ -16,10 +16,13 @@ from contact_core.laws.asperity_layer import SLOPE
 from contact_core.laws.load_sharing import FittedSharing, flattening_together, layer_height
 
 RANGES = ((0.0, 0.05), (0.05, 0.2), (0.2, 1.0), (1.0, np.inf))
+MOST = 15.0  # of the weight of a load ratio
+LEAST = 1e-6  # of a constant
 FAR = 0.1  # residuals beyond which a point counts by its distance
 LITTLE = 0.25  # wear over composite roughness
 BODIES = ("rougher", "smoother")
 SWEPT = ("shipped", "amplitude", "length", "microroughness")  # groups of the sweep
+OF_OIL = ("oil_pressure_excess", "oil_pressure_decay", "oil_steepness", "oil_kept", "oil_spread")
 STUDENT = 1.96  # half width of a 95 % interval, in standard deviations
 Array = np.ndarray
 
@@ -54,6 +57,27 @@ class Table:
         return c["lambda"] * c["sigma"] / layer_height(c["floor"], c["microroughness"])
 
     @property
+    def slip(self) -> Array:
+        return self.columns["slip"]
+
+    @property
+    def pressed(self) -> Array:
+        return self.columns["largest_pressure"] / self.columns["hardness"]
+
+    def shared(self, law: FittedSharing) -> Array:
+        """Load ratio by the law."""
+        return law.load_ratio(self.clearance, self.layers, self.flattening, self.below, self.slip, self.pressed)
+
+    @property
+    def weight(self) -> Array:
+        """Relative change of friction per change of the load ratio, at most `MOST`: what an error of it does."""
+        c = self.columns
+        bare = np.array([Scene.from_toml(name).boundary_friction.bare for name in np.unique(c["scene"])])
+        solid = bare[np.unique(c["scene"], return_inverse=True)[1]]
+        oil = np.clip((c["friction_coefficient"] - solid * self.load_ratio) / (1.0 - self.load_ratio + 1e-9), 0.0, solid)
+        return np.minimum((solid - oil) / c["friction_coefficient"], MOST)
+
+    @property
     def dense(self) -> Array:
         return self.columns["lambda"] / self.columns["density"]
 
@@ -74,11 +98,13 @@ class Table:
         return Table({name: values[kept] for name, values in self.columns.items()})
 
 
-def fitted(residual: Callable[[Array], Array], start: list[float]) -> tuple[Array, Array, float]:
+def fitted(
+    residual: Callable[[Array], Array], start: list[float], least: float = LEAST
+) -> tuple[Array, Array, float]:
     """Least squares in which rows far off count by their distance: constants, half widths of their 95 % intervals,
     standard deviation of the residuals.
     """
-    found = least_squares(residual, start, loss="soft_l1", f_scale=FAR)
+    found = least_squares(residual, np.maximum(start, 2.0 * least), loss="soft_l1", f_scale=FAR, bounds=(least, np.inf), x_scale="jac")
     freedom = found.fun.size - found.x.size
     variance = float(found.fun @ found.fun) / freedom
     widths = STUDENT * np.sqrt(np.diag(np.linalg.pinv(found.jac.T @ found.jac)) * variance)
@@ -107,9 +133,18 @@ class Fit:
         self.law, self.half_widths = law, dict[str, float]()
         self.sweep = Table(solved(sweep))
         self.all = rows = self.sweep if others is None else Table(shared([self.sweep.columns, told(solved(others))]))
+        weight = rows.weight
         self._fit(
-            ("load_factor", "load_exponent", "load_flattening", "load_parted"),
-            lambda law: law.load_ratio(rows.clearance, rows.layers, rows.flattening, rows.below) - rows.load_ratio,
+            (
+                "load_factor",
+                "load_exponent",
+                "load_flattening",
+                "load_below",
+                "load_slip",
+                "load_yield",
+                "load_parted",
+            ),
+            lambda law: weight * (rows.shared(law) - rows.load_ratio),
         )
         self._fit(
             ("area_factor", "area_exponent"), self._area_residual(rows, None if dry is None else Table(solved(dry)))
@@ -123,7 +158,7 @@ class Fit:
             ),
         )
         sliding = Traction(rows)
-        self._fit(("oil_pressure_excess", "oil_pressure_decay"), sliding.misfit)
+        self._fit(OF_OIL, sliding.misfit)
         if dry is not None and whole is not None:
             self.dry, self.whole = Table(solved(dry)), Table(solved(whole))
             self._fit_exposure()
@@ -142,7 +177,7 @@ class Fit:
         names = tuple(name for name in of_curve if name not in self.law.CHOSEN)
 
         def of(x: Array) -> Array:
-            return residual(replace(self.law, **dict(zip(names, np.maximum(x, 1e-6).tolist(), strict=True))))
+            return residual(replace(self.law, **dict(zip(names, x.tolist(), strict=True))))
 
         found, widths, _ = fitted(of, [getattr(self.law, name) for name in names])
         self.law = replace(self.law, **dict(zip(names, found.tolist(), strict=True)))
@@ -205,11 +240,11 @@ class Rubbed:
 
 
 def told(columns: Columns) -> Columns:
-    """Without what the deterministic level does not stand for: films short of the tolerance, and ellipses whose inlet
-    the grid does not resolve.
+    """Without what the deterministic level does not stand for: films short of the tolerance, and ellipses and lines whose
+    inlet the grid does not resolve.
     """
     flags = columns["range_flags"].astype(int)
-    unresolved = (columns["shape"] == "ellipse") & (flags & RangeFlag.INLET_UNRESOLVED > 0)
+    unresolved = ~np.isin(columns["scene"], SCENES) & (flags & RangeFlag.INLET_UNRESOLVED > 0)
     kept = (flags & RangeFlag.NOT_CONVERGED == 0) & ~unresolved
     return {name: values[kept] for name, values in columns.items()}
 
@@ -231,7 +266,7 @@ class Traction:
         bare = np.array([self.scenes[name].boundary_friction.bare for name in c["scene"]])
         fluid = c["friction_coefficient"] - bare * c["contact_load_ratio"]
         swept = np.isin(c["group"], SWEPT)
-        share = np.where(swept, 0.1, 0.6)  # of sweeps, where it counts for more
+        share = np.where(swept, 0.1, 0.3)  # of sweeps, where it counts for more
         kept = (c["contact_load_ratio"] < share) & (c["h_c"] > 2.0 * c["floor"]) & (fluid > 0.0) & (c["spin"] == 0.0)
         self.table, self.solved = table.of(kept), fluid[kept]
         nodes, weights = np.polynomial.legendre.leggauss(16)
@@ -241,12 +276,21 @@ class Traction:
 
     def misfit(self, law: FittedSharing) -> Array:
         """Logarithm of the law's friction over the solved one."""
-        t, c = self.table, self.table.columns
-        raised = law.oil_pressure(t.clearance, t.flattening, c["thick_x"], c["thick_y"])
-        return np.log(self.friction(raised) / self.solved)
+        return np.log(law.oil_kept * self.friction(self._raised(law)) / self.solved)
 
-    def friction(self, factor: Array) -> Array:
-        """Friction of the oil over the load."""
+    def half_widths(self, law: FittedSharing) -> Array:
+        """Half widths of the oil's friction that the law states, relative."""
+        raised, faster = self._raised(law), 1.01
+        slope = np.log(self.friction(raised, faster) / self.friction(raised)) / np.log(faster)
+        return np.array([law.WIDTHS.of_oil(*each) for each in zip(self.table.clearance, slope, strict=True)])
+
+    def _raised(self, law: FittedSharing) -> Array:
+        """Pressure at which the oil carries load, over Hertz's."""
+        t, c = self.table, self.table.columns
+        return law.oil_pressure(t.clearance, t.flattening, c["thick_x"], c["thick_y"])
+
+    def friction(self, factor: Array, faster: float = 1.0) -> Array:
+        """Friction of the oil over the load, at `faster` times the sliding speed."""
         c = self.table.columns
         found = np.empty_like(factor)
         for i, name in enumerate(c["scene"]):
@@ -254,7 +298,7 @@ class Traction:
             heights, weights = self.strip if line else self.ellipse
             most = min(factor[i], c["hardness"][i] / c["largest_pressure"][i])
             local = most * c["largest_pressure"][i] * heights
-            rate = abs(c["srr"][i]) * c["speed"][i] / c["h_c"][i]
+            rate = faster * abs(c["srr"][i]) * c["speed"][i] / c["h_c"][i]
             stress = weights @ oil.rheology(oil.viscosity(local, float(c["temperature"][i])) * rate, local)
             found[i] = stress / (most * c["mean_pressure"][i]) * (1.0 - c["contact_load_ratio"][i])
         return found
@@ -269,7 +313,7 @@ def covered(table: Table) -> Array:
 
 def predicted(law: FittedSharing, table: Table) -> Columns:
     """Return the outputs of the law for lambda, flattening and layers; h_c in sigma."""
-    share = law.load_ratio(table.clearance, table.layers, table.flattening, table.below)
+    share = table.shared(law)
     return {
         "W_c": share,
         "A_c": law.area_ratio(share, table.flattening, table.below),
@@ -277,40 +321,33 @@ def predicted(law: FittedSharing, table: Table) -> Columns:
     }
 
 
-def alternatives(sweep: Table) -> list[tuple[str, int, float, float]]:
+def alternatives(rows: Table) -> list[tuple[str, int, float, float]]:
     """Forms of W_c: what, how many constants, standard deviation and largest distance of the residuals."""
-    lam, film, share = sweep.clearance, sweep.layers, sweep.load_ratio
-    flat, fine = (
-        flattening_together(sweep.flattening, sweep.below, 1.0) / 0.2,
-        sweep.columns["correlation_length"] / sweep.columns["spacing"],
-    )
+    lam, film, flat, below = rows.clearance, rows.layers, rows.flattening / 0.2, rows.below / 0.2
+    slip, fine = 1.0 + rows.slip, rows.columns["correlation_length"] / rows.columns["spacing"]
+    weight, share = rows.weight, rows.load_ratio
 
-    def of(film: Array, *further: Array) -> Callable[[Array], Array]:
-        def form(p: Array) -> Array:
-            product = film.copy()
-            for power, number in zip(p[2:], further, strict=True):
-                product *= number**power
-            return np.exp(-p[0] * product ** p[1])
+    def of(*numbers: Array) -> Callable[[Array], Array]:
+        return lambda p: np.exp(-p[0] * np.prod([x**power for x, power in zip(numbers, p[1:], strict=True)], axis=0))
 
-        return form
-
-    def parting(*further: Array) -> Callable[[Array], Array]:
-        within = of(film, flat, *further)
-        return lambda p: within(p[1:]) * np.exp(-p[0] * lam**2)
+    def parting(*numbers: Array) -> Callable[[Array], Array]:
+        return lambda p: of(*numbers)(p[:-1]) * np.exp(-p[-1] * lam**2)
 
     forms = [
-        ("exp(-B lambda^C)", of(lam), [2.0, 1.0]),
-        ("exp(-B (lambda s^m)^C)", of(lam, flat), [2.0, 1.0, 1.0]),
-        ("exp(-B f^C)", of(film), [0.3, 1.0]),
-        ("exp(-B (f s^m)^C)", of(film, flat), [0.3, 1.0, 1.0]),
-        ("**exp(-B (f s^m)^C - b lambda^2)**", parting(), [1.0, 0.3, 1.0, 1.0]),
-        ("exp(-B (f s^m r^q)^C - b lambda^2)", parting(fine), [1.0, 0.3, 1.0, 1.0, 0.0]),
+        ("exp(-B lambda^C)", of(lam), 2),
+        ("exp(-B f^C)", of(film), 2),
+        ("exp(-B f^C s^m)", of(film, flat), 3),
+        ("exp(-B f^C s^m s_m^l)", of(film, flat, below), 4),
+        ("exp(-B f^C s^m s_m^l - b lambda^2)", parting(film, flat, below), 5),
+        ("**exp(-B f^C s^m s_m^l (1 + slip)^v - b lambda^2)**", parting(film, flat, below, slip), 6),
+        ("exp(-B f^C s^m s_m^l (1 + slip)^v r^q - b lambda^2)", parting(film, flat, below, slip, fine), 7),
     ]
     found = []
-    for name, form, start in forms:
-        constants, _, _ = fitted(lambda p, form=form: form(p) - share, start)
+    for name, form, count in forms:
+        start = [0.5, 1.0, *([0.3] * (count - 2))]
+        constants, _, _ = fitted(lambda p, form=form: weight * (form(p) - share), start, -np.inf)
         off = form(constants) - share
-        found.append((name, len(start), float(np.std(off)), float(np.abs(off).max())))
+        found.append((name, count, float(np.std(off)), float(np.abs(off).max())))
     return found
 
 
@@ -345,8 +382,27 @@ def errors_of(law: FittedSharing, data: Table) -> Columns:
 
 def ends(rows: Table) -> dict[str, tuple[float, float]]:
     """Between which numbers the rows lie."""
-    found = (("lambda", rows.clearance), ("f", rows.layers), ("s", rows.flattening), ("s_m", rows.below))
+    found = (("lambda", rows.clearance), ("f", rows.layers), ("s", rows.flattening), ("s_m", rows.below), ("slip", rows.slip), ("pressed", rows.pressed))
     return {name: (float(x.min()), float(x.max())) for name, x in found}
+
+
+def widths_page(fit: Fit) -> list[str]:
+    """Return how the half widths stated by the shipped law compare with the residuals about the fitted one."""
+    rows, law, oil = fit.all, fit.law, Traction(fit.all)
+    share = rows.shared(law)
+    film = law.film_ratio(rows.dense, share, rows.flattening, rows.layer)
+    residuals = {
+        "W_c": (share - rows.load_ratio, [law.WIDTHS.of_load(*each) for each in zip(share, rows.clearance, strict=True)]),
+        "h_c": (rows.film_ratio / film - 1.0, [law.WIDTHS.of_film(each) for each in rows.clearance]),
+        "friction of the oil": (np.expm1(-oil.misfit(law)), oil.half_widths(law)),
+    }
+    lines = []
+    for name, (off, stated) in residuals.items():
+        ratio = np.abs(off) / np.asarray(stated)
+        middle, most = np.median(stated), np.quantile(ratio, 0.95)
+        lines.append((name, off.size, f"{np.median(np.abs(off)):.3f}", f"{middle:.3f}", f"{np.mean(ratio <= 1.0):.3f}", f"{most:.2f}"))
+    heads = ("quantity", "points", "median residual", "median half width", "covered", "times as wide, 95 % would be covered")
+    return ["Half widths (`WIDTHS`) against the residuals:", *table(heads, lines)]
 
 
 def constants(fit: Fit) -> list[tuple[str, ...]]:
@@ -368,7 +424,7 @@ def constants_page(fit: Fit) -> list[str]:
     film_off = fit.law.film_ratio(rows.dense, rows.load_ratio, rows.flattening, rows.layer)
     film_off = np.log(film_off / rows.film_ratio)
     oil = Traction(rows)
-    plain = oil.misfit(replace(fit.law, oil_pressure_excess=1e-9, oil_spread=1e-9))
+    plain = oil.misfit(replace(fit.law, oil_pressure_excess=1e-9, oil_spread=1e-9, oil_kept=1.0))
     smoothing = np.sort(fit.rubbed.smoothing())
     covers = [
         (
@@ -393,7 +449,7 @@ def constants_page(fit: Fit) -> list[str]:
         "sliding as shipped; speed, load (0.3 to 1.3 of the reference), temperature (40 K below to 20 K above, for the viscosity), "
         "34 of each scene with the roughness as shipped, 14 with 0.3 to 1 of its amplitude, 12 with 1.25 to 3 times its correlation length, "
         "16 with 0.2 to 2 times the rms height of its microroughness. "
-        f"{rows.clearance.size - sweep.clearance.size} more circles and ellipses over the ranges of a rig and of a ball bearing (shapes.md). "
+        f"{rows.clearance.size - sweep.clearance.size} more points: the random ones below, and circles and ellipses over the ranges of a rig and of a ball bearing (shapes.md). "
         f"Covered: {span}. {dry.clearance.size} dry contacts for the area, {whole.clearance.size} blocks of a whole pass for the exposure, {fit.rubbed.columns['load'].size} runs of two hours for the coverage. "
         f"Refused by the solver: {fit.refused}. {many} blocks of the sweep had more than a tenth of their instants not converged; they are kept.",
         "",
@@ -404,6 +460,7 @@ def constants_page(fit: Fit) -> list[str]:
         *table(("constant", "fitted", "half width", "shipped"), constants(fit)),
         "Standard deviations about the curves, A_c and h_c with W_c from its own curve, the friction of the oil with the solved W_c and h_c; relative except for W_c:",
         *table(("name", "found"), [(k, f"{v:.3f}") for k, v in fit.scatter.items()]),
+        *widths_page(fit),
         f"With the solved W_c: A_c {np.std(area_off):.3f}, h_c {np.std(film_off):.3f} (relative). "
         f"Friction of the oil if it had Hertz's pressure everywhere: {plain.std():.2f} (relative). "
         f"Dry A_c: {np.std(dry_off):.3f} (relative, at most {np.abs(dry_off).max():.3f}).",
@@ -420,12 +477,12 @@ def constants_page(fit: Fit) -> list[str]:
         "",
         "## Variables of W_c",
         "",
-        "W_c does not depend on lambda alone: at the same lambda, roughness that is pressed flatter carries less, and so do bodies with less "
-        "roughness below the grid. f = film of the smooth bodies / height to which roughness below the grid reaches (floor and rms height); "
-        "s = p_m / (E* slope), slope = rms gradient of both roughnesses and of the longest wave below the grid together; r = correlation length / distance of the nodes.",
+        "W_c does not depend on lambda alone: at the same lambda, roughness that is pressed flatter carries less, so do bodies with less "
+        "roughness below the grid, and asperities that slide past each other. f = film of the smooth bodies / height to which roughness below the grid reaches (floor and rms height); "
+        "s = p_m / (E* slope) of the roughness on the grid, s_m of the longest wave below it; slip = sliding over entrainment speed; r = correlation length / distance of the nodes.",
         *table(
             ("form", "constants", "scatter", "largest error"),
-            [(n, k, f"{a:.3f}", f"{b:.3f}") for n, k, a, b in alternatives(sweep)],
+            [(n, k, f"{a:.3f}", f"{b:.3f}") for n, k, a, b in alternatives(rows)],
         ),
         "r adds nothing: W_c does not depend on the distance of the nodes.",
         "",
@@ -445,20 +502,17 @@ def draw(fit: Fit) -> Figure:
         "length": ("#27ae60", "^"),
         "microroughness": ("#8e44ad", "v"),
     }
-    flat = flattening_together(sweep.flattening, sweep.below, 1.0) / 0.2
     touching, alone = (flattening_together(part.flattening, part.below, SLOPE) for part in (sweep, dry))
-    reduced = sweep.layers * flat**fit.law.load_flattening
     found = predicted(fit.law, sweep)
     for group, (colour, marker) in looks.items():
         kept = sweep.columns["group"] == group
         style = {"color": colour, "marker": marker, "ls": "none", "ms": 4, "label": group}
-        axes[0, 0].plot(reduced[kept], sweep.load_ratio[kept], **style)
+        axes[0, 0].plot(found["W_c"][kept], sweep.load_ratio[kept], **style)
         axes[0, 1].plot(sweep.clearance[kept], sweep.load_ratio[kept], **style)
         axes[1, 0].plot(found["h_c"][kept], sweep.film_ratio[kept], **style)
         axes[1, 1].plot((touching * sweep.load_ratio)[kept], sweep.area_ratio[kept], **style)
-    line = np.geomspace(1e-2, 1e2, 200)
-    axes[0, 0].plot(line, fit.law.load_ratio(0.0, line, 0.2, np.inf), "k-", lw=1)
-    axes[0, 0].set(xscale="log", xlabel="f (s / 0.2)$^m$", ylabel="W_c")
+    axes[0, 0].plot([0.0, 1.0], [0.0, 1.0], "k-", lw=1)
+    axes[0, 0].set(xlabel="W_c by the curve", ylabel="W_c, solved")
     axes[0, 1].set(xscale="log", xlabel="lambda", ylabel="W_c", xlim=(2e-3, 10.0))
     axes[1, 0].plot([0.05, 5.0], [0.05, 5.0], "k-", lw=1)
     axes[1, 0].set(xscale="log", yscale="log", xlabel="h_c / sigma by the curve", ylabel="h_c / sigma, solved")

@@ -13,7 +13,7 @@ from benchmarks.folders import RESULTS
 from contact_core import ContactError, OperatingPoint, Scene, advance, initial_state, solve
 from contact_core.film.instant import Grid
 from contact_core.film.outputs import film_outputs
-from contact_core.laws.load_sharing import rms_slope
+from contact_core.laws.load_sharing import rms_slope, sliding_ratio
 from contact_core.reference.point_films import at_no_pressure
 from contact_core.scene import Case
 from contact_core.surfaces.patches import track_rows
@@ -190,6 +190,7 @@ def numbers_of(scene: Scene, op: OperatingPoint) -> dict[str, float]:
         "floor": scene.film.floor,
         "microroughness": below.rms if below else 0.0,
         "spin": op.spin,
+        "slip": sliding_ratio(np.hypot(op.sliding_speed, hertz.lever_share * op.spin * hertz.b), op.entrainment_speed),
     }
 
 

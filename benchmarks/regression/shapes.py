@@ -15,17 +15,17 @@ from matplotlib.figure import Figure
 
 from benchmarks.folders import MEASURED
 from benchmarks.pages import save
-from benchmarks.regression.fit import Fit, constants, ends, shared, table, told
+from benchmarks.regression.fit import Fit, constants, ends, shared, table, told, widths_page
 from benchmarks.regression.points import Columns
 from benchmarks.regression.points import solved as answered
 from benchmarks.regression.shapes_points import (
     CHECK,
-    COUNTS,
     FIT,
     ORIGIN,
-    OTHERS,
     WIDTH,
     ShapePoint,
+    count_of,
+    fitted_to,
     points,
     rubbed,
     solved,
@@ -41,13 +41,28 @@ ERRORS = {"mu": "error_friction", "h_c": "error_film", "wear": "error_wear"}
 UNKNOWN = 1e3  # error_wear that says nothing
 RUBBING = ("line", "ellipse", "circle")
 NAMES = {FIT: "fit", WIDTH: "widths", CHECK: "check"}
-LOOKS = {"line": "#2471a3", "ellipse": "#e67e22", "circle": "#27ae60", "soft line": "#8e44ad"}
+LOOKS = {
+    "line": "#2471a3",
+    "ellipse": "#e67e22",
+    "circle": "#27ae60",
+    "soft line": "#8e44ad",
+    "rolling line": "#17a2b8",
+    "sliding line": "#c0392b",
+    "thin line": "#7f8c8d",
+    "cam line": "#b7950b",
+    "light circle": "#1e8449",
+}
 MODULUS = 2.27e11  # Pa
 TOLD = {
     "line": "flank of an FZG gear: R 3.9 to 8.8 mm, 5 to 540 N/mm, u_e 0.3 to 5 m/s, SRR -1.3 to 1.3, Rq of each body 0.1 to 0.4 um over 25 um, FVA3 at 40 to 120 degC",
     "ellipse": "balls of a bearing 209, inner and outer ring: 20 to 4500 N, u_e 0.05 to 15 m/s, SRR 0.1 to 2 %, half of them with spin of up to 0.3 of the ball's rolling, Rq 10 to 50 nm over 20 um, FVA3 at 30 to 120 degC; only those whose inlet 129 nodes along x resolve",
     "circle": "MTM: ball of 9.525 mm, 5 to 75 N, u_e 5 mm/s to 4 m/s, SRR 0.5 to 200 %, Rq 10 to 40 and 10 to 200 nm over 8 um, 40 to 120 degC, grid of the scene",
     "soft line": "flank as above of 50 to 540 N/mm, but of 2 to 4 GPa hardness, as under a tribofilm (line: 6 GPa)",
+    "rolling line": "flank as above, SRR 0.3 to 30 %",
+    "thin line": "flank of 8.7 mm, 21 to 640 N/mm at a lambda of 0.03 to 2.5, SRR 2 to 150 %, Rq of each body 0.1 to 0.4 um, microroughness 8 to 20 nm, 50 to 110 degC",
+    "cam line": "cam of 23.8 mm, 7 to 107 N/mm at a lambda of 0.04 to 2.5, SRR 10 to 450 %, Rq of each body 0.08 to 0.3 um, microroughness 8 to 20 nm, 50 to 110 degC",
+    "light circle": "circle as above, 3 to 30 N, Rq 20 to 60 and 80 to 250 nm",
+    "sliding line": "cam: R 10 to 30 mm, 5 to 120 N/mm, u_e 0.1 to 2 m/s, SRR 0.5 to 5, Rq of each body 0.05 to 0.3 um",
 }
 
 
@@ -55,7 +70,7 @@ class Compared:
     """Points of a shape and a seed by both levels; those the deterministic level refused are left out."""
 
     def __init__(self, shape: str, seed: int) -> None:
-        count = (COUNTS if seed == FIT else OTHERS)[shape]
+        count = count_of(shape, seed)
         columns = solved(shape, seed, count)
         kept = np.isfinite(columns["h_c"])
         self.refused = int((~kept).sum())
@@ -108,7 +123,7 @@ def deviation_page(all_compared: dict[tuple[str, int], Compared]) -> list[str]:
     """Deviations by shape and lambda, of all seeds."""
     rows = []
     for shape in ORIGIN:
-        parts = [all_compared[shape, seed] for seed in NAMES]
+        parts = [part for (of_shape, _), part in all_compared.items() if of_shape == shape]
         off = [part.deviations() for part in parts]
         sure = np.concatenate([part.sure for part in parts])
         clearance = np.concatenate([part.solved["lambda"] for part in parts])
@@ -227,6 +242,8 @@ def scenes_page(all_compared: dict[tuple[str, int], Compared]) -> list[str]:
     """Rolling resistance of the rough points: both levels."""
     rows = []
     for shape in ORIGIN:
+        if (shape, CHECK) not in all_compared:
+            continue
         part = all_compared[shape, CHECK]
         ratio = part.solved["rolling_resistance"] / part.column("rolling_resistance")
         thick = part.sure & (part.solved["lambda"] > 1.0)
@@ -240,8 +257,9 @@ def draw(all_compared: dict[tuple[str, int], Compared]) -> Figure:
     figure = Figure(figsize=(10.5, 4.6), layout="constrained")
     left, middle, right = figure.subplots(1, 3)
     for shape, colour in LOOKS.items():
-        for seed in NAMES:
-            part = all_compared[shape, seed]
+        for (of_shape, seed), part in all_compared.items():
+            if of_shape != shape:
+                continue
             style = {
                 "color": colour,
                 "ls": "none",
@@ -286,23 +304,28 @@ def draw(all_compared: dict[tuple[str, int], Compared]) -> Figure:
 
 def _softly(all_compared: dict[tuple[str, int], Compared]) -> str:
     """Return the additional load on the solids of soft lines."""
-    parts = [all_compared["soft line", seed] for seed in NAMES]
+    parts = [part for (shape, _), part in all_compared.items() if shape == "soft line"]
     off = np.concatenate([part.deviations()["W_c"][part.sure & (part.solved["lambda"] < 1.0)] for part in parts])
     return f"Soft lines below lambda 1: mean deviation of W_c {off.mean():+.3f}, from {off.min():+.2f} to {off.max():+.2f}."
 
 
 def _lines() -> Columns:
     """Return the points that the constants of lines are fitted to."""
-    return shared([solved(shape, FIT, COUNTS[shape]) for shape in ("line", "soft line")])
+    return shared(fitted_to(shape for shape in ORIGIN if shape.endswith("line")))
 
 
 def page() -> None:
     """Compare, fit the constants of lines, and write what came out."""
-    found = {(shape, seed): Compared(shape, seed) for shape in ORIGIN for seed in NAMES}
+    found = {
+        (shape, seed): Compared(shape, seed) for shape in ORIGIN for seed in NAMES if count_of(shape, seed)
+    }
     draw(found).savefig(DOCS / "shapes.png", dpi=130)
     lines = Fit(LineSharing(), told(answered(_lines())))
     span = ", ".join(f"{name} {low:.3g} to {high:.3g}" for name, (low, high) in ends(lines.all).items())
-    refused = ", ".join(f"{shape} {sum(found[shape, seed].refused for seed in NAMES)}" for shape in ORIGIN)
+    refused = ", ".join(
+        f"{shape} {sum(part.refused for (of_shape, _), part in found.items() if of_shape == shape)}"
+        for shape in ORIGIN
+    )
     text = [
         "# The regression level on lines, ellipses and circles of machines",
         "",
@@ -312,7 +335,7 @@ def page() -> None:
         "",
         *(f"* {shape}: {said}." for shape, said in TOLD.items()),
         "",
-        "Three seeds: `fit` determines the constants of the curves, `fit` and `widths` their half widths, `check` only tests them. "
+        "Three seeds: `fit` and `widths` determine the constants of the curves and their half widths, `check` only tests them. "
         f"Refused by the deterministic solver: {refused}.",
         "",
         "## Deviation by shape and film",
@@ -328,7 +351,7 @@ def page() -> None:
         *coverage_page(found),
         "Where the deterministic film depends on its grid or has not converged (solved well: no), both values are uncertain, and the deviation does not characterise the regression level alone.",
         "",
-        f"{_softly(found)} The curves do not depend on hardness: asperities that yield before the oil has pressed them flat have more contact than those of steel. Error outputs are up to 3 times as wide where a tribofilm has grown; these points have none.",
+        f"{_softly(found)} Asperities that yield before the oil has pressed them flat have more contact than those of steel: the curves take the pressure over the hardness. Error outputs are up to twice as wide where a tribofilm has grown; these points have none.",
         "",
         "## Surfaces that have rubbed for ten minutes",
         "",
@@ -342,6 +365,7 @@ def page() -> None:
         + ", ".join(f"{name} {value:.3f}" for name, value in lines.scatter.items())
         + ".",
         "",
+        *widths_page(lines),
         "## Rolling resistance",
         "",
         "Integral of (h/2) dp/dx of solved smooth films in pure rolling, over the closed form of Biboulet & Houpert. The formula assumes an inlet that is full as far as the bodies are parabolas. The grid ends earlier: for lines 12 eta0 u_e R / X lie beyond a distance X, which the last column adds; of points the rest falls as slowly as a logarithm.",
@@ -367,7 +391,7 @@ def main() -> None:
             list(rubbed(shape) if shape in RUBBING else ())
             continue
         for seed in NAMES:
-            solved(shape, seed, (COUNTS if seed == FIT else OTHERS)[shape])
+            solved(shape, seed, count_of(shape, seed))
 
 
 if __name__ == "__main__":

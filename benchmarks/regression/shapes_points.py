@@ -2,14 +2,14 @@
 
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
 import numpy as np
 
 from benchmarks.folders import RESULTS
-from benchmarks.regression.points import Columns, with_numbers
+from benchmarks.regression.points import Columns, speed_for, with_numbers
 from contact_core import ContactError, ContactState, OperatingPoint, Scene, advance, initial_state
 from contact_core.film.fitted import Extent
 from contact_core.film.lengths import inlet_length
@@ -19,15 +19,20 @@ from contact_core.shapes import Point
 from contact_core.state import Outputs
 
 STORE = RESULTS / "regression_shapes"
-ORIGIN = {  # scene of each shape; soft: lines under a tribofilm's hardness
+ORIGIN = {  # scene of each shape; soft: under a tribofilm's hardness; rolling, sliding: by slide-roll ratio; thin: by lambda
     "line": "fzg_flank",
     "ellipse": "ball_209_inner",
     "circle": "mtm_zddp",
     "soft line": "fzg_flank",
+    "rolling line": "fzg_flank",
+    "sliding line": "cam_tappet",
+    "thin line": "fzg_flank",
+    "cam line": "cam_tappet",
+    "light circle": "mtm_zddp",
 }
-FIT, WIDTH, CHECK = 1, 2, 5  # seeds: what constants are fitted to, what half widths, too, and what tells if they hold
-COUNTS = {"line": 30, "ellipse": 12, "circle": 6, "soft line": 6}  # points of the fit
-OTHERS = {"line": 8, "ellipse": 6, "circle": 4, "soft line": 3}  # of the other seeds
+FIT, WIDTH, CHECK = 1, 2, 5  # seeds: the first two for constants and half widths, the last tells if they hold
+COUNTS = {"line": 30, "ellipse": 12, "circle": 6, "soft line": 6, "rolling line": 12, "sliding line": 8, "thin line": 36, "cam line": 36, "light circle": 12}  # points of the fit
+OTHERS = {"line": 8, "ellipse": 6, "circle": 4, "soft line": 3, "rolling line": 0, "sliding line": 0, "thin line": 10, "cam line": 10, "light circle": 4}  # of the other seeds
 RUBBED, RUNS, MINUTES = 3, 3, 10.0  # seed, contacts of each shape, and for how long they rub
 LIGHT = 600.0  # N, at most, of ellipses that rub: others take long
 KELVIN = 273.15
@@ -38,6 +43,12 @@ NODES = (65, 81, 97, 129)  # along x, of an ellipse
 INLET = 1.5  # nodes that resolve an inlet
 SPINNING = 0.5  # share of the ellipses that spin
 BELOW = (2e-9, 20e-9)  # m, rms of the microroughness
+# radius along x [m] and ranges of load [N], lambda, slide-roll ratio, Rq of each body [m], temperature [degC]
+THIN = {
+    "thin line": (8.729e-3, (300.0, 9000.0), (0.03, 2.5), (0.02, 1.5), (0.1e-6, 0.4e-6), (50.0, 110.0)),
+    "cam line": (23.83e-3, (100.0, 1500.0), (0.04, 2.5), (0.1, 4.5), (0.08e-6, 0.3e-6), (50.0, 110.0)),
+}
+COARSE = (8e-9, 20e-9)  # m, rms of the microroughness of thin lines
 PRESSED = 0.8  # of the hardness, at most, by Hertz's pressure
 OBSERVED = (
     "friction_coefficient",
@@ -93,7 +104,7 @@ class ShapePoint:
             made |= self._grid(shipped)
         if self.hardness != STEEL:
             made |= {"plasticity.hardness": f"{self.hardness} Pa", "plasticity.film_hardness": f"{self.hardness} Pa"}
-        return Scene.from_toml(ORIGIN[self.shape], made | (changes or {}))
+        return Scene.from_toml(ORIGIN[self.shape], made | (changes or {})).at_level("deterministic")
 
     def _grid(self, shipped: Scene) -> dict[str, str]:
         """Grid of an ellipse: as wide as the film needs, and fine enough for its inlet if possible."""
@@ -141,10 +152,15 @@ def points(shape: str, seed: int, count: int) -> list[ShapePoint]:
     found = list[ShapePoint]()
     while len(found) < count:
         spin, hardness = 0.0, STEEL
-        if shape in ("line", "soft line"):
-            radius, load = draw.uniform(3.9e-3, 8.8e-3), 14.0 * log(5.0 if shape == "line" else 50.0, 540.0)
+        if shape.endswith("line"):
+            radius, load = draw.uniform(3.9e-3, 8.8e-3), 14.0 * log(50.0 if shape == "soft line" else 5.0, 540.0)
             speed, srr, warm = log(0.3, 5.0), draw.uniform(-1.3, 1.3), draw.uniform(40.0, 120.0)
             rough = log(0.1e-6, 0.4e-6), log(0.1e-6, 0.4e-6)
+            if shape == "rolling line":
+                srr = sign() * log(3e-3, 0.3)
+            if shape == "sliding line":
+                radius, load, speed = draw.uniform(10e-3, 30e-3), 14.0 * log(5.0, 120.0), log(0.1, 2.0)
+                srr, rough = sign() * log(0.5, 5.0), (log(0.05e-6, 0.3e-6), log(0.05e-6, 0.3e-6))
             if shape == "soft line":
                 hardness = draw.uniform(2e9, 4e9)
         elif shape == "ellipse":
@@ -157,9 +173,17 @@ def points(shape: str, seed: int, count: int) -> list[ShapePoint]:
             radius, load = 9.525e-3, log(5.0, 75.0)
             speed, srr, warm = log(5e-3, 4.0), sign() * log(5e-3, 2.0), draw.uniform(40.0, 120.0)
             rough = log(10e-9, 40e-9), log(10e-9, 200e-9)
+            if shape == "light circle":
+                load, rough = log(3.0, 30.0), (log(20e-9, 60e-9), log(80e-9, 250e-9))
         below = log(*BELOW), log(*BELOW)
+        if shape in THIN:
+            radius, loads, lambdas, ratios, roughest, warmest = THIN[shape]
+            load, srr, warm = log(*loads), sign() * log(*ratios), draw.uniform(*warmest)
+            rough, below = (log(*roughest), log(*roughest)), (log(*COARSE), log(*COARSE))
         numbers = float(radius), load, speed, float(srr), spin, KELVIN + float(warm), *rough, *below, float(hardness)
         point = ShapePoint(shape, *numbers)
+        if shape in THIN:
+            point = replace(point, speed=speed_for(point.build(), log(*lambdas), load, point.temperature))
         if point.resolved and not point.squashed:
             found.append(point)
     return found
@@ -214,6 +238,17 @@ def _stored(file: Path, asked: list[ShapePoint]) -> list[dict[str, float]]:
             break
         rows.append({name: float(kept[name][k]) for name in (*OBSERVED, "seconds")})
     return rows
+
+
+def fitted_to(shapes: Iterable[str]) -> list[Columns]:
+    """The points of shapes that constants are fitted to."""
+    asked = [(shape, seed, count_of(shape, seed)) for shape in shapes for seed in (FIT, WIDTH)]
+    return [solved(*each) for each in asked if each[2]]
+
+
+def count_of(shape: str, seed: int) -> int:
+    """How many points a shape has of a seed."""
+    return (COUNTS if seed == FIT else OTHERS)[shape]
 
 
 def rubbed(shape: str) -> Iterator[tuple[Outputs, Outputs]]:

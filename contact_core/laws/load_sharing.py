@@ -10,7 +10,9 @@ from .equations import Equations
 
 _FLATTENING = 0.2  # reference of the constants: about that of the shipped circles
 # films and flattening beyond which no solid carries anything: no power of them may overflow
-_THICKEST, _FLATTEST = 1e30, 1e3
+_THICKEST, _MOST = 1e30, 1e60
+_FURTHER = 1.25  # times the largest numbers of the fit, beyond which they count no more
+_YIELDING = 10.0  # hardness over the pressure at which asperities begin to yield, chosen
 _ALL_WAVES = 2.3  # their rms slope over that of the longest wave alone, see `asperity_layer`
 _FLAT = 1e-12  # square of the inverse flattening of bodies without any roughness
 
@@ -42,6 +44,11 @@ def layer_height(floor: Numbers, rms: Numbers) -> Numbers:
     return floor + rms
 
 
+def sliding_ratio(sliding: float, entrainment: float) -> float:
+    """Return sliding over entrainment speed, absolute; inf where nothing is entrained."""
+    return abs(sliding / entrainment) if entrainment != 0.0 else inf
+
+
 def flattening_together(flattening: Numbers, below: Numbers, weight: float) -> Numbers:
     """Return the flattening by both slopes, that of roughness below the grid `weight` times as steep."""
     return 1.0 / sqrt(1.0 / flattening**2 + (weight / below) ** 2 + _FLAT)
@@ -50,21 +57,23 @@ def flattening_together(flattening: Numbers, below: Numbers, weight: float) -> N
 class Widths(NamedTuple):
     """Half widths of 95 % of the deterministic solutions about the law, on points that it was not fitted to.
 
-    Of W_c it is load W_c^power; of h_c, relative, film (1 + Z)^-film_fall but at least film_least; of the oil's
-    friction, relative, [plastic (1 - n) + newtonian n] [1 + exp(-4 Z)], which grows with the sliding speed to n.
+    Of W_c it is load [(W_c + least exp(-2 Z)) (1 - W_c)]^3/4; of h_c, relative, film (1 + Z)^-film_fall but at least
+    film_least; of the oil's friction, relative, [plastic (1 - n) + newtonian n] [1 + rough exp(-2 Z)], which grows with
+    the sliding speed to n.
     """
 
     load: float
-    power: float
+    least: float
     film: float
     film_fall: float
     film_least: float
     plastic: float
     newtonian: float
+    rough: float
 
-    def of_load(self, load_ratio: float) -> float:
+    def of_load(self, load_ratio: float, clearance: float) -> float:
         """Return the half width of contact_load_ratio, absolute."""
-        return self.load * load_ratio**self.power
+        return float(self.load * ((load_ratio + self.least * exp(-2.0 * clearance)) * (1.0 - load_ratio)) ** 0.75)
 
     def of_film(self, clearance: float) -> float:
         """Return the half width of h_c, relative."""
@@ -76,7 +85,8 @@ class Widths(NamedTuple):
         `slope` is d ln(friction) / d ln(sliding speed).
         """
         newtonian = minimum(maximum(slope, 0.0), 1.0)
-        return float(self.plastic + (self.newtonian - self.plastic) * newtonian) * (1.0 + exp(-4.0 * clearance))
+        widest = self.plastic + (self.newtonian - self.plastic) * newtonian
+        return float(widest * (1.0 + self.rough * exp(-2.0 * clearance)))
 
 
 @dataclass(frozen=True)
@@ -86,7 +96,10 @@ class FittedSharing:
     clearance   Z, film of the smooth bodies by the formula of their shape / composite rms roughness,
     layers      f, that film / the height to which roughness below the grid reaches, see `layer_height`,
     flattening  s, see `flattening_of`, of the roughness on the grid,
-    below       s_m, the same of one wave of the longest length and the rms height of what is below the grid.
+    below       s_m, the same of one wave of the longest length and the rms height of what is below the grid,
+    slip        sliding over entrainment speed, see `sliding_ratio`: asperities that slide past each other lift more
+                oil between them than those that oil moves along with,
+    pressed     Hertz's largest pressure over the hardness: asperities that yield are not pressed flat by the oil.
 
     `equations` states them. The constants were fitted over the ranges `FITTED`; `HALF_WIDTHS` are those of their 95 %
     intervals (docs/measured/regression/curves.md).
@@ -99,39 +112,46 @@ class FittedSharing:
     )
     equations: ClassVar[Equations] = Equations(
         (
-            "W_c = exp[−B (f t^m)^C − b Z^2],   t = 5 [s^{−2} + s_m^{−2}]^{−1/2}",
+            "W_c = exp[−B f^C (5 s)^m (5 s_m)^l e − b Z^2],   e = (1 + Σ)^v (1 + 10 Π)^{−y}",
             "A_c = {1 − exp[−A (s^{−2} + 5.29 s_m^{−2})^{−1/2}]} W_c^D",
             "h_c/σ = W_c g + (1 − W_c) [(E Z/ρ)^n + j^n]^{1/n}",
             "g = (G/k) ln[1 + k (5 s)^{−1.5}] + H Z/f,   j = max[F (5 s)^{−0.75}, g]",
         ),
         "Z: film of the smooth bodies by the formula of their shape over composite roughness; f: that film over "
         "film.floor and the microroughness of both bodies together; s: mean Hertz pressure over what would press flat "
-        "the roughness on the grid, sm: the longest wave below it; ρ: density of the oil under Hertz's mean pressure, "
-        "over that without pressure.",
+        "the roughness on the grid, sm: the longest wave below it; Σ: sliding over entrainment speed; Π: Hertz's "
+        "largest pressure over the hardness; s, sm and Σ count at most as 1.25 times the largest of the fit; "
+        "ρ: density of the oil under Hertz's mean pressure, over that without pressure.",
     )
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
         "clearance": (0.003, 47.0),
         "layers": (0.014, 94.0),
-        "flattening": (0.137, 5.4),
-        "below": (0.118, 1.13),
+        "flattening": (0.0679, 5.4),
+        "below": (0.118, 1.63),
+        "slip": (0.0013, 2.0),  # solved to 1.6; at 2 a body rests
+        "pressed": (0.072, 0.51),
     }
-    WIDTHS: ClassVar[Widths] = Widths(0.14, 0.25, 0.44, 0.6, 0.12, 0.25, 0.65)
-    CHOSEN: ClassVar[frozenset[str]] = frozenset({"oil_pressure_power", "oil_spread"})
+    WIDTHS: ClassVar[Widths] = Widths(0.46, 0.04, 0.23, 1.0, 0.08, 0.08, 0.14, 3.0)
+    CHOSEN: ClassVar[frozenset[str]] = frozenset({"load_yield", "oil_pressure_power", "oil_steepness"})
     HALF_WIDTHS: ClassVar[dict[str, float]] = {
-        "load_factor": 0.019,
-        "load_exponent": 0.047,
-        "load_flattening": 0.26,
-        "load_parted": 0.22,
-        "area_factor": 0.015,
-        "area_exponent": 0.022,
-        "film_dry": 0.053,
-        "film_parted": 0.3,
-        "film_layer": 0.083,
-        "film_mixed": 0.082,
-        "film_factor": 0.06,
-        "film_exponent": 0.32,
-        "oil_pressure_excess": 0.28,
-        "oil_pressure_decay": 0.27,
+        "load_factor": 0.022,
+        "load_exponent": 0.075,
+        "load_flattening": 0.064,
+        "load_below": 0.11,
+        "load_slip": 0.25,
+        "load_parted": 0.28,
+        "area_factor": 0.013,
+        "area_exponent": 0.019,
+        "film_dry": 0.044,
+        "film_parted": 0.25,
+        "film_layer": 0.073,
+        "film_mixed": 0.064,
+        "film_factor": 0.048,
+        "film_exponent": 0.23,
+        "oil_pressure_excess": 0.18,
+        "oil_pressure_decay": 0.094,
+        "oil_kept": 0.034,
+        "oil_spread": 0.056,
         "exposure_rougher": 0.43,
         "exposure_exponent": 0.18,
         "exposure_smoother": 1.5,
@@ -141,35 +161,42 @@ class FittedSharing:
         "exposure_spread_smoother": 0.021,
     }
 
-    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.425)
-    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=0.822)
-    load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=2.13)
-    load_parted: float = parameter("", "b, of asperities that part", least=0.0, most=1e3, default=1.25)
+    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.267)
+    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=0.944)
+    load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=0.561)
+    load_below: float = parameter("", "l, power of s_m", least=0.0, most=10.0, default=0.292)
+    load_slip: float = parameter("", "v, power of the sliding", least=0.0, most=5.0, default=1.05)
+    load_yield: float = parameter("", "y, power of what yields", least=0.0, most=5.0, default=0.0)
+    load_parted: float = parameter("", "b, of asperities that part", least=0.0, most=1e3, default=0.517)
     area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.47)
-    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.87)
-    film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.271)
-    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=0.0334)
+    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.871)
+    film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.322)
+    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=0.378)
     film_layer: float = parameter(
         "",
         "H, part of the height of roughness below the grid that dry bodies keep",
         least=0.0,
         most=10.0,
-        default=0.539,
+        default=0.529,
     )
     film_mixed: float = parameter(
-        "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.623
+        "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.564
     )
-    film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.901)
-    film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=1.45)
+    film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.899)
+    film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=1.37)
     oil_pressure_excess: float = parameter(
-        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=0.722
+        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=1.02
     )
     oil_pressure_decay: float = parameter(
-        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=0.486
+        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=0.316
     )
     oil_pressure_power: float = parameter("", "q, the more so of rougher bodies", least=0.0, most=5.0, default=1.0)
+    oil_steepness: float = parameter("", "w, how much more steep roughness raises it", least=0.0, most=5.0, default=1.0)
+    oil_kept: float = parameter(
+        "", "c, friction of oil whose pressure is uneven, over that of even one", above=0.0, most=1.0, default=0.867
+    )
     oil_spread: float = parameter(
-        "", "S, how far thick films spread the load beyond Hertz's contact", least=0.0, most=100.0, default=0.35
+        "", "S, how far thick films spread the load beyond Hertz's contact", least=0.0, most=100.0, default=0.225
     )
     exposure_rougher: float = parameter(
         "", "k in exposed = 1 - exp(-k A_c^m) of the rougher body", above=0.0, most=1e3, default=1.08
@@ -189,14 +216,26 @@ class FittedSharing:
     )
     exposure_spread_smoother: float = parameter("", "V of the smoother body", above=0.0, most=0.99, default=0.231)
 
-    def load_ratio(self, clearance: Numbers, layers: Numbers, flattening: Numbers, below: Numbers) -> Numbers:
+    def load_ratio(
+        self,
+        clearance: Numbers,
+        layers: Numbers,
+        flattening: Numbers,
+        below: Numbers,
+        slip: Numbers,
+        pressed: Numbers,
+    ) -> Numbers:
         """Return contact_load_ratio at Z = `clearance`, for a film of smooth bodies `layers` layers thick.
 
         Oil between the asperities takes the load from what is below the grid; as Z grows, the asperities part.
         """
-        flat = flattening_together(flattening, below, 1.0) / _FLATTENING
-        film = minimum(minimum(layers, _THICKEST) * minimum(flat, _FLATTEST) ** self.load_flattening, _THICKEST)
-        return exp(-self.load_factor * film**self.load_exponent - self.load_parted * minimum(clearance, _THICKEST) ** 2)
+        flattest, lowest, fastest = (_FURTHER * self.FITTED[name][1] for name in ("flattening", "below", "slip"))
+        flat = minimum(flattening, flattest) / _FLATTENING
+        fine = minimum(below, lowest) / _FLATTENING
+        ease = (1.0 + minimum(slip, fastest)) ** self.load_slip * (1.0 + _YIELDING * pressed) ** -self.load_yield
+        film = minimum(layers, _THICKEST) ** self.load_exponent * (flat**self.load_flattening * fine**self.load_below)
+        parted = minimum(clearance, _THICKEST) ** 2
+        return exp(-self.load_factor * minimum(film * ease, _MOST) - self.load_parted * minimum(parted, _MOST))
 
     def area_ratio(self, load_ratio: Numbers, flattening: Numbers, below: Numbers) -> Numbers:
         """Return contact_area_ratio where the solids carry `load_ratio` of the load."""
@@ -219,7 +258,7 @@ class FittedSharing:
     def oil_pressure(self, clearance: Numbers, flattening: Numbers, thick_x: Numbers, thick_y: Numbers) -> Numbers:
         """Return the pressure at which oil carries load, over Hertz's.
 
-        It is [1 + (K / t) exp(-d Z t^-q)] / sqrt[(1 + S X) (1 + S Y)], with t = s / 0.2.
+        It is [1 + K t^-w exp(-d Z t^-q)] / sqrt[(1 + S X) (1 + S Y)], with t = s / 0.2.
 
         Between rough bodies the oil carries its load in spots, on the part (1 - W_c) / `oil_pressure` of Hertz's area;
         at the pressure of a load spread over all that the solids leave, it would be too thin to shear. A film h that is
@@ -228,13 +267,19 @@ class FittedSharing:
         """
         steep = _FLATTENING / flattening
         fall = self.oil_pressure_decay * clearance * steep**self.oil_pressure_power
-        raised = 1.0 + self.oil_pressure_excess * steep * exp(-fall)
+        raised = 1.0 + self.oil_pressure_excess * steep**self.oil_steepness * exp(-fall)
         return raised / sqrt((1.0 + self.oil_spread * thick_x) * (1.0 + self.oil_spread * thick_y))
 
-    def covers(self, clearance: float, layers: float, flattening: float, below: float) -> bool:
-        """Return True if the point lies within those of the fit, or has a film across which no layer reaches."""
+    def covers(
+        self, clearance: float, layers: float, flattening: float, below: float, slip: float, pressed: float
+    ) -> bool:
+        """Return True if the point lies within those of the fit.
+
+        Or has a film across which no layer reaches, rolls, or is so hard that nothing yields.
+        """
         ends = self.FITTED | {"layers": (self.FITTED["layers"][0], inf)}
-        point = clearance, layers, flattening, below
+        ends |= {name: (0.0, self.FITTED[name][1]) for name in ("slip", "pressed")}
+        point = clearance, layers, flattening, below, slip, pressed
         return all(low <= here <= high for here, (low, high) in zip(point, ends.values(), strict=True))
 
     def nearest(self, flattening: float) -> float:
@@ -277,53 +322,73 @@ class LineSharing(FittedSharing):
 
     name: ClassVar[str] = "fitted_lines"
     FITTED: ClassVar[dict[str, tuple[float, float]]] = {
-        "clearance": (0.096, 4.1),
-        "layers": (2.4, 116.0),
-        "flattening": (0.041, 0.69),
-        "below": (0.093, 1.22),
+        "clearance": (0.035, 13.6),
+        "layers": (0.465, 116.0),
+        "flattening": (0.0321, 0.85),
+        "below": (0.0169, 1.22),
+        "slip": (0.003, 5.0),
+        "pressed": (0.014, 0.71),
     }
-    CHOSEN: ClassVar[frozenset[str]] = frozenset({"load_exponent", "oil_pressure_power", "oil_spread"})
+    CHOSEN: ClassVar[frozenset[str]] = frozenset({"load_below", "oil_pressure_power"})
     HALF_WIDTHS: ClassVar[dict[str, float]] = {
-        "load_factor": 0.029,
-        "load_flattening": 1.9,
-        "load_parted": 3.9,
-        "area_factor": 0.14,
-        "area_exponent": 0.055,
-        "film_dry": 1.2,
-        "film_parted": 10,
-        "film_layer": 1.5,
-        "film_mixed": 0.089,
-        "film_factor": 0.18,
-        "film_exponent": 0.54,
-        "oil_pressure_excess": 4.7,
-        "oil_pressure_decay": 0.96,
+        "load_factor": 0.045,
+        "load_exponent": 0.15,
+        "load_flattening": 0.16,
+        "load_slip": 0.21,
+        "load_yield": 0.25,
+        "load_parted": 0.25,
+        "area_factor": 0.046,
+        "area_exponent": 0.023,
+        "film_dry": 0.27,
+        "film_parted": 1.2,
+        "film_layer": 0.57,
+        "film_mixed": 0.081,
+        "film_factor": 0.12,
+        "film_exponent": 0.3,
+        "oil_pressure_excess": 2.2,
+        "oil_pressure_decay": 0.41,
+        "oil_steepness": 0.39,
+        "oil_kept": 0.066,
+        "oil_spread": 4.0,
         "exposure_rougher": FittedSharing.exposure_rougher,  # all of it: it is that of circles
     }
-    WIDTHS: ClassVar[Widths] = Widths(0.2, 0.25, 0.24, 0.8, 0.1, 0.4, 0.45)
+    WIDTHS: ClassVar[Widths] = Widths(0.5, 0.09, 0.2, 0.2, 0.16, 0.31, 0.36, 0.5)
 
-    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.0765)
-    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=1.5)
-    load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=3.65)
-    load_parted: float = parameter("", "b, of asperities that part", least=0.0, most=1e3, default=13.7)
-    area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.3)
-    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.847)
-    film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=1.4)
-    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=7.76)
+    load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.134)
+    load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=1.45)
+    load_flattening: float = parameter("", "m, power of s beside f", above=0.0, most=10.0, default=1.42)
+    load_below: float = parameter("", "l, power of s_m", least=0.0, most=10.0, default=0.0)
+    load_slip: float = parameter("", "v, power of the sliding", least=0.0, most=5.0, default=1.43)
+    load_yield: float = parameter("", "y, power of what yields", least=0.0, most=5.0, default=0.796)
+    load_parted: float = parameter("", "b, of asperities that part", least=0.0, most=1e3, default=0.704)
+    area_factor: float = parameter("", "A, of the dry contact's area", above=0.0, most=100.0, default=2.34)
+    area_exponent: float = parameter("", "D", above=0.0, most=10.0, default=0.853)
+    film_dry: float = parameter("", "G, h_c of the dry contact / roughness", least=0.0, most=10.0, default=0.902)
+    film_parted: float = parameter("", "k, how fast lightly pressed bodies part", above=0.0, most=100.0, default=2.67)
     film_layer: float = parameter(
-        "", "H, part of the height of roughness below the grid that dry bodies keep", least=0.0, most=10.0, default=2.38
+        "", "H, part of the height of roughness below the grid that dry bodies keep", least=0.0, most=10.0, default=1.06
     )
     film_mixed: float = parameter(
-        "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.429
+        "", "F, h_c that oil between asperities keeps / roughness", least=0.0, most=10.0, default=0.391
     )
-    film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.894)
+    film_factor: float = parameter("", "E, h_c / film of smooth bodies", above=0.0, most=10.0, default=0.919)
     film_exponent: float = parameter("", "n", above=0.0, most=20.0, default=1.4)
     oil_pressure_excess: float = parameter(
-        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=4.63
+        "", "K, of the pressure at which oil carries load / Hertz's", least=0.0, most=100.0, default=3.45
     )
     oil_pressure_decay: float = parameter(
-        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=1.43
+        "", "d, how fast thicker films bring it down", least=0.0, most=100.0, default=0.56
     )
     oil_pressure_power: float = parameter("", "q, the more so of rougher bodies", least=0.0, most=5.0, default=0.0)
+    oil_steepness: float = parameter(
+        "", "w, how much more steep roughness raises it", least=0.0, most=5.0, default=1.71
+    )
+    oil_kept: float = parameter(
+        "", "c, friction of oil whose pressure is uneven, over that of even one", above=0.0, most=1.0, default=0.884
+    )
+    oil_spread: float = parameter(
+        "", "S, how far thick films spread the load beyond Hertz's contact", least=0.0, most=100.0, default=1.12
+    )
 
 
 LAWS: tuple[type[FittedSharing], ...] = (FittedSharing, LineSharing)

@@ -1,9 +1,9 @@
 """One mean film, one mean real contact: film, load sharing, friction and heat of an operating point.
 
 The film is given by a formula; curves fitted to the deterministic level share the load. Friction is evaluated at the
-operating point and at four points beside it: with a little more sliding, film, load and temperature, the others held.
-Its derivatives are these differences, with those of the film by the chain rule. Where the bodies' speeds decide how
-they take up heat, there is a sixth point with more entrainment.
+operating point and at five points beside it: with a little more sliding, film, load, temperature and entrainment, the
+others held. Its derivatives are these differences, with those of the film by the chain rule. More entrainment is less
+sliding beside it, and where the bodies' speeds decide how they take up heat, that.
 """
 
 import math
@@ -12,11 +12,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..laws.load_sharing import sliding_ratio
 from ..scene import Case
 from .load_sharing import UNFITTED, Fit, Shares, Surfaces, shared, surfaces_of
 from .oil import Law, MeanHeat, oil_shear
 from .smooth_film import KELVIN, LIGHTEST, SLOWEST, STEP, SmoothFilm, smooth_film
-from .surfaces import Tribofilms, composite_roughness, mean_cover
+from .surfaces import Tribofilms, composite_roughness, mean_cover, regression_film
 
 Array = NDArray[np.float64]
 
@@ -117,7 +118,8 @@ def _slope(points: list[_Point], fluid: list[float]) -> float:
     now, sliding = points[0].rubbing, points[1].rubbing
     if now == sliding or fluid[0] == 0.0:
         return 1.0
-    return (fluid[1] / fluid[0] - 1.0) * now / (sliding - now)
+    spread = points[0].oily / points[1].oily  # solids that carry less leave it more
+    return (spread * fluid[1] / fluid[0] - 1.0) * now / (sliding - now)
 
 
 def _between(point: _Point, slope: float) -> float:
@@ -127,38 +129,41 @@ def _between(point: _Point, slope: float) -> float:
 
 
 def _points(case: Case, surfaces: Surfaces, film: float, further: float) -> list[_Point]:
-    """Return the operating point, and those with more sliding (by `further` [m/s]), film, load and temperature."""
-    hertz, slide = case.unit_hertz, case.op.sliding_speed
+    """Return the operating point, and those with more sliding (by `further` [m/s]), film, load, temperature, speed."""
+    hertz, slide, speed = case.unit_hertz, case.op.sliding_speed, case.op.entrainment_speed
     (root, wide), (longer, wider) = hertz.growth(case.op.load), hertz.growth(1.0 + STEP)
     grown, more = (root, wide), (root * longer, wide * wider)
-    shares = shared(case, surfaces, film, grown)
-    thicker = shared(case, surfaces, film * (1.0 + STEP), grown)
-    heavier = shared(case, surfaces, film, more)
-    now = _point(case, surfaces, shares, grown, slide)
-    points = [
+    now = _point(case, surfaces, film, grown, slide, speed)
+    return [
         now,
-        _point(case, surfaces, shares, grown, slide + further),
-        _point(case, surfaces, thicker, grown, slide),
-        _point(case, surfaces, heavier, more, slide),
+        _point(case, surfaces, film, grown, slide + further, speed),
+        _point(case, surfaces, film * (1.0 + STEP), grown, slide, speed),
+        _point(case, surfaces, film, more, slide, speed),
         now,
+        _point(case, surfaces, film, grown, slide, speed + _faster(case)),
     ]
-    return [*points, now] if case.scene.heat.warms_film else points
 
 
-def _point(case: Case, surfaces: Surfaces, shares: Shares, grown: tuple[float, float], slide: float) -> _Point:
-    """Return the solids at a sliding speed [m/s] and the load at which the contact at 1 N has `grown` by factors."""
+def _point(
+    case: Case, surfaces: Surfaces, film: float, grown: tuple[float, float], slide: float, speed: float
+) -> _Point:
+    """Return the solids for a film of smooth bodies [m], at a sliding and an entrainment speed [m/s].
+
+    The load is that at which the contact at 1 N has `grown` by factors.
+    """
     root, wide = grown
     hertz, spin, boundary = case.unit_hertz, case.op.spin, case.scene.boundary_friction
-    largest, area = hertz.pressure_max * root, hertz.area * root * wide
-    carried = hertz.mean_share * shares.load * largest  # mean over the Hertz area
-    touching = max(shares.area, carried / surfaces.hardness)  # the hardness allows no smaller contact
-    pressure = carried / (touching + 1e-300)
     rubbing, along, turned = slide, 1.0, 1.0
     if spin != 0.0:
         edge = spin * hertz.b * wide
         rubbing = math.hypot(slide, hertz.lever_share * edge)
         along = slide / max(rubbing, SLOWEST)
         turned = slide / max(math.hypot(slide, hertz.turn_share * edge), SLOWEST)
+    shares = shared(case, surfaces, film, grown, sliding_ratio(rubbing, speed))
+    largest, area = hertz.pressure_max * root, hertz.area * root * wide
+    carried = hertz.mean_share * shares.load * largest  # mean over the Hertz area
+    touching = max(shares.area, carried / surfaces.hardness)  # the hardness allows no smaller contact
+    pressure = carried / (touching + 1e-300)
     stress: Law = boundary
     shear = stress(pressure, surfaces.cover, rubbing)
     oily = area * (1.0 - shares.load) / shares.raised
@@ -183,11 +188,11 @@ def _oil_friction(case: Case, points: list[_Point], further: float) -> tuple[lis
     """Return the friction of the oil [N] at the points, and the heat where it warms the film."""
     scene, op, hertz = case.scene, case.op, case.unit_hertz
     oily, pressures, rates, grips = np.array([(p.oily, p.oil_pressure, p.oil_rate, p.grip) for p in points]).T
-    warmer = _WARMER[: len(points)]
-    start = op.inlet_temperature + warmer
+    start = op.inlet_temperature + _WARMER
+    kept = oily * regression_film(scene).sharing.oil_kept
 
     def friction(warm: Array) -> Array:
-        return oily * oil_shear(scene, hertz, pressures, rates, grips, warm)
+        return kept * oil_shear(scene, hertz, pressures, rates, grips, warm)
 
     if not scene.heat.warms_film:
         return friction(start).tolist(), None
@@ -196,7 +201,7 @@ def _oil_friction(case: Case, points: list[_Point], further: float) -> tuple[lis
     first[1], second[1] = op.speed_1 + 0.5 * further, op.speed_2 - 0.5 * further
     first[5], second[5] = op.speed_1 + _faster(case), op.speed_2 + _faster(case)
     one, two = op.bodies
-    bodies = (one + warmer, two + warmer)
+    bodies = (one + _WARMER, two + _WARMER)
     heat = MeanHeat.of(scene.heat, hertz, (first, second), bodies, areas, gaps, scene.lubricant.conductivity)
     warm = heat.film(start, lambda film: np.abs((solid + friction(film)) * rubbing))
     return friction(warm).tolist(), heat
@@ -210,7 +215,7 @@ def _flash_rise(case: Case, shear: float, sliding: float) -> float:
 
 
 def _faster(case: Case) -> float:
-    """Return by how much [m/s] entrainment is more at the sixth point."""
+    """Return by how much [m/s] entrainment is more at the last point."""
     return STEP * max(case.fastest, SLOWEST)
 
 
@@ -221,12 +226,10 @@ def _derivatives(
 
     They are those by speed_1, speed_2, load and temperature.
     """
-    now, sliding, thicker, heavier, warmer, *faster = forces
+    now, sliding, thicker, heavier, warmer, faster = forces
     by_film = (now - thicker) / STEP
     by_sliding = (now - sliding) / further + by_film * smooth.by_sliding
-    by_speed = 0.5 * by_film * smooth.by_speed
-    if faster:
-        by_speed += 0.5 * (now - faster[0]) / _faster(case)
+    by_speed = 0.5 * by_film * smooth.by_speed + 0.5 * (now - faster) / _faster(case)
     by_load = (now - heavier) / (STEP * case.op.load) + by_film * smooth.by_load
     by_temperature = (now - warmer) / KELVIN + by_film * smooth.by_temperature
     return by_speed + by_sliding, by_speed - by_sliding, by_load, by_temperature

@@ -1,11 +1,9 @@
 """Exposure, abrasion and wear of a body's track in a mean contact."""
 
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from ..film.instant import Grid
 from ..laws.tribofilm import DOSES, MeanPasses
 from ..scene import Case, Side
 from ..state import Mean
@@ -116,16 +114,7 @@ def wear_rate(case: Case, side: Side, contact: MeanContact, film: float) -> floa
 
 
 def track_area(case: Case, side: Side) -> float:
-    """Return the area [m2] of a body's track |y| < b; at rest, of the patch's part of it."""
-    scene, film = case.scene, case.scene.film
-    hertz = scene.unit_hertz
-    b = hertz.growth(scene.operation.load)[1] * hertz.b
-    width = 2.0 * b if case.shape.periodic else _track_width(scene.rows, film.points, film.domain, b)
-    return width * (side.track_length if side.moves else film.domain)
-
-
-@lru_cache(maxsize=64)
-def _track_width(rows: int, points: int, domain: float, b: float) -> float:
-    """Return the width [m] of a patch's rows with |y| < b, at least the middle one."""
-    grid = Grid.centred(rows, rows, domain / (points - 1))
-    return grid.spacing * int((np.abs(grid.y) < max(b, 0.51 * grid.spacing)).sum())
+    """Return the area [m2] of a body's track |y| < b; at rest, of as much of it as its patch is long."""
+    hertz = case.scene.unit_hertz
+    width = 2.0 * hertz.growth(case.scene.operation.load)[1] * hertz.b
+    return width * (side.track_length if side.moves else case.scene.film.domain)

@@ -16,9 +16,11 @@ class Fit(NamedTuple):
     layers: float
     flattening: float
     below: float
+    slip: float
+    pressed: float
 
 
-UNFITTED = Fit(math.inf, math.inf, 0.0, 0.0)  # no load
+UNFITTED = Fit(math.inf, math.inf, 0.0, 0.0, 0.0, 0.0)  # no load
 
 
 class Surfaces(NamedTuple):
@@ -61,22 +63,30 @@ def surfaces_of(case: Case, tribofilms: Tribofilms) -> Surfaces:
     )
 
 
-def shared(case: Case, surfaces: Surfaces, film: float, grown: tuple[float, float]) -> Shares:
+def shared(case: Case, surfaces: Surfaces, film: float, grown: tuple[float, float], slip: float) -> Shares:
     """Return the shares of rough bodies for a film of smooth ones [m].
 
-    `grown` are the factors of Hertz's contact at 1 N along x and y that give it at the load.
+    `grown` are the factors of Hertz's contact at 1 N along x and y that give it at the load, `slip` is sliding over
+    entrainment speed.
     """
     root, wide = grown
     scene, hertz = case.scene, case.unit_hertz
     floor, sharing = scene.film.floor, regression_film(scene).sharing
     sigma = max(surfaces.sigma, surfaces.layer)  # bodies smooth on the grid touch by what is below it
     pressure, half = root * hertz.pressure_max, root * hertz.a
-    fit = Fit(film / sigma, film / surfaces.layer, surfaces.flattening * pressure, surfaces.below * pressure)
-    clearance, layers, flattening, below = fit
+    fit = Fit(
+        film / sigma,
+        film / surfaces.layer,
+        surfaces.flattening * pressure,
+        surfaces.below * pressure,
+        slip,
+        pressure / surfaces.hardness,
+    )
+    clearance, flattening, below = fit.clearance, fit.flattening, fit.below
     if not sharing.covers(*fit):  # powers of it have no meaning far from the fit
         flattening = sharing.nearest(flattening)
     density: Law = scene.lubricant.density
-    share = sharing.load_ratio(clearance, layers, flattening, below)
+    share = sharing.load_ratio(clearance, fit.layers, flattening, below, slip, fit.pressed)
     dense = clearance / float(density(hertz.mean_share * pressure))
     gap = max(sigma * sharing.film_ratio(dense, share, flattening, surfaces.layer / sigma), floor)
     raised = sharing.oil_pressure(clearance, flattening, *case.shape.depths(film, half, wide * hertz.b))

@@ -16,7 +16,7 @@ _TRIBOFILM_TEMPERATURE = int(RangeFlag.TRIBOFILM_TEMPERATURE)  # numbers are fas
 _BLANK = Outputs()
 # half widths of errors grow: twice beyond the fit, and by so much where a film or wear has changed the heights by this
 # share of the roughness or more, for curves of fresh surfaces; not that of the exposure, which changes little in hours
-_BEYOND, _RUN_IN, _CHANGED = 2.0, 3.0, 0.1
+_BEYOND, _RUN_IN, _CHANGED = 2.0, 2.0, 0.1
 _UNKNOWN = 1e3  # relative, of wear where next to no solids touch: nobody knows
 _LOCAL = 1.0  # error of tribofilms that depend on local stresses, of which this level knows the mean
 
@@ -128,7 +128,7 @@ def _errors(case: Case, contact: MeanContact) -> dict[str, Any]:
     beyond = 1.0 if _fitted(case, contact) else _BEYOND
     wider = _run_in(case, contact) * beyond
     bare = contact.sigma > 0.0 and case.microroughness is None  # the curves know no solids that touch at a hard floor
-    load = 1.0 if bare else wider * widths.of_load(share)
+    load = 1.0 if bare else wider * widths.of_load(share, clearance)
     oil = wider * widths.of_oil(clearance, contact.oil_slope)
     solid = abs(contact.solid) / share if share > 0.0 else case.scene.boundary_friction.bare * case.op.load
     fluid = abs(contact.fluid) / (1.0 - share) if share < 1.0 else 0.0

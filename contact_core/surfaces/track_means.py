@@ -29,15 +29,26 @@ def _mean_of(scene: Scene, state: ContactState, i: int) -> Mean:
     track = track_rows(scene, rows)
     bare = bare_heights(scene, rows)[i]
     solid = roughness_of(bare, bare - body.wear - body.plastic)
+    roughness = rms_roughness(solid, middle_rows(scene, rows))
     return Mean(
         growth=float(body.growth[track].mean()),
         removal=float(body.removal[track].mean()),
         coverage=_coverage(body.growth[track]),
         wear=float(body.wear[track].mean()),
-        roughness=rms_roughness(solid, middle_rows(scene, rows)),
+        roughness=roughness / _sampled(scene, bare, i),
         worn=body.worn,
         cycles=body.cycles,
     )
+
+
+def _sampled(scene: Scene, bare: Array, i: int) -> float:
+    """Return the rms roughness of a body's new patch over that of its surface.
+
+    A patch is a sample that changes with film.points and film.domain; the means are those of the surface.
+    """
+    nominal = (scene.surface_1, scene.surface_2)[i].rms
+    sampled = rms_roughness(bare, middle_rows(scene, bare.shape[0]))
+    return sampled / nominal if sampled > 0.0 and nominal > 0.0 else 1.0
 
 
 def _coverage(growth: Array) -> float:
@@ -77,11 +88,12 @@ def _folded(scene: Scene, rows: int, i: int, body: Body, then: Mean, now: Mean) 
     pressure = body.pressure[track]
     share = pressure / pressure.mean() if pressure.any() else np.ones_like(pressure)
     covered = _covered(heights, body.growth[track], now.coverage)
+    roughness = now.roughness * _sampled(scene, bare, i)
     full = scene.tribofilm.full_thickness
     changed: dict[str, Any] = {
         "growth": _raised(body.growth[track], covered, then.growth, now.growth, full),
         "removal": _raised(body.removal[track], covered, then.removal, now.removal, full),
-        "wear": body.wear[track] + _lost(scene, rows, bare, heights, share, now.wear - then.wear, now.roughness),
+        "wear": body.wear[track] + _lost(scene, rows, bare, heights, share, now.wear - then.wear, roughness),
     }
     arrays = {name: getattr(body, name).copy() for name in changed}
     for name, array in arrays.items():

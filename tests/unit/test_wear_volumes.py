@@ -72,8 +72,9 @@ def test_volumes_are_the_sum_of_the_rates_and_the_depth_over_the_track_of_each_b
     volumes = of(found[-1], "wear_volume")
     assert volumes == approx(sum(of(out, "wear_rate") * dt for out, dt in zip(found, STEPS, strict=True)), rel=1e-9)
     assert volumes[0] > 1.5 * volumes[1] > 0.0
-    # the regression level gives the patches of a point and a roller what its means have on whole rows
-    near = 1e-9 if level == "deterministic" or shape == "line" else 1e-6
+    # tracks of the regression level are as wide as Hertz's contact, patches have whole rows of them
+    width = 2.0 * scene.hertz(op.load).b
+    near = 1e-9 if level == "deterministic" or shape == "line" else scene.film.spacing / width
     assert depth_times_area(scene, state) == approx(volumes, rel=near)
 
 
@@ -216,12 +217,13 @@ def test_ten_times_the_wear_in_a_tenth_of_the_time_is_the_same_run():
     assert min(noise) > 0.0
 
 
-@pytest.mark.parametrize("speed", [0.05, 0.25])
-def test_volumes_of_both_levels_differ_by_no_more_than_the_fast_one_says_and_by_more_than_a_tenth_of_it(speed):
-    """Two minutes on a grid beyond the fit."""
+def test_volumes_of_both_levels_differ_by_no_more_than_the_fast_one_says_and_by_more_than_a_tenth_of_it():
+    """Two minutes on a grid beyond the fit, at three speeds."""
     scene, state, op = cheap(control__mixed_instants="4")
-    op = replace(op, speed_1=0.99 * speed, speed_2=1.01 * speed)
-    solved, quick = (advance(scene.at_level(level), op, state, 120.0)[1] for level in LEVELS)
-    off = np.abs(of(solved, "wear_volume") / of(quick, "wear_volume") - 1.0)
-    assert (0.1 * quick.error_wear < off).all()
-    assert (off <= quick.error_wear).all()
+    ratios = []
+    for speed in (0.05, 0.12, 0.25):
+        now = replace(op, speed_1=0.99 * speed, speed_2=1.01 * speed)
+        solved, quick = (advance(scene.at_level(level), now, state, 120.0)[1] for level in LEVELS)
+        ratios.append(np.abs(of(solved, "wear_volume") / of(quick, "wear_volume") - 1.0) / quick.error_wear)
+    assert np.max(ratios) <= 1.0
+    assert np.max(ratios) > 0.1

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from contact_core.laws.load_sharing import flattening_of, layer_height, rms_slope
+from contact_core.laws.load_sharing import flattening_of, layer_height, rms_slope, sliding_ratio
 from contact_core.scene import Case, Scene
 
 from .markup import number
@@ -74,8 +74,10 @@ def _fitted_ranges(scene: Scene) -> Iterator[Row]:
         "flattening": number(flattening_of(pressure, scene.solids.reduced_modulus, slope)) if slope > 0.0 else "none",
         "below": number(flattening_of(pressure, scene.solids.reduced_modulus, below.slope)) if below else "none",
         "layers": f"film / {number(1e9 * layer_height(film.floor, below.rms if below else 0.0), 'nm')}",
+        "slip": number(sliding_ratio(point.sliding_speed, point.entrainment_speed)),
+        "pressed": number(scene.hertz(scene.operation.load).pressure_max / scene.plasticity.hardness),
     }
-    symbols = {"clearance": "Z", "layers": "f", "flattening": "s", "below": "s_m"}
+    symbols = {"clearance": "Z", "layers": "f", "flattening": "s", "below": "s_m", "slip": "Σ", "pressed": "Π"}
     for name, (low, high) in film.sharing.FITTED.items():
         yield f"{symbols[name]} of the fit", here[name], f"fitted from {low:g} to {high:g}"
 
