@@ -29,10 +29,11 @@ ACCURACIES = ("20 %", "10 %", "5 %", "2 %", "1 %", "0.5 %")
 NODES = 257  # along x, of the truths
 MOST = 193  # nodes along x that are run; finer ones would cost more than the truth
 MINUTES, STEP = 120, 60.0
-# scene and speeds over that of the scene: from boundary to full film, and a line
+# scene and speeds over that of the scene: from boundary to full film, a line and an ellipse
 CASES: dict[str, tuple[float, ...]] = {
     "mtm_zddp": (0.3, 1.0, 10.0, 30.0, 100.0),
-    "fzg_flank": (0.3, 1.0),
+    "fzg_flank": (0.1, 1.0),
+    "ball_209_inner": (0.03, 1.0),
 }
 HOURS = ("azam_case_a", "mtm_zddp")
 NAMES = {
