@@ -129,7 +129,7 @@ def _errors(case: Case, contact: MeanContact) -> dict[str, Any]:
     wider = _run_in(case, contact) * beyond
     bare = contact.sigma > 0.0 and case.microroughness is None  # the curves know no solids that touch at a hard floor
     load = 1.0 if bare else wider * widths.of_load(share, clearance)
-    oil = wider * widths.of_oil(clearance, contact.oil_slope)
+    oil = beyond * widths.of_oil(clearance, contact.oil_slope)  # rubbing changes what touches, not how oil shears
     solid = abs(contact.solid) / share if share > 0.0 else case.scene.boundary_friction.bare * case.op.load
     fluid = abs(contact.fluid) / (1.0 - share) if share < 1.0 else 0.0
     friction = math.hypot(abs(solid - fluid) * load, abs(contact.fluid) * oil) / force
