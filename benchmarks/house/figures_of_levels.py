@@ -14,18 +14,23 @@ HOURS = {
 }
 
 
-def random_points(pages: Pages) -> list[tuple[str, ...]]:
-    """Friction, film and load of the solids on points that the fit has not seen."""
-    lines = []
-    for name, column in (("friction", "mu [rel.]"), ("h_c", "h_c [rel.]"), ("W_c (of 1)", "W_c [1]")):
-        found = []
-        for kind in ("median", "90 %"):
-            rows = pages.rows("regression/curves.md", f"{column}, {kind}", "The regression level")
-            found.append(range_of((row[f"{column}, {kind}"] for row in rows), per_cent))
-        ends = (f"{half}; {most}" for half, most in zip(*found, strict=True))
-        lines.append(
-            (f"deviation of {name} at random points of the shipped circular contacts: median; 90 %", *ends, link("regression/curves.md"))
-        )
+def held_back(pages: Pages) -> list[tuple[str, ...]]:
+    """Friction, film and load of the solids on points of every shipped scene that nothing was fitted to."""
+    page, lines = "regression/held_back.md", []
+    rows = {row["scene"]: row for row in pages.rows(page, "mu median", "All")}
+    every = rows.pop("all")
+    for name, short in (("friction", "mu"), ("h_c", "h_c"), ("W_c (of 1)", "W_c")):
+
+        def ends(row: Row, short: str = short) -> str:
+            return "; ".join(per_cent(number(row[f"{short} {kind}"])) for kind in ("median", "90 %"))
+
+        ranked = sorted(rows.values(), key=lambda row, short=short: number(row[f"{short} median"]))
+        what = f"deviation of {name} at {every['points']} points that nothing was fitted to: median; 90 %; all: {ends(every)}"
+        lines.append((what, *(f"{ends(row)} ({row['scene']})" for row in (ranked[0], ranked[-1])), link(page)))
+    shares = sorted(rows.values(), key=lambda row: -number(row["mu covered"]))
+    what = f"share of them that `error_friction` covers, and its median; all: {per_cent(number(every['mu covered']))}; {per_cent(number(every['mu stated']))}"
+    best, worst = (f"{per_cent(number(row['mu covered']))}; {per_cent(number(row['mu stated']))} ({row['scene']})" for row in (shares[0], shares[-1]))
+    lines.append((what, best, worst, link(page)))
     return lines
 
 

@@ -57,7 +57,7 @@ def flattening_together(flattening: Numbers, below: Numbers, weight: float) -> N
 class Widths(NamedTuple):
     """Half widths of 95 % of the deterministic solutions about the law, on points that it was not fitted to.
 
-    Of W_c it is load [(W_c + least exp(-2 Z)) (1 - W_c)]^3/4; of h_c, relative, film (1 + Z)^-film_fall but at least
+    Of W_c it is load [W_c + least exp(-2 Z)]^3/4 (1 - W_c)^1/2; of h_c, relative, film (1 + Z)^-film_fall but at least
     film_least; of the oil's friction, relative, [plastic (1 - n) + newtonian n] [1 + rough exp(-2 Z)], which grows with
     the sliding speed to n.
     """
@@ -73,7 +73,8 @@ class Widths(NamedTuple):
 
     def of_load(self, load_ratio: float, clearance: float) -> float:
         """Return the half width of contact_load_ratio, absolute."""
-        return float(self.load * ((load_ratio + self.least * exp(-2.0 * clearance)) * (1.0 - load_ratio)) ** 0.75)
+        touching = (load_ratio + self.least * exp(-2.0 * clearance)) ** 0.75
+        return float(self.load * touching * sqrt(1.0 - load_ratio))
 
     def of_film(self, clearance: float) -> float:
         """Return the half width of h_c, relative."""
@@ -131,7 +132,7 @@ class FittedSharing:
         "slip": (0.0013, 2.0),  # solved to 1.6; at 2 a body rests
         "pressed": (0.072, 0.51),
     }
-    WIDTHS: ClassVar[Widths] = Widths(0.46, 0.04, 0.23, 1.0, 0.08, 0.08, 0.14, 3.0)
+    WIDTHS: ClassVar[Widths] = Widths(0.29, 0.08, 0.25, 1.0, 0.08, 0.11, 0.16, 2.0)
     CHOSEN: ClassVar[frozenset[str]] = frozenset({"load_yield", "oil_pressure_power", "oil_steepness"})
     HALF_WIDTHS: ClassVar[dict[str, float]] = {
         "load_factor": 0.022,
@@ -352,7 +353,7 @@ class LineSharing(FittedSharing):
         "oil_spread": 4.0,
         "exposure_rougher": FittedSharing.exposure_rougher,  # all of it: it is that of circles
     }
-    WIDTHS: ClassVar[Widths] = Widths(0.5, 0.09, 0.2, 0.2, 0.16, 0.31, 0.36, 0.5)
+    WIDTHS: ClassVar[Widths] = Widths(0.47, 0.08, 0.21, 0.2, 0.16, 0.31, 0.36, 0.5)
 
     load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.134)
     load_exponent: float = parameter("", "C", above=0.0, most=10.0, default=1.45)
