@@ -1,7 +1,8 @@
 """Speed against error: what each level and each accuracy costs, and how far off it is.
 
-    python -m benchmarks.speed_error             # all: an hour, most of it for the truths on the finest grid
-    python -m benchmarks.speed_error blocks      # single contacts only
+    python -m benchmarks.film.grid_error         # the truths of single contacts: an hour
+    python -m benchmarks.speed_error             # all: an hour, most of it for the truths of two hours
+    python -m benchmarks.speed_error blocks      # single contacts only: the operating points of grid_error, 5 min
     python -m benchmarks.speed_error hours       # two hours of rubbing only
     python -m benchmarks.speed_error report      # the page, from what is known
 
@@ -11,6 +12,7 @@ of the core.
 
 import argparse
 import json
+import math
 import time
 from collections.abc import Iterator
 from dataclasses import asdict, replace
@@ -18,6 +20,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from benchmarks.film import grid_error
 from benchmarks.folders import RESULTS
 from benchmarks.pages import Page
 from benchmarks.timing import work_unit
@@ -29,12 +32,6 @@ ACCURACIES = ("20 %", "10 %", "5 %", "2 %", "1 %", "0.5 %")
 NODES = 257  # along x, of the truths
 MOST = 193  # nodes along x that are run; finer ones would cost more than the truth
 MINUTES, STEP = 120, 60.0
-# scene and speeds over that of the scene: from boundary to full film, a line and an ellipse
-CASES: dict[str, tuple[float, ...]] = {
-    "mtm_zddp": (0.3, 1.0, 10.0, 30.0, 100.0),
-    "fzg_flank": (0.1, 1.0),
-    "ball_209_inner": (0.03, 1.0),
-}
 HOURS = ("azam_case_a", "mtm_zddp")
 NAMES = {
     "friction_coefficient": "friction",
@@ -110,12 +107,16 @@ def solve(part: str) -> None:
             print(key, f"{kept[key]['rows'][-1]['seconds']:.3g} s", flush=True)
 
     if part in ("all", "blocks"):
-        for name, speeds in CASES.items():
-            for setting in settings(name):
-                op = setting.scene.operation.point
-                for speed in speeds:
-                    faster = replace(op, speed_1=speed * op.speed_1, speed_2=speed * op.speed_2)
-                    keep(f"{name} x {speed:g}|{setting.name}", block, setting, faster)
+        finest = grid_error.read()
+        for case, level, scene, op in grid_error.cases():
+            truth = finest.get(f"{case}, {scene.film.points} nodes")
+            if level < grid_error.GRIDS - 1 or truth is None:
+                continue
+            kept[f"{case}|{TRUTH}"] = {"rows": [truth | {"seconds": math.nan}], "nodes": scene.film.points}
+            for setting in settings(scene.name):
+                if setting.name != TRUTH:
+                    own = replace(setting.scene, surface_1=scene.surface_1, surface_2=scene.surface_2)
+                    keep(f"{case}|{setting.name}", block, Setting(setting.name, own), op)
     if part in ("all", "hours"):
         for setting_of in zip(*map(settings, HOURS), strict=False):
             for name, setting in zip(HOURS, setting_of, strict=True):
@@ -157,7 +158,10 @@ def report(known: dict[str, Any]) -> None:
                 "Medians over all minutes, and in brackets the share of minutes at which the stated error covers it."
             )
         else:
-            page.say("True errors, and in brackets the stated ones.")
+            page.say(
+                "Operating points of film/grid_error.md: speeds over that of the scene, every other one under half the load, each with "
+                "surfaces of its own. True errors, and in brackets the stated ones. At the other accuracies more nodes are needed than the truth has."
+            )
         page.header("case", "setting", "nodes", "CPU [s]", "WU", *names.values())
         for key, found in known.items():
             case, setting = key.split("|")
@@ -168,7 +172,8 @@ def report(known: dict[str, Any]) -> None:
                 units[nodes] = work_unit(nodes)
             cost = (nodes or "-"), seconds, f"{seconds / units[nodes]:.3g}" if nodes else "-"
             if setting == TRUTH:
-                page.row(case, setting, *cost, *["-" for _ in names])
+                if rubbing:
+                    page.row(case, setting, *cost, *["-" for _ in names])
                 continue
             cells = []
             for name in names:
