@@ -16,7 +16,7 @@ _WORN = 0.6  # error of a wear depth over that of W_c, which scatters over the h
 _SOLIDS_FALL, _AREA_FALL, _GAP_FALL, _PEAK_FALL, _TRIBOFILM_FALL = 0.5, 1.0, 1.25, 1.0, 1.0
 # relative error of the film of smooth bodies at one node across the inlet, the power with which it falls, and the least
 _INLET, _INLET_FALL, _INLET_LEAST = 0.08, 3.0, 0.003
-_SENSITIVE = 0.82  # d ln(W_c) / d ln(film) over ln(W_c): the exponent C of `laws.load_sharing`
+_SENSITIVE = 0.82  # d ln(W_c) / d ln(film) over ln(W_c), with which the other constants were found
 _FEWEST = 0.1  # nodes: with fewer, nothing is known
 
 

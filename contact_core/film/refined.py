@@ -117,8 +117,10 @@ def refined(
             break
         at = _next(spacings, at, error / request.accuracy if shown else np.inf)
     best = solved or others
-    errors = stated(best)
-    return Refined(best[-1], errors, tuple(steps), _warnings(request, best[-1], errors, failed))
+    # grids without a converged solution say nothing of the error, however well they agree
+    errors = stated(solved) if solved else dict.fromkeys(best[-1].values, np.inf)
+    finest = at == len(spacings) - 1
+    return Refined(best[-1], errors, tuple(steps), _warnings(request, best[-1], errors, failed, finest))
 
 
 def refined_film(
@@ -168,14 +170,19 @@ def _next(spacings: Sequence[float], at: int, excess: float) -> int:
     return at + 1
 
 
-def _warnings(request: Request, best: Solved, errors: dict[str, float], failed: int) -> tuple[str, ...]:
+def _warnings(request: Request, best: Solved, errors: dict[str, float], failed: int, finest: bool) -> tuple[str, ...]:
     """Return a sentence if the request is not met."""
     stated = request.errors(errors, best)
     missed = [f"{error:.2g} of {name}" for name, error in stated.items() if not error <= request.accuracy]
     if not missed:
         return ()
     ny, nx = best.nodes
-    why = "no finer grid gave a converged solution" if failed else "this is the finest grid that is tried"
+    if not failed:
+        why = "this is the finest grid that is tried"
+    elif finest:
+        why = "no finer grid gave a converged solution"
+    else:
+        why = f"{failed} grids in a row gave no converged solution, and finer ones were not tried"
     return (
         f"accuracy = {request.accuracy:g} is not reached: the stated error on {ny} by {nx} nodes is "
         f"{', '.join(missed)}; {why}.",

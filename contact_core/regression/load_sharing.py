@@ -90,6 +90,6 @@ def shared(case: Case, surfaces: Surfaces, film: float, grown: tuple[float, floa
     dense = clearance / float(density(hertz.mean_share * pressure))
     gap = max(sigma * sharing.film_ratio(dense, share, flattening, surfaces.layer / sigma), floor)
     raised = sharing.oil_pressure(clearance, flattening, *case.shape.depths(film, half, wide * hertz.b))
-    # no pressure is above the hardness
     area = sharing.area_ratio(share, flattening, below)
-    return Shares(fit, gap, share, area, min(raised, scene.plasticity.hardness / pressure))
+    most = scene.plasticity.hardness / pressure  # no pressure is above the hardness
+    return Shares(fit, gap, share, area, min(raised, most))

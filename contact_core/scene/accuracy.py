@@ -11,6 +11,7 @@ from dataclasses import fields, replace
 from typing import Any, TypeVar
 
 from ..errors import SceneError
+from ..film import Regression
 from ..film.grid_error import film_error, load_ratio_error
 from ..film.lengths import inlet_length
 from .checks import duty_points
@@ -21,6 +22,7 @@ from .records import CHOSEN
 Scene = TypeVar("Scene", bound=SceneFields)
 
 POINTS = (65, 97, 129, 193, 257, 385, 513)
+_PATCHES = 129  # of a state at the regression level
 _GRID = 0.97  # part of the accuracy that is left to the grid: errors add up as squares
 _TYPICAL_SHARE = 0.5  # W_c: which it will be is not known before
 # of time steps and sampling at an accuracy of 5 %: stated errors of the shipped scenes are then 2 to 5 %
@@ -60,6 +62,8 @@ def planned(scene: Scene, open_fields: Collection[str]) -> Scene:
     accuracy = scene.control.accuracy
     if accuracy is None or not open_fields or not 0.0 < accuracy <= 1.0:  # what is out of range is refused later
         return scene
+    if scene.film.name == Regression.name:
+        return _for_patches(scene, open_fields)
     finer = _AT / accuracy
     values: dict[str, Any] = {
         "film.tolerance": min(max(_TOLERANCE / finer, _LEAST_TOLERANCE), _TOLERANCE),
@@ -74,6 +78,13 @@ def planned(scene: Scene, open_fields: Collection[str]) -> Scene:
     points = values.get("film.points", scene.film.points)
     values["control.mixed_instants"] = max(math.ceil(_INSTANTS * min(finer, 1.0)), math.ceil((points - 1) / 8))
     return _with(scene, {name: values[name] for name in open_fields})
+
+
+def _for_patches(scene: Scene, open_fields: Collection[str]) -> Scene:
+    """Return a scene of the regression level, whose answers know no grid, with one for the patches of its state."""
+    if "film.domain" in open_fields:
+        scene = _with(scene, {"film.domain": _domain(scene)})
+    return _with(scene, {"film.points": _PATCHES}) if "film.points" in open_fields else scene
 
 
 def _with(scene: Scene, values: Mapping[str, Any]) -> Scene:
@@ -101,8 +112,9 @@ def _points(scene: SceneFields, accuracy: float) -> int:
         if _error(scene, points) <= _GRID * accuracy:
             return points
     raise SceneError(
-        f"control.accuracy = {accuracy:g} is more than a grid of {POINTS[-1]} nodes can give this scene: its error is "
-        f"{least:.2g} by the grid alone. Ask for less, or set film.points yourself."
+        f"control.accuracy = {100.0 * accuracy:.3g} % cannot be had: on {POINTS[-1]} nodes, the most that are chosen, the "
+        f"error by the grid alone is {100.0 * least:.3g} %. Give at least {100.0 * least / _GRID:.3g} %, or set "
+        "film.points yourself and read the errors that are stated."
     )
 
 

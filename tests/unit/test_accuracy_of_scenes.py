@@ -1,5 +1,7 @@
 """`control.accuracy`: grid, tolerance, blocks and instants that a scene does not give are chosen for an accuracy."""
 
+import re
+
 import pytest
 
 from contact_core import Scene, SceneError
@@ -60,8 +62,25 @@ def test_a_file_needs_no_grid_and_no_blocks_beside_an_accuracy():
 
 
 def test_an_accuracy_that_no_grid_gives_is_refused_with_what_can_be_had():
-    with pytest.raises(SceneError, match=r"control\.accuracy = 0\.001 .* its error is 0\.0\d+ .* set film\.points"):
+    with pytest.raises(
+        SceneError,
+        match=r"control\.accuracy = 0\.1 % cannot be had: .* error by the grid alone is [\d.]+ %\. Give at least [\d.]+ %, or set film\.points",
+    ):
         asked("mtm_zddp", "0.1 %")
+
+
+def test_the_accuracy_that_a_refusal_names_can_be_had():
+    with pytest.raises(SceneError) as refusal:
+        asked("mtm_zddp", "0.1 %")
+    least = float(re.search(r"at least ([\d.]+) %", str(refusal.value))[1])
+    assert asked("mtm_zddp", f"{1.01 * least} %").film.points == POINTS[-1]
+
+
+def test_the_regression_level_is_given_any_accuracy_and_chooses_no_grid_for_it():
+    fine, rough = (asked("mtm_zddp", accuracy, film__model="regression") for accuracy in ("0.1 %", "20 %"))
+    assert fine.film == rough.film
+    own = asked("cam_tappet", "1 %", film__points="33")
+    assert own.film.points == 33
 
 
 def test_heavier_and_slower_steps_of_a_duty_count():
