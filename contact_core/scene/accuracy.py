@@ -112,8 +112,8 @@ def _points(scene: SceneFields, accuracy: float) -> int:
         if _error(scene, points) <= _GRID * accuracy:
             return points
     raise SceneError(
-        f"control.accuracy = {100.0 * accuracy:.3g} % cannot be had: on {POINTS[-1]} nodes, the most that are chosen, the "
-        f"error by the grid alone is {100.0 * least:.3g} %. Give at least {100.0 * least / _GRID:.3g} %, or set "
+        f"control.accuracy = {100.0 * accuracy:.3g} % cannot be had: on {POINTS[-1]} nodes, the most that are chosen, "
+        f"the error by the grid alone is {100.0 * least:.3g} %. Give at least {100.0 * least / _GRID:.3g} %, or set "
         "film.points yourself and read the errors that are stated."
     )
 

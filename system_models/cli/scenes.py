@@ -77,9 +77,7 @@ def chosen(scene: Scene) -> list[str]:
     if accuracy is None:
         return []
     if film.name == Regression.name:
-        return [
-            f"Accuracy {100.0 * accuracy:g} %: larger stated errors are flagged; this level has nothing to choose for it."
-        ]
+        return [f"Accuracy {100.0 * accuracy:g} %: larger stated errors are flagged; this level has nothing to choose."]
     return [
         f"Accuracy {100.0 * accuracy:g} %: {film.points} nodes over {1e3 * film.domain:.3g} mm, blocks of "
         f"{1e9 * control.change:.3g} nm, {control.dry_instants} dry and {control.mixed_instants} mixed instants."
