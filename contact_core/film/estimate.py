@@ -1,7 +1,7 @@
 """Error estimate of the outputs of a grid, from coarser grids."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -90,7 +90,7 @@ def solve_with_estimate(
     instant, coarse = coarser(now, grid)
     bodies = now.load, now.shape.hertz(now.load, now.reduced_modulus)
     before = solve_film(instant, coarse, settings)
-    found = solve_film(now, grid, settings, prolonged(before.state, grid.shape))
+    found = solve_film(now, grid, replace(settings, patient=True), prolonged(before.state, grid.shape))
     values = film_outputs(grid, found.state, found.gap, found.touching, *bodies)
     less = film_outputs(coarse, before.state, before.gap, before.touching, *bodies)
     factors, factor = _FITTED if settings.fitted else _UPWIND

@@ -116,6 +116,7 @@ class Settings:
     fft: str  # library: "pyfftw" or "scipy"
     lumped: bool = False  # the thesis's criterion: total pressure in Reynolds' equation, solids included
     fitted: bool = False  # flow through faces exact for a constant flow in each cell; else second order upstream
+    patient: bool = False  # a steady film that no algorithm of its row finds is sought by a far slower one
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ from ..errors import ConvergenceError, FilmTooWideError
 from ..kernels.dry import dry_solution
 from ..kernels.grids import prolong, restrict
 from ..kernels.mixed.advection import advected
+from ..kernels.mixed.alternating import solve_alternating
 from ..kernels.mixed.asperities import REACH
 from ..kernels.mixed.direct import solve_direct
 from ..kernels.mixed.fixed_point import solve_mixed
@@ -37,6 +38,7 @@ _FULL_FILM = 3.0  # formula film over rms roughness, above which a dry contact i
 _MOST_BEYOND = 0.3  # share of the load that may lie beyond the grid
 _NESTED_FROM = 65  # nodes along an axis, from which on a film starts on the grid of half of them
 _HYBRID_ITERATIONS, _DIRECT_ITERATIONS, _MARCHED_ITERATIONS = 150, 80, 2000  # of one try at a steady film
+_ALTERNATING_ITERATIONS = 400  # of one round
 _CYCLES = {True: 25, False: 15}  # of multigrid, by `Problem.fitted`
 _NEWTON_STEPS = 30
 _WORN_TOLERANCE, _WORN_ITERATIONS = 1e-4, 1000  # of the pressure that wears a body at rest
@@ -266,6 +268,8 @@ def _film(scaled: Scaled, start: FilmState | None, step: Step | None) -> FilmSol
     algorithms = regime.by_flux if by_flux and regime.by_flux else regime.algorithms
     if (settings.fitted or scaled.fade > 0.0) and not step:
         algorithms = _with_march(algorithms)
+    if settings.patient and not step:
+        algorithms = (*algorithms, ("alternating", "last"))
     tries = (*_first_tries(scaled, step), *algorithms) if step else algorithms
     solver, used, spent, least = _Solver(scaled, start, step), "", 0, (True, True, math.inf)
     apart = _stays_apart(scaled, start, step)
@@ -344,6 +348,7 @@ class _Solver:
         self.scaled, self.state, self.step = scaled, start, step
         self.best: Solution | None = None
         self.problem = scaled.problem()
+        self.quick = replace(scaled.settings, patient=False)  # of starts, which need not be found
 
     def run(self, method: str, begin: str) -> Solution | None:
         """Return the solution of a method from a start; None where they do not apply."""
@@ -362,6 +367,10 @@ class _Solver:
                     break
             return None if layered and found.gap.min() < reach else found
         start = self._start(begin)
+        if method == "alternating":
+            if self.problem.by_flux or self.problem.depth > 0.0:
+                return None
+            start = scaled.dry_start() if start is None else start
         if start is None:
             return None
         solve, most = {
@@ -369,6 +378,7 @@ class _Solver:
             "direct": (solve_direct, _DIRECT_ITERATIONS),
             "marched": (solve_marched, _MARCHED_ITERATIONS),
             "newton": (solve_newton, _NEWTON_STEPS),
+            "alternating": (solve_alternating, _ALTERNATING_ITERATIONS),
         }[method]
         limits = settings.tolerance, min(most, settings.iterations)
         return scaled.without_images(solve(scaled.half_space, self.problem, scaled.with_images(start), *limits))
@@ -381,11 +391,11 @@ class _Solver:
             if state is None and _is_nested(scaled.grid):
                 now, grid = coarser(scaled.now, scaled.grid)
                 with suppress(ConvergenceError):
-                    state = prolonged(solve_film(now, grid, scaled.settings).state, scaled.grid.shape)
+                    state = prolonged(solve_film(now, grid, self.quick).state, scaled.grid.shape)
             return scaled.dry_start() if state is None else scaled.iterate(state)
         if name == "flooded" and self.problem.supply is None and self.problem.first == 0:
             now = replace(scaled.now, conserving=False, meniscus=None)
-            return scaled.iterate(solve_film(now, scaled.grid, scaled.settings, state, self.step).state)
+            return scaled.iterate(solve_film(now, scaled.grid, self.quick, state, self.step).state)
         if name == "smooth" and scaled.grid.periodic:
             return self._above_smooth()
         if name == "last" and self.best is not None:
@@ -401,7 +411,7 @@ class _Solver:
         row = replace(now, heights=np.zeros((1, nx)), limit=now.limit.max(axis=0)[None], ease=ease, thinned=thinned)
         grid = replace(scaled.grid, y=np.zeros(1), repeats=scaled.grid.repeats * ny)
         try:
-            state = solve_film(row, grid, scaled.settings).state
+            state = solve_film(row, grid, self.quick).state
         except ConvergenceError:
             return None
         pressure, fluid, mass = (np.tile(field, (ny, 1)) for field in (state.pressure, state.fluid, state.mass))

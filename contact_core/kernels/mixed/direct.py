@@ -182,7 +182,7 @@ def _carried(base, lever, shift, cap, edge, weight, wrapped, out):  # type: igno
     return total, rate
 
 
-class _Direct(Iteration):
+class Direct(Iteration):
     """The fixed-point iteration with the free nodes solved by factorisation."""
 
     splits = False
@@ -199,6 +199,7 @@ class _Direct(Iteration):
         self.values, self.rhs = np.zeros(8 * size), np.zeros((2, size))
 
     def correct(self) -> None:
+        """Compute the film of the present iterate; put its image into Anderson's memory."""
         self._film()
         self._press()
         q, p = self.problem, self.p
@@ -298,4 +299,4 @@ def solve_direct(
     half_space: HalfSpace, problem: Problem, start: Iterate, tolerance: float, iterations: int
 ) -> Solution:
     """Iterate as `fixed_point.solve_mixed`, with a factorisation per iteration."""
-    return iterate_on(_Direct(half_space, problem, start), tolerance, iterations)
+    return iterate_on(Direct(half_space, problem, start), tolerance, iterations)

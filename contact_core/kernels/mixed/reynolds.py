@@ -22,7 +22,7 @@ from .edge import wrap
 from .flow import properties
 
 _TOUCH = 0.5  # gap in floors below which a node becomes solid at once; below 1, where its film loses mass
-_DEEP = 0.5  # gap in floors below which a contact is not released: it has to rise first
+DEEP = 0.5  # gap in floors below which a contact is not released: it has to rise first
 
 
 @jit
@@ -159,7 +159,7 @@ def fluid_under_contacts(  # type: ignore[no-untyped-def]
             k = at[n]
             across = c[n, 2] * ff[k - nx] + c[n, 3] * ff[k + nx] + c[n, 4]
             value = across + c[n, 1] * ff[k + 1] + c[n, 0] * ff[k - 1]
-            if last and value > pp[k] and hh[k] > _DEEP * floor:
+            if last and value > pp[k] and hh[k] > DEEP * floor:
                 ss[k] = False
             ff[k] = min(max(value, 0.0), pp[k])
         if wrapped:
