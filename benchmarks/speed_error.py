@@ -178,7 +178,7 @@ def report(known: dict[str, Any]) -> None:
             cells = []
             for name in names:
                 true, stated = errors(found, truth, name)
-                points.append((setting, seconds, true, stated, name, rubbing))
+                points.append((setting, seconds, true, stated, name, rubbing, case))
                 second = f"{np.mean(true <= stated):.0%}" if rubbing else f"{100 * stated[0]:.3g}"
                 cells.append(f"{100 * np.median(true):.3g} ({second})")
             page.row(case, setting, *cost, *cells)
@@ -188,15 +188,20 @@ def report(known: dict[str, Any]) -> None:
 
 
 def verdicts(page: Page, points: list[Any]) -> None:
-    """Add what was asked for of stated errors."""
+    """Add what was asked for of stated errors: of two hours for each scene apart, of single contacts together."""
     for level in sorted({point[0] for point in points}, key=lambda name: name != "regression"):
-        for rubbing in (False, True):
-            own = [p for p in points if p[0] == level and p[5] == rubbing and p[4] in ("friction_coefficient", "h_c")]
-            if own:
-                inside = np.concatenate([true <= stated for _, _, true, stated, *_ in own])
-                where = "over two hours" if rubbing else "of single contacts"
-                asked = f"{level}: stated errors of friction and h_c {where} cover at least 90 %"
-                page.verdict(asked, f"{inside.mean():.0%} of {inside.size}", bool(inside.mean() >= 0.9))
+        for name in ("friction_coefficient", "h_c", "contact_load_ratio"):
+            own = [point for point in points if point[0] == level and point[4] == name]
+            single = [true <= stated for _, _, true, stated, _, rubbing, _ in own if not rubbing]
+            if single:
+                share = float(np.concatenate(single).mean())
+                asked = f"{level}: stated errors of {NAMES[name]} of single contacts cover at least 90 %"
+                page.verdict(asked, f"{share:.0%} of {len(single)}", share >= 0.9)
+            hours = [(float(np.mean(true <= stated)), case) for _, _, true, stated, _, rubbing, case in own if rubbing]
+            if hours:
+                share, case = min(hours)
+                asked = f"{level}: stated errors of {NAMES[name]} over two hours cover at least 95 % in each scene"
+                page.verdict(asked, f"{share:.0%} ({case.partition(',')[0]})", share >= 0.95)
 
 
 def picture(points: list[Any]) -> Any:
@@ -209,7 +214,7 @@ def picture(points: list[Any]) -> Any:
     colours = dict(zip(labels, colormaps["viridis"](np.linspace(0.0, 0.9, max(len(labels), 2))), strict=False))
     shown = (("friction_coefficient", "friction"), ("h_c", "central film"))
     for axis, (name, title) in zip(figure.subplots(1, 2, sharey=True), shown, strict=True):
-        for setting, seconds, true, _, output, rubbing in points:
+        for setting, seconds, true, _, output, rubbing, _ in points:
             if output == name:
                 value = max(float(np.median(true)), 1e-4)
                 axis.plot(seconds, value, "s" if rubbing else "o", color=colours[setting], markersize=5)
