@@ -1,16 +1,17 @@
 """The regression level corrected by what deterministic solutions say: Gaussian conditioning (kriging), in closed form.
 
 What the regression level deviates by, over the half width that it states, is taken as a Gaussian field of variance one
-(over 1.96^2). Part of it is common to all contacts of one pair of surfaces, part is smooth in `Place`, and the rest, the
-nugget, is of each contact alone: the sampling of a deterministic block. Given its values in some places (`Knots`), mean
-and variance elsewhere follow. Far from all knots this is the regression level with its own half width; a half width
-never grows.
+(over 1.96^2). Part of it is common to all contacts of one pair of surfaces, part is smooth in `Place`, part is so on one
+pair of surfaces alone, and the rest, the nugget, is of each contact: the sampling of a deterministic block. Given its
+values in some places (`Knots`), mean and variance elsewhere follow. Far from all knots this is the regression level with
+its own half width; a half width never grows.
 
 The model: Kennedy & O'Hagan, Biometrika 87 (2000) 1, doi:10.1093/biomet/87.1.1, of one ratio. The constants:
 benchmarks/regression/correlation.py, docs/measured/regression/correlation.md.
 """
 
 import math
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -18,6 +19,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import cho_factor, cho_solve
+
+from .scene import Scene
 
 Array = NDArray[np.float64]
 
@@ -34,22 +37,23 @@ _SLIP, _OIL, _THIN, _NONE = (
     1e-4,
     1e-3,
     1e-9,
-)  # added to slip and oil, and least lambda and share: no logarithm of 0
+)  # least numbers: no logarithm of 0
 
 
 class Correlation(NamedTuple):
-    """How deviations of one output go together; the three shares sum to one."""
+    """How deviations of one output go together; the four shares sum to one."""
 
-    common: float  # of one pair of surfaces
-    smooth: float
-    nugget: float
+    common: float  # to all contacts of one pair of surfaces
+    smooth: float  # over places
+    paired: float  # likewise, of one pair alone
+    nugget: float  # of each contact
     lengths: tuple[float, ...]  # over which the smooth part changes, in the coordinates of `Place`
 
 
 CORRELATIONS: dict[str, Correlation] = {
-    "friction_coefficient": Correlation(0.1, 0.8, 0.1, (0.84, 2.7, 0.52, 0.35, 2.1)),
-    "h_c": Correlation(0.1, 0.8, 0.1, (0.49, 2.2, 0.22, 8.0, 2.4)),
-    "contact_load_ratio": Correlation(0.1, 0.8, 0.1, (20.0, 1.5, 0.44, 0.45, 20.0)),
+    "friction_coefficient": Correlation(0.12, 0.71, 0.12, 0.05, (0.78, 1.5, 0.41, 0.32, 1.4)),
+    "h_c": Correlation(0.59, 0.34, 0.02, 0.05, (0.41, 1.2, 0.2, 20.0, 2.0)),
+    "contact_load_ratio": Correlation(0.22, 0.63, 0.10, 0.05, (20.0, 0.93, 0.2, 0.46, 20.0)),
 }
 
 
@@ -61,6 +65,11 @@ class Place(NamedTuple):
     pressed: Any  # ln of Hertz's largest pressure over the hardness
     share: Any  # contact_load_ratio
     oil: Any  # ln of the oil's friction over the load that it carries
+
+
+def pair_of(scene: Scene) -> str:
+    """Return a name for the pair of surfaces of a scene: contacts of one pair deviate alike."""
+    return f"{zlib.crc32(repr((scene.surface_1, scene.surface_2)).encode()):08x}"
 
 
 def place(outputs: Mapping[str, Any], load: Any, speeds: tuple[Any, Any], pressed: Any) -> Place:
@@ -147,23 +156,50 @@ class Conditioned(NamedTuple):
         return found
 
 
+class _Known(NamedTuple):
+    """Knots that know an output: solved for once."""
+
+    law: Correlation
+    pairs: NDArray[Any]
+    places: Array
+    factor: tuple[Array, bool]
+    weights: Array
+
+
+class Conditioner:
+    """Knots, solved for; says what they make of other places."""
+
+    def __init__(self, given: Knots) -> None:
+        """Solve for the weights of the knots."""
+        self._known = [self._solved(given, k, law) for k, law in enumerate(map(CORRELATIONS.__getitem__, CORRECTED))]
+
+    @staticmethod
+    def _solved(given: Knots, output: int, law: Correlation) -> _Known | None:
+        known = np.isfinite(given.off[:, output]) & np.isfinite(given.places).all(1)
+        if not known.any():
+            return None
+        places, pairs = given.places[known], given.pairs[known]
+        noise = law.nugget + given.own[known, output] ** 2
+        factor = cho_factor(covariance(law, pairs, places, pairs, places) + np.diag(noise))
+        return _Known(law, pairs, places, factor, cho_solve(factor, given.off[known, output]))
+
+    def at(self, pairs: NDArray[Any], places: Array) -> Conditioned:
+        """Return what the knots say of places, [places, coordinates] on `pairs` of surfaces."""
+        means, lefts = np.zeros((len(places), len(CORRECTED))), np.ones((len(places), len(CORRECTED)))
+        usable = np.isfinite(places).all(1)
+        for k, known in enumerate(self._known):
+            if known is None or not usable.any():
+                continue
+            across = covariance(known.law, pairs[usable], places[usable], known.pairs, known.places)
+            means[usable, k] = across @ known.weights
+            told = np.einsum("ij,ji->i", across, cho_solve(known.factor, across.T))
+            lefts[usable, k] = np.sqrt(np.clip(1.0 - told, 0.0, 1.0))
+        return Conditioned(means, lefts)
+
+
 def conditioned(given: Knots, pairs: NDArray[Any], places: Array) -> Conditioned:
-    """Return what knots say of other places, [places, coordinates] of `pairs` of surfaces."""
-    means, lefts = np.zeros((len(places), len(CORRECTED))), np.ones((len(places), len(CORRECTED)))
-    usable = np.isfinite(places).all(1)
-    for k, name in enumerate(CORRECTED):
-        known = np.isfinite(given.off[:, k]) & np.isfinite(given.places).all(1)
-        if not known.any() or not usable.any():
-            continue
-        law = CORRELATIONS[name]
-        at, of = given.places[known], given.pairs[known]
-        noise = law.nugget + given.own[known, k] ** 2
-        factor = cho_factor(_covariance(law, of, at, of, at) + np.diag(noise))
-        across = _covariance(law, pairs[usable], places[usable], of, at)
-        means[usable, k] = across @ cho_solve(factor, given.off[known, k])
-        told = np.einsum("ij,ji->i", across, cho_solve(factor, across.T))
-        lefts[usable, k] = np.sqrt(np.clip(1.0 - told, 0.0, 1.0))
-    return Conditioned(means, lefts)
+    """Return what knots say of other places, [places, coordinates] on `pairs` of surfaces."""
+    return Conditioner(given).at(pairs, places)
 
 
 def nearness(law: Correlation, places: Array, others: Array) -> Array:
@@ -173,6 +209,7 @@ def nearness(law: Correlation, places: Array, others: Array) -> Array:
     return np.asarray(np.exp(-0.5 * np.sum(apart * apart, 2)))
 
 
-def _covariance(law: Correlation, pairs: NDArray[Any], places: Array, of: NDArray[Any], at: Array) -> Array:
+def covariance(law: Correlation, pairs: NDArray[Any], places: Array, of: NDArray[Any], at: Array) -> Array:
+    """Return the covariance of deviations, without the nugget, between places and others, [places, others]."""
     same = pairs[:, None] == of[None, :]
-    return np.asarray(law.common * same + law.smooth * nearness(law, places, at))
+    return np.asarray(law.common * same + (law.smooth + law.paired * same) * nearness(law, places, at))

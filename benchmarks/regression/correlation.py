@@ -6,7 +6,6 @@ Takes the contacts that regression.curves, regression.shapes and regression.held
 solves none. Prints the constants as contact_core/correction.py has them.
 """
 
-import hashlib
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -26,18 +25,29 @@ from contact_core.correction import (
     Knots,
     Place,
     conditioned,
+    covariance,
     knots,
-    nearness,
+    pair_of,
+    place,
+)
+    CORRECTED,
+    CORRELATIONS,
+    Correlation,
+    Knots,
+    Place,
+    conditioned,
+    covariance,
+    knots,
     place,
 )
 from contact_core.scene import Case
 from contact_core.state import ContactState, Mean
 
 UNSURE = RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK | RangeFlag.DOMAIN_EDGE
-STARTS = (0.15, 0.7, 0.15)
+STARTS = (0.15, 0.5, 0.2, 0.15)
 SHORTEST, LONGEST = 0.2, 20.0  # lengths
 WIDE = 1.96  # standard deviations in a half width
-LEAST_NUGGET = 0.05  # curves that were fitted to the same contacts leave less than new ones would
+LEAST_NUGGET = 0.03  # curves that were fitted to the same contacts leave less than new ones would
 OUTLIER = 2.0  # half widths: deviations beyond count as that
 NAMES = {"friction_coefficient": "friction", "h_c": "h_c", "contact_load_ratio": "W_c"}
 
@@ -58,8 +68,7 @@ def sampled(source: str, scene: Scene, op: OperatingPoint, state: ContactState, 
         return None
     case = Case.bind(scene.at_level("regression"), op)
     fast = vars(advance(case.scene, op, state, 0.0)[1])
-    pair = hashlib.sha256(repr((scene.surface_1, scene.surface_2)).encode()).hexdigest()[:8]
-    return Sample(source, pair, place_of(case, fast), fast, dict.fromkeys(CORRECTED.values(), 0.0) | deep)
+    return Sample(source, pair_of(scene), place_of(case, fast), fast, dict.fromkeys(CORRECTED.values(), 0.0) | deep)
 
 
 def place_of(case: Case, fast: dict[str, Any]) -> Place:
@@ -111,20 +120,19 @@ def fitted(given: Knots, output: int) -> Correlation:
     known = np.isfinite(given.off[:, output]) & np.isfinite(given.places).all(1)
     off = WIDE * np.clip(given.off[known, output], -OUTLIER, OUTLIER)
     places, pairs = given.places[known], given.pairs[known]
-    same = (pairs[:, None] == pairs[None, :]).astype(float)
 
     def law(x: np.ndarray) -> Correlation:
-        shares = np.exp(x[:3]) / np.exp(x[:3]).sum() * (1.0 - LEAST_NUGGET) + LEAST_NUGGET * np.array([0.0, 0.0, 1.0])
-        return Correlation(*map(float, shares), tuple(np.exp(x[3:]).tolist()))
+        shares = (1.0 - LEAST_NUGGET) * np.exp(x[:4]) / np.exp(x[:4]).sum() + [0.0, 0.0, 0.0, LEAST_NUGGET]
+        return Correlation(*map(float, shares), tuple(np.exp(x[4:]).tolist()))
 
     def unlikeliness(x: np.ndarray) -> float:
         here = law(x)
-        whole = here.common * same + here.smooth * nearness(here, places, places) + here.nugget * np.eye(len(off))
+        whole = covariance(here, pairs, places, pairs, places) + here.nugget * np.eye(len(off))
         root = np.linalg.cholesky(whole + 1e-9 * np.eye(len(off)))
         return float(0.5 * np.sum(np.linalg.solve(root, off) ** 2) + np.log(np.diag(root)).sum())
 
     start = np.concatenate([np.log(STARTS), np.full(places.shape[1], 0.3)])
-    bounds = [(-4.0, 1.0)] * 3 + [(np.log(SHORTEST), np.log(LONGEST))] * places.shape[1]
+    bounds = [(-4.0, 1.0)] * 4 + [(np.log(SHORTEST), np.log(LONGEST))] * places.shape[1]
     return law(minimize(unlikeliness, start, method="L-BFGS-B", bounds=bounds, options={"maxiter": 80}).x)
 
 
@@ -148,15 +156,15 @@ def main() -> None:
     page.say(
         f"{given.count} contacts at both levels: those of [curves](curves.md), [shapes](shapes.md) and "
         "[held_back](held_back.md). A deviation is taken over the half width that the regression level states. Shares of "
-        "its variance: common to a pair of surfaces, smooth (with the lengths over which it changes), of each contact alone. "
+        "its variance: common to a pair of surfaces, smooth (with the lengths over which it changes), likewise but of one pair alone, of each contact. "
         "Fitted by maximum likelihood; `contact_core/correction.py` has rounded constants."
     )
-    page.header("output", "", "common", "smooth", "nugget", *Place._fields)
+    page.header("output", "", "common", "smooth", "paired", "nugget", *Place._fields)
     for k, name in enumerate(CORRECTED):
         law = fitted(given, k)
         for text, each in (("fitted", law), ("in use", CORRELATIONS[name])):
-            page.row(NAMES[name], text, *(f"{x:.2g}" for x in (each.common, each.smooth, each.nugget, *each.lengths)))
-        print(f'    "{name}": {Correlation(*(round(x, 2) for x in law[:3]), tuple(float(f"{x:.2g}") for x in law.lengths))},')
+            page.row(NAMES[name], text, *(f"{x:.2g}" for x in (each.common, each.smooth, each.paired, each.nugget, *each.lengths)))
+        print(f'    "{name}": {Correlation(*(round(x, 2) for x in law[:4]), tuple(float(f"{x:.2g}") for x in law.lengths))},')
     page.say(
         "Each contact by all others (with the constants in use), and by those of other surfaces alone. Left: half width "
         "over that of the regression level, median; off: rms deviation likewise; covered: by the half width, before and "
