@@ -1,10 +1,10 @@
 """The regression level corrected by what deterministic solutions say: Gaussian conditioning (kriging), in closed form.
 
 What the regression level deviates by, over the half width that it states, is taken as a Gaussian field of variance one
-(over 1.96^2). Part of it is common to all contacts of one pair of surfaces, part is smooth in `Place`, part is so on one
-pair of surfaces alone, and the rest, the nugget, is of each contact: the sampling of a deterministic block. Given its
-values in some places (`Knots`), mean and variance elsewhere follow. Far from all knots this is the regression level with
-its own half width; a half width never grows.
+(over 1.96^2). Part of it is common to all contacts of one pair of surfaces, part is smooth in `Place`, part is smooth
+on one pair of surfaces alone, and the rest, the nugget, is of each contact: the sampling of a deterministic block.
+Given its values in some places (`Knots`), mean and variance elsewhere follow. Far from all knots this is the regression
+level with its own half width; a half width never grows.
 
 The model: Kennedy & O'Hagan, Biometrika 87 (2000) 1, doi:10.1093/biomet/87.1.1, of one ratio. The constants:
 benchmarks/regression/correlation.py, docs/measured/regression/correlation.md.
@@ -51,9 +51,9 @@ class Correlation(NamedTuple):
 
 
 CORRELATIONS: dict[str, Correlation] = {
-    "friction_coefficient": Correlation(0.12, 0.71, 0.12, 0.05, (0.78, 1.5, 0.41, 0.32, 1.4)),
-    "h_c": Correlation(0.59, 0.34, 0.02, 0.05, (0.41, 1.2, 0.2, 20.0, 2.0)),
-    "contact_load_ratio": Correlation(0.22, 0.63, 0.10, 0.05, (20.0, 0.93, 0.2, 0.46, 20.0)),
+    "friction_coefficient": Correlation(0.0, 0.7, 0.22, 0.08, (0.68, 1.3, 0.41, 0.23, 1.9)),
+    "h_c": Correlation(0.4, 0.34, 0.22, 0.04, (0.52, 1.3, 0.22, 0.34, 3.4)),
+    "contact_load_ratio": Correlation(0.0, 0.63, 0.31, 0.06, (20.0, 0.81, 0.39, 0.21, 12.0)),
 }
 
 

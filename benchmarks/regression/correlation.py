@@ -30,16 +30,6 @@ from contact_core.correction import (
     pair_of,
     place,
 )
-    CORRECTED,
-    CORRELATIONS,
-    Correlation,
-    Knots,
-    Place,
-    conditioned,
-    covariance,
-    knots,
-    place,
-)
 from contact_core.scene import Case
 from contact_core.state import ContactState, Mean
 

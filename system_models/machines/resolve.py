@@ -22,7 +22,7 @@ from contact_core.scene import Case, Scene, tunables, with_values
 
 from .assembly import Assembly, Contact
 
-FAST, DEEP = LEVELS
+FAST, DEEP = LEVELS[:2]
 _IDLE = 0.1  # of the mean load and speed
 _ENOUGH = 5  # states needed to judge a machine
 _TRIES = 3  # contacts at a time
