@@ -74,6 +74,7 @@ class _Corrector:
         self.told: dict[str, Any] = {}
         self._conditioner = _conditioner(solved) if solved is not None else None
         control = case.scene.control
+        self._smooth = case.scene.surface_1.smooth and case.scene.surface_2.smooth
         self._accuracy = ACCURACY if control.accuracy is None else control.accuracy
         self._flagged = _ASKED if control.accuracy is None else tuple(CORRECTED.values())
 
@@ -81,7 +82,7 @@ class _Corrector:
         """Return a contact of the regression level, corrected; the same one if nothing is known."""
         errors, force = half_widths(case, contact), contact.solid + contact.fluid
         self.raw = {}
-        if not errors or contact.sigma == 0.0:
+        if not errors or contact.sigma == 0.0 or self._smooth:
             return contact
         self.raw = errors | {
             "friction_coefficient": abs(force) / case.op.load,

@@ -48,12 +48,13 @@ class Correlation(NamedTuple):
     paired: float  # likewise, of one pair alone
     nugget: float  # of each contact
     lengths: tuple[float, ...]  # over which the smooth part changes, in the coordinates of `Place`
+    wider: float  # factor on what is left: so that half widths cover 95 % of contacts left out, which have long tails
 
 
 CORRELATIONS: dict[str, Correlation] = {
-    "friction_coefficient": Correlation(0.0, 0.7, 0.22, 0.08, (0.68, 1.3, 0.41, 0.23, 1.9)),
-    "h_c": Correlation(0.4, 0.34, 0.22, 0.04, (0.52, 1.3, 0.22, 0.34, 3.4)),
-    "contact_load_ratio": Correlation(0.0, 0.63, 0.31, 0.06, (20.0, 0.81, 0.39, 0.21, 12.0)),
+    "friction_coefficient": Correlation(0.0, 0.58, 0.36, 0.06, (0.62, 1.2, 0.36, 0.2, 1.7), 1.0),
+    "h_c": Correlation(0.33, 0.29, 0.34, 0.04, (0.47, 1.6, 0.21, 0.23, 3.4), 1.0),
+    "contact_load_ratio": Correlation(0.0, 0.51, 0.44, 0.05, (0.71, 0.78, 0.28, 0.24, 2.3), 1.0),
 }
 
 
@@ -193,7 +194,7 @@ class Conditioner:
             across = covariance(known.law, pairs[usable], places[usable], known.pairs, known.places)
             means[usable, k] = across @ known.weights
             told = np.einsum("ij,ji->i", across, cho_solve(known.factor, across.T))
-            lefts[usable, k] = np.sqrt(np.clip(1.0 - told, 0.0, 1.0))
+            lefts[usable, k] = np.minimum(known.law.wider * np.sqrt(np.clip(1.0 - told, 0.0, 1.0)), 1.0)
         return Conditioned(means, lefts)
 
 

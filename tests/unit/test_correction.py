@@ -49,7 +49,7 @@ def test_a_knot_is_reproduced_within_the_error_that_is_left(name: str) -> None:
     found = told(given)
     assert found[name] == approx(DEEP[name], rel=1e-3)
     size = 1.0 if name == "contact_load_ratio" else found[name]
-    assert found[error] * size == approx(FAST[error] * SIZES[name] * law.nugget**0.5, rel=0.02)
+    assert found[error] * size == approx(FAST[error] * SIZES[name] * law.wider * law.nugget**0.5, rel=0.02)
     one = told(knot())
     size = 1.0 if name == "contact_load_ratio" else one[name]
     assert abs(one[name] - DEEP[name]) < one[error] * size < FAST[error] * SIZES[name]
@@ -61,7 +61,9 @@ def test_far_away_and_on_other_surfaces_the_regression_level_is_as_it_was(name: 
     found = told(knot(), far, "b")
     assert found[name] == approx(FAST[name], rel=1e-12)
     assert found[CORRECTED[name]] == approx(FAST[CORRECTED[name]], rel=1e-12)
-    assert told(knot(), far, "a")[CORRECTED[name]] < FAST[CORRECTED[name]]  # what is common to the pair
+    near = [told(knot(), HERE, pair) for pair in ("a", "b")]
+    same, other = (each[CORRECTED[name]] * (1.0 if SIZES[name] == 1.0 else each[name]) for each in near)
+    assert same < other < FAST[CORRECTED[name]] * SIZES[name]
 
 
 def test_without_knots_nothing_changes_to_the_bit() -> None:
@@ -104,10 +106,10 @@ def test_a_knot_is_left_out() -> None:
 def drawn(count: int, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Pairs, places and deviations over half widths of friction, as the correlation has them."""
     draw, law = np.random.default_rng(seed), CORRELATIONS["friction_coefficient"]
-    places = draw.normal(0.0, 1.0, (count, 5)) * np.array(law.lengths)
+    places = draw.normal(0.0, 0.6, (count, 5)) * np.array(law.lengths)
     pairs = np.array([f"{k % 3}" for k in range(count)], object)
     whole = covariance(law, pairs, places, pairs, places) + law.nugget * np.eye(count)
-    return pairs, places, np.linalg.cholesky(whole) @ draw.normal(0.0, 1.0 / WIDE, count)
+    return pairs, places, np.linalg.cholesky(whole) @ draw.normal(0.0, 1.0 / WIDE, count) * law.wider
 
 
 @pytest.mark.parametrize(("part", "least", "most"), [(1.0, 0.93, 0.97), (0.1, 0.0, 0.25)])
@@ -124,4 +126,4 @@ def test_half_widths_cover_19_in_20_of_synthetic_truths_and_not_if_they_were_a_t
         covered += (np.abs(off[12:] - found.mean[:, 0]) <= part * found.left[:, 0]).tolist()
         lefts += found.left[:, 0].tolist()
     assert least <= np.mean(covered) <= most
-    assert np.median(lefts) < 0.97
+    assert np.median(lefts) < 0.9
