@@ -52,9 +52,9 @@ class Correlation(NamedTuple):
 
 
 CORRELATIONS: dict[str, Correlation] = {
-    "friction_coefficient": Correlation(0.0, 0.58, 0.36, 0.06, (0.62, 1.2, 0.36, 0.2, 1.7), 1.0),
-    "h_c": Correlation(0.33, 0.29, 0.34, 0.04, (0.47, 1.6, 0.21, 0.23, 3.4), 1.0),
-    "contact_load_ratio": Correlation(0.0, 0.51, 0.44, 0.05, (0.71, 0.78, 0.28, 0.24, 2.3), 1.0),
+    "friction_coefficient": Correlation(0.0, 0.58, 0.36, 0.06, (0.62, 1.2, 0.36, 0.2, 1.7), 1.15),
+    "h_c": Correlation(0.33, 0.29, 0.34, 0.04, (0.47, 1.6, 0.21, 0.23, 3.4), 1.2),
+    "contact_load_ratio": Correlation(0.0, 0.51, 0.44, 0.05, (0.71, 0.78, 0.28, 0.24, 2.3), 1.2),
 }
 
 

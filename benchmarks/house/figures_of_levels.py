@@ -1,7 +1,7 @@
 """Figures of the README about the two levels: the regression level, and two hours at the deterministic one."""
 
 
-from benchmarks.house.tables import Pages, Row, line_of, link, number, pair, per_cent, range_of
+from benchmarks.house.tables import Pages, Row, line_of, link, number, pair, per_cent
 
 HOURS = {
     "tribofilm": ("ball's film nm", "disc's film nm"),

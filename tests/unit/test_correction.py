@@ -63,7 +63,7 @@ def test_far_away_and_on_other_surfaces_the_regression_level_is_as_it_was(name: 
     assert found[CORRECTED[name]] == approx(FAST[CORRECTED[name]], rel=1e-12)
     near = [told(knot(), HERE, pair) for pair in ("a", "b")]
     same, other = (each[CORRECTED[name]] * (1.0 if SIZES[name] == 1.0 else each[name]) for each in near)
-    assert same < other < FAST[CORRECTED[name]] * SIZES[name]
+    assert same < other <= FAST[CORRECTED[name]] * SIZES[name]
 
 
 def test_without_knots_nothing_changes_to_the_bit() -> None:
@@ -109,13 +109,15 @@ def drawn(count: int, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     places = draw.normal(0.0, 0.6, (count, 5)) * np.array(law.lengths)
     pairs = np.array([f"{k % 3}" for k in range(count)], object)
     whole = covariance(law, pairs, places, pairs, places) + law.nugget * np.eye(count)
-    return pairs, places, np.linalg.cholesky(whole) @ draw.normal(0.0, 1.0 / WIDE, count) * law.wider
+    return pairs, places, np.linalg.cholesky(whole) @ draw.normal(0.0, 1.0 / WIDE, count)
 
 
 @pytest.mark.parametrize(("part", "least", "most"), [(1.0, 0.93, 0.97), (0.1, 0.0, 0.25)])
 def test_half_widths_cover_19_in_20_of_synthetic_truths_and_not_if_they_were_a_tenth(
-    part: float, least: float, most: float
+    part: float, least: float, most: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    exact = CORRELATIONS["friction_coefficient"]._replace(wider=1.0)  # these truths have no long tails
+    monkeypatch.setitem(CORRELATIONS, "friction_coefficient", exact)
     covered, lefts = list[bool](), list[float]()
     for seed in range(40):
         pairs, places, off = drawn(60, seed)
