@@ -15,7 +15,7 @@ Kind = Literal["Real", "Integer", "Boolean"]
 # surfaces have it, and its change per block gives the error of time steps; rate: so has its rate of change
 Trend = Literal["", "level", "slope", "rate"]
 
-LEVELS = ("regression", "deterministic")  # fidelity levels by rising number: 1, 2
+LEVELS = ("regression", "deterministic", "auto")  # fidelity levels by number: 1, 2, 3
 
 # What is measured in a unit, in the words of the Modelica standard library, where nothing else is said
 _MEASURED_IN = {
@@ -81,6 +81,7 @@ def _pair(name: str, symbol: str, unit: str, text: str, **rest: Any) -> tuple[Qu
 
 
 _FIELDS = ("deterministic",)  # what only fields can tell
+_BLOCKS = ("deterministic", "auto")  # what only blocks can
 
 # fmt: off
 INPUTS: tuple[Quantity, ...] = (
@@ -129,7 +130,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("heat_flow_2", "Q_2", "W", "heat that the contact puts into the body, body 2", nominal=1.0),
     Quantity("approach", "delta", "m", "approach of the bodies from first touching of the undeformed, smooth shapes", nominal=1e-6, display="um", trend="level"),
     Quantity("valid", "", "", "false: the last input could not be used; state and outputs stand as they were", kind="Boolean"),
-    Quantity("fidelity_used", "", "", "fidelity level that gave the outputs: 1 regression, 2 deterministic, 0 none yet", kind="Integer", minimum=0, maximum=2),
+    Quantity("fidelity_used", "", "", "fidelity level that gave the outputs: 1 regression, 2 deterministic, 3 auto, 0 none yet", kind="Integer", minimum=0, maximum=3),
     Quantity("range_flags", "", "", "sum of the RangeFlag values raised (see RangeFlag)", kind="Integer", minimum=0),
     Quantity("iterations", "", "", "film iterations in the last step", kind="Integer", minimum=0, levels=_FIELDS),
     Quantity("suggested_step", "dt", "s", "time until the stored contact is due to be solved again", nominal=60.0, minimum=0.0),
@@ -149,9 +150,9 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("error_tribofilm", "", "1", "half width (95 %) of the mean tribofilms' error by all causes, relative, the larger one", role="diagnostic", minimum=0.0),
     Quantity("error_wear", "", "1", "half width (95 %) of the wear depths' error by all causes, relative, the larger one", role="diagnostic", minimum=0.0),
     Quantity("unconverged", "", "1", "share of the last block's film solutions that did not converge", role="diagnostic", minimum=0.0, maximum=1.0, levels=_FIELDS),
-    Quantity("blocks_dry", "", "1", "solved blocks so far that dry contact pressures drove", role="diagnostic", minimum=0.0, levels=_FIELDS),
-    Quantity("blocks_mixed", "", "1", "solved blocks so far that mixed lubrication pressures drove", role="diagnostic", minimum=0.0, levels=_FIELDS),
-    Quantity("blocks_fallback", "", "1", "solved blocks so far in which the dry solution had to stand in for a mixed one", role="diagnostic", minimum=0.0, levels=_FIELDS),
+    Quantity("blocks_dry", "", "1", "solved blocks so far that dry contact pressures drove", role="diagnostic", minimum=0.0, levels=_BLOCKS),
+    Quantity("blocks_mixed", "", "1", "solved blocks so far that mixed lubrication pressures drove", role="diagnostic", minimum=0.0, levels=_BLOCKS),
+    Quantity("blocks_fallback", "", "1", "solved blocks so far in which the dry solution had to stand in for a mixed one", role="diagnostic", minimum=0.0, levels=_BLOCKS),
 )
 
 # fmt: on

@@ -6,6 +6,7 @@ level, and the surfaces are a handful of numbers per body. The patches of the st
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -25,22 +26,30 @@ _AGREED = 0.05  # of control.change: contacts before and after a step may differ
 _TRIAL = 1.0  # s: step from which the speed of the surfaces' change is taken
 
 
-def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
+Amend = Callable[[Case, MeanContact], MeanContact]
+
+
+def _as_it_is(case: Case, contact: MeanContact) -> MeanContact:
+    return contact
+
+
+def advance(case: Case, state: ContactState, dt: float, amend: Amend = _as_it_is) -> tuple[ContactState, Outputs]:
     """Return the state and outputs after `dt` [s] at the regression level.
 
-    Where the bodies warm up, it takes steps in which neither oil nor surfaces change much.
+    Where the bodies warm up, it takes steps in which neither oil nor surfaces change much. `amend` gets each contact,
+    the one of the outputs last, and returns the one to go on with.
     """
     scene = case.scene
     _check_pressure(case)
     if not scene.heat.bulk.stores_heat or dt == 0.0:
-        return _stepped(case.warmed(state.temperatures), state, dt)
+        return _stepped(case.warmed(state.temperatures), state, dt, amend)
     before, left = [state.outputs.wear_volume_1, state.outputs.wear_volume_2], dt
     while left > 0.0:
         now, step = case.warmed(state.temperatures), left
-        after, outputs = _stepped(now, state, step)
+        after, outputs = _stepped(now, state, step, amend)
         while step > (longest := min(outputs.suggested_step, cool_time(now, after.outputs, step))) > NO_TIME:
             step = longest
-            after, outputs = _stepped(now, state, step)
+            after, outputs = _stepped(now, state, step, amend)
         warm = temperatures_after(now, after.outputs, step)
         state, left = changed(after, temperatures=warm), left - step
     rates = [(out - old) / dt for out, old in zip((outputs.wear_volume_1, outputs.wear_volume_2), before, strict=True)]
@@ -63,22 +72,22 @@ def _check_pressure(case: Case) -> None:
         )
 
 
-def _stepped(case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
+def _stepped(case: Case, state: ContactState, dt: float, amend: Amend) -> tuple[ContactState, Outputs]:
     """Return the state and outputs after `dt` [s] at held bulk temperatures."""
     before = state.means or means_of(case.scene, state)
     means, films, left = before, tribofilms_of(before), dt
-    contact = evaluate(case, films)
+    contact = amend(case, evaluate(case, films))
     speed = 0.0  # at which the surfaces change [m/s]
     while left > 0.0:
         start = means
         step, means, films, speed = _substep(case, contact, start, left)
         left -= step
         if _has_changed(case, contact, films):
-            contact = evaluate(case, films)
+            contact = amend(case, evaluate(case, films))
             settled = _settled(case, start, means, _evolved(case, contact, start, step))
             if settled is not means:
                 means, films = settled, tribofilms_of(settled)
-                contact = evaluate(case, films)
+                contact = amend(case, evaluate(case, films))
     if dt > 0.0:
         rates = [(now.worn - then.worn) / dt for now, then in zip(means, before, strict=True)]
     else:

@@ -34,7 +34,7 @@ def outputs_of(
     force = contact.solid + contact.fluid
     hot_1, hot_2 = case.op.bodies
     first, second = means
-    longest, errors = _LONGEST * case.scene.operation.duration, _errors(case, contact)
+    longest, errors = _LONGEST * case.scene.operation.duration, half_widths(case, contact)
     return changed(
         _BLANK,
         friction_force=force,
@@ -114,7 +114,7 @@ def _fitted(case: Case, contact: MeanContact) -> bool:
     return not rubs_at_rest and regression_film(case.scene).sharing.covers(*contact.fit)
 
 
-def _errors(case: Case, contact: MeanContact) -> dict[str, Any]:
+def half_widths(case: Case, contact: MeanContact) -> dict[str, Any]:
     """Return the half widths (95 %) of the errors by the fit, relative.
 
     Friction is wrong where load carried by oil is attributed to solids, and by the oil's own friction, but never by

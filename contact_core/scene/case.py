@@ -117,6 +117,12 @@ class Case:
         """Hertz's contact at 1 N and the radii of the operating point."""
         return self.scene.unit_hertz_at(self.op)
 
+    @property
+    def pressed(self) -> float:
+        """Hertz's largest pressure over the hardness of the bodies."""
+        hertz = self.unit_hertz
+        return hertz.pressure_max * hertz.growth(self.op.load)[0] / self.scene.plasticity.hardness
+
     @cached_property
     def sides(self) -> tuple[Side, Side]:
         """Body 1 and body 2."""

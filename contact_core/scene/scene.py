@@ -81,7 +81,7 @@ class Scene(SceneFields):
                 f"There is no level '{level}'.{did_you_mean(level, list(films))} Known are {', '.join(films)}."
             )
         record = films[level]
-        if isinstance(self.film, record):
+        if type(self.film) is record:
             return self
         shared = {f.name for f in fields(record)} & {f.name for f in fields(self.film)}
         film = record(**{name: getattr(self.film, name) for name in shared})

@@ -4,6 +4,7 @@
     outputs            `Outputs` and `RangeFlag`
     error              `Error` of an output, by its causes
     trends             outputs without their noise, errors of time steps and of sampling
+    solved             deterministic solutions that correct the regression level
     storage            records of numbers and arrays as bytes and back
     bulk_temperature   temperatures of the bodies from the heat of the contact, for both levels
 
@@ -12,6 +13,7 @@ Records are frozen: a step returns new ones.
 
 from .error import Error
 from .outputs import Outputs, RangeFlag, flag_of_errors
+from .solved import Solved
 from .state import Body, ContactState, Mean, changed, initial_state
 
 __all__ = [
@@ -21,6 +23,7 @@ __all__ = [
     "Mean",
     "Outputs",
     "RangeFlag",
+    "Solved",
     "changed",
     "flag_of_errors",
     "initial_state",

@@ -19,16 +19,19 @@ from ..film.instant import FilmState
 from ..laws.tribofilm import thickness
 from ..scene import OperatingPoint, Scene
 from .outputs import Outputs
+from .solved import Solved
 from .storage import Reader, numbers, stored
 from .trends import NAMES, Trends
 
 Array = NDArray[np.float64]
 _Record = TypeVar("_Record", "ContactState", "Outputs", "Mean", OperatingPoint)
-_MAGIC, _SCHEMA = b"tribofmu", 8
+_MAGIC, _SCHEMA = b"tribofmu", 9
 _FEWEST = 100  # bytes that a header of schema 5 or before has at least
 _CHECKSUM, _SIGNED = struct.Struct("<I"), struct.Struct("<II")
 _LAYOUT = struct.Struct("<I")
-_TEXTS = struct.Struct("<4?II")  # what is there of film, solved_for, means, temperatures; lengths of digest, law
+_TEXTS = struct.Struct(
+    "<5?II"
+)  # what is there of film, solved_for, means, temperatures, solved; lengths of digest, law
 _PAIR = struct.Struct("<2d")
 
 
@@ -107,6 +110,7 @@ class ContactState:
     temperatures: tuple[float, float] | None  # of the bodies [K], for heat.bulk = "lumped"; None: none yet
     outputs: Outputs
     means: tuple[Mean, Mean] | None = None  # of the regression level, newer than the patches; None: these are current
+    solved: Solved | None = None  # blocks that the level `auto` has solved; None: none yet
 
     @property
     def rows(self) -> int:
@@ -128,9 +132,11 @@ class ContactState:
         since an earlier state is the same object in both (`obj` of its part): at the regression level all of them,
         between two solutions of the deterministic level all but tribofilm and wear.
         """
-        kept = [stored(record) for record in (*self.bodies, self.trends, self.film) if record is not None]
+        kept = [stored(record) for record in (*self.bodies, self.trends, self.film, self.solved) if record is not None]
         texts = self.digest.encode(), self.law.encode()
-        given = [record is not None for record in (self.film, self.solved_for, self.means, self.temperatures)]
+        given = [
+            record is not None for record in (self.film, self.solved_for, self.means, self.temperatures, self.solved)
+        ]
         single = [r for r in (self, self.outputs, self.solved_for, *(self.means or ())) if r is not None]
         head = b"".join(
             [
@@ -185,7 +191,7 @@ def _read(data: bytes) -> ContactState:
 @cache
 def _layout() -> int:
     """Return the fingerprint of the numbers and trends in a stored state, by their names and order."""
-    records = (ContactState, Outputs, OperatingPoint, Mean, Body, Trends, FilmState)
+    records = (ContactState, Outputs, OperatingPoint, Mean, Body, Trends, FilmState, Solved)
     names = [f.name for record in records for f in fields(record)]
     return zlib.crc32(" ".join([*names, *NAMES]).encode())
 
@@ -197,7 +203,7 @@ def _unpacked(reader: Reader) -> ContactState:
             "The stored state was written by a version with other inputs or outputs. Give a file that a run of this "
             "version has written."
         )
-    film, solved_for, means, temperatures, digest, law = reader.values(_TEXTS)
+    film, solved_for, means, temperatures, solved, digest, law = reader.values(_TEXTS)
     texts: dict[str, Any] = {"digest": reader.text(digest), "law": reader.text(law)}
     own = reader.numbers(ContactState)
     outputs = Outputs(**reader.numbers(Outputs))
@@ -214,6 +220,7 @@ def _unpacked(reader: Reader) -> ContactState:
         bodies=(reader.record(Body), reader.record(Body)),
         trends=reader.record(Trends),
         film=reader.record(FilmState) if film else None,
+        solved=reader.record(Solved) if solved else None,
     )
 
 

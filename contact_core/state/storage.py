@@ -30,7 +30,7 @@ class Kind:
         self.maybe = tuple(f.name for f in fields(record) if f.type == float | None)
         self.arrays = tuple(f.name for f in fields(record) if f.type in (_REALS, _BOOLEANS))
         self.layout = struct.Struct("<" + "".join(letters.values()))
-        self.fetch = itemgetter(*letters)
+        self.fetch = itemgetter(*letters) if len(letters) > 1 else lambda of: tuple(of[name] for name in letters)
 
 
 _REALS, _BOOLEANS = NDArray[np.float64], NDArray[np.bool_]

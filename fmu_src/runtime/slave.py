@@ -81,7 +81,7 @@ class ContactSlave(GuardedSlave):
         super().__init__(**kwargs)
         self._layout = Layout(self.values)
         self._level_outputs = [_LevelOutputs(self._variables, level) for level in LEVELS]
-        self._most_outputs = len(self._level_outputs[-1].names)
+        self._most_outputs = max(len(outputs.names) for outputs in self._level_outputs)
         self._scenes: Scenes | None = None
         self._state: ContactState | None = None
         self._fault = "its initialisation has not ended."
@@ -117,7 +117,7 @@ class ContactSlave(GuardedSlave):
         self._scenes, self._state = scenes, state
         self._advance(0.0)
         of_this_level = self._level_outputs[self._fidelity() - 1].references
-        for reference in {*self._level_outputs[-1].references} - {*of_this_level}:
+        for reference in {r for outputs in self._level_outputs for r in outputs.references} - {*of_this_level}:
             # another level may have been evaluated earlier in initialisation mode
             self.values[reference] = self._variables[reference].start
 

@@ -91,7 +91,7 @@ def _check(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", system: "S
 
     Return the exit code, which has been `code` so far.
     """
-    from ..machines import coupling_error, resolve
+    from ..machines import corrected, coupling_error, resolve
     from ..master import simulate
     from ..store import results
     from .simulation import EXIT_CODE
@@ -104,12 +104,19 @@ def _check(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", system: "S
     print(f"This took {monotonic() - begin:.0f} s.", "", sep="\n", flush=True)
     begin = monotonic()
     states = resolve.resolve(assembly, dataset, lambda done: note(f"Solved again: {done}."))
-    print(*resolve.lines(states), f"This took {monotonic() - begin:.0f} s.", sep="\n")
+    better = corrected.corrected(assembly, dataset, states)
+    print(
+        *resolve.lines(states),
+        *corrected.lines(assembly, dataset, better, states),
+        f"This took {monotonic() - begin:.0f} s.",
+        sep="\n",
+    )
     wrong = [state for state in states if state.solved and not state.valid]
     if wrong:
         count = f"{len(wrong)} of {len(states)} states"
         note(f"The errors of the regression level do not cover its deviation in {count}: see 'NO'.")
         code = 1
-    print(f"Written: {results.write(resolve.to_dataset(states), folder, 'resolved')[0]}")
+    found = (resolve.to_dataset(states), "resolved"), (results.with_half_widths(better), "corrected")
+    print(f"Written: {', '.join(str(results.write(each, folder, name)[0]) for each, name in found)}")
     results.write(resolve.marked(dataset, states).assign_attrs({EXIT_CODE: code}), folder)
     return code

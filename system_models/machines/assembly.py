@@ -21,7 +21,7 @@ Schedule = dict[str, Sequence[tuple[float, Value]]]  # by "part.variable": times
 
 # outputs of contacts that a machine's result leaves out; all others of the table of quantities are recorded
 _NOT_RECORDED = {
-    "friction_solid", "friction_fluid", "spin_torque", "heat_flow_1", "heat_flow_2", "pressure_max", "approach",
+    "friction_fluid", "spin_torque", "heat_flow_1", "heat_flow_2", "pressure_max", "approach",
     "dfriction_dspeed_1", "dfriction_dspeed_2", "dfriction_dload", "dfriction_dtemperature",
     "h_central", "h_min", "lambda_conventional", "temperature_1", "temperature_2",
     "contact_area_ratio", "contact_area_ratio_disc", "contact_load_ratio_disc",

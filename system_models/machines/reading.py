@@ -109,7 +109,7 @@ def _at_levels(contacts: Mapping[str, Contact], table: Mapping[str, Any]) -> dic
                 f"deterministic names no contact: '{name}'.{did_you_mean(str(name), list(contacts))} Known are "
                 f"{', '.join(contacts)}."
             )
-    level = {"fidelity": len(LEVELS)}
+    level = {"fidelity": 1 + LEVELS.index("deterministic")}
     return {
         name: replace(contact, parameters={**contact.parameters, **level}) if name in deep else contact
         for name, contact in contacts.items()

@@ -24,14 +24,24 @@ def loss_error(assembly: Assembly, dataset: xr.Dataset) -> float:
 
     As if all contacts were off the same way; NaN if they lose nothing.
     """
-    lost = erred = 0.0
-    steps = np.diff(dataset["time"].values, prepend=0.0)
+    found = _losses(assembly, dataset)
+    erred = sum(float(losses @ dataset[f"{name}.error_friction"].values) for name, losses in found)
+    total = sum(float(losses.sum()) for _, losses in found)
+    return erred / total if total else float("nan")
+
+
+def lost(assembly: Assembly, dataset: xr.Dataset) -> float:
+    """Return the energy [J] that the contacts lose."""
+    return sum(float(losses.sum()) for _, losses in _losses(assembly, dataset))
+
+
+def _losses(assembly: Assembly, dataset: xr.Dataset) -> list[tuple[str, np.ndarray]]:
+    """Return the energy [J] that each contact loses in each step, of all that it stands for."""
+    found, steps = [], np.diff(dataset["time"].values, prepend=0.0)
     for name, contact in assembly.contacts.items():
         count = dataset[contact.count].values if contact.count else 1.0
-        power = np.abs(count * dataset[f"{name}.power_loss"].values) * steps
-        error = dataset[f"{name}.error_friction"].values
-        lost, erred = lost + float(power.sum()), erred + float((power * error).sum())
-    return erred / lost if lost else float("nan")
+        found.append((name, np.abs(count * dataset[f"{name}.power_loss"].values) * steps))
+    return found
 
 
 def _stated(assembly: Assembly, dataset: xr.Dataset) -> list[str]:

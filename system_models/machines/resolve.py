@@ -16,12 +16,13 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from contact_core import ContactError, ContactState, OperatingPoint, Outputs, RangeFlag, advance, initial_state
+from contact_core.correction import Place, pair_of, place
 from contact_core.quantities import LEVELS
-from contact_core.scene import Scene, tunables, with_values
+from contact_core.scene import Case, Scene, tunables, with_values
 
-from .assembly import Assembly
+from .assembly import Assembly, Contact
 
-FAST, DEEP = LEVELS
+FAST, DEEP = LEVELS[:2]
 _IDLE = 0.1  # of the mean load and speed
 _ENOUGH = 5  # states needed to judge a machine
 _TRIES = 3  # contacts at a time
@@ -40,6 +41,8 @@ class Resolved:
     deep: Outputs | None  # None: there is no solution
     replayed: float  # relative deviation of the regression level from the run's row
     reason: str = ""
+    pair: str = ""  # of surfaces
+    place: Place | None = None
 
     def deviation(self, name: str) -> float:
         """Return the deviation of the regression level, relative to its own value."""
@@ -124,7 +127,13 @@ def solved_again(assembly: Assembly, dataset: xr.Dataset, contact: str, row: int
         _, deep = advance(replay.scene.at_level(DEEP), replay.point, replay.state, 0.0)
     except ContactError as error:
         reason = str(error)
-    return Resolved(contact, row, time, replay.fast, deep, replay.off, reason)
+    pair, where = pair_of(replay.scene), place_at(Case.bind(replay.scene, replay.point), replay.fast)
+    return Resolved(contact, row, time, replay.fast, deep, replay.off, reason, pair, where)
+
+
+def place_at(case: Case, fast: Outputs) -> Place:
+    """Return the place of a contact for the correction of the regression level."""
+    return place(vars(fast), case.op.load, case.speeds, case.pressed)
 
 
 def _spread(assembly: Assembly, dataset: xr.Dataset, count: int) -> list[str]:
@@ -169,12 +178,17 @@ def _replayed(assembly: Assembly, dataset: xr.Dataset, name: str, last: int) -> 
     return min((_led(assembly, dataset, name, last, share) for share in (0.0, 1.0, 0.5)), key=lambda replay: replay.off)
 
 
-def _led(assembly: Assembly, dataset: xr.Dataset, name: str, last: int, begin: float) -> _Replay:
-    contact = assembly.contacts[name]
+def started(contact: Contact) -> tuple[Scene, OperatingPoint]:
+    """Return the scene of a contact with its parameters at the regression level, and its inputs at the start."""
     numbers = {key: value for key, value in contact.parameters.items() if key in tunables(contact.scene)}
     scene = with_values(contact.scene, numbers).at_level(FAST)  # type: ignore[arg-type]
     names = {*OperatingPoint.__dataclass_fields__}
-    start = replace(scene.operation.point, **{k: v for k, v in contact.parameters.items() if k in names})  # type: ignore[arg-type]
+    inputs: dict[str, Any] = {key: value for key, value in contact.parameters.items() if key in names}
+    return scene, replace(scene.operation.point, **inputs)
+
+
+def _led(assembly: Assembly, dataset: xr.Dataset, name: str, last: int, begin: float) -> _Replay:
+    scene, start = started(assembly.contacts[name])
     recorded = {key: dataset[f"{name}.{key}"].values for key in assembly.inputs_of(name)}
     columns = {key: begin * np.roll(values, 1) + (1.0 - begin) * values for key, values in recorded.items()}
     times = dataset["time"].values

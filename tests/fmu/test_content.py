@@ -34,7 +34,7 @@ from fmu_src.runtime.slave import ContactSlave
 from fmu_src.variables import variables
 
 ROOT = Path(__file__).parents[2]
-REQUIRED = {"deterministic": {"points": 65, "domain": 1e-3, "floor": 1e-9}, "regression": {}}
+REQUIRED = {"deterministic": {"points": 65, "domain": 1e-3, "floor": 1e-9}, "regression": {}, "auto": {}}
 OTHERS = {  # laws that the shipped scenes do not use
     "lubricant.set": "m100",
     "lubricant.rheology": "carreau",

@@ -16,7 +16,7 @@ from contact_core import RangeFlag, advance, initial_state
 from contact_core.quantities import LEVELS, OUTPUTS
 from fmu_src.package.build import build
 
-FAST, FULL = 1, 2
+FAST, FULL, AUTO = 1, 2, 3
 UP_AND_DOWN = [(60.0, FULL), (30.0, FAST), (300.0, FAST), (60.0, FULL), (5.0, FAST)]
 FIELDS = {q.name for q in OUTPUTS if "regression" not in q.levels}
 
@@ -97,11 +97,11 @@ def test_a_state_between_two_levels_goes_on_in_another_process(stepped, folder, 
     assert json.loads(run.stdout) == replay(stepped, file.read_bytes(), steps)
 
 
-@pytest.mark.parametrize("fidelity", [0, 3, -1])
+@pytest.mark.parametrize("fidelity", [0, 4, -1])
 def test_a_level_that_there_is_not_is_refused_and_the_next_good_one_recovers(stepped, fidelity):
     before = stepped.outputs()
     assert stepped.step(60.0, fidelity=fidelity) == before | {"valid": False}
-    assert stepped.log[0][1] == f"fidelity = {fidelity} must be 1 (regression) or 2 (deterministic)."
+    assert stepped.log[0][1] == f"fidelity = {fidelity} must be 1 (regression) or 2 (deterministic) or 3 (auto)."
     assert stepped.step(60.0, fidelity=FULL)["valid"]
 
 
@@ -140,12 +140,12 @@ def test_the_fmu_of_a_fast_scene_has_both_levels_and_the_outputs_of_its_own(quic
 def test_fidelity_is_tunable_and_starts_at_the_level_of_the_scene(host):
     variable = host.variables["fidelity"]
     assert (variable.type, variable.causality, variable.variability) == ("Integer", "parameter", "tunable")
-    assert (int(variable.start), int(variable.min), int(variable.max)) == (FULL, FAST, FULL)
+    assert (int(variable.start), int(variable.min), int(variable.max)) == (FULL, FAST, AUTO)
     assert host.get("fidelity_used") == 0
 
 
 def test_a_line_changes_level_like_the_core_and_rolls_back(line_folder, line_scene):
-    steps = [(5.0, FULL), (10.0, FAST), (5.0, FULL)]
+    steps = [(5.0, FULL), (10.0, FAST), (5.0, AUTO), (5.0, FULL)]
     expected = core_rows(line_scene, [(0.0, FULL), *steps])[1:]
     with hosted(line_folder) as host:
         host.initialise()
@@ -155,7 +155,8 @@ def test_a_line_changes_level_like_the_core_and_rolls_back(line_folder, line_sce
         host.time = start
         assert [host.step(dt, fidelity=fidelity) for dt, fidelity in steps] == rows
         host.fmu.freeFMUstate(handle)
-    for i in (0, 2):
+    for i in (0, 3):
         assert bits(rows[i]) == bits({name: expected[i][name] for name in bits(rows[i])})
     fast = {name for name in bits(rows[1]) if name not in FIELDS and name != "range_flags"}
-    assert {name: rows[1][name] for name in fast} == {name: expected[1][name] for name in fast}
+    for i in (1, 2):
+        assert {name: rows[i][name] for name in fast} == {name: expected[i][name] for name in fast}

@@ -14,6 +14,8 @@ from .markup import bullets, number, paragraph, plain, table
 
 _CELSIUS = 273.15  # K
 
+_MEASURED = {"auto": "regression"}  # level whose measured errors and costs are those of its steps without a block
+
 
 def _numbers(factor: float, values: Iterable[float], unit: str) -> str:
     return ", ".join(number(factor * value) for value in values) + f" {unit}"
@@ -160,7 +162,7 @@ def errors(scene: Scene) -> Iterator[str]:
         "error_load_ratio is that of contact_load_ratio, absolute. " + LEVELS[scene.film.name].errors
     )
     yield paragraph("Measured errors, and the command of the repository that measures them:")
-    for found in measured.ERRORS[scene.film.name]:
+    for found in measured.ERRORS[_MEASURED.get(scene.film.name, scene.film.name)]:
         yield _measured(found)
 
 
@@ -179,4 +181,4 @@ def steps(scene: Scene) -> Iterator[str]:
         "may differ in length; any length is allowed, zero too."
     )
     yield paragraph(LEVELS[scene.film.name].steps(scene))
-    yield _measured(measured.COSTS[scene.film.name])
+    yield _measured(measured.COSTS[_MEASURED.get(scene.film.name, scene.film.name)])

@@ -110,4 +110,15 @@ LEVELS = {
         "wide, which is assumed.",
         _steps_in_closed_form,
     ),
+    "auto": LevelText(
+        lambda scene: (
+            "means of both surfaces as at the regression level, corrected by deterministic blocks that are "
+            "solved where friction or film would be less sure than control.accuracy, 10 % without it."
+        ),
+        lambda scene: iter(()),
+        _fitted_ranges,
+        "The derivatives of friction_force are total.",
+        "They come from the fit of the regression level, and are narrower near the blocks that are solved.",
+        _steps_in_closed_form,
+    ),
 }

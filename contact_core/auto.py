@@ -1,0 +1,175 @@
+"""The level `auto`: the regression level, corrected by deterministic blocks where its errors exceed the accuracy.
+
+A step is that of the regression level. If its friction or film is less sure at the end than `control.accuracy` (10 %
+where a scene asks for none), the contact is solved there for one block on patches brought up to date, the state keeps
+what it deviates by (`contact_core.correction`), and the step is taken again from its beginning. Friction, film, W_c and
+what follows from them, wear and exposure, are corrected from then on. A place near one that is solved is not solved
+again: what is left of the error is stated, and `RangeFlag.UNSURE` raised.
+"""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import deterministic, regression
+from .correction import (
+    ABSOLUTE,
+    CORRECTED,
+    CORRELATIONS,
+    Conditioned,
+    Conditioner,
+    Knots,
+    Place,
+    knots,
+    nearness,
+    place,
+)
+from .errors import ContactError
+from .regression.contact import MeanContact
+from .regression.outputs import half_widths
+from .scene import Case, Scene
+from .state import ContactState, Error, Outputs, RangeFlag, Solved, changed, flag_of_errors
+
+ACCURACY = 0.1  # of a scene that asks for none
+MOST = 64  # blocks that a state keeps
+_NEAR = 0.9  # correlation with a solved place, from which on another block would tell nothing new
+_UNSURE = RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK | RangeFlag.DOMAIN_EDGE
+_ASKED = ("error_friction", "error_film")
+_PLACE = len(Place._fields)
+_NOWHERE = np.empty((0, _PLACE + 2 * len(CORRECTED)))
+
+
+def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
+    """Return the state and outputs after `dt` [s], with one deterministic block at most."""
+    corrector = _Corrector(case, state.solved)
+    after, outputs = regression.advance(case, state, dt, corrector.corrected)
+    if corrector.asks:
+        solved, counted = _block(case, after, corrector)
+        state = changed(state, solved=solved, outputs=changed(state.outputs, **counted))
+        corrector = _Corrector(case, solved)
+        after, outputs = regression.advance(case, state, dt, corrector.corrected)
+    outputs = corrector.stated(outputs)
+    return changed(after, outputs=outputs), outputs
+
+
+def warm_up(case: Case, state: ContactState) -> None:
+    """Load what the first steps of both levels need."""
+    regression.warm_up(case, state)
+    deterministic.warm_up(_deep(case), state)
+
+
+def errors_of(scene: Scene, state: ContactState) -> dict[str, Error]:
+    """Return the errors of the outputs by name, each in the unit of its output."""
+    return regression.errors_of(scene, state)
+
+
+class _Corrector:
+    """Corrects the contacts of a step, and keeps what the regression level says of the last one."""
+
+    def __init__(self, case: Case, solved: Solved | None) -> None:
+        self.rows = solved.rows if solved is not None else _NOWHERE
+        self.raw: dict[str, Any] = {}
+        self.place = Place(*(np.nan,) * _PLACE)
+        self.told: dict[str, Any] = {}
+        self._conditioner = _conditioner(solved) if solved is not None else None
+        control = case.scene.control
+        self._smooth = case.scene.surface_1.smooth and case.scene.surface_2.smooth
+        self._accuracy = ACCURACY if control.accuracy is None else control.accuracy
+        self._flagged = _ASKED if control.accuracy is None else tuple(CORRECTED.values())
+
+    def corrected(self, case: Case, contact: MeanContact) -> MeanContact:
+        """Return a contact of the regression level, corrected; the same one if nothing is known."""
+        errors, force = half_widths(case, contact), contact.solid + contact.fluid
+        self.raw = {}
+        if not errors or contact.sigma == 0.0 or self._smooth:
+            return contact
+        self.raw = errors | {
+            "friction_coefficient": abs(force) / case.op.load,
+            "friction_force": force,
+            "friction_solid": contact.solid,
+            "h_c": contact.gap,
+            "lambda_ratio": contact.gap / contact.sigma,
+            "contact_load_ratio": contact.load_ratio,
+        }
+        self.place, self.told = place(self.raw, case.op.load, case.speeds, case.pressed), self.raw
+        if self._conditioner is None:
+            return contact
+        found = self._conditioner.at(_OWN, np.array([self.place], np.float64))
+        told = Conditioned(found.mean[0], found.left[0]).of(self.raw)
+        self.told = self.raw | {name: float(value) for name, value in told.items()}
+        return self._amended(contact)
+
+    def _amended(self, contact: MeanContact) -> MeanContact:
+        raw, told = self.raw, self.told
+        friction = told["friction_coefficient"] / raw["friction_coefficient"]
+        share = told[ABSOLUTE] / raw[ABSOLUTE] if raw[ABSOLUTE] > 0.0 else 1.0
+        by_speed_1, by_speed_2, by_load, by_temperature = (friction * value for value in contact.derivatives)
+        return contact._replace(
+            gap=told["h_c"],
+            load_ratio=told[ABSOLUTE],
+            area_ratio=share * contact.area_ratio,
+            solid=friction * contact.solid,
+            fluid=friction * contact.fluid,
+            derivatives=(by_speed_1, by_speed_2, by_load, by_temperature),
+            power=friction * contact.power,
+            into_1=friction * contact.into_1,
+            spin_torque=friction * contact.spin_torque,
+        )
+
+    @property
+    def asks(self) -> bool:
+        """True if a block would make friction or film surer, and they are not sure enough."""
+        if not self.raw or max(self.told[name] for name in _ASKED) <= self._accuracy or len(self.rows) >= MOST:
+            return False
+        here = np.array([self.place], np.float64)
+        near = nearness(CORRELATIONS["friction_coefficient"], here, self.rows[:, :_PLACE])
+        return bool(np.isfinite(here).all() and not (near > _NEAR).any())
+
+    def stated(self, outputs: Outputs) -> Outputs:
+        """Return the outputs with the errors that are left."""
+        if not self.raw:
+            return outputs
+        errors = {name: self.told[name] for name in CORRECTED.values()}
+        if self._conditioner is not None:
+            wear, load = CORRECTED[ABSOLUTE], self.told[ABSOLUTE]
+            narrower = errors[wear] / self.raw[wear] if self.raw[wear] > 0.0 else 1.0
+            share = self.raw[ABSOLUTE] / load if load > 0.0 else 1.0
+            errors["error_wear"] = self.raw["error_wear"] * min(narrower * share, 1.0)
+        flag = flag_of_errors({name: errors[name] for name in self._flagged}, self._accuracy)
+        return changed(outputs, **errors, range_flags=outputs.range_flags & ~int(RangeFlag.UNSURE) | int(flag))
+
+
+_OWN = np.array([""], object)  # all solutions of a state are of its one pair of surfaces
+
+
+def _conditioner(solved: Solved) -> Conditioner:
+    """Return the solutions of a state, solved for; made once and kept with them."""
+    kept: Conditioner | None = vars(solved).get("_conditioner")
+    if kept is None:
+        places, off, own = np.split(solved.rows, [_PLACE, _PLACE + len(CORRECTED)], axis=1)
+        kept = Conditioner(Knots(np.full(len(places), "", object), places, off, own))
+        vars(solved)["_conditioner"] = kept
+    return kept
+
+
+def _block(case: Case, state: ContactState, corrector: _Corrector) -> tuple[Solved, dict[str, Any]]:
+    """Return the solutions with that of a state, and the counters of blocks.
+
+    One that fails or has not converged tells nothing but that its place is tried.
+    """
+    try:
+        found: Outputs | None = deterministic.advance(_deep(case), state, 0.0)[1]
+    except ContactError:
+        found = None
+    deep = vars(found) if found is not None and not RangeFlag(found.range_flags) & _UNSURE else None
+    knot = knots([""], [corrector.place], [corrector.raw], [deep])
+    row: NDArray[np.float64] = np.concatenate([knot.places, knot.off, knot.own], axis=1)
+    names = ("blocks_dry", "blocks_mixed", "blocks_fallback")
+    counted = {name: getattr(found, name) for name in names} if found is not None else {}
+    return Solved(np.vstack([corrector.rows, row])), counted
+
+
+def _deep(case: Case) -> Case:
+    """Return the case at the deterministic level."""
+    return Case(case.scene.at_level("deterministic"), case.op)

@@ -1,0 +1,160 @@
+"""The level `auto`: as the regression level where it is sure enough, corrected by blocks where it is not."""
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from comparison import approx
+
+from contact_core import ContactState, OperatingPoint, Outputs, RangeFlag, Scene, advance, auto, initial_state
+from contact_core.errors import ConvergenceError
+from contact_core.scene import Case
+
+SMALL = {
+    "film.points": "17",
+    "surface_1.correlation_length": "32 um",
+    "surface_2.correlation_length": "32 um",
+    "film.model": "auto",
+    "control.accuracy": "10 %",
+}
+OFF = {
+    "friction_coefficient": 1.04,
+    "h_c": 0.93,
+    "contact_load_ratio": 1.02,
+}  # of the blocks, from the regression level
+
+
+def scene_of(**changes: str) -> Scene:
+    named = {name.replace("__", "."): value for name, value in changes.items()}
+    return Scene.from_toml("mtm_zddp", SMALL | named)
+
+
+@pytest.fixture
+def blocks(monkeypatch: pytest.MonkeyPatch) -> list[OperatingPoint]:
+    """Operating points of the blocks, which are the regression level's answer times OFF."""
+    solved = list[OperatingPoint]()
+
+    def block(case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
+        solved.append(case.op)
+        _, fast = advance(case.scene.at_level("regression"), case.op, state, dt)
+        off: dict[str, Any] = {name: factor * getattr(fast, name) for name, factor in OFF.items()}
+        sure = dict.fromkeys(("error_friction", "error_film", "error_load_ratio"), 0.001)
+        return state, replace(fast, **off, **sure, range_flags=0, blocks_mixed=fast.blocks_mixed + 1.0)
+
+    monkeypatch.setattr(auto.deterministic, "advance", block)
+    return solved
+
+
+def led(scene: Scene, steps: int, state: ContactState | None = None) -> tuple[ContactState, Outputs]:
+    state, out = state or initial_state(scene), Outputs()
+    for _ in range(steps):
+        state, out = advance(scene, scene.operation.point, state, 60.0)
+    return state, out
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"control__accuracy": "100 %"},
+        {f"surface_{i}__{name}": "0 m" for i in (1, 2) for name in ("rq", "microroughness.rms")},
+    ],
+    ids=["asks for little", "smooth"],
+)
+def test_without_a_need_no_block_is_solved_and_all_is_that_of_the_regression_level_to_the_bit(
+    changes: dict[str, str], blocks: list[OperatingPoint]
+) -> None:
+    scene = scene_of(**changes)
+    state, out = led(scene, 3)
+    fast, quick = led(scene.at_level("regression"), 3)
+    assert not blocks
+    assert out == quick
+    assert state.to_bytes() == fast.to_bytes()
+
+
+def test_a_block_corrects_the_place_and_narrows_its_errors(blocks: list[OperatingPoint]) -> None:
+    scene = scene_of()
+    _, out = led(scene, 1)
+    _, quick = led(scene.at_level("regression"), 1)
+    assert len(blocks) == 1
+    assert out.blocks_mixed == 1.0
+    for name, factor in OFF.items():
+        toward = (getattr(out, name) / getattr(quick, name) - 1.0) / (factor - 1.0)
+        assert 0.6 < toward < 1.05, name
+    for name in ("error_friction", "error_film", "error_load_ratio"):
+        assert getattr(out, name) < 0.7 * getattr(quick, name)
+    assert out.friction_force / quick.friction_force == approx(out.friction_coefficient / quick.friction_coefficient)
+    assert out.power_loss / quick.power_loss == approx(out.friction_coefficient / quick.friction_coefficient)
+    assert out.wear_rate_2 > quick.wear_rate_2
+
+
+def test_near_a_block_no_other_is_solved_and_far_from_it_one_is(blocks: list[OperatingPoint]) -> None:
+    scene = scene_of(control__accuracy="1 %")  # which one block cannot give
+    state, out = led(scene, 4)
+    assert len(blocks) == 1
+    assert RangeFlag.UNSURE in RangeFlag(out.range_flags)
+    faster = replace(scene.operation.point, speed_1=4.1, speed_2=3.9)
+    for _ in range(2):
+        state, _ = advance(scene, faster, state, 1.0)
+    assert len(blocks) == 2
+    assert blocks[1].speed_1 == 4.1
+
+
+def test_a_block_that_fails_is_not_tried_again_and_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    tried = list[float]()
+
+    def fails(case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
+        tried.append(dt)
+        raise ConvergenceError("none")
+
+    monkeypatch.setattr(auto.deterministic, "advance", fails)
+    scene = scene_of()
+    state, out = led(scene, 3)
+    _, quick = led(scene.at_level("regression"), 3)
+    assert tried == [0.0]
+    assert out.friction_coefficient == approx(quick.friction_coefficient, rel=1e-12)
+    assert out.error_friction == approx(quick.error_friction, rel=1e-12)
+    assert RangeFlag.UNSURE in RangeFlag(out.range_flags)
+    assert state.solved is not None
+
+
+def test_a_state_keeps_its_blocks_to_the_bit_through_bytes(blocks: list[OperatingPoint]) -> None:
+    scene = scene_of()
+    half, _ = led(scene, 2)
+    stored = half.to_bytes()
+    again = ContactState.from_bytes(stored, scene)
+    assert again.to_bytes() == stored
+    whole, out = led(scene, 3, half)
+    resumed, same = led(scene, 3, again)
+    assert len(blocks) == 1
+    assert same == out
+    assert resumed.to_bytes() == whole.to_bytes()
+
+
+def test_a_step_leaves_its_state_as_it_was(blocks: list[OperatingPoint]) -> None:
+    scene = scene_of()
+    state = initial_state(scene)
+    before = state.to_bytes()
+    first = led(scene, 1, state)[0].to_bytes()
+    assert state.to_bytes() == before
+    assert led(scene, 1, state)[0].to_bytes() == first
+    assert len(blocks) == 2  # going back forgets
+
+
+def test_no_more_blocks_than_a_state_may_keep(blocks: list[OperatingPoint], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(auto, "MOST", 2)
+    scene, state = scene_of(control__accuracy="1 %"), None
+    state = initial_state(scene)
+    for speed in (0.02, 0.2, 1.0, 4.0):
+        state, _ = advance(
+            scene, replace(scene.operation.point, speed_1=1.05 * speed, speed_2=0.95 * speed), state, 1.0
+        )
+    assert len(blocks) == 2
+
+
+def test_a_real_block_is_one_of_the_deterministic_level() -> None:
+    scene = scene_of()
+    state, out = advance(scene, scene.operation.point, initial_state(scene), 0.0)
+    _, deep = advance(scene.at_level("deterministic"), scene.operation.point, initial_state(scene), 0.0)
+    assert out.blocks_dry + out.blocks_mixed == 1.0
+    assert abs(out.friction_coefficient / deep.friction_coefficient - 1.0) < out.error_friction
+    assert state.solved is not None

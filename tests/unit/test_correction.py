@@ -1,0 +1,131 @@
+"""The regression level corrected by solved contacts."""
+
+import numpy as np
+import pytest
+from comparison import approx
+
+from contact_core.correction import (
+    CORRECTED,
+    CORRELATIONS,
+    NO_KNOTS,
+    Knots,
+    Place,
+    conditioned,
+    covariance,
+    knots,
+    place,
+)
+
+FAST = {
+    "friction_coefficient": 0.08, "h_c": 50e-9, "contact_load_ratio": 0.4,
+    "error_friction": 0.3, "error_film": 0.4, "error_load_ratio": 0.1,
+}  # fmt: skip
+DEEP = {
+    "friction_coefficient": 0.095, "h_c": 42e-9, "contact_load_ratio": 0.45,
+    "error_friction": 0.01, "error_film": 0.01, "error_load_ratio": 0.002,
+}  # fmt: skip
+HERE = Place(0.5, -1.0, -2.0, 0.4, -4.0)
+WIDE = 1.96
+SIZES = {"friction_coefficient": 0.08, "h_c": 50e-9, "contact_load_ratio": 1.0}  # that errors are relative to
+OUTPUTS = list(CORRECTED)
+
+
+def told(given: Knots, where: Place = HERE, pair: str = "a") -> dict[str, float]:
+    """What knots make of FAST at a place."""
+    found = conditioned(given, np.array([pair], object), np.array([where], float)).of(FAST)
+    return {name: float(np.squeeze(value)) for name, value in found.items()}
+
+
+def knot(pair: str = "a", **changes: float) -> Knots:
+    return knots([pair], [HERE], [FAST], [DEEP | changes])
+
+
+@pytest.mark.parametrize("name", OUTPUTS)
+def test_a_knot_is_reproduced_within_the_error_that_is_left(name: str) -> None:
+    """Of two knots with the same place and no error of their own, the nugget alone is left."""
+    law, error = CORRELATIONS[name], CORRECTED[name]
+    many = [knot(**dict.fromkeys(CORRECTED.values(), 0.0))] * 200
+    given = Knots(*(np.concatenate([getattr(one, part) for one in many]) for part in ("pairs", "places", "off", "own")))
+    found = told(given)
+    assert found[name] == approx(DEEP[name], rel=1e-3)
+    size = 1.0 if name == "contact_load_ratio" else found[name]
+    assert found[error] * size == approx(FAST[error] * SIZES[name] * law.wider * law.nugget**0.5, rel=0.02)
+    one = told(knot())
+    size = 1.0 if name == "contact_load_ratio" else one[name]
+    assert abs(one[name] - DEEP[name]) < one[error] * size < FAST[error] * SIZES[name]
+
+
+@pytest.mark.parametrize("name", OUTPUTS)
+def test_far_away_and_on_other_surfaces_the_regression_level_is_as_it_was(name: str) -> None:
+    far = Place(*(np.array(HERE) + 1e3))
+    found = told(knot(), far, "b")
+    assert found[name] == approx(FAST[name], rel=1e-12)
+    assert found[CORRECTED[name]] == approx(FAST[CORRECTED[name]], rel=1e-12)
+    near = [told(knot(), HERE, pair) for pair in ("a", "b")]
+    same, other = (each[CORRECTED[name]] * (1.0 if SIZES[name] == 1.0 else each[name]) for each in near)
+    assert same < other <= FAST[CORRECTED[name]] * SIZES[name]
+
+
+def test_without_knots_nothing_changes_to_the_bit() -> None:
+    found = told(NO_KNOTS)
+    assert {name: found[name] for name in FAST} == FAST
+
+
+def test_what_is_not_known_tells_nothing() -> None:
+    """No solution, or a regression level that states no error, or a place without a load."""
+    unknown = knots(["a"], [HERE], [FAST], [None])
+    assert told(unknown) == told(NO_KNOTS)
+    sure = knots(["a"], [HERE], [FAST | {"error_film": 0.0}], [DEEP])
+    assert told(sure)["h_c"] == FAST["h_c"]
+    assert told(sure)["friction_coefficient"] > FAST["friction_coefficient"]
+    unloaded = place(FAST | {"lambda_ratio": 1.0, "friction_force": 0.0, "friction_solid": 0.0}, 0.0, (1.0, 0.5), 0.0)
+    assert told(knot(), unloaded) == told(NO_KNOTS)
+
+
+def test_half_widths_never_grow_with_more_knots() -> None:
+    draw = np.random.default_rng(1)
+    places, off = draw.normal(0.0, 2.0, (30, 5)), draw.normal(0.0, 3.0, (30, 3))
+    at, pair = draw.normal(0.0, 2.0, (50, 5)), np.full(50, "a", object)
+    before = np.ones((50, 3))
+    for count in (1, 5, 15, 30):
+        pairs = np.array(["a", "b"] * 15, object)[:count]
+        given = Knots(pairs, places[:count], off[:count], np.full((count, 3), 0.1))
+        left = conditioned(given, pair, at).left
+        assert (left <= before + 1e-12).all()
+        before = left
+    assert (before < 0.99).any()
+
+
+def test_a_knot_is_left_out() -> None:
+    given = knots(["a", "b"], [HERE, HERE], [FAST, FAST], [DEEP, None])
+    assert given.but(1).pairs.tolist() == ["a"]
+    assert given.but(0).count == 1
+    assert told(given.but(0)) == told(NO_KNOTS)
+
+
+def drawn(count: int, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Pairs, places and deviations over half widths of friction, as the correlation has them."""
+    draw, law = np.random.default_rng(seed), CORRELATIONS["friction_coefficient"]
+    places = draw.normal(0.0, 0.6, (count, 5)) * np.array(law.lengths)
+    pairs = np.array([f"{k % 3}" for k in range(count)], object)
+    whole = covariance(law, pairs, places, pairs, places) + law.nugget * np.eye(count)
+    return pairs, places, np.linalg.cholesky(whole) @ draw.normal(0.0, 1.0 / WIDE, count)
+
+
+@pytest.mark.parametrize(("part", "least", "most"), [(1.0, 0.93, 0.97), (0.1, 0.0, 0.25)])
+def test_half_widths_cover_19_in_20_of_synthetic_truths_and_not_if_they_were_a_tenth(
+    part: float, least: float, most: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    exact = CORRELATIONS["friction_coefficient"]._replace(wider=1.0)  # these truths have no long tails
+    monkeypatch.setitem(CORRELATIONS, "friction_coefficient", exact)
+    covered, lefts = list[bool](), list[float]()
+    for seed in range(40):
+        pairs, places, off = drawn(60, seed)
+        known = np.full((12, 3), np.nan)
+        known[:, 0] = off[:12]
+        given = Knots(pairs[:12], places[:12], known, np.zeros((12, 3)))
+        found = conditioned(given, pairs[12:], places[12:])
+        covered += (np.abs(off[12:] - found.mean[:, 0]) <= part * found.left[:, 0]).tolist()
+        lefts += found.left[:, 0].tolist()
+    assert least <= np.mean(covered) <= most
+    assert np.median(lefts) < 0.9
