@@ -82,7 +82,7 @@ class _Corrector:
         """Return a contact of the regression level, corrected; the same one if nothing is known."""
         errors, force = half_widths(case, contact), contact.solid + contact.fluid
         self.raw = {}
-        if not errors or contact.sigma == 0.0 or self._smooth:
+        if force == 0.0 or not case.loaded or contact.sigma == 0.0 or self._smooth:
             return contact
         self.raw = errors | {
             "friction_coefficient": abs(force) / case.op.load,
@@ -135,7 +135,7 @@ class _Corrector:
             wear, load = CORRECTED[ABSOLUTE], self.told[ABSOLUTE]
             narrower = errors[wear] / self.raw[wear] if self.raw[wear] > 0.0 else 1.0
             share = self.raw[ABSOLUTE] / load if load > 0.0 else 1.0
-            errors["error_wear"] = self.raw["error_wear"] * min(narrower * share, 1.0)
+            errors["error_wear"] = outputs.error_wear * min(narrower * share, 1.0)
         flag = flag_of_errors({name: errors[name] for name in self._flagged}, self._accuracy)
         return changed(outputs, **errors, range_flags=outputs.range_flags & ~int(RangeFlag.UNSURE) | int(flag))
 

@@ -35,6 +35,8 @@ def outputs_of(
     hot_1, hot_2 = case.op.bodies
     first, second = means
     longest, errors = _LONGEST * case.scene.operation.duration, half_widths(case, contact)
+    films = max(first.growth - first.removal, 0.0), max(second.growth - second.removal, 0.0)
+    errors |= _of_history(before, films, means, errors)
     return changed(
         _BLANK,
         friction_force=force,
@@ -56,8 +58,8 @@ def outputs_of(
         h_c=contact.gap,
         h_central=contact.gap,
         lambda_ratio=_lambda_ratio(case, contact),
-        tribofilm_1=max(first.growth - first.removal, 0.0),
-        tribofilm_2=max(second.growth - second.removal, 0.0),
+        tribofilm_1=films[0],
+        tribofilm_2=films[1],
         tribofilm_roughness_1=tribofilms[0].roughness,
         tribofilm_roughness_2=tribofilms[1].roughness,
         roughness_1=tribofilms[0].both,
@@ -115,14 +117,17 @@ def _fitted(case: Case, contact: MeanContact) -> bool:
 
 
 def half_widths(case: Case, contact: MeanContact) -> dict[str, Any]:
-    """Return the half widths (95 %) of the errors by the fit, relative.
+    """Return the half widths (95 %) of the errors by the fit, relative, of contact_load_ratio absolute.
 
     Friction is wrong where load carried by oil is attributed to solids, and by the oil's own friction, but never by
-    more than if solids carried all.
+    more than if solids carried all. Those of tribofilms and wear are of what grows and wears now. Without load the
+    gap is that of bodies that just touch: nothing is known of it.
     """
+    if not case.loaded:
+        return dict.fromkeys(("error_friction", "error_load_ratio", "error_tribofilm", "error_wear"), 0.0) | {
+            "error_film": 1.0
+        }
     force, share = abs(contact.solid + contact.fluid), contact.load_ratio
-    if force == 0.0:
-        return {}
     sharing = regression_film(case.scene).sharing
     widths, clearance = sharing.WIDTHS, contact.fit.clearance
     beyond = 1.0 if _fitted(case, contact) else _BEYOND
@@ -132,16 +137,31 @@ def half_widths(case: Case, contact: MeanContact) -> dict[str, Any]:
     oil = beyond * widths.of_oil(clearance, contact.oil_slope)  # rubbing changes what touches, not how oil shears
     solid = abs(contact.solid) / share if share > 0.0 else case.scene.boundary_friction.bare * case.op.load
     fluid = abs(contact.fluid) / (1.0 - share) if share < 1.0 else 0.0
-    friction = math.hypot(abs(solid - fluid) * load, abs(contact.fluid) * oil) / force
+    friction = math.hypot(abs(solid - fluid) * load, abs(contact.fluid) * oil)
     wear = min(load / share, _UNKNOWN) if share > 0.0 else _UNKNOWN * bare
     exposed = min(math.hypot(beyond * _exposure_error(sharing), wear), _UNKNOWN)
     return {
-        "error_friction": min(friction, max(solid / force, 1.0)),
+        "error_friction": min(friction / force, max(solid / force, 1.0)) if force > 0.0 else 0.0,
         "error_film": min(wider * widths.of_film(clearance), 1.0),
         "error_load_ratio": min(load, 1.0),
         "error_tribofilm": _LOCAL if case.scene.tribofilm.abrades else exposed,
         "error_wear": wear,
     }
+
+
+def _of_history(before: Outputs, films: tuple[float, float], means: Means, now: dict[str, Any]) -> dict[str, float]:
+    """Return the errors of tribofilms and wear: those of what was there and of what came, by their amounts."""
+    grown = abs(films[0] - before.tribofilm_1) + abs(films[1] - before.tribofilm_2)
+    worn = max(means[0].wear - before.wear_depth_1 + means[1].wear - before.wear_depth_2, 0.0)
+    held, depth = before.tribofilm_1 + before.tribofilm_2, before.wear_depth_1 + before.wear_depth_2
+    return {
+        "error_tribofilm": _mean_error(before.error_tribofilm, held, now["error_tribofilm"], grown),
+        "error_wear": _mean_error(before.error_wear, depth, now["error_wear"], worn),
+    }
+
+
+def _mean_error(before: float, held: float, now: float, made: float) -> float:
+    return (before * held + now * made) / (held + made) if held + made > 0.0 else now
 
 
 def errors_of(scene: Scene, state: ContactState) -> dict[str, Error]:

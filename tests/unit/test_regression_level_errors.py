@@ -153,3 +153,33 @@ def test_the_oil_of_lines_within_the_fit_rubs_as_much_as_it_should_on_average(ro
     assert len(off) > 4
     assert abs(np.mean(off)) < 0.15
     assert np.abs(off).max() < np.log(2.0)
+
+
+@pytest.mark.parametrize(
+    "pause", [{"speed_1": 0.1, "speed_2": 0.1}, {"load": 0.0}, {"speed_1": 3.0, "speed_2": 2.9}], ids=str
+)
+def test_a_second_at_another_point_does_not_change_the_errors_of_what_has_grown_and_worn(pause):
+    scene = Scene.from_toml("mtm_zddp").at_level("regression")
+    state, long = advance(scene, scene.operation.point, initial_state(scene), 1200.0)
+    _, after = advance(scene, replace(scene.operation.point, **pause), state, 1.0)
+    assert long.error_wear > 0.1
+    for name in ("error_wear", "error_tribofilm"):
+        assert getattr(after, name) == approx(getattr(long, name), rel=0.02), name
+
+
+def test_bodies_that_roll_have_errors_of_film_and_load_and_none_of_friction():
+    scene = Scene.from_toml("mtm_zddp").at_level("regression")
+    point, state = replace(scene.operation.point, speed_1=0.1, speed_2=0.1), initial_state(scene)
+    _, rolling = advance(scene, point, state, 0.0)
+    _, sliding = advance(scene, replace(point, speed_2=0.1 + 1e-9), state, 0.0)
+    assert rolling.friction_force == rolling.error_friction == 0.0
+    for name in ("error_film", "error_load_ratio"):
+        assert getattr(sliding, name) > 0.05, name
+        assert getattr(rolling, name) == approx(getattr(sliding, name), rel=1e-6), name
+
+
+def test_nothing_is_known_of_the_gap_of_bodies_without_load():
+    scene = Scene.from_toml("mtm_zddp").at_level("regression")
+    _, found = advance(scene, replace(scene.operation.point, load=0.0), initial_state(scene), 0.0)
+    assert found.error_film == 1.0
+    assert found.range_flags & RangeFlag.UNSURE
