@@ -55,7 +55,7 @@ def test_a_machine_runs_from_one_command(rig: list[str], capsys: pytest.CaptureF
     code = main(rig)
     out = capsys.readouterr().out
     folder = Path("results/mtm_rig")
-    for name in ("result.nc", "result.csv", "resolved.nc", "overview.png"):
+    for name in ("result.nc", "result.csv", "resolved.nc", "corrected.nc", "overview.png"):
         assert str(folder / name) in out
         assert (folder / name).stat().st_size > 1000
     assert not list(folder.glob("checkpoint*"))
@@ -71,6 +71,7 @@ def test_a_machine_runs_from_one_command(rig: list[str], capsys: pytest.CaptureF
     assert dataset["contact.tribofilm_1"].values[-1] > 0.0
     assert "Friction in the sweeps" in out
     assert "0.03 m/s" in out
+    assert "Each state corrected by the others:" in out
     assert "Contact solutions, with those of steps tried or repeated" in out
 
 
