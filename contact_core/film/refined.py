@@ -183,7 +183,7 @@ def _warnings(request: Request, best: Solved, errors: dict[str, float], failed: 
         why = "no finer grid gave a converged solution"
     else:
         why = f"{failed} grids in a row gave no converged solution, and finer ones were not tried"
-    return (
-        f"accuracy = {request.accuracy:g} is not reached: the stated error on {ny} by {nx} nodes is "
-        f"{', '.join(missed)}; {why}.",
-    )
+    said = f"the stated error on {ny} by {nx} nodes is {', '.join(missed)}"
+    if not np.isfinite(list(stated.values())).any():
+        said = f"no error can be stated on {ny} by {nx} nodes"
+    return (f"accuracy = {request.accuracy:g} is not reached: {said}; {why}.",)

@@ -193,8 +193,10 @@ def test_an_accuracy_that_no_grid_reaches_is_told_with_what_was_reached():
 def test_a_film_that_does_not_converge_on_any_grid_is_told():
     found = rough_line(accuracy=0.05, iterations=1)
     assert not found.converged
-    assert any("accuracy = 0.05 is not reached" in line and "no finer grid gave" in line for line in found.warnings)
+    said = "accuracy = 0.05 is not reached: no error can be stated on"
+    assert any(said in line and "grids in a row gave no converged solution" in line for line in found.warnings)
     assert not any(step.converged for step in found.steps)
+    assert set(found.error_estimate.values()) == {np.inf}
 
 
 def test_the_domain_that_is_asked_for_is_kept():
