@@ -4,7 +4,8 @@ What the regression level deviates by, over the half width that it states, is ta
 (over 1.96^2). Part of it is common to all contacts of one pair of surfaces, part is smooth in `Place`, part is smooth
 on one pair of surfaces alone, and the rest, the nugget, is of each contact: the sampling of a deterministic block.
 Given its values in some places (`Knots`), mean and variance elsewhere follow. Far from all knots this is the regression
-level with its own half width; a half width never grows.
+level with its own half width; a half width never grows. Where the solutions deviate by more than their half widths say,
+what is left is wider by as much.
 
 The model: Kennedy & O'Hagan, Biometrika 87 (2000) 1, doi:10.1093/biomet/87.1.1, of one ratio. The constants:
 benchmarks/regression/correlation.py, docs/measured/regression/correlation.md.
@@ -31,6 +32,7 @@ CORRECTED = {  # output, and the output that states its error
 }
 ABSOLUTE = "contact_load_ratio"  # its error is in its unit, the others' are relative
 _NARROWEST = 1e-3  # half width from which on a deviation tells something
+_WIDE = 1.96  # standard deviations in a half width
 _LEAST = 0.05  # of the regression level's value, that is left of a corrected one
 _SLIP, _OIL, _THIN, _NONE = (
     0.1,
@@ -165,6 +167,7 @@ class _Known(NamedTuple):
     places: Array
     factor: tuple[Array, bool]
     weights: Array
+    wider: float  # factor on what is left
 
 
 class Conditioner:
@@ -182,7 +185,10 @@ class Conditioner:
         places, pairs = given.places[known], given.pairs[known]
         noise = law.nugget + given.own[known, output] ** 2
         factor = cho_factor(covariance(law, pairs, places, pairs, places) + np.diag(noise))
-        return _Known(law, pairs, places, factor, cho_solve(factor, given.off[known, output]))
+        off = given.off[known, output]
+        weights = cho_solve(factor, off)
+        surprise = _WIDE * math.sqrt(float(off @ weights) / len(off))  # one, if they deviate as their half widths say
+        return _Known(law, pairs, places, factor, weights, law.wider * max(surprise, 1.0))
 
     def at(self, pairs: NDArray[Any], places: Array) -> Conditioned:
         """Return what the knots say of places, [places, coordinates] on `pairs` of surfaces."""
@@ -194,7 +200,7 @@ class Conditioner:
             across = covariance(known.law, pairs[usable], places[usable], known.pairs, known.places)
             means[usable, k] = across @ known.weights
             told = np.einsum("ij,ji->i", across, cho_solve(known.factor, across.T))
-            lefts[usable, k] = np.minimum(known.law.wider * np.sqrt(np.clip(1.0 - told, 0.0, 1.0)), 1.0)
+            lefts[usable, k] = np.minimum(known.wider * np.sqrt(np.clip(1.0 - told, 0.0, 1.0)), 1.0)
         return Conditioned(means, lefts)
 
 

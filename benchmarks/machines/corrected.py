@@ -59,7 +59,7 @@ def solve(machine: str) -> None:
     file = KEPT / machine / "states.json"
     if not file.exists():
         states = resolve(assembly, dataset, lambda done: print(machine, done, flush=True), COUNT)
-        file.write_text(json.dumps([asdict(state) for state in states]))
+        file.write_text(json.dumps([asdict(state) for state in states], default=float))
 
 
 def states_of(machine: str) -> list[Resolved]:

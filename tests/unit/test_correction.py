@@ -84,7 +84,7 @@ def test_what_is_not_known_tells_nothing() -> None:
 
 def test_half_widths_never_grow_with_more_knots() -> None:
     draw = np.random.default_rng(1)
-    places, off = draw.normal(0.0, 2.0, (30, 5)), draw.normal(0.0, 3.0, (30, 3))
+    places, off = draw.normal(0.0, 2.0, (30, 5)), draw.normal(0.0, 0.1, (30, 3))
     at, pair = draw.normal(0.0, 2.0, (50, 5)), np.full(50, "a", object)
     before = np.ones((50, 3))
     for count in (1, 5, 15, 30):
@@ -94,6 +94,18 @@ def test_half_widths_never_grow_with_more_knots() -> None:
         assert (left <= before + 1e-12).all()
         before = left
     assert (before < 0.99).any()
+
+
+def test_solutions_that_deviate_by_more_than_was_stated_leave_more_but_no_more_than_was_stated() -> None:
+    draw = np.random.default_rng(2)
+    places, pairs = draw.normal(0.0, 0.3, (8, 5)), np.full(8, "a", object)
+    lefts = [
+        conditioned(Knots(pairs, places, off * draw.normal(0.0, 0.5, (8, 3)), np.zeros((8, 3))), pairs, places).left
+        for off in (0.1, 3.0, 100.0)
+    ]
+    assert (lefts[0] < lefts[1]).all()
+    assert (lefts[0] < 0.7).all()
+    assert (lefts[2] <= 1.0).all()
 
 
 def test_a_knot_is_left_out() -> None:
