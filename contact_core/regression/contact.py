@@ -91,7 +91,7 @@ def evaluate(case: Case, tribofilms: Tribofilms) -> MeanContact:
     turning = pull * slide - abs(forces[0] * op.sliding_speed)  # power that sliding leaves to spin
     return MeanContact(
         tribofilms,
-        surfaces.sigma,
+        composite_roughness(tribofilms),
         surfaces.cover,
         now.shares.fit,
         now.shares.gap,

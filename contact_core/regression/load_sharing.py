@@ -6,7 +6,7 @@ from typing import NamedTuple
 from ..laws.load_sharing import flattening_of, layer_height, rms_slope
 from ..scene import Case
 from .oil import Law
-from .surfaces import Tribofilms, composite_roughness, hardness_of, mean_cover, regression_film
+from .surfaces import Tribofilms, hardness_of, mean_cover, regression_film, unworn
 
 
 class Fit(NamedTuple):
@@ -26,7 +26,8 @@ UNFITTED = Fit(math.inf, math.inf, 0.0, 0.0, 0.0, 0.0)  # no load
 class Surfaces(NamedTuple):
     """Properties of the surfaces that friction and load sharing need at any operating point."""
 
-    sigma: float  # composite rms roughness [m]
+    sigma: float  # composite rms roughness as before wear, with tribofilms [m]
+    solid: float  # likewise, without them [m]
     cover: float  # mean cover of both bodies where they touch
     hardness: float  # where they touch [Pa]
     flattening: float  # per Hertz's largest pressure [1/Pa]
@@ -48,13 +49,16 @@ def surfaces_of(case: Case, tribofilms: Tribofilms) -> Surfaces:
     """Return the properties of the surfaces under their tribofilms."""
     scene, hertz, below = case.scene, case.unit_hertz, case.microroughness
     first, second = scene.surface_1, scene.surface_2
-    rough = rms_slope(tribofilms[0].both, first.length, tribofilms[1].both, second.length)
+    # wear that levels peaks leaves as many in contact: the load ratio is that of surfaces with their peaks
+    peaks = [unworn(film, side.surface.rms) for film, side in zip(tribofilms, case.sides, strict=True)]
+    rough = rms_slope(peaks[0], first.length, peaks[1], second.length)
     flattening = [
         flattening_of(hertz.mean_share, scene.solids.reduced_modulus, slope) if slope > 0.0 else math.inf
         for slope in (rough, below.slope if below else 0.0)
     ]
     return Surfaces(
-        sigma=composite_roughness(tribofilms),
+        sigma=math.hypot(*peaks),
+        solid=math.hypot(first.rms, second.rms),
         cover=mean_cover(scene, tribofilms),
         hardness=hardness_of(scene, tribofilms),
         flattening=flattening[0],
@@ -87,8 +91,9 @@ def shared(case: Case, surfaces: Surfaces, film: float, grown: tuple[float, floa
         flattening = sharing.nearest(flattening)
     density: Law = scene.lubricant.density
     share = sharing.load_ratio(clearance, fit.layers, flattening, below, slip, fit.pressed)
-    dense = clearance / float(density(hertz.mean_share * pressure))
-    gap = max(sigma * sharing.film_ratio(dense, share, flattening, surfaces.layer / sigma), floor)
+    rough = max(surfaces.solid, surfaces.layer)  # tribofilms fill what they part
+    dense = film / rough / float(density(hertz.mean_share * pressure))
+    gap = max(rough * sharing.film_ratio(dense, share, flattening, surfaces.layer / rough), floor)
     raised = sharing.oil_pressure(clearance, flattening, *case.shape.depths(film, half, wide * hertz.b))
     area = sharing.area_ratio(share, flattening, below)
     most = scene.plasticity.hardness / pressure  # no pressure is above the hardness

@@ -16,6 +16,7 @@ class Tribofilm(NamedTuple):
     thickness: float  # mean where there is one [m]
     roughness: float  # rms deviation of its thickness over the track [m]
     both: float  # rms roughness of solid and tribofilm [m]
+    raised: float  # by which it makes a rough solid rougher, see `_with_film` [m]
 
 
 Tribofilms = tuple[Tribofilm, Tribofilm]
@@ -31,16 +32,24 @@ def _tribofilm_of(mean: Mean) -> Tribofilm:
     """Return a tribofilm that lies evenly on the highest part of a track of Gaussian heights (assumed)."""
     share = mean.coverage
     if share == 0.0:
-        return Tribofilm(0.0, 0.0, mean.roughness)
+        return Tribofilm(0.0, 0.0, mean.roughness, 0.0)
     thickness = max(mean.growth - mean.removal, 0.0) / share
     apart = share * (1.0 - share)
     roughness = math.sqrt(apart) * thickness
     # the normal density at the height above which `share` of the heights lie, to 8 % from 2 to 98 %
     density = 0.3989 * (4.0 * apart) ** 0.8
-    heights = mean.roughness
-    return Tribofilm(
-        thickness, roughness, math.sqrt((heights + 2.0 * density * thickness) * heights + roughness * roughness)
-    )
+    raised = 2.0 * density * thickness
+    return Tribofilm(thickness, roughness, _with_film(mean.roughness, raised, roughness), raised)
+
+
+def _with_film(solid: float, raised: float, film: float) -> float:
+    """Return the rms roughness [m] of a solid under a tribofilm that lies on its highest part."""
+    return math.sqrt((solid + raised) * solid + film * film)
+
+
+def unworn(film: Tribofilm, rms: float) -> float:
+    """Return the rms roughness [m] of a solid of rms roughness `rms` [m] under a tribofilm."""
+    return _with_film(rms, film.raised, film.roughness)
 
 
 def composite_roughness(tribofilms: Tribofilms) -> float:
