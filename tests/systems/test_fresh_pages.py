@@ -18,8 +18,8 @@ OWED = {
     *("coupling/cost", "coupling/masters", "film/accuracy", "film/core_accuracy"),
     *("film/core_cost", "film/core_lambda", "film/error_estimate", "film/hard_cases"),
     *("film/peers", "fmu/endurance", "fmu/overhead", "friction/laws_cost"),
-    *("friction/traction", "machines/tolerance", "regression/cost", "regression/curves"),
-    *("regression/shapes", "surfaces/evolution", "surfaces/stribeck", "thesis/validation"),
+    *("friction/traction", "machines/tolerance", "regression/cost", "film/moving"),
+    *("film/two_hours", "surfaces/evolution", "surfaces/stribeck", "thesis/validation"),
 }
 
 
