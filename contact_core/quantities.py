@@ -16,6 +16,7 @@ Kind = Literal["Real", "Integer", "Boolean"]
 Trend = Literal["", "level", "slope", "rate"]
 
 LEVELS = ("regression", "deterministic", "auto")  # fidelity levels by number: 1, 2, 3
+UNSOLVED = frozenset(LEVELS[:1])  # levels that solve no contact: an accuracy chooses nothing there
 
 # What is measured in a unit, in the words of the Modelica standard library, where nothing else is said
 _MEASURED_IN = {

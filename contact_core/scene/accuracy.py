@@ -11,9 +11,9 @@ from dataclasses import fields, replace
 from typing import Any, TypeVar
 
 from ..errors import SceneError
-from ..film import Regression
 from ..film.grid_error import film_error, load_ratio_error
 from ..film.lengths import inlet_length
+from ..quantities import UNSOLVED
 from .checks import duty_points
 from .fields import ROOM, SceneFields
 from .operation import OperatingPoint
@@ -62,7 +62,7 @@ def planned(scene: Scene, open_fields: Collection[str]) -> Scene:
     accuracy = scene.control.accuracy
     if accuracy is None or not open_fields or not 0.0 < accuracy <= 1.0:  # what is out of range is refused later
         return scene
-    if scene.film.name == Regression.name:
+    if scene.film.name in UNSOLVED:
         return _for_patches(scene, open_fields)
     finer = _AT / accuracy
     values: dict[str, Any] = {

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from contact_core.errors import ContactError
-from contact_core.film import Regression
+from contact_core.quantities import UNSOLVED
 from contact_core.scene import Scene
 
 from ..machines import files
@@ -76,7 +76,7 @@ def chosen(scene: Scene) -> list[str]:
     accuracy, film, control = scene.control.accuracy, scene.film, scene.control
     if accuracy is None:
         return []
-    if film.name == Regression.name:
+    if film.name in UNSOLVED:
         return [f"Accuracy {100.0 * accuracy:g} %: larger stated errors are flagged; this level has nothing to choose."]
     return [
         f"Accuracy {100.0 * accuracy:g} %: {film.points} nodes over {1e3 * film.domain:.3g} mm, blocks of "
