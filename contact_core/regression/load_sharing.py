@@ -6,7 +6,7 @@ from typing import NamedTuple
 from ..laws.load_sharing import flattening_of, layer_height, rms_slope
 from ..scene import Case
 from .oil import Law
-from .surfaces import Tribofilms, hardness_of, mean_cover, regression_film, unworn
+from .surfaces import Tribofilms, hardness_of, mean_cover, peaks_of, regression_film, under_film
 
 
 class Fit(NamedTuple):
@@ -49,8 +49,9 @@ def surfaces_of(case: Case, tribofilms: Tribofilms) -> Surfaces:
     """Return the properties of the surfaces under their tribofilms."""
     scene, hertz, below = case.scene, case.unit_hertz, case.microroughness
     first, second = scene.surface_1, scene.surface_2
-    # wear that levels peaks leaves as many in contact: the load ratio is that of surfaces with their peaks
-    peaks = [unworn(film, side.surface.rms) for film, side in zip(tribofilms, case.sides, strict=True)]
+    # the load ratio is that of surfaces with the peaks that wear has left
+    solids = [peaks_of(film, side.surface.rms) for film, side in zip(tribofilms, case.sides, strict=True)]
+    peaks = [under_film(film, solid) for film, solid in zip(tribofilms, solids, strict=True)]
     rough = rms_slope(peaks[0], first.length, peaks[1], second.length)
     flattening = [
         flattening_of(hertz.mean_share, scene.solids.reduced_modulus, slope) if slope > 0.0 else math.inf
@@ -58,7 +59,7 @@ def surfaces_of(case: Case, tribofilms: Tribofilms) -> Surfaces:
     ]
     return Surfaces(
         sigma=math.hypot(*peaks),
-        solid=math.hypot(first.rms, second.rms),
+        solid=math.hypot(*solids),
         cover=mean_cover(scene, tribofilms),
         hardness=hardness_of(scene, tribofilms),
         flattening=flattening[0],

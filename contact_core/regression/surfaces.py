@@ -9,6 +9,8 @@ from ..state import Mean
 
 Means = tuple[Mean, Mean]
 
+_LEVELLED = 4.0  # roughness as new over that of worn solids, down to which as many peaks are in contact
+
 
 class Tribofilm(NamedTuple):
     """A body's tribofilm, and the roughness under and with it."""
@@ -17,6 +19,7 @@ class Tribofilm(NamedTuple):
     roughness: float  # rms deviation of its thickness over the track [m]
     both: float  # rms roughness of solid and tribofilm [m]
     raised: float  # by which it makes a rough solid rougher, see `_with_film` [m]
+    solid: float  # rms roughness of the solid [m]
 
 
 Tribofilms = tuple[Tribofilm, Tribofilm]
@@ -32,14 +35,15 @@ def _tribofilm_of(mean: Mean) -> Tribofilm:
     """Return a tribofilm that lies evenly on the highest part of a track of Gaussian heights (assumed)."""
     share = mean.coverage
     if share == 0.0:
-        return Tribofilm(0.0, 0.0, mean.roughness, 0.0)
+        return Tribofilm(0.0, 0.0, mean.roughness, 0.0, mean.roughness)
     thickness = max(mean.growth - mean.removal, 0.0) / share
     apart = share * (1.0 - share)
     roughness = math.sqrt(apart) * thickness
     # the normal density at the height above which `share` of the heights lie, to 8 % from 2 to 98 %
     density = 0.3989 * (4.0 * apart) ** 0.8
     raised = 2.0 * density * thickness
-    return Tribofilm(thickness, roughness, _with_film(mean.roughness, raised, roughness), raised)
+    both = _with_film(mean.roughness, raised, roughness)
+    return Tribofilm(thickness, roughness, both, raised, mean.roughness)
 
 
 def _with_film(solid: float, raised: float, film: float) -> float:
@@ -47,9 +51,18 @@ def _with_film(solid: float, raised: float, film: float) -> float:
     return math.sqrt((solid + raised) * solid + film * film)
 
 
-def unworn(film: Tribofilm, rms: float) -> float:
-    """Return the rms roughness [m] of a solid of rms roughness `rms` [m] under a tribofilm."""
-    return _with_film(rms, film.raised, film.roughness)
+def peaks_of(film: Tribofilm, rms: float) -> float:
+    """Return the rms roughness [m] of a solid of rms roughness `rms` [m] as new, by the peaks that wear leaves it.
+
+    Wear levels peaks, but as many stay in contact, solved down to a quarter of the roughness; with less left, it is
+    taken to fall in proportion.
+    """
+    return min(rms, _LEVELLED * film.solid)
+
+
+def under_film(film: Tribofilm, solid: float) -> float:
+    """Return the rms roughness [m] of a solid of rms roughness `solid` [m] under a tribofilm."""
+    return _with_film(solid, film.raised, film.roughness)
 
 
 def composite_roughness(tribofilms: Tribofilms) -> float:
