@@ -122,16 +122,18 @@ def _exposures(case: Case, fields: ContactFields) -> tuple[Array, Array]:
     """Return the exposure of both bodies on the grid, each at the temperature of its surface."""
     law, op = case.scene.tribofilm, case.op
     speed = fields.friction.slide if op.spin else op.sliding_speed
+    slipping = case.slipping(speed)
     warm_1, warm_2 = fields.temperatures.surface_1, fields.temperatures.surface_2
 
     def exposure(warm: Array | float) -> Array:
         if case.microroughness is None:
-            return law.exposure(fields.solid_pressure, fields.shear, speed, warm)
+            rubbed = np.where(fields.solid_pressure > 0.0, slipping, 1.0)
+            return rubbed * law.exposure(fields.solid_pressure, fields.shear, speed, warm)
         share = fields.touching  # of a node's area: there the solids' stresses are higher, beside it there are none
         closer = np.maximum(share, _LEAST_SHARE)
         shear = fields.oil_shear + fields.rubbing_shear / closer
         touching = law.exposure(fields.solid_pressure / closer, shear, speed, warm)
-        return share * touching + (1.0 - share) * law.exposure(np.zeros_like(share), fields.oil_shear, speed, warm)
+        return slipping * share * touching + (1.0 - share) * law.exposure(np.zeros_like(share), fields.oil_shear, speed, warm)
 
     first = exposure(warm_1)
     alike = warm_1 is warm_2 or (isinstance(warm_1, float) and isinstance(warm_2, float) and warm_1 == warm_2)

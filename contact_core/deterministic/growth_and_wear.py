@@ -59,7 +59,8 @@ def evolved(case: Case, side: Side, body: Body, step: float, flash: float) -> Bo
     """Return a body after `step` [s] of its last exposure; `flash` [K] above its bulk temperature."""
     law = case.scene.tribofilm
     abraded = body.abrasion * step if law.abrades else body.abrasion
-    growth, removal = law.evolve(body.growth, body.removal, body.exposure * step, abraded, side.temperature + flash)
+    exposed = np.minimum(body.exposure, law.most_exposure) * step
+    growth, removal = law.evolve(body.growth, body.removal, exposed, abraded, side.temperature + flash)
     film = 0.5 * (thickness(growth, removal) + body.tribofilm)
     worn = step * wear_speed(case, side, body, film)
     return replace(

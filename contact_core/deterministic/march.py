@@ -186,8 +186,10 @@ def _placed(bodies: Sequence[Body], state: ContactState) -> tuple[Body, Body]:
 
 def _evolved(scene: Scene, body: Body, sums: _Integrals, repeats: float, period: float) -> Body:
     """Return a body after `repeats` times the integrals over a period [s]."""
-    dose = sums.exposure * repeats, sums.abrasion * repeats
-    growth, removal = scene.tribofilm.evolve(body.growth, body.removal, *dose, sums.warmth / period)
+    law = scene.tribofilm
+    exposed = np.minimum(sums.exposure, law.most_exposure * period) * repeats
+    abraded = sums.abrasion * repeats
+    growth, removal = law.evolve(body.growth, body.removal, exposed, abraded, sums.warmth / period)
     return replace(
         body,
         growth=growth,

@@ -212,6 +212,10 @@ class Tribofilm(Law, Protocol):
     def dose(self) -> str:
         """Rule for the mean exposure of a pass, see `tribofilm.doses`."""
 
+    @property
+    def most_exposure(self) -> float:
+        """Largest exposure per test time that the supply of additive allows."""
+
     def exposure(self, solid_pressure: Numbers, shear: Numbers, sliding_speed: float, temperature: Numbers) -> Numbers:
         """Return the exposure of nodes under solid pressure and total |shear stress| [Pa], at a temperature [K]."""
 

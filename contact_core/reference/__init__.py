@@ -5,7 +5,7 @@
     line_films    film of smooth line contacts
     starvation    film of contacts that are short of oil
     sliders       pressure and cavitation of a rigid roller
-    rolling       rolling resistance of smooth contacts
+    rolling       rolling resistance of smooth contacts, slip of dry ones
     squeeze       rigid bodies that approach each other through oil
     profiles      of rollers
     oil           film factors for heat and shear of the oil
@@ -23,7 +23,7 @@ from .line_films import SmoothLine, dowson_line, line_film, moes_line, moes_line
 from .oil import bair_thinning_factor, inlet_shear_factor
 from .point_films import SmoothContact, chittenden, hamrock_dowson, moes_film, nijenbanning_venner_moes, nvm_film
 from .profiles import logarithmic_drop, lundberg_depth, rounded_drop
-from .rolling import rolling_line, rolling_point
+from .rolling import rolling_line, rolling_point, slipping_share
 from .sliders import ParabolicSlider
 from .squeeze import squeeze_line, squeeze_point, squeezed_line, squeezed_point
 from .starvation import film_behind_meniscus, supplied_film
@@ -60,6 +60,7 @@ __all__ = [
     "rolling_line",
     "rolling_point",
     "rounded_drop",
+    "slipping_share",
     "squeeze_line",
     "squeeze_point",
     "squeezed_line",

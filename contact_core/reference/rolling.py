@@ -1,4 +1,4 @@
-"""Rolling resistance in closed form: power loss of the oil's pressure flow in pure rolling."""
+"""Rolling in closed form: resistance by the oil's pressure flow, and how far dry bodies slip in contact."""
 
 import math
 
@@ -49,3 +49,16 @@ def rolling_point(
     rigid, elastic = 0.77 * beta ** (-1 / 3) * slim**0.12 * speed ** (-1 / 12), 1.8 * beta**-0.25
     share = (rigid - elastic) / (1.0 + stiffness / 6.6) + elastic
     return float(2.0 * hertz.b * reduced_modulus * radius_x * share * speed**0.75)
+
+
+def slipping_share(creep: float, friction: float, half_width: float, radius: float) -> float:
+    """Return the share of the contact's length in which dry bodies slip rather than stick, 0 to 1.
+
+    `creep` is the sliding speed over the speed of rolling. With q = mu p where they slip, a contact of half width a [m]
+    and combined radius R [m] slips on all of it from a creep of mu a / R on, and on the part creep R / (mu a) of it,
+    behind, below that; a circle has its widest strip.
+    Source: Carter 1926, doi:10.1098/rspa.1926.0100; strips: Haines & Ollerton 1963,
+    doi:10.1243/PIME_PROC_1963_177_014_02; Johnson, Contact Mechanics, 1985, section 8.3.
+    """
+    full = friction * half_width / radius
+    return min(abs(creep) / full, 1.0) if full > 0.0 else float(creep != 0.0)

@@ -27,7 +27,7 @@ def doses(case: Case, contact: MeanContact, means: Means) -> tuple[Dose, Dose]:
         return (means[0].coverage, 0.0), (means[1].coverage, 0.0)
     exposure: Law = case.scene.tribofilm.exposure
     warm = case.op.inlet_temperature + contact.rise
-    touching = _touching(case, contact, warm)
+    touching = case.slipping(contact.slide) * _touching(case, contact, warm)
     oiled = float(exposure(0.0, contact.fluid_shear, contact.slide, warm))
     first, second = (
         _dose(case, side, contact, mean, touching, oiled) for side, mean in zip(case.sides, means, strict=True)
@@ -62,7 +62,8 @@ def _dose(case: Case, side: Side, contact: MeanContact, mean: Mean, touching: fl
         chord=case.unit_hertz.chord_share,
         residence=_residence(case, side),
     )
-    return coverage, DOSES[case.scene.tribofilm.dose].mean(touching, oiled, passes) / coverage
+    law: Any = case.scene.tribofilm
+    return coverage, min(DOSES[law.dose].mean(touching, oiled, passes) / coverage, law.most_exposure)
 
 
 def _exposed(case: Case, side: Side, contact: MeanContact, mean: Mean) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from ..errors import OperatingPointError
 from ..film.instant import Grid
 from ..laws.asperity_layer import AsperityLayer
 from ..quantities import TABLE
-from ..reference import Hertz
+from ..reference import Hertz, slipping_share
 from ..shapes import Shape
 from ..shapes.base import Viscosity
 from .operation import OperatingPoint
@@ -139,6 +139,18 @@ class Case:
         given = [side.surface.microroughness for side in self.sides]
         rough = [layer for layer in given if layer is not None and layer.rms > 0.0]
         return reduce(AsperityLayer.beside, rough) if rough else None
+
+    def slipping(self, sliding_speed: float) -> float:
+        """Return the share of the contact's length in which solids slip rather than stick, at a sliding speed [m/s].
+
+        It is 1 but in near rolling, and 0 without sliding.
+        """
+        entrainment, hertz = abs(self.op.entrainment_speed), self.unit_hertz
+        if not self.loaded or sliding_speed == 0.0 or entrainment == 0.0:
+            return float(sliding_speed != 0.0)
+        half_width = hertz.a * hertz.growth(self.op.load)[0]
+        friction = self.scene.boundary_friction.bare
+        return slipping_share(sliding_speed / entrainment, friction, half_width, self.shape.radius_x)
 
     @property
     def speeds(self) -> Pair:

@@ -18,7 +18,7 @@ def test_a_point_always_rubbed_follows_the_closed_form_for_any_splitting_of_time
     law, temperature = CASES[name].tribofilm, CASES[name].operation.temperature
 
     def rub(film, step):
-        return law.evolve(*film, np.array([step]), np.zeros(1), temperature)
+        return law.evolve(*film, np.array([law.rate(temperature) * step]), np.zeros(1), temperature)
 
     found = thickness(*reduce(rub, steps, (np.zeros(1), np.zeros(1))))
     expected = ghanbarzadeh_thickness(

@@ -36,8 +36,9 @@ def stepped(name: str, steps: np.ndarray) -> np.ndarray:
     """Film after each step of a point that is always rubbed."""
     scene = Scene.from_toml(name)
     film, found = (np.zeros(1), np.zeros(1)), []
-    for step in steps:
-        film = scene.tribofilm.evolve(*film, np.array([step]), np.zeros(1), scene.operation.temperature)
+    warm = scene.operation.temperature
+    for exposed in scene.tribofilm.rate(warm) * steps:
+        film = scene.tribofilm.evolve(*film, np.array([exposed]), np.zeros(1), warm)
         found.append(thickness(*film)[0])
     return np.array(found)
 
@@ -163,7 +164,7 @@ def test_the_assumed_constants_of_activated_growth_start_and_settle_like_the_pub
     growing, taking = rates_of_case_b(scene)
     full = scene.tribofilm.full_thickness
     assert full * growing == approx(0.2225e-9, rel=1e-3, abs=0.0)
-    start = published.evolve(np.zeros(1), np.zeros(1), np.array([0.1]), np.zeros(1), 353.15)
+    start = published.evolve(np.zeros(1), np.zeros(1), np.array([0.1 * published.rate(353.15)]), np.zeros(1), 353.15)
     assert full * growing * 0.1 == approx(thickness(*start)[0], rel=1e-3, abs=0.0)
     settled = published.full_thickness - published.removal_thickness
     assert full * growing / (growing + taking) == approx(settled, rel=1e-3, abs=0.0)

@@ -8,7 +8,7 @@ from contact_core.laws.boundary_friction import FilmBlend
 from contact_core.laws.density import DowsonHigginson, Incompressible
 from contact_core.laws.plasticity import ElasticPerfectlyPlastic
 from contact_core.laws.rheology import Eyring
-from contact_core.laws.tribofilm import Andersson, Ghanbarzadeh, NoTribofilm, thickness
+from contact_core.laws.tribofilm import Andersson, Ghanbarzadeh, Gosvami, NoTribofilm, thickness
 from contact_core.laws.viscosity import AstmD341, Barus, Modulus, Roelands, kinematic_viscosity
 from contact_core.laws.wear import Archard, NoWear
 
@@ -275,16 +275,34 @@ SOLID = np.array([0.0, 0.0, 1.0, 2e9])
 SHEAR = np.array([50e6, 150e6, 50e6, 250e6])
 
 
-def test_a_film_is_rubbed_where_solids_touch():
-    assert FILM.dose == "clock"
-    assert np.array_equal(FILM.exposure(SOLID, SHEAR, 0.005, 363.15), [0.0, 0.0, 1.0, 1.0])
+def test_a_film_grows_where_solids_touch_at_the_rate_of_the_node_s_temperature():
+    law = replace(FILM, dose="clock")
+    assert np.array_equal(law.exposure(SOLID, SHEAR, 0.005, 363.15), law.rate(363.15) * np.array([0.0, 0.0, 1.0, 1.0]))
+    warm = np.array([353.15, 353.15, 363.15, 373.15])
+    assert law.exposure(SOLID, SHEAR, 0.005, warm)[2:] == approx(law.rate(warm)[2:], rel=1e-15)
+
+
+def test_time_in_solid_contact_counts_over_its_share_in_the_tests_of_the_fit():
+    assert FILM.dose == "residence"
+    law = replace(FILM, contact_share=2e-3)
+    found, tested = (one.exposure(SOLID, SHEAR, 0.005, 363.15) for one in (law, replace(law, dose="clock")))
+    assert 2e-3 * found == approx(tested, rel=1e-15)
+
+
+def test_supply_caps_the_growth_of_every_law_by_the_same_speed():
+    laws = FILM, Andersson(176e-9, 2e-13, 0.0, 363.15), Gosvami(200e-9, 6e3, 1.28e-19, 3.8e-30, 2e-8)
+    for law in (replace(law, supply_rate=2e-10) for law in laws):
+        film = law.evolve(np.zeros(1), np.zeros(1), np.full(1, 1e-3 * law.most_exposure), np.zeros(1), 363.15)
+        assert film[0][0] == approx(2e-13, rel=1e-5, abs=0.0)
 
 
 @pytest.mark.parametrize(("least", "expected"), [(100e6, [0, 1, 1, 1]), (200e6, [0, 0, 1, 1]), (0.0, [1, 1, 1, 1])])
 def test_enough_shear_stress_rubs_a_film_through_oil_if_asked_for(least, expected):
-    law = replace(FILM, nodes="stressed", least_shear=least)
-    assert np.array_equal(law.exposure(SOLID, SHEAR, -0.005, 363.15), expected)
-    assert np.array_equal(replace(law, nodes="contacts").exposure(SOLID, SHEAR, -0.005, 363.15), [0.0, 0.0, 1.0, 1.0])
+    law = replace(FILM, dose="clock", nodes="stressed", least_shear=least)
+    rate = law.rate(363.15)
+    assert np.array_equal(law.exposure(SOLID, SHEAR, -0.005, 363.15) / rate, expected)
+    alone = replace(law, nodes="contacts").exposure(SOLID, SHEAR, -0.005, 363.15)
+    assert np.array_equal(alone / rate, [0.0, 0.0, 1.0, 1.0])
 
 
 ENERGY = Andersson(176e-9, 2e-13, 1e5, 363.15)

@@ -24,7 +24,7 @@ from ...quantities import parameter
 from ...reference.constants import BOLTZMANN
 from ..equations import Equations
 from .doses import DOSES
-from .fitted import Ghanbarzadeh, beyond_fit, fit_temperature, thickness
+from .fitted import Ghanbarzadeh, beyond_fit, fit_temperature, supply_rate, thickness
 
 Array = NDArray[np.float64]
 Temperature = float | Array
@@ -90,6 +90,12 @@ class _Activated:
     activation_volume: float
     removal_coefficient: float
     edge_weight: float
+    supply_rate: float
+
+    @property
+    def most_exposure(self) -> float:
+        """Largest exposure [1/s] per test time that the supply of additive allows."""
+        return self.supply_rate / self.full_thickness
 
     def rate(self, stress: Array, temperature: Temperature) -> Array:
         """Return the rate of growth over h_max [1/s] under a stress [Pa] at a surface temperature [K]."""
@@ -141,6 +147,7 @@ class _ByOneStress(_Activated):
     activation_volume: float = _activation_volume("the stress")
     removal_coefficient: float = _removal_coefficient()
     edge_weight: float = _edge_weight()
+    supply_rate: float = supply_rate()
     dose: str = parameter(
         "", "the time that the rates are for", choices=("residence", "contact_length"), default="residence"
     )
@@ -241,6 +248,7 @@ class Combined(_Activated):
     removal_coefficient: float = _removal_coefficient()
     edge_weight: float = _edge_weight()
     least_shear: float = _least_shear()
+    supply_rate: float = supply_rate()
     beyond_fit: str = beyond_fit()
     dose: str = parameter(
         "", "the time that the rates are for", choices=("contact_length", "residence"), default="contact_length"
@@ -250,7 +258,8 @@ class Combined(_Activated):
     def in_contacts(self) -> Ghanbarzadeh:
         """Law of the growth in contacts, without its removal."""
         fit, beyond = self.fit_temperature, self.beyond_fit
-        return Ghanbarzadeh(self.full_thickness, self.rate_factor, 0.0, 0.0, fit, beyond_fit=beyond)
+        dose = "contact_length"  # of constants by the time of tests
+        return Ghanbarzadeh(self.full_thickness, self.rate_factor, 0.0, 0.0, fit, dose=dose, beyond_fit=beyond)
 
     @property
     def by_shear(self) -> ZhangSpikes:
@@ -262,8 +271,7 @@ class Combined(_Activated):
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
         """Return the weighted rate of growth over h_max [1/s] under solid pressure and total |shear stress| [Pa]."""
         node = (solid_pressure, shear, sliding_speed, temperature)
-        in_contacts = self.in_contacts.rate(temperature) * self.in_contacts.exposure(*node)
-        return self.contact_weight * in_contacts + self.stress_weight * self.by_shear.exposure(*node)
+        return self.contact_weight * self.in_contacts.exposure(*node) + self.stress_weight * self.by_shear.exposure(*node)
 
     def covers(self, temperature: float) -> bool:
         """Return True if the constants of those parts that have a weight hold at a bulk `temperature` [K]."""

@@ -1,5 +1,6 @@
 """Laws of growth where solids touch, fitted to measured films."""
 
+import math
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -16,6 +17,7 @@ Array = NDArray[np.float64]
 Temperature = float | Array
 
 _FIT_WIDTH = 5.0  # K to either side of the fit
+_SLOWEST = 1e-100  # 1/s, in place of no growth at all
 
 
 def fit_temperature() -> Any:
@@ -27,6 +29,16 @@ def beyond_fit() -> Any:
     """Return the field that chooses between refusal and extrapolation at other temperatures."""
     text = "what to do more than 5 K from the fit_temperature"
     return parameter("", text, choices=("refuse", "extrapolate"), default="refuse")
+
+
+def supply_rate() -> Any:
+    """Return the field that limits the growth by the supply of additive.
+
+    A monolayer of additive is about 0.1 nm of tribofilm, and a film of oil of 100 nm with 0.1 % of phosphorus as much
+    again; with some passes a second that is the default.
+    """
+    text = "largest growth per test time that the oil's additive can supply"
+    return parameter("m/s", text, above=0.0, most=1.0, default=1e-9)
 
 
 def _covers(fit: float, temperature: float) -> bool:
@@ -62,7 +74,8 @@ class NoTribofilm(_Unabraded):
         "No additive.",
     )
     full_thickness: ClassVar[float] = 1.0  # any positive number: the thickness is always zero
-    dose: ClassVar[str] = "clock"
+    dose: ClassVar[str] = "residence"
+    most_exposure: ClassVar[float] = 0.0
 
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
         """Return zeros in the shape of `solid_pressure`."""
@@ -88,11 +101,15 @@ class Ghanbarzadeh(_Unabraded):
     """Growth to h_max at the rate k = (k_B T / h) x, removal up to C3 at the rate C4: thickness = growth - removal.
 
     In closed form for a node rubbed for a time t: h = h_max [1 - exp(-k t)] - C3 [1 - exp(-C4 t)].
-    A node that slides is exposed (1) or not (0), so its exposure over a time is the time it counts as rubbed [s].
-    `nodes` says which are: "contacts", where solids touch; "stressed", also where a film of oil alone shears the
+    The exposure of a node that is rubbed is k at its own temperature, else 0; over a time it adds up to k t.
+    `nodes` says which are rubbed: "contacts", where solids touch; "stressed", also where a film of oil alone shears the
     surface by more than `least_shear` (films grow without solid contact under enough shear stress: Zhang & Spikes
-    2016, doi:10.1007/s11249-016-0706-7; the threshold is assumed). The published constants were fitted to the clock
-    time of nodes in contact: the defaults.
+    2016, doi:10.1007/s11249-016-0706-7; the threshold is assumed).
+
+    The constants were fitted to the time of tests, in which a point of the surface is in solid contact for a small
+    share of the time only. With the dose "residence" t is the time in solid contact over `contact_share`, that share in
+    the tests of the fit: other tests grow films in proportion to their own share. With "clock" a point that is rubbed
+    at all ages by the time of the test, whatever load, speeds and roughness: the reading of Azam's thesis.
     """
 
     name: ClassVar[str] = "ghanbarzadeh"
@@ -108,7 +125,17 @@ class Ghanbarzadeh(_Unabraded):
     removal_thickness: float = parameter("m", "C3, largest removed thickness", least=0.0, most=1e-5)
     removal_rate: float = parameter("s^-1", "C4, rate of removal", least=0.0, most=1.0)
     fit_temperature: float = fit_temperature()
-    dose: str = parameter("", "how long a node counts as rubbed", choices=("clock", "contact_length"), default="clock")
+    dose: str = parameter(
+        "", "how long a node counts as rubbed", choices=("residence", "contact_length", "clock"), default="residence"
+    )
+    contact_share: float = parameter(
+        "",
+        "share of the time for which a point was in solid contact in the tests of the fit, for dose = residence",
+        least=1e-9,
+        most=1.0,
+        default=7e-4,
+    )
+    supply_rate: float = supply_rate()
     nodes: str = parameter("", "which nodes are rubbed", choices=("contacts", "stressed"), default="contacts")
     least_shear: float = parameter(
         "Pa",
@@ -120,30 +147,39 @@ class Ghanbarzadeh(_Unabraded):
     )
     beyond_fit: str = beyond_fit()
 
+    @property
+    def most_exposure(self) -> float:
+        """Largest exposure [1/s] per test time that the supply of additive allows."""
+        return self.supply_rate / self.full_thickness
+
     def rate(self, temperature: Temperature) -> Temperature:
-        """Return the rate k of growth [1/s] at `temperature` [K]."""
+        """Return the rate k of growth [1/s] at `temperature` [K], by the time of the tests."""
         return BOLTZMANN * temperature / PLANCK * self.rate_factor
 
     def exposure(
         self, solid_pressure: Numbers, shear: Numbers, sliding_speed: float, temperature: Temperature
     ) -> Numbers:
-        """Return 1 where a node is rubbed, else 0, under solid pressure and total |shear stress| [Pa].
+        """Return the rate of growth [1/s] where a node is rubbed, else 0.
 
-        0 without sliding.
+        Under solid pressure and total |shear stress| [Pa]; 0 without sliding.
         """
         if sliding_speed == 0.0:
             return np.zeros_like(solid_pressure)
         rubbed = solid_pressure > 0.0
         if self.nodes == "stressed":
             rubbed |= shear > self.least_shear
-        return rubbed * 1.0
+        share = self.contact_share if self.dose == "residence" else 1.0
+        return rubbed * (self.rate(temperature) / share)
 
     def evolve(
         self, growth: Array, removal: Array, exposed: Array, abraded: Array, temperature: float
     ) -> tuple[Array, Array]:
-        """Return both variables [m] after each node was rubbed for a time `exposed` [s]; exact for any time."""
-        formed = -expm1(-self.rate(temperature) * exposed)
-        taken = -expm1(-self.removal_rate * exposed)
+        """Return both variables [m] after each node has been `exposed`, k t; exact for any of it.
+
+        Removal goes on beside growth, at the rate C4.
+        """
+        formed = -expm1(-exposed)
+        taken = -expm1(-self.removal_rate * exposed / max(self.rate(temperature), _SLOWEST))
         return growth + (self.full_thickness - growth) * formed, removal + (self.removal_thickness - removal) * taken
 
     def covers(self, temperature: float) -> bool:
@@ -188,6 +224,12 @@ class Andersson(_Unabraded):
     least_power: float = parameter("W/m2", "C6, frictional power per area that forms nothing", least=0.0, most=1e12)
     fit_temperature: float = fit_temperature()
     beyond_fit: str = beyond_fit()
+    supply_rate: float = supply_rate()
+
+    @property
+    def most_exposure(self) -> float:
+        """Largest exposure [W/m2] per test time that the supply of additive allows."""
+        return self.supply_rate / self.growth_per_energy if self.growth_per_energy > 0.0 else math.inf
 
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
         """Return the frictional power per area above the threshold [W/m2] where solids touch.
