@@ -45,6 +45,8 @@ PLAUSIBLE = {
     "removal_thickness": (0.0, 1e-6),
     "rate_factor": (0.0, 1e-14),
     "growth_per_energy": (0.0, 1e-9),
+    "contact_share": (1e-5, 1.0),
+    "supply_rate": (1e-12, 1e-6),
     "least_power": (0.0, 1e9),
     "prefactor": (0.0, 1e6),
     "activation_energy": (0.5e-19, 2e-19),
