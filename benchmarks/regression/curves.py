@@ -32,7 +32,7 @@ from benchmarks.regression.points import (
 from benchmarks.regression.shapes_points import fitted_to
 from contact_core.laws.load_sharing import FittedSharing
 
-WHOLE_PASS = {"control.mixed_instants": "128", "control.dry_instants": "8"}
+WHOLE_PASS = {"control.mixed_instants": "128", "control.dry_instants": "8", "tribofilm.dose": "clock"}
 GOLDEN = 9  # every ninth point of the sweep goes into the tests
 
 

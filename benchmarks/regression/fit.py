@@ -223,10 +223,16 @@ class Rubbed:
         """One of the numbers of a body [runs, minutes]."""
         return np.stack([self.columns[f"{name}_{body}_{minute}"] for minute in RUBBING], axis=1)
 
+    def at(self, name: str) -> Array:
+        """One of the numbers of the contact [runs, minutes]."""
+        return np.stack([self.columns[f"{name}_{minute}"] for minute in RUBBING], axis=1)
+
     def coverage_misfit(self, law: FittedSharing, body: str) -> Array:
-        """Coverage by the law, from the solved exposure and growth, less the solved one [runs, minutes]."""
-        exposed, growth = self.of("exposure", body), self.of("growth", body)
-        return law.coverage(exposed, growth, rougher=body == "rougher") - self.of("coverage", body)
+        """Coverage by the law, from the solved area and growth, less the solved one [runs, minutes]."""
+        rougher, area = body == "rougher", self.at("area")
+        wet, dry = (law.exposed(area, rougher=rougher, dry=dry) for dry in (False, True))
+        exposed = np.where(self.at("dry") > 0.0, dry, wet)
+        return law.coverage(exposed, self.of("growth", body), rougher=rougher) - self.of("coverage", body)
 
     @property
     def fresh(self) -> Array:
@@ -468,7 +474,7 @@ def constants_page(fit: Fit) -> list[str]:
         "Exposed share of each body's track |y| < b in a whole pass:",
         *table(("body", "scatter", "largest error"), exposed),
         f"Coverage of each body's track over two hours of rubbing, {fit.rubbed.columns['load'].size} runs at {', '.join(map(str, RUBBING))} minutes: "
-        "the mean growth over that where it is rubbed, each node counting by its exposure, from the solved exposure and growth:",
+        "the mean growth over that where it is rubbed, each node counting by its exposure, from the solved area and growth:",
         *table(("body", "scatter", "largest error", "with more wear"), covers),
         f"Fitted where less than {LITTLE:g} of the composite roughness is worn: wear then brings other parts into contact, and the coverage is larger than the curve's.",
         "",

@@ -119,16 +119,15 @@ def observe(point: Point, overrides: Overrides) -> dict[str, float]:
         return found
     rougher = 0 if scene.surface_1.rq > scene.surface_2.rq else 1
     rows = track_rows(scene, state.rows)
-    for name, i in (("exposed_rougher", rougher), ("exposed_smoother", 1 - rougher)):
-        found[name] = float(state.bodies[i].exposure[rows].mean())
+    for name, i in (("exposed_rougher", rougher), ("exposed_smoother", 1 - rougher)):  # by the clock, see WHOLE_PASS
+        found[name] = float(state.bodies[i].exposure[rows].mean()) / scene.tribofilm.rate(op.temperature)
     return found | numbers_of(scene, op)
 
 
 def observe_rubbed(point: Point, overrides: Overrides) -> dict[str, float]:
     """What two hours of rubbing make of both bodies' tracks, for each of `RUBBING` minutes and each body.
 
-    Its mean exposure, its growth over the law's full thickness, and its coverage: that growth over the same where it is
-    rubbed, each node counting by its exposure. The rms roughness of its solid over the new one's, and the depth worn,
+    Its growth over the law's full thickness, and its coverage: that growth over the same where it is rubbed, each node counting by its exposure. The rms roughness of its solid over the new one's, and the depth worn,
     summed over the composite roughness of its time.
     """
     scene, op = point.build(overrides), point.operating_point
@@ -145,10 +144,10 @@ def observe_rubbed(point: Point, overrides: Overrides) -> dict[str, float]:
         if minute not in RUBBING:
             continue
         now = means_of(scene, state)
+        found[f"area_{minute}"], found[f"dry_{minute}"] = out.contact_area_ratio, float(state.dry_blocks_left > 0)
         for name, i in (("rougher", rougher), ("smoother", 1 - rougher)):
             exposed, growth = np.mean([moment[i] for moment in last], axis=0), state.bodies[i].growth[rows]
             where = float((exposed * growth).mean() / exposed.mean())
-            found[f"exposure_{name}_{minute}"] = float(exposed.mean())
             found[f"growth_{name}_{minute}"] = float(growth.mean()) / scene.tribofilm.full_thickness
             found[f"coverage_{name}_{minute}"] = float(growth.mean()) / where
             found[f"smoothed_{name}_{minute}"] = now[i].roughness / new[i].roughness

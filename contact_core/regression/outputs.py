@@ -5,14 +5,13 @@ from typing import Any
 
 from ..laws.load_sharing import FittedSharing
 from ..scene import Case, Scene
-from ..state import ContactState, Error, Outputs, RangeFlag, changed, flag_of_errors
+from ..state import ContactState, Error, Outputs, RangeFlag, changed, flag_of_errors, flags_of_tribofilm
 from .contact import MeanContact
 from .surfaces import Means, Tribofilms, regression_film
 
 _LAMBDA_CAP = 1e3
 _LONGEST = 10.0  # times the duty: no step need be shorter than that
-_LAMBDA_CAPPED, _OUTSIDE_FIT = int(RangeFlag.LAMBDA_CAPPED), int(RangeFlag.OUTSIDE_FIT)
-_TRIBOFILM_TEMPERATURE = int(RangeFlag.TRIBOFILM_TEMPERATURE)  # numbers are faster to add up
+_LAMBDA_CAPPED, _OUTSIDE_FIT = int(RangeFlag.LAMBDA_CAPPED), int(RangeFlag.OUTSIDE_FIT)  # numbers are faster to add up
 _BLANK = Outputs()
 # half widths of errors grow: twice beyond the fit, and by so much where a film or wear has changed the heights by this
 # share of the roughness or more, for curves of fresh surfaces; not that of the exposure, which changes little in hours
@@ -104,10 +103,7 @@ def _flags(case: Case, contact: MeanContact) -> int:
     rough = contact.sigma > 0.0 or case.microroughness is not None
     if rough and case.loaded and not _fitted(case, contact):
         flags |= _OUTSIDE_FIT
-    one, two = case.op.bodies
-    if not (case.scene.tribofilm.covers(one) and case.scene.tribofilm.covers(two)):
-        flags |= _TRIBOFILM_TEMPERATURE
-    return flags
+    return flags | int(flags_of_tribofilm(case.scene.tribofilm, case.op.bodies))
 
 
 def _fitted(case: Case, contact: MeanContact) -> bool:

@@ -5,6 +5,8 @@ from dataclasses import make_dataclass
 from enum import IntFlag
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from ..laws.base import Tribofilm
+from ..laws.tribofilm import DOSES
 from ..quantities import OF_CORE
 
 _TYPES = {"Real": float, "Integer": int}
@@ -33,6 +35,10 @@ class RangeFlag(IntFlag):
     OUTSIDE_FIT = 512, "outside the points to which the curves of the regression level were fitted"
     OTHER_LEVEL = 1024, "outputs of the deterministic level alone keep their last values, or are zero"
     UNSURE = 2048, "friction or film is less sure than control.accuracy asks for, or without it than 50 %"
+    BY_THE_CLOCK = 4096, (
+        "tribofilm.dose is 'clock': where solids touch the tribofilm ages by the time of the test, whatever load, speeds "
+        "and film are"
+    )
 
 
 if TYPE_CHECKING:
@@ -54,6 +60,13 @@ else:
         namespace={"__doc__": "The output quantities of `quantities.OF_CORE`, in SI; zero by default."},
     )
     Outputs.__module__ = __name__
+
+
+def flags_of_tribofilm(law: Tribofilm, temperatures: tuple[float, float]) -> RangeFlag:
+    """Return what makes a tribofilm less sure: its dose, and temperatures [K] of the bodies beyond its constants."""
+    flags = RangeFlag.BY_THE_CLOCK if DOSES[law.dose].whole_pass else RangeFlag(0)
+    covered = all(law.covers(temperature) for temperature in temperatures)
+    return flags if covered else flags | RangeFlag.TRIBOFILM_TEMPERATURE
 
 
 _ASKED = 0.5  # accuracy of a scene that asks for none

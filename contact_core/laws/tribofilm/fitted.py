@@ -34,11 +34,11 @@ def beyond_fit() -> Any:
 def supply_rate() -> Any:
     """Return the field that limits the growth by the supply of additive.
 
-    A monolayer of additive is about 0.1 nm of tribofilm, and a film of oil of 100 nm with 0.1 % of phosphorus as much
-    again; with some passes a second that is the default.
+    A monolayer of additive on the surface is about 0.15 nm of tribofilm (a molecule on 0.8 nm2 with two atoms of
+    phosphorus, assumed); the film of oil over it brings less. The default is ten of them a second, 90 nm a minute.
     """
     text = "largest growth per test time that the oil's additive can supply"
-    return parameter("m/s", text, above=0.0, most=1.0, default=1e-9)
+    return parameter("m/s", text, above=0.0, most=1.0, default=1.5e-9)
 
 
 def _covers(fit: float, temperature: float) -> bool:
