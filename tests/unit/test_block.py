@@ -163,8 +163,9 @@ def test_a_dose_of_the_contact_length_is_the_clock_of_a_point_on_the_middle_of_a
     for domain in ("0.5 mm", "0.7 mm"):
         scene, state, op = cheap(DRY | smooth, film__points=65, film__domain=domain, control__dry_instants=64)
         state, _ = advance(scene, op, state, 0.0)
+        rate = scene.tribofilm.rate(op.temperature)
         for body in state.bodies:
-            assert body.exposure[32].mean() == approx(
+            assert body.exposure[32].mean() / rate == approx(
                 1.0, abs=2.0 * scene.film.spacing / (2.0 * scene.hertz(op.load).a)
             )
 

@@ -223,18 +223,20 @@ def test_new_bodies_grow_by_their_mean_exposure():
     """However it is spread over the track: a film much thinner than a full one does not yet slow its growth."""
     scene, state, op = fast()
     state, found = advance(scene, op, state, 1e-3)
-    rate = scene.tribofilm.full_thickness * scene.tribofilm.rate(op.temperature + found.flash_temperature_rise)
-    for rougher, mean in zip((False, True), state.means, strict=True):
-        exposed = scene.film.sharing.exposed(found.contact_area_ratio, rougher=rougher)
-        assert mean.growth == approx(1e-3 * rate * exposed, rel=1e-4)
+    law = scene.tribofilm
+    rate = law.full_thickness * law.rate(op.temperature + found.flash_temperature_rise) / law.contact_share
+    for length, mean in zip(scene.track_lengths, state.means, strict=True):
+        touched = found.contact_area_ratio * 0.5 * np.pi * scene.hertz(op.load).a / length
+        assert mean.growth == approx(1e-3 * rate * touched, rel=1e-4)
 
 
 def test_the_rubbed_ball_grows_the_laws_film_and_the_disc_what_its_rubbed_part_does(grown):
     scene, state, op = grown
     law, ball, disc = scene.tribofilm, *state.means
-    exposed = scene.film.sharing.exposed(state.outputs.contact_area_ratio, rougher=False)
+    touched = state.outputs.contact_area_ratio * 0.5 * np.pi * scene.hertz(op.load).a / scene.track_lengths[0]
     hot = op.temperature + state.outputs.flash_temperature_rise
-    growth, removal = law.evolve(np.zeros(1), np.zeros(1), np.array([exposed * state.time]), np.zeros(1), hot)
+    exposed = np.array([law.rate(hot) * touched / law.contact_share * state.time])
+    growth, removal = law.evolve(np.zeros(1), np.zeros(1), exposed, np.zeros(1), hot)
     assert ball.coverage > 0.98
     assert ball.growth == approx(growth[0], rel=0.03)
     assert ball.removal == approx(removal[0], rel=0.1)

@@ -110,10 +110,10 @@ def test_a_cycle_takes_the_volume_that_its_depths_have(shape):
 @pytest.mark.parametrize("i", [0, 1])
 def test_wear_under_a_film_that_grows_within_a_block_is_of_second_order_in_the_steps(i):
     """The integral of K(film) p v / H, the film by its closed form, with the solution of one block held."""
-    scene, state, op = contact("point", "deterministic")
+    scene, state, op = contact("point", "deterministic", tribofilm__supply_rate="1 m/s")
     case = Case(scene, op)
     body, law, wear, flash = solve_block(case, state).bodies[i], scene.tribofilm, scene.wear, 0.0
-    span = 0.1 / law.rate(op.temperature)
+    span = 0.1 / body.exposure.max()
     nodes, weights = np.polynomial.legendre.leggauss(8)
     exact = np.zeros_like(body.wear)
     for time, weight in zip(0.5 * span * (1.0 + nodes), 0.5 * span * weights, strict=True):
@@ -139,7 +139,7 @@ def test_wear_under_a_growing_film_does_not_wait_for_fine_steps_at_the_regressio
         _, (found,) = ran(scene, state, replace(op, speed_1=0.2, speed_2=-0.2), [300.0])
         assert found.tribofilm_1 > 40e-9
         volumes.append(of(found, "wear_volume"))
-    assert volumes[0] == approx(volumes[1], rel=3e-3)
+    assert volumes[0] == approx(volumes[1], rel=6e-3)
 
 
 def test_rates_of_bodies_that_warm_up_are_those_of_the_whole_step():
