@@ -12,7 +12,7 @@ from comparison import approx
 from scipy.integrate import solve_ivp
 
 import contact_core
-from contact_core import Scene, SceneError, advance, initial_state
+from contact_core import Scene, advance, initial_state
 from contact_core.laws.tribofilm import LAWS, Arrhenius, Ghanbarzadeh, thickness
 from contact_core.reference import ghanbarzadeh_thickness
 from contact_core.scene import units
@@ -79,7 +79,7 @@ def test_a_law_through_three_fits_that_follow_arrhenius_has_their_barriers():
     assert misses == approx(np.zeros(4), abs=1e-10)
     moles = 6.02214076e23
     assert (law.activation_energy * moles, law.removal_energy * moles) == approx((70e3, 40e3), rel=1e-9)
-    assert (law.coldest, law.fit_temperature, law.hottest) == (333.15, 353.15, 373.15)
+    assert (law.fitted_from, law.fit_temperature, law.fitted_to) == (333.15, 353.15, 373.15)
     for fit in fits:
         assert films(law, fit.fit_temperature) == approx(closed_form(fit), rel=1e-8, abs=0.0)
     assert law.full_thickness == approx(180e-9, rel=1e-12, abs=0.0)
@@ -176,17 +176,33 @@ def test_it_answers_between_the_fits_and_five_kelvin_beyond_and_says_where_it_en
     for t in (328.1, 378.2):
         said = law.refusal(t)
         assert not law.covers(t)
-        for words in (f"{t:g} K", "328.15 K to 378.15 K", "tribofilm.coldest", "tribofilm.beyond_fit = 'extrapolate'"):
+        for words in (f"{t:g} K", "328.15 K to 378.15 K", "tribofilm.fitted_to", "tribofilm.beyond_fit ="):
             assert words in said
     assert replace(law, beyond_fit="extrapolate").refusal(300.0) == ""
-    beyond = replace(law, full_thickness_hot=150e-9)
+    beyond = replace(law, full_thickness_to=150e-9)
     assert beyond.largest(500.0) == 150e-9 and beyond.largest(300.0) == 200e-9
 
 
-def test_temperatures_in_the_wrong_order_are_refused_in_words():
-    exchanged = {"tribofilm.set": "zddp_60_100c", "tribofilm.coldest": "100 degC", "tribofilm.hottest": "60 degC"}
-    with pytest.raises(SceneError, match=r"tribofilm\.coldest = 373\.15 K is above tribofilm\.hottest = 333\.15 K"):
-        Scene.from_toml("mtm_zddp", exchanged)
+def test_the_ends_of_the_fits_may_be_named_in_either_order():
+    turned = replace(
+        WARMING,
+        fitted_from=WARMING.fitted_to,
+        fitted_to=WARMING.fitted_from,
+        full_thickness_from=WARMING.full_thickness_to,
+        full_thickness_to=WARMING.full_thickness_from,
+        removal_thickness_from=WARMING.removal_thickness_to,
+        removal_thickness_to=WARMING.removal_thickness_from,
+    )
+    assert turned.full_thickness == WARMING.full_thickness == 200e-9
+    for warm in (320.0, 333.15, 350.0, 373.15, 390.0):
+        assert turned.largest(warm) == approx(WARMING.largest(warm), rel=1e-12, abs=0.0)
+        assert turned.largest_removal(warm) == approx(WARMING.largest_removal(warm), rel=1e-12, abs=0.0)
+        assert turned.covers(warm) is WARMING.covers(warm)
+
+
+def test_a_range_of_one_temperature_has_the_thickness_of_its_start():
+    law = replace(WARMING, fitted_to=WARMING.fitted_from)
+    assert law.largest(300.0) == law.largest(400.0) == WARMING.full_thickness_from
 
 
 @pytest.mark.parametrize("level", ["regression", "deterministic"])

@@ -33,11 +33,10 @@ class Through(NamedTuple):
 class Arrhenius:
     """Growth to h_max at the rate k, removal up to C3 at the rate C4, with constants that depend on temperature.
 
-    The form is that of `Ghanbarzadeh`. Both rates follow Arrhenius; h_max and C3 are linear in 1/T between the coldest
-    and the hottest fit and stay as they are beyond. The exposure of a node in contact is k at its own temperature; over
-    a time it adds up to k t. Removal has the ratio C4 / k of the mean temperature of the surface. What has grown or
-    gone at one temperature stays so at another: a smaller h_max or C3 stops the one or the other and takes nothing
-    back.
+    The form is that of `Ghanbarzadeh`. Both rates follow Arrhenius; h_max and C3 are linear in 1/T between the fits
+    and stay as they are beyond. The exposure of a node in contact is k at its own temperature; over a time it adds up
+    to k t. Removal has the ratio C4 / k of the mean temperature of the surface. What has grown or gone at one
+    temperature stays so at another: a smaller h_max or C3 stops the one or the other and takes nothing back.
     """
 
     name: ClassVar[str] = "arrhenius"
@@ -54,17 +53,17 @@ class Arrhenius:
     )
     abrades: ClassVar[bool] = False
 
-    coldest: float = parameter("K", "lowest temperature of the fits", least=200.0, most=600.0)
-    hottest: float = parameter("K", "highest temperature of the fits, not below `coldest`", least=200.0, most=600.0)
+    fitted_from: float = parameter("K", "temperature of the fits at one end of their range", least=200.0, most=600.0)
+    fitted_to: float = parameter("K", "temperature of the fits at its other end", least=200.0, most=600.0)
     fit_temperature: float = fit_temperature()
     growth_rate: float = parameter("s^-1", "k0, rate of growth at fit_temperature", least=1e-9, most=1.0)
     activation_energy: float = parameter("J", "E_k, barrier of the growth, per molecule", least=0.0, most=5e-19)
     removal_rate: float = parameter("s^-1", "C4 at fit_temperature, rate of removal", least=0.0, most=1.0)
     removal_energy: float = parameter("J", "E_C, barrier of the removal, per molecule", least=0.0, most=5e-19)
-    full_thickness_cold: float = parameter("m", "h_max at the coldest fit", above=0.0, most=1e-5)
-    full_thickness_hot: float = parameter("m", "h_max at the hottest fit", above=0.0, most=1e-5)
-    removal_thickness_cold: float = parameter("m", "C3 at the coldest fit", least=0.0, most=1e-5)
-    removal_thickness_hot: float = parameter("m", "C3 at the hottest fit", least=0.0, most=1e-5)
+    full_thickness_from: float = parameter("m", "h_max at fitted_from", above=0.0, most=1e-5)
+    full_thickness_to: float = parameter("m", "h_max at fitted_to", above=0.0, most=1e-5)
+    removal_thickness_from: float = parameter("m", "C3 at fitted_from", least=0.0, most=1e-5)
+    removal_thickness_to: float = parameter("m", "C3 at fitted_to", least=0.0, most=1e-5)
     dose: str = parameter("", "how long a node counts as rubbed", choices=tuple(DOSES), default="residence")
     contact_share: float = parameter(
         "",
@@ -99,17 +98,17 @@ class Arrhenius:
         removal_rate, removal_energy = _barrier(temperatures, taking, middle)
         h_max, c_3 = (np.maximum(_line(temperatures, values, ends), 0.0) for values in (full, taken))
         law = cls(
-            coldest=float(ends[0]),
-            hottest=float(ends[1]),
+            fitted_from=float(ends[0]),
+            fitted_to=float(ends[1]),
             fit_temperature=middle,
             growth_rate=growth_rate,
             activation_energy=activation_energy,
             removal_rate=removal_rate,
             removal_energy=removal_energy,
-            full_thickness_cold=float(h_max[0]),
-            full_thickness_hot=float(h_max[1]),
-            removal_thickness_cold=float(c_3[0]),
-            removal_thickness_hot=float(c_3[1]),
+            full_thickness_from=float(h_max[0]),
+            full_thickness_to=float(h_max[1]),
+            removal_thickness_from=float(c_3[0]),
+            removal_thickness_to=float(c_3[1]),
             contact_share=contact_share,
         )
         found = [(law.rate(t), law.taking(t), law.largest(t), law.largest_removal(t)) for t in temperatures.tolist()]
@@ -125,7 +124,7 @@ class Arrhenius:
     @property
     def full_thickness(self) -> float:
         """Largest thickness without removal at any temperature [m]."""
-        return max(self.full_thickness_cold, self.full_thickness_hot)
+        return max(self.full_thickness_from, self.full_thickness_to)
 
     @property
     def most_exposure(self) -> float:
@@ -142,22 +141,23 @@ class Arrhenius:
 
     def largest(self, temperature: float) -> float:
         """Return h_max [m] at a surface temperature [K]."""
-        return self._between(self.full_thickness_cold, self.full_thickness_hot, temperature)
+        return min(self._between(self.full_thickness_from, self.full_thickness_to, temperature), self.full_thickness)
 
     def largest_removal(self, temperature: float) -> float:
         """Return C3 [m] at a surface temperature [K]."""
-        return self._between(self.removal_thickness_cold, self.removal_thickness_hot, temperature)
+        return self._between(self.removal_thickness_from, self.removal_thickness_to, temperature)
 
     def _warmth(self, temperature: Numbers) -> Numbers:
         return (1.0 / self.fit_temperature - 1.0 / temperature) / BOLTZMANN
 
-    def _between(self, cold: float, hot: float, temperature: float) -> float:
-        if temperature >= self.hottest:
-            return hot
-        if temperature <= self.coldest:
-            return cold
-        passed = (1.0 / self.coldest - 1.0 / temperature) / (1.0 / self.coldest - 1.0 / self.hottest)
-        return cold + passed * (hot - cold)
+    def _between(self, start: float, end: float, temperature: float) -> float:
+        within = 1.0 / min(max(temperature, self._ends[0]), self._ends[1])
+        whole = 1.0 / self.fitted_to - 1.0 / self.fitted_from
+        return start if whole == 0.0 else start + (within - 1.0 / self.fitted_from) / whole * (end - start)
+
+    @property
+    def _ends(self) -> tuple[float, float]:
+        return min(self.fitted_from, self.fitted_to), max(self.fitted_from, self.fitted_to)
 
     def exposure(self, solid_pressure: Numbers, shear: Numbers, sliding_speed: float, temperature: Numbers) -> Numbers:
         """Return the rate of growth [1/s] where solids touch, else 0; 0 without sliding.
@@ -185,22 +185,18 @@ class Arrhenius:
 
     def covers(self, temperature: float) -> bool:
         """Return True if `temperature` [K] is between the fits or within 5 K of them."""
-        in_order = self.coldest <= self.hottest
-        return in_order and self.coldest - temperature <= _BEYOND and temperature - self.hottest <= _BEYOND
+        low, high = self._ends
+        return low - temperature <= _BEYOND and temperature - high <= _BEYOND
 
     def refusal(self, temperature: float) -> str:
         """Return why the law does not hold at a bulk `temperature` [K], or an empty text."""
         if self.beyond_fit == "extrapolate" or self.covers(temperature):
             return ""
-        if self.coldest > self.hottest:
-            return (
-                f"temperature = {temperature:g} K cannot be answered: tribofilm.coldest = {self.coldest:g} K is above "
-                f"tribofilm.hottest = {self.hottest:g} K. Exchange them, with the thicknesses that belong to them."
-            )
+        low, high = self._ends
         return (
-            f"temperature = {temperature:g} K is outside {self.coldest - _BEYOND:g} K to {self.hottest + _BEYOND:g} K, "
-            f"where the tribofilm's constants hold (tribofilm.coldest = {self.coldest:g} K, tribofilm.hottest = "
-            f"{self.hottest:g} K). Use a set fitted there, or tribofilm.beyond_fit = 'extrapolate', which takes the "
+            f"temperature = {temperature:g} K is outside {low - _BEYOND:g} K to {high + _BEYOND:g} K, where the "
+            f"tribofilm's constants hold (tribofilm.fitted_from = {self.fitted_from:g} K, tribofilm.fitted_to = "
+            f"{self.fitted_to:g} K). Use a set fitted there, or tribofilm.beyond_fit = 'extrapolate', which takes the "
             "rates by their barriers and the thicknesses of the nearest fit."
         )
 
