@@ -246,3 +246,14 @@ def test_a_prefactor_at_the_ends_of_its_interval_grows_as_much_with_the_barrier_
         changed = units.parse(barrier, "J", ""), units.parse(prefactor, "m/s", "")
         found = start(activation_energy=changed[0], prefactor=changed[1])
         assert found == approx(start(), rel=2e-3, abs=0.0)
+
+
+def test_a_scene_takes_a_law_through_constants_of_ones_own():
+    scene, _, op = cheap(CHEAP)
+    law = Arrhenius.through([at(60.0, 3e-4, 1e-4, 150e-9, 30e-9), at(100.0, 2e-3, 4e-4, 160e-9, 10e-9)]).law
+    warmer = replace(scene, tribofilm=law).at_level("regression")
+    found = [
+        advance(warmer, replace(op, temperature=t), initial_state(warmer), 120.0)[1].tribofilm_1
+        for t in (333.15, 350.0, 373.15)
+    ]
+    assert 0.0 < found[0] < found[1] < found[2]

@@ -12,7 +12,7 @@ from ...reference.constants import BOLTZMANN
 from ..elementary import Numbers, exp, expm1, maximum
 from ..equations import Equations
 from .doses import DOSES
-from .fitted import Ghanbarzadeh, beyond_fit, fit_temperature
+from .fitted import Ghanbarzadeh, fit_temperature
 
 Array = NDArray[np.float64]
 
@@ -73,9 +73,11 @@ class Arrhenius:
         default=7e-4,
     )
     supply_rate: float = parameter(
-        "m/s", "largest growth per test time that the oil's additive can supply", above=0.0, most=1.0, default=1e-9
+        "m/s", "largest growth per test time that the oil's additive can supply", above=0.0, most=1.0, default=1.5e-9
     )
-    beyond_fit: str = beyond_fit()
+    beyond_fit: str = parameter(
+        "", "what to do more than 5 K from all fits", choices=("refuse", "extrapolate"), default="refuse"
+    )
 
     @classmethod
     def through(cls, fits: Sequence[Ghanbarzadeh], contact_share: float = 7e-4) -> Through:
