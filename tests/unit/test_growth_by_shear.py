@@ -136,6 +136,9 @@ def test_activated_laws_go_to_any_temperature_and_say_where_they_hold():
     assert "tribofilm.beyond_fit = 'extrapolate'" in BOTH.refusal(360.0)
     by_shear = replace(BOTH, contact_weight=0.0)
     assert by_shear.covers(360.0) and by_shear.refusal(360.0) == ""
+    for law in (by_shear, replace(BOTH, fit_temperature=400.0)):
+        assert "333.15 K to 393.15 K" in law.refusal(400.0)
+        assert replace(law, beyond_fit="extrapolate").refusal(400.0) == ""
 
 
 FULL_FILM = CHEAP | {

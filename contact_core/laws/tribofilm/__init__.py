@@ -2,6 +2,7 @@
 
     fitted      laws of nodes in contact, fitted to measured tribofilms
     activated   laws of reactions that stress activates
+    arrhenius   a law of nodes in contact, fitted at several temperatures
     doses       from the instants of a pass to the exposure per test time
 
 In each solved instant a law gives the exposure of every node (`exposure`). Its `dose` (`doses`) says how the instants
@@ -17,15 +18,25 @@ first-order removal needs one only: it keeps the thickness in `growth` and nothi
 
 from ..base import Tribofilm
 from .activated import Combined, Gosvami, ZhangSpikes
+from .arrhenius import Arrhenius
 from .doses import DOSES, MeanPasses, Passes
 from .fitted import Andersson, Ghanbarzadeh, NoTribofilm, thickness
 
-LAWS: tuple[type[Tribofilm], ...] = (NoTribofilm, Ghanbarzadeh, Andersson, ZhangSpikes, Gosvami, Combined)
+LAWS: tuple[type[Tribofilm], ...] = (
+    NoTribofilm,
+    Ghanbarzadeh,
+    Andersson,
+    ZhangSpikes,
+    Gosvami,
+    Combined,
+    Arrhenius,
+)
 
 __all__ = [
     "DOSES",
     "LAWS",
     "Andersson",
+    "Arrhenius",
     "Combined",
     "Ghanbarzadeh",
     "Gosvami",

@@ -280,4 +280,11 @@ class Combined(_Activated):
 
     def refusal(self, temperature: float) -> str:
         """Return why the law does not hold at a bulk `temperature` [K], or an empty text."""
-        return self.in_contacts.refusal(temperature) if self.contact_weight > 0.0 else ""
+        said = self.in_contacts.refusal(temperature) if self.contact_weight > 0.0 else ""
+        if said or self.beyond_fit == "extrapolate" or self.covers(temperature):
+            return said
+        return (
+            f"temperature = {temperature:g} K is outside {_COLDEST:g} K to {_HOTTEST:g} K, where the constants of "
+            "growth by shear hold. Set tribofilm.stress_weight = 0, or tribofilm.beyond_fit = 'extrapolate', which "
+            "takes that growth by its barrier."
+        )
