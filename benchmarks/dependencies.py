@@ -102,6 +102,7 @@ PAGES: dict[str, Source] = {
     "surfaces/stribeck": Source(
         "surfaces.stribeck", ("film", "evolution", "control", "stribeck", *SHAPES, "cam_tappet")
     ),
+    "surfaces/tribofilm": Source("surfaces.tribofilm", (*LEVELS, *CIRCLES)),
     "thesis/validation": Source("thesis.validation", ("film", "evolution", "control", *CIRCLES)),
     "regression/curves": Source("regression.curves check", (*LEVELS, "azam_case_a", "mtm_zddp")),
     "regression/shapes": Source("regression.shapes page", (*LEVELS, "mtm_zddp", "fzg_flank", "ball_209_inner")),

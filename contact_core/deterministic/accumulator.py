@@ -133,7 +133,8 @@ def _exposures(case: Case, fields: ContactFields) -> tuple[Array, Array]:
         closer = np.maximum(share, _LEAST_SHARE)
         shear = fields.oil_shear + fields.rubbing_shear / closer
         touching = law.exposure(fields.solid_pressure / closer, shear, speed, warm)
-        return slipping * share * touching + (1.0 - share) * law.exposure(np.zeros_like(share), fields.oil_shear, speed, warm)
+        beside = law.exposure(np.zeros_like(share), fields.oil_shear, speed, warm)
+        return slipping * share * touching + (1.0 - share) * beside
 
     first = exposure(warm_1)
     alike = warm_1 is warm_2 or (isinstance(warm_1, float) and isinstance(warm_2, float) and warm_1 == warm_2)

@@ -271,7 +271,8 @@ class Combined(_Activated):
     def exposure(self, solid_pressure: Array, shear: Array, sliding_speed: float, temperature: Temperature) -> Array:
         """Return the weighted rate of growth over h_max [1/s] under solid pressure and total |shear stress| [Pa]."""
         node = (solid_pressure, shear, sliding_speed, temperature)
-        return self.contact_weight * self.in_contacts.exposure(*node) + self.stress_weight * self.by_shear.exposure(*node)
+        in_contacts, by_shear = self.in_contacts.exposure(*node), self.by_shear.exposure(*node)
+        return self.contact_weight * in_contacts + self.stress_weight * by_shear
 
     def covers(self, temperature: float) -> bool:
         """Return True if the constants of those parts that have a weight hold at a bulk `temperature` [K]."""
