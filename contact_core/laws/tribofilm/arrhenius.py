@@ -12,7 +12,7 @@ from ...reference.constants import BOLTZMANN
 from ..elementary import Numbers, exp, expm1, maximum
 from ..equations import Equations
 from .doses import DOSES
-from .fitted import Ghanbarzadeh, fit_temperature
+from .fitted import Ghanbarzadeh, fit_temperature, supply_rate
 
 Array = NDArray[np.float64]
 
@@ -72,9 +72,7 @@ class Arrhenius:
         most=1.0,
         default=7e-4,
     )
-    supply_rate: float = parameter(
-        "m/s", "largest growth per test time that the oil's additive can supply", above=0.0, most=1.0, default=1.5e-9
-    )
+    supply_rate: float = supply_rate()
     beyond_fit: str = parameter(
         "", "what to do more than 5 K from all fits", choices=("refuse", "extrapolate"), default="refuse"
     )
