@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernels.convergence import Convergence
+from ..kernels.surface_give import SurfaceGive
 from ..laws.asperity_layer import AsperityLayer
 from ..shapes import Shape
 
@@ -76,6 +77,7 @@ class Instant:
     conserving: bool = False  # cavities hold the oil that flows into them; else they count as full
     supply: float | None = None  # oil film [m] on both surfaces together before the contact; None: flooded
     microroughness: AsperityLayer | None = None  # of both bodies together, too short for the grid
+    give: SurfaceGive | None = None  # by which surfaces give way node by node, besides the half space
     meniscus: float | None = None  # distance [m] of the inlet meniscus before the centre; None: beyond the grid
 
     def touching(self, solid: Array) -> Array:
@@ -88,7 +90,8 @@ class Instant:
         """Return the instant mirrored along x: entrained the other way."""
         heights, limit = np.ascontiguousarray(self.heights[:, ::-1]), np.ascontiguousarray(self.limit[:, ::-1])
         ease, thinned = (None if f is None else np.ascontiguousarray(f[:, ::-1]) for f in (self.ease, self.thinned))
-        back = replace(self, entrainment_speed=-self.entrainment_speed, heights=heights, limit=limit)
+        give = self.give and self.give.mapped(lambda f: np.ascontiguousarray(f[:, ::-1]))
+        back = replace(self, entrainment_speed=-self.entrainment_speed, heights=heights, limit=limit, give=give)
         return replace(back, ease=ease, thinned=thinned)
 
 

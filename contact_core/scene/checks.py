@@ -100,6 +100,12 @@ def _shape_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
             )
     if plasticity.error:
         yield "hardness", plasticity.error
+    if scene.solids.film_give < 0.0:
+        yield (
+            "film_modulus",
+            f"solids.film_modulus = {scene.solids.film_modulus:g} Pa with solids.film_poisson_ratio = "
+            f"{scene.solids.film_poisson_ratio:g} makes a tribofilm stiffer than its solids. Lower it, or leave it out.",
+        )
 
 
 def _roughness_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
