@@ -2,8 +2,9 @@
 
 The pressure minimises the elastic energy p K p / 2 + gap p + sum phi(p) under 0 <= p <= cap and sum p = load, where
 -phi'(p) = depth ln(stress / p), at least 0, is the gap that the asperities hold open under p (`mixed.asperities`).
-A surface that gives way adds the integral of its depth. Both are convex, so Newton's method with a line search finds the minimum. Conjugate gradients, which keep the load, solve
-for its steps; they are preconditioned by the stiffness of each node alone.
+A surface that gives way adds the integral of its depth. Both are convex, so Newton's method with a line search finds
+the minimum. Conjugate gradients, which keep the load, solve for its steps; they are preconditioned by the stiffness of
+each node alone.
 """
 
 import numpy as np
@@ -41,8 +42,9 @@ def solve_dry_asperities(
 ) -> tuple[Array, float, bool, int]:
     """Return pressure [ny, nx], rigid gap, convergence and iterations.
 
-    `asperities` are stress and depth; `give`: of the surface on top of the half space; the other arguments are those of `dry.dry_solution`. The error counts the change
-    of pressure that would close the gap of each node by itself.
+    `asperities` are stress and depth, `give` is that of the surface on top of the half space; the other arguments are
+    those of `dry.dry_solution`. The error counts the change of pressure that would close the gap of each node by
+    itself.
     """
     stress, depth = asperities
     soft, change, error = half_space.near[0, 0], np.inf, np.inf
