@@ -88,11 +88,14 @@ class Instant:
 
     def mirrored(self) -> "Instant":
         """Return the instant mirrored along x: entrained the other way."""
-        heights, limit = np.ascontiguousarray(self.heights[:, ::-1]), np.ascontiguousarray(self.limit[:, ::-1])
-        ease, thinned = (None if f is None else np.ascontiguousarray(f[:, ::-1]) for f in (self.ease, self.thinned))
-        give = self.give and self.give.mapped(lambda f: np.ascontiguousarray(f[:, ::-1]))
-        back = replace(self, entrainment_speed=-self.entrainment_speed, heights=heights, limit=limit, give=give)
-        return replace(back, ease=ease, thinned=thinned)
+        back = self.mapped(lambda field: np.ascontiguousarray(field[:, ::-1]))
+        return replace(back, entrainment_speed=-self.entrainment_speed)
+
+    def mapped(self, change: Callable[[Array], Array]) -> "Instant":
+        """Return the instant with every field of its nodes changed alike, such as mirrored or restricted."""
+        ease, thinned = (None if field is None else change(field) for field in (self.ease, self.thinned))
+        surfaces = replace(self, heights=change(self.heights), limit=change(self.limit))
+        return replace(surfaces, ease=ease, thinned=thinned, give=self.give and self.give.mapped(change))
 
 
 @dataclass(frozen=True)

@@ -421,14 +421,9 @@ class _Solver:
 
 def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:
     """Return the same instant on a grid of half the nodes."""
-    ease, thinned = (None if field is None else restrict(field) for field in (now.ease, now.thinned))
-    give = now.give and now.give.mapped(restrict)
-    instant = replace(
-        now, heights=restrict(now.heights), limit=restrict(now.limit), give=give, ease=ease, thinned=thinned
-    )
     alone = grid.periodic and grid.shape[0] == 1  # such a row represents twice as much of a line
     repeats = 0.5 * grid.repeats if alone else grid.repeats
-    return instant, replace(grid, x=restrict(grid.x), y=restrict(grid.y), repeats=repeats)
+    return now.mapped(restrict), replace(grid, x=restrict(grid.x), y=restrict(grid.y), repeats=repeats)
 
 
 def _is_nested(grid: Grid) -> bool:

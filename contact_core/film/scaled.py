@@ -10,10 +10,8 @@ from numpy.typing import NDArray
 
 from ..errors import ConvergenceError
 from ..kernels.dry import solve_dry
-from ..kernels.dry_asperities import solve_dry_asperities
-from ..kernels.dry_giving import solve_dry_giving
 from ..kernels.far_field import far_field
-from ..kernels.giving_half_space import GivingHalfSpace
+from ..kernels.giving_half_space import giving
 from ..kernels.half_space import HalfSpace
 from ..kernels.mixed.problem import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
@@ -22,6 +20,7 @@ from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .lengths import film_size, inlet_length, resolves_inlet
 from .outputs import disc
 from .shared import ENTRIES, half_space, tables
+from .solids import pressed
 
 Array = NDArray[np.float64]
 
@@ -220,9 +219,7 @@ class Scaled:
     @cached_property
     def surfaces(self) -> HalfSpace:
         """The half space as the kernels see it, under surfaces that give way where they do."""
-        if self.give is None:
-            return self.half_space
-        return GivingHalfSpace(self.half_space, self.give.mapped(self._with_images))
+        return giving(self.half_space, self.give and self.give.mapped(self._with_images))
 
     def problem(self) -> Problem:
         """Return the problem that the kernels solve."""
@@ -374,18 +371,8 @@ class Scaled:
             fluid = np.minimum(self.smooth * ((1.0 - share) * self.load / self.smooth.sum()), 0.5 * self.cap)
             gap = gap + self.half_space.deform(fluid)
         left = self.load - float(fluid.sum())
-        room = self.cap - fluid
-        contact, limits = (self.half_space, gap, room, left, self.smooth), (tolerance, _DRY_ITERATIONS)
-        give = self.give and self.give.above(fluid)
-        if give is not None and share < 1.0:
-            contact = self.half_space, gap + give.soft * fluid, room, left, self.smooth
-        if self.fade > 0.0:
-            layer = self.stress, self.fade
-            solid, rigid, converged, iterations = solve_dry_asperities(*contact, layer, *limits, give)
-        elif give is not None:
-            solid, rigid, converged, iterations = solve_dry_giving(*contact, give, *limits)
-        else:
-            solid, rigid, converged, iterations = solve_dry(*contact, *limits)
+        contact, limits = (self.half_space, gap, self.cap, left, self.smooth), (tolerance, _DRY_ITERATIONS)
+        solid, rigid, converged, iterations = pressed(*contact, fluid, (self.stress, self.fade), self.give, *limits)
         return Iterate(solid + fluid, fluid, solid > 0.0, rigid + self.floor), converged, iterations
 
     def dry(self, route: str, share: float = 1.0) -> FilmSolution:

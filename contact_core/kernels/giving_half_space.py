@@ -38,3 +38,8 @@ class GivingHalfSpace(HalfSpace):
     def window(self, ny: int, nx: int, width: int) -> HalfSpace:
         """Refuse: parts of such a surface differ."""
         raise NotImplementedError("use `solve_dry_giving`")
+
+
+def giving(base: HalfSpace, give: SurfaceGive | None) -> HalfSpace:
+    """Return a half space under a surface that gives way; None: as it is."""
+    return base if give is None else GivingHalfSpace(base, give)

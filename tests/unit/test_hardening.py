@@ -59,7 +59,13 @@ def assert_balanced(scene, state, fields, slack):
     assert np.abs(np.maximum(left, floor) - fields.gap).max() < 1e-6 * floor
     solid = fields.film.solid & (fields.solid_pressure > fields.fluid_pressure)
     assert solid.any()
-    if Case(scene, scene.operation.point).microroughness is None:
+    layer = Case(scene, scene.operation.point).microroughness
+    if layer is not None:  # asperities hold the bodies apart by what their law says
+        given = scene.solids.reduced_modulus, scene.plasticity.hardness
+        rest = floor + layer.height_scale(*given) * np.log(np.maximum(layer.pressure_scale(*given) / p[solid], 1.0))
+        below = (p < scene.plasticity.hardness)[solid]
+        assert (p[solid] * np.abs(left[solid] - rest))[below].sum() < slack * p[solid].sum()
+    else:
         assert np.abs(left - floor)[solid].max() < slack
         assert left[~fields.film.solid].min() > floor - slack
 
