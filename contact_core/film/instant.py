@@ -162,8 +162,8 @@ class FilmState:
 class FilmSolution(Convergence):
     """The film of one instant.
 
-    `gap` is at least the floor; `overlap` is the shortfall below the floor, which yields plastically; `touching` is the
-    share of a node's area where solids touch.
+    `gap` is at least the floor; `overlap` is what yields plastically: the shortfall below the floor, and the depth that
+    `Instant.give` yields; `touching` is the share of a node's area where solids touch.
     """
 
     state: FilmState
