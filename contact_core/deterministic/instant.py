@@ -8,10 +8,11 @@ from numpy.typing import NDArray
 from ..errors import SceneError
 from ..film import Convergence, Deterministic
 from ..film.instant import FilmSolution, FilmState, Grid, Instant, Step
+from ..kernels.surface_give import SurfaceGive
 from ..laws.temperatures import Temperatures
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState
-from ..surfaces.patches import facing_surfaces
+from ..surfaces.patches import FacingSurfaces, facing_surfaces
 from .friction import Film, Friction, friction
 from .oil_temperature import left_behind, sheared, solve_flow, warmed
 
@@ -109,10 +110,9 @@ def solve_instant(
     assert isinstance(level, Deterministic)
     faced, grid = facing_surfaces(scene, state, moving=transient is not None), scene.grid(state.rows)
     film_1, film_2 = faced.tribofilms
-    limit = scene.plasticity.limit(film_1, film_2, faced.plastic, full)
     covers = film_1 / full, film_2 / full
     cover = 0.5 * (covers[0] + covers[1])
-    now = replace(instant_of(case, faced.heights, limit), dry=dry, solid_share=solid_share)
+    now = replace(_pressed(case, faced), dry=dry, solid_share=solid_share)
     before = state.film if transient else None
     if not case.loaded:
         film = _open(case, grid, faced.heights)
@@ -161,6 +161,21 @@ def solve_instant(
         film=left_behind(case, now, film, found),
         **convergence,
     )
+
+
+def _pressed(case: Case, faced: FacingSurfaces) -> Instant:
+    """Return the instant of facing surfaces, with the pressures at which they yield and by how much they give way."""
+    scene, (film_1, film_2) = case.scene, faced.tribofilms
+    law, films = scene.plasticity, (film_1, film_2, faced.plastic, scene.tribofilm.full_thickness)
+    soft, thick = scene.solids.film_give, film_1 + film_2
+    if not thick.any() or (soft == 0.0 and not law.iterated):
+        return instant_of(case, faced.heights, law.limit(*films))
+    if not law.iterated:
+        rigid = np.full_like(thick, np.inf)
+        give = SurfaceGive(soft * thick, rigid, rigid, 0.0)
+        return replace(instant_of(case, faced.heights, law.limit(*films)), give=give)
+    give = SurfaceGive(soft * thick, *law.hardening(*films))
+    return replace(instant_of(case, faced.heights, np.full_like(thick, law.hardness)), give=give)
 
 
 def instant_of(case: Case, heights: Array, limit: Array) -> Instant:

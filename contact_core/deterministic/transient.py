@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..errors import FilmTooWideError, OperatingPointError
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState
-from ..surfaces.patches import on_patches
+from ..surfaces.patches import facing_films, on_patches
 from .instant import ContactFields, Transient, solve, solve_instant
 
 Array = NDArray[np.float64]
@@ -108,12 +108,14 @@ def _after(scene: Scene, state: ContactState, fields: ContactFields) -> ContactS
 
 
 def yielded(scene: Scene, state: ContactState, overlap: Array) -> ContactState:
-    """Return the state after half of the overlap has been pressed into each body permanently."""
+    """Return the state after the overlap has been pressed into both bodies permanently, as plasticity shares it."""
     if not overlap.any():
         return state
+    films, before = facing_films(scene, state)
+    shares = scene.plasticity.shares(*films, before, overlap)
     first, second = (
-        replace(body, plastic=body.plastic + 0.5 * pressed)
-        for body, pressed in zip(state.bodies, on_patches(scene, state, (overlap, overlap)), strict=True)
+        replace(body, plastic=body.plastic + pressed)
+        for body, pressed in zip(state.bodies, on_patches(scene, state, shares), strict=True)
     )
     return replace(state, bodies=(first, second))
 

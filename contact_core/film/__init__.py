@@ -7,6 +7,7 @@
     scaled          an instant in the dimensionless units of the kernels
     lengths         size of the loaded zone and of the inlet
     shared          half spaces and tables of oils that many instants share
+    solids          solids that carry a load in dry contact
     routes          table of algorithms, and its execution
     thinning        flow of an oil that shear thins or heat warms
     outputs         outputs of a film from its fields

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernels.convergence import Convergence
+from ..kernels.surface_give import SurfaceGive
 from ..laws.asperity_layer import AsperityLayer
 from ..shapes import Shape
 
@@ -76,6 +77,7 @@ class Instant:
     conserving: bool = False  # cavities hold the oil that flows into them; else they count as full
     supply: float | None = None  # oil film [m] on both surfaces together before the contact; None: flooded
     microroughness: AsperityLayer | None = None  # of both bodies together, too short for the grid
+    give: SurfaceGive | None = None  # by which surfaces give way node by node, besides the half space
     meniscus: float | None = None  # distance [m] of the inlet meniscus before the centre; None: beyond the grid
 
     def touching(self, solid: Array) -> Array:
@@ -86,10 +88,14 @@ class Instant:
 
     def mirrored(self) -> "Instant":
         """Return the instant mirrored along x: entrained the other way."""
-        heights, limit = np.ascontiguousarray(self.heights[:, ::-1]), np.ascontiguousarray(self.limit[:, ::-1])
-        ease, thinned = (None if f is None else np.ascontiguousarray(f[:, ::-1]) for f in (self.ease, self.thinned))
-        back = replace(self, entrainment_speed=-self.entrainment_speed, heights=heights, limit=limit)
-        return replace(back, ease=ease, thinned=thinned)
+        back = self.mapped(lambda field: np.ascontiguousarray(field[:, ::-1]))
+        return replace(back, entrainment_speed=-self.entrainment_speed)
+
+    def mapped(self, change: Callable[[Array], Array]) -> "Instant":
+        """Return the instant with every field of its nodes changed alike, such as mirrored or restricted."""
+        ease, thinned = (None if field is None else change(field) for field in (self.ease, self.thinned))
+        surfaces = replace(self, heights=change(self.heights), limit=change(self.limit))
+        return replace(surfaces, ease=ease, thinned=thinned, give=self.give and self.give.mapped(change))
 
 
 @dataclass(frozen=True)
@@ -156,8 +162,8 @@ class FilmState:
 class FilmSolution(Convergence):
     """The film of one instant.
 
-    `gap` is at least the floor; `overlap` is the shortfall below the floor, which yields plastically; `touching` is the
-    share of a node's area where solids touch.
+    `gap` is at least the floor; `overlap` is what yields plastically: the shortfall below the floor, and the depth that
+    `Instant.give` yields; `touching` is the share of a node's area where solids touch.
     """
 
     state: FilmState

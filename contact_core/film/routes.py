@@ -356,7 +356,7 @@ class _Solver:
         if method == "multigrid":
             reach = self.problem.floor + REACH * self.problem.depth  # of asperities, which this method ignores
             film, layered = scaled.smooth_film / scaled.h_unit, self.problem.depth > 0.0
-            if not (steady and is_applicable(self.problem)) or (layered and film < reach):
+            if scaled.give is not None or not (steady and is_applicable(self.problem)) or (layered and film < reach):
                 return None
             shape = scaled.depth, scaled.curvature
             given = (self.problem, scaled.x, scaled.y, settings.fft, film)
@@ -381,7 +381,7 @@ class _Solver:
             "alternating": (solve_alternating, _ALTERNATING_ITERATIONS),
         }[method]
         limits = settings.tolerance, min(most, settings.iterations)
-        return scaled.without_images(solve(scaled.half_space, self.problem, scaled.with_images(start), *limits))
+        return scaled.without_images(solve(scaled.surfaces, self.problem, scaled.with_images(start), *limits))
 
     def _start(self, name: str) -> Iterate | None:
         scaled, state = self.scaled, self.state
@@ -408,7 +408,8 @@ class _Solver:
         scaled, now = self.scaled, self.scaled.now
         ny, nx = scaled.grid.shape
         ease, thinned = (None if field is None else field.mean(axis=0)[None] for field in (now.ease, now.thinned))
-        row = replace(now, heights=np.zeros((1, nx)), limit=now.limit.max(axis=0)[None], ease=ease, thinned=thinned)
+        limit = now.limit.max(axis=0)[None]
+        row = replace(now, heights=np.zeros((1, nx)), limit=limit, ease=ease, thinned=thinned, give=None)
         grid = replace(scaled.grid, y=np.zeros(1), repeats=scaled.grid.repeats * ny)
         try:
             state = solve_film(row, grid, self.quick).state
@@ -420,11 +421,9 @@ class _Solver:
 
 def coarser(now: Instant, grid: Grid) -> tuple[Instant, Grid]:
     """Return the same instant on a grid of half the nodes."""
-    ease, thinned = (None if field is None else restrict(field) for field in (now.ease, now.thinned))
-    instant = replace(now, heights=restrict(now.heights), limit=restrict(now.limit), ease=ease, thinned=thinned)
     alone = grid.periodic and grid.shape[0] == 1  # such a row represents twice as much of a line
     repeats = 0.5 * grid.repeats if alone else grid.repeats
-    return instant, replace(grid, x=restrict(grid.x), y=restrict(grid.y), repeats=repeats)
+    return now.mapped(restrict), replace(grid, x=restrict(grid.x), y=restrict(grid.y), repeats=repeats)
 
 
 def _is_nested(grid: Grid) -> bool:

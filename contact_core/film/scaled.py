@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from ..errors import ConvergenceError
 from ..kernels.dry import solve_dry
-from ..kernels.dry_asperities import solve_dry_asperities
 from ..kernels.far_field import far_field
+from ..kernels.giving_half_space import giving
+from ..kernels.half_space import HalfSpace
 from ..kernels.mixed.problem import Iterate, Problem, Solution
 from ..reference import SmoothContact, SmoothLine
 from ..reference.starvation import film_behind_meniscus, supplied_film
@@ -19,6 +20,7 @@ from .instant import FilmSolution, FilmState, Grid, Instant, Settings, Step
 from .lengths import film_size, inlet_length, resolves_inlet
 from .outputs import disc
 from .shared import ENTRIES, half_space, tables
+from .solids import pressed
 
 Array = NDArray[np.float64]
 
@@ -90,6 +92,7 @@ class Scaled:
         self.half_space = half_space(grid.shape, scale, settings.fft)
         if grid.periodic:  # displacements are relative to those a grid's length away: the same on coarser grids
             self.half_space = half_space(grid.shape, scale, settings.fft, float(grid.shape[1] - 1))
+        self.give = now.give and now.give.scaled(self.p_unit, self.h_unit)
         self.cap = now.limit / self.p_unit
         if self.cap.sum() <= 1.01 * self.load:
             raise ConvergenceError(
@@ -212,6 +215,11 @@ class Scaled:
         pressure = self.smooth * (self.load / max(float(self.smooth.sum()), 1e-300))
         gap = shape.gap(self.x, self.y, self.size) + self.half_space.deform(pressure)
         return np.asarray((gap - gap.min()) * self.h_unit + max(self.smooth_film, self.settings.floor))
+
+    @cached_property
+    def surfaces(self) -> HalfSpace:
+        """The half space as the kernels see it, under surfaces that give way where they do."""
+        return giving(self.half_space, self.give and self.give.mapped(self._with_images))
 
     def problem(self) -> Problem:
         """Return the problem that the kernels solve."""
@@ -363,12 +371,8 @@ class Scaled:
             fluid = np.minimum(self.smooth * ((1.0 - share) * self.load / self.smooth.sum()), 0.5 * self.cap)
             gap = gap + self.half_space.deform(fluid)
         left = self.load - float(fluid.sum())
-        room = self.cap - fluid
-        contact, limits = (self.half_space, gap, room, left, self.smooth), (tolerance, _DRY_ITERATIONS)
-        if self.fade > 0.0:
-            solid, rigid, converged, iterations = solve_dry_asperities(*contact, (self.stress, self.fade), *limits)
-        else:
-            solid, rigid, converged, iterations = solve_dry(*contact, *limits)
+        contact, limits = (self.half_space, gap, self.cap, left, self.smooth), (tolerance, _DRY_ITERATIONS)
+        solid, rigid, converged, iterations = pressed(*contact, fluid, (self.stress, self.fade), self.give, *limits)
         return Iterate(solid + fluid, fluid, solid > 0.0, rigid + self.floor), converged, iterations
 
     def dry(self, route: str, share: float = 1.0) -> FilmSolution:
@@ -379,6 +383,8 @@ class Scaled:
         tolerance = 0.1 * self.settings.tolerance  # conjugate gradients are cheap, and no later step corrects them
         iterate, converged, iterations = self._shared(share, tolerance)
         gap = iterate.rigid + self.undeformed + self.half_space.deform(iterate.pressure)
+        if self.give is not None:
+            gap += self.give.at(iterate.pressure)
         load_error = float(iterate.pressure.sum()) / self.load - 1.0
         mass = np.maximum(gap, self.floor)
         if self.now.supply is not None:
@@ -417,6 +423,8 @@ class Scaled:
             state = replace(state, mass_before=self.start.mass, dt=self.step.dt)
         capped = it.solid & (it.pressure >= self.cap)
         overlap = np.where(capped, np.maximum(self.floor - found.gap, 0.0), 0.0) * self.h_unit
+        if self.give is not None:
+            overlap += self.give.yielded(it.pressure) * self.h_unit
         gap = np.maximum(found.gap, self.floor) * self.h_unit
         inlet_nodes = self._inlet_nodes(gap)
         return FilmSolution(

@@ -3,7 +3,10 @@
     half_space      deformation of an elastic half space by DC-FFT, free or periodic along y, and its inverse
     dry             contact without a fluid: coarse grids and windows
     dry_asperities  the same with asperities that are too short for the grid
+    dry_giving      the same on surfaces that give way node by node
     dry_faces       conjugate gradients in one window
+    surface_give    by how much nodes give way under their own pressure
+    giving_half_space  a half space under such a surface
     mixed/          fluid and solids together, on rough bodies
     multigrid/      smooth films
     far_field       pressure and load beyond the edge of the grid

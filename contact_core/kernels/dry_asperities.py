@@ -2,8 +2,9 @@
 
 The pressure minimises the elastic energy p K p / 2 + gap p + sum phi(p) under 0 <= p <= cap and sum p = load, where
 -phi'(p) = depth ln(stress / p), at least 0, is the gap that the asperities hold open under p (`mixed.asperities`).
-phi is convex, so Newton's method with a line search finds the minimum. Conjugate gradients, which keep the load, solve
-for its steps; they are preconditioned by the stiffness of each node alone.
+A surface that gives way adds the integral of its depth. Both are convex, so Newton's method with a line search finds
+the minimum. Conjugate gradients, which keep the load, solve for its steps; they are preconditioned by the stiffness of
+each node alone.
 """
 
 import numpy as np
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from .dry import solve_dry
 from .half_space import HalfSpace
 from .mixed.asperities import REACH
+from .surface_give import SurfaceGive
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -36,11 +38,13 @@ def solve_dry_asperities(
     asperities: tuple[float, float],
     tolerance: float,
     iterations: int,
+    give: SurfaceGive | None = None,
 ) -> tuple[Array, float, bool, int]:
     """Return pressure [ny, nx], rigid gap, convergence and iterations.
 
-    `asperities` are stress and depth; the other arguments are those of `dry.dry_solution`. The error counts the change
-    of pressure that would close the gap of each node by itself.
+    `asperities` are stress and depth, `give` is that of the surface on top of the half space; the other arguments are
+    those of `dry.dry_solution`. The error counts the change of pressure that would close the gap of each node by
+    itself.
     """
     stress, depth = asperities
     soft, change, error = half_space.near[0, 0], np.inf, np.inf
@@ -51,17 +55,20 @@ def solve_dry_asperities(
     deformed = gap + half_space.deform(p)
     while spent < iterations:
         free, bend = p < cap, np.where(p < stress, depth / np.maximum(p, 1e-300), 0.0)
+        curve = bend if give is None else bend + give.slope_at(p)
         pull = deformed - _held_open(p, stress, depth)  # -rigid where the balance holds
+        if give is not None:
+            pull += give.at(p)
         rigid = -float((pull * p)[free].sum() / p[free].sum())
         free |= pull + rigid > 0.0  # what is at its cap and opens
-        error = float((np.abs(pull + rigid) / (soft + bend))[free].sum()) / load
+        error = float((np.abs(pull + rigid) / (soft + curve))[free].sum()) / load
         if error < tolerance:
             break
-        step, count = _newton_step(half_space, pull, bend, free)
+        step, count = _newton_step(half_space, pull, curve, free)
         spent += count
         if count == 0:  # rounding
             break
-        energy, part = _energy(p, deformed + gap, stress, depth), 1.0
+        energy, part = _energy(p, deformed + gap, stress, depth, give), 1.0
         for _ in range(_HALVINGS):
             with np.errstate(over="ignore"):
                 lower = np.where(bend > 0.0, p * np.exp(np.minimum(part * step / np.maximum(p, 1e-300), 0.0)), 0.0)
@@ -69,7 +76,7 @@ def solve_dry_asperities(
             trial = _loaded(np.minimum(np.where(step > 0.0, p + part * step, lower), cap), cap, load)
             moved = gap + half_space.deform(trial)
             change = float(np.abs(trial - p).sum()) / load
-            if change < _NEAR or _energy(trial, moved + gap, stress, depth) <= energy:
+            if change < _NEAR or _energy(trial, moved + gap, stress, depth, give) <= energy:
                 break
             part *= 0.5
         p, deformed = trial, moved
@@ -81,11 +88,12 @@ def _held_open(p: Array, stress: float, depth: float) -> Array:
     return depth * np.log(np.maximum(stress / np.maximum(p, _LEAST * stress), 1.0))
 
 
-def _energy(p: Array, twice: Array, stress: float, depth: float) -> float:
-    """Return p K p / 2 + gap p + sum phi(p); `twice` is K p + 2 gap."""
+def _energy(p: Array, twice: Array, stress: float, depth: float, give: SurfaceGive | None) -> float:
+    """Return p K p / 2 + gap p + sum phi(p), that of `give` included; `twice` is K p + 2 gap."""
     below = np.minimum(p, stress)
     phi = depth * below * (np.log(np.maximum(below, 1e-300) / stress) - 1.0)
-    return float((0.5 * twice * p).sum() + phi.sum())
+    energy = float((0.5 * twice * p).sum() + phi.sum())
+    return energy if give is None else energy + give.energy(p)
 
 
 def _loaded(p: Array, cap: Array, load: float) -> Array:

@@ -148,6 +148,10 @@ class HalfSpace:
         self._deform.field[:, : self.shape[1]] = pressure
         return self._deform.run()
 
+    def respond(self, pressure: Array, step: Array) -> Array:
+        """Return the change [ny, nx] of the deformation with a small step from a pressure [ny, nx]."""
+        return self.deform(step)
+
     def press(self, gap: Array) -> Array:
         """Return the pressure that would open a small gap [ny, nx] on the padded, periodic plane.
 

@@ -5,7 +5,7 @@ Load sharing has no Protocol: its laws are `load_sharing.FittedSharing` with oth
 
 from collections.abc import Hashable
 from dataclasses import Field
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -107,6 +107,14 @@ class Supply(Law, Protocol):
         """
 
 
+class Hardening(NamedTuple):
+    """Pressures at which tribofilms yield, and how they harden. Arrays of one shape."""
+
+    first: Array  # above it the thicker film yields [Pa]
+    second: Array  # above it both films do, up to the hardness of the solids [Pa]
+    slope: float  # depth per pressure, of each of the two [m/Pa]
+
+
 class Plasticity(Law, Protocol):
     """Largest pressure that the bodies bear."""
 
@@ -120,10 +128,24 @@ class Plasticity(Law, Protocol):
 
     @property
     def indentation(self) -> str:
-        """Plastic depth that hardens the tribofilms: "none" or "total"."""
+        """Plastic depth that hardens the tribofilms: a choice of the scene."""
+
+    @property
+    def remembers(self) -> bool:
+        """True if the depth of instants before counts."""
+
+    @property
+    def iterated(self) -> bool:
+        """True if the depth of an instant itself counts: `hardening` is part of its solution."""
 
     def limit(self, film_1: Array, film_2: Array, depth: Array | float, full_thickness: float) -> Array:
         """Return the largest pressure [Pa] between tribofilms [m] that a plastic `depth` [m] has pressed in."""
+
+    def hardening(self, film_1: Array, film_2: Array, depth: Array | float, full_thickness: float) -> Hardening:
+        """Return how tribofilms [m] yield above `limit`, and harden as they are pressed in."""
+
+    def shares(self, film_1: Array, film_2: Array, depth: Array | float, overlap: Array) -> tuple[Array, Array]:
+        """Return the parts of an overlap [m], pressed in after a `depth` [m], that body 1 and body 2 take."""
 
     def under(self, cover: Numbers) -> Numbers:
         """Return the hardness [Pa] under a tribofilm of `cover` (0 to 1) of its full thickness."""

@@ -9,6 +9,8 @@ from ..quantities import out_of_range
 from .fields import ROOM, SceneFields
 from .operation import OperatingPoint
 
+_THINNED = 0.5  # of its thickness, by which pressure may thin a tribofilm
+
 
 def refusal(scene: SceneFields, op: OperatingPoint) -> str:
     """Return why the scene cannot have an operating point, or an empty text.
@@ -100,6 +102,18 @@ def _shape_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
             )
     if plasticity.error:
         yield "hardness", plasticity.error
+    solids = scene.solids
+    if solids.film_modulus is not None:
+        given = solids.film_modulus, solids.film_poisson_ratio
+        said = "solids.film_modulus = {:g} Pa with film_poisson_ratio = {:g}".format(*given)
+        if solids.film_give < 0.0:
+            yield "film_modulus", f"{said} makes a tribofilm stiffer than its solids. Lower it, or leave it out."
+        if hertz.pressure_max * solids.film_give > _THINNED:
+            yield (
+                "film_modulus",
+                f"{said} lets the Hertz pressure of {hertz.pressure_max:.3g} Pa take more than {_THINNED:.0%} of a "
+                "tribofilm's thickness; the layer is linear. Raise it, or lower the load.",
+            )
 
 
 def _roughness_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:

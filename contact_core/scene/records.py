@@ -15,6 +15,7 @@ CHOSEN = (  # fields that it chooses where a scene does not give them
     "control.mixed_instants",
     "control.dry_instants",
 )
+_POISSON = 0.3  # of the solids, assumed: E' alone does not give it
 
 
 @dataclass(frozen=True)
@@ -24,6 +25,33 @@ class Solids:
     reduced_modulus: float = parameter(
         "Pa", "E' = 2 / [(1 - v1^2)/E1 + (1 - v2^2)/E2]", above=1e3, most=1e13, quantity="Stress"
     )
+    film_modulus: float | None = parameter(
+        "Pa",
+        "Young's modulus of the tribofilm, which gives way as a thin layer; not given: as rigid as its solid",
+        above=1e6,
+        most=1e13,
+        default=None,
+        quantity="Stress",
+    )
+    film_poisson_ratio: float = parameter("", "Poisson's ratio of the tribofilm", least=0.0, most=0.45, default=0.3)
+
+    @property
+    def own_modulus(self) -> float:
+        """Oedometric modulus [Pa] of the solids, taken as alike."""
+        return self.reduced_modulus * (1.0 - _POISSON) ** 2 / (1.0 - 2.0 * _POISSON)
+
+    @property
+    def film_give(self) -> float:
+        """Depth per pressure and thickness [1/Pa] by which a tribofilm gives way more than as much of the solids.
+
+        A layer that is thin against the contact cannot spread: a pressure p thins it by p h / M, M being its
+        oedometric modulus E (1 - v) / [(1 + v) (1 - 2 v)] (Johnson, Contact Mechanics, 1985,
+        doi:10.1017/CBO9781139171731, section 5.8).
+        """
+        if self.film_modulus is None:
+            return 0.0
+        v = self.film_poisson_ratio
+        return (1.0 + v) * (1.0 - 2.0 * v) / ((1.0 - v) * self.film_modulus) - 1.0 / self.own_modulus
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,7 @@ class FacingSurfaces(NamedTuple):
     heights: Array  # of both bodies together, positive into the gap [m]
     roughness: Array  # the same, free of the grooves' shape [m]
     tribofilms: tuple[Array, Array]  # thickness on each body [m]
-    plastic: Array  # permanent depth of both bodies that plasticity.indentation = "total" counts [m], else 0
+    plastic: Array  # permanent depth of both bodies that `plasticity.remembers` [m], else 0
 
 
 def facing_surfaces(scene: Scene, state: ContactState, *, moving: bool = False) -> FacingSurfaces:
@@ -54,11 +54,17 @@ def facing_surfaces(scene: Scene, state: ContactState, *, moving: bool = False) 
         on_grid(between(first, parts[0]), nodes[0]) + on_grid(between(second, parts[1]), nodes[1])
         for first, second in (patches, [roughness_of(z, patch) for z, patch in zip(bare, patches, strict=True)])
     )
-    films = [on_grid(body.tribofilm, n) for body, n in zip(state.bodies, nodes, strict=True)]
+    return FacingSurfaces(heights, roughness, *facing_films(scene, state))
+
+
+def facing_films(scene: Scene, state: ContactState) -> tuple[tuple[Array, Array], Array]:
+    """Return `tribofilms` and `plastic` of the facing surfaces."""
+    nodes = [patch_nodes(scene, body) for body in state.bodies]
+    first, second = (on_grid(body.tribofilm, n) for body, n in zip(state.bodies, nodes, strict=True))
     plastic = np.zeros((state.rows, scene.film.points))
-    if scene.plasticity.indentation == "total":
+    if scene.plasticity.remembers:
         plastic += sum(on_grid(body.plastic, n) for body, n in zip(state.bodies, nodes, strict=True))
-    return FacingSurfaces(heights, roughness, (films[0], films[1]), plastic)
+    return (first, second), plastic
 
 
 def surface_now(scene: Scene, body: Body, index: int) -> SurfaceNow:

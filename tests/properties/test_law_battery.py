@@ -230,6 +230,25 @@ def test_a_pressure_limit_rises_with_depth_and_falls_with_film(law, film_1, film
     assert np.all(law.limit(film_1, film_2 + deeper, depth, FULL) <= found + rounding)
 
 
+@given(laws_of("plasticity"), films, films, depths, arrays(float, SHAPE, elements=st.floats(0.0, 1.0)))
+def test_a_film_that_hardens_bears_at_its_depth_what_presses_it_in(law, film_1, film_2, depth, share):
+    first, second, slope = law.hardening(film_1, film_2, depth, FULL)
+    assert np.array_equal(first, law.limit(film_1, film_2, depth, FULL))
+    assert np.all((first <= second) & (second <= law.hardness))
+    pressure = first + share * (law.hardness - first)
+    pressed = slope * (np.maximum(pressure - first, 0.0) + np.maximum(pressure - second, 0.0))
+    assert law.limit(film_1, film_2, depth + pressed, FULL) == approx(pressure, rel=1e-9)
+
+
+@given(laws_of("plasticity"), films, films, depths, depths)
+def test_both_bodies_take_an_overlap_whatever_their_order(law, film_1, film_2, depth, overlap):
+    first, second = law.shares(film_1, film_2, depth, overlap)
+    assert np.all((first >= 0.0) & (second >= 0.0))
+    assert first + second == approx(overlap, rel=1e-12)
+    swapped = law.shares(film_2, film_1, depth, overlap)
+    assert np.stack(swapped) == approx(np.stack((second, first)), rel=1e-9, abs=1e-20)
+
+
 @given(laws_of("boundary_friction"), pressures, covers, speeds)
 def test_boundary_friction_opposes_sliding_and_vanishes_without_contact(law, pressure, cover, speed):
     found = law(pressure, cover, speed)

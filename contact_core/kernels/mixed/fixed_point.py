@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..anderson import Anderson
 from ..compiled import jit
+from ..giving_half_space import GivingHalfSpace
 from ..half_space import HalfSpace
 from . import cavities, corrections, reynolds
 from .asperities import share_out
@@ -215,6 +216,8 @@ class Iteration:
         out = (self.r, self.stiff, self.dh, self.sums)
         state = (p, f, q.cap, solid, *balance)
         self.zone = corrections.correct_gap(*state, *scales, self.stiff_of_unit, *out, part, filling, first)
+        if isinstance(self.half_space, GivingHalfSpace):  # the node itself gives way by a part of the change
+            self.dh /= 1.0 + self.half_space.give.slope_at(p) / self.patch
         if q.wrapped:
             wrap(solid)
 

@@ -145,7 +145,7 @@ class _Film:
         if problem.wrapped and shape[0] == 3:
             unit = np.zeros(shape)
             unit[:, 0] = 1.0
-            self.response = half_space.deform(unit)[1]
+            self.response = half_space.respond(np.zeros(shape), unit)[1]
         near = half_space.near
         apart_j, apart_i = (np.abs(d[:, None] - d[None, :6]) for d in (linearisation.DJ, linearisation.DI))
         self.patch = np.where((apart_j < 2) & (apart_i < 2), near[np.minimum(apart_j, 1), np.minimum(apart_i, 1)], 0.0)
@@ -250,7 +250,7 @@ class _Film:
             dp = np.zeros(shape)
             dp.ravel()[nodes] = x[:-1]
             set_edge(dp, q.edge, q.wrapped)
-            return dp, self.half_space.deform(dp) + x[-1]
+            return dp, self.half_space.respond(self.p, dp) + x[-1]
 
         def operator(x: Array) -> Array:
             dp, dh = spread(x)
