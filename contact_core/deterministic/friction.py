@@ -26,6 +26,7 @@ class Film:
     gap: Array  # [m]
     cover: Array  # mean tribofilm of both bodies / full thickness
     temperature: Array | float  # of the oil, mean across the film [K]
+    oil_friction: float | None = None  # shear of the oil over its pressure, where it is known; None: by its rheology
 
 
 @dataclass(frozen=True)
@@ -76,9 +77,12 @@ def shear(case: Case, film: Film) -> Shear:
     """Return the local shear stresses: the oil's by its rheology, the solids' by the law of boundary friction."""
     oil, boundary = case.scene.lubricant, case.scene.boundary_friction
     speed, along_x, along_y = sliding(case.op, film.grid)
+    solid = boundary(film.solid, film.cover, speed)
+    if film.oil_friction is not None:
+        return Shear(film.oil_friction * film.fluid, solid, speed, along_x, along_y)
     newtonian = oil.viscosity(film.fluid, film.temperature) * speed / film.gap
     fluid = oil.rheology(newtonian, film.fluid * boundary.grip(speed))
-    return Shear(fluid, boundary(film.solid, film.cover, speed), speed, along_x, along_y)
+    return Shear(fluid, solid, speed, along_x, along_y)
 
 
 def friction(stress: Shear, grid: Grid) -> Friction:

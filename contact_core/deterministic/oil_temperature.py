@@ -27,11 +27,13 @@ _ENOUGH = 1e-3  # change of temperature that ends them, of the highest rise
 _FILM_OF_VISCOSITY = 0.67  # power of the viscosity in the film of smooth bodies (Hamrock & Dowson)
 
 
-def sheared(grid: Grid, found: FilmSolution, cover: Array, temperature: float) -> Film:
+def sheared(
+    grid: Grid, found: FilmSolution, cover: Array, temperature: float, oil_friction: float | None = None
+) -> Film:
     """Return a film solution as friction needs it, its oil at one temperature [K]."""
     state = found.state
     solid = state.pressure - state.fluid
-    return Film(grid, state.fluid, solid, found.gap, cover, temperature)
+    return Film(grid, state.fluid, solid, found.gap, cover, temperature, oil_friction)
 
 
 def warmed(
