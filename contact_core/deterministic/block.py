@@ -2,8 +2,8 @@
 
 `control.driver` says which solutions drive tribofilm and wear: mixed ones, dry ones or, for "auto", by the share of the
 load on the solids. Where the solids carry more than `control.dry_above` of the load, a dry contact replaces the mixed
-one: its solids carry the same share, under oil that carries the rest like smooth bodies, with the friction per load that
-it had. A mixed march measures both anew every few blocks. `sampling` has the instants of both.
+one: its solids carry the same share, under oil that carries the rest like smooth bodies, with the friction per load
+that it had. A mixed march measures both anew every few blocks. `sampling` has the instants of both.
 """
 
 import math
