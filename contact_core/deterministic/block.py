@@ -74,13 +74,12 @@ def _sampled(case: Case, state: ContactState, same: bool) -> tuple[ContactState,
         found = sums.means()["contact_load_ratio"]
         if driver == "mixed" or found <= case.scene.control.dry_above or sums.fallbacks:
             return replace(state, share=1.0), sums
-        measured = found, *sums.oil_over_its_load(case.op.load)
-        before = state.share, state.oil_friction, state.oil_rolling
+        friction, rolling = sums.oil_over_its_load(case.op.load)
         if state.share < 1.0:  # one measurement scatters
-            measured = tuple(0.5 * (now + then) for now, then in zip(measured, before, strict=True))
-        share, oil, rolling = measured
-        left = _DRY_BLOCKS
-        state = replace(state, share=share, oil_friction=oil, oil_rolling=rolling, dry_blocks_left=left, film=None)
+            found = 0.5 * (found + state.share)
+            friction, rolling = 0.5 * (friction + state.oil_friction), 0.5 * (rolling + state.oil_rolling)
+        measured = replace(state, share=found, oil_friction=friction, oil_rolling=rolling)
+        state = replace(measured, dry_blocks_left=_DRY_BLOCKS, film=None)
         sums = sums.restarted(state, _OF_FILM)
     else:  # the flags of the mixed solutions that measured the share still hold
         sums.flags, sums.before_dry = RangeFlag(state.outputs.range_flags) & _OF_FILM, state.outputs.unconverged
