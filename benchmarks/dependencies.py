@@ -46,6 +46,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "ball_209_inner": ("contact_core/data/scenes/ball_209_inner.toml",),
     "dimple_rolling": ("contact_core/data/scenes/dimple_rolling.*",),
     "cam_tappet": ("contact_core/data/scenes/cam_tappet.toml",),
+    "pin_on_disc": ("contact_core/data/scenes/pin_on_disc.toml",),
     "measurements": ("benchmarks/data/*.csv",),
     "stribeck": ("system_models/run/stribeck.py", "system_models/run/duty.py", "system_models/run/duty_table.py"),
     "machines": ("system_models/machines/*.py", "system_models/machines/*.toml", "system_models/machines/*.csv",

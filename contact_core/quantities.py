@@ -103,9 +103,9 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("rolling_resistance", "F_r", "N",
              "integral of (h/2) dp/dx over the fluid film; the force on each surface is the opposite along +x; not in power_loss", nominal=0.1, trend="level"),
     Quantity("friction_solid", "F_s", "N", "part of friction_force where solids touch", nominal=1.0, trend="level"),
-    Quantity("friction_fluid", "F_f", "N", "part of friction_force in the oil film", nominal=1.0),
+    Quantity("friction_fluid", "F_f", "N", "part of friction_force in the oil film", nominal=1.0, trend="level"),
     Quantity("spin_torque", "M_s", "N m", "friction torque on body 1 about the axis from x to y", nominal=1e-3, trend="level"),
-    Quantity("power_loss", "P", "W", "-friction_force (speed_1 - speed_2) - spin_torque spin", nominal=1.0, minimum=0.0),
+    Quantity("power_loss", "P", "W", "-friction_force (speed_1 - speed_2) - spin_torque spin", nominal=1.0, minimum=0.0, trend="level"),
     *(Quantity(f"dfriction_d{name}", f"dF/d{symbol}", unit, f"derivative of friction_force by {text}; at a held film, or total where film.model is 'regression'", nominal=nominal)
       for name, symbol, unit, nominal, text in (
           ("speed_1", "u_1", "N.s/m", 1.0, "speed_1"),
@@ -128,7 +128,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("flash_temperature_rise", "dT_f", "K", "mean rise of the surfaces over the bulk temperatures in the real contact", relative=True, trend="level"),
     *_pair("temperature", "T", "K", "bulk temperature", nominal=350.0, minimum=0.0, display="degC"),
     Quantity("heat_flow_1", "Q_1", "W", "heat that the contact puts into the body, body 1", nominal=1.0, trend="level"),
-    Quantity("heat_flow_2", "Q_2", "W", "heat that the contact puts into the body, body 2", nominal=1.0),
+    Quantity("heat_flow_2", "Q_2", "W", "heat that the contact puts into the body, body 2", nominal=1.0, trend="level"),
     Quantity("approach", "delta", "m", "approach of the bodies from first touching of the undeformed, smooth shapes", nominal=1e-6, display="um", trend="level"),
     Quantity("valid", "", "", "false: the last input could not be used; state and outputs stand as they were", kind="Boolean"),
     Quantity("fidelity_used", "", "", "fidelity level that gave the outputs: 1 regression, 2 deterministic, 3 auto, 0 none yet", kind="Integer", minimum=0, maximum=3),

@@ -27,6 +27,7 @@ class Accumulator:
     since: tuple[Array, Array]  # passes since a node had the exposure in `peaks`
     peaks: tuple[Array, Array]  # largest exposure in the last pass
     fluid: Array  # pressure of the oil, on the grid
+    oil_shear: float = 0.0  # stress of the oil, summed over all nodes
     outputs: list[dict[str, float]] = field(default_factory=list)
     iterations: int = 0
     mixed: int = 0
@@ -34,7 +35,7 @@ class Accumulator:
     before_dry: float = 0.0  # share of them among the mixed solutions that a dry block relies on
     fallbacks: int = 0
     flags: RangeFlag = field(default_factory=lambda: RangeFlag(0))
-    sheared: Film | None = None  # the last instant's
+    sheared: Film | None = None  # the last instant's whose oil was sheared by its rheology
 
     @staticmethod
     def before(state: ContactState) -> "Accumulator":
@@ -46,9 +47,10 @@ class Accumulator:
         return Accumulator(*tracks, np.zeros((rows, columns + 1)))
 
     def restarted(self, state: ContactState, kept: RangeFlag) -> "Accumulator":
-        """Return empty sums that keep iterations, the share not converged and, of the flags, those in `kept`."""
+        """Return empty sums that keep iterations, the share not converged, the last film, and the flags in `kept`."""
         sums = Accumulator.before(state)
         sums.flags, sums.iterations, sums.before_dry = self.flags & kept, self.iterations, self.share_unconverged
+        sums.sheared = self.sheared
         return sums
 
     @property
@@ -96,16 +98,29 @@ class Accumulator:
             self.pressures[i][:] += pressures[i]
             self.exposures[i][:] += exposures[i]
         self.fluid += fields.fluid_pressure
-        self.outputs.append(observed(case, fields))
-        self.sheared = fields.sheared
+        self.oil_shear += float(fields.oil_shear.sum())
+        seen = observed(case, fields)
+        if fields.sheared.oil_friction is None:
+            self.sheared = fields.sheared
+        else:  # the pressure of that oil is Hertz's: it has no inlet that resists rolling
+            seen["rolling_resistance"] = state.oil_rolling * (1.0 - seen["contact_load_ratio"]) * case.op.load
+        self.outputs.append(seen)
         self.iterations += fields.iterations
         self.mixed += fields.route == "mixed"
         self.unconverged += not fields.converged
         self.fallbacks += fields.route == "fallback"
         self.flags |= instant_flags(case, fields)
 
+    def oil_over_its_load(self, load: float) -> tuple[float, float]:
+        """Return friction and rolling resistance of the oil over what it carries of the `load` [N]; 0 for nothing."""
+        pressed, means = float(self.fluid.sum()), self.means()
+        carried = (1.0 - means["contact_load_ratio"]) * load
+        if pressed <= 0.0 or carried <= 0.0:
+            return 0.0, 0.0
+        return self.oil_shear / pressed, means["rolling_resistance"] / carried
+
     def slopes(self, case: Case) -> dict[str, float]:
-        """Return the derivatives of the friction in the last instant."""
+        """Return the derivatives of the friction in that film; none where no instant had one."""
         return derivatives(case, self.sheared) if self.sheared else {}
 
     def means(self) -> dict[str, float]:

@@ -2,8 +2,8 @@
 
 `control.driver` says which solutions drive tribofilm and wear: mixed ones, dry ones or, for "auto", by the share of the
 load on the solids. Where the solids carry more than `control.dry_above` of the load, a dry contact replaces the mixed
-one: its solids carry the same share, under oil that carries the rest like smooth bodies. A mixed march measures that
-share anew every few blocks. `sampling` has the instants of both.
+one: its solids carry the same share, under oil that carries the rest like smooth bodies, with the friction per load
+that it had. A mixed march measures both anew every few blocks. `sampling` has the instants of both.
 """
 
 import math
@@ -74,8 +74,12 @@ def _sampled(case: Case, state: ContactState, same: bool) -> tuple[ContactState,
         found = sums.means()["contact_load_ratio"]
         if driver == "mixed" or found <= case.scene.control.dry_above or sums.fallbacks:
             return replace(state, share=1.0), sums
-        share = found if state.share == 1.0 else 0.5 * (found + state.share)  # one measurement scatters
-        state = replace(state, share=share, dry_blocks_left=_DRY_BLOCKS, film=None)
+        friction, rolling = sums.oil_over_its_load(case.op.load)
+        if state.share < 1.0:  # one measurement scatters
+            found = 0.5 * (found + state.share)
+            friction, rolling = 0.5 * (friction + state.oil_friction), 0.5 * (rolling + state.oil_rolling)
+        measured = replace(state, share=found, oil_friction=friction, oil_rolling=rolling)
+        state = replace(measured, dry_blocks_left=_DRY_BLOCKS, film=None)
         sums = sums.restarted(state, _OF_FILM)
     else:  # the flags of the mixed solutions that measured the share still hold
         sums.flags, sums.before_dry = RangeFlag(state.outputs.range_flags) & _OF_FILM, state.outputs.unconverged
@@ -136,6 +140,7 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
     seen, spread = _observed(sums, surfaces, apart=driver == "dry")
     trends = state.trends.followed(seen, spread, _MEMORY[kind], _lag(case.scene, driver))
     smooth, count = trends.values(), f"blocks_{driver}"
+    smooth["friction_force"] = smooth["friction_solid"] + smooth["friction_fluid"]
     outputs = replace(
         state.outputs,
         **smooth,

@@ -16,7 +16,7 @@ from ..surfaces.track_means import folded
 from .block import is_due, solve_block
 from .changing_inputs import inputs_change, solve_instant_of_change
 from .growth_and_wear import evolved, wear_volume_rate
-from .outputs import outputs_of
+from .outputs import outputs_of, with_heat
 from .transient import longest_instant
 
 _THIN = 3  # every third node along x and y is enough to tell the change of geometry
@@ -60,7 +60,7 @@ def _after(case: Case, state: ContactState, step: float, change: float) -> Conta
         change=state.change + change,
         held=state.held + step,
         trends=state.trends.over(step, state.held),
-        temperatures=temperatures_after(case, state.outputs, step),
+        temperatures=temperatures_after(case, with_heat(case, state), step),
     )
 
 
@@ -75,7 +75,7 @@ def _longest_step(case: Case, state: ContactState, left: float) -> tuple[float, 
     """Return the time [s] in which the block is used up, at most `left`, and the change of geometry [m] in it."""
     budget = case.scene.control.change - state.change
     rest = max(state.hold - state.held, NO_TIME)
-    step = min(left, rest, cool_time(case, state.outputs, left))
+    step = min(left, rest, cool_time(case, with_heat(case, state), left))
     samples = _thinned(case.scene, state)
     while True:  # the tribofilm's growth slows down: this ends within few rounds
         after = _evolved(case, state, samples, step)

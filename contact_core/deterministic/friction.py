@@ -26,6 +26,7 @@ class Film:
     gap: Array  # [m]
     cover: Array  # mean tribofilm of both bodies / full thickness
     temperature: Array | float  # of the oil, mean across the film [K]
+    oil_friction: float | None = None  # shear of the oil over its pressure, where it is known; None: by its rheology
 
 
 @dataclass(frozen=True)
@@ -76,9 +77,19 @@ def shear(case: Case, film: Film) -> Shear:
     """Return the local shear stresses: the oil's by its rheology, the solids' by the law of boundary friction."""
     oil, boundary = case.scene.lubricant, case.scene.boundary_friction
     speed, along_x, along_y = sliding(case.op, film.grid)
-    newtonian = oil.viscosity(film.fluid, film.temperature) * speed / film.gap
+    solid = boundary(film.solid, film.cover, speed)
+    if film.oil_friction is not None:
+        return Shear(film.oil_friction * film.fluid, solid, speed, along_x, along_y)
+    newtonian = _viscosity(case, film, film.fluid, film.temperature) * speed / film.gap
     fluid = oil.rheology(newtonian, film.fluid * boundary.grip(speed))
-    return Shear(fluid, boundary(film.solid, film.cover, speed), speed, along_x, along_y)
+    return Shear(fluid, solid, speed, along_x, along_y)
+
+
+def _viscosity(case: Case, film: Film, pressure: Array, temperature: Array | float) -> Array:
+    """Return the viscosity [Pa s] of the oil in a film, which double layers on its surfaces may raise."""
+    oil = case.scene.lubricant
+    viscosity: Array = oil.viscosity(pressure, temperature)
+    return viscosity * oil.double_layer(film.gap, case.op.inlet_temperature) if oil.double_layer.acts else viscosity
 
 
 def friction(stress: Shear, grid: Grid) -> Friction:
@@ -104,14 +115,14 @@ def derivatives(case: Case, film: Film) -> dict[str, float]:
     oil, boundary, grid = case.scene.lubricant, case.scene.boundary_friction, film.grid
     speed, along_x, along_y = sliding(case.op, grid)
     speed = np.maximum(speed, _STEP * boundary.slip_speed)  # at rest the slope is that of the limit
-    viscosity = oil.viscosity(film.fluid, film.temperature)
+    viscosity = _viscosity(case, film, film.fluid, film.temperature)
     newtonian = viscosity * speed / film.gap
     grip, grip_slope = boundary.grip(speed), boundary.grip_slope(speed)
     by_newtonian, by_pressure = oil.rheology.slopes(newtonian, film.fluid * grip)
-    more, less = (oil.viscosity(film.fluid * (1.0 + sign * _STEP), film.temperature) for sign in (1.0, -1.0))
+    more, less = (_viscosity(case, film, film.fluid * (1.0 + sign * _STEP), film.temperature) for sign in (1.0, -1.0))
     stiffening = (more - less) / (2.0 * _STEP)  # d viscosity / d ln p
     step = _STEP * float(np.mean(film.temperature))
-    warmer, colder = (oil.viscosity(film.fluid, film.temperature + sign * step) for sign in (1.0, -1.0))
+    warmer, colder = (_viscosity(case, film, film.fluid, film.temperature + sign * step) for sign in (1.0, -1.0))
     solid, solid_by_speed = (
         boundary(film.solid, film.cover, speed),
         boundary.slope(film.solid, film.cover, speed),

@@ -66,6 +66,7 @@ def solve(
     *,
     dry: bool = False,
     solid_share: float = 1.0,
+    oil_friction: float | None = None,
 ) -> ContactFields:
     """Solve the contact at one instant; time and state stand still.
 
@@ -75,6 +76,7 @@ def solve(
     dry : leave the film out.
     solid_share : share of the load that the solids of a dry contact carry; oil spread as in Hertz's contact carries the
         rest.
+    oil_friction : coefficient of friction of that oil; None: by its rheology at that pressure, in the dry gap.
 
     Returns
     -------
@@ -93,7 +95,8 @@ def solve(
     """
     if not isinstance(scene.film, Deterministic):
         raise SceneError(f"film.model = '{scene.film.name}' has no fields. Solve scene.at_level('deterministic').")
-    return solve_instant(Case.bind(scene, op, state.temperatures), state, transient, dry=dry, solid_share=solid_share)
+    case = Case.bind(scene, op, state.temperatures)
+    return solve_instant(case, state, transient, dry=dry, solid_share=solid_share, oil_friction=oil_friction)
 
 
 def solve_instant(
@@ -103,6 +106,7 @@ def solve_instant(
     *,
     dry: bool = False,
     solid_share: float = 1.0,
+    oil_friction: float | None = None,
 ) -> ContactFields:
     """Solve a case at one instant; as `solve`, for an operating point that has been checked."""
     scene = case.scene
@@ -130,9 +134,8 @@ def solve_instant(
             lambda now, start: level.solve(now, grid, start, step, most),
             level.tolerance,
         )
-    found, stress, warm, shortfall = warmed(
-        case, sheared(grid, film, cover, case.op.inlet_temperature), before, heated=not transient or transient.heated
-    )
+    rubbed = sheared(grid, film, cover, case.op.inlet_temperature, oil_friction)
+    found, stress, warm, shortfall = warmed(case, rubbed, before, heated=not transient or transient.heated)
     convergence = film.convergence | {
         "converged": film.converged and not shortfall,
         "shortfall": "; ".join(text for text in (film.shortfall, shortfall) if text),

@@ -17,9 +17,12 @@ def observed(case: Case, fields: ContactFields) -> dict[str, float]:
     seen = {
         "friction_force": found.force_solid + found.force_fluid,
         "friction_solid": found.force_solid,
+        "friction_fluid": found.force_fluid,
         "spin_torque": found.spin_torque,
+        "power_loss": found.power,
         "flash_temperature_rise": warm.flash_rise,
         "heat_flow_1": warm.into_1 * grid.repeats,
+        "heat_flow_2": warm.into_2 * grid.repeats,
     }
     formula, sigma = 0.0, 0.0
     if case.loaded:

@@ -2,7 +2,8 @@
 
 Warm oil shears more easily and so warms less; thinned or warm oil flows more easily, so that less of it is drawn in.
 Where `lubricant.flow` is "newtonian" Reynolds' equation sees the viscosity at the inlet's temperature and the local
-pressure alone; where it is "local", that of the local temperature, thinned by the local shear.
+pressure alone; where it is "local", that of the local temperature, thinned by the local shear. Double layers on the
+surfaces raise either one with the local gap.
 """
 
 from collections.abc import Callable
@@ -27,11 +28,13 @@ _ENOUGH = 1e-3  # change of temperature that ends them, of the highest rise
 _FILM_OF_VISCOSITY = 0.67  # power of the viscosity in the film of smooth bodies (Hamrock & Dowson)
 
 
-def sheared(grid: Grid, found: FilmSolution, cover: Array, temperature: float) -> Film:
+def sheared(
+    grid: Grid, found: FilmSolution, cover: Array, temperature: float, oil_friction: float | None = None
+) -> Film:
     """Return a film solution as friction needs it, its oil at one temperature [K]."""
     state = found.state
     solid = state.pressure - state.fluid
-    return Film(grid, state.fluid, solid, found.gap, cover, temperature)
+    return Film(grid, state.fluid, solid, found.gap, cover, temperature, oil_friction)
 
 
 def warmed(
@@ -109,10 +112,13 @@ def solve_flow(
     inlet = inlet_ease(case)
     if inlet != 1.0:
         now = replace(now, ease=np.full(grid.shape, inlet))
-    if case.scene.lubricant.flow == "newtonian" or now.dry or (not case.entrained and before is None):
+    oil = case.scene.lubricant
+    as_at_inlet = oil.flow == "newtonian" and not oil.double_layer.acts
+    if as_at_inlet or now.dry or (not case.entrained and before is None):
         return solve(now, before)
     if before is not None:
-        return solve(recalled(now, before), before)
+        known = oil.flow == "local" or before.ease.size > 1
+        return solve(recalled(now, before) if known else now, before)
 
     def ease(now: Instant, found: FilmSolution) -> Instant:
         film = warmed(case, sheared(grid, found, cover, case.op.inlet_temperature), None)[0]
@@ -123,15 +129,22 @@ def solve_flow(
 
 def _worked(case: Case, now: Instant, found: FilmSolution, film: Film) -> Instant:
     """Return an instant with the oil as a film `found` has left it."""
-    inlet, viscosity = inlet_ease(case), None
-    if inlet != 1.0 or case.scene.heat.warms_film:
-        viscosity = case.scene.lubricant.viscosity(film.fluid, film.temperature) / inlet
+    oil, inlet, viscosity = case.scene.lubricant, inlet_ease(case), None
+    if oil.flow == "newtonian":
+        if found.route != "mixed":
+            return now
+        return replace(now, ease=inlet / oil.double_layer(found.gap, case.op.inlet_temperature))
+    if inlet != 1.0 or case.scene.heat.warms_film or oil.double_layer.acts:
+        viscosity = oil.viscosity(film.fluid, film.temperature) / inlet
+    if viscosity is not None and oil.double_layer.acts:
+        viscosity = viscosity * oil.double_layer(found.gap, case.op.inlet_temperature)
     speed = sliding(case.op, film.grid)[0]
-    return eased(now, found, case.scene.lubricant.rheology, speed, film.grid.spacing, viscosity)
+    return eased(now, found, oil.rheology, speed, film.grid.spacing, viscosity)
 
 
 def left_behind(case: Case, now: Instant, found: FilmSolution, film: Film) -> FilmState:
     """Return the state of a film with its oil as the next instant of a march starts from it."""
-    if case.scene.lubricant.flow == "local" and found.route == "mixed":
+    oil = case.scene.lubricant
+    if (oil.flow == "local" or oil.double_layer.acts) and found.route == "mixed":
         found = remembering(found, _worked(case, now, found, film))
     return replace(found.state, warmth=np.atleast_2d(film.temperature - case.op.inlet_temperature))

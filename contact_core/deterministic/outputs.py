@@ -5,7 +5,7 @@ from typing import Any
 
 from ..scene import Case, Scene, Side
 from ..state import Body, ContactState, Error, Outputs, RangeFlag, flag_of_errors, flags_of_tribofilm
-from ..state.bulk_temperature import heat_flows, power_loss
+from ..state.bulk_temperature import power_loss
 from ..surfaces.patches import surface_now
 from ..surfaces.roughness import mean_roughness, rms_roughness
 from .solution_error import with_errors_of_the_solution
@@ -20,7 +20,7 @@ def outputs_of(case: Case, state: ContactState, suggested_step: float) -> Output
     for side, body in zip(case.sides, state.bodies, strict=True):
         found = _of_surface(case, side, body) | {"temperature": side.temperature}
         values |= {f"{name}_{side.body + 1}": value for name, value in found.items()}
-    out = state.outputs
+    out = with_heat(case, state)
     flags = RangeFlag(out.range_flags) & ~(RangeFlag.TRIBOFILM_TEMPERATURE | RangeFlag.BY_THE_CLOCK)
     flags |= flags_of_tribofilm(case.scene.tribofilm, case.op.bodies)
     errors = _error_outputs(case.scene, replace(state, outputs=replace(out, **values)), values)
@@ -30,11 +30,23 @@ def outputs_of(case: Case, state: ContactState, suggested_step: float) -> Output
         **values,
         **errors,
         range_flags=int(flags),
-        friction_fluid=out.friction_force - out.friction_solid,
-        heat_flow_2=heat_flows(case, out)[1],
-        power_loss=power_loss(case, out),
         suggested_step=suggested_step,
     )
+
+
+def with_heat(case: Case, state: ContactState) -> Outputs:
+    """Return the last block's outputs with power and heat at the present speeds, which differ little from its own.
+
+    The bodies take a change of the power in the shares in which they took the block's. Where the film still follows
+    inputs that have changed further, power and heat are those at the speeds of the last solution, as friction is.
+    """
+    out, block = state.outputs, state.trends.values()
+    if state.solved_for is not None and case.differs_from(state.solved_for):
+        case = Case(case.scene, state.solved_for)
+    power, before, first = power_loss(case, out), block["power_loss"], block["heat_flow_1"]
+    share = min(max(first / before, 0.0), 1.0) if before > 0.0 else 0.5
+    first += share * (power - before)
+    return replace(out, power_loss=power, heat_flow_1=first, heat_flow_2=power - first)
 
 
 def _of_surface(case: Case, side: Side, body: Body) -> dict[str, float]:

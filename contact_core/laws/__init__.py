@@ -1,7 +1,7 @@
 """Physics in slots: one law per slot of a scene.
 
     base                Protocols: the attributes and methods of every law of a slot
-    viscosity, density, rheology, supply    the oil
+    viscosity, density, rheology, supply, double_layer    the oil
     plasticity, boundary_friction, wear     the solids
     heat, bulk          temperatures in the contact, and of the bodies
     tribofilm/          growth and removal of the tribofilm
@@ -22,6 +22,7 @@ from . import (
     boundary_friction,
     bulk,
     density,
+    double_layer,
     heat,
     load_sharing,
     plasticity,
@@ -39,6 +40,7 @@ SLOTS: dict[str, tuple[type[Law], ...]] = {
     "density": density.LAWS,
     "rheology": rheology.LAWS,
     "supply": supply.LAWS,
+    "double_layer": double_layer.LAWS,
     "plasticity": plasticity.LAWS,
     "boundary_friction": boundary_friction.LAWS,
     "heat": heat.LAWS,

@@ -115,6 +115,15 @@ class Hardening(NamedTuple):
     slope: float  # depth per pressure, of each of the two [m/Pa]
 
 
+class DoubleLayer(Law, Protocol):
+    """Apparent viscosity of films between charged surfaces."""
+
+    acts: ClassVar[bool]  # the viscosity depends on the gap
+
+    def __call__(self, gap: Array, temperature: float) -> Array:
+        """Return the apparent viscosity over that without charges, 1 or more, at gaps [m] and a temperature [K]."""
+
+
 class Plasticity(Law, Protocol):
     """Largest pressure that the bodies bear."""
 

@@ -195,4 +195,10 @@ def warnings(scene: SceneFields) -> list[str]:
     given = (scene.operation.body_temperature_1, scene.operation.body_temperature_2)
     if given != (None, None) and not scene.heat.bulk.from_inputs:
         found.append(f"heat.bulk = '{scene.heat.bulk.name}' does not use operation.body_temperature_1 and _2.")
+    layer = scene.lubricant.double_layer
+    if layer.acts and not scene.film.on_grid:
+        found.append(
+            f"film.model = '{scene.film.name}' leaves out lubricant.double_layer = '{layer.name}': it knows the mean "
+            "film alone, and double layers act where the film is as thin as they are."
+        )
     return [*found, *scene.film.warnings(scene.lubricant.flow, scene.lubricant.rheology, scene.tribofilm)]

@@ -2,7 +2,8 @@
 
 from dataclasses import dataclass, field
 
-from ..laws.base import Density, Rheology, Supply, Viscosity
+from ..laws.base import Density, DoubleLayer, Rheology, Supply, Viscosity
+from ..laws.double_layer import NoDoubleLayer
 from ..laws.supply import Flooded
 from ..quantities import parameter
 
@@ -77,6 +78,7 @@ class Lubricant:
         default="reynolds",
     )
     supply: Supply = field(default=Flooded())
+    double_layer: DoubleLayer = field(default=NoDoubleLayer())
 
 
 @dataclass(frozen=True)

@@ -111,6 +111,9 @@ class ContactState:
     outputs: Outputs
     means: tuple[Mean, Mean] | None = None  # of the regression level, newer than the patches; None: these are current
     solved: Solved | None = None  # blocks that the level `auto` has solved; None: none yet
+    # of the oil in the mixed solutions that measured `share`, over the load that it carries; it holds in dry blocks
+    oil_friction: float = 0.0
+    oil_rolling: float = 0.0  # resistance
 
     @property
     def rows(self) -> int:

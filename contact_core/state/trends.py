@@ -4,7 +4,8 @@ The column `trend` of the quantity table says which outputs are followed, and ho
 
 A block samples the moving surfaces at a few instants, so its means scatter; and they drift, as the surfaces change.
 A fading-memory filter of level and slope follows each quantity from block to block. Its residuals give the sampling
-error, its slope the error of time steps, apart from each other.
+error, its slope the error of time steps, apart from each other. After a step a slope would carry a level beyond zero,
+where nothing was seen: it is cut first, that of all parts of friction, power and heat alike, so that their sums hold.
 """
 
 from collections.abc import Mapping
@@ -23,8 +24,16 @@ SLOPES = tuple(q.name for q in _OF["slope"])
 RATES = tuple(q.name for q in _OF["rate"])
 RATES_FOLLOWED = tuple(f"{name}_rate" for name in RATES)
 NAMES = (*SMOOTHED, *SLOPES, *RATES_FOLLOWED)
-_LEAST = np.array([q.minimum for q in _OF["level"]] + [-np.inf] * (len(NAMES) - len(SMOOTHED)))
+_LEAST, _MOST = (
+    np.array([getattr(q, bound) for q in _OF["level"]] + [beyond] * (len(NAMES) - len(SMOOTHED)))
+    for bound, beyond in (("minimum", -np.inf), ("maximum", np.inf))
+)
+_FRICTION = np.isin(
+    NAMES,
+    ["friction_force", "friction_solid", "friction_fluid", "spin_torque", "power_loss", "heat_flow_1", "heat_flow_2"],
+)
 _MEMORY_OF_SPREAD = 0.1
+_NEAREST = 0.5  # of what is seen: no slope carries a level nearer to zero, unless it has been there
 _UNKNOWN = 0.05  # error of time steps, relative, while fewer than two blocks say nothing of a drift
 
 
@@ -76,15 +85,40 @@ class Trends:
             return replace(self, level=x, slope=np.zeros_like(x), variance=variance, gain=1.0, lag=lag, blocks=1)
         first = max(1.0 - memory**2, 2.0 * (2 * n + 1) / ((n + 1) * (n + 2)))
         second = max((1.0 - memory) ** 2, 6.0 / ((n + 1) * (n + 2)))
-        missed = x - self.level - self.slope
-        level, slope = self.level + self.slope + first * missed, self.slope + second * missed
+        carried = self.slope * self._kept(x, first)
+        missed = x - self.level - carried
+        level, slope = self.level + carried + first * missed, carried + second * missed
         variance = self.variance
         if n >= 2:  # before that the line goes through all there is
             learn = max(_MEMORY_OF_SPREAD, 1.0 / n)
             variance = variance + learn * (missed**2 * (1.0 - first) - variance)
         return replace(
-            self, level=np.maximum(level, _LEAST), slope=slope, variance=variance, gain=first, lag=lag, blocks=n + 1
+            self,
+            level=np.clip(level, _LEAST, _MOST),
+            slope=slope,
+            variance=variance,
+            gain=first,
+            lag=lag,
+            blocks=n + 1,
         )
+
+    def _kept(self, x: Array, first: float) -> Array:
+        """Return the shares of the slopes, 0 to 1, that carry no level across zero where neither it nor `x` has been.
+
+        They leave a level half of `x`, or itself if it is smaller, and nothing of the slope if one of both is zero;
+        those of friction and heat are alike.
+        """
+        level = self.level
+        alike = level * x >= 0.0
+        without = np.abs(level + first * (x - level))
+        carried = np.sign(level + x) * (1.0 - first) * self.slope
+        least = np.minimum(np.abs(level), _NEAREST * np.abs(x))
+        crosses = alike & (without + carried < least)
+        share = np.divide(least - without, carried, out=np.ones_like(x), where=crosses)
+        share[(least == 0.0) & (crosses | ((level == x) & (self.slope != 0.0)))] = 0.0
+        share[len(SMOOTHED) :] = 1.0
+        share[_FRICTION] = share[_FRICTION].min()
+        return share
 
     def over(self, step: float, block: float) -> "Trends":
         """Return the filter with the errors of a step [s] of a block that is `block` [s] old, if rates are held in it.

@@ -17,7 +17,7 @@ LAW_DATA = "contact_core/data/tribofilms.toml"
 SHAPE_FILES = {"contact_core/shapes/barrel.py", "contact_core/shapes/__init__.py"}
 OUTPUT_ROW = "contact_core/quantities.py"
 OUTPUT_FILES = {"contact_core/deterministic/observed.py", "contact_core/regression/outputs.py"}
-MACHINE_FOLDER = "system_models/machines/pin_on_disc/"
+MACHINE_FOLDER = "system_models/machines/pin_rig/"
 REGISTRY = "system_models/machines/registry.py"
 SCHEME_FILES = {
     "system_models/numerics/algorithms.py",
@@ -262,13 +262,13 @@ def test_the_machine_runs_from_one_command(tree: Tree) -> None:
     printed = tree.command(line)
     assert "Pin on disc by ASTM G99" in printed
     assert "wear of the pin" in printed
-    folder = tree.folder / "work" / "results" / "pin_on_disc"
+    folder = tree.folder / "work" / "results" / "pin_rig"
     assert {"result.nc", "result.csv", "overview.png"} <= {path.name for path in folder.iterdir()}
-    last = columns(tree, "pin_on_disc")[-1]
+    last = columns(tree, "pin_rig")[-1]
     assert float(last["time"]) == 600.0
     assert float(last["disc.surface_speed"]) == approx(0.1, rel=1e-6)
     assert float(last["contact.wear_depth_2"]) > float(last["contact.wear_depth_1"]) > 0.0
-    assert "pin_on_disc" in tree.command("tribofmu list")
+    assert "pin_rig" in tree.command("tribofmu list")
 
 
 def test_a_machine_refuses_a_duty_without_a_needed_signal(tree: Tree) -> None:
@@ -277,7 +277,7 @@ def test_a_machine_refuses_a_duty_without_a_needed_signal(tree: Tree) -> None:
 import tomllib
 from pathlib import Path
 from system_models.machines import reading
-machine = reading.read("pin_on_disc")
+machine = reading.read("pin_rig")
 del machine.table["duty"]["load"]
 reading.assemble(machine)
 """,
@@ -288,8 +288,8 @@ reading.assemble(machine)
 
 def test_a_machine_without_its_entry_is_refused_by_kind(tmp_path: Path) -> None:
     tree = extended(tmp_path, MACHINE, without=REGISTRY)
-    said = tree.command("tribofmu run pin_on_disc", fails=True)
-    assert "kind = 'pin_on_disc' is not one of ball_on_disc" in said
+    said = tree.command("tribofmu run pin_rig", fails=True)
+    assert "kind = 'pin_rig' is not one of ball_on_disc" in said
 
 
 def test_the_scheme_and_the_iteration_converge_at_their_orders(tree: Tree) -> None:

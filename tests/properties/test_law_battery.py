@@ -73,6 +73,9 @@ PLAUSIBLE = {
     "heat_capacity_2": (1e-3, 1e6),
     "conductance_1": (1e-6, 1e3),
     "conductance_2": (1e-6, 1e3),
+    "debye_length": (1e-10, 1e-6),
+    "relative_permittivity": (1.0, 100.0),
+    "ion_radius": (1e-10, 1e-8),
 }
 
 
@@ -137,6 +140,14 @@ def test_a_viscosity_takes_a_field_of_temperatures(law, pressure, temperature):
 @given(laws_of("viscosity"), pressures, st.floats(230.0, 490.0))
 def test_a_viscosity_falls_with_temperature(law, pressure, temperature):
     assert np.all(law(pressure, temperature + 5.0) <= law(pressure, temperature))
+
+
+@given(laws_of("double_layer"), arrays(float, SHAPE, elements=st.floats(1e-11, 1e-4)), temperatures)
+def test_double_layers_only_thicken_an_oil_and_not_in_thick_films(law, gap, temperature):
+    found = law(gap, temperature)
+    assert is_field(found)
+    assert np.all(found >= 1.0)
+    assert np.all(law(gap + 1.0, temperature) == approx(1.0, abs=1e-6))
 
 
 @given(laws_of("density"), pressures)

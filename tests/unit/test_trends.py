@@ -34,9 +34,9 @@ def test_scatter_known_from_another_operating_point_is_kept_in_proportion():
 
 @pytest.mark.parametrize("memory", [0.5, 0.75])
 def test_a_straight_line_is_followed_without_lag(memory):
-    trends = follow([1.0 + 0.25 * k for k in range(40)], memory)
-    assert trends.level == approx(np.full(len(NAMES), 1.0 + 0.25 * 39), rel=1e-12)
-    assert trends.slope == approx(np.full(len(NAMES), 0.25), rel=1e-9)
+    trends = follow([0.1 + 0.02 * k for k in range(40)], memory)
+    assert trends.level == approx(np.full(len(NAMES), 0.1 + 0.02 * 39), rel=1e-12)
+    assert trends.slope == approx(np.full(len(NAMES), 0.02), rel=1e-9)
 
 
 def test_noise_is_smoothed_and_lies_within_the_reported_half_width():
@@ -52,10 +52,45 @@ def test_noise_is_smoothed_and_lies_within_the_reported_half_width():
     assert trends.half_widths()["h_c"][1] < 4.0
 
 
-def test_a_level_that_cannot_be_negative_is_not():
-    trends = follow([1.0, 0.5, 0.0, 0.0, 0.0])
-    assert trends.values()["contact_load_ratio"] >= 0.0
-    assert trends.values()["friction_force"] < 0.0  # that one has a sign
+@pytest.mark.parametrize("memory", [0.5, 0.75])
+@pytest.mark.parametrize("last", [0.0, 1e-3, 0.1])
+@pytest.mark.parametrize("before", [1, 2, 3, 30])
+def test_after_a_step_no_level_passes_zero_or_half_of_the_new_value(memory, last, before):
+    signs = dict.fromkeys(NAMES, 1.0) | {"friction_force": -1.0, "friction_fluid": -1.0, "approach": -1.0}
+    trends = Trends.fresh()
+    for value in [1.0] * before + [last] * 40:
+        trends = trends.followed({name: value * sign for name, sign in signs.items()}, {}, memory, 0.5)
+        for name, level in trends.values().items():
+            assert 0.499 * last <= level * signs[name] <= 1.001, name
+    assert trends.values()["friction_fluid"] == approx(-last, abs=1e-4)
+
+
+def test_a_value_about_zero_keeps_its_slope_where_it_changes_sign():
+    trends = follow([0.3, 0.1, -0.1])
+    assert trends.values()["rolling_resistance"] == approx(-0.1)
+
+
+def test_parts_of_friction_that_step_apart_still_add_up_to_it_and_to_the_heat():
+    random, trends = np.random.Generator(np.random.Philox(9)), Trends.fresh()
+    for k in range(60):
+        fluid = -(0.3 if k % 20 < 12 else 2e-3) * random.uniform(0.8, 1.2)
+        solid = -7.0 * random.uniform(0.9, 1.0)
+        power = -0.01 * (solid + fluid)
+        parts = {
+            "friction_solid": solid,
+            "friction_fluid": fluid,
+            "friction_force": solid + fluid,
+            "power_loss": power,
+            "heat_flow_1": 0.99 * power,
+            "heat_flow_2": 0.01 * power,
+        }
+        trends = trends.followed(dict.fromkeys(NAMES, 0.5) | parts, {}, 0.75, 0.5)
+        seen = trends.values()
+        assert -0.4 < seen["friction_fluid"] < 0.0
+        assert seen["friction_force"] == approx(seen["friction_solid"] + seen["friction_fluid"], rel=1e-12)
+        assert seen["power_loss"] == approx(-0.01 * seen["friction_force"], rel=1e-12)
+        assert seen["power_loss"] == approx(seen["heat_flow_1"] + seen["heat_flow_2"], rel=1e-12)
+        assert min(seen["heat_flow_1"], seen["heat_flow_2"]) > 0.0
 
 
 def test_a_restart_forgets_levels_and_keeps_errors_made():

@@ -1,0 +1,133 @@
+"""Friction, power and heat of every row: parts that oppose the sliding and add up, whatever drives the blocks."""
+
+from dataclasses import replace
+
+import pytest
+from cheap_scene import CHEAP, cheap
+from comparison import approx
+
+from contact_core import Scene, advance, initial_state, shipped_scenes, solve
+from contact_core.deterministic.transient import dry_instant
+from contact_core.scene import Case
+
+COARSE = CHEAP | {"film.points": "25", "surface_1.correlation_length": "22 um", "surface_2.correlation_length": "22 um"}
+HALF_DRY = {"control.dry_above": "0.3", "control.longest": "60 s", "control.mixed_instants": "2"}
+FIELD = {"heat.model": "field", "heat.bulk.model": "lumped"} | {
+    f"heat.bulk.{name}_{body}": value
+    for name, value in (("heat_capacity", "500 J/K"), ("conductance", "0.05 W/K"))
+    for body in (1, 2)
+}
+SMALL_SHIPPED = {"film.points": "25", "surface_1.correlation_length": "50 um", "surface_2.correlation_length": "50 um"}
+
+
+def checked(op, outputs, *, equal_bodies=True):
+    """The row's parts oppose the sliding and add up."""
+    slide, spin = op.sliding_speed, op.spin
+    assert outputs.friction_force == approx(outputs.friction_solid + outputs.friction_fluid, rel=1e-14, abs=0.0)
+    power = -outputs.friction_force * slide - outputs.spin_torque * spin
+    assert outputs.power_loss == approx(power, rel=1e-9, abs=1e-15)
+    assert outputs.heat_flow_1 + outputs.heat_flow_2 == approx(outputs.power_loss, rel=1e-14, abs=0.0)
+    assert outputs.power_loss >= 0.0
+    assert 0.0 <= outputs.contact_load_ratio <= 1.0 + 1e-9
+    if spin == 0.0:
+        assert outputs.friction_solid * slide <= 0.0
+        assert outputs.friction_fluid * slide <= 0.0
+    if spin == 0.0 == slide:
+        assert outputs.friction_solid == outputs.friction_fluid == 0.0
+    if equal_bodies:
+        assert outputs.heat_flow_1 >= 0.0 and outputs.heat_flow_2 >= 0.0
+
+
+def points(op):
+    """A duty: the point of reference, sliding the other way, a slow drift, pure rolling, rest of one body, spin."""
+    slower = replace(op, speed_1=op.speed_2, speed_2=op.speed_1)
+    return [
+        op,
+        slower,
+        replace(slower, speed_1=slower.speed_1 * 1.0001),
+        replace(op, speed_1=op.speed_2),
+        replace(op, speed_2=0.0),
+        replace(op, load=0.5 * op.load, temperature=op.temperature + 2.0),
+        replace(op, spin=30.0),
+        replace(op, speed_1=-op.speed_2),
+        replace(op, load=0.0),
+        op,
+    ]
+
+
+MIXED = {"control.driver": "mixed", "control.mixed_instants": "2"}
+
+
+@pytest.mark.parametrize(
+    ("level", "changes"),
+    [
+        ("deterministic", HALF_DRY),
+        ("deterministic", HALF_DRY | FIELD),
+        ("deterministic", {"control.driver": "dry"}),
+        ("deterministic", MIXED),
+        ("regression", {}),
+        ("regression", FIELD),
+        ("auto", HALF_DRY),
+    ],
+    ids=["half_dry", "field", "dry", "mixed", "regression", "regression_field", "auto"],
+)
+def test_every_row_of_a_changing_duty_adds_up_and_opposes_the_sliding(level, changes):
+    scene, state, op = cheap(COARSE | {"tribofilm.beyond_fit": "extrapolate"} | changes)
+    scene, equal = scene.at_level(level), "heat.model" not in changes
+    for now in points(op):
+        for dt in (0.0, 50.0):
+            state, outputs = advance(scene, now, state, dt)
+            checked(now, outputs, equal_bodies=equal)
+
+
+def test_rows_add_up_while_a_film_follows_its_inputs_and_where_time_stands_still():
+    """Before the first instant after a change, the row is that of the film as it was: power by its own speeds."""
+    scene, state, op = cheap(control__inputs="transient", control__mixed_instants=3)
+    back = replace(op, speed_1=op.speed_2, speed_2=op.speed_1)
+    state, outputs = advance(scene, op, state, 1.0)
+    _, still = advance(scene, back, state, 0.0)
+    checked(op, still)
+    for now in (back, replace(back, load=0.8 * op.load), op):
+        state, outputs = advance(scene, now, state, 2e-4)
+        checked(now, outputs)
+
+
+def test_friction_of_the_oil_neither_turns_nor_drops_where_blocks_turn_dry():
+    scene, state, op = cheap(CHEAP | HALF_DRY | {"tribofilm.model": "none", "control.longest": "20 s"})
+    state, outputs = advance(scene, op, state, 0.0)
+    counts, fluid = [], []
+    for _ in range(20):
+        state, outputs = advance(scene, op, state, 20.0)
+        checked(op, outputs)
+        counts.append((outputs.blocks_mixed, outputs.blocks_dry))
+        fluid.append(outputs.friction_fluid)
+    assert outputs.blocks_dry > 5
+    only, fresh, _ = cheap(CHEAP | HALF_DRY | {"tribofilm.model": "none", "control.driver": "mixed"})
+    _, mixed = advance(only, op, fresh, 400.0)
+    share = (1.0 - outputs.contact_load_ratio) / (1.0 - mixed.contact_load_ratio)
+    assert fluid[-1] == approx(share * mixed.friction_fluid, rel=0.3)
+    assert max(fluid) < 2.0 * min(fluid)
+
+
+def test_oil_of_a_dry_instant_has_the_friction_over_load_that_was_measured():
+    scene, state, op = cheap()
+    state = replace(state, share=0.7, oil_friction=0.02)
+    _, fields = dry_instant(Case.bind(scene, op), state, [0.0, 0.0])
+    carried = fields.fluid_pressure.sum() * scene.film.spacing**2
+    assert carried == approx(0.3 * op.load, rel=0.01)
+    assert fields.friction.force_fluid == approx(0.02 * carried, rel=1e-9)
+    assert fields.friction.power == approx(
+        -(fields.friction.force_fluid + fields.friction.force_solid) * op.sliding_speed
+    )
+    viscous = solve(scene, op, state, dry=True, solid_share=0.7)
+    assert 0.0 < viscous.friction.force_fluid < 0.1 * fields.friction.force_fluid
+
+
+@pytest.mark.parametrize("level", ["deterministic", "regression"])
+@pytest.mark.parametrize("name", shipped_scenes())
+def test_rows_of_a_shipped_scene_add_up(name, level):
+    scene = Scene.from_toml(name, SMALL_SHIPPED).at_level(level)
+    state, op = initial_state(scene), scene.operation.point
+    for dt in (0.0, 30.0):
+        state, outputs = advance(scene, op, state, dt)
+        checked(op, outputs)
