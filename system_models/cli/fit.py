@@ -102,7 +102,7 @@ def _fitted(
 
     try:
         with bar, logging_redirect_tqdm():
-            return fit(scene, measured, constants, level, share, show)
+            return fit(scene, measured, constants, measured.held_back(share), level, show)
     except KeyboardInterrupt:
         raise KeyboardInterrupt("Nothing was written; the same command fits from the beginning.") from None
 

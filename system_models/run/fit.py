@@ -82,16 +82,15 @@ def fit(
     scene: Scene,
     measured: Measured,
     constants: tuple[Constant, ...],
+    held: NDArray[np.bool_],
     level: str = FAST,
-    share: float = 0.0,
     progress: Callable[[str], None] = lambda stage: None,
 ) -> Fit:
-    """Return the constants of the scene that fit the measured numbers best, a share of which is held back.
+    """Return the constants of the scene that fit the measured numbers best; those `held` back are not fitted.
 
     `progress` is called with words for the stage at each set of constants. Raises ContactError if the scene cannot be
     computed as it is, or for too few points.
     """
-    held = measured.held_back(share)
     _check_count(measured, held, constants)
     sized = _sized(scene, measured)
     model = Model(sized.at_level(FAST), measured.tests, constants, measured.quantities)
@@ -210,7 +209,7 @@ def _check_silent(
 
 
 def _drawn_places(measured: Measured) -> Places:
-    """Return the places of the drawn curves: even times of every measured quantity of a test; none without a course."""
+    """Return the places of the drawn curves: times of every test and quantity, denser early; none without a course."""
     test: list[int] = []
     time: list[float] = []
     quantity: list[str] = []
@@ -218,7 +217,7 @@ def _drawn_places(measured: Measured) -> Places:
         for i in range(len(measured.tests)):
             here = measured.time[(measured.quantity == name) & (measured.test == i)]
             if len(here) and here.max() > 0.0:
-                times = np.linspace(0.0, here.max(), _DRAWN).tolist()
+                times = (here.max() * np.linspace(0.0, 1.0, _DRAWN) ** 2).tolist()
                 test, time, quantity = test + [i] * len(times), time + times, quantity + [name] * len(times)
     return np.array(test, dtype=np.int64), np.array(time), np.array(quantity, dtype=measured.quantity.dtype)
 

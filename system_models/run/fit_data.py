@@ -57,7 +57,7 @@ class Measured:
 
     def held_back(self, share: float) -> NDArray[np.bool_]:
         """Return which points to hold back: about a share of them, one at random of each stretch, always the same."""
-        count = round(share * len(self))
+        count = min(round(share * len(self)), len(self) - 1)
         held = np.zeros(len(self), np.bool_)
         edges = np.linspace(0.0, len(self), count + 1)
         random = np.random.default_rng(_HELD_BY)

@@ -218,8 +218,8 @@ def _quantile(freedom: float) -> float:
 
 def _covariance(slope: Array, sigma: Array) -> Array:
     weighted = slope / sigma[:, None]
-    found: Array = np.linalg.inv(weighted.T @ weighted + _WEAK * np.eye(slope.shape[1]))
-    return found
+    information = weighted.T @ weighted + _WEAK * np.eye(slope.shape[1])
+    return np.asarray(np.linalg.inv(information), dtype=np.float64)
 
 
 def _spread(slope: Array, covariance: Array) -> Array:

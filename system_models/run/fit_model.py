@@ -30,7 +30,6 @@ class Constant:
     low: float
     high: float
     unit: str
-    text: str
 
     @property
     def logarithmic(self) -> bool:
@@ -103,7 +102,7 @@ def _constant(text: str, known: Mapping[str, tuple[float | int, Any]]) -> Consta
             f"--vary: {key} = {value:g} {unit} of the scene is outside of its range, {low:g} to {high:g} {unit}. "
             f"Widen the range, or use --set {key}='...' for a start inside it."
         )
-    return Constant(key, float(value), low, high, unit, limits["text"])
+    return Constant(key, float(value), low, high, unit)
 
 
 def _given_range(key: str, ends: str, unit: str) -> tuple[float, float]:

@@ -31,13 +31,13 @@ _MANY = 6  # tests: more share one colour
 
 
 def table(fit: Fit) -> str:
-    """Return a row for each constant: key, value, interval, unit, text."""
-    rows = [["constant", "value", f"{_PERCENT} interval", "unit", ""]]
+    """Return a row for each constant: key, value, interval, unit."""
+    rows = [["constant", "value", f"{_PERCENT} interval", "unit"]]
     for constant, limits in zip(fit.constants, fit.estimate.limits, strict=True):
         interval = interval_of(constant, limits)
         value = f"({fit.values[constant.key]:.4g})" if limits.open else f"{fit.values[constant.key]:.4g}"
-        rows.append([constant.key, value, interval, constant.unit or "1", constant.text])
-    return "\n".join(aligned(rows, 0))
+        rows.append([constant.key, value, interval, constant.unit or "1"])
+    return "\n".join(aligned(rows, 1))
 
 
 def interval_of(constant: Constant, limits: Limits) -> str:
@@ -63,12 +63,10 @@ def lines(fit: Fit) -> list[str]:
         inside = int((held & fit.inside).sum())
         found.append(f"Held back: {int(held.sum())} points, {inside} inside their {_PERCENT} interval.")
     if fit.silent.any():
-        found.append(
-            f"{int(fit.silent.sum())} points do not depend on the constants (such as films at time 0): left out."
-        )
+        found.append(f"{int(fit.silent.sum())} points that no constant changes are left out, such as films at time 0.")
     if any(limits.open for limits in fit.estimate.limits):
         found.append(
-            "Not identifiable: the points fit as well anywhere in the range; the value in brackets is one of many."
+            "Not identifiable: points fit about as well anywhere in the range; the value in brackets is an example."
         )
     errors = ", ".join(f"{name} {100.0 * error:.0f} %" for name, error in fit.stated.items() if error > 0.0)
     if errors:
@@ -78,8 +76,8 @@ def lines(fit: Fit) -> list[str]:
         )
     if not fit.agreed:
         found.append(
-            f"NOT SETTLED: level '{fit.level}' is off the fitted curves by {fit.off:.2g} standard deviations. The constants are "
-            "the best of those tried."
+            f"NOT SETTLED: level '{fit.level}' is off the fitted curves by {fit.off:.2g} standard deviations. The "
+            "constants are the best of those tried."
         )
     return found
 
@@ -165,8 +163,8 @@ def set_of(fit: Fit, name: str) -> str:
     scene = with_values(fit.scene, fit.values)
     origin = _origin(fit)
     source = (
-        f"Fitted to {origin['points']} points of {origin['data']} (sha256 {origin['digest']}) in scene {origin['scene']} at "
-        f"level {fit.level}"
+        f"Fitted to {origin['points']} points of {origin['data']} (sha256 {origin['digest']}) in scene "
+        f"{origin['scene']} at level {fit.level}"
     )
     described = {
         **origin,
@@ -236,6 +234,8 @@ def _course(axis: "Axes", fit: Fit, name: str) -> None:
     _legend(axis, fit)
     axis.set_xlabel("time [min]")
     axis.set_xlim(left=0.0)
+    if (points.value >= 0.0).all():
+        axis.set_ylim(bottom=0.0)
 
 
 def _over_input(axis: "Axes", fit: Fit, name: str) -> None:
