@@ -60,6 +60,7 @@ class Fit:
     drawn: Drawn
     stated: dict[str, float]  # largest relative half width that the level states, by quantity
     runs: int  # simulated tests
+    failures: int  # sets of constants with which the scene could not be computed
     off: float  # standard deviations by which the deterministic level differs from the fitted curves
 
     @property
@@ -110,11 +111,17 @@ def fit(
     points(first)  # a scene that cannot be computed as it is says why
     tried = fit_estimate.starts(len(constants), _STARTS * len(constants))
     curves = np.array([curve(shares) for shares in tried])
+    if np.isnan(curves).any(axis=1).all():
+        raise ContactError(
+            f"None of {len(tried)} other sets of constants than the scene's own can be computed. Narrow the ranges of --vary."
+        )
     silent = fit_estimate.silent(np.vstack([curves, curve(first)]))
     _check_silent(measured, silent, held, constants)
     problem = Problem(curve, measured.value, measured.sd, group, ~held & ~silent, len(constants))
     found, off = fit_estimate.searched(problem, first, tried, curves, _LOCALLY), 0.0
     corrected: Callable[[Curve], Curve] = lambda fast: fast  # noqa: E731
+    if np.isnan(found.curve).any():
+        raise ContactError("The search ended where the scene cannot be computed. Narrow the ranges of --vary.")
     drawn_at, slow_runs = _drawn_places(measured), 0
     both: Places = tuple(np.concatenate(pair) for pair in zip(places, drawn_at, strict=True))  # type: ignore[assignment]
     everywhere = Points(model, *both)
@@ -127,7 +134,10 @@ def fit(
     drawn = _drawn(measured, found, at_all, drawn_at)
     stated = model.stated(found.shares, [np.unique(measured.time[measured.test == i]) for i in range(len(model.tests))])
     runs = points.model.runs + slow_runs
-    return Fit(sized.at_level(level), level, constants, measured, held, silent, found, drawn, stated, runs, off)
+    failures = points.failures + everywhere.failures
+    return Fit(
+        sized.at_level(level), level, constants, measured, held, silent, found, drawn, stated, runs, failures, off
+    )
 
 
 def _through(
@@ -147,7 +157,7 @@ def _through(
             best = cost, replace(found, curve=truth[:count]), off, change
         if off <= _AGREED:
             return replace(found, curve=truth[:count]), off, change
-        here = _correction(truth[:count], fast[:count], places[2][:count])
+        here = _correction(truth[:count], problem.curve(found.shares), places[2][:count])
         found = fit_estimate.refined(replace(problem, curve=here(problem.curve)), found)
     assert best is not None
     return best[1:]

@@ -107,8 +107,11 @@ def _check(path: Path, where: str, time: float, values: dict[str, float], level:
         output = MEASURABLE.get(name.removesuffix(SD))
         if output is None:
             continue
-        if level not in output.levels:
-            raise SceneError(f"{path}: level '{level}' has no '{output.name}', only {' and '.join(output.levels)}.")
+        if not {level, "regression"} <= {*output.levels}:
+            raise SceneError(
+                f"{path}: level 'regression', at which every fit begins, has no '{output.name}'; only "
+                f"{' and '.join(output.levels)} has it. Leave that column out."
+            )
         if name.endswith(SD) and output.name not in values:
             raise SceneError(f"{where}: '{name}' is given, but '{output.name}' is not. Give both or neither.")
         if name.endswith(SD) and values[name] <= 0.0:
@@ -123,7 +126,7 @@ def _check(path: Path, where: str, time: float, values: dict[str, float], level:
 def words(tests: Sequence[OperatingPoint]) -> list[str]:
     """Return a few words for each test: the inputs in which they differ, in the units people read."""
     differing = [f.name for f in fields(OperatingPoint) if len({getattr(test, f.name) for test in tests}) > 1]
-    return [", ".join(_input(name, getattr(test, name)) for name in differing) or "all points" for test in tests]
+    return [", ".join(_input(name, getattr(test, name)) for name in differing) or "the test" for test in tests]
 
 
 def _input(name: str, value: float | None) -> str:

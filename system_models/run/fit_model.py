@@ -171,7 +171,7 @@ class Points:
     """The numbers at given places (test, time, quantity) of a model's curves, or NaN where it has none."""
 
     def __init__(self, model: Model, test: NDArray[np.int64], time: Array, quantity: NDArray[np.str_]) -> None:
-        self.model = model
+        self.model, self.failures = model, 0
         self._times = [np.unique(time[test == i]) for i in range(len(model.tests))]
         self._column = np.array([model.quantities.index(name) for name in quantity.tolist()])
         self._place = [(i, int(np.searchsorted(self._times[i], when))) for i, when in zip(test, time, strict=True)]
@@ -186,4 +186,5 @@ class Points:
         try:
             return self(shares)
         except ContactError:
+            self.failures += 1
             return np.full(len(self._place), np.nan)

@@ -74,6 +74,10 @@ def lines(fit: Fit) -> list[str]:
             f"The level states errors of {errors}. They are common to the points of a test, so the constants take them "
             f"up: these are constants of level '{fit.level}'."
         )
+    if fit.failures:
+        found.append(
+            f"The scene could not be computed with {fit.failures} of the sets of constants tried; they were passed over."
+        )
     if not fit.agreed:
         found.append(
             f"NOT SETTLED: level '{fit.level}' is off the fitted curves by {fit.off:.2g} standard deviations. The "
@@ -87,7 +91,9 @@ def scatter_of(fit: Fit, group: int) -> str:
     name = fit.measured.quantities[group]
     unit, factor = people_read(name)
     s, given = fit.estimate.scatter[group], bool((fit.measured.sd[fit.measured.quantity == name] > 0.0).any())
-    size = f"{100.0 * s:.3g} % of the curve" if fit.estimate.proportional[group] else f"{factor * s:.3g} {unit}"
+    size = f"{factor * s:.3g} {unit}".removesuffix(" 1")
+    if fit.estimate.proportional[group]:
+        size = f"{100.0 * s:.3g} % of the curve"
     if given and s == 0.0:
         return "the given standard deviations explain the residuals"
     return f"scatter beyond the given standard deviations {size}" if given else f"scatter {size}"
@@ -95,8 +101,7 @@ def scatter_of(fit: Fit, group: int) -> str:
 
 def people_read(quantity: str) -> tuple[str, float]:
     """Return the unit that people read of a quantity, and the factor from SI to it."""
-    q = TABLE[quantity]
-    unit = q.display or q.unit
+    unit = TABLE[quantity].display or TABLE[quantity].unit
     return unit, 1.0 / units.unit(unit)[0]
 
 
@@ -118,7 +123,7 @@ def record(fit: Fit) -> dict[str, Any]:
                 fit.measured.quantities, fit.estimate.scatter, fit.estimate.proportional, strict=True
             )
         ],
-        "covered": COVERED, "stated_errors": fit.stated, "simulated_tests": fit.runs,
+        "covered": COVERED, "stated_errors": fit.stated, "simulated_tests": fit.runs, "failures": fit.failures,
         "level_off_by_standard_deviations": fit.off,
         "scene_values": fit.scene.to_dict(),
     }  # fmt: skip
@@ -234,7 +239,8 @@ def _course(axis: "Axes", fit: Fit, name: str) -> None:
     _legend(axis, fit)
     axis.set_xlabel("time [min]")
     axis.set_xlim(left=0.0)
-    if (points.value >= 0.0).all():
+    values = points.value[points.quantity == name]
+    if 0.0 <= values.min() < 0.5 * values.max():
         axis.set_ylim(bottom=0.0)
 
 
