@@ -21,7 +21,7 @@ from . import fit_estimate
 from .duty import Duty
 from .fit_data import Measured
 from .fit_estimate import Array, Curve, Estimate, Problem
-from .fit_model import Constant, Model, Points
+from .fit_model import Constant, Model, Places, Points
 
 FAST, SLOW = "regression", "deterministic"
 _STARTS = 8  # sets of constants tried for each constant
@@ -31,7 +31,7 @@ _MOST = 6  # runs of the deterministic level
 _FLAT = 0.01  # of a quantity's largest value: below, levels differ by a sum, not by a factor
 _DRAWN = 41  # times of a drawn curve
 
-Places = tuple[NDArray[np.int64], Array, NDArray[np.str_]]  # test, time, quantity
+Amend = Callable[[Curve], Curve]
 
 
 @dataclass(frozen=True)
@@ -93,11 +93,38 @@ def fit(
     computed as it is, or for too few points.
     """
     _check_count(measured, held, constants)
-    sized = _sized(scene, measured)
+    sized, places = _sized(scene, measured), Places(measured.test, measured.time, measured.quantity)
     model = Model(sized.at_level(FAST), measured.tests, constants, measured.quantities)
-    places: Places = (measured.test, measured.time, measured.quantity)
     points = Points(model, *places)
+    first = np.array([constant.share(constant.value) for constant in constants])
+    points(first)  # a scene that cannot be computed as it is says why
+    curve = _remembered(points, progress)
+    tried = np.vstack([first, fit_estimate.starts(len(constants), _STARTS * len(constants))])
+    curves = np.array([curve(shares) for shares in tried])
+    silent = _silent(measured, curves, held, constants)
     group = _groups(measured, measured.quantity)
+    problem = Problem(curve, measured.value, measured.sd, group, ~held & ~silent, len(constants))
+    found, off, runs = fit_estimate.searched(problem, tried, curves, _LOCALLY), 0.0, 0
+    amended: Amend = _as_it_is
+    if np.isnan(found.curve).any():
+        raise ContactError("The search ended where the scene cannot be computed. Narrow the ranges of --vary.")
+    between = _between(measured)
+    everywhere = Points(model, *(np.concatenate(pair) for pair in zip(places, between, strict=True)))
+    if level == SLOW:
+        model = Model(sized.at_level(SLOW), measured.tests, constants, measured.quantities)
+        found, off, amended = _through(model, problem, found, everywhere, progress)
+        runs = model.runs
+    progress("curves")
+    drawn = _drawn(measured, found, amended(everywhere.or_nothing), between)
+    stated = model.stated(found.shares, [np.unique(measured.time[measured.test == i]) for i in range(len(model.tests))])
+    runs, failures = points.model.runs + runs, points.failures + everywhere.failures
+    return Fit(
+        sized.at_level(level), level, constants, measured, held, silent, found, drawn, stated, runs, failures, off
+    )
+
+
+def _remembered(points: Points, progress: Callable[[str], None]) -> Curve:
+    """Return the curve at the points, computed once for each set of constants."""
     known: dict[bytes, Array] = {}
 
     def curve(shares: Array) -> Array:
@@ -107,63 +134,38 @@ def fit(
             known[key] = points.or_nothing(shares)
         return known[key]
 
-    first = np.array([constant.share(constant.value) for constant in constants])
-    points(first)  # a scene that cannot be computed as it is says why
-    tried = fit_estimate.starts(len(constants), _STARTS * len(constants))
-    curves = np.array([curve(shares) for shares in tried])
-    if np.isnan(curves).any(axis=1).all():
-        raise ContactError(
-            f"None of {len(tried)} other sets of constants than the scene's own can be computed. Narrow the ranges of --vary."
-        )
-    silent = fit_estimate.silent(np.vstack([curves, curve(first)]))
-    _check_silent(measured, silent, held, constants)
-    problem = Problem(curve, measured.value, measured.sd, group, ~held & ~silent, len(constants))
-    found, off = fit_estimate.searched(problem, first, tried, curves, _LOCALLY), 0.0
-    corrected: Callable[[Curve], Curve] = lambda fast: fast  # noqa: E731
-    if np.isnan(found.curve).any():
-        raise ContactError("The search ended where the scene cannot be computed. Narrow the ranges of --vary.")
-    drawn_at, slow_runs = _drawn_places(measured), 0
-    both: Places = tuple(np.concatenate(pair) for pair in zip(places, drawn_at, strict=True))  # type: ignore[assignment]
-    everywhere = Points(model, *both)
-    if level == SLOW:
-        slow = Model(sized.at_level(SLOW), measured.tests, constants, measured.quantities)
-        found, off, corrected = _through(slow, problem, found, everywhere, both, progress)
-        slow_runs, model = slow.runs, slow
-    progress("curves")
-    at_all = corrected(everywhere.or_nothing)
-    drawn = _drawn(measured, found, at_all, drawn_at)
-    stated = model.stated(found.shares, [np.unique(measured.time[measured.test == i]) for i in range(len(model.tests))])
-    runs = points.model.runs + slow_runs
-    failures = points.failures + everywhere.failures
-    return Fit(
-        sized.at_level(level), level, constants, measured, held, silent, found, drawn, stated, runs, failures, off
-    )
+    return curve
+
+
+def _as_it_is(curve: Curve) -> Curve:
+    return curve
 
 
 def _through(
-    slow: Model, problem: Problem, found: Estimate, everywhere: Points, places: Places, progress: Callable[[str], None]
-) -> tuple[Estimate, float, Callable[[Curve], Curve]]:
+    slow: Model, problem: Problem, found: Estimate, everywhere: Points, progress: Callable[[str], None]
+) -> tuple[Estimate, float, Amend]:
     """Return the fit at the deterministic level, how far off it is, and what makes its curves of those of the other."""
-    count, slow_everywhere = len(problem.measured), Points(slow, *places)
-    best: tuple[float, Estimate, float, Callable[[Curve], Curve]] | None = None
+    count, places = len(problem.measured), everywhere.places
+    slow_everywhere = Points(slow, *places)
+    best: tuple[float, Estimate, float, Amend] | None = None
     for _ in range(_MOST):
         progress("deterministic level")
         truth, fast = slow_everywhere(found.shares), everywhere(found.shares)
         deviation = ((truth[:count] - found.curve) / found.sigma)[problem.fitted]
         off = float(np.sqrt((deviation**2).mean()))
         cost = float((((truth[:count] - problem.measured) / found.sigma)[problem.fitted] ** 2).mean())
-        change = _correction(truth, fast, places[2])
+        change = _correction(truth, fast, places.quantity)
         if best is None or cost < best[0]:
             best = cost, replace(found, curve=truth[:count]), off, change
         if off <= _AGREED:
             return replace(found, curve=truth[:count]), off, change
-        here = _correction(truth[:count], problem.curve(found.shares), places[2][:count])
+        here = _correction(truth[:count], problem.curve(found.shares), places.quantity[:count])
         found = fit_estimate.refined(replace(problem, curve=here(problem.curve)), found)
     assert best is not None
     return best[1:]
 
 
-def _correction(truth: Array, fast: Array, quantity: NDArray[np.str_]) -> Callable[[Curve], Curve]:
+def _correction(truth: Array, fast: Array, quantity: NDArray[np.str_]) -> Amend:
     """Return what turns curves of the regression level into such that are the `truth` where they are `fast` now."""
     factor, shift = np.ones(len(truth)), np.zeros(len(truth))
     for name in np.unique(quantity):
@@ -201,10 +203,20 @@ def _check_count(measured: Measured, held: NDArray[np.bool_], constants: tuple[C
             )
 
 
-def _check_silent(
-    measured: Measured, silent: NDArray[np.bool_], held: NDArray[np.bool_], constants: tuple[Constant, ...]
-) -> None:
+def _silent(
+    measured: Measured, curves: Array, held: NDArray[np.bool_], constants: tuple[Constant, ...]
+) -> NDArray[np.bool_]:
+    """Return which points no constant changes, by the curves of many sets of constants, the scene's own first.
+
+    Raises ContactError if these are all of a quantity, or leave too few.
+    """
     keys = ", ".join(c.key for c in constants)
+    if np.isnan(curves[1:]).any(axis=1).all():
+        raise ContactError(
+            f"The scene can be computed with none of {len(curves) - 1} other sets of {keys} than its own. Narrow the "
+            "ranges of --vary."
+        )
+    silent = fit_estimate.silent(curves)
     for name in measured.quantities:
         if silent[measured.quantity == name].all():
             raise ContactError(
@@ -216,9 +228,10 @@ def _check_silent(
             f"{left} points are too few for {len(constants)} constants ({keys}): the other {int(silent.sum())} do not "
             "depend on them, such as films at time 0."
         )
+    return silent
 
 
-def _drawn_places(measured: Measured) -> Places:
+def _between(measured: Measured) -> Places:
     """Return the places of the drawn curves: times of every test and quantity, denser early; none without a course."""
     test: list[int] = []
     time: list[float] = []
@@ -229,11 +242,11 @@ def _drawn_places(measured: Measured) -> Places:
             if len(here) and here.max() > 0.0:
                 times = (here.max() * np.linspace(0.0, 1.0, _DRAWN) ** 2).tolist()
                 test, time, quantity = test + [i] * len(times), time + times, quantity + [name] * len(times)
-    return np.array(test, dtype=np.int64), np.array(time), np.array(quantity, dtype=measured.quantity.dtype)
+    return Places(np.array(test, dtype=np.int64), np.array(time), np.array(quantity, dtype=measured.quantity.dtype))
 
 
 def _drawn(measured: Measured, found: Estimate, at_all: Curve, places: Places) -> Drawn:
-    count, group = len(measured), _groups(measured, places[2])
+    count, group = len(measured), _groups(measured, places.quantity)
     if not len(group):
         nothing = np.zeros(0)
         return Drawn(*places, nothing, nothing, nothing)

@@ -103,11 +103,12 @@ def silent(curves: Array) -> NDArray[np.bool_]:
     return np.ptp(known, axis=0) <= 1e-12 * np.abs(known).max(axis=0)
 
 
-def searched(problem: Problem, first: Array, tried: Array, curves: Array, locally: int) -> Estimate:
-    """Return the best of the fits from `first` and from the best of the shares `tried`, whose curves are known."""
+def searched(problem: Problem, tried: Array, curves: Array, locally: int) -> Estimate:
+    """Return the best of the fits from the first and from the best of the shares `tried`, whose curves are known."""
     sigma = _first_sigma(problem)
     costs = np.array([_cost(problem, sigma, curve) for curve in curves])
-    begins = [first, *(tried[i] for i in np.argsort(costs, kind="stable")[:locally])]
+    best_first = [i for i in np.argsort(costs, kind="stable").tolist() if i != 0]
+    begins = [tried[0], *tried[best_first[:locally]]]
     ends = [_minimum(problem, sigma, begin, close=_ROUGHLY) for begin in begins]
     best = min(ends, key=lambda end: end[1])[0]
     others = [end for end, _ in ends if not np.allclose(end, best, atol=_STEP)]

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, dataclass, fields
 from math import exp, isfinite, log
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -167,11 +167,19 @@ class Model:
         return rows, state
 
 
+class Places(NamedTuple):
+    """Where numbers are taken from curves, one an entry of each array."""
+
+    test: NDArray[np.int64]
+    time: Array  # [s]
+    quantity: NDArray[np.str_]
+
+
 class Points:
     """The numbers at given places (test, time, quantity) of a model's curves, or NaN where it has none."""
 
     def __init__(self, model: Model, test: NDArray[np.int64], time: Array, quantity: NDArray[np.str_]) -> None:
-        self.model, self.failures = model, 0
+        self.model, self.failures, self.places = model, 0, Places(test, time, quantity)
         self._times = [np.unique(time[test == i]) for i in range(len(model.tests))]
         self._column = np.array([model.quantities.index(name) for name in quantity.tolist()])
         self._place = [(i, int(np.searchsorted(self._times[i], when))) for i, when in zip(test, time, strict=True)]

@@ -76,7 +76,7 @@ def lines(fit: Fit) -> list[str]:
         )
     if fit.failures:
         found.append(
-            f"The scene could not be computed with {fit.failures} of the sets of constants tried; they were passed over."
+            f"The scene could not be computed with {fit.failures} of the sets of constants tried: passed over."
         )
     if not fit.agreed:
         found.append(

@@ -26,8 +26,8 @@ def fitted(
     left = np.ones(len(measured), bool) if held is None else ~held
     group = np.zeros(len(measured), int)
     problem = Problem(curve, measured, np.full(len(measured), sd), group, left, count)
-    tried = starts(count, 8 * count)
-    return searched(problem, np.full(count, 0.5), tried, np.array([curve(one) for one in tried]), 2)
+    tried = np.vstack([np.full(count, 0.5), starts(count, 8 * count)])
+    return searched(problem, tried, np.array([curve(one) for one in tried]), 2)
 
 
 @pytest.fixture(scope="module")
