@@ -180,7 +180,8 @@ def measured_films(page: Page, folder: Path) -> None:
     page.say(
         "Central films of a steel ball on glass from 5 mm/s to 4 m/s with their standard deviations (benchmarks/data/README.md), fitted by "
         "the oil's pressure coefficient at the film's temperature, which was not given. Seven of them are held back, by other "
-        "random choices. What the formula of the film and that of inlet heating miss is scatter in proportion to the film."
+        "random choices. What the formula of the film and that of inlet heating miss is scatter in proportion to the film. Mineral oils have 20 to "
+        "30 1/GPa: the constant takes up the error of the formula, whose stated 16 % of the film are 30 % of it."
     )
     page.header("choice", "pressure coefficient (1/Pa)", "90 % interval", "scatter beyond the deviations", "held back inside", "inside a tenth")
     counts, tenth, first = [], [], None

@@ -179,10 +179,17 @@ def set_of(fit: Fit, name: str) -> str:
         },
         "scatter": {n: scatter_of(fit, g) for g, n in enumerate(fit.measured.quantities)},
     }
+    closed = {
+        c.key.removeprefix("tribofilm."): [f"{c.at(end)!r} {c.unit}".rstrip() for end in (limits.low, limits.high)]
+        for c, limits in zip(fit.constants, fit.estimate.limits, strict=True)
+        if limits.low is not None and limits.high is not None
+    }
     parts = dict.fromkeys(c.key.partition(".")[0] for c in fit.constants)
     text = [f'# A scene uses it by [{part}] set = "{name}.toml:{name}".' for part in parts]
     tables = {part: unbuild(getattr(scene, part)) for part in parts}
-    return "\n".join([*text, "", *_toml({"source": source, "fit": described} | tables, name)]) + "\n"
+    return (
+        "\n".join([*text, "", *_toml({"source": source, **tables, "interval": closed, "fit": described}, name)]) + "\n"
+    )
 
 
 def _toml(values: Mapping[str, Any], path: str) -> Iterator[str]:
