@@ -49,6 +49,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "pin_on_disc": ("contact_core/data/scenes/pin_on_disc.toml",),
     "measurements": ("benchmarks/data/*.csv",),
     "stribeck": ("system_models/run/stribeck.py", "system_models/run/duty.py", "system_models/run/duty_table.py"),
+    "fit": ("system_models/run/fit*.py", "-system_models/run/fit_report.py", "system_models/run/duty_table.py"),
     "machines": ("system_models/machines/*.py", "system_models/machines/*.toml", "system_models/machines/*.csv",
                  "system_models/parts/*.py",
                  "-system_models/machines/export.py", "-system_models/machines/report.py", "-system_models/machines/*/report.py"),
@@ -105,6 +106,7 @@ PAGES: dict[str, Source] = {
         "surfaces.stribeck", ("film", "evolution", "control", "stribeck", *SHAPES, "cam_tappet")
     ),
     "surfaces/tribofilm": Source("surfaces.tribofilm", (*LEVELS, *CIRCLES)),
+    "surfaces/fit": Source("surfaces.fit", (*LEVELS, "fit", "mtm_zddp", "measurements")),
     "thesis/validation": Source("thesis.validation", ("film", "evolution", "control", *CIRCLES)),
     "regression/curves": Source("regression.curves check", (*LEVELS, "azam_case_a", "mtm_zddp")),
     "regression/shapes": Source("regression.shapes page", (*LEVELS, "mtm_zddp", "fzg_flank", "ball_209_inner")),

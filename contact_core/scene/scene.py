@@ -17,7 +17,7 @@ from .height_map import HeightMap
 from .heights import Heights
 from .operation import OperatingPoint
 from .surface import SEEDS
-from .toml import build, completed, did_you_mean, folder_of, full_key, override, override_order, read_table
+from .toml import build, completed, did_you_mean, folder_of, full_key, located, override, override_order, read_table
 from .units import parse
 
 _SEED_STEP = 1_327_217_885  # the odd number nearest to SEEDS over the golden ratio
@@ -30,22 +30,25 @@ class Scene(SceneFields):
     def from_toml(source: str | Path, overrides: Mapping[str, str] | None = None) -> "Scene":
         """Read a shipped scene by name or a TOML file by path; `overrides` maps dotted keys to new values.
 
-        Files of heights are looked for beside the scene's file, then in the working folder. Raises SceneError with
-        every sentence that says what is wrong and what would be right.
+        Files of heights and of sets are looked for beside the scene's file, then in the working folder, those of sets
+        in `overrides` the other way round. Raises SceneError with every sentence that says what is wrong and what would
+        be right.
         """
-        table = read_table(source)
+        folders = (folder_of(source), Path())
+        table = located(read_table(source), *folders)
         changes = {full_key(key, value): value for key, value in (overrides or {}).items()}
         for key, value in sorted(changes.items(), key=override_order):
-            override(table, key, value)
-        return Scene.from_dict(table, folder_of(source), Path())
+            last = key.rpartition(".")[2]
+            override(table, key, located({last: value}, *reversed(folders))[last])
+        return Scene.from_dict(table, *folders)
 
     @staticmethod
     def from_dict(table: Mapping[str, Any], *folders: Path) -> "Scene":
         """Build and check a scene from nested tables as TOML gives them.
 
-        Files of heights are looked for in the folders, in their order; without any in the working folder.
+        Files of heights and of sets are looked for in the folders, in their order; without any in the working folder.
         """
-        filled, open_fields = provisional(completed(table))
+        filled, open_fields = provisional(completed(located(table, *(folders or (Path(),)))))
         scene: Scene = build(Scene, filled, "")
         first, second = (
             getattr(scene, name).with_file(name, folders or (Path(),)) for name in ("surface_1", "surface_2")

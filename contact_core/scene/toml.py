@@ -37,8 +37,8 @@ def shipped_scenes() -> dict[str, str]:
     return {name: str(tomllib.loads(tables[name].read_text("utf-8"))["description"]) for name in sorted(tables)}
 
 
-def read_table(source: str | Path) -> dict[str, Any]:
-    """Read a scene's TOML by name or path, as nested tables."""
+def read_table(source: str | Path, kind: str = "scene") -> dict[str, Any]:
+    """Read a scene's TOML by name or path, as nested tables; `kind` of file, for messages."""
     shipped = files("contact_core") / "data" / "scenes" / f"{source}.toml"
     path = Path(source)
     try:
@@ -54,9 +54,9 @@ def read_table(source: str | Path) -> dict[str, Any]:
             )
         return tomllib.loads(text)
     except OSError as error:
-        raise SceneError(f"The scene file '{source}' cannot be read: {error.strerror}.") from None
+        raise SceneError(f"The {kind} file '{source}' cannot be read: {error.strerror}.") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise SceneError(f"The scene file '{source}' is not valid TOML: {error}.") from None
+        raise SceneError(f"The {kind} file '{source}' is not valid TOML: {error}.") from None
 
 
 def folder_of(source: str | Path) -> Path:
@@ -191,17 +191,58 @@ _SET_FILES = {
 }
 
 
+_OF_FILE = ".toml:"  # in `set = "fitted.toml:NAME"`
+
+
+def located(table: Mapping[str, Any], *folders: Path) -> dict[str, Any]:
+    """Return the table with the paths of files of sets, `set = "fitted.toml:NAME"`, as found in one of the folders."""
+
+    def found(key: str, value: Any) -> Any:
+        if isinstance(value, Mapping):
+            return located(value, *folders)
+        if key != "set" or not isinstance(value, str):
+            return value
+        if value.endswith(".toml"):
+            raise SceneError(f"set = '{value}' names a file alone. Write '{value}:NAME', NAME being one of its sets.")
+        path, of_file, name = value.rpartition(_OF_FILE)
+        return f"{_found(f'{path}.toml', folders)}:{name}" if of_file else value
+
+    return {key: found(key, value) for key, value in table.items()}
+
+
+def _found(file: str, folders: tuple[Path, ...]) -> Path:
+    for folder in folders:
+        if (folder / file).is_file():
+            return (folder / file).resolve()
+    places = ", ".join(f"'{folder.resolve()}'" for folder in dict.fromkeys(folders))
+    raise SceneError(f"The file of sets '{file}' is not in {places}. Give its path from there, or an absolute one.")
+
+
 def _with_named_set(table: dict[str, Any], path: str) -> dict[str, Any]:
-    """Replace `set = "name"` (in capitals or not) by the named values of data/*.toml; keys written beside it win."""
+    """Replace `set = "name"` (in capitals or not) by the named values of data/*.toml; keys written beside it win.
+
+    `set = "PATH.toml:name"` takes them from the table [name.`path`] of that file.
+    """
     if "set" not in table:
         return table
-    name = str(table.pop("set")).lower()
-    if path not in _SET_FILES:
-        raise SceneError(f"[{path}] has no named sets. Known are sets for {', '.join(_SET_FILES)}.")
-    data = tomllib.loads((files("contact_core") / "data" / f"{_SET_FILES[path]}.toml").read_text("utf-8"))
+    given = str(table.pop("set"))
+    file, in_file, given = given.rpartition(_OF_FILE) if _OF_FILE in given else ("", "", given)
+    name = given.strip().lower()
+    if in_file:
+        tables = read_table(f"{file}.toml", "set")
+        data = {key.lower(): value for key, value in tables.items() if isinstance(value, dict)}
+    elif path in _SET_FILES:
+        data = tomllib.loads((files("contact_core") / "data" / f"{_SET_FILES[path]}.toml").read_text("utf-8"))
+    else:
+        raise SceneError(
+            f"[{path}] has no named sets. Known are sets for {', '.join(_SET_FILES)}; any table may have one of a "
+            "file, such as set = 'fitted.toml:NAME'."
+        )
     sets = {key: value[path] for key, value in data.items() if isinstance(value.get(path), dict)}
     if name not in sets:
-        raise SceneError(f"[{path}] has no set '{name}'.{did_you_mean(name, list(sets))} Known are {', '.join(sets)}.")
+        where = f" in '{file}.toml'" if in_file else ""
+        known = f"Known are {', '.join(sets)}." if sets else f"There is no [NAME.{path}] in that file."
+        raise SceneError(f"[{path}] has no set '{name}'{where}.{did_you_mean(name, list(sets))} {known}")
     return _merged(sets[name], table, path)
 
 

@@ -13,7 +13,7 @@ from typing import Protocol
 
 from contact_core.errors import ContactError
 
-from . import build, check, cosim, listing, run, stribeck, surfaces
+from . import build, check, cosim, fit, listing, run, stribeck, surfaces
 
 
 class Command(Protocol):
@@ -32,6 +32,7 @@ COMMANDS: dict[str, tuple[Command, str]] = {
     "surfaces": (surfaces, "what a scene's grid shows of its surfaces"),
     "run": (run, "run a scene's contact, or a machine, through its duty"),
     "stribeck": (stribeck, "rub a scene's contact and measure its Stribeck curves"),
+    "fit": (fit, "fit constants of a scene to measured films, friction or wear"),
     "build": (build, "build the FMU of a scene, for another tool"),
     "check": (check, "give a verdict per rule on any FMU"),
     "cosim": (cosim, "simulate a system of FMUs"),

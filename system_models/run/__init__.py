@@ -5,6 +5,8 @@
     origin                        identity of a contact's run
     report                        the printed table and the overview picture of a contact's run
     stribeck, stribeck_report     Stribeck curves at given times of rubbing; their table and picture
+    fit, fit_data, fit_model      constants of a scene from measured numbers: the fit, the numbers, the model
+    fit_estimate, fit_report      least squares and intervals; table, picture and named set
     cosim_report                  tables and picture of any simulated system
 
 A contact is a system of one FMU: the master drives it through its duty.

@@ -1,4 +1,4 @@
-"""Signals against time from a CSV file.
+"""Signals against time from a CSV file, of a duty or of measurements.
 
     time [min],load [N],temperature [degC]
     0,53.7,80
@@ -10,7 +10,7 @@ The header names each column with its unit. `time` is needed, starts at 0 and in
 import csv
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
 from pathlib import Path
 
 from contact_core.errors import SceneError
@@ -29,34 +29,45 @@ def read(path: Path, signals: Mapping[str, Quantity]) -> list[Row]:
 
     Raises SceneError with one sentence that names file, line, column, value and remedy.
     """
-    (line, header), *body = _lines(path)
-    columns = _columns(header, f"{path}, line {line}", _TIME | dict(signals))
     rows: list[Row] = []
-    for line, cells in body:
-        time, values = _row(cells, columns, f"{path}, line {line}", _TIME | dict(signals))
+    for where, (time, values) in rows_of(path, signals):
         if not rows and time != 0.0:
-            raise SceneError(f"{path}, line {line}: time = {time:g} s, but the first row must be at time 0.")
+            raise SceneError(f"{where}: time = {time:g} s, but the first row must be at time 0.")
         if rows and time <= rows[-1][0]:
             raise SceneError(
-                f"{path}, line {line}: time = {time:g} s does not come after the {rows[-1][0]:g} s of the row "
+                f"{where}: time = {time:g} s does not come after the {rows[-1][0]:g} s of the row "
                 "above. Sort the rows by time and give each time once."
             )
         rows.append((time, values))
     return rows
 
 
-def _lines(path: Path) -> list[tuple[int, list[str]]]:
+def rows_of(
+    path: Path, signals: Mapping[str, Quantity], kind: str = "duty", gaps: Collection[str] = ()
+) -> Iterator[tuple[str, Row]]:
+    """Yield each row with words for where it stands; times may be in any order.
+
+    `kind` of file, for messages; cells of the columns `gaps` may be empty, and have no value then.
+    """
+    (line, header), *body = _lines(path, kind)
+    columns = _columns(header, f"{path}, line {line}", _TIME | dict(signals))
+    for line, cells in body:
+        where = f"{path}, line {line}"
+        yield where, _row(cells, columns, where, _TIME | dict(signals), gaps)
+
+
+def _lines(path: Path, kind: str) -> list[tuple[int, list[str]]]:
     """Return the line numbers and cells of the lines that are not empty: the header and at least one more."""
     try:
         with path.open(encoding="utf-8-sig", newline="") as file:
             reader = csv.reader(file)
             lines = [(reader.line_num, row) for row in reader if any(cell.strip() for cell in row)]
     except OSError as error:
-        raise SceneError(f"The duty file '{path}' cannot be read: {error.strerror}.") from None
+        raise SceneError(f"The {kind} file '{path}' cannot be read: {error.strerror}.") from None
     except (UnicodeDecodeError, csv.Error) as error:
-        raise SceneError(f"The duty file '{path}' is not a CSV file in UTF-8: {error}.") from None
+        raise SceneError(f"The {kind} file '{path}' is not a CSV file in UTF-8: {error}.") from None
     if len(lines) < 2:
-        raise SceneError(f"The duty file '{path}' needs a header such as 'time [s],load [N]' and a row below it.")
+        raise SceneError(f"The {kind} file '{path}' needs a header such as 'time [s],load [N]' and a row below it.")
     return lines
 
 
@@ -89,7 +100,13 @@ def _columns(header: list[str], where: str, signals: Mapping[str, Quantity]) -> 
     return columns
 
 
-def _row(cells: list[str], columns: list[tuple[str, str]], where: str, signals: Mapping[str, Quantity]) -> Row:
+def _row(
+    cells: list[str],
+    columns: list[tuple[str, str]],
+    where: str,
+    signals: Mapping[str, Quantity],
+    gaps: Collection[str],
+) -> Row:
     if len(cells) != len(columns):
         raise SceneError(
             f"{where}: {len(cells)} values for {len(columns)} columns. "
@@ -97,6 +114,8 @@ def _row(cells: list[str], columns: list[tuple[str, str]], where: str, signals: 
         )
     values: dict[str, float] = {}
     for cell, (name, unit) in zip(cells, columns, strict=True):
+        if name in gaps and not cell.strip():
+            continue
         here = f"{where}, column '{name} [{unit}]', value '{cell.strip()}'"
         try:
             number = float(cell)

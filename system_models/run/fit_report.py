@@ -1,0 +1,301 @@
+"""The report of a fit: tables, picture, CSV, JSON, and the named set for scenes."""
+
+import csv
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import contact_core
+from contact_core.quantities import TABLE
+from contact_core.scene import OperatingPoint, units
+from contact_core.scene.toml import unbuild
+from contact_core.scene.tunables import with_values
+
+from .cosim_report import aligned
+from .fit import Fit
+from .fit_data import words
+from .fit_estimate import COVERED, Limits
+from .fit_model import Constant
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_PERCENT = f"{100.0 * COVERED:.0f} %"
+_COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")  # Okabe and Ito
+_MANY = 6  # tests: more share one colour
+
+
+def table(fit: Fit) -> str:
+    """Return a row for each constant: key, value, interval, unit."""
+    rows = [["constant", "value", f"{_PERCENT} interval", "unit"]]
+    for constant, limits in zip(fit.constants, fit.estimate.limits, strict=True):
+        interval = interval_of(constant, limits)
+        value = f"({fit.values[constant.key]:.4g})" if limits.open else f"{fit.values[constant.key]:.4g}"
+        rows.append([constant.key, value, interval, constant.unit or "1"])
+    return "\n".join(aligned(rows, 1))
+
+
+def interval_of(constant: Constant, limits: Limits) -> str:
+    """Return the interval of a constant in its unit, as text."""
+    low, high = (None if end is None else f"{constant.at(end):.4g}" for end in (limits.low, limits.high))
+    if limits.open:
+        return f"not identifiable within {constant.low:.4g} to {constant.high:.4g}"
+    if low is None:
+        return f"at most {high}"
+    return f"{low} to {high}" if high is not None else f"at least {low}"
+
+
+def lines(fit: Fit) -> list[str]:
+    """Return sentences on points, scatter, held-back points and what the level states of its errors."""
+    measured, found = fit.measured, []
+    used = ~fit.held & ~fit.silent
+    for g, name in enumerate(measured.quantities):
+        here = measured.quantity == name
+        count = f"{int((here & used).sum())} points of {name} fitted, {int((here & used & fit.inside).sum())} inside"
+        found.append(f"{count} their {_PERCENT} interval; {scatter_of(fit, g)}.")
+    held = fit.held & ~fit.silent
+    if held.any():
+        inside = int((held & fit.inside).sum())
+        found.append(f"Held back: {int(held.sum())} points, {inside} inside their {_PERCENT} interval.")
+    if fit.silent.any():
+        found.append(f"{int(fit.silent.sum())} points that no constant changes are left out, such as films at time 0.")
+    if any(limits.open for limits in fit.estimate.limits):
+        found.append(
+            "Not identifiable: points fit about as well anywhere in the range; the value in brackets is an example."
+        )
+    errors = ", ".join(f"{name} {100.0 * error:.0f} %" for name, error in fit.stated.items() if error > 0.0)
+    if errors:
+        found.append(
+            f"The level states errors of {errors}. They are common to the points of a test, so the constants take them "
+            f"up: these are constants of level '{fit.level}'."
+        )
+    if fit.failures:
+        found.append(
+            f"The scene could not be computed with {fit.failures} of the sets of constants tried: passed over."
+        )
+    if not fit.agreed:
+        found.append(
+            f"NOT SETTLED: level '{fit.level}' is off the fitted curves by {fit.off:.2g} standard deviations. The "
+            "constants are the best of those tried."
+        )
+    return found
+
+
+def scatter_of(fit: Fit, group: int) -> str:
+    """Return in words how measured numbers scatter about the curve of a quantity."""
+    name = fit.measured.quantities[group]
+    unit, factor = people_read(name)
+    s, given = fit.estimate.scatter[group], bool((fit.measured.sd[fit.measured.quantity == name] > 0.0).any())
+    size = f"{factor * s:.3g} {unit}".removesuffix(" 1")
+    if fit.estimate.proportional[group]:
+        size = f"{100.0 * s:.3g} % of the curve"
+    if given and s == 0.0:
+        return "the given standard deviations explain the residuals"
+    return f"scatter beyond the given standard deviations {size}" if given else f"scatter {size}"
+
+
+def people_read(quantity: str) -> tuple[str, float]:
+    """Return the unit that people read of a quantity, and the factor from SI to it."""
+    unit = TABLE[quantity].display or TABLE[quantity].unit
+    return unit, 1.0 / units.unit(unit)[0]
+
+
+def record(fit: Fit) -> dict[str, Any]:
+    """Return all of a fit as JSON has it."""
+    return {
+        **_origin(fit),
+        "constants": [
+            {
+                "key": c.key, "value": fit.values[c.key], "unit": c.unit, "range": [c.low, c.high], "start": c.value,
+                "interval": [None if end is None else c.at(end) for end in (limits.low, limits.high)],
+                "identifiable": not limits.open,
+            }
+            for c, limits in zip(fit.constants, fit.estimate.limits, strict=True)
+        ],
+        "scatter": [
+            {"quantity": name, "value": s, "of_the_curve": relative}
+            for name, s, relative in zip(
+                fit.measured.quantities, fit.estimate.scatter, fit.estimate.proportional, strict=True
+            )
+        ],
+        "covered": COVERED, "stated_errors": fit.stated, "simulated_tests": fit.runs, "failures": fit.failures,
+        "level_off_by_standard_deviations": fit.off,
+        "scene_values": fit.scene.to_dict(),
+    }  # fmt: skip
+
+
+def _origin(fit: Fit) -> dict[str, Any]:
+    used, held = ~fit.held & ~fit.silent, fit.held & ~fit.silent
+    return {
+        "data": fit.measured.source, "digest": fit.measured.digest, "scene": fit.scene.name, "level": fit.level,
+        "version": contact_core.__version__, "points": int(used.sum()), "held_back": int(held.sum()),
+        "held_back_inside": int((held & fit.inside).sum()),
+    }  # fmt: skip
+
+
+def write(fit: Fit, name: str, folder: Path) -> list[Path]:
+    """Write fit.json, fit.csv, fit.png and the set NAME.toml into a folder and return their paths."""
+    paths = [folder / "fit.json", folder / "fit.csv", folder / "fit.png", folder / f"{name}.toml"]
+    paths[0].write_text(json.dumps(record(fit), indent=1) + "\n", encoding="utf-8")
+    with paths[1].open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows(_rows(fit))
+    figure(fit).savefig(paths[2], dpi=150)
+    paths[3].write_text(set_of(fit, name), encoding="utf-8")
+    return paths
+
+
+def _rows(fit: Fit) -> Iterator[list[Any]]:
+    """Yield the rows of fit.csv: every measured number beside the curve and its interval, in SI."""
+    inputs = [f.name for f in fields(OperatingPoint)]
+    measured, found = fit.measured, fit.estimate
+    heads = [f"{name} [{TABLE[name].unit}]" for name in inputs]
+    yield ["quantity", "unit", *heads, "time [s]", "measured", "sd", "curve", "low", "high", "held_back", "inside"]
+    for i, name in enumerate(measured.quantity.tolist()):
+        test = measured.tests[int(measured.test[i])]
+        curve, half = float(found.curve[i]), float(found.half[i])
+        numbers = (measured.time[i], measured.value[i], measured.sd[i], curve, curve - half, curve + half)
+        at = ["" if getattr(test, f) is None else getattr(test, f) for f in inputs]
+        yield [name, TABLE[name].unit, *at, *map(float, numbers), int(fit.held[i]), int(fit.inside[i])]
+
+
+def set_of(fit: Fit, name: str) -> str:
+    """Return the TOML of a named set: the tables of the scene that have a fitted constant, and where it is from."""
+    scene = with_values(fit.scene, fit.values)
+    origin = _origin(fit)
+    source = (
+        f"Fitted to {origin['points']} points of {origin['data']} (sha256 {origin['digest']}) in scene "
+        f"{origin['scene']} at level {fit.level}"
+    )
+    described = {
+        **origin,
+        "intervals": {
+            c.key: f"{interval_of(c, limits)} {c.unit}".rstrip()
+            for c, limits in zip(fit.constants, fit.estimate.limits, strict=True)
+        },
+        "scatter": {n: scatter_of(fit, g) for g, n in enumerate(fit.measured.quantities)},
+    }
+    closed = {
+        c.key.removeprefix("tribofilm."): [f"{c.at(end)!r} {c.unit}".rstrip() for end in (limits.low, limits.high)]
+        for c, limits in zip(fit.constants, fit.estimate.limits, strict=True)
+        if limits.low is not None and limits.high is not None
+    }
+    parts = dict.fromkeys(c.key.partition(".")[0] for c in fit.constants)
+    text = [f'# A scene uses it by [{part}] set = "{name}.toml:{name}".' for part in parts]
+    tables = {part: unbuild(getattr(scene, part)) for part in parts}
+    return (
+        "\n".join([*text, "", *_toml({"source": source, **tables, "interval": closed, "fit": described}, name)]) + "\n"
+    )
+
+
+def _toml(values: Mapping[str, Any], path: str) -> Iterator[str]:
+    """Yield the lines of a table and of the tables in it."""
+    yield f"[{path}]"
+    for key, value in values.items():
+        if not isinstance(value, Mapping):
+            yield f"{_key(key)} = {json.dumps(value, ensure_ascii=False)}"
+    for key, value in values.items():
+        if isinstance(value, Mapping):
+            yield ""
+            yield from _toml(value, f"{path}.{_key(key)}")
+
+
+def _key(text: str) -> str:
+    return text if text.replace("_", "").isalnum() else json.dumps(text)
+
+
+def figure(fit: Fit) -> "Figure":
+    """Return the picture: points, curves and bands, a panel for each quantity."""
+    from matplotlib.figure import Figure
+
+    names = fit.measured.quantities
+    drawn = Figure(figsize=(8.0, 1.2 + 3.4 * len(names)), layout="constrained")
+    axes = drawn.subplots(len(names), 1, squeeze=False)[:, 0]
+    course = len(fit.drawn.time) > 0
+    for axis, name in zip(axes, names, strict=True):
+        (_course if course else _over_input)(axis, fit, name)
+        unit, _ = people_read(name)
+        axis.set_ylabel(f"{name} [{unit}]")
+        axis.spines[["top", "right"]].set_visible(False)
+    axes[0].legend(frameon=False, fontsize="small", ncols=2)
+    drawn.align_ylabels()
+    drawn.suptitle(
+        f"{fit.measured.source} in {fit.scene.name}, level {fit.level}; bands: {_PERCENT} of measurements",
+        fontsize="medium",
+    )
+    return drawn
+
+
+def _course(axis: "Axes", fit: Fit, name: str) -> None:
+    """Draw a quantity against time, a colour for each test."""
+    _, factor = people_read(name)
+    points, curves = fit.measured, fit.drawn
+    for i, text in enumerate(words(points.tests)):
+        colour = _COLOURS[i % len(_COLOURS)]
+        line = (curves.test == i) & (curves.quantity == name)
+        minutes, curve, half = curves.time[line] / 60.0, factor * curves.curve[line], factor * curves.half[line]
+        axis.plot(minutes, curve, color=colour, linewidth=1.4, label=text)
+        axis.fill_between(minutes, curve - half, curve + half, color=colour, alpha=0.15, linewidth=0.0)
+        for held in (False, True):
+            here = (points.test == i) & (points.quantity == name) & (fit.held == held)
+            _points(axis, points.time[here] / 60.0, points.value[here], points.sd[here], factor, colour, held)
+    _legend(axis, fit)
+    axis.set_xlabel("time [min]")
+    axis.set_xlim(left=0.0)
+    values = points.value[points.quantity == name]
+    if 0.0 <= values.min() < 0.5 * values.max():
+        axis.set_ylim(bottom=0.0)
+
+
+def _over_input(axis: "Axes", fit: Fit, name: str) -> None:
+    """Draw a quantity at time 0 against the input that differs most between tests."""
+    _, factor = people_read(name)
+    points = fit.measured
+    swept = _swept(points.tests)
+    here = np.flatnonzero(points.quantity == name)
+    x = np.array([float(getattr(points.tests[points.test[i]], swept) or 0.0) for i in here])
+    order = np.argsort(x, kind="stable")
+    here, x = here[order], x[order]
+    curve, half = factor * fit.estimate.curve[here], factor * fit.estimate.half[here]
+    axis.plot(x, curve, color=_COLOURS[0], linewidth=1.4, label="fit")
+    axis.fill_between(x, curve - half, curve + half, color=_COLOURS[0], alpha=0.15, linewidth=0.0)
+    for held in (False, True):
+        part = fit.held[here] == held
+        _points(axis, x[part], points.value[here[part]], points.sd[here[part]], factor, _COLOURS[0], held)
+    _legend(axis, fit)
+    axis.set_xlabel(f"{swept} [{TABLE[swept].unit}]")
+    if x.min() > 0.0 and x.max() > 10.0 * x.min():
+        axis.set_xscale("log")
+        if (points.value[here] > 0.0).all():
+            axis.set_yscale("log")
+
+
+def _points(
+    axis: "Axes", x: np.ndarray, value: np.ndarray, sd: np.ndarray, factor: float, colour: str, held: bool
+) -> None:
+    axis.errorbar(
+        x, factor * value, yerr=factor * sd if (sd > 0.0).any() else None, color=colour, linestyle="none",
+        marker="s" if held else "o", markersize=5, markerfacecolor="white" if held else colour, elinewidth=0.8,
+    )  # fmt: skip
+
+
+def _legend(axis: "Axes", fit: Fit) -> None:
+    axis.plot([], [], color="0.4", marker="o", markersize=5, linestyle="none", label="fitted")
+    if fit.held.any():
+        axis.plot(
+            [], [], color="0.4", marker="s", markersize=5, markerfacecolor="white", linestyle="none", label="held back"
+        )
+
+
+def _swept(tests: tuple[OperatingPoint, ...]) -> str:
+    """Return the input whose numbers differ most, over the largest of them."""
+
+    def spread(name: str) -> float:
+        values = np.array([float(getattr(test, name) or 0.0) for test in tests])
+        return float(np.ptp(values) / max(np.abs(values).max(), 1e-300))
+
+    return max((f.name for f in fields(OperatingPoint)), key=spread)
