@@ -50,8 +50,8 @@ def run(arguments: argparse.Namespace) -> int:
     if files.is_machine(arguments.scene):
         if arguments.fields is not None:
             raise ContactError(
-                f"--fields keeps maps of the one contact of a scene, and '{arguments.scene}' is a machine. Leave it out, "
-                "or run a scene of one of its contacts."
+                f"--fields keeps maps of the one contact of a scene, and '{arguments.scene}' is a machine. Leave it "
+                "out, or run a scene of one of its contacts."
             )
         return machine.run(arguments)
     _check_name(arguments.scene)

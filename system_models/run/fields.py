@@ -60,15 +60,15 @@ def _check(scene: Scene, points: Sequence[float], count: int) -> None:
         )
     if not 1 <= count <= len(points):
         raise ContactError(
-            f"--fields {count} must be at least 1 and at most {len(points)}, the rows of this run. Use such a number, or "
-            "a shorter operation.interval for more rows."
+            f"--fields {count} must be at least 1 and at most {len(points)}, the rows of this run. Use such a number, "
+            "or a shorter operation.interval for more rows."
         )
-    size = count * maps.size_of(scene)
+    each = maps.size_of(scene)
+    size = count * each
     if size > _MOST:
         raise ContactError(
-            f"--fields {count} would keep {size / 1e9:.3g} GB of maps, {maps.size_of(scene) / 1e6:.3g} MB at each time; "
-            f"at most {_MOST / 1e9:g} GB are kept. Use --fields {int(_MOST / maps.size_of(scene))} or less, or a coarser "
-            "--grid."
+            f"--fields {count} would keep {size / 1e9:.3g} GB of maps, {each / 1e6:.3g} MB at each time; at most "
+            f"{_MOST / 1e9:g} GB are kept. Use --fields {int(_MOST / each)} or less, or a coarser --grid."
         )
     if size > _MUCH:
         log.warning("--fields %d keeps %.2g GB of maps in memory; result.nc has them compressed.", count, size / 1e9)

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from contact_core import ContactState, OperatingPoint, Scene, initial_state, present_instant, track_of
 from contact_core.errors import ContactError
@@ -68,7 +68,8 @@ def taken(scene: Scene, op: OperatingPoint, state: ContactState | None, time: fl
         found[f"offset_{body}"] = places.bodies[body - 1].offset
     maps = {name: np.asarray(field, _MAP) for name, field in found.items() if np.ndim(field) == 2}
     stream = io.BytesIO()
-    np.savez_compressed(stream, **(found | maps), instant_route=np.int8(ROUTES.index(route)), instant_converged=converged)
+    how = {"instant_route": np.int8(ROUTES.index(route)), "instant_converged": np.bool_(converged)}
+    np.savez_compressed(stream, **(found | maps | how))
     return stream.getvalue()
 
 
@@ -84,12 +85,13 @@ def dataset_of(scene: Scene, times: Sequence[float], records: Sequence[bytes]) -
     before |= {f"heights_profile_{body}": bare.mean(axis=1) for body, bare in zip(_BODIES, new, strict=True)}
     hertz, grid = scene.hertz(scene.operation.load), scene.grid(rows)
     along = np.arange(scene.film.points - 1) * scene.film.spacing
+    text = "along the track of a body, on its patch, which repeats along the track"
     found = xr.Dataset(
         coords={
             TIME: (TIME, np.array(times), _about("s", "test time of the maps and profiles")),
             "y": ("y", grid.y, _about("m", "across entrainment, from the centre of the contact", axis="Y")),
             "x": ("x", grid.x, _about("m", "along entrainment, from the centre of the contact", axis="X")),
-            ALONG: (ALONG, along, _about("m", "along the track of a body, on its patch, which repeats along the track")),
+            ALONG: (ALONG, along, _about("m", text)),
         }
     )
     for name in every[0]:
@@ -125,7 +127,10 @@ def _variable(name: str, values: NDArray[Any]) -> xr.Variable:
     if name in _CONTACT:
         return _deflated((TIME, "y", "x"), values, _about(*_CONTACT[name]))
     if name == "instant_route":
-        meanings = {"flag_values": np.arange(len(ROUTES), dtype=np.int8), "flag_meanings": " ".join(ROUTES)}
+        meanings: dict[str, Any] = {
+            "flag_values": np.arange(len(ROUTES), dtype=np.int8),
+            "flag_meanings": " ".join(ROUTES),
+        }
         return xr.Variable(TIME, values, _about("1", "how the instant of the maps was solved", **meanings))
     if name == "instant_converged":
         return xr.Variable(TIME, values, _about("1", "true: the instant of the maps converged"))
@@ -134,7 +139,7 @@ def _variable(name: str, values: NDArray[Any]) -> xr.Variable:
     if kind == "offset":
         text = f"how far the patch of {body} lies along +x: its first node is at the first x of the grid plus this"
         return xr.Variable(TIME, values, _about("m", f"{text}, modulo its length"))
-    what = f"{_BODY[kind]} {body}" if kind in _BODY else f"heights of {body} as they are, positive toward the other body"
+    what = f"{_BODY[kind]} {body}" if kind in _BODY else f"heights of {body} as they are, toward the other body"
     if rest.startswith("profile"):
         return _deflated((TIME, "y"), values, _about("m", f"{what}, mean along the track"))
     return _deflated((TIME, "y", ALONG), values, _about("m", what))
@@ -146,5 +151,5 @@ def _deflated(dims: tuple[Hashable, ...], values: NDArray[Any], about: dict[str,
     return xr.Variable(dims, values, about, _DEFLATED | {"chunksizes": chunks})
 
 
-def _about(unit: str, text: str, **more: ArrayLike) -> dict[str, Any]:
+def _about(unit: str, text: str, **more: Any) -> dict[str, Any]:
     return {"units": unit, "long_name": text, **more}
