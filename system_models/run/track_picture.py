@@ -217,7 +217,7 @@ def _norm(panel: _Map, finite: "NDArray[Any]") -> "Normalize":
     return Normalize(0.0, top or 1.0)
 
 
-def _beyond(panel: _Map, norm: "Normalize") -> str:
+def _beyond(panel: _Map, norm: Any) -> str:
     """Return at which end a map has values beyond its colours."""
     beyond = panel.factor * panel.values > (1.0 + 1e-6) * float(norm.vmax or 0.0)
     return "max" if beyond.any() else "neither"
@@ -249,7 +249,7 @@ def _draw_profiles(axis: "Axes", maps: xr.Dataset, name: str, body: int) -> None
     what = {"tribofilm": "tribofilm", "wear": "wear"}[name]
     axis.set_title(f"{what} of body {body} across the track", fontsize="medium")
     profiles, y = 1e9 * maps[f"{name}_profile_{body}"].values, maps["y"].values
-    factor, unit = _length(np.ptp(y) or 1.0)
+    factor, unit = _length(np.ptp(y))
     shades = np.linspace(_FAINT, 1.0, len(profiles)) if len(profiles) > 1 else [1.0]
     named = _named(len(profiles))
     for k, (profile, shade) in enumerate(zip(profiles, shades, strict=True)):
@@ -274,7 +274,7 @@ def _draw_surface(axis: "Axes", maps: xr.Dataset, body: int) -> None:
     last = maps.isel({TIME: -1, ALONG: maps.sizes[ALONG] // 2})
     new, y = last[f"new_heights_{body}"].values, maps["y"].values
     worn = new - last[f"wear_map_{body}"] - last[f"plastic_map_{body}"]
-    factor, unit = _length(np.ptp(y) or 1.0)
+    factor, unit = _length(np.ptp(y))
     axis.set_title(f"surface of body {body}: a cross-section", fontsize="medium")
     covered, colour = worn + last[f"tribofilm_map_{body}"], _COLOURS[body - 1]
     axis.fill_between(factor * y, 1e9 * worn, 1e9 * covered, color=colour, alpha=0.3, linewidth=0.0, label="tribofilm")
