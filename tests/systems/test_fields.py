@@ -1,6 +1,7 @@
 """Fields of a run: what they are, that the run does not notice them, and that a kill does not change them."""
 
 import logging
+import re
 import shutil
 import signal
 import subprocess
@@ -9,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import matplotlib
 import numpy as np
 import pytest
 import xarray as xr
@@ -16,7 +18,7 @@ from comparison import approx
 from matplotlib.figure import Figure
 from test_resume import KILLED, bits
 
-from contact_core import ContactError, OperatingPoint, Scene, initial_state, solve
+from contact_core import ContactError, OperatingPoint, Scene, StateError, initial_state, solve
 from contact_core.surfaces.patches import widened
 from system_models.cli.main import main
 from system_models.run import maps, origin, report, track_picture
@@ -26,6 +28,7 @@ from system_models.run.fields import Fields
 from system_models.store import results
 from system_models.store.checkpoint import Checkpoint
 
+PAGE = (Path(__file__).parents[2] / "docs" / "how-to" / "fields.md").read_text("utf-8")
 CONTACT = ("pressure", "fluid_pressure", "solid_pressure", "gap")
 KINDS = ("tribofilm", "wear", "plastic")
 END = 200.0
@@ -124,6 +127,27 @@ def test_the_file_gives_back_every_map_compressed_and_the_table_stays(
         assert (read.sizes["x"], read.sizes["x_track"], read.sizes["y"]) == (33, 32, 33)
 
 
+def test_the_page_reads_what_is_there(
+    found: xr.Dataset, plain: xr.Dataset, scene: Scene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    folder = Path("results/mtm_zddp")
+    folder.mkdir(parents=True)
+    results.write(plain, folder, maps=found)
+    matplotlib.use("Agg")
+    names: dict[str, Any] = {}
+    for block in re.findall("```python\n(.*?)```", PAGE, re.DOTALL):
+        exec(block, names)
+    assert names["cover"].values == approx(plain["coverage_2"].values, rel=1e-6)
+    assert names["outputs"].sizes["time"] == 7
+    assert names["rough"].values[-1] > 0.1
+    shift = float(found["offset_2"].values[-1]) / scene.film.spacing
+    assert names["under"][:, round(shift) % 32] == approx(found["tribofilm_map_2"].values[-1, :, 0])
+    table = PAGE.partition("## What there is")[2].partition("\n- ")[0]
+    told = set(re.findall(r"`(\w+)`", table)) - {"_2"}
+    assert {name for name in found.data_vars if not name.endswith("_2")} <= told <= set(found.data_vars)
+
+
 def test_patches_lie_under_the_contact_at_their_offsets(found: xr.Dataset, scene: Scene) -> None:
     """Solids press where both patches are high, at these places and at no others."""
     now = found.isel(field_time=2)
@@ -166,6 +190,8 @@ def test_a_run_with_fields_goes_on_from_every_row_bit_for_bit(
         patch.setattr(Checkpoint, "due", lambda self: True)
         run(fmu, changing, END, 50.0, None, Checkpoint(folder, who), every_row(scene, changing))
     assert len(saved) == 7
+    with pytest.raises(StateError, match="fields = 7 there, 'nothing' here"):
+        Checkpoint.resume(saved[2], origin.identity(scene, changing))
     sizes = [(left / "checkpoint.kept").stat().st_size for left in saved]
     assert sorted(set(sizes)) == sizes, "the file of the records only grows"
     for count, left in enumerate(saved, 1):
