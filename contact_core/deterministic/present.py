@@ -4,9 +4,8 @@ from dataclasses import replace
 
 from ..scene import Case
 from ..state import ContactState
-from .instant import Transient, solve_instant
-from .sampling import ITERATIONS
-from .transient import Found, dry_instant, next_instant
+from .instant import solve_instant
+from .transient import Found, dry_instant, follow
 
 
 def present_instant(case: Case, state: ContactState) -> Found:
@@ -32,7 +31,7 @@ def present_instant(case: Case, state: ContactState) -> Found:
         return state, solve_instant(case, state)
     if driver != "dry" and same and state.film is not None and case.fastest > 0.0:
         dt = case.scene.film.spacing / case.fastest
-        return next_instant(case, state, [speed * dt for speed in case.speeds], Transient(dt, 0, ITERATIONS))
+        return follow(case, state, dt, [speed * dt for speed in case.speeds])
     if driver == "dry" or not case.entrained or share < 1.0:
         return dry_instant(case, replace(state, share=share), (0.0, 0.0))
     return state, solve_instant(case, state)

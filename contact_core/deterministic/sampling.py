@@ -23,7 +23,7 @@ from .transient import dry_instant, next_instant, rolled
 _PASSAGE = 4.0
 _MOST_SETTLING = 400  # transient steps
 _AHEAD = 1.1  # the faster body's speed over the entrainment speed, up to which that is near rolling
-ITERATIONS = 300  # at most, of one transient step; a warm one needs about 16, after a jump up to 200
+_ITERATIONS = 300  # at most, of one transient step; a warm one needs about 16, after a jump up to 200
 _DRY_PASS = 8  # dry instants that stand for one pass of a surface point through the contact
 _CLEAR = 3.0  # formula film over rms roughness, from which on a dry contact is no start
 _GOLDEN = 0.7548776662466927  # of the additive sequence R2, of low discrepancy in the plane
@@ -81,7 +81,7 @@ def sample_mixed(
         jump_now = k % stride == 0
         moves = [step + jump * jump_now for step, jump in zip(steps, jumps, strict=True)]
         settled = 2 * k >= -unsampled  # enough to tell which points are exposed, and how warm they are
-        state, fields = next_instant(case, state, moves, Transient(dt, 0, ITERATIONS, heated=settled))
+        state, fields = next_instant(case, state, moves, Transient(dt, 0, _ITERATIONS, heated=settled))
         if settled:
             sums.add(case, state, fields, passes, sampled=k >= 0)
     return state

@@ -91,7 +91,7 @@ def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path, fie
     from ..run import origin, report, track_picture
     from ..store import results
 
-    maps = fields.dataset() if fields else None
+    maps = fields.dataset() if fields and fields.kept else None
     dataset = origin.with_scene(dataset, scene, duty, len(fields.times) if fields else 0)
     below = (f"Body {body}: {text}." for body, text in enumerate(microroughness(scene), 1))
     print(scene.description, report.table(dataset), *chosen(scene), *below, *report.closing_lines(dataset), sep="\n")

@@ -48,7 +48,7 @@ class Fields:
         self.kept.append(maps.taken(self._scene, self._ops[self.times[len(self.kept)]], state, time))
 
     def dataset(self) -> xr.Dataset:
-        """Return maps and profiles along `field_time` [s], with the dimensions y, x and x_track."""
+        """Return the maps and profiles kept along `field_time` [s], with the dimensions y, x and x_track."""
         return maps.dataset_of(self._scene, self.times[: len(self.kept)], self.kept)
 
 
