@@ -34,6 +34,7 @@ from .calls.line_contact import LineContact, line_contact
 from .calls.point_contact import PointContact, point_contact
 from .deterministic.instant import ContactFields, Transient, solve
 from .deterministic.march import Moment, march, run_cycle
+from .deterministic.present import present_instant
 from .deterministic.transient import parted
 from .errors import ContactError, ConvergenceError, FilmTooWideError, OperatingPointError, SceneError, StateError
 from .laws.profile import Logarithmic, Rounded
@@ -73,6 +74,7 @@ __all__ = [
     "march",
     "parted",
     "point_contact",
+    "present_instant",
     "run_cycle",
     "shipped_scenes",
     "solve",

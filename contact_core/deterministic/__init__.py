@@ -5,6 +5,7 @@
     oil_temperature    temperature of the oil by heat and shear, and its flow at that temperature
     observed           outputs and range flags of one instant
     transient          consecutive instants: a film that depends on the one before, begins or opens
+    present            the instant that a run is at, and its fields
     march              `march`, `run_cycle`: consecutive instants while inputs change within a run
     accumulator        sums over the instants of a block
     sampling           choice of the instants at which a block is solved

@@ -81,11 +81,6 @@ class Snapshot:
 
         Raises StateError if damaged or of another FMU.
         """
-        if data[: len(_MAGIC)] != _MAGIC:
-            raise StateError(
-                "The stored FMU state is not one that this version of tribofmu writes. Give one that this FMU has "
-                "serialised."
-            )
         header, numbers, contact = _parts(data)
         owner, phase, fault, kinds, *texts = json.loads(header)
         check_owner(owner, module)
@@ -97,6 +92,14 @@ class Snapshot:
         scenes = rebuild(values)
         state = ContactState.from_bytes(contact, scenes[0])
         return Snapshot(module, layout, Phase(phase), fault, values, scenes, state)
+
+
+def contact_state(data: bytes) -> bytes:
+    """Return the contact state in a serialised FMU state, for `ContactState.from_bytes`; empty if there is none yet.
+
+    Raises StateError if damaged or not an FMU's.
+    """
+    return _parts(data)[2]
 
 
 def check_owner(owner: str, module: str) -> None:
@@ -112,7 +115,12 @@ def _header(module: str, phase: Phase, fault: str, kinds: str, texts: tuple[Valu
 
 
 def _parts(data: bytes) -> tuple[bytes, bytes, bytes]:
-    """Return header, numbers and contact state; raise StateError if they are damaged."""
+    """Return header, numbers and contact state; raise StateError if they are damaged or of another kind."""
+    if data[: len(_MAGIC)] != _MAGIC:
+        raise StateError(
+            "The stored FMU state is not one that this version of tribofmu writes. Give one that this FMU has "
+            "serialised."
+        )
     at = len(_MAGIC) + _DIGEST
     start = at + _LENGTHS.size
     if len(data) >= start:

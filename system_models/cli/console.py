@@ -15,7 +15,7 @@ def note(sentence: str) -> None:
 
 def refuse_empty(arguments: argparse.Namespace) -> None:
     """Raise ContactError for an option whose value is an empty text."""
-    for option in ("hours", "grid", "accuracy", "duty", "out", "ssp"):
+    for option in ("hours", "grid", "accuracy", "duty", "out", "ssp", "fields"):
         if getattr(arguments, option, None) == "":
             raise ContactError(f"--{option} is empty. Give a value, or leave --{option} out.")
 

@@ -5,6 +5,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from contact_core.errors import ContactError
 from contact_core.scene import Scene
 
 from .console import note, output_folder
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from ..run.duty import Duty
+    from ..run.fields import Fields
     from ..store.checkpoint import Checkpoint
 
 
@@ -23,28 +25,44 @@ def run(arguments: argparse.Namespace) -> int:
     from ..store.checkpoint import alone
 
     scene, duty = contact(arguments)
+    fields = _fields(arguments.fields, scene, duty)
     folder = output_folder(arguments.out, Path(arguments.scene).stem)
     warn(scene)
     with alone(folder):
-        return _run_in(folder, scene, duty, arguments.resume)
+        return _run_in(folder, scene, duty, fields, arguments.resume)
 
 
-def _run_in(folder: Path, scene: Scene, duty: "Duty", resume: bool) -> int:
-    checkpoint = _checkpoint(folder, scene, duty, resume)
-    if resume and not checkpoint.saved and (code := _finished(folder, scene, duty)) is not None:
+def _fields(given: str | None, scene: Scene, duty: "Duty") -> "Fields | None":
+    """Return what keeps the fields of --fields. Raises ContactError for a value that cannot be used."""
+    if given is None:
+        return None
+    from ..run.contact import communication_points
+    from ..run.fields import Fields
+
+    if not given.strip().isdecimal():
+        raise ContactError(f"--fields = '{given}' must be a whole number of times, at least 1, such as --fields 5.")
+    points = communication_points(duty, scene.operation.duration, scene.operation.interval)
+    return Fields(scene, duty, points, int(given))
+
+
+def _run_in(folder: Path, scene: Scene, duty: "Duty", fields: "Fields | None", resume: bool) -> int:
+    count = len(fields.times) if fields else 0
+    checkpoint = _checkpoint(folder, scene, duty, count, resume)
+    if resume and not checkpoint.saved and (code := _finished(folder, scene, duty, count)) is not None:
         return code
     with continued_by_resume(lambda: checkpoint.file if checkpoint.count else None):
-        code = _report(_simulate(scene, duty, checkpoint), scene, duty, folder)
+        dataset = _simulate(scene, duty, checkpoint, fields)
+        code = _report(dataset, scene, duty, folder, fields)
     checkpoint.remove()
     return code
 
 
-def _checkpoint(folder: Path, scene: Scene, duty: "Duty", resume: bool) -> "Checkpoint":
+def _checkpoint(folder: Path, scene: Scene, duty: "Duty", fields: int, resume: bool) -> "Checkpoint":
     """Return the checkpoint of the run; say on stderr whether the run continues from it."""
     from ..run.origin import identity
     from ..store.checkpoint import Checkpoint
 
-    run = identity(scene, duty)
+    run = identity(scene, duty, fields)
     if not resume:
         checkpoint = Checkpoint(folder, run)
         if checkpoint.file.exists():
@@ -56,11 +74,11 @@ def _checkpoint(folder: Path, scene: Scene, duty: "Duty", resume: bool) -> "Chec
     return checkpoint
 
 
-def _finished(folder: Path, scene: Scene, duty: "Duty") -> int | None:
+def _finished(folder: Path, scene: Scene, duty: "Duty", fields: int) -> int | None:
     """Return the exit code of this very run if its result is there already."""
     from ..run import origin, report
 
-    dataset = origin.find(folder, scene, duty)
+    dataset = origin.find(folder, scene, duty, fields)
     if dataset is None:
         note(f"There is no checkpoint in '{folder}': the run starts from the beginning.")
         return None
@@ -68,20 +86,23 @@ def _finished(folder: Path, scene: Scene, duty: "Duty") -> int | None:
     return 1 if report.invalid_rows(dataset) else 0
 
 
-def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path) -> int:
+def _report(dataset: "xr.Dataset", scene: Scene, duty: "Duty", folder: Path, fields: "Fields | None") -> int:
     """Print and write the result; return the exit code."""
-    from ..run import origin, report
+    from ..run import origin, report, track_picture
     from ..store import results
 
-    dataset = origin.with_scene(dataset, scene, duty)
+    maps = fields.dataset() if fields and fields.kept else None
+    dataset = origin.with_scene(dataset, scene, duty, len(fields.times) if fields else 0)
     below = (f"Body {body}: {text}." for body, text in enumerate(microroughness(scene), 1))
     print(scene.description, report.table(dataset), *chosen(scene), *below, *report.closing_lines(dataset), sep="\n")
-    written = [*results.write(dataset, folder), report.write_overview(dataset, folder / "overview.png")]
+    written = [*results.write(dataset, folder, maps=maps), report.write_overview(dataset, folder / "overview.png")]
+    if maps:
+        written.append(track_picture.write(dataset, maps, folder / "track.png"))
     print(f"Written: {', '.join(map(str, written))}")
     return 1 if report.invalid_rows(dataset) else 0
 
 
-def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint") -> "xr.Dataset":
+def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint", fields: "Fields | None") -> "xr.Dataset":
     """Build the FMU and drive it, with a progress bar in minutes of test time."""
     from fmu_src.package.build import build
 
@@ -91,4 +112,4 @@ def _simulate(scene: Scene, duty: "Duty", checkpoint: "Checkpoint") -> "xr.Datas
     bar = shown(scene.name, duration, "{n:.1f}/{total:.1f} min", 60.0, since)
     with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder, bar as progress:
         fmu = build(scene, Path(folder) / f"{scene.name}.fmu", "embedded")
-        return run(fmu, duty, duration, scene.operation.interval, progress, checkpoint)
+        return run(fmu, duty, duration, scene.operation.interval, progress, checkpoint, fields)

@@ -32,6 +32,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--duty", metavar="FILE.csv", help="CSV of the duty: replaces operation.file, of a machine duty.file"
     )
     parser.add_argument(
+        "--fields",
+        metavar="N",
+        help="keep maps and profiles of a scene's contact at N times of the run, from its start to its end: pressure, "
+        "gap, tribofilm, wear and plastic depth, in result.nc, with the picture track.png",
+    )
+    parser.add_argument(
         "--unchecked",
         action="store_true",
         help="leave out the checks of a machine's result: a simulation with double steps, and states solved again",
@@ -42,6 +48,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Run what the command line names and return the exit code."""
     if files.is_machine(arguments.scene):
+        if arguments.fields is not None:
+            raise ContactError(
+                f"--fields keeps maps of the one contact of a scene, and '{arguments.scene}' is a machine. Leave it "
+                "out, or run a scene of one of its contacts."
+            )
         return machine.run(arguments)
     _check_name(arguments.scene)
     if arguments.ssp is not None:

@@ -12,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 from ..fmu.errors import CouplingError
+from ..fmu.instance import Instance
 from ..store.checkpoint import Checkpoint
 from . import saving
 from .controlled import ControlledStepper
@@ -24,6 +25,8 @@ from .stepping import Ended, Statistics, Stepper
 from .system import System
 
 log = logging.getLogger(__name__)
+
+Observer = Callable[[float, Mapping[str, Instance]], None]
 
 _MISJUDGED = 10.0  # times the largest value of an output: such a magnitude loosens the tolerance
 
@@ -38,6 +41,7 @@ def simulate(
     resume: bool = False,
     history: Mapping[str, Callable[[float], float]] | None = None,
     progress: Callable[[float], None] | None = None,
+    observe: Observer | None = None,
     **options: Any,
 ) -> xr.Dataset:
     """Simulate a system from the time 0 to `stop_time` [s] with the communication step `step_size` [s].
@@ -47,7 +51,8 @@ def simulate(
     outputs: the variables to record, by default all outputs. checkpoint: a folder in which the state is kept; with
     `resume` the simulation continues from there, bit for bit. Or a Checkpoint of the caller, who knows what it belongs
     to: its `saved` point, if any, is continued from. history: the course of coupled outputs before the time 0, f(t) by
-    name, for hold orders above 0. progress is called with the time reached.
+    name, for hold orders above 0. progress is called with the time reached; observe, before a checkpoint, with the time
+    [s] of the first row and of the last one of each step, and with the running FMUs, which it must leave as they are.
 
     Returns a Dataset along `time`: the recorded variables by name, with units; "master.*", statistics of each step;
     "bond.*", the difference between the powers that the two FMUs of a bond compute. Its attributes count steps,
@@ -89,9 +94,11 @@ def simulate(
             recorder.restore(store.saved.rows)
         else:
             recorder.add(recorder.start())
+            if observe:
+                observe(coupled.time, coupled.instances)
             if store:
                 _save(store, coupled, recorder, stepper)
-        _run(coupled, recorder, stepper, progress or (lambda time: None), store, check_interrupt)
+        _run(coupled, recorder, stepper, progress or (lambda time: None), observe, store, check_interrupt)
         _report(coupled, stepper.statistics)
         return recorder.dataset(_attributes(coupled, stepper))
 
@@ -101,6 +108,7 @@ def _run(
     recorder: Recorder,
     stepper: Stepper,
     progress: Callable[[float], None],
+    observe: Observer | None,
     store: Checkpoint | None,
     check_interrupt: Callable[[], None],
 ) -> None:
@@ -116,6 +124,8 @@ def _run(
             recorder.add(row)
         if coupled.set_scheduled(lambda time: time == coupled.time):
             stepper.begin_anew()
+        if observe:
+            observe(coupled.time, coupled.instances)
         if store and store.due():
             _save(store, coupled, recorder, stepper)
         progress(coupled.time)

@@ -6,7 +6,8 @@ over each communication step, and the outputs at its end are recorded.
 
 import logging
 from collections.abc import Callable
-from dataclasses import MISSING, fields
+from dataclasses import MISSING
+from dataclasses import fields as fields_of
 from pathlib import Path
 
 import numpy as np
@@ -21,11 +22,12 @@ from ..master import System, simulate
 from ..store.checkpoint import Checkpoint
 from ..store.results import to_dataset
 from .duty import Duty
+from .fields import Fields
 
 log = logging.getLogger(__name__)
 
 _NAME = "contact"  # of the FMU in its system
-_INPUTS = {f.name: f.default for f in fields(OperatingPoint)}  # inputs that a duty may set, and their defaults
+_INPUTS = {f.name: f.default for f in fields_of(OperatingPoint)}  # inputs that a duty may set, and their defaults
 _MOST_STEPS = 1_000_000
 
 
@@ -36,6 +38,7 @@ def run(
     interval: float,
     progress: Callable[[float], None] | None = None,
     checkpoint: Checkpoint | None = None,
+    fields: Fields | None = None,
 ) -> xr.Dataset:
     """Drive a `MixedContact` FMU through a duty.
 
@@ -43,7 +46,7 @@ def run(
     the end; the first row is the contact after initialisation. `progress` is called with the time reached.
     A step that the FMU calls invalid is recorded like any other and warned about at the end. The FMU's
     messages go to `logging`. With a `checkpoint` the run continues from its saved point, bit for bit, and saves the
-    points that it reaches; the last point stays until the caller removes it.
+    points that it reaches; the last point stays until the caller removes it. `fields` keeps maps at some of the rows.
 
     Returns a Dataset along `time` with the inputs and all outputs of the FMU, named and with units as in its
     modelDescription.xml. Raises ContactError if the FMU fails or is not one of a contact, and KeyboardInterrupt also
@@ -54,6 +57,8 @@ def run(
     _check(duty, inputs)
     system = System({_NAME: fmu_path}, schedule={_port(v): _course(duty, v, duration) for v in inputs})
     recorded = [*inputs, *outputs]
+    if fields and checkpoint:
+        fields.kept = checkpoint.kept
     found = simulate(
         system,
         stop_time=points[-1],
@@ -62,6 +67,7 @@ def run(
         outputs=[_port(v) for v in recorded],
         checkpoint=checkpoint,
         progress=progress,
+        observe=fields.observe if fields else None,
     )
     _warn_of_invalid_rows(found)
     return to_dataset(

@@ -3,7 +3,7 @@
 `checkpoint.tribofmu` is the point reached. It is replaced as a whole, never changed: magic, checksum of the rest,
 length of a JSON header, header, state of the FMU. `checkpoint.rows` holds the rows up to there, one binary record each,
 and only grows. The header says how many of its bytes count, and their checksum; remains of a kill behind them are
-overwritten.
+overwritten. `checkpoint.kept` is the same for records of the caller, such as fields; without any there is no such file.
 """
 
 import json
@@ -28,6 +28,7 @@ from contact_core.errors import StateError
 log = logging.getLogger(__name__)
 
 _MAGIC = b"tribofmu run 2\n"
+_LENGTH = struct.Struct("<Q")  # before each record of the caller
 _PAUSE = 2.0  # at least, between two checkpoints [s]
 _REST = 20.0  # at least this many times the time that a checkpoint takes lies between two
 _NAMED = 3  # differences listed in full
@@ -66,17 +67,55 @@ class Saved:
     rows: NDArray[np.void]  # a record for every row so far
 
 
+class _Grown:
+    """A file that only grows: what of it counts is known to the checkpoint, remains behind are overwritten."""
+
+    def __init__(self, path: Path, what: str) -> None:
+        self.path, self._what = path, f"its {what} '{path}'"
+        self.size = self.checksum = 0  # of what counts
+
+    def written(self, data: bytes) -> tuple[int, int]:
+        """Write behind what counts; return the new size and checksum, which count once they are in the header."""
+        with self.path.open("r+b" if self.size else "wb") as file:
+            file.seek(self.size)
+            file.write(data)
+            _flush(file)
+        return self.size + len(data), zlib.crc32(data, self.checksum)
+
+    def counted(self, size: int, checksum: int) -> None:
+        """Let this much count."""
+        self.size, self.checksum = size, checksum
+
+    def read(self, size: int, checksum: int) -> bytes:
+        """Return what counts. Raises ValueError with the reason if it is not there."""
+        try:
+            with self.path.open("rb") as file:
+                data = file.read(size)
+        except OSError as error:
+            raise ValueError(f"{self._what} cannot be read: {error.strerror}") from None
+        if len(data) != size or zlib.crc32(data) != checksum:
+            raise ValueError(f"{self._what} were cut or changed")
+        self.counted(size, checksum)
+        return data
+
+
 class Checkpoint:
-    """Stores the point that a run has reached; `saved` is the point from which it continues."""
+    """Stores the point that a run has reached; `saved` is the point from which it continues.
+
+    `kept` are records of the caller, of any bytes, which it only adds to: the next `save` stores those that are new.
+    """
 
     def __init__(self, folder: Path, run: Mapping[str, Any]) -> None:
-        self.file, self._rows = folder / "checkpoint.tribofmu", folder / "checkpoint.rows"
+        self.file = folder / "checkpoint.tribofmu"
+        self._rows = _Grown(folder / "checkpoint.rows", "rows")
+        self._records = _Grown(folder / "checkpoint.kept", "records")
         self._new = folder / "checkpoint.new"
         self._run = run
         self._next = -math.inf
-        self._size = self._checksum = 0  # of the rows that count
         self._writable = True
         self.count = 0  # rows stored so far
+        self.kept: list[bytes] = []
+        self._stored = 0  # of these
         self.saved: Saved | None = None
 
     @staticmethod
@@ -115,33 +154,35 @@ class Checkpoint:
 
     def remove(self) -> None:
         """Remove what is stored."""
-        for path in (self.file, self._new, self._rows):  # the rows last: without them the file would be damaged
+        # the rows last: without them the file would be damaged
+        for path in (self.file, self._new, self._records.path, self._rows.path):
             path.unlink(missing_ok=True)
 
     def _write(self, time: float, state: bytes, rows: NDArray[np.void]) -> None:
-        if not self._size:
+        if not self._rows.size:
             self.remove()  # another run's
-        data = rows.tobytes()
-        with self._rows.open("r+b" if self._size else "wb") as file:
-            file.seek(self._size)
-            file.write(data)
-            _flush(file)
-        size, checksum = self._size + len(data), zlib.crc32(data, self._checksum)
-        header = json.dumps(
-            {
-                "run": self._run,
-                "time": time,
-                "columns": [[name, rows.dtype[name].str] for name in rows.dtype.names or ()],
-                "size": size,
-                "checksum": checksum,
-            }
-        ).encode()
-        rest = b"".join([struct.pack("<I", len(header)), header, state])
+        size, checksum = self._rows.written(rows.tobytes())
+        header: dict[str, Any] = {
+            "run": self._run,
+            "time": time,
+            "columns": [[name, rows.dtype[name].str] for name in rows.dtype.names or ()],
+            "size": size,
+            "checksum": checksum,
+        }
+        kept = len(self.kept)
+        if kept:
+            new = self.kept[self._stored :]
+            header["kept"] = self._records.written(b"".join(_LENGTH.pack(len(each)) + each for each in new))
+        text = json.dumps(header).encode()
+        rest = b"".join([struct.pack("<I", len(text)), text, state])
         with self._new.open("wb") as file:
             file.write(_MAGIC + struct.pack("<I", zlib.crc32(rest)) + rest)
             _flush(file)
         self._new.replace(self.file)
-        self.count, self._size, self._checksum = self.count + len(rows), size, checksum
+        self._rows.counted(size, checksum)
+        if kept:
+            self._records.counted(*header["kept"])
+        self.count, self._stored = self.count + len(rows), kept
 
     def _load(self) -> None:
         try:
@@ -159,8 +200,14 @@ class Checkpoint:
                 "Give the settings it was made with or another --out, or start from the beginning without --resume, "
                 "which replaces it."
             )
-        rows = self._stored_rows(header)
-        self.count, self._size, self._checksum = len(rows), header["size"], header["checksum"]
+        try:
+            data = self._rows.read(header["size"], header["checksum"])
+            kept = self._records.read(*header["kept"]) if "kept" in header else b""
+        except ValueError as reason:
+            raise self._damaged(str(reason)) from None
+        rows = np.frombuffer(data, np.dtype([(name, kind) for name, kind in header["columns"]]))
+        self.kept = list(_records(kept))
+        self.count, self._stored = len(rows), len(self.kept)
         self.saved = Saved(header["time"], state, rows)
 
     def _parsed(self, data: bytes) -> tuple[dict[str, Any], bytes]:
@@ -173,21 +220,20 @@ class Checkpoint:
             raise self._damaged("it was cut or changed")
         return json.loads(data[start : start + length]), data[start + length :]
 
-    def _stored_rows(self, header: dict[str, Any]) -> NDArray[np.void]:
-        try:
-            with self._rows.open("rb") as file:
-                data = file.read(header["size"])
-        except OSError as error:
-            raise self._damaged(f"its rows '{self._rows}' cannot be read: {error.strerror}") from None
-        if len(data) != header["size"] or zlib.crc32(data) != header["checksum"]:
-            raise self._damaged(f"its rows '{self._rows}' were cut or changed")
-        return np.frombuffer(data, np.dtype([(name, kind) for name, kind in header["columns"]]))
-
     def _damaged(self, reason: str) -> StateError:
         return StateError(f"The checkpoint '{self.file}' cannot be used: {reason}. {_WAY_OUT}")
 
 
 _WAY_OUT = "Start from the beginning without --resume, which replaces it."
+
+
+def _records(data: bytes) -> Iterator[bytes]:
+    """Yield the records of the caller."""
+    at = 0
+    while at < len(data):
+        (length,) = _LENGTH.unpack_from(data, at)
+        at += _LENGTH.size + length
+        yield data[at - length : at]
 
 
 def _flush(file: Any) -> None:

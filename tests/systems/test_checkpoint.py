@@ -109,6 +109,33 @@ def test_a_write_that_a_kill_cuts_short_leaves_the_checkpoint_before(tmp_path: P
     assert sorted(path.name for path in tmp_path.iterdir()) == ["checkpoint.rows", "checkpoint.tribofmu"]
 
 
+def test_records_of_the_caller_are_those_of_the_point_at_any_line(tmp_path: Path) -> None:
+    folder, copies = tmp_path / "run", tmp_path / "copies"
+    folder.mkdir()
+    count(Checkpoint(folder, RUN), 1)  # an earlier start, without records
+    (folder / "checkpoint.kept").write_bytes(b"of yet another run")
+    records = [b"", state(1), b"x" * 10]
+    with copied_at_every_line(folder, copies):
+        checkpoint = Checkpoint(folder, RUN)
+        for number, new in enumerate(([], records[:2], [], records[2:]), 1):
+            checkpoint.kept += new
+            checkpoint.save(number / 10.0, state(number), rows(number - 1, number))
+    found = set()
+    for copy in distinct(copies).values():
+        resumed = Checkpoint.resume(copy, RUN)
+        assert resumed.kept == records[: (0, 0, 2, 2, 3)[resumed.count]]
+        found.add(resumed.count)
+        resumed.kept += records[len(resumed.kept) :]
+        resumed.save(0.9, b"", rows(0, 1))
+        assert Checkpoint.resume(copy, RUN).kept == records
+    assert found >= {1, 2, 3, 4}
+    (folder / "checkpoint.kept").write_bytes(b"")
+    with pytest.raises(StateError, match=r"its records '.*checkpoint.kept' were cut or changed"):
+        Checkpoint.resume(folder, RUN)
+    checkpoint.remove()
+    assert list(folder.iterdir()) == []
+
+
 def test_rows_are_written_once(tmp_path: Path) -> None:
     checkpoint = Checkpoint(tmp_path, RUN)
     checkpoint.save(0.1, b"", rows(0, 2))
