@@ -26,6 +26,7 @@ class Film:
     gap: Array  # [m]
     cover: Array  # mean tribofilm of both bodies / full thickness
     temperature: Array | float  # of the oil, mean across the film [K]
+    oxide: Array | None = None  # what oxide adds to the coefficient of boundary friction; None: nothing
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,21 @@ def shear(case: Case, film: Film) -> Shear:
     speed, along_x, along_y = sliding(case.op, film.grid)
     newtonian = oil.viscosity(film.fluid, film.temperature) * speed / film.gap
     fluid = oil.rheology(newtonian, film.fluid * boundary.grip(speed))
-    return Shear(fluid, boundary(film.solid, film.cover, speed), speed, along_x, along_y)
+    return Shear(fluid, _rubbing(case, film, speed), speed, along_x, along_y)
+
+
+def _rubbing(case: Case, film: Film, speed: Array | float) -> Array:
+    """Return the shear stress of the solids [Pa]."""
+    boundary = case.scene.boundary_friction
+    stress: Array = boundary(film.solid, film.cover, speed)
+    return stress if film.oxide is None else stress + film.oxide * film.solid * boundary.grip(speed)
+
+
+def _rubbing_slope(case: Case, film: Film, speed: Array | float) -> Array:
+    """Return its derivative by the sliding speed [Pa s/m]."""
+    boundary = case.scene.boundary_friction
+    slope: Array = boundary.slope(film.solid, film.cover, speed)
+    return slope if film.oxide is None else slope + film.oxide * film.solid * boundary.grip_slope(speed)
 
 
 def friction(stress: Shear, grid: Grid) -> Friction:
@@ -112,10 +127,7 @@ def derivatives(case: Case, film: Film) -> dict[str, float]:
     stiffening = (more - less) / (2.0 * _STEP)  # d viscosity / d ln p
     step = _STEP * float(np.mean(film.temperature))
     warmer, colder = (oil.viscosity(film.fluid, film.temperature + sign * step) for sign in (1.0, -1.0))
-    solid, solid_by_speed = (
-        boundary(film.solid, film.cover, speed),
-        boundary.slope(film.solid, film.cover, speed),
-    )
+    solid, solid_by_speed = _rubbing(case, film, speed), _rubbing_slope(case, film, speed)
     cell = grid.cell
 
     def force(stress: Array) -> float:

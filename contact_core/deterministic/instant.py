@@ -11,7 +11,7 @@ from ..film.instant import FilmSolution, FilmState, Grid, Instant, Step
 from ..laws.temperatures import Temperatures
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState
-from ..surfaces.patches import facing_surfaces
+from ..surfaces.patches import added_friction, facing_surfaces
 from .friction import Film, Friction, friction
 from .oil_temperature import left_behind, sheared, solve_flow, warmed
 
@@ -112,6 +112,7 @@ def solve_instant(
     limit = scene.plasticity.limit(film_1, film_2, faced.plastic, full)
     covers = film_1 / full, film_2 / full
     cover = 0.5 * (covers[0] + covers[1])
+    oxide = added_friction(scene, state, cover)
     now = replace(instant_of(case, faced.heights, limit), dry=dry, solid_share=solid_share)
     before = state.film if transient else None
     if not case.loaded:
@@ -129,10 +130,10 @@ def solve_instant(
             before,
             lambda now, start: level.solve(now, grid, start, step, most),
             level.tolerance,
+            oxide,
         )
-    found, stress, warm, shortfall = warmed(
-        case, sheared(grid, film, cover, case.op.inlet_temperature), before, heated=not transient or transient.heated
-    )
+    rubbed = sheared(grid, film, cover, case.op.inlet_temperature, oxide)
+    found, stress, warm, shortfall = warmed(case, rubbed, before, heated=not transient or transient.heated)
     convergence = film.convergence | {
         "converged": film.converged and not shortfall,
         "shortfall": "; ".join(text for text in (film.shortfall, shortfall) if text),

@@ -100,6 +100,12 @@ def _shape_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
             )
     if plasticity.error:
         yield "hardness", plasticity.error
+    if scene.wear.wears_film and not scene.tribofilm.takes_abrasion:
+        yield (
+            "wear",
+            f"wear.model = '{scene.wear.name}' takes tribofilm in proportion to its thickness; tribofilm.model = "
+            f"'{scene.tribofilm.name}' has no closed form with that. Use wear.model = 'archard', or another tribofilm.",
+        )
 
 
 def _roughness_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:

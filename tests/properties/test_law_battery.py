@@ -307,19 +307,19 @@ def test_bodies_without_heat_stay_as_warm_as_the_oil(law, oil):
 
 @given(laws_of("wear"), pressures, covers, speeds, speeds, st.sampled_from((0, 1)))
 def test_wear_only_removes_and_needs_pressure_and_sliding(law, pressure, cover, speed_1, speed_2, body):
-    found = law.rate(pressure, cover, (speed_1, speed_2), body, 6e9)
+    found = law.rate(pressure, cover, (speed_1, speed_2), body, 6e9, FULL)
     assert is_field(found)
     assert np.all(found >= 0.0)
-    assert not law.rate(np.zeros(SHAPE), cover, (speed_1, speed_2), body, 6e9).any()
-    assert not law.rate(pressure, cover, (0.0, 0.0), body, 6e9).any()
+    assert not law.rate(np.zeros(SHAPE), cover, (speed_1, speed_2), body, 6e9, FULL).any()
+    assert not law.rate(pressure, cover, (0.0, 0.0), body, 6e9, FULL).any()
     if getattr(law, "sliding", "difference") == "difference":
-        assert not law.rate(pressure, cover, (speed_1, speed_1), body, 6e9).any()
+        assert not law.rate(pressure, cover, (speed_1, speed_1), body, 6e9, FULL).any()
 
 
 @given(laws_of("wear"), pressures, covers, speeds, speeds, st.sampled_from((0, 1)))
 def test_a_wear_rate_is_that_of_its_coefficient_and_its_sliding(law, pressure, cover, speed_1, speed_2, body):
-    found = law.rate(pressure, cover, (speed_1, speed_2), body, 6e9)
-    coefficient, slide = law.coefficient(cover), law.slide((speed_1, speed_2), body)
+    found = law.rate(pressure, cover, (speed_1, speed_2), body, 6e9, FULL)
+    coefficient, slide = law.coefficient(cover, FULL), law.slide((speed_1, speed_2), body)
     assert is_field(coefficient)
     assert np.all((coefficient >= 0.0) & (coefficient <= 1.0))
     assert slide >= 0.0

@@ -8,9 +8,10 @@ from numpy.typing import NDArray
 
 from ...quantities import parameter
 from ...reference.constants import BOLTZMANN, PLANCK
-from ..elementary import Numbers, expm1
+from ..elementary import Numbers
 from ..equations import Equations
 from .doses import DOSES
+from .relaxation import formed, relaxed
 
 Array = NDArray[np.float64]
 Temperature = float | Array
@@ -42,9 +43,10 @@ def _refusal(fit: float, temperature: float, extrapolated: str) -> str:
 
 
 class _Unabraded:
-    """Laws without first-order removal."""
+    """Laws without first-order removal of their own."""
 
     abrades: ClassVar[bool] = False
+    takes_abrasion: ClassVar[bool] = True
 
     def abrasion(self, solid_pressure: Array, sliding_speed: float | Array, position: Array | None) -> Array:
         """Return zeros in the shape of `solid_pressure`."""
@@ -73,6 +75,10 @@ class NoTribofilm(_Unabraded):
     ) -> tuple[Array, Array]:
         """Return both variables as they are."""
         return growth, removal
+
+    def formed(self, growth: Array, after: Array, exposed: Array, abraded: Array, temperature: float) -> Array:
+        """Return zeros in the shape of `growth`."""
+        return np.zeros_like(growth)
 
     def covers(self, temperature: float) -> bool:
         """Return True: nothing depends on the temperature."""
@@ -141,10 +147,17 @@ class Ghanbarzadeh(_Unabraded):
     def evolve(
         self, growth: Array, removal: Array, exposed: Array, abraded: Array, temperature: float
     ) -> tuple[Array, Array]:
-        """Return both variables [m] after each node was rubbed for a time `exposed` [s]; exact for any time."""
-        formed = -expm1(-self.rate(temperature) * exposed)
-        taken = -expm1(-self.removal_rate * exposed)
-        return growth + (self.full_thickness - growth) * formed, removal + (self.removal_thickness - removal) * taken
+        """Return both variables [m] after each node was rubbed for a time `exposed` [s]; exact for any time.
+
+        What is `abraded` is stripped off a node patch by patch, to the solid: both variables lose the same share.
+        """
+        forming, taking = self.rate(temperature) * exposed, self.removal_rate * exposed
+        grown = relaxed(growth, self.full_thickness, forming, abraded)
+        return grown, relaxed(removal, self.removal_thickness, taking, abraded)
+
+    def formed(self, growth: Array, after: Array, exposed: Array, abraded: Array, temperature: float) -> Array:
+        """Return the film formed [m] while `growth` went to `after`; the rest as in `evolve`."""
+        return formed(growth, after, self.full_thickness, self.rate(temperature) * exposed, abraded)
 
     def covers(self, temperature: float) -> bool:
         """Return True if `temperature` [K] is within 5 K of the fit.
@@ -201,8 +214,13 @@ class Andersson(_Unabraded):
         self, growth: Array, removal: Array, exposed: Array, abraded: Array, temperature: float
     ) -> tuple[Array, Array]:
         """Return both variables [m] after each node took up `exposed` [J/m2]; exact for any energy."""
-        formed = -expm1(-self.growth_per_energy * exposed / self.full_thickness)
-        return growth + (self.full_thickness - growth) * formed, removal
+        forming = self.growth_per_energy * exposed / self.full_thickness
+        return relaxed(growth, self.full_thickness, forming, abraded), removal
+
+    def formed(self, growth: Array, after: Array, exposed: Array, abraded: Array, temperature: float) -> Array:
+        """Return the film formed [m] while `growth` went to `after`; the rest as in `evolve`."""
+        forming = self.growth_per_energy * exposed / self.full_thickness
+        return formed(growth, after, self.full_thickness, forming, abraded)
 
     def covers(self, temperature: float) -> bool:
         """Return True if `temperature` [K] is within 5 K of the fit."""
