@@ -68,7 +68,7 @@ def evolved(case: Case, side: Side, body: Body, step: float, flash: float) -> Bo
         body,
         growth=growth,
         removal=removal,
-        formed=body.formed + law.formed(body.growth, growth, *dose),
+        formed=body.formed + law.formed(body.growth, body.removal, growth, *dose),
         oxide=oxide,
         wear=body.wear + worn,
         worn=body.worn + float(worn.sum()) * area_of_node(case, side),
@@ -107,7 +107,7 @@ def oxidation(case: Case, side: Side, body: Body, film: Array) -> tuple[Array, A
 
 def steel_in(scene: Scene, oxide: Array) -> Array:
     """Return the depth of steel [m] in an oxide [m]; nothing is lost where nothing wears."""
-    lost: Array = oxide * (scene.wear.wears / scene.oxide.expansion)
+    lost: Array = oxide * (scene.wear.wears / scene.oxide.volume_ratio)
     return lost
 
 

@@ -204,7 +204,7 @@ def _evolved(scene: Scene, body: Body, sums: _Integrals, repeats: float, period:
         body,
         growth=growth,
         removal=removal,
-        formed=body.formed + law.formed(body.growth, growth, *dose, warm),
+        formed=body.formed + law.formed(body.growth, body.removal, growth, *dose, warm),
         oxide=oxide,
         wear=body.wear + repeats * sums.wear + lost,
         worn=body.worn + repeats * sums.worn + float(lost.sum()) * sums.area / period,

@@ -227,7 +227,9 @@ class Tribofilm(Law, Protocol):
         `temperature` [K] is that of the surface: the bulk's and the mean flash rise.
         """
 
-    def formed(self, growth: Array, after: Array, exposed: Array, abraded: Array, temperature: float) -> Array:
+    def formed(
+        self, growth: Array, removal: Array, after: Array, exposed: Array, abraded: Array, temperature: float
+    ) -> Array:
         """Return the film formed [m] while `evolve` took the first variable from `growth` to `after`."""
 
     def covers(self, temperature: float) -> bool:
@@ -288,7 +290,7 @@ class Oxide(Law, Protocol):
         """Friction coefficient of solids under a closed oxide."""
 
     @property
-    def expansion(self) -> float:
+    def volume_ratio(self) -> float:
         """Volume of oxide over that of the steel it is made of."""
 
     def growth(self, temperature: float) -> float:

@@ -12,6 +12,8 @@ from .base import Oxide
 from .elementary import Numbers, exp, minimum
 from .equations import Equations
 
+_BELOW_ONE = 1.0 - 2.0**-53
+
 
 @dataclass(frozen=True)
 class NoOxide:
@@ -24,7 +26,7 @@ class NoOxide:
     )
     grows: ClassVar[bool] = False
     friction: ClassVar[float] = 0.0  # of nothing
-    expansion: ClassVar[float] = 1.0
+    volume_ratio: ClassVar[float] = 1.0
 
     def growth(self, temperature: float) -> float:
         """Return 0: nothing oxidises."""
@@ -61,7 +63,7 @@ class Logarithmic:
     closed form holds for any time, and x = 0 is met at most once, on the way to an end below it.
 
     Iron stops at 1.8 (moist) to 2.6 nm (dry) at 300 K (Kruger & Yolken 1964). The default constants, all assumed,
-    give 2.5 nm in an hour at 300 K and 0.46 nm more for every decade of time. `expansion` is that of Fe2O3 on Fe, from
+    give 2.5 nm in an hour at 300 K and 0.46 nm more for every decade of time. `volume_ratio` is that of Fe2O3 on Fe, from
     their densities.
     """
 
@@ -100,7 +102,7 @@ class Logarithmic:
     thin: float = parameter(
         "m", "h_s, tribofilm that leaves the share 1/e of the solid open", above=0.0, most=1e-6, default=10e-9
     )
-    expansion: float = parameter(
+    volume_ratio: float = parameter(
         "", "volume of oxide over that of the steel it is made of", least=0.1, most=10.0, default=2.14
     )
 
@@ -139,7 +141,7 @@ class Logarithmic:
         with np.errstate(divide="ignore"):
             end = np.logaddexp(start - loss, np.log(gain * mean))
         bare = end <= 0.0  # reached on the way
-        ratio = np.where(bare, gain / some, 0.0)  # below 1 there
+        ratio = np.where(bare, np.minimum(gain / some, _BELOW_ONE), 0.0)
         until = np.where(bare, start + np.log1p(-ratio * np.exp(-start)) - np.log1p(-ratio), loss)
         rest = np.where(bare, np.maximum(loss - until, 0.0), 0.0)
         after = np.where(bare, 0.0, end)

@@ -181,8 +181,9 @@ def _body_after(
         law: Any = case.scene.tribofilm
         abraded = abrasion(case, side, contact) * step / coverage
         warm = side.temperature + contact.rise
-        grown, removed = law.evolve(growth / coverage, removal / coverage, exposed, abraded, warm)
-        formed += coverage * float(law.formed(growth / coverage, grown, exposed, abraded, warm))
+        before = growth / coverage, removal / coverage
+        grown, removed = law.evolve(*before, exposed, abraded, warm)
+        formed += coverage * float(law.formed(*before, grown, exposed, abraded, warm))
         growth, removal, new = float(grown) * coverage, float(removed) * coverage, max(float(grown - removed), 0.0)
     film = 0.5 * (contact.tribofilms[side.body].thickness + new)
     oxide, lost = oxidised(case, side, contact, film, mean.oxide, step)

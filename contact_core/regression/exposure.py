@@ -170,7 +170,7 @@ def oxidised(
 
 def steel_in(case: Case, oxide: float) -> float:
     """Return the depth of steel [m] in an oxide [m]; nothing is lost where nothing wears."""
-    return oxide * (case.scene.wear.wears / case.scene.oxide.expansion)
+    return oxide * (case.scene.wear.wears / case.scene.oxide.volume_ratio)
 
 
 def track_area(case: Case, side: Side) -> float:

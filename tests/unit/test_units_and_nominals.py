@@ -84,7 +84,8 @@ COARSE = {
     "surface_1.correlation_length": "50 um",
     "surface_2.correlation_length": "50 um",
 }
-NEVER = {"unconverged", "blocks_dry", "blocks_mixed", "blocks_fallback"}  # in so short a run, or on so coarse a grid
+# in so short a run, or on so coarse a grid, or without the law
+NEVER = {"unconverged", "blocks_dry", "blocks_mixed", "blocks_fallback", "oxide_1", "oxide_2"}
 
 
 def run(scene: Scene, steps: int = 2) -> Iterator[Outputs]:

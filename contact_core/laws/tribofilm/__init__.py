@@ -2,7 +2,7 @@
 
     fitted      laws of nodes in contact, fitted to measured tribofilms
     activated   laws of reactions that stress activates
-    relaxation  growth towards a limit under removal in proportion, in closed form
+    relaxation  growth by the room left under removal by the thickness, in closed form
     doses       from the instants of a pass to the exposure per test time
 
 In each solved instant a law gives the exposure of every node (`exposure`). Its `dose` (`doses`) says how the instants

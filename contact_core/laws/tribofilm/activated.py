@@ -124,7 +124,9 @@ class _Activated:
         settled = self.full_thickness * np.divide(exposed, both, out=np.zeros_like(both), where=both > 0.0)
         return now - (settled - now) * np.expm1(-both), np.zeros_like(removal)
 
-    def formed(self, growth: Array, after: Array, exposed: Array, abraded: Array, temperature: float) -> Array:
+    def formed(
+        self, growth: Array, removal: Array, after: Array, exposed: Array, abraded: Array, temperature: float
+    ) -> Array:
         """Return the film formed [m] while `growth` went to `after`; the rest as in `evolve`."""
         return formed(growth, after, self.full_thickness, exposed, abraded)
 

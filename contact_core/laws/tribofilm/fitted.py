@@ -11,7 +11,7 @@ from ...reference.constants import BOLTZMANN, PLANCK
 from ..elementary import Numbers
 from ..equations import Equations
 from .doses import DOSES
-from .relaxation import formed, relaxed
+from .relaxation import fed_back, formed, mean, relaxed
 
 Array = NDArray[np.float64]
 Temperature = float | Array
@@ -76,7 +76,9 @@ class NoTribofilm(_Unabraded):
         """Return both variables as they are."""
         return growth, removal
 
-    def formed(self, growth: Array, after: Array, exposed: Array, abraded: Array, temperature: float) -> Array:
+    def formed(
+        self, growth: Array, removal: Array, after: Array, exposed: Array, abraded: Array, temperature: float
+    ) -> Array:
         """Return zeros in the shape of `growth`."""
         return np.zeros_like(growth)
 
@@ -149,15 +151,19 @@ class Ghanbarzadeh(_Unabraded):
     ) -> tuple[Array, Array]:
         """Return both variables [m] after each node was rubbed for a time `exposed` [s]; exact for any time.
 
-        What is `abraded` is stripped off a node patch by patch, to the solid: both variables lose the same share.
+        What is `abraded` leaves room to grow in; the law's own removal goes on beside it.
         """
-        forming, taking = self.rate(temperature) * exposed, self.removal_rate * exposed
-        grown = relaxed(growth, self.full_thickness, forming, abraded)
-        return grown, relaxed(removal, self.removal_thickness, taking, abraded)
+        forming, losing = self.rate(temperature) * exposed, self.removal_rate * exposed
+        fed = abraded * fed_back(removal, self.removal_thickness, losing, forming + abraded)
+        grown = relaxed(growth, self.full_thickness, forming, abraded) + fed
+        return grown, relaxed(removal, self.removal_thickness, losing, 0.0)
 
-    def formed(self, growth: Array, after: Array, exposed: Array, abraded: Array, temperature: float) -> Array:
+    def formed(
+        self, growth: Array, removal: Array, after: Array, exposed: Array, abraded: Array, temperature: float
+    ) -> Array:
         """Return the film formed [m] while `growth` went to `after`; the rest as in `evolve`."""
-        return formed(growth, after, self.full_thickness, self.rate(temperature) * exposed, abraded)
+        kept = mean(removal, self.removal_thickness, self.removal_rate * exposed)
+        return formed(growth, after, self.full_thickness, self.rate(temperature) * exposed, abraded, kept)
 
     def covers(self, temperature: float) -> bool:
         """Return True if `temperature` [K] is within 5 K of the fit.
@@ -217,7 +223,9 @@ class Andersson(_Unabraded):
         forming = self.growth_per_energy * exposed / self.full_thickness
         return relaxed(growth, self.full_thickness, forming, abraded), removal
 
-    def formed(self, growth: Array, after: Array, exposed: Array, abraded: Array, temperature: float) -> Array:
+    def formed(
+        self, growth: Array, removal: Array, after: Array, exposed: Array, abraded: Array, temperature: float
+    ) -> Array:
         """Return the film formed [m] while `growth` went to `after`; the rest as in `evolve`."""
         forming = self.growth_per_energy * exposed / self.full_thickness
         return formed(growth, after, self.full_thickness, forming, abraded)
