@@ -98,6 +98,7 @@ PAGES: dict[str, Source] = {
     "surfaces/transition": Source("surfaces.transition", (*LEVELS, *SHAPES)),
     "surfaces/asperity_layer": Source("surfaces.asperity_layer", ("film",)),
     "surfaces/grids": Source("surfaces.grids", ("film", "evolution", "control", "data", "azam_case_a")),
+    "surfaces/film_wear": Source("surfaces.film_wear", ("film", "evolution", "regression", "control", "data", "azam_case_a")),
     "surfaces/evolution": Source("surfaces.evolution", ("film", "evolution", "control", "uncertainty", *CIRCLES)),
     "surfaces/stribeck": Source(
         "surfaces.stribeck", ("film", "evolution", "control", "stribeck", *SHAPES, "cam_tappet")

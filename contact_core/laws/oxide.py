@@ -63,8 +63,8 @@ class Logarithmic:
     closed form holds for any time, and x = 0 is met at most once, on the way to an end below it.
 
     Iron stops at 1.8 (moist) to 2.6 nm (dry) at 300 K (Kruger & Yolken 1964). The default constants, all assumed,
-    give 2.5 nm in an hour at 300 K and 0.46 nm more for every decade of time. `volume_ratio` is that of Fe2O3 on Fe, from
-    their densities.
+    give 2.5 nm in an hour at 300 K and 0.46 nm more for every decade of time. `volume_ratio` is that of Fe2O3 on Fe,
+    from their densities.
     """
 
     name: ClassVar[str] = "logarithmic"

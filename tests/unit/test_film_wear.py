@@ -201,5 +201,5 @@ def test_cycles_of_a_duty_keep_the_ledger():
 
 def test_a_tribofilm_without_a_closed_form_under_wear_is_refused(monkeypatch):
     monkeypatch.setattr(Ghanbarzadeh, "takes_abrasion", False)
-    with pytest.raises(SceneError, match="'film_first' takes tribofilm .* Use wear.model = 'archard'"):
+    with pytest.raises(SceneError, match=r"'film_first' takes tribofilm .* Use wear.model = 'archard'"):
         Scene.from_toml("azam_case_a", WORN)
