@@ -186,8 +186,8 @@ def _body_after(
         formed += coverage * float(law.formed(*before, grown, exposed, abraded, warm))
         growth, removal, new = float(grown) * coverage, float(removed) * coverage, max(float(grown - removed), 0.0)
     film = 0.5 * (contact.tribofilms[side.body].thickness + new)
-    oxide, lost = oxidised(case, side, contact, film, mean.oxide, step)
-    volume = step * solid_rate(case, side, contact, film, 0.5 * (mean.oxide + oxide)) + lost * track_area(case, side)
+    oxide, halfway, lost = oxidised(case, side, contact, film, mean.oxide, step)
+    volume = step * solid_rate(case, side, contact, film, halfway) + lost * track_area(case, side)
     depth = volume / track_area(case, side)
     smoothing = regression_film(case.scene).smoothing
     smoother = math.exp(-smoothing * depth / contact.sigma) if contact.sigma > 0.0 else 1.0

@@ -158,14 +158,18 @@ def oxidation(case: Case, side: Side, contact: MeanContact, film: float) -> tupl
 
 def oxidised(
     case: Case, side: Side, contact: MeanContact, film: float, oxide: float, step: float
-) -> tuple[float, float]:
-    """Return an oxide [m] after `step` [s] under a tribofilm [m], and the steel lost with what was rubbed off [m]."""
+) -> tuple[float, float, float]:
+    """Return an oxide [m] after `step` [s] and after half of it, and the steel lost with what was rubbed off [m].
+
+    `film` [m] is the tribofilm meanwhile.
+    """
     law = case.scene.oxide
     if not law.grows:
-        return oxide, 0.0
+        return oxide, oxide, 0.0
     growing, rubbing = oxidation(case, side, contact, film)
     after, rubbed = law.evolve(oxide, growing * step, rubbing * step)
-    return float(after), steel_in(case, float(rubbed))
+    halfway, _ = law.evolve(oxide, growing * (0.5 * step), rubbing * (0.5 * step))
+    return float(after), float(halfway), steel_in(case, float(rubbed))
 
 
 def steel_in(case: Case, oxide: float) -> float:
