@@ -11,7 +11,7 @@ from ...reference.constants import BOLTZMANN, PLANCK
 from ..elementary import Numbers
 from ..equations import Equations
 from .doses import DOSES
-from .relaxation import fed_back, formed, mean, relaxed
+from .relaxation import fed_back, formed, mean, relaxed, taken
 
 Array = NDArray[np.float64]
 Temperature = float | Array
@@ -154,14 +154,17 @@ class Ghanbarzadeh(_Unabraded):
         What is `abraded` leaves room to grow in; the law's own removal goes on beside it.
         """
         forming, losing = self.rate(temperature) * exposed, self.removal_rate * exposed
-        fed = abraded * fed_back(removal, self.removal_thickness, losing, forming + abraded)
-        grown = relaxed(growth, self.full_thickness, forming, abraded) + fed
+        grown = relaxed(growth, self.full_thickness, forming, abraded)
+        if taken(abraded):
+            grown = grown + abraded * fed_back(removal, self.removal_thickness, losing, forming + abraded)
         return grown, relaxed(removal, self.removal_thickness, losing, 0.0)
 
     def formed(
         self, growth: Array, removal: Array, after: Array, exposed: Array, abraded: Array, temperature: float
     ) -> Array:
         """Return the film formed [m] while `growth` went to `after`; the rest as in `evolve`."""
+        if not taken(abraded):
+            return after - growth
         kept = mean(removal, self.removal_thickness, self.removal_rate * exposed)
         return formed(growth, after, self.full_thickness, self.rate(temperature) * exposed, abraded, kept)
 

@@ -18,6 +18,11 @@ def relaxed(now: Numbers, limit: float, forming: Numbers, taking: Numbers) -> Nu
     return now - (limit * _part(forming, both) - now) * expm1(-both)
 
 
+def taken(taking: Numbers) -> bool:
+    """Return True if anything is rubbed off."""
+    return taking != 0.0 if isinstance(taking, float) else bool(taking.any())
+
+
 def fed_back(now: Numbers, limit: float, losing: Numbers, both: Numbers) -> Numbers:
     """Return the part of g [m] per `taking` that q leaves it, while q goes from `now` towards its `limit`.
 
