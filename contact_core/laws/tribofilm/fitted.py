@@ -11,7 +11,7 @@ from ...reference.constants import BOLTZMANN, PLANCK
 from ..elementary import Numbers
 from ..equations import Equations
 from .doses import DOSES
-from .relaxation import fed_back, formed, mean, relaxed, taken
+from .relaxation import formed, mean, relaxed, rubbed, taken
 
 Array = NDArray[np.float64]
 Temperature = float | Array
@@ -154,10 +154,8 @@ class Ghanbarzadeh(_Unabraded):
         What is `abraded` leaves room to grow in; the law's own removal goes on beside it.
         """
         forming, losing = self.rate(temperature) * exposed, self.removal_rate * exposed
-        grown = relaxed(growth, self.full_thickness, forming, abraded)
-        if taken(abraded):
-            grown = grown + abraded * fed_back(removal, self.removal_thickness, losing, forming + abraded)
-        return grown, relaxed(removal, self.removal_thickness, losing, 0.0)
+        limits = self.full_thickness, self.removal_thickness
+        return rubbed(growth, removal, limits, forming, losing, abraded)
 
     def formed(
         self, growth: Array, removal: Array, after: Array, exposed: Array, abraded: Array, temperature: float

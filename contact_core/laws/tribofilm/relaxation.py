@@ -11,6 +11,8 @@ import numpy as np
 
 from ..elementary import Numbers, exp, expm1, minimum
 
+Limits = tuple[float, float]
+
 
 def relaxed(now: Numbers, limit: float, forming: Numbers, taking: Numbers) -> Numbers:
     """Return g [m] after it was `now`, where q is zero; or q, with c as `forming` and nothing as `taking`."""
@@ -18,31 +20,43 @@ def relaxed(now: Numbers, limit: float, forming: Numbers, taking: Numbers) -> Nu
     return now - (limit * _part(forming, both) - now) * expm1(-both)
 
 
+def rubbed(
+    growth: Numbers, removal: Numbers, limits: Limits, forming: Numbers, losing: Numbers, taking: Numbers
+) -> tuple[Numbers, Numbers]:
+    """Return g and q [m] after they were `growth` and `removal`; `limits` are X and Q [m]."""
+    grown = relaxed(growth, limits[0], forming, taking)
+    if taken(taking):
+        grown = grown + taking * _fed_back(removal, limits[1], losing, forming + taking)
+    return grown, relaxed(removal, limits[1], losing, 0.0)
+
+
+def formed(
+    growth: Numbers, grown: Numbers, limit: float, forming: Numbers, taking: Numbers, kept: Numbers = 0.0
+) -> Numbers:
+    """Return what has formed [m], f (X - g) over the time in which g went from `growth` to `grown`; `kept`: mean q."""
+    gain = grown - growth
+    if not taken(taking):
+        return gain
+    middle = _part(forming * limit + taking * kept - gain, forming + taking)  # the mean of g
+    return gain + taking * (middle - kept)
+
+
+def mean(removal: Numbers, limit: float, losing: Numbers) -> Numbers:
+    """Return the mean of q [m] over the time in which it goes from `removal` towards its `limit`."""
+    return limit + (removal - limit) * _mean(losing)
+
+
 def taken(taking: Numbers) -> bool:
     """Return True if anything is rubbed off."""
     return taking != 0.0 if isinstance(taking, float) else bool(taking.any())
 
 
-def fed_back(now: Numbers, limit: float, losing: Numbers, both: Numbers) -> Numbers:
+def _fed_back(now: Numbers, limit: float, losing: Numbers, both: Numbers) -> Numbers:
     """Return the part of g [m] per `taking` that q leaves it, while q goes from `now` towards its `limit`.
 
     `both` is `forming` and `taking` together.
     """
     return limit * _mean(both) + (now - limit) * exp(-minimum(both, losing)) * _mean(abs(both - losing))
-
-
-def mean(now: Numbers, limit: float, losing: Numbers) -> Numbers:
-    """Return the mean of q [m] over the time in which it goes from `now` towards its `limit`."""
-    return limit + (now - limit) * _mean(losing)
-
-
-def formed(
-    now: Numbers, after: Numbers, limit: float, forming: Numbers, taking: Numbers, kept: Numbers = 0.0
-) -> Numbers:
-    """Return what has formed [m], f (X - g) over the time in which g went from `now` to `after`; `kept`: mean of q."""
-    gain = after - now
-    middle = _part(forming * limit + taking * kept - gain, forming + taking)  # the mean of g
-    return gain + taking * (middle - kept)
 
 
 def _mean(rate: Numbers) -> Numbers:
