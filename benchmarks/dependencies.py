@@ -95,12 +95,17 @@ PAGES: dict[str, Source] = {
     ),
     "film/peers": Source("film.peers", ("film", "calls", "evolution")),
     "film/accuracy": Source("film.accuracy", ("film", "calls", "estimate")),
-    "film/grid_error": Source("film.grid_error", ("film", "evolution", "control", "uncertainty", "grid_error", *CIRCLES, "fzg_flank")),
+    "film/grid_error": Source(
+        "film.grid_error", ("film", "evolution", "control", "uncertainty", "grid_error", *CIRCLES, "fzg_flank")
+    ),
     "speed_error": Source("speed_error", (*LEVELS, "uncertainty", "grid_error", *SHAPES)),
     "surfaces/transition": Source("surfaces.transition", (*LEVELS, *SHAPES)),
     "surfaces/asperity_layer": Source("surfaces.asperity_layer", ("film",)),
     "surfaces/grids": Source("surfaces.grids", ("film", "evolution", "control", "data", "azam_case_a")),
     "surfaces/hardness": Source("surfaces.hardness", ("film", "evolution", "control", *CIRCLES)),
+    "surfaces/film_wear": Source(
+        "surfaces.film_wear", ("film", "evolution", "regression", "control", "data", "azam_case_a")
+    ),
     "surfaces/evolution": Source("surfaces.evolution", ("film", "evolution", "control", "uncertainty", *CIRCLES)),
     "surfaces/stribeck": Source(
         "surfaces.stribeck", ("film", "evolution", "control", "stribeck", *SHAPES, "cam_tappet")
@@ -120,7 +125,9 @@ PAGES: dict[str, Source] = {
     "machines/bearing_memory": Source("machines.bearing_memory", RIGS),
     "machines/gear_path": Source("machines.gear_path", RIGS),
     "machines/gear_friction": Source("machines.gear_friction", (*RIGS, "evolution", "control")),
-    "machines/corrected": Source("machines.corrected page", (*RIGS, "evolution", "control", "correction", "cam_tappet")),
+    "machines/corrected": Source(
+        "machines.corrected page", (*RIGS, "evolution", "control", "correction", "cam_tappet")
+    ),
     "machines/rig_levels": Source("machines.rig_levels", (*RIGS, "evolution", "control")),
     "machines/tolerance": Source("machines.tolerance", RIGS),
     "fmu/overhead": Source("fmu.overhead", ("regression", "fmu", "models")),

@@ -41,7 +41,9 @@ class Page:
 
     def __post_init__(self) -> None:
         if self.name not in PAGES:  # before hours of work, not after
-            raise LookupError(f"{self.name} is not among PAGES of benchmarks/dependencies.py: add it, with its command and groups")
+            raise LookupError(
+                f"{self.name} is not among PAGES of benchmarks/dependencies.py: add it, with its command and groups"
+            )
 
     @property
     def name(self) -> str:

@@ -78,7 +78,9 @@ def errors(found: dict[str, float], reference: dict[str, float]) -> dict[str, fl
 def study(report: Page, name: str, units: dict[int, float]) -> tuple[list[Row], list[Row]]:
     load, speed, tolerances = CASES[name]
     case = RoughCase(load=load, speed=speed, **BASE)
-    levels = cascade(case, REFERENCE, Settings(1e-9, 1e-5 if case.film > 2.0 * case.rq else 1e-4, 400, "pyfftw", fitted=True))
+    levels = cascade(
+        case, REFERENCE, Settings(1e-9, 1e-5 if case.film > 2.0 * case.rq else 1e-4, 400, "pyfftw", fitted=True)
+    )
     reference, film = of_level(case, levels[-1]), levels[-1].film
     report.say(
         f"### {name.capitalize()}\n\n{load:g} N, u = {speed:g} m/s, M = {case.smooth.moes_parameters[0]:.0f}, film by formula "

@@ -108,9 +108,7 @@ def judge(report: Page, table: dict[tuple[str, int, float], dict[str, float]]) -
         text = "; ".join(f"{nodes} nodes {shares[0]:.2f}, {shares[1]:.2f}" for nodes, shares in each.items())
         inside = all(0.8 < share < 0.9 for shares in each.values() for share in shares)
         report.verdict(f"Zhu & Wang's 0.8 < W_c < 0.9 at lambda 0.05 and 0.1, beside {name}", text, inside)
-    report.say(
-        "### Dependence on the grid\n\nChange from the second finest to the finest grid, floor 1 nm, split:"
-    )
+    report.say("### Dependence on the grid\n\nChange from the second finest to the finest grid, floor 1 nm, split:")
     report.header("lambda", "nodes", "W_c", "A_c", "gap [%]")
     for ratio in LAMBDAS:
         last = (GRIDS[-1], FINEST) if ratio < THICK else GRIDS[-2:]

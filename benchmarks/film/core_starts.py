@@ -86,7 +86,9 @@ def run() -> None:
                 lambda s=scaled, m=method: [solved(s, m, start) for start in (s.dry_start(), s.lifted_start())]
             )
             hertz = scene.hertz(scaled.now.load)
-            dry, thick = (film_outputs(grid, film.state, film.gap, film.touching, scaled.now.load, hertz) for film in films)
+            dry, thick = (
+                film_outputs(grid, film.state, film.gap, film.touching, scaled.now.load, hertz) for film in films
+            )
             pairs = [(dry[key], thick[key]) for key in ("h_c", "contact_area_ratio", "contact_load_ratio")]
             off_by = np.array(
                 [off(films[1].state.pressure, films[0].state.pressure), abs(pairs[0][1] / pairs[0][0] - 1.0)]
@@ -125,7 +127,8 @@ def limits(report: Page, scene: Scene, settings: Settings) -> None:
     rough, smooth = (solve_film(instant(scene, FAST, rough), grid, settings) for rough in (True, False))
     hertz = scene.hertz(scene.operation.load)
     h_rough, h_smooth = (
-        film_outputs(grid, film.state, film.gap, film.touching, scene.operation.load, hertz)["h_c"] for film in (rough, smooth)
+        film_outputs(grid, film.state, film.gap, film.touching, scene.operation.load, hertz)["h_c"]
+        for film in (rough, smooth)
     )
     ratio = h_rough / h_smooth - 1.0
     report.row(FAST, "smooth bodies", "h_c off [%]", 100.0 * ratio, rough.algorithm, rough.converged)

@@ -80,7 +80,9 @@ def lines(report: Page) -> None:
     worst = max(off)
     report.verdict("every smooth line converges", "all" if solved else "not all", solved)
     report.verdict(
-        "order of H_c >= 1.9 where all grids converge", f"from {min(o[0] for o in orders):.2f}", bool(min(o[0] for o in orders) >= 1.9)
+        "order of H_c >= 1.9 where all grids converge",
+        f"from {min(o[0] for o in orders):.2f}",
+        bool(min(o[0] for o in orders) >= 1.9),
     )
     at = f"{100.0 * worst[0]:.1f} % at M = {worst[1]:g}, L = {worst[2]:g}"
     report.verdict("H_c within 10 % of Moes' formula where all grids converge", at, worst[0] <= 0.1)

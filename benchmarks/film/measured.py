@@ -114,7 +114,16 @@ def optical(page: Page, axes) -> None:  # type: ignore[no-untyped-def]
         f"density {DENSITY:g} kg/m3 at 15 degC (assumed). The pressure coefficient is not given: the slope and the scatter about one factor count. "
         f"Above {SLOW:g} m/s the inlet warms up, which is left out here."
     )
-    page.header("pressure coefficient [1/GPa]", "nodes", "speeds", "slope measured", "slope found", "factor", "scatter [%]", "least ratio")
+    page.header(
+        "pressure coefficient [1/GPa]",
+        "nodes",
+        "speeds",
+        "slope measured",
+        "slope found",
+        "factor",
+        "scatter [%]",
+        "least ratio",
+    )
     for coefficient in COEFFICIENTS:
         for grid in GRIDS if coefficient == COEFFICIENTS[1] else (129,):
             every = films(coefficient, grid)
@@ -122,7 +131,11 @@ def optical(page: Page, axes) -> None:  # type: ignore[no-untyped-def]
                 (measured, found), (factor, scatter, least) = part.slopes(), part.factor()
                 page.row(coefficient * 1e9, grid, text, measured, found, factor, 100.0 * scatter, least)
                 if coefficient == COEFFICIENTS[1] and grid == 129 and text == "all":
-                    page.verdict("slope within 0.04 of the measured one", f"{found:.3f}, measured {measured:.3f}", abs(found - measured) < 0.04)
+                    page.verdict(
+                        "slope within 0.04 of the measured one",
+                        f"{found:.3f}, measured {measured:.3f}",
+                        abs(found - measured) < 0.04,
+                    )
                     page.verdict("scatter about one factor below 8 %", f"{100.0 * scatter:.1f} %", scatter < 0.08)
                     page.verdict("no film below half the measured", f"{least:.2f}", least > 0.5)
                     axes.loglog(every.speed, every.measured * 1e9, "ko", ms=4, label="measured")
@@ -144,7 +157,11 @@ def dimple(page: Page, axes) -> None:  # type: ignore[no-untyped-def]
         page.row(points, *(100.0 * off[profile] for profile in range(1, 6)))
         if points == 129:
             worst = max(off.values())
-            page.verdict("five profiles of the dimple within 8 % rms beside it, 129 nodes", f"{100.0 * worst:.1f} %", worst < 0.08)
+            page.verdict(
+                "five profiles of the dimple within 8 % rms beside it, 129 nodes",
+                f"{100.0 * worst:.1f} %",
+                worst < 0.08,
+            )
             for ax, profile in zip(axes, range(1, 6), strict=True):
                 rows = [row for row in read("dimple_rolling.csv") if row["profile"] == profile]
                 ax.plot([row["x_um"] for row in rows], [row["gap_nm"] for row in rows], "ko", ms=2)
@@ -159,7 +176,9 @@ def main() -> None:
     upper, lower = figure.subfigures(2)
     optical(page, upper.subplots())
     dimple(page, lower.subplots(1, 5, sharey=True))
-    page.picture(figure, "measured.png", "Central films over speed; profiles of the dimple, measured (points) and found")
+    page.picture(
+        figure, "measured.png", "Central films over speed; profiles of the dimple, measured (points) and found"
+    )
     page.write()
 
 

@@ -19,8 +19,14 @@ OTHERS = (
     ("flow of warm, sheared oil", {"lubricant.flow": "local"}),
     ("film.floor 0.5 nm", {"film.floor": "0.5 nm"}),
     ("film.floor 2 nm", {"film.floor": "2 nm"}),
-    ("longest wavelength 2 um", {"surface_1.microroughness.longest": "2 um", "surface_2.microroughness.longest": "2 um"}),
-    ("longest wavelength 8 um", {"surface_1.microroughness.longest": "8 um", "surface_2.microroughness.longest": "8 um"}),
+    (
+        "longest wavelength 2 um",
+        {"surface_1.microroughness.longest": "2 um", "surface_2.microroughness.longest": "2 um"},
+    ),
+    (
+        "longest wavelength 8 um",
+        {"surface_1.microroughness.longest": "8 um", "surface_2.microroughness.longest": "8 um"},
+    ),
 )
 NAMES = ("W_c", "A_c", "friction", "h_c [nm]", "wear rate 1 [um3/s]", "iterations", "unconverged")
 
@@ -42,7 +48,14 @@ def first_block(name: str, nodes: int, seed: int | None = None, **changes: str) 
 def values(out: Outputs) -> tuple[float, ...]:
     """Return what the tables show of a block."""
     film = (out.h_c * 1e9, out.wear_rate_1 * 1e18)
-    return out.contact_load_ratio, out.contact_area_ratio, out.friction_coefficient, *film, out.iterations, out.unconverged
+    return (
+        out.contact_load_ratio,
+        out.contact_area_ratio,
+        out.friction_coefficient,
+        *film,
+        out.iterations,
+        out.unconverged,
+    )
 
 
 def grids(page: Page) -> None:
@@ -59,8 +72,14 @@ def grids(page: Page) -> None:
         for n, most in zip(GRIDS, (5.0, 2.0), strict=True):
             ratio = np.array(found[n])[:, :5] / np.array(found[FINEST])[:, :5]
             each, mean = 100.0 * np.abs(ratio - 1.0).max(axis=0), 100.0 * (ratio.mean(axis=0) - 1.0)
-            said = ", ".join(f"{what} {worst:.1f} ({off:+.1f})" for what, worst, off in zip(NAMES, each, mean, strict=False))
-            page.verdict(f"{name}: {n} nodes within {most:g} % of {FINEST}, worst realisation (mean of three)", said, bool(each.max() <= most))
+            said = ", ".join(
+                f"{what} {worst:.1f} ({off:+.1f})" for what, worst, off in zip(NAMES, each, mean, strict=False)
+            )
+            page.verdict(
+                f"{name}: {n} nodes within {most:g} % of {FINEST}, worst realisation (mean of three)",
+                said,
+                bool(each.max() <= most),
+            )
 
 
 def sensitivity(page: Page) -> None:

@@ -39,28 +39,59 @@ def main() -> None:
         "Lambda is the film of smooth bodies by formula over the rms height. A film that misses its stopping rule is returned with "
         "what it misses; no other number of the row is hidden."
     )
-    page.header("nodes", "microroughness [nm]", "lambda", "speed [m/s]", "W_c", "mean gap over rms height", "iterations", "CPU time [s]", "algorithm", "missed")
+    page.header(
+        "nodes",
+        "microroughness [nm]",
+        "lambda",
+        "speed [m/s]",
+        "W_c",
+        "mean gap over rms height",
+        "iterations",
+        "CPU time [s]",
+        "algorithm",
+        "missed",
+    )
     missed: dict[int, list[str]] = {}
     hard = {}  # W_c and gap at a hard floor, by nodes and lambda
     for nodes in GRIDS:
         for rms in MICROROUGHNESS:
             for film_ratio in LAMBDAS:
                 case = case_of(film_ratio)
-                grid, now = grid_of(case.domain, nodes), instant_of_call(case.arguments(), case.heights(nodes), case.hardness)
+                grid, now = (
+                    grid_of(case.domain, nodes),
+                    instant_of_call(case.arguments(), case.heights(nodes), case.hardness),
+                )
                 now = replace(now, microroughness=AsperityLayer(rms, LONGEST) if rms else None)
                 start = time.process_time()
                 found = solve_film(now, grid, SETTINGS)
                 seconds = time.process_time() - start
                 share = float((found.state.pressure - found.state.fluid).sum() / found.state.pressure.sum())
                 gap = float(found.gap[case.hertz.inside(grid.x, grid.y, 2.0 / 3.0)].mean() / case.rq)
-                page.row(nodes, f"{rms * 1e9:g}", f"{film_ratio:g}", case.speed, share, gap, found.iterations, seconds, found.algorithm, found.shortfall)
+                page.row(
+                    nodes,
+                    f"{rms * 1e9:g}",
+                    f"{film_ratio:g}",
+                    case.speed,
+                    share,
+                    gap,
+                    found.iterations,
+                    seconds,
+                    found.algorithm,
+                    found.shortfall,
+                )
                 if not rms:
                     hard[nodes, film_ratio] = share, gap
                 if not found.converged:
-                    missed.setdefault(nodes, []).append(f"lambda {film_ratio:g}, microroughness {rms * 1e9:g} nm: {found.shortfall}")
+                    missed.setdefault(nodes, []).append(
+                        f"lambda {film_ratio:g}, microroughness {rms * 1e9:g} nm: {found.shortfall}"
+                    )
     for nodes in GRIDS:
         text = "; ".join(missed.get(nodes, [])) or "all"
-        page.verdict(f"{nodes} nodes: all {len(LAMBDAS) * len(MICROROUGHNESS)} films meet the stopping rule; those that miss", text, nodes not in missed)
+        page.verdict(
+            f"{nodes} nodes: all {len(LAMBDAS) * len(MICROROUGHNESS)} films meet the stopping rule; those that miss",
+            text,
+            nodes not in missed,
+        )
     for film_ratio in CHECKED:
         (share, gap), (fine_share, fine_gap) = hard[GRIDS[-2], film_ratio], hard[GRIDS[-1], film_ratio]
         off, apart = 100.0 * (gap / fine_gap - 1.0), share - fine_share

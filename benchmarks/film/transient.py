@@ -189,7 +189,9 @@ def ends(
 
 def trapped() -> list[str]:
     """Table of the oil that an elastic ball traps."""
-    scene = Scene.from_toml("mtm_zddp", {"film.points": "129", "film.domain": "0.8 mm", "film.tolerance": "1e-4"} | SMOOTH)
+    scene = Scene.from_toml(
+        "mtm_zddp", {"film.points": "129", "film.domain": "0.8 mm", "film.tolerance": "1e-4"} | SMOOTH
+    )
     op = replace(scene.operation.point, speed_1=0.0, speed_2=0.0, load=30.0)
     state = parted(scene, op, initial_state(scene), 2e-6)
     times = np.concatenate([[0.0], np.geomspace(1e-7, 1e-5, 41)])

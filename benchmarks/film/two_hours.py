@@ -59,7 +59,9 @@ def main() -> None:
             for (a, b), mean in zip(WINDOWS, found[nodes], strict=True):
                 page.row(name, nodes, f"{a}-{b}", *mean)
         off = 100.0 * np.abs(np.array(found[65]) / np.array(found[129]) - 1.0)
-        text = ", ".join(f"{what.split(' [')[0]} {most:.1f}" for what, most in zip(NAMES.values(), off.max(axis=0), strict=True))
+        text = ", ".join(
+            f"{what.split(' [')[0]} {most:.1f}" for what, most in zip(NAMES.values(), off.max(axis=0), strict=True)
+        )
         page.verdict(f"{name}: 65 nodes within 8 % of 129 over two hours", text, bool(off.max() < 8.0))
     page.say("Cost, and the share of the solutions that missed the stopping rule:")
     page.header("scene", "nodes", "CPU time [s]", "work units", "missed [%]")

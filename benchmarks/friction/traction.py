@@ -93,7 +93,10 @@ def traction() -> tuple[list[str], dict[str, np.ndarray]]:
         cells(["---"] * 6),
         *map(cells, rows),
     ]
-    lines += ["", "At SRR 2 the annulus of low pressure around the contact has not reached its limit: 1.6 % of the load."]
+    lines += [
+        "",
+        "At SRR 2 the annulus of low pressure around the contact has not reached its limit: 1.6 % of the load.",
+    ]
     return lines, curves
 
 
@@ -103,7 +106,8 @@ def continuity() -> tuple[list[str], dict[str, np.ndarray]]:
         [
             "## Continuity",
             "",
-            "Largest step of mu from one speed to the next, SRR of the scene; fresh surfaces. Below 1e-4 m/s the step is that of", "the boundary law itself (`slip_speed`).",
+            "Largest step of mu from one speed to the next, SRR of the scene; fresh surfaces. Below 1e-4 m/s the step is that of",
+            "the boundary law itself (`slip_speed`).",
             "",
         ],
         {},
@@ -229,7 +233,14 @@ def main() -> None:
     second, speeds = continuity()
     third = held_and_total()
     plot(curves, speeds)
-    head = ["# Friction", "", "Written by `python -m benchmarks.friction.traction`.", "", "![friction](traction.png)", ""]
+    head = [
+        "# Friction",
+        "",
+        "Written by `python -m benchmarks.friction.traction`.",
+        "",
+        "![friction](traction.png)",
+        "",
+    ]
     save("friction/traction", "\n".join([*head, *first, "", *second, "", *third]))
 
 

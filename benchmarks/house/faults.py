@@ -132,7 +132,9 @@ class Copy:
                 # numba looks only at the file of the function called: kernels that use a changed one stay as they were
                 environment["NUMBA_CACHE_DIR"] = str(kept / "kernels")
             if native:
-                subprocess.run([self.python, "-m", "fmu_src.isolated.native.build"], cwd=self.tree, env=environment, check=True)
+                subprocess.run(
+                    [self.python, "-m", "fmu_src.isolated.native.build"], cwd=self.tree, env=environment, check=True
+                )
             return self._pytest(tests, environment, LONGEST * max(1, len(tests) // 5))
         finally:
             if native:

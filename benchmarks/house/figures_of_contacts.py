@@ -12,15 +12,31 @@ def bars(pages: Pages) -> list[tuple[str, ...]]:
     rows = [row for page in CORE for row in pages.rows(page, "met?", "Asked")]
     met = sum(row["met?"] == "yes" for row in rows if "no bar given" not in row["asked"])
     asked = sum("no bar given" not in row["asked"] for row in rows)
-    return [("requirements on accuracy and cost of the core", f"{met} of {asked} met", f"{asked - met} not met", link(*CORE))]
+    return [
+        (
+            "requirements on accuracy and cost of the core",
+            f"{met} of {asked} met",
+            f"{asked - met} not met",
+            link(*CORE),
+        )
+    ]
 
 
 def finest(pages: Pages) -> list[tuple[str, ...]]:
     """The finest grid on which a steady rough film converges, by lubrication."""
-    found = next(row["found"] for row in pages.rows("film/core_accuracy.md", "met?") if row["asked"].startswith("error against cost"))
+    found = next(
+        row["found"]
+        for row in pages.rows("film/core_accuracy.md", "met?")
+        if row["asked"].startswith("error against cost")
+    )
     nodes = {name: int(count) for name, count in re.findall(r"(full film|mixed|near boundary) (\d+)", found)}
-    ends = (f"{nodes[name]} nodes ({name})" for name in (max(nodes, key=nodes.__getitem__), min(nodes, key=nodes.__getitem__)))
-    return [("finest grid on which `point_contact` converges on a steady rough film", *ends, link("film/core_accuracy.md"))]
+    ends = (
+        f"{nodes[name]} nodes ({name})"
+        for name in (max(nodes, key=nodes.__getitem__), min(nodes, key=nodes.__getitem__))
+    )
+    return [
+        ("finest grid on which `point_contact` converges on a steady rough film", *ends, link("film/core_accuracy.md"))
+    ]
 
 
 def smooth_contact(pages: Pages) -> list[tuple[str, ...]]:
@@ -61,7 +77,9 @@ def rough_contact(pages: Pages) -> list[tuple[str, ...]]:
         for key, row in rows.items()
     }
     ends = (f"{said[key]} ({key})" for key in ("1e-3", "3e-2"))
-    lines.append((f"a step of a march: pressure; at the shipped tolerance {said['3e-3']}", *ends, link("film/tolerance.md")))
+    lines.append(
+        (f"a step of a march: pressure; at the shipped tolerance {said['3e-3']}", *ends, link("film/tolerance.md"))
+    )
     return lines
 
 
@@ -71,7 +89,9 @@ def dry_contact(pages: Pages) -> list[tuple[str, ...]]:
     lines = []
     for name, what in (("tribofmu", "a first call"), ("tribofmu, again", "a second call on the same grid")):
         found = range_of((row["ratio"] for row in rows if row["solver"] == name), "{:.2f}".format)
-        lines.append((f"dry rough contact to 1e-8, {what}: time over the fastest other solver's", *found, link("film/peers.md")))
+        lines.append(
+            (f"dry rough contact to 1e-8, {what}: time over the fastest other solver's", *found, link("film/peers.md"))
+        )
     ours = [row for row in rows if row["solver"] == "tribofmu"]
     found = range_of((row["p_max off"] for row in ours), "{:.0e}".format)
     nodes = range_of((row["nodes off"] for row in ours), "{:.0f}".format)
@@ -114,5 +134,7 @@ def grids(pages: Pages) -> list[tuple[str, ...]]:
                 f"{100.0 * change[name]:+.0f} % ({name})"
                 for name in (pick(change, key=lambda name: abs(change[name])) for pick in (min, max))
             )
-            lines.append((f"first block of {scene}, from {coarse} to 257 nodes, mean of three realisations", *ends, link(page)))
+            lines.append(
+                (f"first block of {scene}, from {coarse} to 257 nodes, mean of three realisations", *ends, link(page))
+            )
     return lines

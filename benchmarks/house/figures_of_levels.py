@@ -1,6 +1,5 @@
 """Figures of the README about the two levels: the regression level, and two hours at the deterministic one."""
 
-
 from benchmarks.house.tables import Pages, Row, line_of, link, number, pair, per_cent
 
 HOURS = {
@@ -29,7 +28,10 @@ def held_back(pages: Pages) -> list[tuple[str, ...]]:
         lines.append((what, *(f"{ends(row)} ({row['scene']})" for row in (ranked[0], ranked[-1])), link(page)))
     shares = sorted(rows.values(), key=lambda row: -number(row["mu covered"]))
     what = f"share of them that `error_friction` covers, and its median; all: {per_cent(number(every['mu covered']))}; {per_cent(number(every['mu stated']))}"
-    best, worst = (f"{per_cent(number(row['mu covered']))}; {per_cent(number(row['mu stated']))} ({row['scene']})" for row in (shares[0], shares[-1]))
+    best, worst = (
+        f"{per_cent(number(row['mu covered']))}; {per_cent(number(row['mu stated']))} ({row['scene']})"
+        for row in (shares[0], shares[-1])
+    )
     lines.append((what, best, worst, link(page)))
     return lines
 
@@ -48,9 +50,7 @@ def two_hours(pages: Pages) -> list[tuple[str, ...]]:
         when = f"{worst} ({at['scene']}, {at['min']} min)"
         lines.append((f"{name} at 0, 20, 60 and 120 min of rubbing", best, when, link("regression/curves.md")))
     times = [slow / fast for slow, fast in (pair(row["CPU s"]) for row in rows if row["min"] == "120")]
-    lines.append(
-        ("ratio of their CPU times", f"{max(times):.0f}", f"{min(times):.0f}", link("regression/curves.md"))
-    )
+    lines.append(("ratio of their CPU times", f"{max(times):.0f}", f"{min(times):.0f}", link("regression/curves.md")))
     return lines
 
 
@@ -115,7 +115,9 @@ def drivers(pages: Pages) -> list[str]:
     heads = ("scene", "`control.driver`", "against", "blocks", "of them dry", "CPU s", "WU")
     names = ("friction", "h_c", "W_c", "A_c", "tribofilm", "wear", "Rq disc", "Rq ball")
     columns = (("mu",), ("h_c",), ("W_c",), ("A_c",), ("film 1", "film 2"), ("wear 1", "wear 2"), ("Rq 2",), ("Rq 1",))
-    control = {row["driver"]: row for row in pages.rows("surfaces/evolution.md", "blocks", "The shipped control") if row["mu"]}
+    control = {
+        row["driver"]: row for row in pages.rows("surfaces/evolution.md", "blocks", "The shipped control") if row["mu"]
+    }
     by_rule = pages.rows("surfaces/evolution.md", "dry blocks", "At the same surfaces")
     rows = []
     for driver in ("auto", "mixed", "dry"):

@@ -10,16 +10,18 @@ def fmu(pages: Pages) -> list[tuple[str, ...]]:
     page, over = "fmu/overhead.md", "over the direct call [us]"
     lines = []
     for slave, what in (("empty", "an empty model"), ("mtm_zddp", "the regression level of mtm_zddp")):
-        rows = [row for row in pages.rows(page, over, slave=slave) if row["called by"].startswith("isolated, host in C")]
+        rows = [
+            row for row in pages.rows(page, over, slave=slave) if row["called by"].startswith("isolated, host in C")
+        ]
         rows = [row for row in rows if not row["called by"].endswith("taken back")]
         found = range_of((row[over] for row in rows), "{:.0f} us".format)
         alone = number(pages.row(page, over, slave=slave, **{"called by": "direct call"})["median [us]"])
         ends = (f"{found[0]} on a CPU of its own", f"{found[1]} on any CPU")
-        lines.append((f"isolated FMU, a step of {what} ({alone:.0f} us) called from C, over its own time", *ends, link(page)))
+        lines.append(
+            (f"isolated FMU, a step of {what} ({alone:.0f} us) called from C, over its own time", *ends, link(page))
+        )
     many = pages.rows(page, "instances", flavour="isolated")
-    ends = (
-        f"{row['instances']}: {row['ready after [s]']} s, {row['memory [MB]']} MB" for row in (many[0], many[-1])
-    )
+    ends = (f"{row['instances']}: {row['ready after [s]']} s, {row['memory [MB]']} MB" for row in (many[0], many[-1]))
     lines.append(("instances: ready after, memory", *ends, link(page)))
     page = "fmu/endurance.md"
     lost = pages.rows(page, "lost process")
@@ -35,12 +37,18 @@ def fmu(pages: Pages) -> list[tuple[str, ...]]:
 def coupling(pages: Pages) -> list[tuple[str, ...]]:
     """Accuracy and cost of the co-simulation master."""
     text = (pages.folder / "coupling/accuracy.md").read_text(encoding="utf-8")
-    shares = [tuple(map(float, pair)) for pair in re.findall(r"horizon .* s: ([\d.]+) to ([\d.]+) of the tolerance", text)]
+    shares = [
+        tuple(map(float, pair)) for pair in re.findall(r"horizon .* s: ([\d.]+) to ([\d.]+) of the tolerance", text)
+    ]
     least, most = min(low for low, _ in shares), max(high for _, high in shares)
-    lines = [("error over the requested tolerance, 1e-2 to 1e-6", f"{least:g}", f"{most:g}", link("coupling/accuracy.md"))]
+    lines = [
+        ("error over the requested tolerance, 1e-2 to 1e-6", f"{least:g}", f"{most:g}", link("coupling/accuracy.md"))
+    ]
     rows = pages.rows("coupling/masters.md", "ratio")
     low, high = range_of((row["ratio"] for row in rows), "{:.1f}".format)
-    lines.append(("steps of the best of three other masters over those of this one", high, low, link("coupling/masters.md")))
+    lines.append(
+        ("steps of the best of three other masters over those of this one", high, low, link("coupling/masters.md"))
+    )
     rows = pages.rows("coupling/cost.md", "beyond")
     for name, newton in (("explicit schemes and fixed-point iteration", False), ("quasi-Newton", True)):
         kept = [row["beyond"] for row in rows if ("quasi-Newton" in row["scheme"]) == newton]

@@ -128,18 +128,38 @@ def contact_seconds(assembly: Assembly, dataset: xr.Dataset) -> float:
 
 def auto_page(page: Page, machines: list[str]) -> None:
     """Cost and errors of the level auto."""
-    page.header("machine", "contacts", "s, regression", "s, auto", "ratio", "rows within 10 %, regression", "rows within 10 %, auto", "median stated")
+    page.header(
+        "machine",
+        "contacts",
+        "s, regression",
+        "s, auto",
+        "ratio",
+        "rows within 10 %, regression",
+        "rows within 10 %, auto",
+        "median stated",
+    )
     for machine in machines:
         runs = [run(machine, level) for level in ("regression", "auto")]
         seconds = [contact_seconds(*each) for each in runs]
         errors = [
-            np.concatenate([d[f"{n}.error_friction"].values[d[f"{n}.friction_coefficient"].values > 0.0] for n in a.contacts])
+            np.concatenate(
+                [d[f"{n}.error_friction"].values[d[f"{n}.friction_coefficient"].values > 0.0] for n in a.contacts]
+            )
             for a, d in runs
         ]
         within = [f"{np.mean(each <= ACCURACY):.0%}" for each in errors]
         ratio = seconds[1] / seconds[0]
-        page.row(machine, len(runs[0][0].contacts), *(f"{s:.1f}" for s in seconds), f"{ratio:.1f}", *within, f"{np.median(errors[1]):.1%}")
-        page.verdict(f"{machine}: auto at 10 % costs at most 20 times the regression level", f"{ratio:.1f}", ratio <= 20.0)
+        page.row(
+            machine,
+            len(runs[0][0].contacts),
+            *(f"{s:.1f}" for s in seconds),
+            f"{ratio:.1f}",
+            *within,
+            f"{np.median(errors[1]):.1%}",
+        )
+        page.verdict(
+            f"{machine}: auto at 10 % costs at most 20 times the regression level", f"{ratio:.1f}", ratio <= 20.0
+        )
 
 
 def page() -> None:
@@ -155,7 +175,9 @@ def page() -> None:
     corrected_page(text, done)
     autos = [machine for machine in done if (KEPT / machine / "auto" / "result.nc").exists()]
     if autos:
-        text.say("## The level auto\n\nCPU seconds of all contacts, with those of steps tried or repeated; rows by stated error of friction.")
+        text.say(
+            "## The level auto\n\nCPU seconds of all contacts, with those of steps tried or repeated; rows by stated error of friction."
+        )
         auto_page(text, autos)
     text.write()
 

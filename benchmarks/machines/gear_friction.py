@@ -243,7 +243,9 @@ def solved_deterministically(report: Page) -> None:
             found = solved_again(record.assembly, record.dataset, name, row)
             load, first, second = (float(record.of(f"{name}.{key}")[row]) for key in ("load", "speed_1", "speed_2"))
             if found.deep is None:
-                report.row(stage, station, f"{2.0 * (first - second) / (first + second):+.2f}", f"{load:.0f}", found.reason)
+                report.row(
+                    stage, station, f"{2.0 * (first - second) / (first + second):+.2f}", f"{load:.0f}", found.reason
+                )
                 continue
             mu, film = "friction_coefficient", "h_c"
             shares = (f"{100.0 * out.contact_load_ratio:.1f} %" for out in (found.fast, found.deep))
@@ -258,7 +260,11 @@ def solved_deterministically(report: Page) -> None:
             offs += [found.deviation(mu)] if found.solved else []
     count = len(STAGES) * len(DEEP)
     report.verdict(f"of {count} states 90 % meet the tolerance", f"{solved}", solved >= 0.9 * count)
-    report.verdict("stated errors cover these", f"{covered}, friction off by {np.median(offs):.1%} in the median", covered == solved)
+    report.verdict(
+        "stated errors cover these",
+        f"{covered}, friction off by {np.median(offs):.1%} in the median",
+        covered == solved,
+    )
 
 
 def main() -> None:

@@ -52,7 +52,18 @@ def sweep() -> dict[str, Columns]:
 
 def write_golden(table: Table) -> None:
     """A few points of the sweep for the tests."""
-    named = ("clearance", "layers", "flattening", "below", "slip", "pressed", "dense", "load_ratio", "area_ratio", "film_ratio")
+    named = (
+        "clearance",
+        "layers",
+        "flattening",
+        "below",
+        "slip",
+        "pressed",
+        "dense",
+        "load_ratio",
+        "area_ratio",
+        "film_ratio",
+    )
     rows = np.column_stack([getattr(table, name) for name in named])[::GOLDEN]
     file = ROOT / "tests" / "golden" / "load_sharing.csv"
     file.parent.mkdir(exist_ok=True)

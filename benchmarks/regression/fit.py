@@ -74,7 +74,9 @@ class Table:
         c = self.columns
         bare = np.array([Scene.from_toml(name).boundary_friction.bare for name in np.unique(c["scene"])])
         solid = bare[np.unique(c["scene"], return_inverse=True)[1]]
-        oil = np.clip((c["friction_coefficient"] - solid * self.load_ratio) / (1.0 - self.load_ratio + 1e-9), 0.0, solid)
+        oil = np.clip(
+            (c["friction_coefficient"] - solid * self.load_ratio) / (1.0 - self.load_ratio + 1e-9), 0.0, solid
+        )
         return np.minimum((solid - oil) / c["friction_coefficient"], MOST)
 
     @property
@@ -98,13 +100,13 @@ class Table:
         return Table({name: values[kept] for name, values in self.columns.items()})
 
 
-def fitted(
-    residual: Callable[[Array], Array], start: list[float], least: float = LEAST
-) -> tuple[Array, Array, float]:
+def fitted(residual: Callable[[Array], Array], start: list[float], least: float = LEAST) -> tuple[Array, Array, float]:
     """Least squares in which rows far off count by their distance: constants, half widths of their 95 % intervals,
     standard deviation of the residuals.
     """
-    found = least_squares(residual, np.maximum(start, 2.0 * least), loss="soft_l1", f_scale=FAR, bounds=(least, np.inf), x_scale="jac")
+    found = least_squares(
+        residual, np.maximum(start, 2.0 * least), loss="soft_l1", f_scale=FAR, bounds=(least, np.inf), x_scale="jac"
+    )
     freedom = found.fun.size - found.x.size
     variance = float(found.fun @ found.fun) / freedom
     widths = STUDENT * np.sqrt(np.diag(np.linalg.pinv(found.jac.T @ found.jac)) * variance)
@@ -388,7 +390,14 @@ def errors_of(law: FittedSharing, data: Table) -> Columns:
 
 def ends(rows: Table) -> dict[str, tuple[float, float]]:
     """Between which numbers the rows lie."""
-    found = (("lambda", rows.clearance), ("f", rows.layers), ("s", rows.flattening), ("s_m", rows.below), ("slip", rows.slip), ("pressed", rows.pressed))
+    found = (
+        ("lambda", rows.clearance),
+        ("f", rows.layers),
+        ("s", rows.flattening),
+        ("s_m", rows.below),
+        ("slip", rows.slip),
+        ("pressed", rows.pressed),
+    )
     return {name: (float(x.min()), float(x.max())) for name, x in found}
 
 
@@ -398,7 +407,10 @@ def widths_page(fit: Fit) -> list[str]:
     share = rows.shared(law)
     film = law.film_ratio(rows.dense, share, rows.flattening, rows.layer)
     residuals = {
-        "W_c": (share - rows.load_ratio, [law.WIDTHS.of_load(*each) for each in zip(share, rows.clearance, strict=True)]),
+        "W_c": (
+            share - rows.load_ratio,
+            [law.WIDTHS.of_load(*each) for each in zip(share, rows.clearance, strict=True)],
+        ),
         "h_c": (rows.film_ratio / film - 1.0, [law.WIDTHS.of_film(each) for each in rows.clearance]),
         "friction of the oil": (np.expm1(-oil.misfit(law)), oil.half_widths(law)),
     }
@@ -406,8 +418,24 @@ def widths_page(fit: Fit) -> list[str]:
     for name, (off, stated) in residuals.items():
         ratio = np.abs(off) / np.asarray(stated)
         middle, most = np.median(stated), np.quantile(ratio, 0.95)
-        lines.append((name, off.size, f"{np.median(np.abs(off)):.3f}", f"{middle:.3f}", f"{np.mean(ratio <= 1.0):.3f}", f"{most:.2f}"))
-    heads = ("quantity", "points", "median residual", "median half width", "covered", "times as wide, 95 % would be covered")
+        lines.append(
+            (
+                name,
+                off.size,
+                f"{np.median(np.abs(off)):.3f}",
+                f"{middle:.3f}",
+                f"{np.mean(ratio <= 1.0):.3f}",
+                f"{most:.2f}",
+            )
+        )
+    heads = (
+        "quantity",
+        "points",
+        "median residual",
+        "median half width",
+        "covered",
+        "times as wide, 95 % would be covered",
+    )
     return ["Half widths (`WIDTHS`) against the residuals:", *table(heads, lines)]
 
 

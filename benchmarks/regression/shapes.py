@@ -316,15 +316,12 @@ def _lines() -> Columns:
 
 def page() -> None:
     """Compare, fit the constants of lines, and write what came out."""
-    found = {
-        (shape, seed): Compared(shape, seed) for shape in ORIGIN for seed in NAMES if count_of(shape, seed)
-    }
+    found = {(shape, seed): Compared(shape, seed) for shape in ORIGIN for seed in NAMES if count_of(shape, seed)}
     draw(found).savefig(DOCS / "shapes.png", dpi=130)
     lines = Fit(LineSharing(), told(answered(_lines())))
     span = ", ".join(f"{name} {low:.3g} to {high:.3g}" for name, (low, high) in ends(lines.all).items())
     refused = ", ".join(
-        f"{shape} {sum(part.refused for (of_shape, _), part in found.items() if of_shape == shape)}"
-        for shape in ORIGIN
+        f"{shape} {sum(part.refused for (of_shape, _), part in found.items() if of_shape == shape)}" for shape in ORIGIN
     )
     text = [
         "# The regression level on lines, ellipses and circles of machines",

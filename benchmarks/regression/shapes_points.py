@@ -31,8 +31,28 @@ ORIGIN = {  # scene of each shape; soft: under a tribofilm's hardness; rolling, 
     "light circle": "mtm_zddp",
 }
 FIT, WIDTH, CHECK = 1, 2, 5  # seeds: the first two for constants and half widths, the last tells if they hold
-COUNTS = {"line": 30, "ellipse": 12, "circle": 6, "soft line": 6, "rolling line": 12, "sliding line": 8, "thin line": 36, "cam line": 36, "light circle": 12}  # points of the fit
-OTHERS = {"line": 8, "ellipse": 6, "circle": 4, "soft line": 3, "rolling line": 0, "sliding line": 0, "thin line": 10, "cam line": 10, "light circle": 4}  # of the other seeds
+COUNTS = {
+    "line": 30,
+    "ellipse": 12,
+    "circle": 6,
+    "soft line": 6,
+    "rolling line": 12,
+    "sliding line": 8,
+    "thin line": 36,
+    "cam line": 36,
+    "light circle": 12,
+}  # points of the fit
+OTHERS = {
+    "line": 8,
+    "ellipse": 6,
+    "circle": 4,
+    "soft line": 3,
+    "rolling line": 0,
+    "sliding line": 0,
+    "thin line": 10,
+    "cam line": 10,
+    "light circle": 4,
+}  # of the other seeds
 RUBBED, RUNS, MINUTES = 3, 3, 10.0  # seed, contacts of each shape, and for how long they rub
 LIGHT = 600.0  # N, at most, of ellipses that rub: others take long
 KELVIN = 273.15

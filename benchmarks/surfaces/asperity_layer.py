@@ -61,7 +61,9 @@ FULL = Plan(seeds=6, broad=8, hardnesses=(np.inf, 2.0, 1.0, 0.5, 0.25), steps=(4
 @cache
 def contacts(band: Band, nodes: int, seeds: int, pressures: tuple[float, ...], hardness: float) -> Array:
     plane = PeriodicPlane(nodes, band.longest)
-    return np.array([list(press(plane, band.heights(nodes, seed), pressures, hardness)) for seed in range(1, seeds + 1)])
+    return np.array(
+        [list(press(plane, band.heights(nodes, seed), pressures, hardness)) for seed in range(1, seeds + 1)]
+    )
 
 
 def column(found: Array, name: str) -> tuple[Array, Array]:
@@ -102,7 +104,9 @@ def name(breadth: int, hurst: float) -> str:
 
 def check_solver(page: Page) -> None:
     page.say("## The solver against closed forms")
-    page.say("One wave on 256 nodes. cos x: Westergaard's solution; cos x cos y: Hertz's contact at the crests, and full contact from 0.7071 on.")
+    page.say(
+        "One wave on 256 nodes. cos x: Westergaard's solution; cos x cos y: Hertz's contact at the crests, and full contact from 0.7071 on."
+    )
     page.header("wave", "pressure", "area", "closed form", "gap", "closed form")
     nodes = 256
     wave = np.cos(2.0 * np.pi * np.arange(nodes) / nodes)
@@ -126,7 +130,9 @@ def check_nodes(page: Page, plan: Plan) -> None:
         "One surface, the same on every grid; breadth 4, H 0.8, 8 longest waves along a side. Areas are corrected for the width of the nodes by their number of edges "
         "(Yastrebov, Anciaux & Molinari, arXiv:1701.02727); where that falls below pressure over hardness, the least that can touch, this is taken."
     )
-    page.header("hardness", "nodes a shortest wave", *(f"{what} at {p:g}" for p in (0.01, 0.1, 0.4) for what in ("gap", "area")))
+    page.header(
+        "hardness", "nodes a shortest wave", *(f"{what} at {p:g}" for p in (0.01, 0.1, 0.4) for what in ("gap", "area"))
+    )
     for hardness in (np.inf, 0.5):
         last: Array | None = None
         for each in plan.steps:
@@ -135,7 +141,11 @@ def check_nodes(page: Page, plan: Plan) -> None:
             page.row(hardness, each, *np.stack((gap, area), 1).ravel())
             if last is not None and each == plan.steps[-1]:
                 worst = float(np.abs(area / last - 1.0).max())
-                page.verdict(f"area at hardness {hardness:g} within 3 % between the last two steps of the nodes", f"{100 * worst:.1f} %", worst < 0.03)
+                page.verdict(
+                    f"area at hardness {hardness:g} within 3 % between the last two steps of the nodes",
+                    f"{100 * worst:.1f} %",
+                    worst < 0.03,
+                )
             last = area
     page.say("The size of the plane: mean over the surfaces, standard deviation.")
     page.header("breadth, spectrum", "longest waves along a side", *(f"gap at {p:g}" for p in (0.005, 0.05, 0.2)))
@@ -178,7 +188,21 @@ def check_constants(page: Page, plan: Plan) -> None:
         f"p = p0 exp(-gap / h0) fitted to pressures from {FITTED[0]:g} to {FITTED[1]:g}, and at most half the hardness; standard errors by leaving out one "
         "surface at a time. Misfit: largest error of the gap on the fitted pressures; the second is that of the distance of the mean planes before yielding."
     )
-    page.header("breadth, spectrum", "rms slope", "hardness", "p0", "+-", "h0", "+-", "misfit", "misfit, planes before yielding", "p0 over slope", "p0 of the law", "h0 of the law", "error of the law's gap")
+    page.header(
+        "breadth, spectrum",
+        "rms slope",
+        "hardness",
+        "p0",
+        "+-",
+        "h0",
+        "+-",
+        "misfit",
+        "misfit, planes before yielding",
+        "p0 over slope",
+        "p0 of the law",
+        "h0 of the law",
+        "error of the law's gap",
+    )
     worst = 0.0
     for breadth, hurst in SPECTRA:
         for hardness in plan.hardnesses if hurst == 0.8 else HARDNESSES:
@@ -198,8 +222,21 @@ def check_constants(page: Page, plan: Plan) -> None:
 
 def check_area(page: Page, plan: Plan) -> None:
     page.say("## Real area of contact")
-    page.say("formula: that of the law, with the rms slope of the spectrum; law: with the law's own slope; Persson: elastic.")
-    page.header("breadth, spectrum", "hardness", "pressure", "area", "deviation", "formula", "law", "Persson", "pressure / hardness", "at the hardness")
+    page.say(
+        "formula: that of the law, with the rms slope of the spectrum; law: with the law's own slope; Persson: elastic."
+    )
+    page.header(
+        "breadth, spectrum",
+        "hardness",
+        "pressure",
+        "area",
+        "deviation",
+        "formula",
+        "law",
+        "Persson",
+        "pressure / hardness",
+        "at the hardness",
+    )
     worst = dict.fromkeys(("elastic, self-affine", "elastic, white", "plastic, self-affine", "plastic, white"), 0.0)
     for breadth, hurst in SPECTRA:
         band = plan.band(breadth, hurst)[0]
@@ -209,17 +246,41 @@ def check_area(page: Page, plan: Plan) -> None:
             formula, own = touching(at, band.slope, hardness), UNIT.area(at, 2.0, hardness)
             held = column(found, "plastic")[0]
             for i in range(0, len(at), 2):
-                page.row(name(breadth, hurst), hardness, at[i], area[i], scatter[i], formula[i], own[i], theory.persson_area(band, at[i]), at[i] / hardness, held[i])
+                page.row(
+                    name(breadth, hurst),
+                    hardness,
+                    at[i],
+                    area[i],
+                    scatter[i],
+                    formula[i],
+                    own[i],
+                    theory.persson_area(band, at[i]),
+                    at[i] / hardness,
+                    held[i],
+                )
             kind = f"{'elastic' if np.isinf(hardness) else 'plastic'}, {'white' if hurst < 0.0 else 'self-affine'}"
             worst[kind] = max(worst[kind], float(np.abs(formula / area - 1.0)[fitted(at, hardness)].max()))
     for kind, error in worst.items():
-        page.verdict(f"formula of the area, with the rms slope known, within 10 % on the fitted pressures: {kind}", f"{100 * error:.0f} %", error < 0.1)
+        page.verdict(
+            f"formula of the area, with the rms slope known, within 10 % on the fitted pressures: {kind}",
+            f"{100 * error:.0f} %",
+            error < 0.1,
+        )
 
 
 def check_metres(page: Page, plan: Plan) -> None:
     page.say("## In metres and pascals")
-    page.say(f"E' = {MODULUS / 1e9:g} GPa, H 0.8, 4 longest waves along a side of a plane of breadth 16. Area, and gap over rms height: contacts / law of the rms height and the longest wavelength.")
-    page.header("wavelengths um", "rms nm", "hardness GPa", "q sigma E'/2 GPa", *(f"{p / 1e6:g} MPa: area" for p in LOADS), *(f"{p / 1e6:g} MPa: gap" for p in LOADS))
+    page.say(
+        f"E' = {MODULUS / 1e9:g} GPa, H 0.8, 4 longest waves along a side of a plane of breadth 16. Area, and gap over rms height: contacts / law of the rms height and the longest wavelength."
+    )
+    page.header(
+        "wavelengths um",
+        "rms nm",
+        "hardness GPa",
+        "q sigma E'/2 GPa",
+        *(f"{p / 1e6:g} MPa: area" for p in LOADS),
+        *(f"{p / 1e6:g} MPa: gap" for p in LOADS),
+    )
     worst, small = [0.0, 0.0, 0.0], replace(plan, broad=QUICK.broad)
     for longest, shortest, rms in CASES:
         layer = AsperityLayer(rms * 1e-9, longest * 1e-6)
@@ -227,12 +288,28 @@ def check_metres(page: Page, plan: Plan) -> None:
         for solid in SOLID if plan is FULL else SOLID[1:2]:
             found = small.curves(round(longest / shortest), 0.8, tuple(p / unit for p in LOADS), solid / unit)
             area, gap = column(found, "area")[0], column(found, "gap")[0]
-            law_area, law_gap = layer.area(np.array(LOADS), MODULUS, solid), layer.gap(np.array(LOADS), MODULUS, solid) / layer.rms
-            pairs = [f"{a:.3f} / {b:.3f}" for a, b in zip(area, law_area, strict=True)] + [f"{a:.2f} / {b:.2f}" for a, b in zip(gap, law_gap, strict=True)]
+            law_area, law_gap = (
+                layer.area(np.array(LOADS), MODULUS, solid),
+                layer.gap(np.array(LOADS), MODULUS, solid) / layer.rms,
+            )
+            pairs = [f"{a:.3f} / {b:.3f}" for a, b in zip(area, law_area, strict=True)] + [
+                f"{a:.2f} / {b:.2f}" for a, b in zip(gap, law_gap, strict=True)
+            ]
             page.row(f"{longest:g} to {shortest:g}", rms, solid / 1e9, unit / 1e9, *pairs)
             wrong = np.abs(law_gap - gap)
-            worst = [max(pair) for pair in zip(worst, (float(np.abs(law_area / area - 1.0).max()), float(wrong[1:].max()), float(wrong[0])), strict=True)]
-    page.verdict("area of the law, which does not know the shortest wave, within 30 %, H 0.8, 5 MPa to 1 GPa", f"{100 * worst[0]:.0f} %", worst[0] < 0.3)
+            worst = [
+                max(pair)
+                for pair in zip(
+                    worst,
+                    (float(np.abs(law_area / area - 1.0).max()), float(wrong[1:].max()), float(wrong[0])),
+                    strict=True,
+                )
+            ]
+    page.verdict(
+        "area of the law, which does not know the shortest wave, within 30 %, H 0.8, 5 MPa to 1 GPa",
+        f"{100 * worst[0]:.0f} %",
+        worst[0] < 0.3,
+    )
     page.verdict("gap of the law within 0.15 rms heights, H 0.8, 50 MPa to 1 GPa", f"{worst[1]:.2f}", worst[1] < 0.15)
     page.verdict("the same at 5 MPa", f"{worst[2]:.2f}", worst[2] < 0.15)
 
@@ -241,7 +318,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--full", action="store_true", help="more surfaces, larger planes")
     plan = FULL if parser.parse_args().full else QUICK
-    page = Page("surfaces/asperity_layer", "Asperities below the grid: pressure, gap and area", options="--full" if plan is FULL else "")
+    page = Page(
+        "surfaces/asperity_layer",
+        "Asperities below the grid: pressure, gap and area",
+        options="--full" if plan is FULL else "",
+    )
     page.say(WHAT)
     page.say(UNITS)
     page.say(f"{plan.seeds} surfaces a case; {plan.broad} longest waves along a side of a plane of breadth 16, else 8.")

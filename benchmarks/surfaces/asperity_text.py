@@ -39,10 +39,25 @@ CUT = 4.0  # um
 AFM = "https://www.nanosurf.com/cn/application/86-surface-roughness-of-steel-balls-for-tribological-testing"
 # surface, rms height [nm], over [um], where the figures are from
 KNOWN = (
-    ("steel ball for wear tests, the smoother of two makers", 1.25 * 6.0, 50.0, f"Sa 6 nm on an AFM image of 50 um, [Nanosurf]({AFM}); rms height 1.25 Sa assumed"),
+    (
+        "steel ball for wear tests, the smoother of two makers",
+        1.25 * 6.0,
+        50.0,
+        f"Sa 6 nm on an AFM image of 50 um, [Nanosurf]({AFM}); rms height 1.25 Sa assumed",
+    ),
     ("the same grade of another maker, with pores", 1.25 * 21.0, 50.0, f"Sa 21 nm, [Nanosurf]({AFM})"),
-    ("steel ball, ISO 3290 grade 5, upper limit", 1.25 * 14.0, 80.0, "Ra 14 nm, ISO 3290 (table of rgpballs.com); cut-off 80 um assumed"),
-    ("steel ball, ISO 3290 grade 10, upper limit", 1.25 * 20.0, 80.0, "Ra 20 nm, ISO 3290 (table of rgpballs.com); cut-off 80 um assumed"),
+    (
+        "steel ball, ISO 3290 grade 5, upper limit",
+        1.25 * 14.0,
+        80.0,
+        "Ra 14 nm, ISO 3290 (table of rgpballs.com); cut-off 80 um assumed",
+    ),
+    (
+        "steel ball, ISO 3290 grade 10, upper limit",
+        1.25 * 20.0,
+        80.0,
+        "Ra 20 nm, ISO 3290 (table of rgpballs.com); cut-off 80 um assumed",
+    ),
     ("bearing washer of `azam_case_a`", 127.0, 250.0, "Rq of the scene; cut-off 250 um assumed"),
 )
 

@@ -151,23 +151,38 @@ def control() -> list[str]:
     rows = []
     for driver in ("dry", "mixed"):
         found = run({"control.driver": driver})
-        cells = [f"{100 * found[f'time_{n}'][60] / abs(found[n][60]):.1f} / {100 * found[f'sampling_{n}'][60] / abs(found[n][60]):.1f}" for n in NAMES]
+        cells = [
+            f"{100 * found[f'time_{n}'][60] / abs(found[n][60]):.1f} / {100 * found[f'sampling_{n}'][60] / abs(found[n][60]):.1f}"
+            for n in NAMES
+        ]
         rows.append([driver, *cells])
     return lines + table(["driver", *NAMES.values()], rows)
 
 
 def judged(driver: str, found: dict[str, tuple[float, float]]) -> list[list[str]]:
     """Return the requirement on a run against its control, and whether it is met."""
-    most, names = (0.03, list(NAMES)) if driver == "dry" else (0.05, [n for n in NAMES if n[:4] in ("fric", "h_c", "trib", "wear")])
+    most, names = (
+        (0.03, list(NAMES))
+        if driver == "dry"
+        else (0.05, [n for n in NAMES if n[:4] in ("fric", "h_c", "trib", "wear")])
+    )
     above = [f"{NAMES[n]} {100 * found[n][0]:.1f} %" for n in names if found[n][0] > most]
     worst = max(found[n][0] for n in names if f"{NAMES[n]} {100 * found[n][0]:.1f} %" not in above)
-    told = f"{', '.join(above)} above; the others {100 * worst:.1f} % at most" if above else f"{100 * worst:.1f} % at most"
+    told = (
+        f"{', '.join(above)} above; the others {100 * worst:.1f} % at most" if above else f"{100 * worst:.1f} % at most"
+    )
     kind = "every observable" if driver == "dry" else "mu, h_c, films, wear"
     rows = [[f"{driver}: {kind} within {100 * most:.0f} % rms", told, "**no**" if above else "yes"]]
     names = list(NAMES) if driver == "dry" else ["contact_area_ratio", "contact_load_ratio"]
     outside = [f"{NAMES[n]} at {found[n][1]:.2f} of the times" for n in names if found[n][1] < 0.9]
     kind = "every observable" if driver == "dry" else "A_c, W_c"
-    rows.append([f"{driver}: {kind} within the half widths (two sigma) at 0.9 of the times", ", ".join(outside) or "all", "**no**" if outside else "yes"])
+    rows.append(
+        [
+            f"{driver}: {kind} within the half widths (two sigma) at 0.9 of the times",
+            ", ".join(outside) or "all",
+            "**no**" if outside else "yes",
+        ]
+    )
     return rows
 
 
@@ -176,11 +191,29 @@ ORDER = ((24, 960), (12, 480), (6, 240), (3, 120))  # control.change [nm] and co
 
 def order() -> list[str]:
     """Dry-driven: error against the length of blocks at fine sampling, and against sampling at short blocks."""
-    reference = run({"control.driver": "dry", "control.dry_instants": "16", "control.change": "0.75 nm", "control.longest": "30 s"})
-    shown = ("wear_depth_1", "wear_depth_2", "tribofilm_1", "tribofilm_2", "h_c", "contact_area_ratio", "roughness_1", "roughness_2")
+    reference = run(
+        {"control.driver": "dry", "control.dry_instants": "16", "control.change": "0.75 nm", "control.longest": "30 s"}
+    )
+    shown = (
+        "wear_depth_1",
+        "wear_depth_2",
+        "tribofilm_1",
+        "tribofilm_2",
+        "h_c",
+        "contact_area_ratio",
+        "roughness_1",
+        "roughness_2",
+    )
     rows, series = [], []
     for change, longest in ORDER:
-        found = run({"control.driver": "dry", "control.dry_instants": "16", "control.change": f"{change} nm", "control.longest": f"{longest} s"})
+        found = run(
+            {
+                "control.driver": "dry",
+                "control.dry_instants": "16",
+                "control.change": f"{change} nm",
+                "control.longest": f"{longest} s",
+            }
+        )
         e = errors(found, reference)
         series.append((found["blocks"][-1], e))
         rows.append([f"{change} nm", "16", *cost(found), *(f"{100 * e[n][0]:.2f}" for n in shown)])
@@ -226,11 +259,18 @@ def grid() -> list[str]:
     """Grids of 65 to 257 nodes, mixed- and dry-driven, with the additive and without."""
     rows = []
     for points in (65, 129, 257):
-        for driver, extra, text in (("mixed", {}, "with"), ("mixed", BARE, "without"), ("dry", {}, "with"), ("dry", BARE, "without")):
+        for driver, extra, text in (
+            ("mixed", {}, "with"),
+            ("mixed", BARE, "without"),
+            ("dry", {}, "with"),
+            ("dry", BARE, "without"),
+        ):
             if points == 257 and (driver, text) == ("mixed", "without"):
                 continue
             found = run({"film.points": str(points), "control.driver": driver} | extra)
-            rows.append([str(points), driver, text, *cost(found), f"{100 * smooth_error(points):.0f}", *values(found, 120)])
+            rows.append(
+                [str(points), driver, text, *cost(found), f"{100 * smooth_error(points):.0f}", *values(found, 120)]
+            )
     return [
         f"After two hours, at t = 120 min; {UNITS}. `smooth`: error of h_central of smooth bodies on that grid in per cent, against",
         "the value extrapolated from 257 and 513 nodes, the accuracy of a film without roughness on that grid. 257 nodes mixed-driven without the additive are left out, as they take ten minutes.",
@@ -275,7 +315,9 @@ def driver() -> list[str]:
     """At the same surfaces: mixed lubrication, dry contact, and dry contact under oil of the mixed share."""
     rows = []
     for case in (CASE, "mtm_zddp"):
-        scene = scene_of({"control.driver": "mixed", "control.mixed_instants": "128", "control.dry_instants": "32"}, case)
+        scene = scene_of(
+            {"control.driver": "mixed", "control.mixed_instants": "128", "control.dry_instants": "32"}, case
+        )
         shipped, op = scene_of({"control.driver": "mixed"}, case), scene.operation.point
         state = initial_state(scene)
         for minutes in (1, 4, 5, 10, 20, 20):
@@ -299,7 +341,15 @@ def driver() -> list[str]:
         mixed = run({"control.driver": "mixed"}, case)
         for name in ("auto", "dry"):
             found = run({"control.driver": name}, case)
-            two_hours.append([case, name, *cost(found), f"{found['blocks_dry'][-1]:.0f}", *(f"{100 * e:.1f}" for e, _ in errors(found, mixed).values())])
+            two_hours.append(
+                [
+                    case,
+                    name,
+                    *cost(found),
+                    f"{found['blocks_dry'][-1]:.0f}",
+                    *(f"{100 * e:.1f}" for e, _ in errors(found, mixed).values()),
+                ]
+            )
     return [
         "The same surfaces, solved three ways: a mixed march over one pass, 32 dry instants, and 32 dry instants whose solids carry",
         "the share of the mixed march under oil that carries the rest as between smooth bodies. The last one drives blocks above `control.dry_above`.",
@@ -325,7 +375,10 @@ def memory() -> list[str]:
                 march, steady = Accumulator.before(state), Accumulator.before(state)
                 sample_mixed(Case(scene, op), state, march, True)
                 for k in range(8):
-                    offsets = [(body.offset + (k + 1) * g * scene.film.domain) % scene.film.domain for body, g in zip(state.bodies, (0.7549, 0.5698), strict=True)]
+                    offsets = [
+                        (body.offset + (k + 1) * g * scene.film.domain) % scene.film.domain
+                        for body, g in zip(state.bodies, (0.7549, 0.5698), strict=True)
+                    ]
                     first, second = (replace(body, offset=o) for body, o in zip(state.bodies, offsets, strict=True))
                     moved = replace(state, bodies=(first, second))
                     steady.add(scene, op, moved, solve(scene, op, moved))
@@ -340,7 +393,22 @@ def memory() -> list[str]:
         "In near rolling the pattern of the film moves with the roughness, which a steady film does not represent. Without jumps the same points of the two bodies stay in contact over the whole pass. `touched`: share of the track |y| < a that any instant of the pass",
         "touched; with jumps a pass represents the many real passes of a block, in which the ball keeps meeting new asperities.",
         "",
-        *table(["case", "correlation length", "min", "film", "not converged", "W_c", "A_c", "h_c [nm]", "mu", "touched, ball", "touched, disc"], rows),
+        *table(
+            [
+                "case",
+                "correlation length",
+                "min",
+                "film",
+                "not converged",
+                "W_c",
+                "A_c",
+                "h_c [nm]",
+                "mu",
+                "touched, ball",
+                "touched, disc",
+            ],
+            rows,
+        ),
     ]
 
 
@@ -374,7 +442,12 @@ def main() -> None:
     for name, part in PARTS.items():
         text = KEPT / f"{name}.md"
         if text.exists():
-            page += ["", f"## {part.__doc__.splitlines()[0].rstrip('.')} (`{name}`)", "", *text.read_text().splitlines()]
+            page += [
+                "",
+                f"## {part.__doc__.splitlines()[0].rstrip('.')} (`{name}`)",
+                "",
+                *text.read_text().splitlines(),
+            ]
     save("surfaces/evolution", "\n".join(page))
 
 

@@ -77,7 +77,9 @@ class Peaks:
         along, across = np.fft.fftfreq(nodes, length / nodes)[None, :], np.fft.fftfreq(rows, height / rows)[:, None]
         with np.errstate(divide="ignore", invalid="ignore"):
             shorter = 1.0 / np.maximum(np.abs(along), np.abs(across))
-            ratio = np.nan_to_num(np.abs(across) / np.abs(along), nan=1.0, posinf=np.inf)  # of length along x to that along y
+            ratio = np.nan_to_num(
+                np.abs(across) / np.abs(along), nan=1.0, posinf=np.inf
+            )  # of length along x to that along y
             lay = np.where(ratio > 1.0, np.exp(1.0 - 1.0 / np.maximum(ratio, 1.0)), 1.0)
             if isinstance(contact, SmoothLine):
                 wave = shorter / half_width * load**0.75 / math.sqrt(oil)

@@ -46,7 +46,12 @@ COEFFICIENT = "lubricant.viscosity.pressure_coefficient=10 GPa^-1:60 GPa^-1"
 
 def numbers(scene: Scene, celsius: float, minutes: tuple[float, ...], *names: str) -> list[list[float]]:
     """Return outputs of a scene [SI] after some minutes at a temperature."""
-    point, state, now, rows = replace(scene.operation.point, temperature=celsius + 273.15), initial_state(scene), 0.0, []
+    point, state, now, rows = (
+        replace(scene.operation.point, temperature=celsius + 273.15),
+        initial_state(scene),
+        0.0,
+        [],
+    )
     for minute in minutes:
         state, out = advance(scene, point, state, 60.0 * (minute - now))
         now = minute
@@ -171,7 +176,9 @@ def measured_films(page: Page, folder: Path) -> None:
     lines = ["time [s],load [N],speed_1 [mm/s],speed_2 [mm/s],temperature [degC],h_c [nm],h_c_sd [nm]"]
     for row in read("optical_films.csv"):
         speed = row["entrainment_speed_mm_s"]
-        lines.append(f"0,{row['load_N']},{speed},{speed},{row['oil_temperature_degC']},{row['film_nm']},{row['film_sd_nm']}")
+        lines.append(
+            f"0,{row['load_N']},{speed},{speed},{row['oil_temperature_degC']},{row['film_nm']},{row['film_sd_nm']}"
+        )
     path.write_text("\n".join(lines) + "\n")
     scene = optical_scene()
     measured = fit_data.read(path, scene, "regression")
@@ -183,7 +190,14 @@ def measured_films(page: Page, folder: Path) -> None:
         "random choices. What the formula of the film and that of inlet heating miss is scatter in proportion to the film. Mineral oils have 20 to "
         "30 1/GPa: the constant takes up the error of the formula, whose stated 16 % of the film are 30 % of it."
     )
-    page.header("choice", "pressure coefficient (1/Pa)", "90 % interval", "scatter beyond the deviations", "held back inside", "inside a tenth")
+    page.header(
+        "choice",
+        "pressure coefficient (1/Pa)",
+        "90 % interval",
+        "scatter beyond the deviations",
+        "held back inside",
+        "inside a tenth",
+    )
     counts, tenth, first = [], [], None
     for choice in range(9):
         held = np.isin(np.arange(len(measured)), np.random.default_rng(choice).permutation(len(measured))[:7])
@@ -222,7 +236,14 @@ def deterministic_level(page: Page, folder: Path) -> None:
         "Film and friction of mtm_zddp, 65 nodes, 20 minutes, made at the deterministic level with other constants and noise of 3 nm and "
         "0.001; 12 of 16 points fitted by each level."
     )
-    page.header("level", *(key.partition("=")[0] for key in SLOW_VARIED), "true constants inside", "held back inside", "tests simulated", "level off the fit by")
+    page.header(
+        "level",
+        *(key.partition("=")[0] for key in SLOW_VARIED),
+        "true constants inside",
+        "held back inside",
+        "tests simulated",
+        "level off the fit by",
+    )
     for level in ("regression", "deterministic"):
         found = fit(scene, measured, constants, measured.held_back(0.25), level)
         page.row(
@@ -230,7 +251,9 @@ def deterministic_level(page: Page, folder: Path) -> None:
             f"{inside(found, 1.0)} of 4", found.runs, f"{found.off:.2f} sigma",
         )  # fmt: skip
     page.verdict(
-        "the deterministic level agrees with the curves fitted through the regression level", f"{found.off:.2f} sigma", found.agreed
+        "the deterministic level agrees with the curves fitted through the regression level",
+        f"{found.off:.2f} sigma",
+        found.agreed,
     )
 
 

@@ -171,7 +171,13 @@ def smooth_film(name: str, speed: float) -> Found:
     contact = Contact(name, smooth() | {"film.points": "129"})
     central, least = films(contact.scene, speed)
     out = contact.outputs(speed)
-    return {"speed": speed, "h_c": central, "h_m": least, "h_c solved": float(out.h_central), "h_m solved": float(out.h_min)}
+    return {
+        "speed": speed,
+        "h_c": central,
+        "h_m": least,
+        "h_c solved": float(out.h_central),
+        "h_m solved": float(out.h_min),
+    }
 
 
 def results(again: bool) -> Found:
@@ -201,8 +207,6 @@ def results(again: bool) -> Found:
     return kept
 
 
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--again", action="store_true", help="measure anew")
@@ -217,9 +221,13 @@ def main() -> None:
     )
     page.say(f"### By the share that solids carry\n\nFresh surfaces, first block, {NODES} nodes along x.")
     transition_page.shares(page, kept, scenes)
-    page.say(f"### By friction\n\nThe speed from which friction is less than {FRICTION:.0%} above that of the same bodies without roughness.")
+    page.say(
+        f"### By friction\n\nThe speed from which friction is less than {FRICTION:.0%} above that of the same bodies without roughness."
+    )
     transition_page.frictions(page, kept, scenes, FRICTION)
-    page.say("### Films of smooth bodies\n\nThe formulas beside the solver, 129 nodes along x, at the deterministic transition.")
+    page.say(
+        "### Films of smooth bodies\n\nThe formulas beside the solver, 129 nodes along x, at the deterministic transition."
+    )
     transition_page.smooth_films(page, kept, CIRCLES, LIFTED)
     page.say(f"### What it depends on\n\nThe speed at which solids carry {LIFTED:.0%}, each change alone.")
     transition_page.experiments(page, kept, {name: list(variants(name)) for name in scenes}, LIFTED)

@@ -114,7 +114,16 @@ def frictions(page: Page, kept: Found, scenes: Sequence[str], share: float) -> N
 
 def smooth_films(page: Page, kept: Found, scenes: Sequence[str], lifted: float) -> None:
     """Add the films of the formulas beside those that the solver finds between smooth bodies, and the parameter with these."""
-    page.header("scene", "at m/s", "h_c nm, formula", "solved", "h_m nm, formula", "solved", "parameter with solved h_m, rigid", "flattened")
+    page.header(
+        "scene",
+        "at m/s",
+        "h_c nm, formula",
+        "solved",
+        "h_m nm, formula",
+        "solved",
+        "parameter with solved h_m, rigid",
+        "flattened",
+    )
     for name in scenes:
         one, row = kept[f"{name}: smooth"], kept[f"{name}: as shipped"]["at"][f"{lifted:g}"]
         lengths = [one[key] * NM for key in ("h_c", "h_c solved", "h_m", "h_m solved")]
@@ -124,13 +133,32 @@ def smooth_films(page: Page, kept: Found, scenes: Sequence[str], lifted: float) 
 
 def experiments(page: Page, kept: Found, variants: dict[str, list[str]], lifted: float) -> None:
     """Add the transition of changed surfaces and grids."""
-    page.header("scene", "changed", "at m/s", "over the scene's", "Spk nm", "Spk' nm", "parameter, rigid", "flattened", "f_q needed")
+    page.header(
+        "scene",
+        "changed",
+        "at m/s",
+        "over the scene's",
+        "Spk nm",
+        "Spk' nm",
+        "parameter, rigid",
+        "flattened",
+        "f_q needed",
+    )
     for name, texts in variants.items():
         first = kept[f"{name}: as shipped"]["at"][f"{lifted:g}"]["speed"]
         for text in texts:
             one = kept[f"{name}: {text}"]["at"][f"{lifted:g}"]
             lengths = [one[key] * NM for key in ("spk", "spk_deformed")]
-            page.row(name, text, one["speed"], one["speed"] / first, *lengths, one["rigid"], one["flattened"], one["f_q_needed"])
+            page.row(
+                name,
+                text,
+                one["speed"],
+                one["speed"] / first,
+                *lengths,
+                one["rigid"],
+                one["flattened"],
+                one["f_q_needed"],
+            )
 
 
 def picture(kept: Found, scenes: Sequence[str], lifted: float) -> Figure:
@@ -144,7 +172,12 @@ def picture(kept: Found, scenes: Sequence[str], lifted: float) -> Figure:
             if level != "smooth":
                 upper.plot(curves["speed"], np.maximum(curves[level]["W_c"], 1e-5), "o-", color=colour, markersize=3)
         for axis in (upper, under):
-            axis.axvspan(*sorted((row["speed of 1, rigid"], row["speed of 1, flattened"])), color="#009E73", alpha=0.25, linewidth=0)
+            axis.axvspan(
+                *sorted((row["speed of 1, rigid"], row["speed of 1, flattened"])),
+                color="#009E73",
+                alpha=0.25,
+                linewidth=0,
+            )
             axis.set_xscale("log")
             axis.spines[["top", "right"]].set_visible(False)
         upper.axhline(lifted, color="black", linewidth=0.6, linestyle=":")

@@ -90,7 +90,9 @@ def explained(kind: str, judged: dict[str, Judged]) -> str:
     """Return how many of the claims that do not come out, by their numbers, experiments explain."""
     wrong = {name: entry.causes for name, entry in judged.items() if entry.verdict == "disagree"}
     mended = [name for name, causes in wrong.items() if any(cause.startswith("agrees with") for cause in causes)]
-    none = [name for name, causes in wrong.items() if not any(cause.startswith(("agrees", "not by")) for cause in causes)]
+    none = [
+        name for name, causes in wrong.items() if not any(cause.startswith(("agrees", "not by")) for cause in causes)
+    ]
     short = [name for name, causes in wrong.items() if any("not run yet" in cause for cause in causes)]
     return (
         f"Of the {len(wrong)} that disagree in {kind}, an experiment makes {len(mended)} agree and none of those tried "

@@ -27,6 +27,7 @@ class Film:
     cover: Array  # mean tribofilm of both bodies / full thickness
     temperature: Array | float  # of the oil, mean across the film [K]
     oil_friction: float | None = None  # shear of the oil over its pressure, where it is known; None: by its rheology
+    oxide: Array | None = None  # what oxide adds to the coefficient of boundary friction; None: nothing
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,7 @@ def shear(case: Case, film: Film) -> Shear:
     """Return the local shear stresses: the oil's by its rheology, the solids' by the law of boundary friction."""
     oil, boundary = case.scene.lubricant, case.scene.boundary_friction
     speed, along_x, along_y = sliding(case.op, film.grid)
-    solid = boundary(film.solid, film.cover, speed)
+    solid = _rubbing(case, film, speed)
     if film.oil_friction is not None:
         return Shear(film.oil_friction * film.fluid, solid, speed, along_x, along_y)
     newtonian = _viscosity(case, film, film.fluid, film.temperature) * speed / film.gap
@@ -90,6 +91,20 @@ def _viscosity(case: Case, film: Film, pressure: Array, temperature: Array | flo
     oil = case.scene.lubricant
     viscosity: Array = oil.viscosity(pressure, temperature)
     return viscosity * oil.double_layer(film.gap, case.op.inlet_temperature) if oil.double_layer.acts else viscosity
+
+
+def _rubbing(case: Case, film: Film, speed: Array | float) -> Array:
+    """Return the shear stress of the solids [Pa]."""
+    boundary = case.scene.boundary_friction
+    stress: Array = boundary(film.solid, film.cover, speed)
+    return stress if film.oxide is None else stress + film.oxide * film.solid * boundary.grip(speed)
+
+
+def _rubbing_slope(case: Case, film: Film, speed: Array | float) -> Array:
+    """Return its derivative by the sliding speed [Pa s/m]."""
+    boundary = case.scene.boundary_friction
+    slope: Array = boundary.slope(film.solid, film.cover, speed)
+    return slope if film.oxide is None else slope + film.oxide * film.solid * boundary.grip_slope(speed)
 
 
 def friction(stress: Shear, grid: Grid) -> Friction:
@@ -123,10 +138,7 @@ def derivatives(case: Case, film: Film) -> dict[str, float]:
     stiffening = (more - less) / (2.0 * _STEP)  # d viscosity / d ln p
     step = _STEP * float(np.mean(film.temperature))
     warmer, colder = (_viscosity(case, film, film.fluid, film.temperature + sign * step) for sign in (1.0, -1.0))
-    solid, solid_by_speed = (
-        boundary(film.solid, film.cover, speed),
-        boundary.slope(film.solid, film.cover, speed),
-    )
+    solid, solid_by_speed = _rubbing(case, film, speed), _rubbing_slope(case, film, speed)
     cell = grid.cell
 
     def force(stress: Array) -> float:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..laws.tribofilm import DOSES, Passes, thickness
-from ..scene import Case, Side
+from ..scene import Case, Scene, Side
 from ..state import Body, ContactState
 from ..surfaces.patches import across_track, middle_rows, surface_now, track_rows
 from ..surfaces.roughness import groove_free, rms_roughness
@@ -58,29 +58,85 @@ def _noise(case: Case, side: Side, state: ContactState, after: Body, alike: floa
 def evolved(case: Case, side: Side, body: Body, step: float, flash: float) -> Body:
     """Return a body after `step` [s] of its last exposure; `flash` [K] above its bulk temperature."""
     law = case.scene.tribofilm
-    abraded = body.abrasion * step if law.abrades else body.abrasion
+    abraded = film_removal(case, side, body) * step
     exposed = np.minimum(body.exposure, law.most_exposure) * step
-    growth, removal = law.evolve(body.growth, body.removal, exposed, abraded, side.temperature + flash)
+    dose = exposed, abraded, side.temperature + flash
+    growth, removal = law.evolve(body.growth, body.removal, *dose)
     film = 0.5 * (thickness(growth, removal) + body.tribofilm)
-    worn = step * wear_speed(case, side, body, film)
+    oxide, halfway, lost = oxidised(case, side, body, film, step)
+    worn = step * solid_speed(case, side, body, film, halfway) + lost
     return replace(
         body,
         growth=growth,
         removal=removal,
+        formed=body.formed + law.formed(body.growth, body.removal, growth, *dose),
+        oxide=oxide,
         wear=body.wear + worn,
         worn=body.worn + float(worn.sum()) * area_of_node(case, side),
         cycles=body.cycles + abs(side.speed) * step / side.track_length,
     )
 
 
-def wear_speed(case: Case, side: Side, body: Body, film: Array) -> Array:
-    """Return the wear depth per second [m/s] of a patch under a tribofilm [m]."""
+def film_removal(case: Case, side: Side, body: Body) -> Array:
+    """Return the rate [1/s] at which rubbing takes tribofilm, by its own law and by that of wear."""
     scene = case.scene
-    cover = film / scene.tribofilm.full_thickness
-    speeds: tuple[float | Array, float] = case.speeds
-    if scene.wear.of_sliding:
-        speeds = sliding_on_track(case, film.shape[0]), 0.0
-    return scene.wear.rate(body.pressure, cover, speeds, side.body, scene.plasticity.hardness)
+    if not scene.wear.wears_film:
+        return body.abrasion
+    speeds, hardness = wearing_speeds(case, body.wear.shape[0]), scene.plasticity.under(1.0)
+    by_wear = scene.wear.film_removal(body.pressure, speeds, side.body, hardness, scene.tribofilm.full_thickness)
+    rate: Array = body.abrasion + by_wear
+    return rate
+
+
+def oxidised(case: Case, side: Side, body: Body, film: Array, step: float) -> tuple[Array, Array, Array]:
+    """Return the oxide [m] after `step` [s] and after half of it, and the steel lost with what was rubbed off [m].
+
+    `film` [m] is the tribofilm meanwhile. A fresh oxide grows within a second: half the step says more than the mean of
+    both ends.
+    """
+    law = case.scene.oxide
+    if not law.grows:
+        return body.oxide, body.oxide, np.zeros_like(film)
+    growing, rubbing = oxidation(case, side, body, film)
+    oxide, rubbed = law.evolve(body.oxide, growing * step, rubbing * step)
+    halfway, _ = law.evolve(body.oxide, growing * (0.5 * step), rubbing * (0.5 * step))
+    return oxide, halfway, steel_in(case.scene, rubbed)
+
+
+def oxidation(case: Case, side: Side, body: Body, film: Array) -> tuple[Array, Array]:
+    """Return the rates [m/s] at which a bare solid oxidises under a tribofilm [m], and at which oxide is rubbed off."""
+    law = case.scene.oxide
+    left_open = law.left_open(film)
+    sliding = sliding_on_track(case, film.shape[0])
+    return law.growth(side.temperature) * left_open, law.removal(body.pressure, sliding) * left_open
+
+
+def steel_in(scene: Scene, oxide: Array) -> Array:
+    """Return the depth of steel [m] in an oxide [m]; nothing is lost where nothing wears."""
+    lost: Array = oxide * (scene.wear.wears / scene.oxide.volume_ratio)
+    return lost
+
+
+def wear_speed(case: Case, side: Side, body: Body, film: Array) -> Array:
+    """Return the wear depth per second [m/s] of a patch under a tribofilm [m], that of its oxide included."""
+    speed = solid_speed(case, side, body, film, body.oxide)
+    if not case.scene.oxide.grows:
+        return speed
+    growing, rubbing = oxidation(case, side, body, film)
+    return speed + steel_in(case.scene, np.where(body.oxide > 0.0, rubbing, np.minimum(growing, rubbing)))
+
+
+def solid_speed(case: Case, side: Side, body: Body, film: Array, oxide: Array) -> Array:
+    """Return the depth per second [m/s] that the solid itself wears under a tribofilm [m] and beside an oxide [m]."""
+    scene, full = case.scene, case.scene.tribofilm.full_thickness
+    speeds = wearing_speeds(case, film.shape[0])
+    speed = scene.wear.rate(body.pressure, film / full, speeds, side.body, scene.plasticity.hardness, full)
+    return speed * (1.0 - scene.oxide.cover(oxide)) if scene.oxide.grows else speed
+
+
+def wearing_speeds(case: Case, rows: int) -> tuple[float | Array, float]:
+    """Return the speeds [m/s] of both surfaces as a law of wear takes them."""
+    return (sliding_on_track(case, rows), 0.0) if case.scene.wear.of_sliding else case.speeds
 
 
 def sliding_on_track(case: Case, rows: int) -> float | Array:
@@ -128,12 +184,15 @@ def stable_time(case: Case, side: Side, body: Body) -> float:
     if not scene.wear.wears or not side.moves:  # of bodies at rest see `resting`
         return math.inf
     track = track_rows(scene, body.wear.shape[0])
-    cover = body.tribofilm[track].mean(keepdims=True) / scene.tribofilm.full_thickness
+    full, film = scene.tribofilm.full_thickness, body.tribofilm[track]
+    if not scene.wear.wears_film:  # linear in the film
+        film = film.mean(keepdims=True)
     width = 2.0 * case.hertz.a
     duty = min(width / side.track_length, 1.0)
     shortest = math.sqrt(2.0) * math.pi / scene.film.spacing
     stiffness = 0.25 * scene.solids.reduced_modulus * shortest
     slide = scene.wear.slide(case.speeds, side.body)
-    decay = float(scene.wear.coefficient(cover).max()) * slide * duty * stiffness / scene.plasticity.hardness
+    coefficient = float(scene.wear.coefficient(film / full, full).mean())
+    decay = coefficient * slide * duty * stiffness / scene.plasticity.hardness
     # a point that a block samples in only part of its passes gets more in those
     return 2.0 / decay / max(1.0, scene.film.domain / width) if decay > 0.0 else math.inf

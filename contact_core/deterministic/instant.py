@@ -12,7 +12,7 @@ from ..kernels.surface_give import SurfaceGive
 from ..laws.temperatures import Temperatures
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState
-from ..surfaces.patches import FacingSurfaces, facing_surfaces
+from ..surfaces.patches import FacingSurfaces, added_friction, facing_surfaces
 from .friction import Film, Friction, friction
 from .oil_temperature import left_behind, sheared, solve_flow, warmed
 
@@ -116,6 +116,7 @@ def solve_instant(
     film_1, film_2 = faced.tribofilms
     covers = film_1 / full, film_2 / full
     cover = 0.5 * (covers[0] + covers[1])
+    oxide = added_friction(scene, state, cover)
     now = replace(_pressed(case, faced), dry=dry, solid_share=solid_share)
     before = state.film if transient else None
     if not case.loaded:
@@ -133,8 +134,9 @@ def solve_instant(
             before,
             lambda now, start: level.solve(now, grid, start, step, most),
             level.tolerance,
+            oxide,
         )
-    rubbed = sheared(grid, film, cover, case.op.inlet_temperature, oil_friction)
+    rubbed = replace(sheared(grid, film, cover, case.op.inlet_temperature, oxide), oil_friction=oil_friction)
     found, stress, warm, shortfall = warmed(case, rubbed, before, heated=not transient or transient.heated)
     convergence = film.convergence | {
         "converged": film.converged and not shortfall,

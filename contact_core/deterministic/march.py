@@ -18,7 +18,7 @@ from ..errors import OperatingPointError
 from ..scene import Case, OperatingPoint, Scene, Side
 from ..state import Body, ContactState
 from .accumulator import Accumulator
-from .growth_and_wear import area_of_node, wear_speed, with_exposure
+from .growth_and_wear import area_of_node, film_removal, oxidation, solid_speed, steel_in, with_exposure
 from .instant import ContactFields
 from .observed import observed
 from .transient import begin, follow, node_speed
@@ -112,7 +112,10 @@ class _Integrals:
 
     exposure: Array
     abrasion: Array
-    wear: Array  # [m]
+    wear: Array  # of the solid itself [m]
+    growing: Array  # oxide on bare solids [m]
+    rubbing: Array  # off it [m]
+    area: float = 0.0  # time by the area of a node [m2 s]
     worn: float = 0.0  # of the whole track [m3]
     cycles: float = 0.0
     warmth: float = 0.0  # temperature of the surface [K s]
@@ -120,14 +123,20 @@ class _Integrals:
     @staticmethod
     def zero(body: Body) -> "_Integrals":
         """Return the integrals at the beginning."""
-        return _Integrals(np.zeros_like(body.wear), np.zeros_like(body.wear), np.zeros_like(body.wear))
+        exposure, abrasion, wear, growing, rubbing = np.zeros((5, *body.wear.shape))
+        return _Integrals(exposure, abrasion, wear, growing, rubbing)
 
     def add(self, moment: Moment, side: Side, body: Body, film: Array, dt: float) -> None:
         """Add one instant of `dt` [s] of a body with its exposure, worn under a tribofilm [m]."""
-        worn = dt * wear_speed(moment.case, side, body, film)
+        worn = dt * solid_speed(moment.case, side, body, film, body.oxide)
         self.exposure += body.exposure * dt
-        self.abrasion += body.abrasion * dt
+        self.abrasion += film_removal(moment.case, side, body) * dt
         self.wear += worn
+        self.area += area_of_node(moment.case, side) * dt
+        if moment.case.scene.oxide.grows:
+            growing, rubbing = oxidation(moment.case, side, body, film)
+            self.growing += growing * dt
+            self.rubbing += rubbing * dt
         self.worn += float(worn.sum()) * area_of_node(moment.case, side)
         self.cycles += abs(side.speed) * dt / side.track_length
         self.warmth += (side.temperature + moment.outputs["flash_temperature_rise"]) * dt
@@ -186,15 +195,18 @@ def _placed(bodies: Sequence[Body], state: ContactState) -> tuple[Body, Body]:
 
 def _evolved(scene: Scene, body: Body, sums: _Integrals, repeats: float, period: float) -> Body:
     """Return a body after `repeats` times the integrals over a period [s]."""
-    law = scene.tribofilm
-    exposed = np.minimum(sums.exposure, law.most_exposure * period) * repeats
-    abraded = sums.abrasion * repeats
-    growth, removal = law.evolve(body.growth, body.removal, exposed, abraded, sums.warmth / period)
+    law, warm = scene.tribofilm, sums.warmth / period
+    dose = np.minimum(sums.exposure, law.most_exposure * period) * repeats, sums.abrasion * repeats
+    growth, removal = law.evolve(body.growth, body.removal, *dose, warm)
+    oxide, rubbed = scene.oxide.evolve(body.oxide, sums.growing * repeats, sums.rubbing * repeats)
+    lost = steel_in(scene, rubbed)
     return replace(
         body,
         growth=growth,
         removal=removal,
-        wear=body.wear + repeats * sums.wear,
-        worn=body.worn + repeats * sums.worn,
+        formed=body.formed + law.formed(body.growth, body.removal, growth, *dose, warm),
+        oxide=oxide,
+        wear=body.wear + repeats * sums.wear + lost,
+        worn=body.worn + repeats * sums.worn + float(lost.sum()) * sums.area / period,
         cycles=body.cycles + repeats * sums.cycles,
     )

@@ -28,13 +28,11 @@ _ENOUGH = 1e-3  # change of temperature that ends them, of the highest rise
 _FILM_OF_VISCOSITY = 0.67  # power of the viscosity in the film of smooth bodies (Hamrock & Dowson)
 
 
-def sheared(
-    grid: Grid, found: FilmSolution, cover: Array, temperature: float, oil_friction: float | None = None
-) -> Film:
+def sheared(grid: Grid, found: FilmSolution, cover: Array, temperature: float, oxide: Array | None = None) -> Film:
     """Return a film solution as friction needs it, its oil at one temperature [K]."""
     state = found.state
     solid = state.pressure - state.fluid
-    return Film(grid, state.fluid, solid, found.gap, cover, temperature, oil_friction)
+    return Film(grid, state.fluid, solid, found.gap, cover, temperature, oxide=oxide)
 
 
 def warmed(
@@ -104,6 +102,7 @@ def solve_flow(
     before: FilmState | None,
     solve: Callable[[Instant, FilmState | None], FilmSolution],
     tolerance: float,
+    oxide: Array | None = None,
 ) -> FilmSolution:
     """Return the film of an instant with the flow that the scene asks for; `solve` solves it for one state of the oil.
 
@@ -121,7 +120,7 @@ def solve_flow(
         return solve(recalled(now, before) if known else now, before)
 
     def ease(now: Instant, found: FilmSolution) -> Instant:
-        film = warmed(case, sheared(grid, found, cover, case.op.inlet_temperature), None)[0]
+        film = warmed(case, sheared(grid, found, cover, case.op.inlet_temperature, oxide), None)[0]
         return _worked(case, now, found, film)
 
     return solve_thinning(now, solve, ease, tolerance)

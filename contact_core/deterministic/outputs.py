@@ -54,11 +54,15 @@ def _of_surface(case: Case, side: Side, body: Body) -> dict[str, float]:
     heights, rough, track, middle = surface_now(case.scene, body, side.body)
     film = body.tribofilm
     rubbed = film[track]
+    grown = float(body.formed[track].mean())
     covered, upper = rubbed > _COVERED, rubbed > _UPPER * rubbed.max()
     return {
         "wear_volume": body.worn,
         "wear_depth": float(body.wear[track].mean()),
         "tribofilm": float(rubbed.mean()),
+        "tribofilm_grown": grown,
+        "tribofilm_removed": max(grown - float(rubbed.mean()), 0.0),
+        "oxide": float(body.oxide[track].mean()),
         "tribofilm_covered": float(rubbed[covered].mean()) if covered.any() else 0.0,
         "tribofilm_upper": float(rubbed[upper].mean()) if upper.any() else 0.0,
         "tribofilm_roughness": rms_roughness(film, middle),

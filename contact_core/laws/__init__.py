@@ -5,6 +5,7 @@
     plasticity, boundary_friction, wear     the solids
     heat, bulk          temperatures in the contact, and of the bodies
     tribofilm/          growth and removal of the tribofilm
+    oxide               oxide where no tribofilm covers the solids
     load_sharing        load on solids and oil at the regression level
     profile             ends of rollers
     asperity_layer      roughness below the grid: not yet in a scene
@@ -25,6 +26,7 @@ from . import (
     double_layer,
     heat,
     load_sharing,
+    oxide,
     plasticity,
     profile,
     rheology,
@@ -47,6 +49,7 @@ SLOTS: dict[str, tuple[type[Law], ...]] = {
     "bulk": bulk.LAWS,
     "tribofilm": tribofilm.LAWS,
     "wear": wear.LAWS,
+    "oxide": oxide.LAWS,
     "sharing": load_sharing.LAWS,
     "profile": profile.LAWS,
 }

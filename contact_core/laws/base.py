@@ -234,6 +234,7 @@ class Tribofilm(Law, Protocol):
     """Growth and removal of the tribofilm. `growth` and `removal` [m] are its internal variables."""
 
     abrades: ClassVar[bool]  # rubbing removes the film at a rate of its own, `abrasion`
+    takes_abrasion: ClassVar[bool]  # `evolve` heeds `abraded`, whatever law it is by
 
     @property
     def full_thickness(self) -> float:
@@ -261,6 +262,11 @@ class Tribofilm(Law, Protocol):
         `temperature` [K] is that of the surface: the bulk's and the mean flash rise.
         """
 
+    def formed(
+        self, growth: Array, removal: Array, after: Array, exposed: Array, abraded: Array, temperature: float
+    ) -> Array:
+        """Return the film formed [m] while `evolve` took the first variable from `growth` to `after`."""
+
     def covers(self, temperature: float) -> bool:
         """Return True if the constants hold at a bulk temperature [K]."""
 
@@ -272,21 +278,76 @@ class Wear(Law, Protocol):
     """Removal of the solids."""
 
     wears: ClassVar[bool]
+    wears_film: ClassVar[bool]  # rubbing takes tribofilm, at the rate `film_removal`
 
     @property
     def of_sliding(self) -> bool:
         """True if the relative sliding of the bodies wears them; else each one's own speed does."""
 
-    def coefficient(self, cover: Numbers) -> Numbers:
-        """Return the dimensionless wear coefficient under a tribofilm of `cover` (0 to 1)."""
+    def coefficient(self, cover: Numbers, full_thickness: float) -> Numbers:
+        """Return the dimensionless wear coefficient of the solid under a tribofilm of `cover` (0 to 1) of a full one.
+
+        `full_thickness` [m] is the full one's.
+        """
+
+    def film_removal(
+        self,
+        pressure: Numbers,
+        speeds: tuple[float | Array, float],
+        body: int,
+        film_hardness: float,
+        full_thickness: float,
+    ) -> Numbers:
+        """Return the rate [1/s] at which rubbing takes tribofilm under a solid pressure [Pa], in proportion to it."""
 
     def slide(self, speeds: tuple[float | Array, float], body: int) -> Numbers:
         """Return the speed [m/s] that wears body 1 (`body` = 0) or 2 (1) at surface speeds [m/s]."""
 
     def rate(
-        self, pressure: Array, cover: Array, speeds: tuple[float | Array, float], body: int, hardness: float
+        self,
+        pressure: Array,
+        cover: Array,
+        speeds: tuple[float | Array, float],
+        body: int,
+        hardness: float,
+        full_thickness: float,
     ) -> Array:
-        """Return the wear depth per second [m/s] under a solid pressure [Pa]."""
+        """Return the wear depth per second [m/s] of the solid under a solid pressure [Pa]."""
+
+
+class Oxide(Law, Protocol):
+    """Oxide on the solids where no tribofilm covers them."""
+
+    grows: ClassVar[bool]
+
+    @property
+    def friction(self) -> float:
+        """Friction coefficient of solids under a closed oxide."""
+
+    @property
+    def volume_ratio(self) -> float:
+        """Volume of oxide over that of the steel it is made of."""
+
+    def growth(self, temperature: float) -> float:
+        """Return the rate [m/s] at which a bare solid oxidises at a temperature [K]."""
+
+    def removal(self, pressure: Numbers, sliding_speed: Numbers) -> Numbers:
+        """Return the rate [m/s] at which rubbing takes oxide under a solid pressure [Pa]; 0 where there is none."""
+
+    def left_open(self, film: Numbers) -> Numbers:
+        """Return the share of a solid that a tribofilm [m] leaves to oxidation and rubbing, 0 to 1."""
+
+    def cover(self, oxide: Numbers) -> Numbers:
+        """Return the share of the open solid that an oxide [m] bears, 0 to 1."""
+
+    def added_friction(self, bare: float, oxides: Numbers, films: Numbers) -> Numbers:
+        """Return what oxides add to a friction coefficient, `bare` being that of bare solids.
+
+        `oxides` and `films` are the mean covers of both bodies, 0 to 1.
+        """
+
+    def evolve(self, oxide: Numbers, growing: Numbers, rubbing: Numbers) -> tuple[Numbers, Numbers]:
+        """Return the oxide [m], and what was rubbed off it [m], after both rates have added up to these [m]."""
 
 
 class Profile(Law, Protocol):

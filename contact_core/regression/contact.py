@@ -166,6 +166,8 @@ def _point(
     pressure = carried / (touching + 1e-300)
     stress: Law = boundary
     shear = stress(pressure, surfaces.cover, rubbing)
+    if surfaces.oxide != 0.0:
+        shear = shear + surfaces.oxide * pressure * boundary.grip(rubbing)
     oily = area * (1.0 - shares.load) / shares.raised
     return _Point(
         shares,

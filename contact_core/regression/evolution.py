@@ -7,6 +7,7 @@ level, and the surfaces are a handful of numbers per body. The patches of the st
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -16,10 +17,9 @@ from ..state import ContactState, Mean, Outputs, changed
 from ..state.bulk_temperature import NO_TIME, cool_time, temperatures_after
 from ..surfaces.track_means import means_of
 from .contact import MeanContact, evaluate
-from .exposure import abrasion, doses, track_area, wear_rate
-from .oil import Law
+from .exposure import abrasion, doses, oxidised, solid_rate, track_area, wear_rate
 from .outputs import outputs_of
-from .surfaces import Means, Tribofilms, composite_roughness, mean_cover, regression_film, tribofilms_of
+from .surfaces import Means, Tribofilms, added_friction, composite_roughness, mean_cover, regression_film, tribofilms_of
 
 _SAME = 1e-4  # a contact evaluated before the surfaces changed by less, relative, is the contact after it
 _AGREED = 0.05  # of control.change: contacts before and after a step may differ by so much in the surfaces they make
@@ -92,7 +92,8 @@ def _stepped(case: Case, state: ContactState, dt: float, amend: Amend) -> tuple[
         rates = [(now.worn - then.worn) / dt for now, then in zip(means, before, strict=True)]
     else:
         speed = _substep(case, contact, means, _TRIAL)[3]
-        rates = [wear_rate(case, side, contact, film.thickness) for side, film in zip(case.sides, films, strict=True)]
+        pairs = zip(case.sides, films, strict=True)
+        rates = [wear_rate(case, side, contact, film.thickness, film.oxide) for side, film in pairs]
     if not math.isfinite(contact.solid + contact.fluid + contact.gap):
         op = case.op
         raise ConvergenceError(
@@ -154,6 +155,7 @@ def _has_changed(case: Case, contact: MeanContact, films: Tribofilms) -> bool:
     return (
         abs(composite_roughness(films) - contact.sigma) > _SAME * contact.sigma
         or abs(mean_cover(case.scene, films) - contact.cover) > _SAME
+        or abs(added_friction(case.scene, films) - added_friction(case.scene, contact.tribofilms)) > _SAME
     )
 
 
@@ -174,15 +176,18 @@ def _body_after(
     Wear takes heights that stand out of the composite roughness by `smoothing` of it. A body's share in such a height
     is that of its variance, so its roughness falls by smoothing Rq_i / sigma for each depth worn (assumed).
     """
-    growth, removal, new = mean.growth, mean.removal, 0.0
+    growth, removal, formed, new = mean.growth, mean.removal, mean.formed, 0.0
     if coverage > 0.0:
-        evolve: Law = case.scene.tribofilm.evolve
+        law: Any = case.scene.tribofilm
         abraded = abrasion(case, side, contact) * step / coverage
         warm = side.temperature + contact.rise
-        grown, removed = evolve(growth / coverage, removal / coverage, exposed, abraded, warm)
+        before = growth / coverage, removal / coverage
+        grown, removed = law.evolve(*before, exposed, abraded, warm)
+        formed += coverage * float(law.formed(*before, grown, exposed, abraded, warm))
         growth, removal, new = float(grown) * coverage, float(removed) * coverage, max(float(grown - removed), 0.0)
     film = 0.5 * (contact.tribofilms[side.body].thickness + new)
-    volume = step * wear_rate(case, side, contact, film)
+    oxide, halfway, lost = oxidised(case, side, contact, film, mean.oxide, step)
+    volume = step * solid_rate(case, side, contact, film, halfway) + lost * track_area(case, side)
     depth = volume / track_area(case, side)
     smoothing = regression_film(case.scene).smoothing
     smoother = math.exp(-smoothing * depth / contact.sigma) if contact.sigma > 0.0 else 1.0
@@ -195,4 +200,6 @@ def _body_after(
         roughness=mean.roughness * smoother,
         worn=mean.worn + volume,
         cycles=mean.cycles + abs(side.speed) * step / side.track_length,
+        formed=formed,
+        oxide=oxide,
     )

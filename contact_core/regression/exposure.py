@@ -86,12 +86,35 @@ def _exposed(case: Case, side: Side, contact: MeanContact, mean: Mean) -> tuple[
 def abrasion(case: Case, side: Side, contact: MeanContact) -> float:
     """Return the rate [1/s] at which rubbing takes tribofilm from a track, mean over it; zero where there is none."""
     law: Any = case.scene.tribofilm
+    by_wear = _film_removal(case, side, contact)
     if not law.abrades:
-        return 0.0
-    pressure = contact.solid_pressure * contact.area_ratio * _residence(case, side)
+        return by_wear
+    pressure = mean_pressure(case, side, contact)
     if case.shape.along_face:
-        return float(law.abrasion(np.array([pressure]), contact.slide, None)[0])
-    return float(_OF_ROWS @ law.abrasion(pressure * _ROWS_PRESSURE, contact.slide, _ROWS))
+        return by_wear + float(law.abrasion(np.array([pressure]), contact.slide, None)[0])
+    return by_wear + float(_OF_ROWS @ law.abrasion(pressure * _ROWS_PRESSURE, contact.slide, _ROWS))
+
+
+def _film_removal(case: Case, side: Side, contact: MeanContact) -> float:
+    """Return the rate [1/s] at which the law of wear takes tribofilm, mean over a track."""
+    scene = case.scene
+    if not scene.wear.wears_film:
+        return 0.0
+    taken: Law = scene.wear.film_removal
+    hardness, full = scene.plasticity.under(1.0), scene.tribofilm.full_thickness
+    return float(
+        taken(mean_pressure(case, side, contact), wearing_speeds(case, contact), side.body, float(hardness), full)
+    )
+
+
+def mean_pressure(case: Case, side: Side, contact: MeanContact) -> float:
+    """Return the solid pressure [Pa] on a point of the track, mean over its time."""
+    return contact.solid_pressure * contact.area_ratio * _residence(case, side)
+
+
+def wearing_speeds(case: Case, contact: MeanContact) -> tuple[float, float]:
+    """Return the speeds [m/s] of both surfaces as a law of wear takes them."""
+    return (contact.slide, 0.0) if case.op.spin and case.scene.wear.of_sliding else case.speeds
 
 
 def _residence(case: Case, side: Side) -> float:
@@ -101,17 +124,58 @@ def _residence(case: Case, side: Side) -> float:
     return 2.0 * hertz.chord_share * hertz.a * hertz.growth(case.op.load)[0] / length
 
 
-def wear_rate(case: Case, side: Side, contact: MeanContact, film: float) -> float:
-    """Return the volume [m3/s] that a body loses under a tribofilm [m]: the law's depth rate, for force as pressure."""
-    scene = case.scene
-    force, cover = contact.load_ratio * case.op.load, min(film / scene.tribofilm.full_thickness, 1.0)
+def wear_rate(case: Case, side: Side, contact: MeanContact, film: float, oxide: float) -> float:
+    """Return the volume [m3/s] that a body loses now under a tribofilm and with an oxide [m]."""
+    law = case.scene.oxide
+    rate = solid_rate(case, side, contact, film, oxide)
+    if not law.grows:
+        return rate
+    growing, rubbing = oxidation(case, side, contact, film)
+    lost = rubbing if oxide > 0.0 else min(growing, rubbing)
+    return rate + steel_in(case, lost) * track_area(case, side)
+
+
+def solid_rate(case: Case, side: Side, contact: MeanContact, film: float, oxide: float) -> float:
+    """Return the volume [m3/s] that the solid itself loses under a tribofilm [m] and beside an oxide [m].
+
+    It is the law's depth rate, for force as pressure.
+    """
+    scene, full = case.scene, case.scene.tribofilm.full_thickness
+    force, cover = contact.load_ratio * case.op.load, min(film / full, 1.0)
     if force == 0.0:
         return 0.0
-    speeds = case.speeds
-    if case.op.spin and scene.wear.of_sliding:
-        speeds = contact.slide, 0.0
-    rate: Law = scene.wear.rate
-    return float(rate(force, cover, speeds, side.body, scene.plasticity.hardness))
+    law: Law = scene.wear.rate
+    rate = float(law(force, cover, wearing_speeds(case, contact), side.body, scene.plasticity.hardness, full))
+    return rate * (1.0 - scene.oxide.cover(oxide)) if scene.oxide.grows else rate
+
+
+def oxidation(case: Case, side: Side, contact: MeanContact, film: float) -> tuple[float, float]:
+    """Return the rates [m/s] at which a bare track oxidises under a tribofilm [m], and at which oxide is rubbed off."""
+    law = case.scene.oxide
+    left_open = float(law.left_open(film))
+    rubbing = float(law.removal(mean_pressure(case, side, contact), contact.slide))
+    return law.growth(side.temperature) * left_open, rubbing * left_open
+
+
+def oxidised(
+    case: Case, side: Side, contact: MeanContact, film: float, oxide: float, step: float
+) -> tuple[float, float, float]:
+    """Return an oxide [m] after `step` [s] and after half of it, and the steel lost with what was rubbed off [m].
+
+    `film` [m] is the tribofilm meanwhile.
+    """
+    law = case.scene.oxide
+    if not law.grows:
+        return oxide, oxide, 0.0
+    growing, rubbing = oxidation(case, side, contact, film)
+    after, rubbed = law.evolve(oxide, growing * step, rubbing * step)
+    halfway, _ = law.evolve(oxide, growing * (0.5 * step), rubbing * (0.5 * step))
+    return float(after), float(halfway), steel_in(case, float(rubbed))
+
+
+def steel_in(case: Case, oxide: float) -> float:
+    """Return the depth of steel [m] in an oxide [m]; nothing is lost where nothing wears."""
+    return oxide * (case.scene.wear.wears / case.scene.oxide.volume_ratio)
 
 
 def track_area(case: Case, side: Side) -> float:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from ..laws.load_sharing import flattening_of, layer_height, rms_slope
 from ..scene import Case
 from .oil import Law
-from .surfaces import Tribofilms, hardness_of, mean_cover, peaks_of, regression_film, under_film
+from .surfaces import Tribofilms, added_friction, hardness_of, mean_cover, peaks_of, regression_film, under_film
 
 
 class Fit(NamedTuple):
@@ -33,6 +33,7 @@ class Surfaces(NamedTuple):
     flattening: float  # per Hertz's largest pressure [1/Pa]
     below: float  # of the longest wave below the grid, likewise
     layer: float  # height to which roughness below the grid reaches [m]
+    oxide: float  # what oxides add to the coefficient of boundary friction
 
 
 class Shares(NamedTuple):
@@ -65,6 +66,7 @@ def surfaces_of(case: Case, tribofilms: Tribofilms) -> Surfaces:
         flattening=flattening[0],
         below=flattening[1],
         layer=layer_height(scene.film.floor, below.rms if below else 0.0),
+        oxide=added_friction(scene, tribofilms),
     )
 
 

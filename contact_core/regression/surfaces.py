@@ -20,6 +20,7 @@ class Tribofilm(NamedTuple):
     both: float  # rms roughness of solid and tribofilm [m]
     raised: float  # by which it makes a rough solid rougher, see `_with_film` [m]
     solid: float  # rms roughness of the solid [m]
+    oxide: float = 0.0  # thickness of the oxide that no tribofilm covers [m]
 
 
 Tribofilms = tuple[Tribofilm, Tribofilm]
@@ -35,7 +36,7 @@ def _tribofilm_of(mean: Mean) -> Tribofilm:
     """Return a tribofilm that lies evenly on the highest part of a track of Gaussian heights (assumed)."""
     share = mean.coverage
     if share == 0.0:
-        return Tribofilm(0.0, 0.0, mean.roughness, 0.0, mean.roughness)
+        return Tribofilm(0.0, 0.0, mean.roughness, 0.0, mean.roughness, mean.oxide)
     thickness = max(mean.growth - mean.removal, 0.0) / share
     apart = share * (1.0 - share)
     roughness = math.sqrt(apart) * thickness
@@ -43,7 +44,7 @@ def _tribofilm_of(mean: Mean) -> Tribofilm:
     density = 0.3989 * (4.0 * apart) ** 0.8
     raised = 2.0 * density * thickness
     both = _with_film(mean.roughness, raised, roughness)
-    return Tribofilm(thickness, roughness, both, raised, mean.roughness)
+    return Tribofilm(thickness, roughness, both, raised, mean.roughness, mean.oxide)
 
 
 def _with_film(solid: float, raised: float, film: float) -> float:
@@ -73,6 +74,15 @@ def composite_roughness(tribofilms: Tribofilms) -> float:
 def mean_cover(scene: Scene, tribofilms: Tribofilms) -> float:
     """Return the mean cover of both bodies where they touch."""
     return min(0.5 * (tribofilms[0].thickness + tribofilms[1].thickness) / scene.tribofilm.full_thickness, 1.0)
+
+
+def added_friction(scene: Scene, tribofilms: Tribofilms) -> float:
+    """Return what oxides add to the coefficient of boundary friction where the bodies touch."""
+    law = scene.oxide
+    if not law.grows:
+        return 0.0
+    oxides = 0.5 * (law.cover(tribofilms[0].oxide) + law.cover(tribofilms[1].oxide))
+    return float(law.added_friction(scene.boundary_friction.bare, oxides, mean_cover(scene, tribofilms)))
 
 
 def hardness_of(scene: Scene, tribofilms: Tribofilms) -> float:

@@ -114,6 +114,12 @@ def _shape_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
                 f"{said} lets the Hertz pressure of {hertz.pressure_max:.3g} Pa take more than {_THINNED:.0%} of a "
                 "tribofilm's thickness; the layer is linear. Raise it, or lower the load.",
             )
+    if scene.wear.wears_film and not scene.tribofilm.takes_abrasion:
+        yield (
+            "wear",
+            f"wear.model = '{scene.wear.name}' takes tribofilm in proportion to its thickness; tribofilm.model = "
+            f"'{scene.tribofilm.name}' has no closed form with that. Use wear.model = 'archard', or another tribofilm.",
+        )
 
 
 def _roughness_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:

@@ -3,13 +3,14 @@
 import hashlib
 import json
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from typing import Any
 
 from ..film import Deterministic, Regression
 from ..film.instant import Grid
-from ..laws.base import BoundaryFriction, Heat, Plasticity, Tribofilm, Wear
+from ..laws.base import BoundaryFriction, Heat, Oxide, Plasticity, Tribofilm, Wear
+from ..laws.oxide import NoOxide
 from ..reference import Hertz
 from ..shapes import Geometry, Shape
 from .operation import OperatingPoint, Operation
@@ -40,6 +41,7 @@ class SceneFields:
     film: Deterministic | Regression
     control: Control
     operation: Operation
+    oxide: Oxide = field(default=NoOxide())
 
     def to_dict(self) -> dict[str, Any]:
         """Return nested tables, from which `Scene.from_dict` makes an equal scene, bit for bit."""

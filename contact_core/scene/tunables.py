@@ -21,6 +21,7 @@ _PARTS = (
     "heat",
     "tribofilm",
     "wear",
+    "oxide",
     "film",
     "control",
 )

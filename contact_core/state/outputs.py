@@ -35,9 +35,12 @@ class RangeFlag(IntFlag):
     OUTSIDE_FIT = 512, "outside the points to which the curves of the regression level were fitted"
     OTHER_LEVEL = 1024, "outputs of the deterministic level alone keep their last values, or are zero"
     UNSURE = 2048, "friction or film is less sure than control.accuracy asks for, or without it than 50 %"
-    BY_THE_CLOCK = 4096, (
-        "tribofilm.dose is 'clock': where solids touch, the tribofilm ages by the time of the test, whatever load, "
-        "speeds and film are"
+    BY_THE_CLOCK = (
+        4096,
+        (
+            "tribofilm.dose is 'clock': where solids touch, the tribofilm ages by the time of the test, whatever load, "
+            "speeds and film are"
+        ),
     )
 
 

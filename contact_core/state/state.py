@@ -25,7 +25,7 @@ from .trends import NAMES, Trends
 
 Array = NDArray[np.float64]
 _Record = TypeVar("_Record", "ContactState", "Outputs", "Mean", OperatingPoint)
-_MAGIC, _SCHEMA = b"tribofmu", 9
+_MAGIC, _SCHEMA = b"tribofmu", 10
 _FEWEST = 100  # bytes that a header of schema 5 or before has at least
 _CHECKSUM, _SIGNED = struct.Struct("<I"), struct.Struct("<II")
 _LAYOUT = struct.Struct("<I")
@@ -41,6 +41,8 @@ class Body:
 
     growth: Array  # tribofilm formed [m]
     removal: Array  # tribofilm removed [m]
+    formed: Array  # all tribofilm that has grown so far [m]; less what there is: all that was removed
+    oxide: Array  # thickness where no tribofilm covers the solid [m]; zero without a law of it
     wear: Array  # depth worn [m]
     plastic: Array  # permanent depth pressed in [m]
     pressure: Array  # of the solids on a point, mean over its track [Pa], of the last solution: for wear
@@ -56,6 +58,8 @@ class Body:
     ARRAYS: ClassVar[tuple[str, ...]] = (
         "growth",
         "removal",
+        "formed",
+        "oxide",
         "wear",
         "plastic",
         "pressure",
@@ -88,6 +92,8 @@ class Mean:
     roughness: float  # rms roughness of the solid under its tribofilm [m]
     worn: float  # wear volume of the whole track [m3]
     cycles: float  # passes through the contact
+    formed: float = 0.0  # all tribofilm that has grown so far [m]
+    oxide: float = 0.0  # thickness where no tribofilm covers the solid [m]
 
 
 @dataclass(frozen=True)
@@ -239,7 +245,8 @@ def initial_state(scene: Scene) -> ContactState:
     """Fresh surfaces: no film, no wear, nothing solved."""
     shape = (scene.rows, scene.film.points - 1)
     zeros = np.zeros(shape)
-    body = Body(zeros, zeros, zeros, zeros, zeros, zeros, zeros, np.full(shape, np.inf), zeros, 0.0, 0.0, 0.0, 0.0)
+    arrays = dict.fromkeys(Body.ARRAYS, zeros) | {"since": np.full(shape, np.inf)}
+    body = Body(**arrays, offset=0.0, cycles=0.0, worn=0.0, noise=0.0)
     return ContactState(
         scene.digest(), 0.0, (body, body), None, "", None, 0.0, 0.0, 0.0, 0.0, 0, 1.0, Trends.fresh(), None, Outputs()
     )

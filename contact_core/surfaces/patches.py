@@ -67,6 +67,19 @@ def facing_films(scene: Scene, state: ContactState) -> tuple[tuple[Array, Array]
     return (first, second), plastic
 
 
+def added_friction(scene: Scene, state: ContactState, cover: Array) -> Array | None:
+    """Return what oxides add to the coefficient of boundary friction, [ny, nx]; None without a law of oxide.
+
+    `cover` is the mean cover of both bodies by tribofilm.
+    """
+    law = scene.oxide
+    if not law.grows:
+        return None
+    first, second = (law.cover(on_grid(body.oxide, patch_nodes(scene, body))) for body in state.bodies)
+    added: Array = law.added_friction(scene.boundary_friction.bare, 0.5 * (first + second), cover)
+    return added
+
+
 def surface_now(scene: Scene, body: Body, index: int) -> SurfaceNow:
     """Return the patch of body 1 (`index` 0) or 2 (1) as it is now."""
     rows = body.wear.shape[0]

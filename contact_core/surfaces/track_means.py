@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..laws.tribofilm import thickness
 from ..scene import Scene
 from ..state import Body, ContactState, Mean
 from .patches import bare_heights, middle_rows, roughness_of, track_rows
@@ -38,6 +39,8 @@ def _mean_of(scene: Scene, state: ContactState, i: int) -> Mean:
         roughness=roughness / _sampled(scene, bare, i),
         worn=body.worn,
         cycles=body.cycles,
+        formed=float(body.formed[track].mean()),
+        oxide=float(body.oxide[track].mean()),
     )
 
 
@@ -94,11 +97,24 @@ def _folded(scene: Scene, rows: int, i: int, body: Body, then: Mean, now: Mean) 
         "growth": _raised(body.growth[track], covered, then.growth, now.growth, full),
         "removal": _raised(body.removal[track], covered, then.removal, now.removal, full),
         "wear": body.wear[track] + _lost(scene, rows, bare, heights, share, now.wear - then.wear, roughness),
+        "oxide": np.maximum(body.oxide[track] + (now.oxide - then.oxide), 0.0),
     }
+    changed["formed"] = body.formed[track] + _formed(body, changed, track, covered, now.formed - then.formed)
     arrays = {name: getattr(body, name).copy() for name in changed}
     for name, array in arrays.items():
         array[track] = changed[name]
     return replace(body, **arrays, worn=now.worn, cycles=now.cycles)
+
+
+def _formed(
+    body: Body, changed: dict[str, Array], track: NDArray[np.bool_], covered: NDArray[np.bool_], mean: float
+) -> Array:
+    """Return the tribofilm formed on each node [m], of a given mean: what it has gained, and even removal beside."""
+    gained = thickness(changed["growth"], changed["removal"]) - body.tribofilm[track]
+    share = float(covered.mean())
+    removed = (mean - float(gained.mean())) * (covered / share if share > 0.0 else 1.0)
+    formed: Array = gained + removed
+    return formed
 
 
 def _lost(scene: Scene, rows: int, bare: Array, heights: Array, share: Array, wear: float, roughness: float) -> Array:

@@ -43,5 +43,5 @@ def test_wear_in_steps_adds_up_to_archards_depth():
     law = Archard(bare=1e-5, film=1e-6)
     depth = np.zeros(1)
     for step in (0.1, 7.0, 100.0, 0.9):
-        depth += law.rate(np.array([0.8e9]), np.zeros(1), (0.2475, 0.2525), 0, 6e9) * step
+        depth += law.rate(np.array([0.8e9]), np.zeros(1), (0.2475, 0.2525), 0, 6e9, 1e-7) * step
     assert depth[0] == approx(archard_depth(1e-5, 6e9, 0.8e9, 0.005 * 108.0), rel=1e-14, abs=0.0)

@@ -62,7 +62,9 @@ def test_contacts_alone_grow_nothing_under_a_full_film_which_shear_does(level):
         advance(scene, point, initial_state(scene), SECONDS)[1]
         for scene in (
             cheap(CHEAP | smooth)[0].at_level(level),
-            cheap(CHEAP | smooth, tribofilm__set="zhang_spikes_80c_ethylhexyl", tribofilm__least_shear="1 MPa")[0].at_level(level),
+            cheap(CHEAP | smooth, tribofilm__set="zhang_spikes_80c_ethylhexyl", tribofilm__least_shear="1 MPa")[
+                0
+            ].at_level(level),
         )
     )
     assert by_contact.contact_load_ratio == by_shear.contact_load_ratio == 0.0

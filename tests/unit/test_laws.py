@@ -13,6 +13,7 @@ from contact_core.laws.viscosity import AstmD341, Barus, Modulus, Roelands, kine
 from contact_core.laws.wear import Archard, NoWear
 
 PRESSURE = np.linspace(0.0, 6e9, 40).reshape(5, 8)
+FULL = 100e-9  # full tribofilm [m]
 
 
 @pytest.mark.parametrize("law", [Roelands, Barus])
@@ -203,10 +204,10 @@ WEAR = Archard(bare=1e-5, film=1e-6)
 
 def test_wear_is_linear_in_pressure_and_sliding_and_blind_to_direction():
     pressure, bare = np.array([[1e9, 2e9]]), np.zeros((1, 2))
-    rate = WEAR.rate(pressure, bare, (0.255, 0.25), 0, 6e9)
+    rate = WEAR.rate(pressure, bare, (0.255, 0.25), 0, 6e9, FULL)
     assert rate == approx(np.array([[1e-5 / 6.0 * 0.005, 1e-5 / 3.0 * 0.005]]), rel=1e-12, abs=0.0)
-    assert np.array_equal(WEAR.rate(pressure, bare, (0.25, 0.255), 0, 6e9), rate)
-    assert WEAR.rate(pressure, bare, (0.26, 0.25), 0, 6e9) == approx(2.0 * rate, rel=1e-12, abs=0.0)
+    assert np.array_equal(WEAR.rate(pressure, bare, (0.25, 0.255), 0, 6e9, FULL), rate)
+    assert WEAR.rate(pressure, bare, (0.26, 0.25), 0, 6e9, FULL) == approx(2.0 * rate, rel=1e-12, abs=0.0)
 
 
 def test_both_bodies_slide_at_the_difference_of_their_speeds():
@@ -226,8 +227,8 @@ def test_by_surface_speed_the_faster_ball_wears_more_at_any_sign_of_sliding():
     law = Archard(bare=1e-5, film=1e-6, sliding="surface_speed")
     ratios = np.array([-0.1, -0.05, -0.02, -0.005, 0.005, 0.02, 0.05, 0.1])
     speeds = [(0.25 * (1.0 + ratio / 2.0), 0.25 * (1.0 - ratio / 2.0)) for ratio in ratios]
-    ball = [law.rate(np.array([1e9]), np.zeros(1), pair, 0, 6e9)[0] for pair in speeds]
-    disc = [law.rate(np.array([1e9]), np.zeros(1), pair, 1, 6e9)[0] for pair in speeds]
+    ball = [law.rate(np.array([1e9]), np.zeros(1), pair, 0, 6e9, FULL)[0] for pair in speeds]
+    disc = [law.rate(np.array([1e9]), np.zeros(1), pair, 1, 6e9, FULL)[0] for pair in speeds]
     assert np.all(np.diff(ball) > 0.0)
     assert np.all(np.diff(disc) < 0.0)
     assert ball[-1] / ball[0] == approx(0.2625 / 0.2375, rel=1e-12)
@@ -235,20 +236,20 @@ def test_by_surface_speed_the_faster_ball_wears_more_at_any_sign_of_sliding():
 
 def test_a_full_tribofilm_wears_with_its_own_coefficient():
     cover = np.array([0.0, 0.5, 1.0])
-    assert WEAR.coefficient(cover) == approx([1e-5, 5.5e-6, 1e-6], rel=1e-14, abs=0.0)
-    rate = WEAR.rate(np.full(3, 1e9), cover, (1.0, 0.0), 1, 6e9)
+    assert WEAR.coefficient(cover, FULL) == approx([1e-5, 5.5e-6, 1e-6], rel=1e-14, abs=0.0)
+    rate = WEAR.rate(np.full(3, 1e9), cover, (1.0, 0.0), 1, 6e9, FULL)
     assert rate / rate[0] == approx([1.0, 0.55, 0.1], rel=1e-14)
 
 
 def test_wear_coefficients_are_those_of_the_source_in_cubic_millimetres_per_newton_metre():
     # m of depth per Pa and m of sliding = m2/N
-    per_pascal = WEAR.rate(np.ones(2), np.array([0.0, 1.0]), (1.0, 0.0), 0, 6e9)
+    per_pascal = WEAR.rate(np.ones(2), np.array([0.0, 1.0]), (1.0, 0.0), 0, 6e9, FULL)
     assert per_pascal * 1e9 == approx([1.7e-6, 1.7e-7], abs=0.05e-6)
 
 
 def test_what_is_switched_off_gives_zeros():
-    assert not NoWear().rate(PRESSURE, PRESSURE, (1.0, 0.0), 0, 6e9).any()
-    assert not NoWear().coefficient(PRESSURE).any()
+    assert not NoWear().rate(PRESSURE, PRESSURE, (1.0, 0.0), 0, 6e9, FULL).any()
+    assert not NoWear().coefficient(PRESSURE, FULL).any()
     assert NoWear().slide((1.0, 0.0), 0) == 0.0
     growth, removal = NoTribofilm().evolve(*np.zeros((2, 2, 3)), *np.full((2, 2, 3), 1e4), 363.15)
     assert not thickness(growth, removal).any()

@@ -31,6 +31,7 @@ DEFINED = {
     "wear_volume": ("wear_depth_1 radius_x^2", "wear_rate_1 suggested_step"),
     **dict.fromkeys(("wear_depth", "approach", "h_c", "h_central", "h_min"), ("radius_x",)),
     **dict.fromkeys(("tribofilm", "tribofilm_roughness", "tribofilm_covered", "tribofilm_upper"), ("radius_x",)),
+    **dict.fromkeys(("tribofilm_grown", "tribofilm_removed", "oxide"), ("radius_x",)),
     **dict.fromkeys(("roughness", "roughness_ra", "roughness_raw"), ("radius_x",)),
     **dict.fromkeys(("lambda_ratio", "lambda_conventional"), ("h_c roughness_1^-1",)),
     "pressure_max": ("load radius_x^-2",),
@@ -83,7 +84,8 @@ COARSE = {
     "surface_1.correlation_length": "50 um",
     "surface_2.correlation_length": "50 um",
 }
-NEVER = {"unconverged", "blocks_dry", "blocks_mixed", "blocks_fallback"}  # in so short a run, or on so coarse a grid
+# in so short a run, or on so coarse a grid, or without the law
+NEVER = {"unconverged", "blocks_dry", "blocks_mixed", "blocks_fallback", "oxide_1", "oxide_2"}
 
 
 def run(scene: Scene, steps: int = 2) -> Iterator[Outputs]:

@@ -119,7 +119,7 @@ def test_wear_under_a_film_that_grows_within_a_block_is_of_second_order_in_the_s
     for time, weight in zip(0.5 * span * (1.0 + nodes), 0.5 * span * weights, strict=True):
         growth, removal = law.evolve(body.growth, body.removal, body.exposure * time, 0.0, op.bodies[i] + flash)
         cover = (growth - removal) / law.full_thickness
-        exact += weight * wear.coefficient(cover) * body.pressure
+        exact += weight * wear.coefficient(cover, law.full_thickness) * body.pressure
     exact *= abs((op.speed_1, op.speed_2)[i]) / scene.plasticity.hardness
     off = []
     for count in (1, 2, 4):

@@ -25,6 +25,7 @@ from ...reference.constants import BOLTZMANN
 from ..equations import Equations
 from .doses import DOSES
 from .fitted import Ghanbarzadeh, beyond_fit, fit_temperature, supply_rate, thickness
+from .relaxation import formed
 
 Array = NDArray[np.float64]
 Temperature = float | Array
@@ -82,6 +83,7 @@ class _Activated:
     """Growth by Bell's rate. The thickness is in `growth`, `removal` stays zero."""
 
     abrades: ClassVar[bool] = True
+    takes_abrasion: ClassVar[bool] = True
     beyond_fit: str = "extrapolate"
 
     full_thickness: float
@@ -127,6 +129,12 @@ class _Activated:
         now, both = thickness(growth, removal), exposed + abraded
         settled = self.full_thickness * np.divide(exposed, both, out=np.zeros_like(both), where=both > 0.0)
         return now - (settled - now) * np.expm1(-both), np.zeros_like(removal)
+
+    def formed(
+        self, growth: Array, removal: Array, after: Array, exposed: Array, abraded: Array, temperature: float
+    ) -> Array:
+        """Return the film formed [m] while `growth` went to `after`; the rest as in `evolve`."""
+        return formed(growth, after, self.full_thickness, exposed, abraded)
 
     def covers(self, temperature: float) -> bool:
         """Return True if a bulk `temperature` [K] is within 60 to 120 degC."""

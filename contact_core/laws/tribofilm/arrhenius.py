@@ -52,6 +52,7 @@ class Arrhenius:
         options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
     )
     abrades: ClassVar[bool] = False
+    takes_abrasion: ClassVar[bool] = False
 
     fitted_from: float = parameter("K", "temperature of the fits at one end of their range", least=200.0, most=600.0)
     fitted_to: float = parameter("K", "temperature of the fits at its other end", least=200.0, most=600.0)
@@ -182,6 +183,12 @@ class Arrhenius:
         left = maximum(self.largest(temperature) - growth, 0.0)
         stays = maximum(self.largest_removal(temperature) - removal, 0.0)
         return growth + left * formed, removal + stays * taken
+
+    def formed(
+        self, growth: Array, removal: Array, after: Array, exposed: Array, abraded: Array, temperature: float
+    ) -> Array:
+        """Return the film formed [m] while `growth` went to `after`; the rest as in `evolve`."""
+        return after - growth
 
     def covers(self, temperature: float) -> bool:
         """Return True if `temperature` [K] is between the fits or within 5 K of them."""

@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from ...quantities import parameter
 from ...reference.constants import BOLTZMANN, PLANCK
-from ..elementary import Numbers, expm1
+from ..elementary import Numbers
 from ..equations import Equations
 from .doses import DOSES
+from .relaxation import formed, mean, relaxed, rubbed, taken
 
 Array = NDArray[np.float64]
 Temperature = float | Array
@@ -54,9 +55,10 @@ def _refusal(fit: float, temperature: float, extrapolated: str) -> str:
 
 
 class _Unabraded:
-    """Laws without first-order removal."""
+    """Laws without first-order removal of their own."""
 
     abrades: ClassVar[bool] = False
+    takes_abrasion: ClassVar[bool] = True
 
     def abrasion(self, solid_pressure: Array, sliding_speed: float | Array, position: Array | None) -> Array:
         """Return zeros in the shape of `solid_pressure`."""
@@ -86,6 +88,12 @@ class NoTribofilm(_Unabraded):
     ) -> tuple[Array, Array]:
         """Return both variables as they are."""
         return growth, removal
+
+    def formed(
+        self, growth: Array, removal: Array, after: Array, exposed: Array, abraded: Array, temperature: float
+    ) -> Array:
+        """Return zeros in the shape of `growth`."""
+        return np.zeros_like(growth)
 
     def covers(self, temperature: float) -> bool:
         """Return True: nothing depends on the temperature."""
@@ -176,11 +184,23 @@ class Ghanbarzadeh(_Unabraded):
     ) -> tuple[Array, Array]:
         """Return both variables [m] after each node has been `exposed`, k t; exact for any of it.
 
-        Removal goes on beside growth, at the rate C4.
+        Removal goes on beside growth, at the rate C4. What is `abraded` leaves room to grow in.
         """
-        formed = -expm1(-exposed)
-        taken = -expm1(-self.removal_rate * exposed / max(self.rate(temperature), _SLOWEST))
-        return growth + (self.full_thickness - growth) * formed, removal + (self.removal_thickness - removal) * taken
+        limits = self.full_thickness, self.removal_thickness
+        return rubbed(growth, removal, limits, exposed, self._losing(exposed, temperature), abraded)
+
+    def _losing(self, exposed: Array, temperature: float) -> Array:
+        """Return C4 t for an exposure k t."""
+        return self.removal_rate * exposed / max(self.rate(temperature), _SLOWEST)
+
+    def formed(
+        self, growth: Array, removal: Array, after: Array, exposed: Array, abraded: Array, temperature: float
+    ) -> Array:
+        """Return the film formed [m] while `growth` went to `after`; the rest as in `evolve`."""
+        if not taken(abraded):
+            return after - growth
+        kept = mean(removal, self.removal_thickness, self._losing(exposed, temperature))
+        return formed(growth, after, self.full_thickness, exposed, abraded, kept)
 
     def covers(self, temperature: float) -> bool:
         """Return True if `temperature` [K] is within 5 K of the fit.
@@ -243,8 +263,15 @@ class Andersson(_Unabraded):
         self, growth: Array, removal: Array, exposed: Array, abraded: Array, temperature: float
     ) -> tuple[Array, Array]:
         """Return both variables [m] after each node took up `exposed` [J/m2]; exact for any energy."""
-        formed = -expm1(-self.growth_per_energy * exposed / self.full_thickness)
-        return growth + (self.full_thickness - growth) * formed, removal
+        forming = self.growth_per_energy * exposed / self.full_thickness
+        return relaxed(growth, self.full_thickness, forming, abraded), removal
+
+    def formed(
+        self, growth: Array, removal: Array, after: Array, exposed: Array, abraded: Array, temperature: float
+    ) -> Array:
+        """Return the film formed [m] while `growth` went to `after`; the rest as in `evolve`."""
+        forming = self.growth_per_energy * exposed / self.full_thickness
+        return formed(growth, after, self.full_thickness, forming, abraded)
 
     def covers(self, temperature: float) -> bool:
         """Return True if `temperature` [K] is within 5 K of the fit."""
