@@ -76,8 +76,20 @@ class Quantity:
         return measured(self.unit, DIFFERENCE if self.relative else "")
 
 
-def _pair(name: str, symbol: str, unit: str, text: str, **rest: Any) -> tuple[Quantity, Quantity]:
-    first, second = (Quantity(f"{name}_{i}", f"{symbol}_{i}", unit, f"{text}, body {i}", **rest) for i in (1, 2))
+def _pair(
+    name: str, symbol: str, unit: str, text: str, *, own_error: str = "", **rest: Any
+) -> tuple[Quantity, Quantity]:
+    """Return a quantity of each body; `own_error`: output of each body that states its error, without the number."""
+    first, second = (
+        Quantity(
+            f"{name}_{i}",
+            symbol and f"{symbol}_{i}",
+            unit,
+            f"{text}, body {i}",
+            **(rest | ({"error": f"{own_error}_{i}"} if own_error else {})),
+        )
+        for i in (1, 2)
+    )
     return first, second
 
 
@@ -119,7 +131,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("h_central", "h_central", "m", "gap at the centre of the contact: one node, of a rough contact no film thickness", nominal=1e-8, minimum=0.0, display="nm", trend="level"),
     Quantity("h_min", "h_min", "m", "smallest gap", nominal=1e-9, minimum=0.0, display="nm", levels=_FIELDS, trend="level"),
     Quantity("lambda_ratio", "lambda", "1", "h_c / composite rms roughness over the same area, at most 1000; of rough, deformed bodies: not the lambda of handbooks", minimum=0.0, trend="level", error="error_film"),
-    *_pair("tribofilm", "h_t", "m", "mean tribofilm thickness over the track |y| < b, all nodes", nominal=1e-8, minimum=0.0, display="nm", trend="slope", error="error_tribofilm"),
+    *_pair("tribofilm", "h_t", "m", "mean tribofilm thickness over the track |y| < b, all nodes", nominal=1e-8, minimum=0.0, display="nm", trend="slope", own_error="error_tribofilm"),
     *_pair("tribofilm_roughness", "Rq_t", "m", "rms deviation of the tribofilm thickness over |y| < 2b/3", nominal=1e-8, minimum=0.0, display="nm"),
     *_pair("tribofilm_grown", "h_g", "m", "tribofilm grown so far, mean over the track |y| < b", nominal=1e-8, minimum=0.0, display="nm"),
     *_pair("tribofilm_removed", "h_r", "m", "tribofilm removed so far, likewise: tribofilm_grown - tribofilm", nominal=1e-8, minimum=0.0, display="nm"),
@@ -151,7 +163,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("error_friction", "", "1", "half width (95 %) of friction_coefficient's error by all causes, relative", role="diagnostic", minimum=0.0),
     Quantity("error_film", "", "1", "half width (95 %) of h_c's error by all causes, relative", role="diagnostic", minimum=0.0),
     Quantity("error_load_ratio", "", "1", "half width (95 %) of contact_load_ratio's error by all causes, absolute", role="diagnostic", minimum=0.0),
-    Quantity("error_tribofilm", "", "1", "half width (95 %) of the mean tribofilms' error by all causes, relative, the larger one", role="diagnostic", minimum=0.0),
+    *_pair("error_tribofilm", "", "1", "half width (95 %) of the mean tribofilm's error by all causes, relative", role="diagnostic", minimum=0.0),
     Quantity("error_wear", "", "1", "half width (95 %) of the wear depths' error by all causes, relative, the larger one", role="diagnostic", minimum=0.0),
     Quantity("unconverged", "", "1", "share of the last block's film solutions that did not converge", role="diagnostic", minimum=0.0, maximum=1.0, levels=_FIELDS),
     Quantity("blocks_dry", "", "1", "solved blocks so far that dry contact pressures drove", role="diagnostic", minimum=0.0, levels=_BLOCKS),

@@ -101,6 +101,6 @@ def _error_outputs(scene: Scene, state: ContactState, values: dict[str, Any]) ->
         "error_friction": relative("friction_coefficient", out.friction_coefficient),
         "error_film": relative("h_c", out.h_c),
         "error_load_ratio": found["contact_load_ratio"].together,
-        "error_tribofilm": max(relative(name, values[name]) for name in ("tribofilm_1", "tribofilm_2")),
+        **{f"error_{name}": relative(name, values[name]) for name in ("tribofilm_1", "tribofilm_2")},
         "error_wear": max(relative(name, values[name]) for name in ("wear_depth_1", "wear_depth_2")),
     }

@@ -126,9 +126,8 @@ def half_widths(case: Case, contact: MeanContact) -> dict[str, Any]:
     gap is that of bodies that just touch: nothing is known of it.
     """
     if not case.loaded:
-        return dict.fromkeys(("error_friction", "error_load_ratio", "error_tribofilm", "error_wear"), 0.0) | {
-            "error_film": 1.0
-        }
+        none = ("error_friction", "error_load_ratio", "error_tribofilm_1", "error_tribofilm_2", "error_wear")
+        return dict.fromkeys(none, 0.0) | {"error_film": 1.0}
     force, share = abs(contact.solid + contact.fluid), contact.load_ratio
     sharing = regression_film(case.scene).sharing
     widths, clearance = sharing.WIDTHS, contact.fit.clearance
@@ -142,22 +141,29 @@ def half_widths(case: Case, contact: MeanContact) -> dict[str, Any]:
     friction = math.hypot(abs(solid - fluid) * load, abs(contact.fluid) * oil)
     wear = min(load / share, _UNKNOWN) if share > 0.0 else _UNKNOWN * bare
     exposed = min(math.hypot(beyond * _exposure_error(sharing), wear), _UNKNOWN)
+    grown = _LOCAL if case.scene.tribofilm.abrades else exposed
     return {
         "error_friction": min(friction / force, max(solid / force, 1.0)) if force > 0.0 else 0.0,
         "error_film": min(wider * widths.of_film(clearance), 1.0),
         "error_load_ratio": min(load, 1.0),
-        "error_tribofilm": _LOCAL if case.scene.tribofilm.abrades else exposed,
+        "error_tribofilm_1": grown,
+        "error_tribofilm_2": grown,
         "error_wear": wear,
     }
 
 
 def _of_history(before: Outputs, films: tuple[float, float], means: Means, now: dict[str, Any]) -> dict[str, float]:
     """Return the errors of tribofilms and wear: those of what was there and of what came, by their amounts."""
-    grown = abs(films[0] - before.tribofilm_1) + abs(films[1] - before.tribofilm_2)
     worn = max(means[0].wear - before.wear_depth_1 + means[1].wear - before.wear_depth_2, 0.0)
-    held, depth = before.tribofilm_1 + before.tribofilm_2, before.wear_depth_1 + before.wear_depth_2
+    depth = before.wear_depth_1 + before.wear_depth_2
+    was = (before.tribofilm_1, before.error_tribofilm_1), (before.tribofilm_2, before.error_tribofilm_2)
+    first, second = (
+        _mean_error(error, held, now["error_tribofilm_1"], abs(film - held))
+        for film, (held, error) in zip(films, was, strict=True)
+    )
     return {
-        "error_tribofilm": _mean_error(before.error_tribofilm, held, now["error_tribofilm"], grown),
+        "error_tribofilm_1": first,
+        "error_tribofilm_2": second,
         "error_wear": _mean_error(before.error_wear, depth, now["error_wear"], worn),
     }
 
@@ -179,7 +185,10 @@ def errors_of(scene: Scene, state: ContactState) -> dict[str, Error]:
     for body in (1, 2):
         given |= {
             f"{name}_{body}": getattr(out, f"{name}_{body}") * error
-            for name, error in (("tribofilm", out.error_tribofilm), ("wear_depth", out.error_wear))
+            for name, error in (
+                ("tribofilm", getattr(out, f"error_tribofilm_{body}")),
+                ("wear_depth", out.error_wear),
+            )
         }
     return {name: Error(curves=half) for name, half in given.items()}
 

@@ -22,7 +22,8 @@ NOISY = ("h_c", "lambda_ratio", "roughness_1")
 OUTPUTS = {
     "error_friction": ("friction_coefficient",),
     "error_film": ("h_c",),
-    "error_tribofilm": ("tribofilm_1", "tribofilm_2"),
+    "error_tribofilm_1": ("tribofilm_1",),
+    "error_tribofilm_2": ("tribofilm_2",),
     "error_wear": ("wear_depth_1", "wear_depth_2"),
 }
 MINUTES = (5, 10, 20, 30, 45, 60)
@@ -31,7 +32,8 @@ MINUTES = (5, 10, 20, 30, 45, 60)
 COVERED = {
     "error_friction": (5, 0.1),
     "error_film": (5, 0.1),
-    "error_tribofilm": (6, 0.04),
+    "error_tribofilm_1": (6, 0.04),
+    "error_tribofilm_2": (6, 0.04),
     "error_wear": (6, 0.04),
 }
 

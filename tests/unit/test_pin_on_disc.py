@@ -79,7 +79,7 @@ def test_the_regression_level_agrees_within_what_it_states_and_says_that_it_is_o
     for name, error in (
         ("friction_coefficient", "error_friction"),
         ("wear_volume_1", "error_wear"),
-        ("tribofilm_2", "error_tribofilm"),
+        ("tribofilm_2", "error_tribofilm_2"),
     ):
         mine, other = getattr(found, name), getattr(last, name)
         assert abs(mine - other) < getattr(found, error) * mine + getattr(last, error) * other, name
