@@ -114,6 +114,7 @@ PAGES: dict[str, Source] = {
     "surfaces/fit": Source("surfaces.fit", (*LEVELS, "fit", "mtm_zddp", "measurements")),
     "thesis/validation": Source("thesis.validation", ("film", "evolution", "control", *CIRCLES)),
     "regression/curves": Source("regression.curves check", (*LEVELS, "azam_case_a", "mtm_zddp")),
+    "regression/coverage": Source("regression.coverage", (*LEVELS, "azam_case_a", "mtm_zddp")),
     "regression/shapes": Source("regression.shapes page", (*LEVELS, "mtm_zddp", "fzg_flank", "ball_209_inner")),
     "regression/held_back": Source("regression.held_back", (*LEVELS, *SHAPES, "cam_tappet")),
     "regression/correlation": Source("regression.correlation", (*LEVELS, "correction", *SHAPES, "cam_tappet")),

@@ -23,9 +23,7 @@ from benchmarks.regression.points import (
     end_points,
     joined,
     observe_dry,
-    observe_rubbed,
     pass_points,
-    rubbed_points,
     run,
     sweep_points,
 )
@@ -37,7 +35,7 @@ GOLDEN = 9  # every ninth point of the sweep goes into the tests
 
 
 def sweep() -> dict[str, Columns]:
-    """The tables the curves are fitted to: dry contacts, first blocks, and blocks of a whole pass, hours of rubbing."""
+    """The tables the curves are fitted to: dry contacts, first blocks, and blocks of a whole pass."""
     return {
         "dry": joined(run(f"dry_{name}", dry_points(name), {}, observe_dry) for name in SCENES),
         "sweep": joined(
@@ -46,7 +44,6 @@ def sweep() -> dict[str, Columns]:
             for name in SCENES
         ),
         "pass": joined(run(f"pass_{name}", pass_points(name), WHOLE_PASS) for name in SCENES),
-        "rubbed": joined(run(f"rubbed_{name}", rubbed_points(name), {}, observe_rubbed) for name in SCENES),
     }
 
 
@@ -74,7 +71,7 @@ def write_page(*, fast: bool) -> None:
     """Fit, compare, and write what came out."""
     tables, solved = sweep(), deterministic()
     others = shared([*fitted_to(("circle", "ellipse", "light circle")), solved])
-    fit = Fit(FittedSharing(), tables["sweep"], others, tables["dry"], tables["pass"], tables["rubbed"])
+    fit = Fit(FittedSharing(), tables["sweep"], others, tables["dry"], tables["pass"])
     draw(fit).savefig(MEASURED / "regression" / "curves.png", dpi=130)
     lines = [
         "# The regression level: load-sharing curves and their errors",

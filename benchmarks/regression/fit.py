@@ -9,9 +9,8 @@ from matplotlib.figure import Figure
 from scipy.optimize import least_squares
 
 from benchmarks.pages import cells
-from benchmarks.regression.points import RUBBING, SCENES, Columns, solved
+from benchmarks.regression.points import SCENES, Columns, solved
 from contact_core import RangeFlag, Scene
-from contact_core.film import Regression
 from contact_core.laws.asperity_layer import SLOPE
 from contact_core.laws.load_sharing import FittedSharing, flattening_together, layer_height
 
@@ -19,8 +18,6 @@ RANGES = ((0.0, 0.05), (0.05, 0.2), (0.2, 1.0), (1.0, np.inf))
 MOST = 15.0  # of the weight of a load ratio
 LEAST = 1e-6  # of a constant
 FAR = 0.1  # residuals beyond which a point counts by its distance
-LITTLE = 0.25  # wear over composite roughness
-BODIES = ("rougher", "smoother")
 SWEPT = ("shipped", "amplitude", "length", "microroughness")  # groups of the sweep
 OF_OIL = ("oil_pressure_excess", "oil_pressure_decay", "oil_steepness", "oil_kept", "oil_spread")
 STUDENT = 1.96  # half width of a 95 % interval, in standard deviations
@@ -117,8 +114,7 @@ class Fit:
     """The law of a shape with its constants fitted one curve after the other.
 
     `sweep` and what `others` there are together make the sharing of the load, the area, the gap and the oil's pressure;
-    `dry` and `whole` passes, where there are any, the area of dry contacts and the exposure; tracks that have `rubbed`
-    for hours, the coverage and the smoothing.
+    `dry` and `whole` passes, where there are any, the area of dry contacts and the exposure.
     """
 
     def __init__(
@@ -128,9 +124,8 @@ class Fit:
         others: Columns | None = None,
         dry: Columns | None = None,
         whole: Columns | None = None,
-        rubbed: Columns | None = None,
     ) -> None:
-        tables = [table for table in (sweep, others, dry, whole, rubbed) if table is not None]
+        tables = [table for table in (sweep, others, dry, whole) if table is not None]
         self.refused = sum(int((~np.isfinite(table["contact_area_ratio"])).sum()) for table in tables)
         self.law, self.half_widths = law, dict[str, float]()
         self.sweep = Table(solved(sweep))
@@ -164,10 +159,6 @@ class Fit:
         if dry is not None and whole is not None:
             self.dry, self.whole = Table(solved(dry)), Table(solved(whole))
             self._fit_exposure()
-        if rubbed is not None:
-            self.rubbed = Rubbed(solved(rubbed))
-            for body in BODIES:
-                self._fit((f"exposure_spread_{body}",), self._coverage_residual(body))
         found = predicted(self.law, rows)
         self.scatter = {
             "W_c": float(np.std(found["W_c"] - rows.load_ratio)),
@@ -205,46 +196,11 @@ class Fit:
             for rougher, which in names.items():
                 self._fit(which, self._exposure_residual(whole, rougher, is_dry))
 
-    def _coverage_residual(self, body: str) -> Callable[[FittedSharing], Array]:
-        return lambda law: self.rubbed.coverage_misfit(law, body)[self.rubbed.fresh]
-
     @staticmethod
     def _exposure_residual(whole: Table, rougher: bool, dry: bool) -> Callable[[FittedSharing], Array]:
         seen = whole.columns["exposed_rougher" if rougher else "exposed_smoother"]
         within = covered(whole)
         return lambda law: within * law.exposed(whole.area_ratio, rougher=rougher, dry=dry) - seen
-
-
-class Rubbed:
-    """Tracks after up to two hours of rubbing: one number for each run and each of `RUBBING` minutes."""
-
-    def __init__(self, columns: Columns) -> None:
-        self.columns = columns
-
-    def of(self, name: str, body: str) -> Array:
-        """One of the numbers of a body [runs, minutes]."""
-        return np.stack([self.columns[f"{name}_{body}_{minute}"] for minute in RUBBING], axis=1)
-
-    def at(self, name: str) -> Array:
-        """One of the numbers of the contact [runs, minutes]."""
-        return np.stack([self.columns[f"{name}_{minute}"] for minute in RUBBING], axis=1)
-
-    def coverage_misfit(self, law: FittedSharing, body: str) -> Array:
-        """Coverage by the law, from the solved area and growth, less the solved one [runs, minutes]."""
-        rougher, area = body == "rougher", self.at("area")
-        wet, dry = (law.exposed(area, rougher=rougher, dry=dry) for dry in (False, True))
-        exposed = np.where(self.at("dry") > 0.0, dry, wet)
-        return law.coverage(exposed, self.of("growth", body), rougher=rougher) - self.of("coverage", body)
-
-    @property
-    def fresh(self) -> Array:
-        """Where wear has not yet brought other parts of the rougher body into contact [runs, minutes]."""
-        return self.of("worn", "rougher") < LITTLE
-
-    def smoothing(self) -> Array:
-        """`film.smoothing` of the rougher body of each run, from the roughness of its solid at the end."""
-        smoothed, worn = self.of("smoothed", "rougher"), self.of("worn", "rougher")
-        return -np.log(smoothed[:, -1]) / worn[:, -1]
 
 
 def told(columns: Columns) -> Columns:
@@ -459,16 +415,6 @@ def constants_page(fit: Fit) -> list[str]:
     film_off = np.log(film_off / rows.film_ratio)
     oil = Traction(rows)
     plain = oil.misfit(replace(fit.law, oil_pressure_excess=1e-9, oil_spread=1e-9, oil_kept=1.0))
-    smoothing = np.sort(fit.rubbed.smoothing())
-    covers = [
-        (
-            body,
-            f"{np.std(off[fit.rubbed.fresh]):.3f}",
-            f"{np.abs(off[fit.rubbed.fresh]).max():.3f}",
-            f"{np.abs(off).max():.3f}",
-        )
-        for body, off in ((body, fit.rubbed.coverage_misfit(fit.law, body)) for body in BODIES)
-    ]
     exposed = []
     for rougher in (True, False):
         seen = whole.columns["exposed_rougher" if rougher else "exposed_smoother"]
@@ -484,7 +430,7 @@ def constants_page(fit: Fit) -> list[str]:
         "34 of each scene with the roughness as shipped, 14 with 0.3 to 1 of its amplitude, 12 with 1.25 to 3 times its correlation length, "
         "16 with 0.2 to 2 times the rms height of its microroughness. "
         f"{rows.clearance.size - sweep.clearance.size} more points: the random ones below, and circles and ellipses over the ranges of a rig and of a ball bearing (shapes.md). "
-        f"Covered: {span}. {dry.clearance.size} dry contacts for the area, {whole.clearance.size} blocks of a whole pass for the exposure, {fit.rubbed.columns['load'].size} runs of two hours for the coverage. "
+        f"Covered: {span}. {dry.clearance.size} dry contacts for the area, {whole.clearance.size} blocks of a whole pass for the exposure. "
         f"Refused by the solver: {fit.refused}. {many} blocks of the sweep had more than a tenth of their instants not converged; they are kept.",
         "",
         "## Constants",
@@ -501,14 +447,6 @@ def constants_page(fit: Fit) -> list[str]:
         "",
         "Exposed share of each body's track |y| < b in a whole pass:",
         *table(("body", "scatter", "largest error"), exposed),
-        f"Coverage of each body's track over two hours of rubbing, {fit.rubbed.columns['load'].size} runs at {', '.join(map(str, RUBBING))} minutes: "
-        "the mean growth over that where it is rubbed, each node counting by its exposure, from the solved area and growth:",
-        *table(("body", "scatter", "largest error", "with more wear"), covers),
-        f"Fitted where less than {LITTLE:g} of the composite roughness is worn: wear then brings other parts into contact, and the coverage is larger than the curve's.",
-        "",
-        f"Smoothing by wear (`film.smoothing`), from the roughness of the rougher body's solid after two hours of the same runs: {smoothing[0]:.2g} to {smoothing[-1]:.2g}, "
-        f"median {np.median(smoothing):.2g}, shipped {Regression.smoothing:.2g}. It is faster at first, and slower the more is worn.",
-        "",
         "## Variables of W_c",
         "",
         "W_c does not depend on lambda alone: at the same lambda, roughness that is pressed flatter carries less, so do bodies with less "

@@ -158,8 +158,8 @@ class FittedSharing:
         "exposure_smoother": 1.5,
         "exposure_dry_rougher": 0.032,
         "exposure_dry_smoother": 0.19,
-        "exposure_spread_rougher": 0.023,
-        "exposure_spread_smoother": 0.021,
+        "exposure_spread_rougher": 0.017,
+        "exposure_spread_smoother": 0.053,
     }
 
     load_factor: float = parameter("", "B", above=0.0, most=100.0, default=0.267)
@@ -213,9 +213,9 @@ class FittedSharing:
         "", "k of the smoother body in blocks driven dry", above=0.0, most=1e3, default=3.16
     )
     exposure_spread_rougher: float = parameter(
-        "", "V, variance of the exposure over that of all or nothing, rougher body", above=0.0, most=0.99, default=0.557
+        "", "V, variance of the exposure over that of all or nothing, rougher body", above=0.0, most=0.99, default=0.708
     )
-    exposure_spread_smoother: float = parameter("", "V of the smoother body", above=0.0, most=0.99, default=0.231)
+    exposure_spread_smoother: float = parameter("", "V of the smoother body", above=0.0, most=0.99, default=0.801)
 
     def load_ratio(
         self,

@@ -59,7 +59,7 @@ def _dose(case: Case, side: Side, contact: MeanContact, mean: Mean, touching: fl
         moves=side.moves,
         exposed=exposed,
         touching=contact.area_ratio,
-        chord=case.unit_hertz.chord_share,
+        chord=case.unit_hertz.chord_share * _width(case),
         residence=_residence(case, side),
     )
     law: Any = case.scene.tribofilm
@@ -71,16 +71,17 @@ def _exposed(case: Case, side: Side, contact: MeanContact, mean: Mean) -> tuple[
     scene = case.scene
     first, second = scene.surface_1.rms, scene.surface_2.rms
     as_rougher = (True, False) if first == second else ((first > second) == (side.body == 0),)  # alike: between both
-    driver = scene.control.driver
+    driver, width = scene.control.driver, _width(case)
     dry = driver == "dry" or (driver == "auto" and contact.load_ratio > scene.control.dry_above)
+    dry &= DOSES[scene.tribofilm.dose].whole_pass  # it has fewer instants in a pass
     sharing = regression_film(scene).sharing
     curves = [sharing.exposed(contact.area_ratio, rougher=rougher, dry=dry) for rougher in as_rougher]
     exposed = sum(curves) / len(curves)
     if case.microroughness is None or exposed == 0.0:  # a point touches with all of its area, or not at all
-        return exposed, exposed
-    growth = mean.growth / scene.tribofilm.full_thickness
+        return width * exposed, width * exposed
+    growth = min(mean.growth / (width * scene.tribofilm.full_thickness), 1.0)
     shares = [sharing.coverage(exposed, growth, rougher=rougher) for rougher in as_rougher]
-    return exposed, sum(shares) / len(shares)
+    return width * exposed, width * sum(shares) / len(shares)
 
 
 def abrasion(case: Case, side: Side, contact: MeanContact) -> float:
@@ -121,7 +122,14 @@ def _residence(case: Case, side: Side) -> float:
     """Return the share of its time that a point of the track |y| < b is in Hertz's contact."""
     length = side.track_length if side.moves else case.scene.film.domain
     hertz = case.unit_hertz
-    return 2.0 * hertz.chord_share * hertz.a * hertz.growth(case.op.load)[0] / length
+    return 2.0 * hertz.chord_share * hertz.a * hertz.growth(case.op.load)[0] * _width(case) / length
+
+
+def _width(case: Case) -> float:
+    """Return the share of the track's width, Hertz's at the reference load, that passes through the contact."""
+    now, track = case.unit_hertz, case.scene.unit_hertz
+    width = now.growth(case.op.load)[1] * now.b
+    return min(width / (track.growth(case.scene.operation.load)[1] * track.b), 1.0)
 
 
 def wear_rate(case: Case, side: Side, contact: MeanContact, film: float, oxide: float) -> float:

@@ -240,7 +240,7 @@ def test_the_rubbed_ball_grows_the_laws_film_and_the_disc_what_its_rubbed_part_d
     assert ball.coverage > 0.98
     assert ball.growth == approx(growth[0], rel=0.03)
     assert ball.removal == approx(removal[0], rel=0.1)
-    assert 0.3 < disc.coverage < 0.6  # of a mean exposure of 0.2: its points are not rubbed all or nothing
+    assert 0.25 < disc.coverage < 0.6  # of a mean exposure of 0.2: its points are not rubbed all or nothing
     assert disc.growth < disc.coverage * law.full_thickness
 
 

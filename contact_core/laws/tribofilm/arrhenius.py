@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 
 from ...quantities import parameter
 from ...reference.constants import BOLTZMANN
-from ..elementary import Numbers, exp, expm1, maximum
+from ..elementary import Numbers, exp
 from ..equations import Equations
 from .doses import DOSES
 from .fitted import Ghanbarzadeh, fit_temperature, supply_rate
+from .relaxation import formed, mean, rubbed, taken
 
 Array = NDArray[np.float64]
 
@@ -52,7 +53,7 @@ class Arrhenius:
         options={"dose": {name: dose.equations for name, dose in DOSES.items()}},
     )
     abrades: ClassVar[bool] = False
-    takes_abrasion: ClassVar[bool] = False
+    takes_abrasion: ClassVar[bool] = True
 
     fitted_from: float = parameter("K", "temperature of the fits at one end of their range", least=200.0, most=600.0)
     fitted_to: float = parameter("K", "temperature of the fits at its other end", least=200.0, most=600.0)
@@ -177,18 +178,29 @@ class Arrhenius:
     def evolve(
         self, growth: Array, removal: Array, exposed: Array, abraded: Array, temperature: float
     ) -> tuple[Array, Array]:
-        """Return both variables [m] after each node has been `exposed`, k t; exact for any of it at one temperature."""
-        formed = -expm1(-exposed)
-        taken = -expm1(-self.taking(temperature) / self.rate(temperature) * exposed)
-        left = maximum(self.largest(temperature) - growth, 0.0)
-        stays = maximum(self.largest_removal(temperature) - removal, 0.0)
-        return growth + left * formed, removal + stays * taken
+        """Return both variables [m] after each node has been `exposed`, k t; exact for any of it at one temperature.
+
+        What is `abraded` leaves room to grow in.
+        """
+        limits, forming, losing = self._towards(growth, removal, exposed, temperature)
+        return rubbed(growth, removal, limits, forming, losing, abraded)
 
     def formed(
         self, growth: Array, removal: Array, after: Array, exposed: Array, abraded: Array, temperature: float
     ) -> Array:
         """Return the film formed [m] while `growth` went to `after`; the rest as in `evolve`."""
-        return after - growth
+        if not taken(abraded):
+            return after - growth
+        limits, forming, losing = self._towards(growth, removal, exposed, temperature)
+        return formed(growth, after, limits[0], forming, abraded, mean(removal, limits[1], losing))
+
+    def _towards(
+        self, growth: Array, removal: Array, exposed: Array, temperature: float
+    ) -> tuple[tuple[float, float], Array, Array]:
+        """Return h_max and C3 [m], and both rates times the time; what is beyond its limit stands still."""
+        limits = self.largest(temperature), self.largest_removal(temperature)
+        ratio = self.taking(temperature) / self.rate(temperature)
+        return limits, exposed * (growth < limits[0]), ratio * exposed * (removal < limits[1])
 
     def covers(self, temperature: float) -> bool:
         """Return True if `temperature` [K] is between the fits or within 5 K of them."""
