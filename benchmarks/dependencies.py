@@ -42,6 +42,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "data": ("contact_core/data/*.toml", "-contact_core/data/scenes/*"),
     "azam_case_a": ("contact_core/data/scenes/azam_case_a.toml",),
     "mtm_zddp": ("contact_core/data/scenes/mtm_zddp.toml",),
+    "thesis": ("contact_core/data/scenes/azam_case_a_thesis.toml", "contact_core/data/scenes/mtm_zddp_thesis.toml"),
     "fzg_flank": ("contact_core/data/scenes/fzg_flank.toml",),
     "ball_209_inner": ("contact_core/data/scenes/ball_209_inner.toml",),
     "dimple_rolling": ("contact_core/data/scenes/dimple_rolling.*",),
@@ -102,7 +103,7 @@ PAGES: dict[str, Source] = {
     "surfaces/stribeck": Source(
         "surfaces.stribeck", ("film", "evolution", "control", "stribeck", *SHAPES, "cam_tappet")
     ),
-    "thesis/validation": Source("thesis.validation", ("film", "evolution", "control", *CIRCLES)),
+    "thesis/validation": Source("thesis.validation", ("film", "evolution", "control", *CIRCLES, "thesis")),
     "regression/curves": Source("regression.curves check", (*LEVELS, "azam_case_a", "mtm_zddp")),
     "regression/shapes": Source("regression.shapes page", (*LEVELS, "mtm_zddp", "fzg_flank", "ball_209_inner")),
     "regression/held_back": Source("regression.held_back", (*LEVELS, *SHAPES, "cam_tappet")),

@@ -28,8 +28,8 @@ MIXED = Experiment("all blocks driven by mixed lubrication", {"A": "A_mixed"})
 
 def in_the_track(get: Get) -> Finding:
     run = get("A")
-    film = [run.map(f"film_{i}_20") for i in (1, 2)]
-    shares = [f[inside(run, 1.2)].sum() / f.sum() for f in film]
+    film = [(name, run.map(name)) for name in ("film_1_20", "film_2_20")]
+    shares = [f[inside(run, 1.2, name)].sum() / f.sum() for name, f in film]
     return Finding(f"ball {100 * shares[0]:.1f} %, disc {100 * shares[1]:.1f} %", min(shares) >= 0.95)
 
 
@@ -46,7 +46,7 @@ def _mean_grows(get: Get) -> Finding:
 
 def _patchy(get: Get) -> Finding:
     run = get("A")
-    film = run.map("film_2_20")[inside(run)]
+    film = run.map("film_2_20")[inside(run, field="film_2_20")]
     ratio = float(film.std() / film.mean())
     return Finding(f"{ratio:.2f}", ratio > 0.25)
 

@@ -22,16 +22,12 @@ from benchmarks.thesis.rows import (
 )
 from contact_core.reference import hamrock_dowson
 
-OWN = Experiment(
-    "wear by each body's own speed",
-    {"A": "A_own_speed_srr-2", "B": "B_own_speed", "B_bare": "B_bare_own_speed"},
-)
 WHITE = Experiment("correlation length of one node", {"A": "A_white", "B": "B_white", "B_bare": "B_bare_white"})
 THIN = Experiment("viscosity for λ = 0.04", {"A": "A_thin", "B": "B_thin", "B_bare": "B_bare_thin"})
 MIXED = Experiment("all blocks driven by mixed lubrication", {"A": "A_mixed", "B": "B_mixed"})
 NO_FILM = Experiment("without tribofilm", {"A": "A_bare"})
 SET_A = Experiment("set A instead of B", {"B": "A", "B_bare": "A_bare"})
-BOTH = (OWN, WHITE, THIN, MIXED)
+BOTH = (WHITE, THIN, MIXED)
 PAIR = (SET_A, *BOTH)
 
 
