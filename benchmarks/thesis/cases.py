@@ -15,7 +15,8 @@ from benchmarks.dependencies import kept
 from contact_core import ContactError, ContactState, Scene, advance, initial_state, uncertainty
 from contact_core.laws.tribofilm import thickness
 from contact_core.scene.toml import flat
-from contact_core.surfaces.patches import bare_heights, heights_of
+from contact_core.surfaces.patches import bare_heights, heights_of, roughness_of
+from contact_core.surfaces.roughness import rms_roughness
 
 KEPT = kept("thesis/validation")
 INTERVAL = 60.0  # s between two rows
@@ -49,7 +50,12 @@ THIN_A = {"lubricant.viscosity.viscosity": "0.65 mPa s"}
 THIN_B = {"lubricant.viscosity.viscosity": "1.7 mPa s"}
 NEAR_WHITE = {"surface_1.correlation_length": "4 um", "surface_2.correlation_length": "4 um"}
 
-OURS = ("ours",)  # numerics of experiments, scatter and costly cases
+CLOCK = {"tribofilm.dose": "clock"}
+BY_SLIDING = {"wear.sliding": "difference"}
+WHITE_129 = {"film.points": "129", "surface_1.correlation_length": "3.90625 um", "surface_2.correlation_length": "3.90625 um"}
+
+OURS = ("ours",)  # columns of experiments, scatter and costly cases
+JOINT = ("joint",)
 
 Array = np.ndarray
 
@@ -143,6 +149,18 @@ def _cases() -> list[Case]:
             "A_andersson", a, "set A, SRR +2 %, Andersson's law", {"tribofilm.set": "andersson_90c"}, 2.0
         ),
         Case("A_length", a, "set A, dose by contact length", {"tribofilm.dose": "contact_length"}, numerics=OURS),
+        Case("A_clock", a, "set A, dose by the clock", CLOCK, numerics=(*OURS, *JOINT)),
+        Case("B_sliding", b, "set B, wear by u_1 - u_2", BY_SLIDING, numerics=JOINT),
+        Case("B_bare_sliding", b, "set B without additive, wear by u_1 - u_2", BARE | BY_SLIDING, numerics=JOINT),
+        Case("A_129", a, "set A on 129 nodes, white on them, first instant", WHITE_129, numerics=JOINT, rubs=False),
+        Case(
+            "A_smooth_fitted",
+            a,
+            "set A, smooth bodies, fitted flow, first instant",
+            SMOOTH | {"film.flux": "fitted"},
+            numerics=JOINT,
+            rubs=False,
+        ),
         Case("A_white", a, "set A, correlation length of one node", NEAR_WHITE, numerics=OURS),
         Case("B_white", b, "set B, correlation length of one node", NEAR_WHITE, numerics=OURS),
         Case(
@@ -205,11 +223,16 @@ def _films(state: ContactState) -> list[Array]:
 
 
 def _row(scene: Scene, state: ContactState) -> dict[str, float]:
-    """Outputs, their errors by time steps and by sampling, and means over the whole patches."""
+    """Outputs, their errors by time steps and by sampling, means over the whole patches, roughness under the films."""
     row: dict[str, float] = {"time": state.time, **asdict(state.outputs)}
     for name, error in uncertainty(scene, state).items():
         row |= {f"{name}.by_steps": error.time, f"{name}.by_sampling": error.sampling}
+    bare, a = bare_heights(scene, state.rows), scene.hertz(scene.operation.load).a
     for i, (body, film) in enumerate(zip(state.bodies, _films(state), strict=True), 1):
+        rows = film.shape[0]
+        middle = np.abs(np.arange(rows) - 0.5 * (rows - 1)) * scene.film.spacing < 2.0 / 3.0 * a
+        steel = roughness_of(bare[i - 1], heights_of(bare[i - 1], body) - film)
+        row |= {f"roughness_steel_{i}": rms_roughness(steel, middle)}
         row |= {f"grown_{i}": body.growth.mean(), f"removed_{i}": body.removal.mean(), f"film_{i}": film.mean()}
         row |= {f"plastic_{i}": body.plastic.mean()}
     return row
