@@ -52,7 +52,11 @@ NEAR_WHITE = {"surface_1.correlation_length": "4 um", "surface_2.correlation_len
 
 CLOCK = {"tribofilm.dose": "clock"}
 BY_SLIDING = {"wear.sliding": "difference"}
-WHITE_129 = {"film.points": "129", "surface_1.correlation_length": "3.90625 um", "surface_2.correlation_length": "3.90625 um"}
+WHITE_129 = {
+    "film.points": "129",
+    "surface_1.correlation_length": "3.90625 um",
+    "surface_2.correlation_length": "3.90625 um",
+}
 
 OURS = ("ours",)  # columns of experiments, scatter and costly cases
 JOINT = ("joint",)
@@ -145,9 +149,7 @@ def _cases() -> list[Case]:
     no_removal = {"tribofilm.removal_thickness": "0 nm"}
     found += [
         Case("A_no_removal", a, "set A, SRR +2 %, film without removal", no_removal, 2.0),
-        Case(
-            "A_andersson", a, "set A, SRR +2 %, Andersson's law", {"tribofilm.set": "andersson_90c"}, 2.0
-        ),
+        Case("A_andersson", a, "set A, SRR +2 %, Andersson's law", {"tribofilm.set": "andersson_90c"}, 2.0),
         Case("A_length", a, "set A, dose by contact length", {"tribofilm.dose": "contact_length"}, numerics=OURS),
         Case("A_clock", a, "set A, dose by the clock", CLOCK, numerics=(*OURS, *JOINT)),
         Case("B_sliding", b, "set B, wear by u_1 - u_2", BY_SLIDING, numerics=JOINT),

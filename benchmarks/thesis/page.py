@@ -111,7 +111,9 @@ def _listed(names: Sequence[str]) -> str:
 def _claims(chapter: int, found: Found) -> Lines:
     columns = [NAMES[kind] for kind in KINDS]
     seeded = [kind for kind in KINDS if any(verdicts[kind].seeds for _, verdicts in found)]
-    lines = table("", "figure", "the thesis shows", "agrees if", *columns, *(f"{NAMES[kind]}, seeds" for kind in seeded))
+    lines = table(
+        "", "figure", "the thesis shows", "agrees if", *columns, *(f"{NAMES[kind]}, seeds" for kind in seeded)
+    )
     for k, (claim, verdicts) in enumerate(found, 1):
         texts = [_cell(verdicts[kind]) for kind in KINDS]
         seeds = [verdicts[kind].seeds.replace("/", " of ") for kind in seeded]
@@ -128,7 +130,11 @@ def _cell(judged: Judged) -> str:
 def _causes(chapter: int, found: Found) -> Lines:
     lines = []
     for k, (claim, verdicts) in enumerate(found, 1):
-        said = [f"  - {NAMES[kind]}: {'; '.join(verdicts[kind].causes).rstrip('.')}." for kind in KINDS if verdicts[kind].causes]
+        said = [
+            f"  - {NAMES[kind]}: {'; '.join(verdicts[kind].causes).rstrip('.')}."
+            for kind in KINDS
+            if verdicts[kind].causes
+        ]
         agrees = all(verdicts[kind].verdict == "agree" for kind in KINDS)
         if said or (claim.remark and not agrees):
             lines += [f"- **{chapter}.{k}** {claim.shows}. {claim.remark}".rstrip(), *said]
