@@ -162,8 +162,11 @@ def _tables(book: Book) -> Lines:
             "",
         ]
         lines += [*scatter(book, kind), ""]
-    missing = [
-        f"{case.name} ({kind})" for case in CASES.values() for kind in case.numerics if not book.has(case.name, kind)
-    ]
-    lines += ["## Runs", "", f"Not run: {', '.join(missing) or 'none'}.", "", *runs(book)]
+    made = [(case.name, kind) for case in CASES.values() for kind in case.numerics]
+    missing = [f"{name} ({kind})" for name, kind in made if not book.has(name, kind)]
+    lines += ["## Runs", "", f"Not run: {', '.join(missing) or 'none'}.", ""]
+    earlier = [f"{name} ({kind})" for name, kind in made if book.is_earlier(name, kind)]
+    if earlier:
+        lines += [f"By earlier sources, of the same scenes: {', '.join(earlier)}.", ""]
+    lines += runs(book)
     return lines

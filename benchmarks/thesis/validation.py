@@ -18,6 +18,7 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from fnmatch import fnmatchcase
 from multiprocessing import get_context
 
+from benchmarks.dependencies import stamp
 from benchmarks.folders import MEASURED
 from benchmarks.thesis.cases import CASES, KEPT, NUMERICS, Book, Case, Trial, run
 from benchmarks.thesis.page import page
@@ -80,7 +81,10 @@ def main() -> None:
     place = DOCS if trial.real else KEPT / "trial"
     place.mkdir(parents=True, exist_ok=True)
     pictures = draw(book, place)
-    (place / "validation.md").write_text(page(book, pictures))
+    text = page(book, pictures)
+    if trial.real and not args.earlier:
+        text += f"\n{stamp('thesis/validation')}\n"
+    (place / "validation.md").write_text(text, "utf-8")
     print(f"{place / 'validation.md'} and {len(pictures)} plots written.")
     sys.exit(1 if failed else 0)
 
