@@ -26,7 +26,8 @@ orders are compared, and numbers where its text gives them.
 
 Each case is two hours of rubbing, one row per minute, in three columns. **Ours**: the scenes `azam_case_a` and `mtm_zddp` as shipped.
 **Thesis numerics**: the same on the thesis's grid of 129x129 nodes on 0.5 mm, with upwind flow and one pressure for fluid and solid (`film.criterion =
-lumped`), floor 0.47 nm, nothing rough below the grid, all blocks driven by mixed lubrication; growth by the clock, wear by u_1 - u_2.
+lumped`), floor 0.47 nm, nothing rough below the grid, all blocks driven by mixed lubrication, at most 60 iterations (it never converges: 300 give the same to 1 %);
+growth by the clock, wear by u_1 - u_2.
 **Joint reading**: the shipped scenes `azam_case_a_thesis` and `mtm_zddp_thesis`, in which all conventions are together under which the thesis's
 figures come out: roughness white on the grid (65x65 nodes), growth while a node touches (`tribofilm.dose = contact_length`), wear by each body's own
 speed, hardness by all plastic depth so far, upwind flow. Time steps and sampling of the moving surfaces are equal in all.

@@ -6,7 +6,7 @@ form that shows that the thesis contradicts itself.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -94,24 +94,34 @@ def judge(claim: Claim, book: Book, numerics: str) -> Judged:
 
 
 def _causes(claim: Claim, book: Book, numerics: str) -> Iterator[str]:
-    """Yield what makes the claim hold, with its numbers, and the names of the other experiments."""
+    """Yield what makes the claim hold, with its numbers, and the names of the other experiments.
+
+    Beside a column's own experiments: the joint reading, and if nothing makes the claim hold, experiments on that.
+    """
     if claim.contradiction:
         yield f"{CLOSED}: {claim.contradiction}"
-    made = [entry for entry in claim.experiments if entry.runs_in(numerics)]
-    tried = [(entry.text, found) for entry in made if (found := _tried(entry, claim, book.getter(numerics)))]
-    short = len(made) - len(tried)
-    if numerics != JOINT and (joint := _tried(Experiment("the joint reading"), claim, book.getter(JOINT))):
-        tried.append(("the joint reading", joint))
+    tried, missing = _all_tried(claim, book, numerics)
+    if numerics != JOINT:
+        tried += _all_tried(replace(claim, experiments=(Experiment("joint reading"),)), book, JOINT)[0]
+        if not any(found.holds for _, found in tried):
+            tried += [(f"joint reading, {text}", found) for text, found in _all_tried(claim, book, JOINT)[0]]
     for text, found in tried:
         if found.holds:
             yield f"{TURNED} *{text}*: {found.text}"
     idle = [text for text, found in tried if not found.holds]
     if idle:
         yield f"not by {', '.join(f'*{text}*' for text in idle)}"
-    if short:
-        yield f"experiments not run yet: {short}"
+    if missing:
+        yield f"experiments not run yet: {missing}"
     elif idle and len(idle) == len(tried) and not claim.contradiction:
         yield "cause not found by these experiments"
+
+
+def _all_tried(claim: Claim, book: Book, numerics: str) -> tuple[list[tuple[str, Finding]], int]:
+    """The experiments of a column with what they found, and how many lack their runs."""
+    made = [entry for entry in claim.experiments if entry.runs_in(numerics)]
+    tried = [(entry.text, found) for entry in made if (found := _tried(entry, claim, book.getter(numerics)))]
+    return tried, len(made) - len(tried)
 
 
 def _tried(experiment: Experiment, claim: Claim, get: Get) -> Finding | None:
