@@ -26,14 +26,16 @@ orders are compared, and numbers where its text gives them.
 
 Each case is two hours of rubbing, one row per minute, in three columns. **Ours**: the scenes `azam_case_a` and `mtm_zddp` as shipped.
 **Thesis numerics**: the same on the thesis's grid of 129x129 nodes on 0.5 mm, with upwind flow and one pressure for fluid and solid (`film.criterion =
-lumped`), floor 0.47 nm, nothing rough below the grid, all blocks driven by mixed lubrication, at most 60 iterations (it never converges: 300 give the same to 1 %);
+lumped`), floor 0.47 nm, nothing rough below the grid, all blocks driven by mixed lubrication, 20 iterations an instant (one pressure never converges; 300 give
+the first instant to 1 %);
 growth by the clock, wear by u_1 - u_2.
 **Joint reading**: the shipped scenes `azam_case_a_thesis` and `mtm_zddp_thesis`, in which all conventions are together under which the thesis's
 figures come out: roughness white on the grid (65x65 nodes), growth while a node touches (`tribofilm.dose = contact_length`), wear by each body's own
 speed, hardness by all plastic depth so far, upwind flow. Time steps and sampling of the moving surfaces are equal in all.
 
-A disagreement has its cause shown if an experiment turns it: a run in which one thing is different, another measure of the same run, or, for the first two
-columns, the joint reading; or if a closed form shows that the thesis's printed inputs cannot give its figure.
+A disagreement has its cause shown if an experiment turns it: a run that differs in what its text says, another measure of the same run, or, for the first two
+columns, the joint reading or an experiment on it; or if a closed form shows that the thesis's printed inputs cannot give its figure. Two differences are needed where
+the thesis's contact stays in boundary lubrication for two hours though wear by own speed would flatten it: dry contacts drive the blocks, and u_1 - u_2 wears.
 
 Set A: `azam_case_a` (u_e 0.25 m/s, 90 °C, SRR -2 % unless stated). Set B: `mtm_zddp` (0.1 m/s, 80 °C, SRR +5 %). Body 1 is the
 ball, body 2 the disc; SRR = 2 (u_ball - u_disc) / (u_ball + u_disc). h_c: mean gap over r < 2a/3. λ = h_c / composite rms
@@ -141,7 +143,7 @@ def _causes(chapter: int, found: Found) -> Lines:
             lines += [f"- **{chapter}.{k}** {claim.shows}. {claim.remark}".rstrip(), *said]
     if not lines:
         return []
-    note = "Experiments: the same measure on runs with one difference, or another measure on the same runs."
+    note = "Experiments: the same measure on runs that differ in what is said, or another measure on the same runs."
     return ["### Causes of disagreement", "", note, "", *lines]
 
 

@@ -1,6 +1,6 @@
 """Judgement of a claim of the thesis: a measure gives a text and whether the claim holds; the verdict follows.
 
-Where a claim does not hold, experiments look for the cause: the same measure on runs in which one thing is different,
+Where a claim does not hold, experiments look for the cause: the same measure on runs that differ in something,
 or another measure on the same runs; the joint reading, in which all conventions of the thesis are together; or a closed
 form that shows that the thesis contradicts itself.
 """
@@ -28,7 +28,7 @@ Measure = Callable[[Get], Finding]
 
 @dataclass(frozen=True)
 class Experiment:
-    """One thing done differently: other runs in place of some, or another measure."""
+    """Something done differently: other runs in place of some, or another measure."""
 
     text: str
     swap: Mapping[str, str] = field(default_factory=dict)

@@ -204,7 +204,7 @@ CLAIMS = (
     Claim("5-10", "overshoot larger at larger SRR", "A, ball, -10 to +10 %: peak / end larger at ±10 than at ±0.5 %, by more than 1 %", _overshoot_with_srr, (SLIDING,)),
     Claim("5-11", "same course as Ghanbarzadeh's, lower", "A, ball, covered nodes: mean over time below that of the closed form (always rubbed), correlation > 0.8", _below_closed_form("tribofilm_covered_1"), (LENGTH, CLOCK, DRY, WHITE, *_whole_domain(_below_closed_form("film_1")))),
     Claim("5-12", "lower film at higher positive SRR", "A, ball, +0.5, 2, 5, 10 %: mean over time falls", _lower_with_srr, (SLIDING,), "Compare the spread with the scatter of the surfaces below."),
-    Claim("5-12/5-13", "overshoot; none in Andersson's, who has no removal", "A, +2 %, ball: peak / end > 1.1, and < 1.02 with Andersson's law", _without_removal("A_andersson"), (Experiment("our law without its removal", measure=_without_removal("A_no_removal")),), "C5 and C6 of Andersson's law are assumed."),
+    Claim("5-12/5-13", "overshoot; none in Andersson's, who has no removal", "A, +2 %, ball: peak / end > 1.1, and < 1.02 with Andersson's law", _without_removal("A_andersson"), (SLIDING, Experiment("our law without its removal", measure=_without_removal("A_no_removal")),), "C5 and C6 of Andersson's law are assumed."),
     Claim("5-12/5-13", "lower than Andersson's", "—", lambda get: Finding(_below("A_no_removal")(get).text), (), "His constants C5 and C6 are not printed; the numbers are ours with and without removal."),
     Claim("5-14", "80 °C: steady growth over a longer period", "B, ball: 90 % of the peak after 30 min", _slow_rise),
     Claim("5-14", "80 °C: overshoot not produced", "B, ball: peak / end < 1.1", _no_overshoot),
