@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import math
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
@@ -13,37 +14,53 @@ import numpy as np
 from benchmarks.dependencies import kept
 from contact_core import ContactError, ContactState, Scene, advance, initial_state, uncertainty
 from contact_core.laws.tribofilm import thickness
-from contact_core.surfaces.patches import bare_heights, heights_of
+from contact_core.scene.toml import flat
+from contact_core.surfaces.patches import bare_heights, heights_of, roughness_of
+from contact_core.surfaces.roughness import rms_roughness
 
 KEPT = kept("thesis/validation")
 INTERVAL = 60.0  # s between two rows
 SNAPSHOTS = (1, 5, 10, 20)  # minutes at which the tribofilm is kept whole
 SRR = (-10.0, -5.0, -2.0, -0.5, 0.5, 2.0, 5.0, 10.0)  # percent
-SURFACE_SRR = (-10.0, -2.0, 2.0, 10.0)
 SEEDS = (1, 2, 3, 4, 5)
 
+# Columns of the page: changes of the shipped scenes. "ours" has none; "joint" has scenes of its own.
 NUMERICS: dict[str, dict[str, str]] = {
-    "ours": {},
     "thesis": {
         "film.points": "129",
         "film.domain": "0.5 mm",
         "film.criterion": "lumped",
+        "film.flux": "upwind",
         "film.floor": "0.47 nm",
         "surface_1.microroughness.rms": "0 nm",
         "surface_2.microroughness.rms": "0 nm",
+        "plasticity.indentation": "none",
+        "tribofilm.dose": "clock",
+        "wear.sliding": "difference",
         "control.driver": "mixed",
+        "film.iterations": "20",  # one pressure never converges on this grid; 300 give the first instant to 1 %
     },
+    "ours": {},
+    "joint": {},
 }
 BARE = {"tribofilm.model": "none"}
-BY_OWN_SPEED = {"wear.sliding": "surface_speed"}
-MIXED = {"control.driver": "mixed"}
 SMOOTH = {**BARE, "surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "wear.model": "none"}
-# viscosities at which Hamrock and Dowson's film is 0.04 of the composite roughness
-THIN_A = {"lubricant.viscosity.viscosity": "0.65 mPa s"}
-THIN_B = {"lubricant.viscosity.viscosity": "1.7 mPa s"}
+# viscosity at which Hamrock and Dowson's film is 0.04 of the composite roughness
+THIN = {"lubricant.viscosity.viscosity": "0.65 mPa s"}
 NEAR_WHITE = {"surface_1.correlation_length": "4 um", "surface_2.correlation_length": "4 um"}
 
-OURS = ("ours",)  # numerics of experiments, scatter and costly cases
+CLOCK = {"tribofilm.dose": "clock"}
+DRY = {"control.driver": "dry"}
+DRY_SLIDING = DRY | {"wear.sliding": "difference"}
+LESS_WEAR = {"wear.bare": "3e-6", "wear.film": "3e-7"}
+WHITE_129 = {
+    "film.points": "129",
+    "surface_1.correlation_length": "3.90625 um",
+    "surface_2.correlation_length": "3.90625 um",
+}
+
+OURS = ("ours",)  # columns of experiments, scatter and costly cases
+JOINT = ("joint",)
 
 Array = np.ndarray
 
@@ -80,14 +97,16 @@ class Case:
     text: str
     changes: Mapping[str, str] = field(default_factory=dict)
     srr: float | None = None
-    numerics: tuple[str, ...] = ("ours", "thesis")
+    numerics: tuple[str, ...] = tuple(NUMERICS)
     rubs: bool = True  # else its first instant only
 
     def in_numerics(self, numerics: str, trial: Trial) -> Scene:
         """The scene that is run."""
+        name = f"{self.scene}_thesis" if numerics == "joint" else self.scene
         changes = {**NUMERICS[numerics], **self.changes, **trial.changes()}
+        changes = {key: value for key, value in changes.items() if not _dropped(key, self.changes)}
         if self.srr is not None:
-            point = Scene.from_toml(self.scene).operation.point
+            point = Scene.from_toml(name).operation.point
             for i, sign in ((1, 1.0), (2, -1.0)):
                 speed = point.entrainment_speed * (1.0 + sign * self.srr / 200.0)
                 changes[f"operation.speed_{i}"] = f"{speed:.9g} m/s"
@@ -95,9 +114,9 @@ class Case:
             node = 500.0 / (trial.points - 1)
             for i in (1, 2):
                 key = f"surface_{i}.correlation_length"
-                length = float(changes.get(key, "8 um").split()[0])
+                length = float(changes.get(key, "7.8125 um" if numerics == "joint" else "8 um").split()[0])
                 changes[key] = f"{max(length, 1.001 * node):.6g} um"
-        return Scene.from_toml(self.scene, changes)
+        return Scene.from_toml(name, changes)
 
     def file(self, numerics: str, trial: Trial) -> Path:
         """File of the results; its name contains a fingerprint of all inputs."""
@@ -107,9 +126,16 @@ class Case:
         return KEPT / f"{self.name}-{numerics}-{hashlib.sha256(put_in.encode()).hexdigest()[:12]}.npz"
 
 
+def _dropped(key: str, changes: Mapping[str, str]) -> bool:
+    """Whether a convention of a column belongs to a law that a case replaces."""
+    slot = key.split(".")[0]
+    other = changes.get(f"{slot}.model") or changes.get(f"{slot}.set")
+    return other is not None and key not in changes
+
+
 def srr_name(srr: float, group: str = "A") -> str:
-    """Name of the case A at a slide-to-roll ratio [%]."""
-    return group if (group, srr) == ("A", -2.0) else f"{group}_srr{srr:+g}"
+    """Name of a case of set A at a slide-to-roll ratio [%]."""
+    return group if srr == -2.0 else f"{group}_srr{srr:+g}"
 
 
 def _cases() -> list[Case]:
@@ -120,41 +146,37 @@ def _cases() -> list[Case]:
         Case("B", b, "set B, 80 degC"),
         Case("B_bare", b, "set B without additive", BARE),
     ]
-    found += [
-        Case(
-            srr_name(srr, "A_own_speed"),
-            a,
-            f"set A, SRR {srr:+g} %, wear by own speed",
-            BY_OWN_SPEED,
-            srr,
-            numerics=OURS,
-        )
-        for srr in SURFACE_SRR
-    ]
     # experiments that look for the cause of a difference
+    sliding = "boundary lubrication, wear by u_1 - u_2"
     no_removal = {"tribofilm.removal_thickness": "0 nm"}
     found += [
-        Case("B_own_speed", b, "set B, wear by own speed", BY_OWN_SPEED, numerics=OURS),
-        Case("B_bare_own_speed", b, "set B without additive, wear by own speed", BARE | BY_OWN_SPEED, numerics=OURS),
-        Case("A_no_removal", a, "set A, SRR +2 %, film without removal", no_removal, 2.0, numerics=OURS),
-        Case(
-            "A_andersson", a, "set A, SRR +2 %, Andersson's law", {"tribofilm.set": "andersson_90c"}, 2.0, numerics=OURS
-        ),
+        Case("A_no_removal", a, "set A, SRR +2 %, film without removal", no_removal, 2.0),
+        Case("A_andersson", a, "set A, SRR +2 %, Andersson's law", {"tribofilm.set": "andersson_90c"}, 2.0),
         Case("A_length", a, "set A, dose by contact length", {"tribofilm.dose": "contact_length"}, numerics=OURS),
-        Case("A_white", a, "set A, correlation length of one node", NEAR_WHITE, numerics=OURS),
-        Case("B_white", b, "set B, correlation length of one node", NEAR_WHITE, numerics=OURS),
-        Case(
-            "B_bare_white",
-            b,
-            "set B without additive, correlation length of one node",
-            BARE | NEAR_WHITE,
-            numerics=OURS,
+        Case("A_clock", a, "set A, dose by the clock", CLOCK, numerics=OURS),
+        Case("A_dry", a, "set A, boundary lubrication", DRY, numerics=JOINT),
+        *(
+            Case(srr_name(srr, "A_sliding"), a, f"set A, SRR {srr:+g} %, {sliding}", DRY_SLIDING, srr, numerics=JOINT)
+            for srr in SRR
         ),
-        Case("A_mixed", a, "set A, all blocks driven by mixed lubrication", MIXED, numerics=OURS),
-        Case("B_mixed", b, "set B, all blocks driven by mixed lubrication", MIXED, numerics=OURS),
-        Case("A_thin", a, "set A, viscosity for λ = 0.04", THIN_A, numerics=OURS),
-        Case("B_thin", b, "set B, viscosity for λ = 0.04", THIN_B, numerics=OURS),
-        Case("B_bare_thin", b, "set B without additive, viscosity for λ = 0.04", BARE | THIN_B, numerics=OURS),
+        Case("A_sliding_clock", a, f"set A, {sliding}, dose by the clock", DRY_SLIDING | CLOCK, numerics=JOINT),
+        Case("B_sliding", b, f"set B, {sliding}", DRY_SLIDING, numerics=JOINT),
+        Case("B_bare_sliding", b, f"set B without additive, {sliding}", BARE | DRY_SLIDING, numerics=JOINT),
+        Case("B_less", b, f"set B, {sliding}, less", DRY_SLIDING | LESS_WEAR, numerics=JOINT),
+        Case(
+            "B_bare_less", b, f"set B without additive, {sliding}, less", BARE | DRY_SLIDING | LESS_WEAR, numerics=JOINT
+        ),
+        Case("A_129", a, "set A on 129 nodes, white on them, first instant", WHITE_129, numerics=JOINT, rubs=False),
+        Case(
+            "A_smooth_fitted",
+            a,
+            "set A, smooth bodies, fitted flow, first instant",
+            SMOOTH | {"film.flux": "fitted"},
+            numerics=JOINT,
+            rubs=False,
+        ),
+        Case("A_white", a, "set A, correlation length of one node", NEAR_WHITE, numerics=OURS),
+        Case("A_thin", a, "set A, viscosity for λ = 0.04", THIN, numerics=OURS),
         Case("A_smooth", a, "set A, smooth bodies, first instant", SMOOTH, rubs=False),
         Case("B_smooth", b, "set B, smooth bodies, first instant", SMOOTH, rubs=False),
     ]
@@ -203,11 +225,16 @@ def _films(state: ContactState) -> list[Array]:
 
 
 def _row(scene: Scene, state: ContactState) -> dict[str, float]:
-    """Outputs, their errors by time steps and by sampling, and means over the whole patches."""
+    """Outputs, their errors by time steps and by sampling, means over the whole patches, roughness under the films."""
     row: dict[str, float] = {"time": state.time, **asdict(state.outputs)}
     for name, error in uncertainty(scene, state).items():
         row |= {f"{name}.by_steps": error.time, f"{name}.by_sampling": error.sampling}
+    bare, a = bare_heights(scene, state.rows), scene.hertz(scene.operation.load).a
     for i, (body, film) in enumerate(zip(state.bodies, _films(state), strict=True), 1):
+        rows = film.shape[0]
+        middle = np.abs(np.arange(rows) - 0.5 * (rows - 1)) * scene.film.spacing < 2.0 / 3.0 * a
+        steel = roughness_of(bare[i - 1], heights_of(bare[i - 1], body) - film)
+        row |= {f"roughness_steel_{i}": rms_roughness(steel, middle)}
         row |= {f"grown_{i}": body.growth.mean(), f"removed_{i}": body.removal.mean(), f"film_{i}": film.mean()}
         row |= {f"plastic_{i}": body.plastic.mean()}
     return row
@@ -265,38 +292,71 @@ class Run:
             raise Missing(f"run ends at {self.t[-1]:g} min")
         return float(self[name][self.t >= since].mean())
 
-    @property
-    def y(self) -> Array:
-        """Rows of the patches [m]."""
-        rows = self.map("wear_1").shape[0]
+    def y(self, field: str = "wear_1") -> Array:
+        """Rows of a field on a patch [m]; a worn track may have added rows since it was kept."""
+        rows = self.map(field).shape[0]
         return (np.arange(rows) - 0.5 * (rows - 1)) * float(self["spacing"])
+
+
+def _same_scene(file: Path, tables: dict[str, Any], trial: Trial) -> bool:
+    """Whether a kept run is as long as the trial and its scene the same in every field that both know, texts aside."""
+    with np.load(file) as stored:
+        then, last = flat(json.loads(str(stored["scene"]))), float(stored["row.time"][-1])
+    now = {key: value for key, value in flat(tables).items() if key not in ("name", "description")}
+    rubbed = math.isclose(last, 3600.0 * trial.hours) or last == 0.0
+    return rubbed and all(value == now[key] for key, value in then.items() if key in now)
 
 
 Get = Callable[[str], Run]
 
 
 class Book:
-    """All results of a trial."""
+    """All results of a trial; with `earlier`, also those that other sources have left of the same scenes."""
 
-    def __init__(self, trial: Trial):
-        self.trial = trial
+    def __init__(self, trial: Trial, earlier: bool = False):
+        self.trial, self.earlier = trial, earlier
         self._runs: dict[tuple[str, str], Run] = {}
+        self._files: dict[tuple[str, str], Path | None] = {}
 
     def get(self, name: str, numerics: str) -> Run:
         """The run of a case; raises Missing."""
         key = name, numerics
         if key not in self._runs:
-            if not self.has(name, numerics):
+            file = self.file(name, numerics)
+            if file is None:
                 raise Missing(f"{name} not run")
-            self._runs[key] = Run(CASES[name].file(numerics, self.trial))
+            self._runs[key] = Run(file)
         return self._runs[key]
 
-    def has(self, name: str, numerics: str) -> bool:
-        """Return whether the run of a case exists. A scene that this version of the core refuses has none."""
+    def file(self, name: str, numerics: str) -> Path | None:
+        """The results of a case. A scene that this version of the core refuses has none."""
+        key = name, numerics
+        if key not in self._files:
+            self._files[key] = self._found(name, numerics)
+        return self._files[key]
+
+    def _found(self, name: str, numerics: str) -> Path | None:
+        if numerics not in CASES[name].numerics:
+            return None
         try:
-            return numerics in CASES[name].numerics and CASES[name].file(numerics, self.trial).exists()
+            file = CASES[name].file(numerics, self.trial)
+            tables = CASES[name].in_numerics(numerics, self.trial).to_dict()
         except ContactError:
-            return False
+            return None
+        if file.exists():
+            return file
+        old = KEPT.parent.glob(f"*/{name}-{numerics}-*.npz") if self.earlier else ()
+        alike = [path for path in old if _same_scene(path, tables, self.trial)]
+        return max(alike, key=lambda path: path.stat().st_mtime, default=None)
+
+    def has(self, name: str, numerics: str) -> bool:
+        """Return whether the run of a case exists."""
+        return self.file(name, numerics) is not None
+
+    def is_earlier(self, name: str, numerics: str) -> bool:
+        """Return whether a run is one of other sources."""
+        file = self.file(name, numerics)
+        return file is not None and file.parent != KEPT
 
     def getter(self, numerics: str, seed: int = 1) -> Get:
         """Cases of one numerics, of the shipped surfaces or those of another seed."""
@@ -313,7 +373,7 @@ class Book:
 
 def centre_depth(r: Run, body: int) -> float:
     """Wear [m] in the middle of the track, |y| < a/10, mean over x."""
-    return float(r.map(f"wear_{body}")[np.abs(r.y) < 0.1 * r["a"]].mean())
+    return float(r.map(f"wear_{body}")[np.abs(r.y()) < 0.1 * r["a"]].mean())
 
 
 def scar_half_width(r: Run, body: int) -> float:

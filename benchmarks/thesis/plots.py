@@ -1,6 +1,6 @@
-"""Plots of the thesis's figures: solid lines and "ours" are the scenes as shipped, dashed ones the thesis numerics."""
+"""Plots of the thesis's figures: solid lines are ours, dashed ones the thesis numerics, dash-dotted ones the joint reading."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
 
@@ -9,14 +9,15 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from benchmarks.thesis.cases import SNAPSHOTS, SRR, SURFACE_SRR, Book, Missing, Run, srr_name
+from benchmarks.thesis.cases import SNAPSHOTS, SRR, Book, Missing, Run, srr_name
 from benchmarks.thesis.rows import takeovers
 from contact_core import Scene
 from contact_core.reference import ghanbarzadeh_thickness
 
-STYLES = {"ours": "-", "thesis": "--"}
-NAMES = {"ours": "ours", "thesis": "thesis numerics"}
-BALL, DISC, WITH, BARE, OWN = "tab:blue", "tab:red", "tab:blue", "0.35", "tab:green"
+STYLES = {"ours": "-", "thesis": "--", "joint": "-."}
+NAMES = {"ours": "ours", "thesis": "thesis numerics", "joint": "joint reading"}
+APART = ("ours", "thesis")  # wear by u1 - u2
+BALL, DISC, WITH, BARE = "tab:blue", "tab:red", "tab:blue", "0.35"
 BODIES = (("ball", BALL), ("disc", DISC))
 SHOWN_SRR = (-10.0, -2.0, 2.0, 10.0)
 
@@ -39,17 +40,26 @@ def draw(book: Book, place: Path) -> list[str]:
     return drawn
 
 
-def _runs(book: Book, name: str) -> Iterator[tuple[str, Run]]:
-    """A case in the numerics it was run in."""
-    for numerics in STYLES:
+def _runs(book: Book, name: str, kinds: Iterable[str] = STYLES) -> Iterator[tuple[str, Run]]:
+    """A case in the columns it was run in."""
+    for numerics in kinds:
         with suppress(Missing):
             yield numerics, book.get(name, numerics)
 
 
-def _curve(book: Book, axes: Axes, name: str, column: str, colour: object, label: str, scale: float = 1.0) -> None:
-    """A column over time, in both numerics."""
-    for numerics, run in _runs(book, name):
-        shown = label if numerics == "ours" or not _has_label(axes, label) else None
+def _curve(
+    book: Book,
+    axes: Axes,
+    name: str,
+    column: str,
+    colour: object,
+    label: str,
+    scale: float = 1.0,
+    kinds: Iterable[str] = STYLES,
+) -> None:
+    """A quantity over time, in the columns asked for."""
+    for numerics, run in _runs(book, name, kinds):
+        shown = label if not _has_label(axes, label) else None
         axes.plot(run.t, scale * run[column], STYLES[numerics], color=colour, lw=1.1, label=shown)
 
 
@@ -87,7 +97,7 @@ def _closed_form(axes: Axes, scene_name: str) -> None:
 
 
 def _title(figure: Figure, text: str) -> None:
-    figure.suptitle(f"{text}   (solid: ours, dashed: thesis numerics)", fontsize="small")
+    figure.suptitle(f"{text}   (solid: ours, dashed: thesis numerics, dash-dotted: joint reading)", fontsize="small")
 
 
 def films(book: Book) -> Figure:
@@ -120,9 +130,13 @@ def films(book: Book) -> Figure:
     return figure
 
 
+def _rows(run: Run, field: np.ndarray) -> np.ndarray:
+    return (np.arange(field.shape[0]) - 0.5 * (field.shape[0] - 1)) * float(run["spacing"])
+
+
 def _map(figure: Figure, axes: Axes, run: Run, field: np.ndarray, most: float, label: str | None) -> None:
     """A patch [nm], track borders dashed."""
-    y, half = 1e6 * run.y, 0.5e6 * field.shape[1] * float(run["spacing"])
+    y, half = 1e6 * _rows(run, field), 0.5e6 * field.shape[1] * float(run["spacing"])
     extent = (-half, half, float(y[0]), float(y[-1]))
     image = axes.imshow(1e9 * field, extent=extent, origin="lower", vmin=0.0, vmax=most, cmap="viridis", aspect="equal")
     for side in (-1e6, 1e6):
@@ -135,8 +149,8 @@ def _map(figure: Figure, axes: Axes, run: Run, field: np.ndarray, most: float, l
 
 def pads(book: Book) -> Figure:
     """Figure 5-7."""
-    figure = Figure(figsize=(9.6, 8.8), layout="constrained")
-    axes = figure.subplots(4, len(SNAPSHOTS), sharex=True, sharey=True)
+    figure = Figure(figsize=(9.6, 13.2), layout="constrained")
+    axes = figure.subplots(6, len(SNAPSHOTS), sharex=True, sharey=True)
     for row, (numerics, i) in enumerate((numerics, i) for numerics in STYLES for i in (1, 2)):
         for column, minute in enumerate(SNAPSHOTS):
             place = axes[row, column]
@@ -183,10 +197,9 @@ def lubrication(book: Book) -> Figure:
     )
     for row, column, figure_name, name, scale, label in panels:
         place = axes[row, column]
-        kind, own = ("A", "A_own_speed_srr-2") if row == 0 else ("B", "B_own_speed")
+        kind = "A" if row == 0 else "B"
         _curve(book, place, kind, name, WITH, "with tribofilm", scale)
         _curve(book, place, f"{kind}_bare", name, BARE, "without", scale)
-        _curve(book, place, own, name, OWN, "with, wear by own speed", scale)
         for minute in (minute for _, run in _runs(book, kind) for minute in takeovers(run)):
             place.axvline(minute, color=WITH, lw=0.6, alpha=0.4)
         if name == "h_c":
@@ -199,57 +212,64 @@ def lubrication(book: Book) -> Figure:
     return figure
 
 
-def _profile(book: Book, axes: Axes, name: str, colour: object, label: str, of: Callable[[Run], np.ndarray]) -> None:
-    """Something across the track, in both numerics."""
-    for numerics, run in _runs(book, name):
+def _profile(
+    book: Book,
+    axes: Axes,
+    name: str,
+    colour: object,
+    label: str,
+    of: Callable[[Run], np.ndarray],
+    kinds: Iterable[str],
+) -> None:
+    """Something across the track, in the columns asked for."""
+    for numerics, run in _runs(book, name, kinds):
         shown = None if _has_label(axes, label) else label
-        axes.plot(1e6 * run.y, 1e9 * of(run), STYLES[numerics], color=colour, lw=1.0, label=shown)
+        axes.plot(1e6 * run.y(), 1e9 * of(run), STYLES[numerics], color=colour, lw=1.0, label=shown)
 
 
 def _worn_shape(run: Run) -> np.ndarray:
     """Height of the worn ball over the plane through its lowest point when new, downwards as in the contact."""
-    return run.y**2 / (2.0 * float(run["radius"])) + run.map("wear_1").mean(axis=1)
+    return run.y() ** 2 / (2.0 * float(run["radius"])) + run.map("wear_1").mean(axis=1)
 
 
 def wear(book: Book) -> Figure:
     """Figures 7-3 to 7-7, by both speeds in Archard's law."""
     figure = Figure(figsize=(12.0, 9.0), layout="constrained")
     axes = figure.subplots(3, 3)
+    ways = ((APART, "wear by u1 - u2"), (("joint",), "wear by own speed"))
     for srr in SRR:
-        label, colour = f"{srr:+g} %", _srr_colour(srr)
-        for row, group in enumerate(("A", "A_own_speed")):
-            if row == 1 and srr not in SURFACE_SRR:
-                continue
-            name = srr_name(srr, group)
+        label, colour, name = f"{srr:+g} %", _srr_colour(srr), srr_name(srr)
+        for row, (kinds, _) in enumerate(ways):
             for i in (1, 2):
-                _curve(book, axes[row, i - 1], name, f"wear_depth_{i}", colour, label, 1e9)
-            _profile(book, axes[row, 2], name, colour, label, lambda run: -run.map("wear_1").mean(axis=1))
+                _curve(book, axes[row, i - 1], name, f"wear_depth_{i}", colour, label, 1e9, kinds)
+            _profile(book, axes[row, 2], name, colour, label, lambda run: -run.map("wear_1").mean(axis=1), kinds)
         if srr in SHOWN_SRR:
-            _profile(book, axes[2, 0], srr_name(srr, "A_own_speed"), colour, label, _worn_shape)
-    for row, text in enumerate(("wear by u1 - u2", "wear by own speed")):
+            _profile(book, axes[2, 0], name, colour, label, _worn_shape, ("joint",))
+    for row, (_, text) in enumerate(ways):
         _finish(axes[row, 0], f"7-3  ball, {text}", "mean wear depth [nm]")
         _finish(axes[row, 1], f"7-4  disc, {text}", "mean wear depth [nm]")
         _finish(axes[row, 2], f"7-5  ball, {text}", "worn surface, mean over x [nm]", "y [µm]")
     with suppress(Missing):
-        radius, y = float(book.get("A", "ours")["radius"]), np.linspace(-350e-6, 350e-6, 141)
+        radius, y = float(book.get("A", "joint")["radius"]), np.linspace(-350e-6, 350e-6, 141)
         axes[2, 0].plot(1e6 * y, 1e9 * y**2 / (2.0 * radius), ":", color="k", lw=1.0, label="new")
     _finish(axes[2, 0], "7-6  shape of the ball, wear by own speed", "height [nm]", "y [µm]")
-    for column, (name, text) in enumerate((("A", "u1 - u2"), ("A_own_speed_srr-2", "own speed")), 1):
-        _profile(book, axes[2, column], name, DISC, "one line", lambda run: run.map("heights_2")[:, 0])
-        _profile(book, axes[2, column], name, "k", "mean over x", lambda run: run.map("heights_2").mean(axis=1))
-        _finish(axes[2, column], f"7-7  disc, SRR -2 %, wear by {text}", "height [nm]", "y [µm]")
+    for column, (kinds, text) in enumerate(ways, 1):
+        _profile(book, axes[2, column], "A", DISC, "one line", lambda run: run.map("heights_2")[:, 0], kinds)
+        _profile(book, axes[2, column], "A", "k", "mean over x", lambda run: run.map("heights_2").mean(axis=1), kinds)
+        _finish(axes[2, column], f"7-7  disc, SRR -2 %, {text}", "height [nm]", "y [µm]")
     _title(figure, "Wear, set A")
     return figure
 
 
 def scars(book: Book) -> Figure:
     """Figures 7-8 and 7-9."""
-    figure = Figure(figsize=(9.6, 8.8), layout="constrained")
-    axes = figure.subplots(4, len(SHOWN_SRR), sharex=True, sharey=True)
-    most = {1: 0.0, 2: 0.0}
+    figure = Figure(figsize=(9.6, 13.2), layout="constrained")
+    axes = figure.subplots(6, len(SHOWN_SRR), sharex=True, sharey=True)
+    most: dict[tuple[str, int], float] = {}
     for i, srr in ((i, srr) for i in (1, 2) for srr in SHOWN_SRR):
-        for _, run in _runs(book, srr_name(srr)):
-            most[i] = max(most[i], 1e9 * float(np.quantile(run.map(f"wear_{i}"), 0.995)))
+        for numerics, run in _runs(book, srr_name(srr)):
+            deep = 1e9 * float(np.quantile(run.map(f"wear_{i}"), 0.995))
+            most[numerics, i] = max(most.get((numerics, i), 0.0), deep)
     for row, (numerics, i) in enumerate((numerics, i) for numerics in STYLES for i in (1, 2)):
         for column, srr in enumerate(SHOWN_SRR):
             place = axes[row, column]
@@ -257,11 +277,11 @@ def scars(book: Book) -> Figure:
             with suppress(Missing):
                 run = book.get(srr_name(srr), numerics)
                 bar = "nm" if column == len(SHOWN_SRR) - 1 else None
-                _map(figure, place, run, run.map(f"wear_{i}"), most[i], bar)
+                _map(figure, place, run, run.map(f"wear_{i}"), most[numerics, i], bar)
                 mean = 1e9 * run.end(f"wear_depth_{i}")
                 place.set_title(f"SRR {srr:+g} %, mean {mean:.0f} nm", fontsize="x-small")
         axes[row, 0].set_ylabel(f"{NAMES[numerics]}, {BODIES[i - 1][0]}\ny [µm]", fontsize="x-small")
     for place in axes[-1]:
         place.set_xlabel("x [µm], entrainment →", fontsize="x-small")
-    figure.suptitle("7-8, 7-9  Wear depth, set A, wear by u1 - u2; dashed: Hertz's width", fontsize="small")
+    figure.suptitle("7-8, 7-9  Wear depth, set A; dashed: Hertz's width", fontsize="small")
     return figure

@@ -1,15 +1,16 @@
 """Judgement of a claim of the thesis: a measure gives a text and whether the claim holds; the verdict follows.
 
-Where a claim does not hold, experiments look for the cause: the same measure on runs in which one thing is different,
-or another measure on the same runs.
+Where a claim does not hold, experiments look for the cause: the same measure on runs that differ in something,
+or another measure on the same runs; the joint reading, in which all conventions of the thesis are together; or a closed
+form that shows that the thesis contradicts itself.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from benchmarks.thesis.cases import SEEDS, Array, Book, Get, Missing, Run
+from benchmarks.thesis.cases import CASES, SEEDS, Array, Book, Get, Missing, Run
 from contact_core import Scene
 from contact_core.reference import SmoothContact, hamrock_dowson
 
@@ -27,11 +28,15 @@ Measure = Callable[[Get], Finding]
 
 @dataclass(frozen=True)
 class Experiment:
-    """One thing done differently: other runs in place of some, or another measure."""
+    """Something done differently: other runs in place of some, or another measure."""
 
     text: str
     swap: Mapping[str, str] = field(default_factory=dict)
     measure: Measure | None = None
+
+    def runs_in(self, numerics: str) -> bool:
+        """Whether its runs are made in a column."""
+        return all(numerics in CASES[name].numerics for name in self.swap.values())
 
 
 @dataclass(frozen=True)
@@ -44,6 +49,7 @@ class Claim:
     measure: Measure
     experiments: tuple[Experiment, ...] = ()
     remark: str = ""  # what is known without a run, above all why a claim cannot be judged
+    contradiction: str = ""  # closed form by which the thesis's printed inputs cannot give what its figure shows
 
 
 @dataclass(frozen=True)
@@ -55,7 +61,14 @@ class Judged:
     causes: tuple[str, ...] = ()
     seeds: str = ""  # in how many of the roughness seeds it holds
 
+    @property
+    def explained(self) -> bool:
+        """Whether a cause is shown: by an experiment that makes it agree, or by a closed form."""
+        return any(cause.startswith((TURNED, CLOSED)) for cause in self.causes)
 
+
+JOINT = "joint"
+TURNED, CLOSED = "agrees with", "closed form"  # how the cause of a disagreement begins
 _TORN = 0.2  # a share of the surfaces so near to one half bears a claim neither out nor down
 VERDICTS = ("agree", "disagree", "cannot be judged", "not run")
 
@@ -72,7 +85,7 @@ def judge(claim: Claim, book: Book, numerics: str) -> Judged:
         finding = claim.measure(get)
     except Missing as missing:
         return Judged("not run", str(missing))
-    causes = () if finding.holds else tuple(_causes(claim, get))
+    causes = () if finding.holds else tuple(_causes(claim, book, numerics))
     held, seen = _over_seeds(claim, book, numerics, finding)
     seeds = f"{held}/{seen}" if seen > 1 else ""
     if seen > 1 and abs(held / seen - 0.5) < _TORN:
@@ -80,19 +93,35 @@ def judge(claim: Claim, book: Book, numerics: str) -> Judged:
     return Judged(verdict_of(finding), finding.text, causes, seeds)
 
 
-def _causes(claim: Claim, get: Get) -> Iterator[str]:
-    """Yield the numbers of the experiments that make the claim hold, and the names of the others."""
-    tried = [(entry, found) for entry in claim.experiments if (found := _tried(entry, claim, get))]
-    for entry, found in tried:
+def _causes(claim: Claim, book: Book, numerics: str) -> Iterator[str]:
+    """Yield what makes the claim hold, with its numbers, and the names of the other experiments.
+
+    Beside a column's own experiments: the joint reading, and if nothing makes the claim hold, experiments on that.
+    """
+    if claim.contradiction:
+        yield f"{CLOSED}: {claim.contradiction}"
+    tried, missing = _all_tried(claim, book, numerics)
+    if numerics != JOINT:
+        tried += _all_tried(replace(claim, experiments=(Experiment("joint reading"),)), book, JOINT)[0]
+        if not any(found.holds for _, found in tried):
+            tried += [(f"joint reading, {text}", found) for text, found in _all_tried(claim, book, JOINT)[0]]
+    for text, found in tried:
         if found.holds:
-            yield f"agrees with *{entry.text}*: {found.text}"
-    idle = [entry.text for entry, found in tried if not found.holds]
+            yield f"{TURNED} *{text}*: {found.text}"
+    idle = [text for text, found in tried if not found.holds]
     if idle:
         yield f"not by {', '.join(f'*{text}*' for text in idle)}"
-    if len(tried) < len(claim.experiments):
-        yield f"experiments not run yet: {len(claim.experiments) - len(tried)}"
-    elif tried and len(idle) == len(tried):
+    if missing:
+        yield f"experiments not run yet: {missing}"
+    elif idle and len(idle) == len(tried) and not claim.contradiction:
         yield "cause not found by these experiments"
+
+
+def _all_tried(claim: Claim, book: Book, numerics: str) -> tuple[list[tuple[str, Finding]], int]:
+    """The experiments of a column with what they found, and how many lack their runs."""
+    made = [entry for entry in claim.experiments if entry.runs_in(numerics)]
+    tried = [(entry.text, found) for entry in made if (found := _tried(entry, claim, book.getter(numerics)))]
+    return tried, len(made) - len(tried)
 
 
 def _tried(experiment: Experiment, claim: Claim, get: Get) -> Finding | None:
@@ -203,9 +232,9 @@ def cannot(text: str) -> Measure:
     return lambda get: Finding(text)
 
 
-def inside(run: Run, share: float = 1.0) -> Array:
-    """Rows with |y| < share * a."""
-    return np.abs(run.y) < share * run["a"]
+def inside(run: Run, share: float = 1.0, field: str = "wear_1") -> Array:
+    """Rows of a field with |y| < share * a."""
+    return np.abs(run.y(field)) < share * run["a"]
 
 
 def formula_contact(scene_name: str) -> SmoothContact:

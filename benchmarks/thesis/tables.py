@@ -40,14 +40,14 @@ def balances(book: Book) -> Lines:
             continue
         scene = CASES[name].in_numerics(numerics, book.trial)
         cycles = [run.end(f"load_cycles_{i}") for i in (1, 2)]
-        bare = "bare" in name
+        bare, by_sliding = "bare" in name, scene.wear.of_sliding
         found = (
             run.end("wear_depth_1") / run.end("wear_depth_2"),
             f"{cycles[0]:.0f}, {cycles[1]:.0f}",
             cycles[0] / cycles[1],
             scene.geometry.track_length_2 / scene.geometry.track_length_1,
             f"{max(_volume_error(run, i) for i in (1, 2)):.1e}",
-            _archard(run, scene) if bare else "—",
+            _archard(run, scene) if bare and by_sliding else "—",
             "—" if bare else f"{max(_film_error(run, i) for i in (1, 2)):.1e}",
         )
         lines.append(cells((f"{name}, {numerics}", *found)))
@@ -182,7 +182,7 @@ def smooth_limit(book: Book) -> Lines:
         "run", "sliding in Archard's law", "smooth contact, same grid", "h_c after 2 h", "ratio", "last 20 min"
     )
     for smooth, name, numerics in _limits():
-        sliding = "own speed" if "own_speed" in name else "u1 - u2"
+        sliding = "own speed" if numerics == "joint" else "u1 - u2"
         try:
             floor, run = book.get(smooth, numerics).end("h_c"), two_hours(book.get(name, numerics))
         except Missing as missing:
@@ -201,10 +201,9 @@ def smooth_limit(book: Book) -> Lines:
 
 def _limits() -> Iterator[tuple[str, str, str]]:
     for numerics in NUMERICS:
-        for name in ("A", "A_bare", "A_own_speed_srr-2"):
-            yield "A_smooth", name, numerics
-        for name in ("B", "B_bare", "B_own_speed", "B_bare_own_speed"):
-            yield "B_smooth", name, numerics
+        for film, bare in PAIRS:
+            yield f"{film}_smooth", film, numerics
+            yield f"{film}_smooth", bare, numerics
 
 
 def runs(book: Book) -> Lines:

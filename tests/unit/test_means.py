@@ -612,7 +612,13 @@ def test_oil_without_a_limit_finds_the_temperature_that_it_makes_of_itself(speed
 def test_long_steps_keep_a_tribofilm_at_its_balance_where_more_of_it_grows_less():
     """Growth that fades as the film spreads is stiff: in 5 min it would go past the balance and back, by 2 %."""
     scene = Scene.from_toml(
-        "fzg_flank", {**FAST, "tribofilm.set": "zhang_spikes_80c_ethylhexyl", "surface_1.rq": "0.4 um"}
+        "fzg_flank",
+        {
+            **FAST,
+            "tribofilm.set": "zhang_spikes_80c_ethylhexyl",
+            "tribofilm.supply_rate": "1 m/s",
+            "surface_1.rq": "0.4 um",
+        },
     )
     scene = replace(scene, surface_2=replace(scene.surface_2, rq=0.4e-6))
     op = replace(scene.operation.point, load=1256.0, speed_1=4.6, speed_2=2.6, temperature=362.6)

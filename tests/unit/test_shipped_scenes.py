@@ -8,13 +8,16 @@ import contact_core
 from contact_core import Scene, shipped_scenes
 from contact_core.laws.tribofilm import NoTribofilm
 
+WHITE = [f"surface_{i} has 1.00 nodes per correlation length; 2 or more resolve it." for i in (1, 2)]
+WARNED = {"azam_case_a_thesis": WHITE, "mtm_zddp_thesis": WHITE}  # white on the grid, as the thesis is read
+
 
 @pytest.mark.parametrize("name", shipped_scenes())
-def test_a_shipped_scene_has_no_error_and_no_warning(name):
+def test_a_shipped_scene_has_no_error_and_no_warning_but_of_white_roughness(name):
     scene = Scene.from_toml(name)
     assert scene.name == name
     assert scene.description == shipped_scenes()[name]
-    assert scene.warnings() == []
+    assert scene.warnings() == WARNED.get(name, [])
     scene.operation.point.check()
 
 
@@ -53,6 +56,7 @@ def test_a_scene_file_and_the_shipped_name_give_the_same_scene(tmp_path: Path):
     ("name", "pressure", "half_width", "tracks"),
     [
         ("azam_case_a", 1.26e9, 171.75e-6, (62.832e-3, 245.04e-3)),
+        ("azam_case_a_thesis", 1.26e9, 171.75e-6, (62.832e-3, 245.04e-3)),
         ("mtm_zddp", 1.15e9, 149.3e-6, (59.847e-3, 144.51e-3)),
     ],
 )
