@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 def with_exposure(case: Case, side: Side, state: ContactState, sums: Accumulator, alike: float) -> Body:
     """Return a body with the mean pressure over its track, the abrasion by it, and the exposure per test time.
 
-    `alike` is the variance of the noise of wear per block over that of independent blocks.
+    `alike` is the variance of the noise per block over that of independent blocks.
     """
     scene, i, body = case.scene, side.body, state.bodies[side.body]
     law, film = scene.tribofilm, scene.film
@@ -44,24 +44,35 @@ def with_exposure(case: Case, side: Side, state: ContactState, sums: Accumulator
 
 
 def _noise(case: Case, side: Side, state: ContactState, after: Body, alike: float) -> float:
-    """Return the variance of the wear depth [m2] that the last block has made by sampling.
+    """Return the variance of the heights [m2] that the last block has made by sampling wear and tribofilm.
 
-    Two blocks that sample the same wear differ by their noise.
+    Two blocks that sample the same differ by their noise.
     """
     body = state.bodies[side.body]
     middle = middle_rows(case.scene, state.rows)
-    film = body.tribofilm
-    change = wear_speed(case, side, after, film)[middle] - wear_speed(case, side, body, film)[middle]
-    return alike * 0.5 * float(np.var(groove_free(change))) * state.held**2
+
+    def made(block: Body) -> Array:
+        worn = state.held * wear_speed(case, side, block, body.tribofilm)
+        return thickness(*_grown(case, side, block, state.held, 0.0)) - worn
+
+    return alike * 0.5 * float(np.var(groove_free(made(after)[middle] - made(body)[middle])))
+
+
+def _grown(case: Case, side: Side, body: Body, step: float, flash: float) -> tuple[Array, Array]:
+    """Return growth and removal of a body's tribofilm [m] after `step` [s] of its last exposure."""
+    return case.scene.tribofilm.evolve(body.growth, body.removal, *_dose(case, side, body, step, flash))
+
+
+def _dose(case: Case, side: Side, body: Body, step: float, flash: float) -> tuple[Array, Array, float]:
+    """Return exposure and abrasion in `step` [s], and the temperature of the surface [K]."""
+    exposed = np.minimum(body.exposure, case.scene.tribofilm.most_exposure) * step
+    return exposed, film_removal(case, side, body) * step, side.temperature + flash
 
 
 def evolved(case: Case, side: Side, body: Body, step: float, flash: float) -> Body:
     """Return a body after `step` [s] of its last exposure; `flash` [K] above its bulk temperature."""
     law = case.scene.tribofilm
-    abraded = film_removal(case, side, body) * step
-    exposed = np.minimum(body.exposure, law.most_exposure) * step
-    dose = exposed, abraded, side.temperature + flash
-    growth, removal = law.evolve(body.growth, body.removal, *dose)
+    growth, removal = _grown(case, side, body, step, flash)
     film = 0.5 * (thickness(growth, removal) + body.tribofilm)
     oxide, halfway, lost = oxidised(case, side, body, film, step)
     worn = step * solid_speed(case, side, body, film, halfway) + lost
@@ -69,7 +80,7 @@ def evolved(case: Case, side: Side, body: Body, step: float, flash: float) -> Bo
         body,
         growth=growth,
         removal=removal,
-        formed=body.formed + law.formed(body.growth, body.removal, growth, *dose),
+        formed=body.formed + law.formed(body.growth, body.removal, growth, *_dose(case, side, body, step, flash)),
         oxide=oxide,
         wear=body.wear + worn,
         worn=body.worn + float(worn.sum()) * area_of_node(case, side),

@@ -53,7 +53,7 @@ class Body:
     offset: float  # how far the patch has moved along x in the solved steps [m], within one patch length
     cycles: float  # passes through the contact
     worn: float  # wear volume of the whole track [m3]
-    noise: float  # variance of the wear depth from node to node that sampling has made [m2]
+    noise: float  # variance of wear and tribofilm from node to node that sampling has made [m2]
 
     ARRAYS: ClassVar[tuple[str, ...]] = (
         "growth",

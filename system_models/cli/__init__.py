@@ -5,6 +5,7 @@
     surfaces    surfaces: what a grid shows of the surfaces
     run         run: a contact or a machine through its duty; contact: one contact; machine: a machine
     stribeck    stribeck: Stribeck curves
+    fit         fit: constants of a scene from measured numbers
     build       build: the FMU of a scene
     check       check: verdicts on an FMU
     cosim       cosim: a system of FMUs

@@ -179,7 +179,7 @@ def test_a_body_at_rest_is_exposed_all_the_time_by_the_contact_length_as_by_the_
         _, outputs = advance(scene, replace(scene.operation.point, speed_1=0.0), initial_state(scene), 60.0)
         films.append(outputs.tribofilm_1)
     assert films[0] > 0.0
-    assert films[1] == approx(films[0], rel=1e-3)  # the other body grows by another dose
+    assert films[1] == approx(films[0], rel=2e-2)  # the other body grows by another dose
 
 
 def test_a_groove_counts_for_a_fifth_of_what_happens_to_asperities():

@@ -237,9 +237,9 @@ def test_the_rubbed_ball_grows_the_laws_film_and_the_disc_what_its_rubbed_part_d
     hot = op.temperature + state.outputs.flash_temperature_rise
     exposed = np.array([law.rate(hot) * touched / law.contact_share * state.time])
     growth, removal = law.evolve(np.zeros(1), np.zeros(1), exposed, np.zeros(1), hot)
-    assert ball.coverage > 0.98
-    assert ball.growth == approx(growth[0], rel=0.03)
-    assert ball.removal == approx(removal[0], rel=0.1)
+    assert ball.coverage > 0.9
+    assert ball.growth == approx(growth[0], rel=0.07)
+    assert ball.removal == approx(removal[0], rel=0.15)
     assert 0.25 < disc.coverage < 0.6  # of a mean exposure of 0.2: its points are not rubbed all or nothing
     assert disc.growth < disc.coverage * law.full_thickness
 

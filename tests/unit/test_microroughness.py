@@ -78,8 +78,9 @@ def test_the_area_and_the_share_of_the_solids_follow_from_the_pressure_at_every_
 
 
 def test_the_dose_of_a_pass_is_the_largest_share_that_touched_in_it():
-    given = scene(**FINE)
+    given = scene(**FINE, **{"tribofilm.dose": "clock", "heat": "none"})
     case, state = bound(given), initial_state(given)
+    rate = given.tribofilm.rate(given.operation.temperature)
     sums = Accumulator.before(state)
     expected = [np.zeros_like(body.since) for body in state.bodies]
     for _ in range(3):
@@ -88,13 +89,13 @@ def test_the_dose_of_a_pass_is_the_largest_share_that_touched_in_it():
         for most, seen in zip(expected, on_patches(given, state, (fields.touching,) * 2), strict=True):
             np.maximum(most, seen, out=most)
     for peak, most in zip(sums.peaks, expected, strict=True):
-        assert peak == approx(most, rel=1e-12)
-        assert ((peak > 0.01) & (peak < 0.5)).mean() > 0.05
+        assert peak / rate == approx(most, rel=1e-12)
+        assert ((peak > 0.01 * rate) & (peak < 0.5 * rate)).mean() > 0.05
     for _ in range(9):  # a pass and more later only what touched since counts
         state, fields = dry_instant(case, state, [0.0, 0.0])
         sums.add(case, state, fields, (0.125, 0.125))
     for peak, since, seen in zip(sums.peaks, sums.since, on_patches(given, state, (fields.touching,) * 2), strict=True):
-        assert peak[since < 1.0] == approx(seen[since < 1.0], rel=1e-12)
+        assert peak[since < 1.0] / rate == approx(seen[since < 1.0], rel=1e-12)
 
 
 def test_real_area_and_tribofilm_of_a_dry_block_hardly_depend_on_the_grid():
@@ -109,7 +110,7 @@ def test_real_area_and_tribofilm_of_a_dry_block_hardly_depend_on_the_grid():
             found[points, fine] = out
     for name in ("contact_area_ratio", "tribofilm_1"):
         one, other = (getattr(found[points, True], name) for points in ("65", "129"))
-        assert one == approx(other, rel=0.05), name
+        assert one == approx(other, rel=0.08), name
     one, other = (found[points, False].contact_area_ratio for points in ("65", "129"))
     assert abs(one / other - 1.0) > 0.1
     assert found["65", True].contact_load_ratio == approx(1.0, abs=1e-6)
