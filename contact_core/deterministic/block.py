@@ -24,8 +24,8 @@ from .sampling import blocks_per_pass, jumps_of, sample_dry, sample_mixed
 
 _DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
-# variance of the noise of heights per block over that of independent blocks: that of wear fitted to the roughness of case
-# A's ball, as `python -m benchmarks.surfaces.evolution control` shows; dry to that of tribofilms, tests/convergence
+# variance of the noise of heights per block over that of independent blocks: mixed fitted to the roughness of case A's
+# ball, as `python -m benchmarks.surfaces.evolution control` shows; dry to its tribofilm, tests/convergence
 _ALIKE = {"dry": 0.25, "mixed": 0.5}
 _CREEP = 0.01  # of the other body's speed: of a slower body a block samples only a piece of the track
 _SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most

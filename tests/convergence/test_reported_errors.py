@@ -27,9 +27,9 @@ OUTPUTS = {
     "error_wear": ("wear_depth_1", "wear_depth_2"),
 }
 MINUTES = (5, 10, 20, 30, 45, 60)
-# points that each error by blocks covers at least, the share of it that does not cover as many, and that at which no more
-# than half of them are left: films and wear are off by a thousandth in this run, so that a tenth of their errors would
-# still do. Friction is off by as much, and pads of tribofilm on so coarse a grid part the bodies unevenly (h_c)
+# points that each error by blocks covers at least, the share of it that does not cover as many, and that at which no
+# more than half of them are left: films and wear are off by a thousandth in this run, so that a tenth of their errors
+# would still do. So is friction, and pads of tribofilm on so coarse a grid part the bodies unevenly (h_c)
 COVERED = {
     "error_friction": (4, 0.1, 0.1),
     "error_film": (3, 0.1, 0.1),
