@@ -7,6 +7,7 @@ import contextlib
 import ctypes
 import gc
 import os
+import signal
 import subprocess
 import sys
 import threading
@@ -39,7 +40,10 @@ host = Host(Path({str(folder)!r})).initialise()
 """
     variables = environment()
     variables["PYTHONPATH"] = os.pathsep.join([str(Path(__file__).parent), variables["PYTHONPATH"]])
-    run = subprocess.run([sys.executable, "-c", script], env=variables, capture_output=True, text=True)
+    try:
+        run = subprocess.run([sys.executable, "-c", script], env=variables, capture_output=True, text=True, timeout=120.0)
+    except subprocess.TimeoutExpired:  # what a wrong pointer has hit may also go on for ever
+        return -signal.SIGKILL
     if run.returncode > 0:
         raise RuntimeError(run.stderr)
     return run.returncode
