@@ -41,7 +41,7 @@ host = Host(Path({str(folder)!r})).initialise()
     variables = environment()
     variables["PYTHONPATH"] = os.pathsep.join([str(Path(__file__).parent), variables["PYTHONPATH"]])
     try:
-        run = subprocess.run([sys.executable, "-c", script], env=variables, capture_output=True, text=True, timeout=120.0)
+        run = subprocess.run([sys.executable, "-c", script], env=variables, capture_output=True, text=True, timeout=120)
     except subprocess.TimeoutExpired:  # what a wrong pointer has hit may also go on for ever
         return -signal.SIGKILL
     if run.returncode > 0:
