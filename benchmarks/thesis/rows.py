@@ -79,13 +79,13 @@ def verdict_of(finding: Finding) -> str:
 
 
 def judge(claim: Claim, book: Book, numerics: str) -> Judged:
-    """Verdict, numbers and, unless they agree, what the experiments say."""
+    """Verdict, numbers and, where they disagree, what the experiments say."""
     get = book.getter(numerics)
     try:
         finding = claim.measure(get)
     except Missing as missing:
         return Judged("not run", str(missing))
-    causes = () if finding.holds else tuple(_causes(claim, book, numerics))
+    causes = tuple(_causes(claim, book, numerics)) if finding.holds is False else ()
     held, seen = _over_seeds(claim, book, numerics, finding)
     seeds = f"{held}/{seen}" if seen > 1 else ""
     if seen > 1 and abs(held / seen - 0.5) < _TORN:

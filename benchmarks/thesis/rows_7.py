@@ -97,7 +97,7 @@ CLAIMS = (
     Claim("7-3", "ball, negative SRR: curves hardly apart", "A, 2 h: spread of the mean depth < 10 %", _narrow(1, MINUS)),
     Claim("7-4", "disc, negative SRR: more wear at more negative SRR", "A, 2 h: mean depth rises", _rises(2, MINUS)),
     Claim("7-4", "disc, positive SRR: curves merge", "A, 2 h: spread of the mean depth < 10 %", _narrow(2, PLUS)),
-    Claim("7-5", "ball: wear least at -10 %, most at +10 %, the rest in order", "A, 2 h: depth at y = 0 (mean over x) rises from -10 to +10 %", _centre_order),
+    Claim("7-5", "ball: wear least at -10 %, most at +10 %, the rest in order", "A, 2 h: depth at y = 0 (mean over x) rises from -10 to +10 %", _centre_order, (Experiment("mean depth over the track, which samples more of it", measure=_rises(1, SRR)),)),
     Claim("7-5", "track of the ball wider at higher SRR", "A: half width at +10 % above that at -10 %", _wider),
     Claim("7-6", "difference of about 250 nm at the centre of the ball", "A: depth at +10 less that at -10 %, 150 to 350 nm", _difference),
     Claim("7-7", "disc: no order of the profiles with SRR", "A: rank correlation of the depth at y = 0 with SRR between -0.8 and 0.8", _disc_without_order),

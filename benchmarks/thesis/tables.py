@@ -216,7 +216,8 @@ def runs(book: Book) -> Lines:
         "CPU [s]",
         "largest step of h_c in a minute, after 2 min",
         "error of h_c",
-        "of film",
+        "of film, ball",
+        "disc",
         "of wear",
         "unconverged, largest",
     )
@@ -226,7 +227,9 @@ def runs(book: Book) -> Lines:
                 run = book.get(case.name, numerics)
             except Missing:
                 continue
-            errors = [f"{100 * run.end(f'error_{name}'):.1f} %" for name in ("film", "tribofilm", "wear")]
+            errors = [
+                f"{100 * run.end(f'error_{name}'):.1f} %" for name in ("film", "tribofilm_1", "tribofilm_2", "wear")
+            ]
             unconverged = f"{100 * run['unconverged'].max():.0f} %"
             blocks = f"{run.end('blocks_mixed'):.0f} + {run.end('blocks_dry'):.0f}"
             seconds, jump = f"{float(run['seconds']):.0f}", nm(float(np.abs(np.diff(run["h_c"][2:])).max(initial=0.0)))
