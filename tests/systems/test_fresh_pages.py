@@ -15,11 +15,12 @@ MEASURED = ROOT / "docs" / "measured"
 CITED = set(re.findall(r"docs/measured/([\w/]+)\.md", (ROOT / "README.md").read_text("utf-8")))
 # cited, but not written anew yet: a page leaves this list when its command has been run
 OWED = {
-    *("coupling/cost", "coupling/masters", "film/accuracy", "film/core_accuracy"),
-    *("film/core_cost", "film/core_lambda", "film/error_estimate"),
-    *("film/peers", "fmu/endurance", "fmu/overhead", "friction/laws_cost"),
-    *("friction/traction", "machines/tolerance", "regression/cost", "film/moving"),
-    *("film/two_hours", "surfaces/evolution", "surfaces/stribeck", "thesis/validation"),
+    *("coupling/accuracy", "coupling/cost", "coupling/masters", "film/accuracy", "film/core_accuracy"),
+    *("film/core_cost", "film/core_lambda", "film/core_smooth", "film/core_starts", "film/error_estimate"),
+    *("film/hard_cases", "film/measured", "film/moving", "film/peers", "film/tolerance", "film/two_hours"),
+    *("fmu/endurance", "fmu/overhead", "friction/laws_cost", "friction/traction", "machines/tolerance"),
+    *("regression/cost", "regression/curves", "regression/held_back", "regression/shapes", "speed_error"),
+    *("surfaces/evolution", "surfaces/stribeck", "thesis/validation"),
 }
 
 
