@@ -143,14 +143,15 @@ class Case:
     def slipping(self, sliding_speed: float) -> float:
         """Return the share of the contact's length in which solids slip rather than stick, at a sliding speed [m/s].
 
-        It is 1 but in near rolling, and 0 without sliding.
+        It is 1 but in near rolling and at a creep, where friction has not its full size, and 0 without sliding.
         """
         entrainment, hertz = abs(self.op.entrainment_speed), self.unit_hertz
-        if not self.loaded or sliding_speed == 0.0 or entrainment == 0.0:
-            return float(sliding_speed != 0.0)
+        boundary = self.scene.boundary_friction
+        grip = abs(float(boundary.grip(sliding_speed)))
+        if not self.loaded or grip == 0.0 or entrainment == 0.0:
+            return grip
         half_width = hertz.a * hertz.growth(self.op.load)[0]
-        friction = self.scene.boundary_friction.bare
-        return slipping_share(sliding_speed / entrainment, friction, half_width, self.shape.radius_x)
+        return grip * slipping_share(sliding_speed / entrainment, boundary.bare, half_width, self.shape.radius_x)
 
     @property
     def speeds(self) -> Pair:

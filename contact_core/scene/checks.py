@@ -207,4 +207,16 @@ def warnings(scene: SceneFields) -> list[str]:
             f"film.model = '{scene.film.name}' leaves out lubricant.double_layer = '{layer.name}': it knows the mean "
             "film alone, and double layers act where the film is as thin as they are."
         )
+    left_out = [
+        name
+        for name, given in (
+            (f"plasticity.indentation = '{scene.plasticity.indentation}'", scene.plasticity.indentation != "none"),
+            ("solids.film_modulus", scene.solids.film_modulus is not None),
+        )
+        if given
+    ]
+    if left_out and not scene.film.on_grid:
+        found.append(
+            f"film.model = '{scene.film.name}' leaves out {' and '.join(left_out)}: it has no nodes that yield."
+        )
     return [*found, *scene.film.warnings(scene.lubricant.flow, scene.lubricant.rheology, scene.tribofilm)]

@@ -94,3 +94,21 @@ def test_the_shipped_shares_are_those_of_the_balls_at_the_start():
         inside = np.abs(scene.grid(state.rows).y) < scene.hertz(point.load).b
         share = state.bodies[0].exposure[inside].mean() / law.rate(point.temperature) * law.contact_share
         assert share == approx(law.contact_share, rel=0.1)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_bodies_that_hardly_move_grow_next_to_nothing_at_any_slide_to_roll_ratio(level):
+    scene = cheap(CHEAP | DRY)[0].at_level(level)
+    point = replace(scene.operation.point, speed_1=1.05e-9, speed_2=0.95e-9)
+    _, out = advance(scene, point, initial_state(scene), SECONDS)
+    assert 0.0 < out.tribofilm_1 < 1e-3 * films(level)[0]
+
+
+def test_the_regression_level_says_which_laws_of_nodes_it_leaves_out():
+    given = {"plasticity.indentation": "iterated", "solids.film_modulus": "100 GPa"}
+    assert not any("leaves out" in line for line in cheap(CHEAP | given)[0].warnings())
+    said = [line for line in cheap(CHEAP | given)[0].at_level("regression").warnings() if "leaves out" in line]
+    assert said == [
+        "film.model = 'regression' leaves out plasticity.indentation = 'iterated' and solids.film_modulus: it has no "
+        "nodes that yield."
+    ]
