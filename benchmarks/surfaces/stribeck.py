@@ -204,7 +204,9 @@ def setting(text: str) -> tuple[str, str]:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scenes", nargs="*", default=list(shipped_scenes()))
+    parser.add_argument(
+        "scenes", nargs="*", default=[name for name in shipped_scenes() if not name.endswith("_thesis")]
+    )
     parser.add_argument("--times", default="0,5,15,30,60,120", help="minutes")
     parser.add_argument("--points", type=int, default=12)
     parser.add_argument("--set", dest="settings", nargs="+", default=[], type=setting)
