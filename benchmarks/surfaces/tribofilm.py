@@ -146,7 +146,7 @@ def judge_sweeps(page: Page, films: dict[str, np.ndarray]) -> None:
         )
         low, full = slip[1:5, i], slip[4:, i]
         page.verdict(
-            f"{level}: the film rises with sliding until all of the contact slips, and changes by less than 15 % from there to pure sliding (films at 50 and 100 % alike: Shimizu & Spikes 2016)",
+            f"{level}: the film rises with sliding until all of the contact slips, and changes by less than 15 % from there to pure sliding (films form at high ratios, too: Shimizu & Spikes 2016)",
             ", ".join(f"{value:.3g}" for value in slip[1:, i]) + " nm",
             bool(np.all(np.diff(low) > 0.0) and np.ptp(full) < 0.15 * full.max()),
         )
@@ -161,7 +161,7 @@ def judge_sweeps(page: Page, films: dict[str, np.ndarray]) -> None:
             bool(np.all(np.diff(load[:, i]) > 0.0)),
         )
         page.verdict(
-            f"{level}: the film rises with temperature at 20 minutes, as all sources have it",
+            f"{level}: the film rises with temperature at 20 minutes",
             ", ".join(f"{value:.3g}" for value in warm[:, i]) + " nm",
             bool(np.all(np.diff(warm[:, i]) > 0.0)),
         )
