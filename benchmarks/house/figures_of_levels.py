@@ -3,7 +3,6 @@
 from benchmarks.house.tables import Pages, Row, line_of, link, number, pair, per_cent
 
 HOURS = {
-    "tribofilm": ("ball's film nm", "disc's film nm"),
     "wear": ("ball's wear nm", "disc's wear nm"),
     "friction": ("mu",),
     "h_c": ("h_c nm",),
@@ -49,9 +48,28 @@ def two_hours(pages: Pages) -> list[tuple[str, ...]]:
         (_, best, _), (_, worst, at) = min(found, key=lambda one: one[0]), max(found, key=lambda one: one[0])
         when = f"{worst} ({at['scene']}, {at['min']} min)"
         lines.append((f"{name} at 0, 20, 60 and 120 min of rubbing", best, when, link("regression/curves.md")))
+    lines.append(grown(pages))
     times = [slow / fast for slow, fast in (pair(row["CPU s"]) for row in rows if row["min"] == "120")]
     lines.append(("ratio of their CPU times", f"{max(times):.0f}", f"{min(times):.0f}", link("regression/curves.md")))
     return lines
+
+
+def grown(pages: Pages) -> tuple[str, ...]:
+    """Deviation of the ball's tribofilm after 20 minutes of rubbing."""
+    page, mine = "surfaces/tribofilm.md", "regression level: ball nm"
+    rows = [row for row in pages.rows(page, mine) if number(row["ball nm"]) > 1.0]
+    off = [number(row[mine]) / number(row["ball nm"]) - 1.0 for row in rows]
+    shown = [
+        (f"{100.0 * x:+.2g} %", next(iter(row.items())))
+        for x, row in sorted(zip(off, rows, strict=True), key=lambda one: abs(one[0]))
+    ]
+    (best, _), (worst, (name, value)) = shown[0], shown[-1]
+    return (
+        f"tribofilm of the ball after 20 min at {len(rows)} ratios, speeds, loads and temperatures",
+        best,
+        f"{worst} ({name} {value})",
+        link(page),
+    )
 
 
 def covered(rows: list[Row], column: str) -> tuple[int, int]:
