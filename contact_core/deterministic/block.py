@@ -13,14 +13,16 @@ import numpy as np
 
 from ..laws.tribofilm import DOSES
 from ..scene import Case, Scene
-from ..state import Body, ContactState, RangeFlag
+from ..state import Below, Body, ContactState, RangeFlag
 from ..state.trends import RATES_FOLLOWED
 from ..surfaces.patches import on_grid, patch_nodes, widened
+from . import damage
 from .accumulator import Accumulator
 from .growth_and_wear import followed, stable_time, with_exposure
 from .instant import solve_instant
 from .resting import conformed, scar_time
 from .sampling import blocks_per_pass, jumps_of, sample_dry, sample_mixed
+from .subsurface import OF_STRESS, of_a_pass, outputs_of_stress, passed, share_of
 
 _DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
@@ -96,7 +98,9 @@ def _wide_enough(case: Case, state: ContactState) -> ContactState:
         return state
     more = 8 * math.ceil(rows / 64)  # an eighth on either side
     first, second = (widened(body, more) for body in state.bodies)
-    return replace(state, bodies=(first, second), film=None)
+    return replace(
+        state, bodies=(first, second), below=damage.widened(case.scene, state.below, rows, more), film=None
+    )
 
 
 def _worn_at_the_edge(case: Case, state: ContactState) -> bool:
@@ -132,18 +136,20 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
     """Return the state with a block's results: exposure of the surfaces, outputs, limits of the next block."""
     driver = sums.driver
     kind = "dry" if driver == "dry" else "mixed"
+    below, stresses, rates = _below(case, state, sums, sampled=blocks > 0)
     first, second = (with_exposure(case, side, state, sums, _ALIKE[kind]) for side in case.sides)
     bodies = conformed(case, state, (first, second), sums.fluid / sums.count)
     surfaces = {k: v for pair in zip(case.sides, bodies, strict=True) for k, v in followed(case, *pair).items()}
-    state = replace(state, bodies=bodies)
+    state = replace(state, bodies=bodies, below=below)
     sums.flags = sums.all_flags | _flags_of_motion(case, state, driver)
-    seen, spread = _observed(sums, surfaces, apart=driver == "dry")
+    seen, spread = _observed(sums, surfaces, rates, apart=driver == "dry")
     trends = state.trends.followed(seen, spread, _MEMORY[kind], _lag(case.scene, driver))
     smooth, count = trends.values(), f"blocks_{driver}"
     smooth["friction_force"] = smooth["friction_solid"] + smooth["friction_fluid"]
     outputs = replace(
         state.outputs,
         **smooth,
+        **stresses,
         **{count: getattr(state.outputs, count) + blocks},
         **sums.slopes(case),
         friction_coefficient=abs(smooth["friction_force"]) / case.op.load if case.loaded else 0.0,
@@ -164,15 +170,34 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
     return replace(state, hold=_longest(case, state, state.held), held=0.0)
 
 
+def _below(
+    case: Case, state: ContactState, sums: Accumulator, *, sampled: bool
+) -> tuple[Below | None, dict[str, float], dict[str, tuple[float, float]]]:
+    """Return what lies below the surfaces after a block, the outputs of stress, and the speeds of the damages.
+
+    Not `sampled`, and without a load, there is no new pass: unloaded, none does damage.
+    """
+    below, found, stresses = state.below, None, {}
+    if case.scene.stress.samples and sampled and case.loaded:
+        same = state.solved_for is not None and not case.differs_from(state.solved_for)
+        tractions = of_a_pass(case, state, share_of(case, sums.tractions, dry=sums.driver == "dry"), same=same)
+        found = passed(case, state.rows, tractions)
+        below, stresses = damage.with_cycles(case, state, tractions, found), outputs_of_stress(case, state.rows, found)
+    elif below is not None and sampled:
+        below, stresses = damage.at_rest(below), dict.fromkeys(OF_STRESS, 0.0)
+    return below, stresses, damage.rates_of(case, below, found)
+
+
 def _observed(
-    sums: Accumulator, surfaces: dict[str, float], *, apart: bool
+    sums: Accumulator, surfaces: dict[str, float], damages: dict[str, tuple[float, float]], *, apart: bool
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Return means and standard deviations of what the trends follow, by name."""
+    """Return means and standard deviations of what the trends follow, by name; `damages`: both of their rates."""
     seen, spread = sums.means(), sums.spread(apart=apart)
     share = seen["contact_load_ratio"]
     scatter = spread["contact_load_ratio"] / share if share > 0.0 else 0.0  # wear is in proportion to it
-    rates = {name: surfaces[name] * scatter for name in RATES_FOLLOWED}
-    return seen | surfaces, spread | rates
+    worn = {name: surfaces[name] * scatter for name in RATES_FOLLOWED if name in surfaces}
+    means, deviations = ({name: both[k] for name, both in damages.items()} for k in (0, 1))
+    return seen | surfaces | means, spread | worn | deviations
 
 
 def _lag(scene: Scene, driver: str) -> float:
@@ -198,6 +223,7 @@ def _longest(case: Case, state: ContactState, before: float) -> float:
     limits = [control.longest]
     if case.loaded:
         limits += [max(_stable_time(case, state.bodies), _SHORTEST * control.longest)]
+        limits += [damage.pit_time(case, state)]
         limits += [scar_time(case, *pair) for pair in zip(case.sides, state.bodies, strict=True)]
         if before > 0.0:
             step = abs(state.trends.slope_of("contact_load_ratio"))

@@ -6,6 +6,7 @@
     heat, bulk          temperatures in the contact, and of the bodies
     tribofilm/          growth and removal of the tribofilm
     oxide               oxide where no tribofilm covers the solids
+    stress              stresses below the surfaces, and the fatigue limits beside them
     load_sharing        load on solids and oil at the regression level
     profile             ends of rollers
     asperity_layer      roughness below the grid: not yet in a scene
@@ -30,6 +31,7 @@ from . import (
     plasticity,
     profile,
     rheology,
+    stress,
     supply,
     tribofilm,
     viscosity,
@@ -50,6 +52,7 @@ SLOTS: dict[str, tuple[type[Law], ...]] = {
     "tribofilm": tribofilm.LAWS,
     "wear": wear.LAWS,
     "oxide": oxide.LAWS,
+    "stress": stress.LAWS,
     "sharing": load_sharing.LAWS,
     "profile": profile.LAWS,
 }

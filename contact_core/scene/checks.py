@@ -102,6 +102,8 @@ def _shape_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
             )
     if plasticity.error:
         yield "hardness", plasticity.error
+    if scene.stress.error:
+        yield "stress", scene.stress.error
     solids = scene.solids
     if solids.film_modulus is not None:
         given = solids.film_modulus, solids.film_poisson_ratio
