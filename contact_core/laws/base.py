@@ -10,6 +10,7 @@ from typing import Any, ClassVar, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..kernels.load_cycle import Cycle
 from .elementary import Numbers
 from .equations import Equations
 from .temperatures import Rubbing, Temperatures
@@ -348,6 +349,15 @@ class Oxide(Law, Protocol):
 
     def evolve(self, oxide: Numbers, growing: Numbers, rubbing: Numbers) -> tuple[Numbers, Numbers]:
         """Return the oxide [m], and what was rubbed off it [m], after both rates have added up to these [m]."""
+
+
+class Fatigue(Law, Protocol):
+    """Damage of the solids by load cycles."""
+
+    damages: ClassVar[bool]
+
+    def per_cycle(self, cycle: Cycle) -> Array:
+        """Return the damage by one load cycle, 0 to 1: it adds up, and at 1 the material fails."""
 
 
 class Profile(Law, Protocol):
