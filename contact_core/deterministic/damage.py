@@ -9,10 +9,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..kernels.damage import accumulated, pits_of
 from ..kernels.load_cycle import Cycle
 from ..scene import Case, Scene, Side
 from ..state import Below, Body, ContactState
-from ..surfaces.damage import pits_of, worn_away
 from ..surfaces.patches import track_rows
 from .subsurface import Pass, Traction
 
@@ -122,14 +122,8 @@ def _fatigued(case: Case, side: Side, below: Below, body: Body, worn: Array, ste
     """Return the damage and the body after `step` [s] of load cycles, in which `worn` [m] was rubbed off."""
     scene, count = case.scene, cycles_in(side, step)
     damage, per_cycle = (_layers(scene, field[side.body]) for field in (below.damage, below.per_cycle))
-    if worn.any():  # half of the cycles before it and half after it: second order in the step
-        half = 0.5 * count * per_cycle
-        damage = worn_away(damage + half, scene.depths, worn) + half
-    else:
-        damage = damage + count * per_cycle
-    broken = pits_of(damage, scene.depths)
+    broken, damage = pits_of(accumulated(damage, scene.depths, count * per_cycle, worn), scene.depths)
     if broken.any():
-        damage = worn_away(damage, scene.depths, broken)
         bare = broken > 0.0
         films = {name: np.where(bare, 0.0, getattr(body, name)) for name in ("growth", "removal", "oxide")}
         body = replace(body, pits=body.pits + broken, **films)

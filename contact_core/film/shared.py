@@ -3,13 +3,15 @@
 import threading
 from collections.abc import Callable
 from functools import lru_cache, partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
-from ..kernels.subsurface import Subsurface
+
+if TYPE_CHECKING:
+    from ..kernels.subsurface import Subsurface
 
 Array = NDArray[np.float64]
 
@@ -43,8 +45,10 @@ def tables(
 
 def subsurface(
     shape: tuple[int, int], spacing: float, depths: tuple[float, ...], poisson: float, library: str, *, periodic: bool
-) -> Subsurface:
+) -> "Subsurface":
     """Return the stresses below a grid at depths [m], with stored plans."""
+    from ..kernels.subsurface import Subsurface  # loads the compiler
+
     store: dict[tuple[Any, ...], Subsurface] = _LOCAL.__dict__.setdefault("subsurfaces", {})
     key = (shape, spacing, depths, poisson, library, periodic)
     if key not in store:

@@ -7,6 +7,7 @@
     tribofilm/          growth and removal of the tribofilm
     oxide               oxide where no tribofilm covers the solids
     stress              stresses below the surfaces, and the fatigue limits beside them
+    fatigue             damage of the solids by load cycles
     load_sharing        load on solids and oil at the regression level
     profile             ends of rollers
     asperity_layer      roughness below the grid: not yet in a scene
@@ -25,6 +26,7 @@ from . import (
     bulk,
     density,
     double_layer,
+    fatigue,
     heat,
     load_sharing,
     oxide,
@@ -53,6 +55,7 @@ SLOTS: dict[str, tuple[type[Law], ...]] = {
     "wear": wear.LAWS,
     "oxide": oxide.LAWS,
     "stress": stress.LAWS,
+    "fatigue": fatigue.LAWS,
     "sharing": load_sharing.LAWS,
     "profile": profile.LAWS,
 }

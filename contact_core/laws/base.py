@@ -10,6 +10,7 @@ from typing import Any, ClassVar, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..kernels.load_cycle import Cycle
 from .elementary import Numbers
 from .equations import Equations
 from .temperatures import Rubbing, Temperatures
@@ -384,6 +385,15 @@ class Stress(Law, Protocol):
 
     def residual_stress(self) -> Array:
         """Return the stress without a load [Pa], [6]: xx, yy, zz, yz, xz, xy, tension positive."""
+
+
+class Fatigue(Law, Protocol):
+    """Damage of the solids by load cycles."""
+
+    damages: ClassVar[bool]
+
+    def per_cycle(self, cycle: Cycle) -> Array:
+        """Return the damage by one load cycle, 0 to 1: it adds up, and at 1 the material fails."""
 
 
 class Profile(Law, Protocol):

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from ..film import Deterministic, Regression
 from ..film.instant import Grid
-from ..laws.base import BoundaryFriction, Heat, Oxide, Plasticity, Stress, Tribofilm, Wear
+from ..laws.base import BoundaryFriction, Fatigue, Heat, Oxide, Plasticity, Stress, Tribofilm, Wear
+from ..laws.fatigue import NoFatigue
 from ..laws.oxide import NoOxide
 from ..laws.stress import NoStress
 from ..reference import Hertz
@@ -47,6 +48,7 @@ class SceneFields:
     operation: Operation
     oxide: Oxide = field(default=NoOxide())
     stress: Stress = field(default=NoStress())
+    fatigue: Fatigue = field(default=NoFatigue())
 
     def to_dict(self) -> dict[str, Any]:
         """Return nested tables, from which `Scene.from_dict` makes an equal scene, bit for bit."""

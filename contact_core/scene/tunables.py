@@ -23,6 +23,7 @@ _PARTS = (
     "wear",
     "oxide",
     "stress",
+    "fatigue",
     "film",
     "control",
 )
