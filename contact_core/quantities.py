@@ -146,7 +146,7 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("near_surface_share", "S_s", "1", "share of the risk of fatigue, the integral of sqrt(J2,a)^(31/3) over both bodies, down to stress.near_surface", minimum=0.0, maximum=1.0, levels=_BLOCKS),
     Quantity("dang_van_ratio", "R_D", "1", "largest Dang Van stress of a load cycle on the tracks over stress.torsion_limit", minimum=0.0, levels=_BLOCKS),
     Quantity("crossland_ratio", "R_C", "1", "largest Crossland stress of a load cycle on the tracks over stress.torsion_limit", minimum=0.0, levels=_BLOCKS),
-    *_pair("damage", "D", "1", "mean over the track |y| < b of the largest fatigue damage under a point; the material fails at 1", nominal=0.1, minimum=0.0, levels=_BLOCKS, trend="rate", error="error_damage"),
+    *_pair("damage", "D", "1", "mean over the track |y| < b of the largest fatigue damage under a point; the material fails at 1", nominal=0.1, minimum=0.0, levels=_BLOCKS, error="error_damage"),
     *_pair("micropitted_area", "A_p", "1", "share of the track |y| < b that fatigue has broken out", nominal=0.1, minimum=0.0, maximum=1.0, levels=_BLOCKS),
     *_pair("profile_loss", "l_p", "m", "mean depth worn and broken out over the track |y| < b", nominal=1e-7, minimum=0.0, display="nm", levels=_BLOCKS),
     *_pair("temperature", "T", "K", "bulk temperature", nominal=350.0, minimum=0.0, display="degC"),

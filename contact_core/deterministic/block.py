@@ -99,7 +99,7 @@ def _wide_enough(case: Case, state: ContactState) -> ContactState:
     more = 8 * math.ceil(rows / 64)  # an eighth on either side
     first, second = (widened(body, more) for body in state.bodies)
     return replace(
-        state, bodies=(first, second), below=damage.widened(case.scene, state.below, rows, more), film=None
+        state, bodies=(first, second), below=damage.widened(state.below, rows, more), film=None
     )
 
 
@@ -136,13 +136,13 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
     """Return the state with a block's results: exposure of the surfaces, outputs, limits of the next block."""
     driver = sums.driver
     kind = "dry" if driver == "dry" else "mixed"
-    below, stresses, rates = _below(case, state, sums, sampled=blocks > 0)
+    below, stresses = _below(case, state, sums) if blocks else (state.below, {})
     first, second = (with_exposure(case, side, state, sums, _ALIKE[kind]) for side in case.sides)
     bodies = conformed(case, state, (first, second), sums.fluid / sums.count)
     surfaces = {k: v for pair in zip(case.sides, bodies, strict=True) for k, v in followed(case, *pair).items()}
     state = replace(state, bodies=bodies, below=below)
     sums.flags = sums.all_flags | _flags_of_motion(case, state, driver)
-    seen, spread = _observed(sums, surfaces, rates, apart=driver == "dry")
+    seen, spread = _observed(sums, surfaces, apart=driver == "dry")
     trends = state.trends.followed(seen, spread, _MEMORY[kind], _lag(case.scene, driver))
     smooth, count = trends.values(), f"blocks_{driver}"
     smooth["friction_force"] = smooth["friction_solid"] + smooth["friction_fluid"]
@@ -170,34 +170,35 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
     return replace(state, hold=_longest(case, state, state.held), held=0.0)
 
 
-def _below(
-    case: Case, state: ContactState, sums: Accumulator, *, sampled: bool
-) -> tuple[Below | None, dict[str, float], dict[str, tuple[float, float]]]:
-    """Return what lies below the surfaces after a block, the outputs of stress, and the speeds of the damages.
+def _below(case: Case, state: ContactState, sums: Accumulator) -> tuple[Below | None, dict[str, float]]:
+    """Return what lies below the surfaces after a block, and the outputs of stress that are new.
 
-    Not `sampled`, and without a load, there is no new pass: unloaded, none does damage.
+    A pass counts once its instants are new; at first as soon as twice as many are known as before.
     """
-    below, found, stresses = state.below, None, {}
-    if case.scene.stress.samples and sampled and case.loaded:
-        same = state.solved_for is not None and not case.differs_from(state.solved_for)
-        tractions = of_a_pass(case, state, share_of(case, sums.tractions, dry=sums.driver == "dry"), same=same)
-        found = passed(case, state.rows, tractions)
-        below, stresses = damage.with_cycles(case, state, tractions, found), outputs_of_stress(case, state.rows, found)
-    elif below is not None and sampled:
-        below, stresses = damage.at_rest(below), dict.fromkeys(OF_STRESS, 0.0)
-    return below, stresses, damage.rates_of(case, below, found)
+    below, scene = state.below, case.scene
+    if not scene.stress.samples:
+        return below, {}
+    if not case.loaded:
+        return damage.at_rest(below) if below is not None else None, dict.fromkeys(OF_STRESS, 0.0)
+    same = state.solved_for is not None and not case.differs_from(state.solved_for)
+    found = share_of(case, sums.tractions, dry=sums.driver == "dry")
+    tractions = of_a_pass(case, state, found, same=same)
+    below = damage.with_tractions(below or damage.unharmed(scene, state.rows), tractions, len(found))
+    if same and below.fresh < below.used:
+        return below, {}
+    seen = passed(case, state.rows, tractions)
+    return damage.with_cycles(case, below, seen), outputs_of_stress(case, state.rows, seen)
 
 
 def _observed(
-    sums: Accumulator, surfaces: dict[str, float], damages: dict[str, tuple[float, float]], *, apart: bool
+    sums: Accumulator, surfaces: dict[str, float], *, apart: bool
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Return means and standard deviations of what the trends follow, by name; `damages`: both of their rates."""
+    """Return means and standard deviations of what the trends follow, by name."""
     seen, spread = sums.means(), sums.spread(apart=apart)
     share = seen["contact_load_ratio"]
     scatter = spread["contact_load_ratio"] / share if share > 0.0 else 0.0  # wear is in proportion to it
-    worn = {name: surfaces[name] * scatter for name in RATES_FOLLOWED if name in surfaces}
-    means, deviations = ({name: both[k] for name, both in damages.items()} for k in (0, 1))
-    return seen | surfaces | means, spread | worn | deviations
+    rates = {name: surfaces[name] * scatter for name in RATES_FOLLOWED}
+    return seen | surfaces, spread | rates
 
 
 def _lag(scene: Scene, driver: str) -> float:

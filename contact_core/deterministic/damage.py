@@ -4,6 +4,7 @@ Damage per load cycle is that of the last pass (`subsurface`); it holds until th
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,31 +19,53 @@ from .subsurface import Pass, Traction
 
 Array = NDArray[np.float64]
 
+_OF_ROWS = ("pressure", "shear", "damage_1", "damage_2", "per_cycle_1", "per_cycle_2")
 _SCALED = 1.01  # of stresses, to see how steeply damage rises with them
 _BATCH = 0.005  # of the track that may break out in one block
 
 
-def with_cycles(case: Case, state: ContactState, tractions: list[Traction], found: Pass) -> Below:
-    """Return what lies below after a pass, with its tractions."""
-    scene, before = case.scene, state.below
-    fresh = np.zeros((scene.depths.size * state.rows, scene.film.points - 1))
-    damage = before.damage if before is not None else (fresh, fresh)
-    per_cycle = [fresh, fresh]
-    if scene.fatigue.damages:
-        per_cycle = [scene.fatigue.per_cycle(cycle).reshape(fresh.shape) for cycle in found.cycles]
-    return Below(
-        np.concatenate([each.pressure for each in tractions]),
-        np.concatenate([each.shear for each in tractions]),
-        np.array([each.places for each in tractions], np.float64),
-        *damage,
-        *per_cycle,
+def unharmed(scene: Scene, rows: int) -> Below:
+    """Return what lies below new surfaces, before the first instant."""
+    fresh = np.zeros((scene.depths.size * rows, scene.film.points - 1))
+    nothing, none = np.zeros(2), np.empty((0, 0))
+    return Below(none, none, none, 0, 0, 0.0, *(fresh,) * 4, *(nothing,) * 5)
+
+
+def with_tractions(below: Below, tractions: Sequence[Traction], fresh: int) -> Below:
+    """Return what lies below with the tractions of the last pass, of which `fresh` more are new."""
+    return replace(
+        below,
+        pressure=np.concatenate([each.pressure for each in tractions]),
+        shear=np.concatenate([each.shear for each in tractions]),
+        places=np.array([each.places for each in tractions], np.float64),
+        fresh=below.fresh + fresh,
     )
+
+
+def with_cycles(case: Case, below: Below, found: Pass) -> Below:
+    """Return what lies below after a pass."""
+    below = replace(below, used=len(below.places), fresh=0)
+    law = case.scene.fatigue
+    if not law.damages:
+        return below
+    harm = [law.per_cycle(cycle) for cycle in found.cycles]
+    rate = np.array([_rate(case, side, harm[side.body]) for side in case.sides])
+    spread = np.array([_spread(case, side, found, rate[side.body]) for side in case.sides])
+    first, second = (each.reshape(below.damage_1.shape) for each in harm)
+    return _at_rate(replace(below, per_cycle_1=first, per_cycle_2=second), rate, spread)
 
 
 def at_rest(below: Below) -> Below:
     """Return what lies below bodies that nothing presses together."""
-    first, second = (np.zeros_like(field) for field in below.per_cycle)
-    return replace(below, per_cycle_1=first, per_cycle_2=second)
+    none = np.zeros_like(below.damage_1)
+    return _at_rate(replace(below, per_cycle_1=none, per_cycle_2=none), np.zeros(2), np.zeros(2))
+
+
+def _at_rate(below: Below, rate: Array, spread: Array) -> Below:
+    """Return what lies below with new rates: the last ones were, in their time, late by half of the change."""
+    step = rate - below.rate if below.rate.any() else np.zeros(2)
+    late = below.late + 0.5 * step * below.held
+    return replace(below, rate=rate, spread=spread, step=step, late=late, held=0.0)
 
 
 def cycles_in(side: Side, step: float) -> float:
@@ -50,35 +73,23 @@ def cycles_in(side: Side, step: float) -> float:
     return abs(side.speed) * step / side.track_length
 
 
-def rates_of(case: Case, below: Below | None, found: Pass | None) -> dict[str, tuple[float, float]]:
-    """Return the speeds at which the damages of both tracks rise and their standard deviations [1/s], by name.
-
-    `found`: the pass that they are of, if it has just been sampled.
-    """
-    rates = (0.0, 0.0), (0.0, 0.0)
-    if below is not None and case.scene.fatigue.damages:
-        rates = _rate(case, case.sides[0], below, found), _rate(case, case.sides[1], below, found)
-    return {f"damage_{i}_rate": rate for i, rate in enumerate(rates, 1)}
+def _rate(case: Case, side: Side, per_cycle: Array) -> float:
+    """Return the speed [1/s] at which the mean damage of a track rises; the field is [layers, rows, nx - 1]."""
+    return _largest(case.scene, per_cycle) * cycles_in(side, 1.0)
 
 
-def _rate(case: Case, side: Side, below: Below, found: Pass | None) -> tuple[float, float]:
-    per_cycle = below.per_cycle[side.body]
-
-    def of_track(damage: Array) -> float:
-        return _largest(case.scene, damage) * cycles_in(side, 1.0)
-
-    mean = of_track(per_cycle)
-    if mean == 0.0 or found is None:
-        return mean, 0.0
-    cycle = Cycle(*(_SCALED * part for part in found.cycles[side.body]))
-    steeper = of_track(case.scene.fatigue.per_cycle(cycle).reshape(per_cycle.shape))
-    return mean, mean * math.log(steeper / mean) / math.log(_SCALED) * found.scatter
+def _spread(case: Case, side: Side, found: Pass, rate: float) -> float:
+    """Return the standard deviation of that speed, by the scatter of the largest stress among the instants."""
+    if rate == 0.0:
+        return 0.0
+    larger = Cycle(*(_SCALED * part for part in found.cycles[side.body]))
+    steeper = _rate(case, side, case.scene.fatigue.per_cycle(larger))
+    return rate * math.log(steeper / rate) / math.log(_SCALED) * found.scatter
 
 
 def _largest(scene: Scene, field: Array) -> float:
-    """Return the mean over the track of the largest value below each point."""
-    layers = _layers(scene, field)
-    return float(layers.max(axis=0)[track_rows(scene, layers.shape[1])].mean())
+    """Return the mean over the track of the largest value below each point, of a field [layers, rows, nx - 1]."""
+    return float(field.max(axis=0)[track_rows(scene, field.shape[1])].mean())
 
 
 def _layers(scene: Scene, field: Array) -> Array:
@@ -115,7 +126,15 @@ def fatigued(
         damage, body = _fatigued(case, side, below, now, now.wear - then.wear, step)
         damages.append(damage)
         after.append(body)
-    return replace(below, damage_1=damages[0], damage_2=damages[1]), (after[0], after[1])
+    held = below.held + step
+    below = replace(
+        below,
+        damage_1=damages[0],
+        damage_2=damages[1],
+        held=held,
+        variance=below.variance + below.spread**2 * (held**2 - below.held**2),
+    )
+    return below, (after[0], after[1])
 
 
 def _fatigued(case: Case, side: Side, below: Below, body: Body, worn: Array, step: float) -> tuple[Array, Body]:
@@ -132,10 +151,10 @@ def _fatigued(case: Case, side: Side, below: Below, body: Body, worn: Array, ste
 
 def damage_of_track(scene: Scene, state: ContactState, body: int) -> float:
     """Return the mean damage of the track of body 1 (`body` = 0) or 2 (1), at the worst depth below each point."""
-    return _largest(scene, state.below.damage[body]) if state.below is not None else 0.0
+    return _largest(scene, _layers(scene, state.below.damage[body])) if state.below is not None else 0.0
 
 
-def widened(scene: Scene, below: Below | None, rows: int, more: int) -> Below | None:
+def widened(below: Below | None, rows: int, more: int) -> Below | None:
     """Return what lies below with `more` fresh rows on either side of `rows`."""
     if below is None:
         return None
@@ -145,4 +164,4 @@ def widened(scene: Scene, below: Below | None, rows: int, more: int) -> Below | 
         padded: Array = np.pad(layers, ((0, 0), (more, more), (0, 0)))
         return padded.reshape(-1, field.shape[1])
 
-    return Below(**{name: field if name == "places" else wider(field) for name, field in vars(below).items()})
+    return replace(below, **{name: wider(getattr(below, name)) for name in _OF_ROWS})

@@ -87,6 +87,9 @@ def errors_of(scene: Scene, state: ContactState) -> dict[str, Error]:
         roughness = getattr(out, name)
         if roughness > 0.0:  # the noise of wear adds to its square
             found[name] = found[name]._replace(sampling=min(0.5 * body.noise / roughness, roughness))
+    for i in (0, 1):
+        late, sampling = state.below.errors(i) if state.below is not None else (0.0, 0.0)
+        found[f"damage_{i + 1}"] = Error(time=late, sampling=sampling)
     if state.solved_for is not None and state.solved_for.load > 0.0:
         found = with_errors_of_the_solution(Case(scene, state.solved_for), out, found)
     force = abs(out.friction_force)
