@@ -98,9 +98,7 @@ def _wide_enough(case: Case, state: ContactState) -> ContactState:
         return state
     more = 8 * math.ceil(rows / 64)  # an eighth on either side
     first, second = (widened(body, more) for body in state.bodies)
-    return replace(
-        state, bodies=(first, second), below=damage.widened(state.below, rows, more), film=None
-    )
+    return replace(state, bodies=(first, second), below=damage.widened(state.below, rows, more), film=None)
 
 
 def _worn_at_the_edge(case: Case, state: ContactState) -> bool:

@@ -6,6 +6,7 @@ Damage per load cycle is that of the last pass (`subsurface`); it holds until th
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,7 +118,7 @@ def _pit_time(case: Case, side: Side, below: Below) -> float:
 def fatigued(
     case: Case, state: ContactState, bodies: tuple[Body, Body], step: float
 ) -> tuple[Below | None, tuple[Body, Body]]:
-    """Return what lies below, and the bodies with their new pits, `step` [s] after a state; `bodies` have worn since."""
+    """Return what lies below, and the bodies with their new pits, `step` [s] after a state; `bodies` have worn."""
     below = state.below
     if below is None or not case.scene.fatigue.damages:
         return below, bodies
@@ -144,7 +145,9 @@ def _fatigued(case: Case, side: Side, below: Below, body: Body, worn: Array, ste
     broken, damage = pits_of(accumulated(damage, scene.depths, count * per_cycle, worn), scene.depths)
     if broken.any():
         bare = broken > 0.0
-        films = {name: np.where(bare, 0.0, getattr(body, name)) for name in ("growth", "removal", "oxide")}
+        films: dict[str, Any] = {
+            name: np.where(bare, 0.0, getattr(body, name)) for name in ("growth", "removal", "oxide")
+        }
         body = replace(body, pits=body.pits + broken, **films)
     return damage.reshape(below.damage[0].shape), body
 
@@ -164,4 +167,5 @@ def widened(below: Below | None, rows: int, more: int) -> Below | None:
         padded: Array = np.pad(layers, ((0, 0), (more, more), (0, 0)))
         return padded.reshape(-1, field.shape[1])
 
-    return replace(below, **{name: wider(getattr(below, name)) for name in _OF_ROWS})
+    fields: dict[str, Any] = {name: wider(getattr(below, name)) for name in _OF_ROWS}
+    return replace(below, **fields)

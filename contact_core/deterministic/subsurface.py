@@ -126,9 +126,8 @@ def outputs_of_stress(case: Case, rows: int, found: Pass) -> dict[str, float]:
     depths, track = scene.depths, track_rows(scene, rows)
     deepest = int(found.von_mises.argmax())
     limit = law.torsion_limit
-    risk = sum(_risk(cycle.shear[:, track], depths) for cycle in found.cycles)
-    near = float(risk[depths <= law.near_surface * case.hertz.a].sum())
-    total = float(np.sum(risk))
+    risk = np.sum([_risk(cycle.shear[:, track], depths) for cycle in found.cycles], axis=0)
+    near, total = float(risk[depths <= law.near_surface * case.hertz.a].sum()), float(risk.sum())
     crossland = (cycle.shear + law.crossland_slope * cycle.hydrostatic for cycle in found.cycles)
     values = (
         float(found.von_mises[deepest]),

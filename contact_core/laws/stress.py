@@ -69,9 +69,7 @@ class HalfSpace:
     )
     samples: ClassVar[bool] = True
 
-    layers: int = parameter(
-        "", "depths at which stresses are sampled", least=2, most=64, default=8, shapes_arrays=True
-    )
+    layers: int = parameter("", "depths at which stresses are sampled", least=2, most=64, default=8, shapes_arrays=True)
     deepest: float = parameter(
         "",
         "deepest of them, over the half width along x of Hertz's contact at the scene's load; the first lies half a "
