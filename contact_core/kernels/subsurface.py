@@ -92,6 +92,21 @@ class Subsurface:
         return self._kept[layer, load]
 
 
+def graded(first: float, deepest: float, layers: int) -> Array:
+    """Return depths [layers] down to the deepest: the first one, and steps that grow from it by one factor."""
+    steps = np.arange(layers)
+    if layers == 1 or layers * first >= deepest:
+        return np.asarray(deepest / layers * (steps + 1.0), dtype=np.float64)
+
+    def reach(factor: float) -> float:
+        return first * float((factor**steps).sum()) - deepest
+
+    factor = scipy.optimize.brentq(reach, 1.0, (deepest / first) ** (1.0 / (layers - 1)))
+    depths = first * np.cumsum(factor**steps)
+    depths[-1] = deepest
+    return np.asarray(depths)
+
+
 def coefficients(ny: int, nx: int, depth: float, poisson: float, load: int) -> Array:
     """Return the stress [6, ny, nx] at distances (j, i) from a unit square cell under a unit traction, at a depth.
 
@@ -203,19 +218,25 @@ def _add(total, factor, transform, odd, turned, first):  # type: ignore[no-untyp
     Total and transform are pairs of real numbers [m, 2 n]; the factor [m, n // 2 + 1] is even or odd along n.
     """
     m, n = total.shape[0], total.shape[1] // 2
+    half = n // 2 + 1
+    sign = -1.0 if odd else 1.0
     for i in range(m):
-        for j in range(n):
-            f = factor[i, j] if 2 * j <= n else factor[i, n - j]
-            if odd and 2 * j > n:
-                f = -f
-            real, imag = f * transform[i, 2 * j], f * transform[i, 2 * j + 1]
-            if turned:
-                real, imag = -imag, real
-            if first:
-                total[i, 2 * j], total[i, 2 * j + 1] = real, imag
-            else:
-                total[i, 2 * j] += real
-                total[i, 2 * j + 1] += imag
+        if first:
+            total[i] = 0.0
+        if turned:
+            for j in range(half):
+                total[i, 2 * j] -= factor[i, j] * transform[i, 2 * j + 1]
+                total[i, 2 * j + 1] += factor[i, j] * transform[i, 2 * j]
+            for j in range(half, n):
+                total[i, 2 * j] -= sign * factor[i, n - j] * transform[i, 2 * j + 1]
+                total[i, 2 * j + 1] += sign * factor[i, n - j] * transform[i, 2 * j]
+        else:
+            for j in range(half):
+                total[i, 2 * j] += factor[i, j] * transform[i, 2 * j]
+                total[i, 2 * j + 1] += factor[i, j] * transform[i, 2 * j + 1]
+            for j in range(half, n):
+                total[i, 2 * j] += sign * factor[i, n - j] * transform[i, 2 * j]
+                total[i, 2 * j + 1] += sign * factor[i, n - j] * transform[i, 2 * j + 1]
 
 
 class _Fourier(Protocol):
