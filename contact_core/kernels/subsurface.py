@@ -92,6 +92,21 @@ class Subsurface:
         return self._kept[layer, load]
 
 
+def graded(first: float, deepest: float, layers: int) -> Array:
+    """Return depths [layers] down to the deepest: the first one, and steps that grow from it by one factor."""
+    steps = np.arange(layers)
+    if layers == 1 or layers * first >= deepest:
+        return np.asarray(deepest / layers * (steps + 1.0), dtype=np.float64)
+
+    def reach(factor: float) -> float:
+        return first * float((factor**steps).sum()) - deepest
+
+    factor = scipy.optimize.brentq(reach, 1.0, (deepest / first) ** (1.0 / (layers - 1)))
+    depths = first * np.cumsum(factor**steps)
+    depths[-1] = deepest
+    return np.asarray(depths)
+
+
 def coefficients(ny: int, nx: int, depth: float, poisson: float, load: int) -> Array:
     """Return the stress [6, ny, nx] at distances (j, i) from a unit square cell under a unit traction, at a depth.
 
