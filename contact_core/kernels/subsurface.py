@@ -44,8 +44,8 @@ class Subsurface:
         self.shape, self.poisson, self.periodic = shape, poisson, periodic
         self._ratios = np.asarray(depths, dtype=np.float64) / spacing
         ny, nx = shape
-        self._plane = ny if periodic else _fast_length(2 * ny - 1), _fast_length(2 * nx - 1)
-        self._fourier: _Fourier = (_WithFftw if library == "pyfftw" else _WithScipy)(ny, *self._plane)
+        self.plane = ny if periodic else _fast_length(2 * ny - 1), _fast_length(2 * nx - 1)
+        self._fourier: _Fourier = (_WithFftw if library == "pyfftw" else _WithScipy)(ny, *self.plane)
         self._kept: dict[tuple[int, int], Array] = {}
 
     def stress(self, pressure: Array, shear_x: Array | None = None, shear_y: Array | None = None) -> Array:
@@ -80,7 +80,7 @@ class Subsurface:
         Those of coefficients that are odd along one axis are imaginary, and stored without i.
         """
         if (layer, load) not in self._kept:
-            (ny, nx), (my, mx) = self.shape, self._plane
+            (ny, nx), (my, mx) = self.shape, self.plane
             made = periodic_coefficients if self.periodic else coefficients
             values = made(ny, nx, self._ratios[layer], self.poisson, load)
             factors = np.empty((6, mx // 2 + 1, my // 2 + 1))
