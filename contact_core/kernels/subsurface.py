@@ -201,8 +201,6 @@ def _transformed(half: Array, n: int, odd: bool) -> Array:
     full = np.zeros((half.shape[0], n))
     full[:, :known] = half
     full[:, n - known + 1 :] = (-1.0 if odd else 1.0) * half[:, :0:-1]
-    if odd and n == 2 * (known - 1):
-        full[:, known - 1] = 0.0
     spectrum = scipy.fft.rfft(full, axis=-1)
     return np.asarray(spectrum.imag if odd else spectrum.real)
 
