@@ -186,8 +186,8 @@ def _depths(values: ArrayLike, spacing: float) -> Array:
         )
     if z.max() > _REACH * spacing:
         raise OperatingPointError(
-            f"depths = {z.max():g} m is below {_REACH:g} spacings of {spacing:g} m, where nothing is left of any pressure. "
-            "Check the units of both, or leave it out."
+            f"depths = {z.max():g} m is below {_REACH:g} spacings of {spacing:g} m, where no stress is "
+            "left. Check the units of both, or leave that depth out."
         )
     return z
 
