@@ -53,10 +53,9 @@ def cycle_of(history: Array, unloaded: Array, slope: float) -> Cycle:
     """
     from .smallest_sphere import cycles  # the compiler: loaded where stresses are asked for
 
-    shape = history.shape[2:]
-    found = Cycle(*(np.empty(shape) for _ in range(3)))
+    if not (np.isfinite(history).all() and np.isfinite(unloaded).all()):
+        raise ContactError("A stress in the history of a load cycle is not finite: the contact's pressure cannot be.")
+    found = Cycle(*(np.empty(history.shape[2:]) for _ in range(3)))
     flat = np.ascontiguousarray(history, np.float64).reshape(*history.shape[:2], -1)
     cycles(flat, np.asarray(unloaded, np.float64), float(slope), *(field.reshape(-1) for field in found))
-    if not all(np.isfinite(field).all() for field in found):
-        raise ContactError("A stress in the history of a load cycle is not finite: the contact's pressure cannot be.")
     return found
