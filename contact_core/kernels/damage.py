@@ -5,7 +5,7 @@ meet halfway, the first one reaches up to the surface, below the last one nothin
 through them as the surface is lowered, and its damage with it: what leaves a layer enters the one above or is worn off.
 What layers gain is in them or has been worn off, to rounding, whatever the steps. No step makes a new extreme. Against
 the integral over the way of the material, means of 12 layers to a depth of ten times the decay length of what they
-gain are 2 to 5 % off, of 24 layers 1 %; a step cut into pieces blurs the damage over no more than one layer.
+gain are 2 to 5 % off, of 24 layers 1 %; a step cut into many pieces blurs the damage over little more than one layer.
 """
 
 import numpy as np

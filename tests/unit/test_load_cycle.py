@@ -113,7 +113,7 @@ def test_rolling_shears_alternately_by_a_quarter_of_hertzs_pressure_at_half_the_
 
 
 def test_the_largest_amplitude_in_rolling_is_that_of_the_orthogonal_shear():
-    """The other stresses of the cycle lie within the sphere about both shears; 24 instants find the amplitude of 2001 within 2 %."""
+    """The other stresses lie within the sphere about both shears; 24 instants find what 2001 do within 2 %."""
     depths = np.linspace(0.2, 1.5, 27)
     found = []
     for count in (24, 2001):
