@@ -5,8 +5,8 @@ Components of stress are xx, yy, zz, yz, xz, xy; tension is positive.
 Sources: amplitude by the smallest sphere around the deviators: Papadopoulos's definition, as in Bernasconi, Int. J.
 Fatigue 24 (2002) 649, doi:10.1016/S0142-1123(01)00181-5, and Bernasconi & Papadopoulos, Comput. Mater. Sci. 34 (2005)
 355; largest hydrostatic stress: Crossland, Int. Conf. Fatigue of Metals, London 1956 (from memory); largest shear of
-what is beyond the sphere's centre: Dang Van, ASTM STP 1191 (1993) 120 (from memory), on rolling contacts Desimone,
-Bernasconi & Beretta, Wear 260 (2006) 567.
+what is beyond the sphere's centre: Dang Van, ASTM STP 1191 (1993) 120, on rolling contacts Desimone, Bernasconi &
+Beretta, Wear 260 (2006) 567.
 """
 
 from typing import NamedTuple
