@@ -89,9 +89,9 @@ class DangVan:
         "criterion: Dang Van, ASTM STP 1191 (1993) 120; sum: Miner 1945, doi:10.1115/1.4009458"
     )
     equations: ClassVar[Equations] = Equations(
-        ("D = Σ 1/N,   S = S_1 − B ln N", "S = max_t[τ(t) + 3 (t_{-1}/b_{-1} − 1/2) p_h(t)] > S_{limit}"),
+        ("D = Σ 1/N,   S = S_1 − B ln N", "S = max_t[τ(t) + 3 (t_{-1}/b_{-1} − 1/2) σ_h(t)] > S_{limit}"),
         "τ is the largest shear of the deviator less the centre of the smallest sphere around the cycle's deviators, "
-        "p_h the hydrostatic stress, tension positive. Material fails at D = 1.",
+        "σ_h the hydrostatic stress, tension positive. Material fails at D = 1.",
     )
     damages: ClassVar[bool] = True
 
