@@ -93,7 +93,8 @@ TIRED = COARSE | {  # a softer steel than any, so that it breaks out in so short
     "stress.model": "half_space",
     "fatigue.model": "basquin",
     "fatigue.reference_stress": "400 MPa",
-    "fatigue.reference_cycles": "30",
+    "stress.near_surface": "0.5",
+    "fatigue.reference_cycles": "2000",
     "fatigue.life_exponent": "9",
 }
 # in so short a run, or on so coarse a grid, or without the law
