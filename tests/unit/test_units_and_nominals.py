@@ -98,7 +98,7 @@ TIRED = COARSE | {  # a softer steel than any, so that it breaks out in so short
     "fatigue.life_exponent": "9",
 }
 # in so short a run, or on so coarse a grid, or without the law
-NEVER = {"unconverged", "blocks_dry", "blocks_mixed", "blocks_fallback", "oxide_1", "oxide_2"}
+NEVER = {"unconverged", "blocks_dry", "blocks_mixed", "blocks_fallback", "oxide_1", "oxide_2", "micropitted_area_2"}
 
 
 def run(scene: Scene, steps: int = 2) -> Iterator[Outputs]:
