@@ -141,6 +141,8 @@ OUTPUTS: tuple[Quantity, ...] = (
     Quantity("contact_load_ratio", "W_c", "1", "load carried by the solids / load", minimum=0.0, maximum=1.0, trend="level", error="error_load_ratio"),
     Quantity("pressure_max", "p_max", "Pa", "largest pressure", nominal=1e9, minimum=0.0, display="GPa", levels=_FIELDS, trend="level"),
     Quantity("flash_temperature_rise", "dT_f", "K", "mean rise of the surfaces over the bulk temperatures in the real contact", relative=True, trend="level"),
+    Quantity("contact_temperature_max", "T_max", "K", "largest temperature of the surfaces: mean of the hottest 1 % of Hertz's area", nominal=350.0, minimum=0.0, display="degC", trend="level"),
+    Quantity("scuffing_ratio", "S", "1", "(contact_temperature_max - temperature of the oil) / (critical temperature - temperature of the oil), 0 to 1000; 0 without a law of scuffing", minimum=0.0, trend="level"),
     *_pair("temperature", "T", "K", "bulk temperature", nominal=350.0, minimum=0.0, display="degC"),
     Quantity("heat_flow_1", "Q_1", "W", "heat that the contact puts into the body, body 1", nominal=1.0, trend="level"),
     Quantity("heat_flow_2", "Q_2", "W", "heat that the contact puts into the body, body 2", nominal=1.0, trend="level"),

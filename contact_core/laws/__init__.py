@@ -6,6 +6,7 @@
     heat, bulk          temperatures in the contact, and of the bodies
     tribofilm/          growth and removal of the tribofilm
     oxide               oxide where no tribofilm covers the solids
+    scuffing            risk of scuffing: the hottest spot against a critical temperature
     load_sharing        load on solids and oil at the regression level
     profile             ends of rollers
     asperity_layer      roughness below the grid: not yet in a scene
@@ -30,6 +31,7 @@ from . import (
     plasticity,
     profile,
     rheology,
+    scuffing,
     supply,
     tribofilm,
     viscosity,
@@ -50,6 +52,7 @@ SLOTS: dict[str, tuple[type[Law], ...]] = {
     "tribofilm": tribofilm.LAWS,
     "wear": wear.LAWS,
     "oxide": oxide.LAWS,
+    "scuffing": scuffing.LAWS,
     "sharing": load_sharing.LAWS,
     "profile": profile.LAWS,
 }

@@ -9,8 +9,9 @@ from typing import Any
 
 from ..film import Deterministic, Regression
 from ..film.instant import Grid
-from ..laws.base import BoundaryFriction, Heat, Oxide, Plasticity, Tribofilm, Wear
+from ..laws.base import BoundaryFriction, Heat, Oxide, Plasticity, Scuffing, Tribofilm, Wear
 from ..laws.oxide import NoOxide
+from ..laws.scuffing import NoScuffing
 from ..reference import Hertz
 from ..shapes import Geometry, Shape
 from .operation import OperatingPoint, Operation
@@ -42,6 +43,7 @@ class SceneFields:
     control: Control
     operation: Operation
     oxide: Oxide = field(default=NoOxide())
+    scuffing: Scuffing = field(default=NoScuffing())
 
     def to_dict(self) -> dict[str, Any]:
         """Return nested tables, from which `Scene.from_dict` makes an equal scene, bit for bit."""

@@ -188,6 +188,7 @@ _SET_FILES = {
     "heat": "solids",
     "plasticity": "solids",
     "tribofilm": "tribofilms",
+    "scuffing": "scuffing",
 }
 
 

@@ -22,6 +22,7 @@ _PARTS = (
     "tribofilm",
     "wear",
     "oxide",
+    "scuffing",
     "film",
     "control",
 )
