@@ -87,10 +87,20 @@ class HalfSpace:
         "", "depth over that half width down to which a stress is near the surface", above=0.0, most=1.0, default=0.1
     )
     torsion_limit: float = parameter(
-        "Pa", "fatigue limit in alternating torsion, amplitude", above=1e6, most=1e11, default=361.4e6, quantity="Stress"
+        "Pa",
+        "fatigue limit in alternating torsion, amplitude",
+        above=1e6,
+        most=1e11,
+        default=361.4e6,
+        quantity="Stress",
     )
     bending_limit: float = parameter(
-        "Pa", "fatigue limit in alternating bending, amplitude", above=1e6, most=1e11, default=625.9e6, quantity="Stress"
+        "Pa",
+        "fatigue limit in alternating bending, amplitude",
+        above=1e6,
+        most=1e11,
+        default=625.9e6,
+        quantity="Stress",
     )
     residual: float = parameter(
         "Pa",

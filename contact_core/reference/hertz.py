@@ -36,9 +36,7 @@ def _strip_nodes() -> Nodes:
 class Conductors(Protocol):
     """Two bodies that conduct the heat of a contact away, as `laws.heat`."""
 
-    def conductances(
-        self, radius: Array, speeds: tuple[Array, Array], *, hottest: bool = False
-    ) -> tuple[Array, Array]:
+    def conductances(self, radius: Array, speeds: tuple[Array, Array], *, hottest: bool = False) -> tuple[Array, Array]:
         """Return heat flux per mean rise [W/(m2 K)] into each body, even source on a circle of `radius` [m].
 
         `hottest`: mean flux per largest rise, under a source spread like Hertz's pressure.
