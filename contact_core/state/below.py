@@ -10,26 +10,25 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Below:
-    """Tractions of the instants of a pass, and the damage they do. Fields of a body are [layers * rows, nx - 1].
+    """Tractions of the pass in progress, and the damage they do. Fields of a body are [layers * rows, nx - 1].
 
     They lie on its patch at fixed depths below its present surface, layer under layer.
     """
 
-    pressure: Array  # on the surfaces at the instants [Pa], [instants * rows, nx], the oldest first
+    pressure: Array  # on the surfaces at the instants so far [Pa], [instants * rows, nx], the oldest first
     shear: Array  # on body 2 along +x [Pa], likewise
     places: Array  # of the patches of both bodies along +x [nodes], [instants, 2]
     used: int  # instants that `per_cycle` is of
-    fresh: int  # instants since then
-    held: float  # time since then [s]
+    held: float  # time since it was found [s]
     damage_1: Array  # 1 where the material fails
     damage_2: Array
     per_cycle_1: Array  # damage per load cycle
     per_cycle_2: Array
     rate: Array  # at which the mean damages of both tracks rise [1/s], [2]
-    spread: Array  # its standard deviation, by the instants [1/s], [2]
+    spread: Array  # its standard deviation from pass to pass [1/s], [2]
     step: Array  # by which the rate has changed when it was found [1/s], [2]
     late: Array  # error of the mean damages by rates that are late, [2]
-    variance: Array  # of the mean damages by the instants, [2]
+    variance: Array  # of the mean damages by the passes, [2]
 
     def __post_init__(self) -> None:
         for array in vars(self).values():
@@ -47,6 +46,6 @@ class Below:
         return self.per_cycle_1, self.per_cycle_2
 
     def errors(self, body: int) -> tuple[float, float]:
-        """Return the half widths of the error of a track's mean damage, by late rates and by the instants."""
+        """Return the half widths of the error of a track's mean damage, by late rates and by the passes."""
         late = abs(float(self.late[body])) + 0.5 * abs(float(self.step[body])) * self.held
         return late, 2.0 * float(self.variance[body]) ** 0.5
