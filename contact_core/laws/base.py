@@ -223,9 +223,7 @@ class Heat(Law, Protocol):
         0 where the law has no spots.
         """
 
-    def conductances(
-        self, radius: Array, speeds: tuple[Array, Array], *, hottest: bool = False
-    ) -> tuple[Array, Array]:
+    def conductances(self, radius: Array, speeds: tuple[Array, Array], *, hottest: bool = False) -> tuple[Array, Array]:
         """Return the heat flux per mean rise [W/(m2 K)] into each body under an even source on a circle [m].
 
         `hottest`: mean flux per largest rise, under a source spread like Hertz's pressure.

@@ -124,9 +124,7 @@ class NoHeat:
         """Return the flash temperature rise [K] of spots: 0."""
         return 0.0
 
-    def conductances(
-        self, radius: Array, speeds: tuple[Array, Array], *, hottest: bool = False
-    ) -> tuple[Array, Array]:
+    def conductances(self, radius: Array, speeds: tuple[Array, Array], *, hottest: bool = False) -> tuple[Array, Array]:
         """Return the heat flux per rise [W/(m2 K)]: infinite, no surface is warmer than its body."""
         return np.full_like(radius, np.inf), np.full_like(radius, np.inf)
 
@@ -153,9 +151,7 @@ class _Conductors:
     inlet_shear: str = _inlet_shear()
     bulk: Bulk = _AS_THE_OIL
 
-    def conductances(
-        self, radius: Array, speeds: tuple[Array, Array], *, hottest: bool = False
-    ) -> tuple[Array, Array]:
+    def conductances(self, radius: Array, speeds: tuple[Array, Array], *, hottest: bool = False) -> tuple[Array, Array]:
         """Return the heat flux per mean rise [W/(m2 K)] into each body under an even source on a circle [m].
 
         `hottest`: mean flux per largest rise, under a source spread like Hertz's pressure. A body at rest counts as one
@@ -163,7 +159,9 @@ class _Conductors:
         """
         source = _HOTTEST if hottest else _EVEN
         first, second = (
-            _conductance(radius, np.hypot(speed, _CREEP * 2.0 * diffusivity / radius), conductivity, diffusivity, source)
+            _conductance(
+                radius, np.hypot(speed, _CREEP * 2.0 * diffusivity / radius), conductivity, diffusivity, source
+            )
             for speed, conductivity, diffusivity in self._moving(speeds)
         )
         return first, second

@@ -36,9 +36,7 @@ def _strip_nodes() -> Nodes:
 class Conductors(Protocol):
     """Two bodies that conduct the heat of a contact away, as `laws.heat`."""
 
-    def conductances(
-        self, radius: Array, speeds: tuple[Array, Array], *, hottest: bool = False
-    ) -> tuple[Array, Array]:
+    def conductances(self, radius: Array, speeds: tuple[Array, Array], *, hottest: bool = False) -> tuple[Array, Array]:
         """Return heat flux per mean rise [W/(m2 K)] into each body, even source on a circle of `radius` [m].
 
         `hottest`: mean flux per largest rise, under a source spread like Hertz's pressure.
@@ -104,7 +102,7 @@ class Hertz:
         """Return heat flux per mean rise [W/(m2 K)] into each of the bodies under an even source that holds still.
 
         The source covers `areas` [m2]; speeds [m/s]. It stands on a circle as large as the ellipse. `hottest`: mean
-        flux per largest rise, under a source spread like Hertz's pressure, which fast bodies pass along the ellipse's a.
+        flux per largest rise, under a source spread like Hertz's pressure; fast bodies pass it along the ellipse's a.
         """
         if hottest:
             shorter = math.sqrt(self.b / self.a)

@@ -74,7 +74,9 @@ def evaluate(case: Case, tribofilms: Tribofilms) -> MeanContact:
     if op.load < LIGHTEST:
         sigma, cover = composite_roughness(tribofilms), mean_cover(scene, tribofilms)
         gap = max(sigma, scene.film.floor)
-        return MeanContact(tribofilms, sigma, cover, UNFITTED, gap, *(0.0,) * 4, (0.0,) * 4, *(0.0,) * 10, max(op.bodies))
+        return MeanContact(
+            tribofilms, sigma, cover, UNFITTED, gap, *(0.0,) * 4, (0.0,) * 4, *(0.0,) * 10, max(op.bodies)
+        )
     sliding, surfaces = op.sliding_speed, surfaces_of(case, tribofilms)
     further = STEP * math.copysign(max(abs(sliding), scene.boundary_friction.slip_speed), sliding)
     smooth = smooth_film(case, further)

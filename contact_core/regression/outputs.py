@@ -5,7 +5,16 @@ from typing import Any
 
 from ..laws.load_sharing import FittedSharing
 from ..scene import Case, Scene
-from ..state import ContactState, Error, Outputs, RangeFlag, changed, flag_of_errors, flag_of_scuffing, flags_of_tribofilm
+from ..state import (
+    ContactState,
+    Error,
+    Outputs,
+    RangeFlag,
+    changed,
+    flag_of_errors,
+    flag_of_scuffing,
+    flags_of_tribofilm,
+)
 from .contact import MeanContact
 from .surfaces import Means, Tribofilms, regression_film
 
