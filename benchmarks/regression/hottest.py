@@ -1,8 +1,8 @@
 """The largest temperature of a contact: which measure of it settles with the grid, and both levels beside each other.
 
-    python -m benchmarks.regression.contact_temperature   # five minutes
+    python -m benchmarks.regression.hottest   # five minutes
 
-Writes docs/measured/regression/contact_temperature.md.
+Writes docs/measured/regression/hottest.md.
 """
 
 import math
@@ -158,7 +158,7 @@ def levels(page: Page) -> None:
 
 def main() -> None:
     """Write the page."""
-    page = Page("regression/contact_temperature", "Largest temperature of a contact")
+    page = Page("regression/hottest", "Largest temperature of a contact")
     grids(page)
     levels(page)
     page.write()
