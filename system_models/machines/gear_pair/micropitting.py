@@ -112,9 +112,9 @@ def safety(ratio: float, failing: float, material_factor: float) -> float:
 
 
 def load_stage(torque: float) -> int | None:
-    """Return the load stage of the test with a torque of the pinion [N m], within 3 %."""
+    """Return the load stage of the test with a torque of the pinion [N m], within 1 %."""
     for stage, its in enumerate(TEST_STAGES, 1):
-        if abs(torque - its) < 0.03 * its:
+        if abs(torque - its) < 0.01 * its:
             return stage
     return None
 

@@ -212,12 +212,12 @@ def _by_stage(axis: "Axes", label: str, numbers: list[int], *curves: tuple[str, 
         axis.plot(numbers, values, "o-", color=colour, linewidth=1.3, markersize=3.5, label=name)
     axis.axhline(1.0, color="0.6", linewidth=0.8, zorder=0)
     ticks = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0]
-    axis.set(xlabel="stage", ylabel=label, yscale="log", ylim=(0.4, 20.0))
+    axis.set(xlabel="stage", ylabel=label, yscale="log", ylim=(0.4, 40.0))
     axis.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
     axis.minorticks_off()
     if len(numbers) <= _MOST_CURVES:
         axis.set_xticks(numbers)
-    axis.legend(frameon=False, fontsize="small")
+    axis.legend(frameon=False, fontsize="small", loc="upper right")
     axis.spines[["top", "right"]].set_visible(False)
 
 

@@ -102,8 +102,8 @@ def _safety(record: Record) -> list[str]:
         *aligned(rows, 0),
         "",
         f"Micropitting by ISO/TS 6336-22: least h_Y / Ra over 1.4 W_W {found.failing:.3f}, with which the oil fails "
-        f"load stage {ratings.micropitting_stage} of FVA 54/7. By the run: least h_c / Ra of the flanks as they are over "
-        f"1.4 W_W {found.own_failing:.3f}, that of such contacts in the same test with new flanks. Ra: mean of both.",
+        f"load stage {ratings.micropitting_stage} of FVA 54/7. By the run: least h_c / Ra of the flanks as they are "
+        f"over 1.4 W_W {found.own_failing:.3f}, that of such contacts in the same test with new flanks. Ra: mean of both.",
         f"Scuffing at {some.flash.limit - 273.15:.0f} degC of flash temperature (ISO/TS 6336-20)"
         + (f", {some.integral.limit - 273.15:.0f} degC of integral temperature (-21)" if some.integral else "")
         + f", as the oil fails load stage {ratings.scuffing_stage} of A/8.3/90. By the run: bulk and flash of the "
