@@ -79,8 +79,9 @@ def per_stage(report: Page, records: Mapping[str, Record]) -> None:
 
 def classes(report: Page, records: Mapping[str, Record]) -> None:
     report.say(
-        "### Classes of FVA 54/7\n\nOils of each class, and the class that each method finds with the flanks of each run. A test "
-        "is failed at the first load stage at whose end the ratio is no higher than that with which the oil fails its own test."
+        "### Classes of FVA 54/7\n\nOils of each class, and the class that each method finds with the flanks of each run. An oil "
+        "passes its own test up to a load stage and fails the next: what it needs lies between the ratios of these two. A run fails at "
+        "the first load stage at whose end it is below their geometric mean."
     )
     report.header(
         "oil fails at",
@@ -250,7 +251,7 @@ def draw(records: Mapping[str, Record], scuffed: Record) -> Figure:
     along(grid[1, 1], scuffed, safeties.own_temperature(ten) - 273.15, "#000000", "-")
     grid[1, 1].set(
         xlabel="position from T1 [mm]",
-        ylabel="contact temperature at load stage 10 of type A [degC]",
+        ylabel="contact temperature [degC], type A, stage 10",
         ylim=(80.0, None),
     )
     for axes in grid.flat:

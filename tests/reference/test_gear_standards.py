@@ -193,6 +193,14 @@ def test_the_contact_ratio_factor_goes_on_smoothly_where_its_formulas_meet(other
     assert at == approx(below)
 
 
+def test_the_bulk_is_the_oil_and_a_part_of_the_mean_flash():
+    """0.47 of that along the path, or 0.7 of that of the integral temperature, of which the contact has 1.5 more."""
+    working = type_a(8)
+    rise, integral = working.mean(scuffing.flash(working)), scuffing.by_integral(working)
+    assert scuffing.by_flash(working).bulk - HOT == approx(0.47 * rise)
+    assert (integral.bulk - HOT) / (integral.temperature - integral.bulk) == approx(0.7 / 1.5)
+
+
 def test_a_jet_of_oil_lets_the_bulk_rise_by_a_fifth_more():
     bath, jet = (scuffing.by_flash(type_a(8, ratings=Ratings(supply_factor=factor))) for factor in (1.0, 1.2))
     assert jet.bulk - HOT == approx(1.2 * (bath.bulk - HOT))

@@ -146,9 +146,7 @@ def test_the_run_and_the_standard_have_safety_factors_of_their_own(record: Recor
     assert pits.own_safety == approx(pits.own / (1.4 * found.own_failing))
     assert pits.safety == approx(found.films(row).ratio.min() / (1.4 * found.failing))
     scuffs = found.scuffing(row)
-    assert scuffs.own == approx(
-        max(record.of(f"mesh.contact_temperature[{k}]")[row] for k in range(1, 1 + STATIONS))
-    )
+    assert scuffs.own == approx(max(record.of(f"mesh.contact_temperature[{k}]")[row] for k in range(1, 1 + STATIONS)))
     oil = record.of("gearbox.temperature_oil")[row]
     assert scuffs.own_safety == approx((scuffs.flash.limit - oil) / (scuffs.own - oil))
     assert found.classes() is None  # 135.3 N m is no load stage of the micropitting test

@@ -94,16 +94,16 @@ def pressure_coefficient(law: Viscosity, temperature: Array) -> Array:
     return own * (1.0 + 516.0 * (1.0 / temperature - 1.0 / _COOL))
 
 
-def reference_test(working: Working) -> Working:
-    """Return the test gears of FVA 54/7 at the load stage at which the oil fails, with elastic teeth."""
+def reference_test(working: Working, stage: int) -> Working:
+    """Return the test gears of FVA 54/7 with the oil at a load stage, with elastic teeth."""
     ratings = replace(working.ratings, supply_factor=_JET)
-    torque = TEST_STAGES[ratings.micropitting_stage - 1]
+    torque = TEST_STAGES[stage - 1]
     return Working(FZG_C, Sharing("elastic"), torque, TEST_SPEED, TEST_OIL, working.viscosity, TEST_RA, ratings)
 
 
-def limit(working: Working) -> float:
-    """Return lambda_GFT, the ratio with which the oil fails in the test."""
-    return films(reference_test(working)).least
+def limit(working: Working, before: int = 0) -> float:
+    """Return lambda_GFT, the ratio with which the oil fails in the test; or that some load stages before."""
+    return films(reference_test(working, working.ratings.micropitting_stage - before)).least
 
 
 def safety(ratio: float, failing: float, material_factor: float) -> float:

@@ -103,7 +103,7 @@ def _safety(record: Record) -> list[str]:
         "",
         f"Micropitting by ISO/TS 6336-22: least h_Y / Ra over 1.4 W_W {found.failing:.3f}, with which the oil fails "
         f"load stage {ratings.micropitting_stage} of FVA 54/7. By the run: least h_c / Ra of the flanks as they are "
-        f"over 1.4 W_W {found.own_failing:.3f}, that of such contacts in the same test with new flanks. Ra: mean of both.",
+        f"over 1.4 W_W {found.own_failing:.3f}, that of such contacts in the same test with new flanks.",
         f"Scuffing at {some.flash.limit - 273.15:.0f} degC of flash temperature (ISO/TS 6336-20)"
         + (f", {some.integral.limit - 273.15:.0f} degC of integral temperature (-21)" if some.integral else "")
         + f", as the oil fails load stage {ratings.scuffing_stage} of A/8.3/90. By the run: bulk and flash of the "
@@ -153,7 +153,8 @@ def _classes(record: Record, found: Safeties) -> list[str]:
     worn = max(float(record.along(f"wear_depth_{body}")[-1].max()) for body in (1, 2))
     return [
         f"Class of FVA 54/7 with these flanks: {both[0]} by the standard, {both[1]} by the run (low: fails up to load "
-        "stage 7, medium: 8 or 9, high: later). It fails where the ratio is as low as where the oil fails the test.",
+        "stage 7, medium: 8 or 9, high: later). It fails once the ratio is nearer to that of the load stage at which "
+        "the oil fails its test than to that of the one before.",
         f"Profile: {1e6 * worn:.2f} um of mild wear, of the {1e6 * _PROFILE:g} um that the test allows; micropits are "
         "not in it.",
     ]

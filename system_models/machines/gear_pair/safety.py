@@ -70,11 +70,15 @@ class Safeties:
 
     @cached_property
     def own_failing(self) -> float:
-        """The ratio with which the oil fails its test, by contacts as those of the machine.
+        """The ratio with which the oil fails its test, by contacts as those of the machine."""
+        return self._own_limit(0)
 
-        At the regression level, with new flanks of the test's Ra; load stage and bulk temperature as in the standard.
+    def _own_limit(self, before: int) -> float:
+        """Return the least h_c over Ra of the test, at the load stage at which the oil fails or some before.
+
+        At the regression level, with new flanks of the test's Ra, and bulk temperatures of the standard.
         """
-        test = reference_test(self._any)
+        test = reference_test(self._any, self.ratings.micropitting_stage - before)
         mesh, bulk = GearMesh(pair=test.pair, load_sharing=test.sharing), films(test).bulk
         scene = _as_rough(self.record.scene, test.ra)
         ra = _ra(scene.surface_1.rms, scene.surface_2.rms)
@@ -122,31 +126,29 @@ class Safeties:
     def classes(self) -> tuple[str, str] | None:
         """Return the class of FVA 54/7 by the standard and by the run; None if the run is no such test.
 
-        The first load stage counts at whose end the film is as thin as that with which the oil fails its test.
+        The oil passes its own test up to a load stage and fails the next one: what it needs lies between the ratios of
+        these two. A run fails at the first load stage at whose end it is below their geometric mean.
         """
         numbers = [load_stage(stage.torque) for stage in self.record.stages]
         if self.record.pair != FZG_C or None in numbers:
             return None
-        stages = list(zip(numbers, (self.micropitting(stage.last) for stage in self.record.stages), strict=True))
-        failed = [
-            [number for number, found in stages if value(found) <= self.ratings.material_factor * failing]
-            for value, failing in ((_standard, self.failing), (_own, self.own_failing))
-        ]
-        first, second = (gf_class(its[0] if its else None) for its in failed)
+        found = [self.micropitting(stage.last) for stage in self.record.stages]
+        standard = [its.standard for its in found], self.failing * limit(self._any, 1)
+        own = [its.own for its in found], self.own_failing * self._own_limit(1)
+        first, second = (
+            gf_class(next((n for n, ratio in zip(numbers, ratios, strict=True) if ratio < self._needed(both)), None))
+            for ratios, both in (standard, own)
+        )
         return first, second
+
+    def _needed(self, product: float) -> float:
+        """Return W_W times the geometric mean of two ratios."""
+        return self.ratings.material_factor * product**0.5
 
     @property
     def _any(self) -> Working:
         """The gears at some row: what is asked follows from oil and ratings alone."""
         return self.working(self.record.stages[0].last)
-
-
-def _standard(found: Micropitting) -> float:
-    return found.standard
-
-
-def _own(found: Micropitting) -> float:
-    return found.own
 
 
 def _ra(first: float, second: float) -> float:
