@@ -132,6 +132,7 @@ PAGES: dict[str, Source] = {
     "machines/bearing_memory": Source("machines.bearing_memory", RIGS),
     "machines/gear_path": Source("machines.gear_path", RIGS),
     "machines/gear_friction": Source("machines.gear_friction", (*RIGS, "evolution", "control")),
+    "machines/gear_ratings": Source("machines.gear_ratings", RIGS),
     "machines/corrected": Source(
         "machines.corrected page", (*RIGS, "evolution", "control", "correction", "cam_tappet")
     ),

@@ -22,6 +22,7 @@ class Design:
     contacts: Mapping[str, Contact]
     connections: tuple[tuple[Any, ...], ...]
     schedule: Schedule
+    ratings: Any = None  # what standards that rate the machine ask beside it; None: the file does not say
 
 
 @dataclass(frozen=True)
