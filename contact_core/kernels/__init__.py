@@ -11,6 +11,8 @@
     multigrid/      smooth films
     far_field       pressure and load beyond the edge of the grid
     thinning        flow of an oil that thins under shear
+    subsurface      stress below a surface under pressure and shear, free or periodic along y
+    stress_measures  von Mises, principal stresses, largest shear, mean of stress tensors
     moving_source   temperature of surfaces that move through heat
     anderson        acceleration of a fixed point
     grids           between a grid and that of half its nodes
