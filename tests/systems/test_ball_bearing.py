@@ -289,6 +289,16 @@ def test_lives_by_load_distribution_friction_and_film_are_ordered(warm: Result) 
     assert np.nanmax(rated.kappa_of_viscosity) > 1.5 * rated.kappa_of_viscosity[row]  # cold oil
 
 
+def test_rows_without_load_take_no_life(warm: Result) -> None:
+    assembly, dataset = warm
+    idle = dataset.copy(deep=True)
+    for name in [str(name) for name in idle.data_vars if "load_ball" in str(name)]:
+        idle[name].values[: idle.sizes["time"] // 2] = 0.0
+    one, two = RatedRun(BearingRun(assembly, dataset)), RatedRun(BearingRun(assembly, idle))
+    for kappa in (one.kappa_of_viscosity, one.kappa_of_film):
+        assert 0.0 < two.consumed(two.modified(kappa)) < one.consumed(one.modified(kappa))
+
+
 def test_a_catalogue_rating_and_dirt_change_the_reported_life(warm: Result) -> None:
     _, dataset = warm
     changes = {"bearing.levels": "2", "rating.dynamic_rating": "35.1 kN", "rating.contamination": "0"}

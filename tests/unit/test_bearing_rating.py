@@ -50,6 +50,15 @@ def test_life_falls_with_the_cube_of_the_load_of_all_balls() -> None:
     assert float(one / two) == approx(8.0, rel=1e-12)
 
 
+def test_without_load_life_has_no_end_and_takes_nothing_from_others() -> None:
+    loads = np.array([[0.0, 0.0, 0.0], [500.0, 100.0, 0.0]])
+    life = rating.reference_life(BEARING_209, 33e3, loads, loads)
+    assert life[0] == math.inf
+    assert rating.rating_life(33e3, 0.0) == math.inf
+    assert rating.reference_load(33e3, life)[0] == 0.0
+    assert rating.consumed(np.array([0.0, 9.0]), np.array([0.0, 100.0]), life[::-1]) == 0.0
+
+
 def test_both_races_together_give_the_rating_of_the_bearing() -> None:
     # half of the balls carry with no clearance (epsilon = 0.5): that load distribution is what C_r is made for
     rest = solve(bearing(), RingLoads(0.0, 2000.0), 0.0)

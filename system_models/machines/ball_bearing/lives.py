@@ -99,8 +99,10 @@ class RatedRun:
 
     def life_factor(self, kappa: Array) -> Array:
         """Return a_ISO for a viscosity ratio, with P_ref; that of no film where the shaft is at rest."""
-        ratio = self.given.contamination * self.fatigue_load_limit / self.reference_load
-        return rating.life_factor(np.nan_to_num(kappa, nan=0.0), ratio)
+        with np.errstate(divide="ignore"):
+            ratio = self.fatigue_load_limit / self.reference_load
+        clean = self.given.contamination * ratio if self.given.contamination > 0.0 else np.zeros_like(ratio)
+        return rating.life_factor(np.nan_to_num(kappa, nan=0.0), clean)
 
     def modified(self, kappa: Array) -> Array:
         """Return L10mr of ISO 16281 for a viscosity ratio."""
