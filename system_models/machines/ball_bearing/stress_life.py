@@ -34,7 +34,7 @@ STRESS_POWER, DEPTH_POWER = 31.0 / 3.0, 7.0 / 3.0
 DEPTHS = (0.01, 0.02, 0.04, 0.06, 0.09, 0.13, 0.18, 0.24, 0.31, 0.39, 0.47, 0.56, 0.66, 0.78, 0.92, 1.1, 1.35, 1.7, 2.2)
 _NODES = 12  # on the half width along x
 _FRICTION = (0.0, 0.01, 0.02, 0.035, 0.05, 0.07, 0.1, 0.13, 0.16, 0.2, 0.25, 0.3)
-_REACH = 1.5  # half widths along x up to which a contact without friction is looked at
+_REACH = 1.5  # half widths along x within which the largest stress is
 
 
 def risk(stress: Array, depths: Array, spacing: float, limit: float = 0.0) -> float:
