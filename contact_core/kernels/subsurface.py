@@ -44,8 +44,8 @@ class Subsurface:
         self.shape, self.poisson, self.periodic = shape, poisson, periodic
         self._ratios = np.asarray(depths, dtype=np.float64) / spacing
         ny, nx = shape
-        self._plane = ny if periodic else _fast_length(2 * ny - 1), _fast_length(2 * nx - 1)
-        self._fourier: _Fourier = (_WithFftw if library == "pyfftw" else _WithScipy)(ny, *self._plane)
+        self.plane = ny if periodic else _fast_length(2 * ny - 1), _fast_length(2 * nx - 1)
+        self._fourier: _Fourier = (_WithFftw if library == "pyfftw" else _WithScipy)(ny, *self.plane)
         self._kept: dict[tuple[int, int], Array] = {}
 
     def stress(self, pressure: Array, shear_x: Array | None = None, shear_y: Array | None = None) -> Array:
@@ -80,7 +80,7 @@ class Subsurface:
         Those of coefficients that are odd along one axis are imaginary, and stored without i.
         """
         if (layer, load) not in self._kept:
-            (ny, nx), (my, mx) = self.shape, self._plane
+            (ny, nx), (my, mx) = self.shape, self.plane
             made = periodic_coefficients if self.periodic else coefficients
             values = made(ny, nx, self._ratios[layer], self.poisson, load)
             factors = np.empty((6, mx // 2 + 1, my // 2 + 1))
@@ -90,6 +90,21 @@ class Subsurface:
                 factors[component] = factor * ((-1.0 if odd_x and odd_y else 1.0) / (my * mx))
             self._kept[layer, load] = factors
         return self._kept[layer, load]
+
+
+def graded(first: float, deepest: float, layers: int) -> Array:
+    """Return depths [layers] down to the deepest: the first one, and steps that grow from it by one factor."""
+    steps = np.arange(layers)
+    if layers == 1 or layers * first >= deepest:
+        return np.asarray(deepest / layers * (steps + 1.0), dtype=np.float64)
+
+    def reach(factor: float) -> float:
+        return first * float((factor**steps).sum()) - deepest
+
+    factor = scipy.optimize.brentq(reach, 1.0, (deepest / first) ** (1.0 / (layers - 1)))
+    depths = first * np.cumsum(factor**steps)
+    depths[-1] = deepest
+    return np.asarray(depths)
 
 
 def coefficients(ny: int, nx: int, depth: float, poisson: float, load: int) -> Array:
@@ -186,8 +201,6 @@ def _transformed(half: Array, n: int, odd: bool) -> Array:
     full = np.zeros((half.shape[0], n))
     full[:, :known] = half
     full[:, n - known + 1 :] = (-1.0 if odd else 1.0) * half[:, :0:-1]
-    if odd and n == 2 * (known - 1):
-        full[:, known - 1] = 0.0
     spectrum = scipy.fft.rfft(full, axis=-1)
     return np.asarray(spectrum.imag if odd else spectrum.real)
 
@@ -203,19 +216,25 @@ def _add(total, factor, transform, odd, turned, first):  # type: ignore[no-untyp
     Total and transform are pairs of real numbers [m, 2 n]; the factor [m, n // 2 + 1] is even or odd along n.
     """
     m, n = total.shape[0], total.shape[1] // 2
+    half = n // 2 + 1
+    sign = -1.0 if odd else 1.0
     for i in range(m):
-        for j in range(n):
-            f = factor[i, j] if 2 * j <= n else factor[i, n - j]
-            if odd and 2 * j > n:
-                f = -f
-            real, imag = f * transform[i, 2 * j], f * transform[i, 2 * j + 1]
-            if turned:
-                real, imag = -imag, real
-            if first:
-                total[i, 2 * j], total[i, 2 * j + 1] = real, imag
-            else:
-                total[i, 2 * j] += real
-                total[i, 2 * j + 1] += imag
+        if first:
+            total[i] = 0.0
+        if turned:
+            for j in range(half):
+                total[i, 2 * j] -= factor[i, j] * transform[i, 2 * j + 1]
+                total[i, 2 * j + 1] += factor[i, j] * transform[i, 2 * j]
+            for j in range(half, n):
+                total[i, 2 * j] -= sign * factor[i, n - j] * transform[i, 2 * j + 1]
+                total[i, 2 * j + 1] += sign * factor[i, n - j] * transform[i, 2 * j]
+        else:
+            for j in range(half):
+                total[i, 2 * j] += factor[i, j] * transform[i, 2 * j]
+                total[i, 2 * j + 1] += factor[i, j] * transform[i, 2 * j + 1]
+            for j in range(half, n):
+                total[i, 2 * j] += sign * factor[i, n - j] * transform[i, 2 * j]
+                total[i, 2 * j + 1] += sign * factor[i, n - j] * transform[i, 2 * j + 1]
 
 
 class _Fourier(Protocol):

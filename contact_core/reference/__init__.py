@@ -1,6 +1,7 @@
 """Closed forms and formulas, to test solvers against and to compare with.
 
     hertz         dry contact of smooth bodies: points, lines
+    stresses      stress below points and lines; taken from there
     point_films   film of smooth point contacts by formula
     line_films    film of smooth line contacts
     starvation    film of contacts that are short of oil
