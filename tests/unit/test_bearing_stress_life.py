@@ -7,6 +7,7 @@ from comparison import approx
 
 from contact_core.kernels.stress_measures import von_mises
 from contact_core.kernels.subsurface import Subsurface
+from contact_core.reference.stresses import ellipse_axis_stress
 from system_models.machines.ball_bearing import rating
 from system_models.machines.ball_bearing.geometry import BEARING_209, RACES
 from system_models.machines.ball_bearing.stress_life import (
@@ -48,6 +49,13 @@ def test_the_largest_stress_is_about_that_of_a_line_below_a_slim_ellipse() -> No
     stress = INNER.stress()
     assert stress.max() == approx(0.56 * INNER.hertz.pressure_max, rel=0.03)  # von Mises, line: 0.557 at 0.70 a
     assert INNER.depths[stress.max(axis=1).argmax()] == approx(0.7 * INNER.hertz.a, rel=0.15)
+
+
+def test_the_stress_below_the_centre_is_that_in_closed_form() -> None:
+    h, depths = INNER.hertz, INNER.depths
+    closed = von_mises(np.concatenate([ellipse_axis_stress(depths, h.a, h.b, h.pressure_max, 0.3), np.zeros((3, 19))]))
+    deep = depths > 0.5 * h.a  # nearer to the surface the largest stress is not below the centre
+    np.testing.assert_allclose(INNER.stress()[deep, 0], closed[deep], rtol=0.01)
 
 
 def test_one_constant_holds_for_both_races() -> None:
