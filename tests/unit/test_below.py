@@ -193,8 +193,6 @@ def test_wider_patches_keep_their_damage_in_its_rows():
 
 
 def test_damage_stays_within_its_stated_error_when_blocks_are_half_as_long():
-    """The errors of both add up; a tenth of them would not cover the difference."""
-
     def after(longest):
         _, _, found = run(TIRED, 240.0, control__longest=f"{longest} s", control__change="1 um")
         return found[-1][1]
@@ -204,6 +202,19 @@ def test_damage_stays_within_its_stated_error_when_blocks_are_half_as_long():
         one, other = getattr(long, f"damage_{i}"), getattr(short, f"damage_{i}")
         stated = np.hypot(one * long.error_damage, other * short.error_damage)
         assert abs(one - other) < stated
+
+
+def test_the_error_by_few_instants_covers_what_many_find_and_a_tenth_of_it_would_not():
+    def after(instants):
+        given = {"stress__instants": instants, "control__dry_instants": instants, "control__longest": "20 s"}
+        _, _, found = run(TIRED, 40.0, **given)
+        return found[-1]
+
+    (state, few), (_, many) = after(8), after(32)
+    for i in (0, 1):
+        missed = abs(outputs_of(few, "damage", i) - outputs_of(many, "damage", i))
+        stated = np.hypot(*state.below.errors(i))
+        assert 0.1 * stated < missed < stated
 
 
 @pytest.mark.parametrize(
