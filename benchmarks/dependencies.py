@@ -130,6 +130,7 @@ PAGES: dict[str, Source] = {
     "machines/bearing_loads": Source("machines.bearing_loads", RIGS),
     "machines/bearing_torque": Source("machines.bearing_torque", RIGS),
     "machines/bearing_memory": Source("machines.bearing_memory", RIGS),
+    "machines/bearing_life": Source("machines.bearing_life", (*RIGS, "evolution", "control")),
     "machines/gear_path": Source("machines.gear_path", RIGS),
     "machines/gear_friction": Source("machines.gear_friction", (*RIGS, "evolution", "control")),
     "machines/gear_ratings": Source("machines.gear_ratings", RIGS),

@@ -16,7 +16,7 @@ from benchmarks.pages import Page
 from system_models.machines import reading
 from system_models.machines.gear_pair.micropitting import TEST_RA, gf_class, load_stage, mean_friction
 from system_models.machines.gear_pair.path import Array
-from system_models.machines.gear_pair.ratings import Ratings
+from system_models.machines.gear_pair.rating import Rating
 from system_models.machines.gear_pair.record import RA_OF_RQ, Record
 from system_models.machines.gear_pair.safety import Safeties
 from system_models.machines.gear_pair.scuffing import mean_friction as scuffing_friction
@@ -45,8 +45,8 @@ def ran(name: str, changes: Mapping[str, str]) -> Record:
 
 def with_oil(record: Record, **stages: int) -> Safeties:
     """Safety factors of a run as if its oil failed other load stages."""
-    ratings: Ratings = record.assembly.ratings
-    return Safeties(replace(record, assembly=replace(record.assembly, ratings=replace(ratings, **stages))))
+    rating: Rating = record.assembly.reported["rating"]
+    return Safeties(replace(record, assembly=replace(record.assembly, reported={"rating": replace(rating, **stages)})))
 
 
 def stages_of(record: Record) -> list[int]:
@@ -61,7 +61,7 @@ def per_stage(report: Page, records: Mapping[str, Record]) -> None:
     own = Safeties(records["machine"])
     report.say(
         "### Micropitting by load stages\n\nAt the end of each load stage, for an oil that fails load stage "
-        f"{own.ratings.micropitting_stage} of FVA 54/7 (assumed, in the middle of the classes): the standard's least h_Y/Ra, "
+        f"{own.rating.micropitting_stage} of FVA 54/7 (assumed, in the middle of the classes): the standard's least h_Y/Ra, "
         f"over 1.4 x {own.failing:.3f}; the run's least h_c/Ra, over 1.4 x {own.own_failing:.3f}. Ra of the standard is that "
         "of the new flanks, Ra of the run that of the flanks as they are then."
     )
@@ -155,7 +155,7 @@ def explain_micropitting(report: Page, records: Mapping[str, Record]) -> None:
 def scuffing(report: Page, record: Record) -> None:
     report.say(
         "### Scuffing by load stages\n\nType A in A/8.3/90, Ra 0.32 um. Left: safety with an oil that fails load stage "
-        f"{Safeties(record).ratings.scuffing_stage} (assumed). Right: with an oil that fails just this load stage, so that a safety of 1 is "
+        f"{Safeties(record).rating.scuffing_stage} (assumed). Right: with an oil that fails just this load stage, so that a safety of 1 is "
         "right; the run's critical temperature is that of its hottest contact then, which is what it would take as the oil's."
     )
     report.header(

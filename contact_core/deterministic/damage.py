@@ -30,7 +30,7 @@ def unharmed(scene: Scene, rows: int) -> Below:
     """Return what lies below new surfaces, before the first instant."""
     fresh = np.zeros((scene.depths.size * rows, scene.film.points - 1))
     nothing, none = np.zeros(2), np.empty((0, 0))
-    return Below(none, none, none, 0, 0.0, *(fresh,) * 4, *(nothing,) * 5)
+    return Below(none, none, none, 0, 0.0, *(fresh,) * 4, *(nothing,) * 7)
 
 
 def with_tractions(below: Below, tractions: Sequence[Traction]) -> Below:
@@ -50,9 +50,12 @@ def with_cycles(case: Case, below: Below, found: Pass) -> Below:
     if not law.damages:
         return below
     harm = [law.per_cycle(cycle) for cycle in found.cycles]
-    rate = np.array([_rate(case, side, harm[side.body]) for side in case.sides])
+    rate, halved = (
+        np.array([_rate(case, side, each[side.body]) for side in case.sides])
+        for each in (harm, [law.per_cycle(cycle) for cycle in found.halved])
+    )
     first, second = (each.reshape(below.damage_1.shape) for each in harm)
-    after = _at_rate(replace(below, per_cycle_1=first, per_cycle_2=second), rate)
+    after = _at_rate(replace(below, per_cycle_1=first, per_cycle_2=second, short=rate - halved), rate)
     if below.rate.all():  # two passes differ by the scatter of both
         return replace(after, spread=np.sqrt((1.0 - _LEARN) * below.spread**2 + 0.5 * _LEARN * after.step**2))
     return replace(after, spread=np.array([_spread(case, side, found, rate[side.body]) for side in case.sides]))
@@ -62,7 +65,7 @@ def at_rest(below: Below) -> Below:
     """Return what lies below bodies that nothing presses together."""
     none = np.zeros_like(below.damage_1)
     after = _at_rate(replace(below, per_cycle_1=none, per_cycle_2=none), np.zeros(2))
-    return replace(after, spread=np.zeros(2), step=np.zeros(2))
+    return replace(after, spread=np.zeros(2), step=np.zeros(2), short=np.zeros(2))
 
 
 def _at_rate(below: Below, rate: Array) -> Below:
@@ -138,6 +141,7 @@ def fatigued(
         per_cycle_1=harm[0],
         per_cycle_2=harm[1],
         held=held,
+        few=below.few + below.short * step,
         variance=below.variance + below.spread**2 * (held**2 - below.held**2),
     )
     return below, (after[0], after[1])

@@ -44,6 +44,7 @@ class Pass(NamedTuple):
     """What a pass does below the surfaces. Pairs are of body 1 and 2."""
 
     cycles: tuple[Cycle, Cycle]  # arrays [layers, rows, nx - 1]
+    halved: tuple[Cycle, Cycle]  # by every other instant alone
     von_mises: Array  # largest of each layer, mean over the instants [Pa], [layers]
     scatter: float  # of the largest, mean over the instants: standard deviation over it
 
@@ -98,20 +99,23 @@ def passed(case: Case, rows: int, tractions: Sequence[Traction]) -> Pass:
     history, unloaded = list(_history(case, tractions)), law.residual_stress()
     largest = np.empty((2, len(tractions), len(depths)))
     cycles: list[Cycle] = []
+    halved: list[Cycle] = []
     for side in case.sides:
         sign = 1.0 if side.body else -1.0
         stresses = [kernel.layers(traction.pressure, sign * traction.shear) for traction in tractions]
-        layers: list[Cycle] = []
+        layers: list[tuple[Cycle, Cycle]] = []
         for k, fields in enumerate(zip(*stresses, strict=True)):
             loaded = [field + unloaded[:, None, None] for field in fields]
             largest[side.body, :, k] = [von_mises(field).max() for field in loaded]
             seen = np.stack([_on_patch(loaded[which], places[side.body]) for which, places in history])
-            layers.append(cycle_of(seen, unloaded, law.dang_van_slope))
-        cycles.append(Cycle(*(np.stack(parts) for parts in zip(*layers, strict=True))))
+            whole, half = (cycle_of(part, unloaded, law.dang_van_slope) for part in (seen, seen[::2]))
+            layers.append((whole, half))
+        for kept, found in zip((cycles, halved), zip(*layers, strict=True), strict=True):
+            kept.append(Cycle(*(np.stack(parts) for parts in zip(*found, strict=True))))
     worse = largest.max(axis=0)
     peaks = worse.max(axis=1)
     scatter = float(peaks.std() / (peaks.mean() * len(peaks) ** 0.5)) if peaks.any() else 0.0
-    return Pass((cycles[0], cycles[1]), worse.mean(axis=0), scatter)
+    return Pass((cycles[0], cycles[1]), (halved[0], halved[1]), worse.mean(axis=0), scatter)
 
 
 def _history(case: Case, tractions: Sequence[Traction]) -> Iterator[tuple[int, Places]]:

@@ -26,8 +26,10 @@ class Below:
     per_cycle_2: Array
     rate: Array  # at which the mean damages of both tracks rise [1/s], [2]
     spread: Array  # its standard deviation from pass to pass [1/s], [2]
+    short: Array  # by how much half of the instants find less [1/s], [2]
     step: Array  # by which the rate has changed when it was found [1/s], [2]
     late: Array  # error of the mean damages by rates that are late, [2]
+    few: Array  # the same by few instants, [2]
     variance: Array  # of the mean damages by the passes, [2]
 
     def __post_init__(self) -> None:
@@ -46,6 +48,6 @@ class Below:
         return self.per_cycle_1, self.per_cycle_2
 
     def errors(self, body: int) -> tuple[float, float]:
-        """Return the half widths of the error of a track's mean damage, by late rates and by the passes."""
+        """Return the half widths of the error of a track's mean damage, by late rates and by few instants."""
         late = abs(float(self.late[body])) + 0.5 * abs(float(self.step[body])) * self.held
-        return late, 2.0 * float(self.variance[body]) ** 0.5
+        return late, abs(float(self.few[body])) + 2.0 * float(self.variance[body]) ** 0.5

@@ -1,7 +1,7 @@
 """The contract of a kind of machine."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +22,7 @@ class Design:
     contacts: Mapping[str, Contact]
     connections: tuple[tuple[Any, ...], ...]
     schedule: Schedule
-    ratings: Any = None  # what standards that rate the machine ask beside it; None: the file does not say
+    reported: Mapping[str, Any] = field(default_factory=dict)  # records of tables that only the report reads, by table
 
 
 @dataclass(frozen=True)

@@ -95,7 +95,7 @@ def assemble(machine: Machine) -> Assembly:
         parameters={},
         schedule=design.schedule,
         settings=_simulation(table, duty.end),
-        ratings=design.ratings,
+        reported=design.reported,
     )
 
 

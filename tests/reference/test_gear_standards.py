@@ -11,29 +11,29 @@ from contact_core import Scene
 from contact_core.reference import hertz_line
 from system_models.machines.gear_pair import micropitting, scuffing
 from system_models.machines.gear_pair.geometry import FZG_A, FZG_C, FZG_STAGES
-from system_models.machines.gear_pair.ratings import Ratings
+from system_models.machines.gear_pair.rating import Rating
 from system_models.machines.gear_pair.sharing import Sharing
 from system_models.machines.gear_pair.textbook import blok_line, schlenk
 from system_models.machines.gear_pair.working import Working
 
 OIL = Scene.from_toml("fzg_flank").lubricant.viscosity
 HOT = 363.15
-FRICTIONLESS = Ratings(oil_factor=0.0)
+FRICTIONLESS = Rating(oil_factor=0.0)
 SMOOTH = Sharing("elastic")
 
 
-def type_c(stage: int, ratings: Ratings | None = None, **changes) -> Working:
+def type_c(stage: int, rating: Rating | None = None, **changes) -> Working:
     """As in FVA 54/7."""
     torque, speed = FZG_STAGES[0.35][stage - 1], 2250.0 * math.pi / 30.0
     return replace(
-        Working(FZG_C, SMOOTH, torque, speed, HOT, OIL, 0.5e-6, ratings or Ratings(supply_factor=1.2)), **changes
+        Working(FZG_C, SMOOTH, torque, speed, HOT, OIL, 0.5e-6, rating or Rating(supply_factor=1.2)), **changes
     )
 
 
 def type_a(stage: int, failing: int = 10, **changes) -> Working:
     """As in A/8.3/90."""
     torque, speed = FZG_STAGES[0.5][stage - 1], 2170.0 * math.pi / 30.0
-    return replace(Working(FZG_A, SMOOTH, torque, speed, HOT, OIL, 0.35e-6, Ratings(scuffing_stage=failing)), **changes)
+    return replace(Working(FZG_A, SMOOTH, torque, speed, HOT, OIL, 0.35e-6, Rating(scuffing_stage=failing)), **changes)
 
 
 def blok(working: Working, friction: float) -> np.ndarray:
@@ -111,9 +111,9 @@ def test_the_bulk_temperature_by_hand():
 @pytest.mark.parametrize("failing", [6, 8, 10])
 def test_gears_as_in_the_oils_own_test_have_the_films_that_it_fails_with_at_its_load_stage(failing):
     """And a safety of 1 / (1.4 W_W) there, more before and less after it."""
-    ratings = Ratings(micropitting_stage=failing, supply_factor=1.2)
-    limit = micropitting.limit(type_a(5, ratings=ratings))  # whatever gears ask
-    least = {stage: micropitting.films(type_c(stage, ratings)).least for stage in (failing - 1, failing, failing + 1)}
+    rating = Rating(micropitting_stage=failing, supply_factor=1.2)
+    limit = micropitting.limit(type_a(5, rating=rating))  # whatever gears ask
+    least = {stage: micropitting.films(type_c(stage, rating)).least for stage in (failing - 1, failing, failing + 1)}
     assert least[failing - 1] > least[failing] > least[failing + 1]
     assert least[failing] == approx(limit, rel=1e-12)
     assert micropitting.safety(least[failing], limit, 1.5) == approx(1.0 / 2.1)
@@ -158,7 +158,7 @@ def test_the_torques_of_the_test_are_those_of_its_formula():
 def test_the_scuffing_temperature_by_hand():
     """Stage 10, 12.36 mPa s: 80 + 2.25 12.36^-0.05 100 degC; nitrided steel, 80 + 2.95 ..."""
     assert scuffing.scuffing_temperature(type_a(5)) - 273.15 == approx(80.0 + 225.0 * 12.36**-0.05, rel=1e-3)
-    nitrided = type_a(5, ratings=Ratings(scuffing_stage=10, structural_factor=1.5))
+    nitrided = type_a(5, rating=Rating(scuffing_stage=10, structural_factor=1.5))
     assert scuffing.scuffing_temperature(nitrided) - 273.15 == approx(80.0 + 295.0 * 12.36**-0.05, rel=1e-3)
 
 
@@ -202,7 +202,7 @@ def test_the_bulk_is_the_oil_and_a_part_of_the_mean_flash():
 
 
 def test_a_jet_of_oil_lets_the_bulk_rise_by_a_fifth_more():
-    bath, jet = (scuffing.by_flash(type_a(8, ratings=Ratings(supply_factor=factor))) for factor in (1.0, 1.2))
+    bath, jet = (scuffing.by_flash(type_a(8, rating=Rating(supply_factor=factor))) for factor in (1.0, 1.2))
     assert jet.bulk - HOT == approx(1.2 * (bath.bulk - HOT))
     assert jet.temperature - jet.bulk == approx(bath.temperature - bath.bulk)
 

@@ -15,7 +15,7 @@ from system_models.machines.assembly import Assembly
 from system_models.machines.gear_pair import pictures as gear_pair_pictures
 from system_models.machines.gear_pair import report as gear_pair_report
 from system_models.machines.gear_pair.mesh import GearMesh
-from system_models.machines.gear_pair.ratings import Ratings
+from system_models.machines.gear_pair.rating import Rating
 from system_models.machines.gear_pair.record import Record
 from system_models.machines.gear_pair.safety import Safeties
 from system_models.machines.gear_pair.textbook import ohlendorf
@@ -155,20 +155,20 @@ def test_the_run_and_the_standard_have_safety_factors_of_their_own(record: Recor
 def test_oils_that_fail_the_micropitting_test_late_bear_thinner_films_by_both(record: Record) -> None:
     limits = []
     for stage in (6, 8, 10):
-        oil = replace(record.assembly, ratings=Ratings(micropitting_stage=stage))
+        oil = replace(record.assembly, reported={"rating": Rating(micropitting_stage=stage)})
         found = Safeties(Record(oil, record.dataset))
         limits.append((found.failing, found.own_failing))
     assert limits == sorted(limits, reverse=True)
     assert all(0.02 < standard < own < 3.0 for standard, own in limits)
 
 
-def test_the_report_says_what_is_assumed_where_the_file_has_no_ratings(record: Record) -> None:
+def test_the_report_says_what_is_assumed_where_the_file_has_no_rating(record: Record) -> None:
     said = "\n".join(gear_pair_report.lines(record.assembly, record.dataset))
     assert "load stage 8 of FVA 54/7" in said
     assert "ASSUMED" not in said
-    bare = replace(record.assembly, ratings=None)
+    bare = replace(record.assembly, reported={})
     said = "\n".join(gear_pair_report.lines(bare, record.dataset))
-    assert "ASSUMED, as the file has no table [ratings]: micropitting_stage = 8, scuffing_stage = 10" in said
+    assert "ASSUMED, as the file has no table [rating]: micropitting_stage = 8, scuffing_stage = 10" in said
 
 
 def test_the_report_gives_a_run_of_the_micropitting_test_its_class(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@
     mesh       GearMesh: torque and speeds to the stations, their friction and heat back to both shafts
     shafts     GearShafts: the rotation of both shafts
     flanks     the contact at a station
-    ratings    what standards of load capacity ask beside the machine: the table [ratings]
+    rating     what standards of load capacity ask beside the machine: the table [rating]
     working    a pair at work as these standards see it
     micropitting, scuffing    safety factors by ISO/TS 6336-22, by ISO/TS 6336-20 and -21
     safety     these, and those of a run's own contacts

@@ -5,7 +5,7 @@
     [shafts]           shafts.GearShafts; `pair` is that of the mesh, `stiffness` by default the mean of its teeth
     [mesh]             mesh.GearMesh; pair = "fzg_c", "fzg_a" or the numbers of another one
     [gearbox]          parts.thermal.ThermalNetwork with the nodes pinion, wheel and oil (heat_flows = 1)
-    [ratings]          ratings.Ratings, for the standards in the report; optional
+    [rating]           rating.Rating, for the standards in the report; optional
     [contact]          a scene with a line contact and heat.bulk = "inputs"; radius, width and tracks are the station's
 
 Signals of the duty: speed and torque (of the pinion; the brake's torque follows), temperature (that a thermostat holds
@@ -32,7 +32,7 @@ from . import report
 from .flanks import contact_at
 from .geometry import FZG_A, FZG_C
 from .mesh import RECEIVED, SENT, GearMesh, flank
-from .ratings import Ratings
+from .rating import Rating
 from .shafts import GearShafts
 from .sharing import mean_stiffness
 
@@ -68,7 +68,7 @@ def design(table: Mapping[str, Any], duty: Timeline) -> Design:
         {flank(k): contact_at(scene, mesh.pair, station) for k, station in enumerate(mesh.contacts, 1)},
         (*_SHAFTS, *(link for k in range(1, mesh.stations + 1) for link in _links(k))),
         schedule,
-        record(Ratings, table, "ratings") if "ratings" in table else None,
+        {"rating": record(Rating, table, "rating")} if "rating" in table else {},
     )
 
 
@@ -124,7 +124,7 @@ def _with_pair(table: Mapping[str, Any]) -> dict[str, Any]:
 
 GEAR_PAIR = Kind(
     name="gear_pair",
-    tables=("drive", "brake", "shafts", "mesh", "gearbox", "ratings"),
+    tables=("drive", "brake", "shafts", "mesh", "gearbox", "rating"),
     signals=SIGNALS,
     needed=("speed", "torque"),
     design=design,

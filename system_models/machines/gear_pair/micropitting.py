@@ -70,14 +70,14 @@ def films(working: Working) -> Films:
 
 def mean_friction(working: Working) -> float:
     """Return mu_m, for the force along the line of action."""
-    factor = working.ratings.oil_factor
+    factor = working.rating.oil_factor
     return michaelis(working.pair, working.force, working.speed, working.oil_viscosity, working.ra, factor)
 
 
 def bulk_temperature(working: Working, friction: float) -> float:
     """Return theta_M [K], theta_oil + 7400 [P mu H_V / (a b)]^0.72 X_S / 1.2, with P in kW, a and b in mm."""
     area = 1e6 * working.pair.centre_distance * working.pair.face_width
-    return working.oil + 7400.0 * (1e-3 * working.lost * friction / area) ** 0.72 * working.ratings.supply_factor / 1.2
+    return working.oil + 7400.0 * (1e-3 * working.lost * friction / area) ** 0.72 * working.rating.supply_factor / 1.2
 
 
 def flash(working: Working, friction: float) -> Array:
@@ -96,14 +96,14 @@ def pressure_coefficient(law: Viscosity, temperature: Array) -> Array:
 
 def reference_test(working: Working, stage: int) -> Working:
     """Return the test gears of FVA 54/7 with the oil at a load stage, with elastic teeth."""
-    ratings = replace(working.ratings, supply_factor=_JET)
+    rating = replace(working.rating, supply_factor=_JET)
     torque = TEST_STAGES[stage - 1]
-    return Working(FZG_C, Sharing("elastic"), torque, TEST_SPEED, TEST_OIL, working.viscosity, TEST_RA, ratings)
+    return Working(FZG_C, Sharing("elastic"), torque, TEST_SPEED, TEST_OIL, working.viscosity, TEST_RA, rating)
 
 
 def limit(working: Working, before: int = 0) -> float:
     """Return lambda_GFT, the ratio with which the oil fails in the test; or that some load stages before."""
-    return films(reference_test(working, working.ratings.micropitting_stage - before)).least
+    return films(reference_test(working, working.rating.micropitting_stage - before)).least
 
 
 def safety(ratio: float, failing: float, material_factor: float) -> float:

@@ -11,7 +11,7 @@ from ..assembly import Assembly
 from ..report import heat_stored
 from . import pictures as gear_pair_pictures
 from .path import Array
-from .ratings import Ratings
+from .rating import Rating
 from .record import Record, Stage
 from .safety import Safeties
 from .textbook import ohlendorf
@@ -95,18 +95,18 @@ def _safety(record: Record) -> list[str]:
     found = Safeties(record)
     rows = [[name for name, _ in _SAFETY_HEADS], [unit for _, unit in _SAFETY_HEADS]]
     rows += [_safety_row(record, found, stage) for stage in record.shown(_MOST_ROWS)]
-    ratings, some = found.ratings, found.scuffing(record.stages[-1].last)
+    rating, some = found.rating, found.scuffing(record.stages[-1].last)
     return [
         "Safety factors at the end of each stage",
         "",
         *aligned(rows, 0),
         "",
         f"Micropitting by ISO/TS 6336-22: least h_Y / Ra over 1.4 W_W {found.failing:.3f}, with which the oil fails "
-        f"load stage {ratings.micropitting_stage} of FVA 54/7. By the run: least h_c / Ra of the flanks as they are "
+        f"load stage {rating.micropitting_stage} of FVA 54/7. By the run: least h_c / Ra of the flanks as they are "
         f"over 1.4 W_W {found.own_failing:.3f}, that of such contacts in the same test with new flanks.",
         f"Scuffing at {some.flash.limit - 273.15:.0f} degC of flash temperature (ISO/TS 6336-20)"
         + (f", {some.integral.limit - 273.15:.0f} degC of integral temperature (-21)" if some.integral else "")
-        + f", as the oil fails load stage {ratings.scuffing_stage} of A/8.3/90. By the run: bulk and flash of the "
+        + f", as the oil fails load stage {rating.scuffing_stage} of A/8.3/90. By the run: bulk and flash of the "
         "hottest contact, against the former. Loads of the standards: as the machine shares them, K factors 1.",
         *_assumed(record),
         *_classes(record, found),
@@ -139,10 +139,10 @@ def _factor(value: float) -> str:
 
 def _assumed(record: Record) -> list[str]:
     """Return a sentence on what the standards need and the machine's file does not say."""
-    if record.assembly.ratings is not None:
+    if "rating" in record.assembly.reported:
         return []
-    values = ", ".join(f"{key} = {value:g}" for key, value in asdict(Ratings()).items())
-    return [f"ASSUMED, as the file has no table [ratings]: {values}."]
+    values = ", ".join(f"{key} = {value:g}" for key, value in asdict(Rating()).items())
+    return [f"ASSUMED, as the file has no table [rating]: {values}."]
 
 
 def _classes(record: Record, found: Safeties) -> list[str]:

@@ -15,7 +15,7 @@ from .geometry import FZG_C
 from .mesh import GearMesh
 from .micropitting import Films, films, gf_class, limit, load_stage, reference_test, safety
 from .path import Array, surface_speeds
-from .ratings import Ratings
+from .rating import Rating
 from .record import RA_OF_RQ, Record
 from .scuffing import Flash, Integral, by_flash, by_integral, margin
 from .sharing import loads
@@ -49,9 +49,10 @@ class Safeties:
     record: Record
 
     @property
-    def ratings(self) -> Ratings:
+    def rating(self) -> Rating:
         """What the machine's file says, or what is assumed."""
-        return self.record.assembly.ratings or Ratings()
+        found: Rating = self.record.assembly.reported.get("rating") or Rating()
+        return found
 
     def working(self, row: int) -> Working:
         """Return the gears at a row, as the standards see them: with Ra of the new flanks."""
@@ -61,7 +62,7 @@ class Safeties:
         )
         law = record.scene.lubricant.viscosity
         sharing = record.mesh.load_sharing
-        return Working(record.pair, sharing, torque, speed, oil, law, record.roughness, self.ratings)
+        return Working(record.pair, sharing, torque, speed, oil, law, record.roughness, self.rating)
 
     @cached_property
     def failing(self) -> float:
@@ -78,7 +79,7 @@ class Safeties:
 
         At the regression level, with new flanks of the test's Ra, and bulk temperatures of the standard.
         """
-        test = reference_test(self._any, self.ratings.micropitting_stage - before)
+        test = reference_test(self._any, self.rating.micropitting_stage - before)
         mesh, bulk = GearMesh(pair=test.pair, load_sharing=test.sharing), films(test).bulk
         scene = _as_rough(self.record.scene, test.ra)
         ra = _ra(scene.surface_1.rms, scene.surface_2.rms)
@@ -112,7 +113,7 @@ class Safeties:
     def micropitting(self, row: int) -> Micropitting:
         """Return S_lambda at a row."""
         standard, own = self.films(row).least, float(self.own_ratio(row).min())
-        factor = self.ratings.material_factor
+        factor = self.rating.material_factor
         return Micropitting(
             standard, safety(standard, self.failing, factor), own, safety(own, self.own_failing, factor)
         )
@@ -143,11 +144,11 @@ class Safeties:
 
     def _needed(self, product: float) -> float:
         """Return W_W times the geometric mean of two ratios."""
-        return self.ratings.material_factor * product**0.5
+        return self.rating.material_factor * product**0.5
 
     @property
     def _any(self) -> Working:
-        """The gears at some row: what is asked follows from oil and ratings alone."""
+        """The gears at some row: what is asked follows from oil and rating alone."""
         return self.working(self.record.stages[0].last)
 
 

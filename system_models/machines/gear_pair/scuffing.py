@@ -51,21 +51,21 @@ def margin(limit: float, hottest: float, oil: float) -> float:
 def by_flash(working: Working) -> Flash:
     """Return the flash temperature method: theta_M = theta_oil + 0.47 X_S theta_flm, theta_B = theta_M + theta_fl."""
     rise = flash(working)
-    bulk = working.oil + 0.47 * working.ratings.supply_factor * working.mean(rise)
+    bulk = working.oil + 0.47 * working.rating.supply_factor * working.mean(rise)
     temperature, limit = bulk + rise, scuffing_temperature(working)
     return Flash(bulk, temperature, limit, margin(limit, float(temperature.max()), working.oil))
 
 
 def scuffing_temperature(working: Working) -> float:
     """Return theta_S [K], 80 + (0.85 + 1.4 X_W) X_L S^2 degC, S being the stage at which the oil fails A/8.3/90."""
-    ratings = working.ratings
-    welding = 0.85 + 1.4 * ratings.structural_factor
-    return _ICE + 80.0 + welding * oil_factor(working) * ratings.scuffing_stage**2
+    rating = working.rating
+    welding = 0.85 + 1.4 * rating.structural_factor
+    return _ICE + 80.0 + welding * oil_factor(working) * rating.scuffing_stage**2
 
 
 def oil_factor(working: Working) -> float:
     """Return X_L of part 1, that of the kind of oil times eta^-0.05, mPa s at the oil's temperature."""
-    return working.ratings.oil_factor * (1e3 * working.oil_viscosity) ** -0.05
+    return working.rating.oil_factor * (1e3 * working.oil_viscosity) ** -0.05
 
 
 def mean_friction(working: Working) -> float:
@@ -118,13 +118,13 @@ def by_integral(working: Working) -> Integral | None:
     share = contact_ratio_factor(*working.contact_ratios)
     if share is None:
         return None
-    ratings = working.ratings
+    rating = working.rating
     rise = tip_flash(working) * share
-    bulk = working.oil + _HEAT * ratings.supply_factor * rise
-    torque = _TORQUE * ratings.scuffing_stage**2
+    bulk = working.oil + _HEAT * rating.supply_factor * rise
+    torque = _TORQUE * rating.scuffing_stage**2
     nu_40 = 1e6 * float(kinematic_viscosity(working.viscosity, _ICE + 40.0))
-    tested = 0.2 * torque * (100.0 / nu_40) ** 0.02 * ratings.oil_factor
-    allowed = 80.0 + 0.23 * torque * ratings.oil_factor + ratings.structural_factor * _WEIGHT * tested
+    tested = 0.2 * torque * (100.0 / nu_40) ** 0.02 * rating.oil_factor
+    allowed = 80.0 + 0.23 * torque * rating.oil_factor + rating.structural_factor * _WEIGHT * tested
     temperature = bulk + _WEIGHT * rise
     return Integral(bulk, temperature, _ICE + allowed, allowed / (temperature - _ICE))
 
@@ -135,7 +135,7 @@ def tip_flash(working: Working) -> float:
     mu X_M X_BE X_ab w^0.75 sqrt(v) / a^0.25 / (X_Q X_Ca) in N/mm, m/s and mm; the gears have run in, X_E = 1.
     """
     pair = working.pair
-    factor, eta = working.ratings.oil_factor, working.oil_viscosity
+    factor, eta = working.rating.oil_factor, working.oil_viscosity
     friction = michaelis(pair, working.tangential_force, working.speed, eta, working.ra, factor)
     circle = 0.5 * working.speed * pair.teeth_1 * pair.module
     angle = pair.working_pressure_angle

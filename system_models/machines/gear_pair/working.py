@@ -11,7 +11,7 @@ from contact_core.reference import hertz_line
 
 from .geometry import SpurGearPair
 from .path import Array, radius, steps, surface_speeds
-from .ratings import Ratings
+from .rating import Rating
 from .sharing import Sharing, loads
 from .textbook import ohlendorf
 
@@ -33,7 +33,7 @@ class Working:
     oil: float
     viscosity: Viscosity
     ra: float
-    ratings: Ratings = field(default_factory=Ratings)
+    rating: Rating = field(default_factory=Rating)
 
     @property
     def force(self) -> float:

@@ -1,4 +1,4 @@
-"""What the standards of load capacity ask beside the machine: the table [ratings] of a gear pair's file, optional."""
+"""What the standards of load capacity ask beside the machine: the table [rating] of a gear pair's file, optional."""
 
 from dataclasses import dataclass
 
@@ -6,7 +6,7 @@ from contact_core.quantities import parameter
 
 
 @dataclass(frozen=True, kw_only=True)
-class Ratings:
+class Rating:
     """Results of oil tests, and factors of oil, supply and steel.
 
     Stages are those at which the oil fails. The default of micropitting_stage is assumed, in the middle of the classes
