@@ -147,9 +147,7 @@ def fatigued(
     return below, (after[0], after[1])
 
 
-def _fatigued(
-    case: Case, side: Side, below: Below, body: Body, worn: Array, step: float
-) -> tuple[Array, Array, Body]:
+def _fatigued(case: Case, side: Side, below: Below, body: Body, worn: Array, step: float) -> tuple[Array, Array, Body]:
     """Return damage, damage per load cycle and body after `step` [s] of them, in which `worn` [m] was rubbed off.
 
     Nothing presses on the ground of a new pit; what does is up to the next solution.
