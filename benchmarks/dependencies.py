@@ -103,6 +103,7 @@ PAGES: dict[str, Source] = {
         "film.grid_error", ("film", "evolution", "control", "uncertainty", "grid_error", *CIRCLES, "fzg_flank")
     ),
     "speed_error": Source("speed_error", (*LEVELS, "uncertainty", "grid_error", *SHAPES)),
+    "stress/micropitting": Source("stress.micropitting", ("film", "stress", "evolution", "control", "data")),
     "stress/field": Source("stress.field", ("film", "calls", "stress")),
     "surfaces/transition": Source("surfaces.transition", (*LEVELS, *SHAPES)),
     "surfaces/asperity_layer": Source("surfaces.asperity_layer", ("film",)),

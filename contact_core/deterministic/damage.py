@@ -127,16 +127,19 @@ def fatigued(
     below = state.below
     if below is None or not case.scene.fatigue.damages:
         return below, bodies
-    damages, after = [], []
+    damages, harm, after = [], [], []
     for side, then, now in zip(case.sides, state.bodies, bodies, strict=True):
-        damage, body = _fatigued(case, side, below, now, now.wear - then.wear, step)
+        damage, per_cycle, body = _fatigued(case, side, below, now, now.wear - then.wear, step)
         damages.append(damage)
+        harm.append(per_cycle)
         after.append(body)
     held = below.held + step
     below = replace(
         below,
         damage_1=damages[0],
         damage_2=damages[1],
+        per_cycle_1=harm[0],
+        per_cycle_2=harm[1],
         held=held,
         few=below.few + below.short * step,
         variance=below.variance + below.spread**2 * (held**2 - below.held**2),
@@ -144,8 +147,11 @@ def fatigued(
     return below, (after[0], after[1])
 
 
-def _fatigued(case: Case, side: Side, below: Below, body: Body, worn: Array, step: float) -> tuple[Array, Body]:
-    """Return the damage and the body after `step` [s] of load cycles, in which `worn` [m] was rubbed off."""
+def _fatigued(case: Case, side: Side, below: Below, body: Body, worn: Array, step: float) -> tuple[Array, Array, Body]:
+    """Return damage, damage per load cycle and body after `step` [s] of them, in which `worn` [m] was rubbed off.
+
+    Nothing presses on the ground of a new pit; what does is up to the next solution.
+    """
     scene, count = case.scene, cycles_in(side, step)
     damage, per_cycle = (_layers(scene, field[side.body]) for field in (below.damage, below.per_cycle))
     broken, damage = pits_of(accumulated(damage, scene.depths, count * per_cycle, worn), scene.depths)
@@ -155,7 +161,9 @@ def _fatigued(case: Case, side: Side, below: Below, body: Body, worn: Array, ste
             name: np.where(bare, 0.0, getattr(body, name)) for name in ("growth", "removal", "oxide")
         }
         body = replace(body, pits=body.pits + broken, **films)
-    return damage.reshape(below.damage[0].shape), body
+        per_cycle = np.where(bare, 0.0, per_cycle)
+    shape = below.damage[0].shape
+    return damage.reshape(shape), per_cycle.reshape(shape), body
 
 
 def damage_of_track(scene: Scene, state: ContactState, body: int) -> float:

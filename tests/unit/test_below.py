@@ -228,3 +228,20 @@ def test_the_error_by_few_instants_covers_what_many_find_and_a_tenth_of_it_would
 def test_tables_that_cannot_be_are_refused_with_a_way_out(changes, said):
     with pytest.raises(SceneError, match=said):
         cheap(DRY | changes)
+
+
+def test_a_pit_is_no_deeper_before_the_contact_is_solved_again():
+    """Its ground is out of contact; the caller's steps decide nothing."""
+    changes = TIRED | {"fatigue.reference_stress": "300 MPa", "control.longest": "1e6 s", "control.change": "1e-6 m"}
+    _, _, found = run(changes | {"wear.model": "none", "tribofilm.model": "none"}, 0.0, *[200.0] * 8)
+    states = [state for state, _ in found]
+    assert states[0].outputs.blocks_dry == states[-1].outputs.blocks_dry  # one solution
+    broke = 0
+    for body in (0, 1):
+        first = np.zeros_like(states[0].bodies[body].pits)
+        for state in states:
+            pits = state.bodies[body].pits
+            first = np.where(first > 0.0, first, pits)
+            assert np.array_equal(pits, first)
+        broke += int((first > 0.0).sum())
+    assert broke > 0
