@@ -14,7 +14,7 @@ Records are frozen: a step returns new ones.
 
 from .below import Below
 from .error import Error
-from .outputs import Outputs, RangeFlag, flag_of_errors, flag_of_scuffing, flags_of_tribofilm
+from .outputs import Outputs, RangeFlag, flag_of_errors, flag_of_pits, flag_of_scuffing, flags_of_tribofilm
 from .solved import Solved
 from .state import Body, ContactState, Mean, changed, initial_state
 
@@ -29,6 +29,7 @@ __all__ = [
     "Solved",
     "changed",
     "flag_of_errors",
+    "flag_of_pits",
     "flag_of_scuffing",
     "flags_of_tribofilm",
     "initial_state",

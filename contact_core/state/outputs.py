@@ -43,6 +43,13 @@ class RangeFlag(IntFlag):
         ),
     )
     SCUFFING = 8192, "risk of scuffing: the contact is, if only at an instant, hotter than the critical temperature"
+    PITTED = (
+        16384,
+        (
+            "micropits have broken out: when they begin is surer than how they grow, as elastic stress overstates what "
+            "their rims bear"
+        ),
+    )
 
 
 if TYPE_CHECKING:
@@ -76,6 +83,11 @@ def flags_of_tribofilm(law: Tribofilm, temperatures: tuple[float, float]) -> Ran
 def flag_of_scuffing(ratio: float) -> RangeFlag:
     """Return SCUFFING where a scuffing ratio is above 1."""
     return RangeFlag.SCUFFING if ratio > 1.0 else RangeFlag(0)
+
+
+def flag_of_pits(*areas: float) -> RangeFlag:
+    """Return PITTED where any of the micropitted areas is above 0."""
+    return RangeFlag.PITTED if any(area > 0.0 for area in areas) else RangeFlag(0)
 
 
 _ASKED = 0.5  # accuracy of a scene that asks for none

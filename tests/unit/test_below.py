@@ -7,7 +7,7 @@ import pytest
 from cheap_scene import CHEAP, cheap
 from comparison import approx
 
-from contact_core import ContactState, SceneError, advance, initial_state
+from contact_core import ContactState, RangeFlag, SceneError, advance, initial_state
 from contact_core.deterministic import damage
 from contact_core.deterministic.subsurface import Traction, passed
 from contact_core.scene import Case
@@ -117,6 +117,8 @@ def test_what_fails_breaks_out_of_the_surface_with_its_tribofilm():
         bare = np.zeros_like(body.wear)
         assert np.array_equal(heights_of(bare, body), -body.wear - body.plastic - body.pits + body.tribofilm)
     assert outputs.micropitted_area_1 > 0.0
+    flagged = [RangeFlag.PITTED in RangeFlag(out.range_flags) for _, out in found]
+    assert flagged == [out.micropitted_area_1 + out.micropitted_area_2 > 0.0 for _, out in found]
     assert state.below.damage_1.max() < 1.0
     earlier = [out.micropitted_area_1 for _, out in found]
     assert earlier == sorted(earlier)
