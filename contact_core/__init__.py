@@ -11,13 +11,13 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     surfaces/        roughness, body-fixed patches, track means, profiles
     state/           `ContactState`, `Outputs`, `RangeFlag`, trends, storage
     scene/           `Scene`, `OperatingPoint`, `Case`, checks, TOML, units
-    calls/           point_contact, line_contact, dry_contact: one call each, without a scene
+    calls/           point_contact, line_contact, dry_contact, subsurface_stress: one call each, without a scene
     film/            fluid and solid pressure of one instant: table of algorithms, units, grids, error estimate
     shapes/          points, lines, rollers: gap, Hertz's contact, film by formula; one file each
     laws/            viscosity, density, rheology, supply of oil, double layers, plasticity, boundary friction, heat,
-                     bulk temperature, tribofilm, wear, oxide, load sharing, profiles: one class per law
+                     bulk temperature, tribofilm, wear, oxide, fatigue, load sharing, profiles: one class per law
     kernels/         numba and FFT: arrays in, arrays out
-    reference/       closed forms: Hertz, films of points and lines, starvation, heat, wear
+    reference/       closed forms: Hertz and stress below, films of points and lines, starvation, heat, wear
     quantities       names, symbols, units, signs and ranges of every input and output
     errors           what can go wrong, each message with a way out
     data/            named oils, solids and tribofilms, and the shipped scenes
@@ -32,6 +32,7 @@ from .advance import advance, uncertainty, warm_up
 from .calls.dry_contact import DryContact, dry_contact
 from .calls.line_contact import LineContact, line_contact
 from .calls.point_contact import PointContact, point_contact
+from .calls.subsurface_stress import SubsurfaceStress, graded_depths, subsurface_stress
 from .deterministic.instant import ContactFields, Transient, solve
 from .deterministic.march import Moment, march, run_cycle
 from .deterministic.present import present_instant
@@ -65,10 +66,12 @@ __all__ = [
     "Scene",
     "SceneError",
     "StateError",
+    "SubsurfaceStress",
     "Track",
     "Transient",
     "advance",
     "dry_contact",
+    "graded_depths",
     "initial_state",
     "line_contact",
     "march",
@@ -78,6 +81,7 @@ __all__ = [
     "run_cycle",
     "shipped_scenes",
     "solve",
+    "subsurface_stress",
     "track_of",
     "uncertainty",
     "warm_up",

@@ -3,6 +3,7 @@
     point_contact   the film of a circular or elliptical contact
     line_contact    the film of a line contact
     dry_contact     rough bodies without a film
+    subsurface_stress  stress below one's own pressure and shear
     common          what the calls share
     refinement      grids from coarse to fine, and the surface that all of them sample
 

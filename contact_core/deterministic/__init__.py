@@ -7,9 +7,11 @@
     transient          consecutive instants: a film that depends on the one before, begins or opens
     present            the instant that a run is at, and its fields
     march              `march`, `run_cycle`: consecutive instants while inputs change within a run
+    subsurface         stresses below the surfaces, by the instants of a pass
     accumulator        sums over the instants of a block
     sampling           choice of the instants at which a block is solved
     growth_and_wear    exposure, tribofilm and wear of one body
+    damage             damage by load cycles, and what breaks out
     resting            wear of bodies at rest, which conform to the other one
     block              one block: when it is due, which contacts drive it
     changing_inputs    instants in place of blocks while inputs change

@@ -11,6 +11,7 @@ from ..surfaces.patches import on_patches
 from .friction import Film, derivatives
 from .instant import ContactFields
 from .observed import instant_flags, observed
+from .subsurface import Traction, traction_of
 
 Array = NDArray[np.float64]
 
@@ -35,6 +36,7 @@ class Accumulator:
     before_dry: float = 0.0  # share of them among the mixed solutions that a dry block relies on
     fallbacks: int = 0
     flags: RangeFlag = field(default_factory=lambda: RangeFlag(0))
+    tractions: list[Traction] = field(default_factory=list)  # of the instants, where stresses are asked for
     sheared: Film | None = None  # the last instant's whose oil was sheared by its rheology
 
     @staticmethod
@@ -97,6 +99,8 @@ class Accumulator:
         for i in (0, 1):
             self.pressures[i][:] += pressures[i]
             self.exposures[i][:] += exposures[i]
+        if case.scene.stress.samples:
+            self.tractions.append(traction_of(case.scene, state, fields))
         self.fluid += fields.fluid_pressure
         self.oil_shear += float(fields.oil_shear.sum())
         seen = observed(case, fields)

@@ -13,14 +13,16 @@ import numpy as np
 
 from ..laws.tribofilm import DOSES
 from ..scene import Case, Scene
-from ..state import Body, ContactState, RangeFlag
+from ..state import Below, Body, ContactState, RangeFlag
 from ..state.trends import RATES_FOLLOWED
 from ..surfaces.patches import on_grid, patch_nodes, widened
+from . import damage
 from .accumulator import Accumulator
 from .growth_and_wear import followed, stable_time, with_exposure
 from .instant import solve_instant
 from .resting import conformed, scar_time
 from .sampling import blocks_per_pass, jumps_of, sample_dry, sample_mixed
+from .subsurface import OF_STRESS, of_a_pass, outputs_of_stress, passed, share_of
 
 _DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
@@ -96,7 +98,7 @@ def _wide_enough(case: Case, state: ContactState) -> ContactState:
         return state
     more = 8 * math.ceil(rows / 64)  # an eighth on either side
     first, second = (widened(body, more) for body in state.bodies)
-    return replace(state, bodies=(first, second), film=None)
+    return replace(state, bodies=(first, second), below=damage.widened(state.below, rows, more), film=None)
 
 
 def _worn_at_the_edge(case: Case, state: ContactState) -> bool:
@@ -132,10 +134,11 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
     """Return the state with a block's results: exposure of the surfaces, outputs, limits of the next block."""
     driver = sums.driver
     kind = "dry" if driver == "dry" else "mixed"
+    below, stresses = _below(case, state, sums) if blocks else (state.below, {})
     first, second = (with_exposure(case, side, state, sums, _ALIKE[kind]) for side in case.sides)
     bodies = conformed(case, state, (first, second), sums.fluid / sums.count)
     surfaces = {k: v for pair in zip(case.sides, bodies, strict=True) for k, v in followed(case, *pair).items()}
-    state = replace(state, bodies=bodies)
+    state = replace(state, bodies=bodies, below=below)
     sums.flags = sums.all_flags | _flags_of_motion(case, state, driver)
     seen, spread = _observed(sums, surfaces, apart=driver == "dry")
     trends = state.trends.followed(seen, spread, _MEMORY[kind], _lag(case.scene, driver))
@@ -144,6 +147,7 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
     outputs = replace(
         state.outputs,
         **smooth,
+        **stresses,
         **{count: getattr(state.outputs, count) + blocks},
         **sums.slopes(case),
         friction_coefficient=abs(smooth["friction_force"]) / case.op.load if case.loaded else 0.0,
@@ -162,6 +166,26 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
         trends=trends,
     )
     return replace(state, hold=_longest(case, state, state.held), held=0.0)
+
+
+def _below(case: Case, state: ContactState, sums: Accumulator) -> tuple[Below | None, dict[str, float]]:
+    """Return what lies below the surfaces after a block, and the outputs of stress that are new.
+
+    A pass counts once its instants are new; at first as soon as twice as many are known as before.
+    """
+    below, scene = state.below, case.scene
+    if not scene.stress.samples:
+        return below, {}
+    if not case.loaded:
+        return damage.at_rest(below) if below is not None else None, dict.fromkeys(OF_STRESS, 0.0)
+    same = state.solved_for is not None and not case.differs_from(state.solved_for)
+    found = share_of(case, sums.tractions, dry=sums.driver == "dry")
+    tractions = of_a_pass(case, state, found, same=same)
+    below = damage.with_tractions(below or damage.unharmed(scene, state.rows), tractions, len(found))
+    if same and below.fresh < below.used:
+        return below, {}
+    seen = passed(case, state.rows, tractions)
+    return damage.with_cycles(case, below, seen), outputs_of_stress(case, state.rows, seen)
 
 
 def _observed(
@@ -198,6 +222,7 @@ def _longest(case: Case, state: ContactState, before: float) -> float:
     limits = [control.longest]
     if case.loaded:
         limits += [max(_stable_time(case, state.bodies), _SHORTEST * control.longest)]
+        limits += [damage.pit_time(case, state)]
         limits += [scar_time(case, *pair) for pair in zip(case.sides, state.bodies, strict=True)]
         if before > 0.0:
             step = abs(state.trends.slope_of("contact_load_ratio"))

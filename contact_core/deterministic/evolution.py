@@ -15,6 +15,7 @@ from ..surfaces.patches import track_rows
 from ..surfaces.track_means import folded
 from .block import is_due, solve_block
 from .changing_inputs import inputs_change, solve_instant_of_change
+from .damage import fatigued
 from .growth_and_wear import evolved, wear_volume_rate
 from .outputs import outputs_of, with_heat
 from .transient import longest_instant
@@ -53,10 +54,12 @@ def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, O
 
 def _after(case: Case, state: ContactState, step: float, change: float) -> ContactState:
     """Return the state after `step` [s] of the present block, in which the geometry changes by `change` [m]."""
+    below, bodies = fatigued(case, state, _evolved(case, state, state.bodies, step), step)
     return replace(
         state,
         time=state.time + step,
-        bodies=_evolved(case, state, state.bodies, step),
+        bodies=bodies,
+        below=below,
         change=state.change + change,
         held=state.held + step,
         trends=state.trends.over(step, state.held),

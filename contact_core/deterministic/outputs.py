@@ -8,6 +8,7 @@ from ..state import Body, ContactState, Error, Outputs, RangeFlag, flag_of_error
 from ..state.bulk_temperature import power_loss
 from ..surfaces.patches import surface_now
 from ..surfaces.roughness import mean_roughness, rms_roughness
+from .damage import damage_of_track
 from .solution_error import with_errors_of_the_solution
 
 _COVERED = 1e-9  # a thinner tribofilm does not count as coverage [m]
@@ -19,6 +20,7 @@ def outputs_of(case: Case, state: ContactState, suggested_step: float) -> Output
     values: dict[str, Any] = {}
     for side, body in zip(case.sides, state.bodies, strict=True):
         found = _of_surface(case, side, body) | {"temperature": side.temperature}
+        found["damage"] = damage_of_track(case.scene, state, side.body)
         values |= {f"{name}_{side.body + 1}": value for name, value in found.items()}
     out = with_heat(case, state)
     flags = RangeFlag(out.range_flags) & ~(RangeFlag.TRIBOFILM_TEMPERATURE | RangeFlag.BY_THE_CLOCK)
@@ -59,6 +61,8 @@ def _of_surface(case: Case, side: Side, body: Body) -> dict[str, float]:
     return {
         "wear_volume": body.worn,
         "wear_depth": float(body.wear[track].mean()),
+        "micropitted_area": float((body.pits[track] > 0.0).mean()),
+        "profile_loss": float((body.wear + body.pits)[track].mean()),
         "tribofilm": float(rubbed.mean()),
         "tribofilm_grown": grown,
         "tribofilm_removed": max(grown - float(rubbed.mean()), 0.0),
@@ -83,6 +87,9 @@ def errors_of(scene: Scene, state: ContactState) -> dict[str, Error]:
         roughness = getattr(out, name)
         if roughness > 0.0:  # the noise of wear adds to its square
             found[name] = found[name]._replace(sampling=min(0.5 * body.noise / roughness, roughness))
+    for i in (0, 1):
+        late, sampling = state.below.errors(i) if state.below is not None else (0.0, 0.0)
+        found[f"damage_{i + 1}"] = Error(time=late, sampling=sampling)
     if state.solved_for is not None and state.solved_for.load > 0.0:
         found = with_errors_of_the_solution(Case(scene, state.solved_for), out, found)
     force = abs(out.friction_force)
@@ -103,4 +110,5 @@ def _error_outputs(scene: Scene, state: ContactState, values: dict[str, Any]) ->
         "error_load_ratio": found["contact_load_ratio"].together,
         **{f"error_{name}": relative(name, values[name]) for name in ("tribofilm_1", "tribofilm_2")},
         "error_wear": max(relative(name, values[name]) for name in ("wear_depth_1", "wear_depth_2")),
+        "error_damage": max(relative(name, values[name]) for name in ("damage_1", "damage_2")),
     }

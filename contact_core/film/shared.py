@@ -3,11 +3,15 @@
 import threading
 from collections.abc import Callable
 from functools import lru_cache, partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..kernels.half_space import HalfSpace, PeriodicHalfSpace
+
+if TYPE_CHECKING:
+    from ..kernels.subsurface import Subsurface
 
 Array = NDArray[np.float64]
 
@@ -37,3 +41,18 @@ def tables(
     pressure = np.linspace(0.0, top, ENTRIES)
     values = viscosity(pressure, temperature)
     return values[0] / values, density(pressure), float(values[0])
+
+
+def subsurface(
+    shape: tuple[int, int], spacing: float, depths: tuple[float, ...], poisson: float, library: str, *, periodic: bool
+) -> "Subsurface":
+    """Return the stresses below a grid at depths [m], with stored plans."""
+    from ..kernels.subsurface import Subsurface  # loads the compiler
+
+    store: dict[tuple[Any, ...], Subsurface] = _LOCAL.__dict__.setdefault("subsurfaces", {})
+    key = (shape, spacing, depths, poisson, library, periodic)
+    if key not in store:
+        if len(store) >= 4:
+            store.pop(next(iter(store)))
+        store[key] = Subsurface(shape, spacing, np.array(depths), poisson, library, periodic=periodic)
+    return store[key]

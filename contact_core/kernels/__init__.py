@@ -11,7 +11,11 @@
     multigrid/      smooth films
     far_field       pressure and load beyond the edge of the grid
     thinning        flow of an oil that thins under shear
+    subsurface      stress below a surface under pressure and shear, free or periodic along y
+    stress_measures  von Mises, principal stresses, largest shear, mean of stress tensors
     moving_source   temperature of surfaces that move through heat
+    load_cycle      stresses of a load cycle at material points
+    smallest_sphere  the sphere around the deviators of a cycle
     anderson        acceleration of a fixed point
     grids           between a grid and that of half its nodes
     convergence     the record of how a solution went

@@ -6,6 +6,8 @@
     heat, bulk          temperatures in the contact, and of the bodies
     tribofilm/          growth and removal of the tribofilm
     oxide               oxide where no tribofilm covers the solids
+    stress              stresses below the surfaces, and the fatigue limits beside them
+    fatigue             damage of the solids by load cycles
     load_sharing        load on solids and oil at the regression level
     profile             ends of rollers
     asperity_layer      roughness below the grid: not yet in a scene
@@ -24,12 +26,14 @@ from . import (
     bulk,
     density,
     double_layer,
+    fatigue,
     heat,
     load_sharing,
     oxide,
     plasticity,
     profile,
     rheology,
+    stress,
     supply,
     tribofilm,
     viscosity,
@@ -50,6 +54,8 @@ SLOTS: dict[str, tuple[type[Law], ...]] = {
     "tribofilm": tribofilm.LAWS,
     "wear": wear.LAWS,
     "oxide": oxide.LAWS,
+    "stress": stress.LAWS,
+    "fatigue": fatigue.LAWS,
     "sharing": load_sharing.LAWS,
     "profile": profile.LAWS,
 }

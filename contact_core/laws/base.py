@@ -10,6 +10,7 @@ from typing import Any, ClassVar, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..kernels.load_cycle import Cycle
 from .elementary import Numbers
 from .equations import Equations
 from .temperatures import Rubbing, Temperatures
@@ -348,6 +349,51 @@ class Oxide(Law, Protocol):
 
     def evolve(self, oxide: Numbers, growing: Numbers, rubbing: Numbers) -> tuple[Numbers, Numbers]:
         """Return the oxide [m], and what was rubbed off it [m], after both rates have added up to these [m]."""
+
+
+class Stress(Law, Protocol):
+    """Sampling of the stresses below the surfaces."""
+
+    samples: ClassVar[bool]  # stresses are computed at all
+
+    @property
+    def error(self) -> str:
+        """Sentence on constants that contradict each other, or an empty text."""
+
+    @property
+    def instants(self) -> int:
+        """Instants that stand for a pass of a surface point."""
+
+    @property
+    def near_surface(self) -> float:
+        """Depth over Hertz's half width down to which a stress is near the surface."""
+
+    @property
+    def torsion_limit(self) -> float:
+        """Fatigue limit in alternating torsion [Pa]."""
+
+    @property
+    def dang_van_slope(self) -> float:
+        """Weight of the hydrostatic stress in Dang Van's criterion."""
+
+    @property
+    def crossland_slope(self) -> float:
+        """Weight of the hydrostatic stress in Crossland's criterion."""
+
+    def depths(self, spacing: float, half_width: float) -> Array:
+        """Return the depths of the layers [m] on a grid of a spacing [m] under a half width [m] along x."""
+
+    def residual_stress(self) -> Array:
+        """Return the stress without a load [Pa], [6]: xx, yy, zz, yz, xz, xy, tension positive."""
+
+
+class Fatigue(Law, Protocol):
+    """Damage of the solids by load cycles."""
+
+    damages: ClassVar[bool]
+
+    def per_cycle(self, cycle: Cycle) -> Array:
+        """Return the damage by one load cycle, 0 to 1: it adds up, and at 1 the material fails."""
 
 
 class Profile(Law, Protocol):

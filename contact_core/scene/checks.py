@@ -102,6 +102,14 @@ def _shape_errors(scene: SceneFields) -> Iterator[tuple[str, str]]:
             )
     if plasticity.error:
         yield "hardness", plasticity.error
+    if scene.stress.error:
+        yield "stress", scene.stress.error
+    if scene.fatigue.damages and not scene.stress.samples:
+        yield (
+            "stress",
+            f"fatigue.model = '{scene.fatigue.name}' needs the stresses below the surfaces, and stress.model = "
+            f"'{scene.stress.name}' has none. Set stress.model = 'half_space'.",
+        )
     solids = scene.solids
     if solids.film_modulus is not None:
         given = solids.film_modulus, solids.film_poisson_ratio

@@ -7,10 +7,15 @@ from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..film import Deterministic, Regression
 from ..film.instant import Grid
-from ..laws.base import BoundaryFriction, Heat, Oxide, Plasticity, Tribofilm, Wear
+from ..laws.base import BoundaryFriction, Fatigue, Heat, Oxide, Plasticity, Stress, Tribofilm, Wear
+from ..laws.fatigue import NoFatigue
 from ..laws.oxide import NoOxide
+from ..laws.stress import NoStress
 from ..reference import Hertz
 from ..shapes import Geometry, Shape
 from .operation import OperatingPoint, Operation
@@ -42,6 +47,8 @@ class SceneFields:
     control: Control
     operation: Operation
     oxide: Oxide = field(default=NoOxide())
+    stress: Stress = field(default=NoStress())
+    fatigue: Fatigue = field(default=NoFatigue())
 
     def to_dict(self) -> dict[str, Any]:
         """Return nested tables, from which `Scene.from_dict` makes an equal scene, bit for bit."""
@@ -98,6 +105,11 @@ class SceneFields:
         """
         return self.film.width or self.period * self.film.spacing, self.film.domain
 
+    @cached_property
+    def depths(self) -> NDArray[np.float64]:
+        """Depths [m] below the surfaces at which stresses are sampled."""
+        return self.stress.depths(self.film.spacing, self.hertz(self.operation.load).a)
+
     @property
     def repeats(self) -> float:
         """Number of times the grid lies in the contact, side by side along y."""
@@ -141,6 +153,8 @@ class SceneFields:
         for surface in (parts["surface_1"], parts["surface_2"]):
             surface.get("heights", {}).pop("file", None)  # wherever they lie
         parts["grid"] = [self.film.points, self.film.domain, self.rows]
+        if self.stress.samples:
+            parts["depths"] = self.depths.tolist()
         return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()[:16]
 
 

@@ -16,7 +16,7 @@ CHOSEN = (  # fields that it chooses where a scene does not give them
     "control.mixed_instants",
     "control.dry_instants",
 )
-_POISSON = 0.3  # of the solids, assumed: E' alone does not give it
+POISSON = 0.3  # of the solids, assumed: E' alone does not give it
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Solids:
     @property
     def own_modulus(self) -> float:
         """Oedometric modulus [Pa] of the solids, taken as alike."""
-        return self.reduced_modulus * (1.0 - _POISSON) ** 2 / (1.0 - 2.0 * _POISSON)
+        return self.reduced_modulus * (1.0 - POISSON) ** 2 / (1.0 - 2.0 * POISSON)
 
     @property
     def film_give(self) -> float:

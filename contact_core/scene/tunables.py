@@ -22,6 +22,8 @@ _PARTS = (
     "tribofilm",
     "wear",
     "oxide",
+    "stress",
+    "fatigue",
     "film",
     "control",
 )

@@ -5,18 +5,21 @@
     error              `Error` of an output, by its causes
     trends             outputs without their noise, errors of time steps and of sampling
     solved             deterministic solutions that correct the regression level
+    below              tractions, load cycles and damage below the surfaces
     storage            records of numbers and arrays as bytes and back
     bulk_temperature   temperatures of the bodies from the heat of the contact, for both levels
 
 Records are frozen: a step returns new ones.
 """
 
+from .below import Below
 from .error import Error
 from .outputs import Outputs, RangeFlag, flag_of_errors, flags_of_tribofilm
 from .solved import Solved
 from .state import Body, ContactState, Mean, changed, initial_state
 
 __all__ = [
+    "Below",
     "Body",
     "ContactState",
     "Error",

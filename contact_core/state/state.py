@@ -18,6 +18,7 @@ from ..errors import StateError
 from ..film.instant import FilmState
 from ..laws.tribofilm import thickness
 from ..scene import OperatingPoint, Scene
+from .below import Below
 from .outputs import Outputs
 from .solved import Solved
 from .storage import Reader, numbers, stored
@@ -25,13 +26,13 @@ from .trends import NAMES, Trends
 
 Array = NDArray[np.float64]
 _Record = TypeVar("_Record", "ContactState", "Outputs", "Mean", OperatingPoint)
-_MAGIC, _SCHEMA = b"tribofmu", 10
+_MAGIC, _SCHEMA = b"tribofmu", 11
 _FEWEST = 100  # bytes that a header of schema 5 or before has at least
 _CHECKSUM, _SIGNED = struct.Struct("<I"), struct.Struct("<II")
 _LAYOUT = struct.Struct("<I")
 _TEXTS = struct.Struct(
-    "<5?II"
-)  # what is there of film, solved_for, means, temperatures, solved; lengths of digest, law
+    "<6?II"
+)  # what is there of film, solved_for, means, temperatures, solved, below; lengths of digest, law
 _PAIR = struct.Struct("<2d")
 
 
@@ -45,6 +46,7 @@ class Body:
     oxide: Array  # thickness where no tribofilm covers the solid [m]; zero without a law of it
     wear: Array  # depth worn [m]
     plastic: Array  # permanent depth pressed in [m]
+    pits: Array  # depth broken out by fatigue [m]; zero without a law of it
     pressure: Array  # of the solids on a point, mean over its track [Pa], of the last solution: for wear
     exposure: Array  # per test time, of the last solution: for the tribofilm law
     abrasion: Array  # rate [1/s], per test time, at which rubbing removes the tribofilm; zero for laws without it
@@ -62,6 +64,7 @@ class Body:
         "oxide",
         "wear",
         "plastic",
+        "pits",
         "pressure",
         "exposure",
         "abrasion",
@@ -120,6 +123,7 @@ class ContactState:
     # of the oil in the mixed solutions that measured `share`, over the load that it carries; it holds in dry blocks
     oil_friction: float = 0.0
     oil_rolling: float = 0.0  # resistance
+    below: Below | None = None  # stresses and damage below the surfaces; None: none sampled yet
 
     @property
     def rows(self) -> int:
@@ -141,11 +145,11 @@ class ContactState:
         since an earlier state is the same object in both (`obj` of its part): at the regression level all of them,
         between two solutions of the deterministic level all but tribofilm and wear.
         """
-        kept = [stored(record) for record in (*self.bodies, self.trends, self.film, self.solved) if record is not None]
+        some = self.film, self.solved, self.below
+        kept = [stored(record) for record in (*self.bodies, self.trends, *some) if record is not None]
         texts = self.digest.encode(), self.law.encode()
-        given = [
-            record is not None for record in (self.film, self.solved_for, self.means, self.temperatures, self.solved)
-        ]
+        maybe = self.film, self.solved_for, self.means, self.temperatures, self.solved, self.below
+        given = [record is not None for record in maybe]
         single = [r for r in (self, self.outputs, self.solved_for, *(self.means or ())) if r is not None]
         head = b"".join(
             [
@@ -200,7 +204,7 @@ def _read(data: bytes) -> ContactState:
 @cache
 def _layout() -> int:
     """Return the fingerprint of the numbers and trends in a stored state, by their names and order."""
-    records = (ContactState, Outputs, OperatingPoint, Mean, Body, Trends, FilmState, Solved)
+    records = (ContactState, Outputs, OperatingPoint, Mean, Body, Trends, FilmState, Solved, Below)
     names = [f.name for record in records for f in fields(record)]
     return zlib.crc32(" ".join([*names, *NAMES]).encode())
 
@@ -212,7 +216,7 @@ def _unpacked(reader: Reader) -> ContactState:
             "The stored state was written by a version with other inputs or outputs. Give a file that a run of this "
             "version has written."
         )
-    film, solved_for, means, temperatures, solved, digest, law = reader.values(_TEXTS)
+    film, solved_for, means, temperatures, solved, below, digest, law = reader.values(_TEXTS)
     texts: dict[str, Any] = {"digest": reader.text(digest), "law": reader.text(law)}
     own = reader.numbers(ContactState)
     outputs = Outputs(**reader.numbers(Outputs))
@@ -230,6 +234,7 @@ def _unpacked(reader: Reader) -> ContactState:
         trends=reader.record(Trends),
         film=reader.record(FilmState) if film else None,
         solved=reader.record(Solved) if solved else None,
+        below=reader.record(Below) if below else None,
     )
 
 

@@ -168,8 +168,13 @@ def _bare(
 
 
 def heights_of(bare: Array, body: Body) -> Array:
-    """Return the heights of a body's patch as it is now: new surface - wear - plastic depth + tribofilm."""
-    return bare - body.wear - body.plastic + body.tribofilm
+    """Return the heights of a body's patch as it is now: its solid and the tribofilm on it."""
+    return solid_of(bare, body) + body.tribofilm
+
+
+def solid_of(bare: Array, body: Body) -> Array:
+    """Return the heights of a body's solid as it is now: new surface - wear - plastic depth - pits."""
+    return bare - body.wear - body.plastic - body.pits
 
 
 def roughness_of(bare: Array, heights: Array) -> Array:

@@ -24,9 +24,10 @@ class Track:
     x: Array
     y: Array
     new: Array  # heights before the first pass
-    heights: Array  # as they are: new - wear - plastic + tribofilm
+    heights: Array  # as they are: new - wear - plastic - pits + tribofilm
     wear: Array
     plastic: Array
+    pits: Array
     tribofilm: Array
 
 
@@ -56,5 +57,6 @@ def track_of(scene: Scene, state: ContactState, body: int, length: float | None 
         heights=laid(heights_of(bare, part)),
         wear=laid(part.wear),
         plastic=laid(part.plastic),
+        pits=laid(part.pits),
         tribofilm=laid(part.tribofilm),
     )

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..laws.tribofilm import thickness
 from ..scene import Scene
 from ..state import Body, ContactState, Mean
-from .patches import bare_heights, middle_rows, roughness_of, track_rows
+from .patches import bare_heights, middle_rows, roughness_of, solid_of, track_rows
 from .roughness import rms_roughness
 
 Array = NDArray[np.float64]
@@ -29,7 +29,7 @@ def _mean_of(scene: Scene, state: ContactState, i: int) -> Mean:
     body, rows = state.bodies[i], state.rows
     track = track_rows(scene, rows)
     bare = bare_heights(scene, rows)[i]
-    solid = roughness_of(bare, bare - body.wear - body.plastic)
+    solid = roughness_of(bare, solid_of(bare, body))
     roughness = rms_roughness(solid, middle_rows(scene, rows))
     return Mean(
         growth=float(body.growth[track].mean()),
@@ -87,7 +87,7 @@ def _folded(scene: Scene, rows: int, i: int, body: Body, then: Mean, now: Mean) 
     """Return a body whose track has changed from one mean to another."""
     track = track_rows(scene, rows)
     bare = bare_heights(scene, rows)[i]
-    heights = (bare - body.wear - body.plastic)[track]
+    heights = solid_of(bare, body)[track]
     pressure = body.pressure[track]
     share = pressure / pressure.mean() if pressure.any() else np.ones_like(pressure)
     covered = _covered(heights, body.growth[track], now.coverage)

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from contact_core.kernels.load_cycle import Cycle
 from contact_core.laws import SLOTS
 from contact_core.laws.temperatures import Rubbing
 from contact_core.laws.tribofilm import thickness
@@ -80,6 +81,14 @@ PLAUSIBLE = {
     "debye_length": (1e-10, 1e-6),
     "relative_permittivity": (1.0, 100.0),
     "ion_radius": (1e-10, 1e-8),
+    "reference_stress": (1e8, 5e9),
+    "reference_cycles": (1.0, 1e9),
+    "life_exponent": (1.0, 50.0),
+    "endurance_limit": (0.0, 1e9),
+    "cyclic_strength": (5e8, 1e10),
+    "cyclic_hardening": (0.02, 0.5),
+    "failure_work": (1e6, 1e11),
+    "work_exponent": (0.5, 3.0),
 }
 
 
@@ -534,3 +543,21 @@ def test_wear_of_the_solid_never_rises_with_the_film_and_that_of_the_film_is_in_
     assert np.asarray(doubled) == approx(2.0 * np.asarray(taken), rel=1e-12, abs=1e-300)
     if law.wears_film:
         assert np.all(law.coefficient(cover, FULL) <= law.coefficient(0.5 * cover, FULL))
+
+
+amplitudes = arrays(float, SHAPE, elements=st.just(0.0) | st.floats(1e-300, 1e12))
+hydrostatics = arrays(float, SHAPE, elements=st.floats(-1e12, 1e12))
+
+
+@given(laws_of("fatigue"), amplitudes, hydrostatics, hydrostatics, st.floats(1.0, 10.0))
+def test_a_cycle_takes_a_share_of_a_life_that_no_greater_stress_makes_smaller(law, shear, mean, dang_van, more):
+    found = law.per_cycle(Cycle(shear, mean, dang_van))
+    assert is_field(found)
+    assert np.all((found >= 0.0) & (found <= 1.0))
+    assert law.damages or not np.any(found)
+    assert np.all(law.per_cycle(Cycle(more * shear, mean, np.maximum(dang_van, more * dang_van))) >= found)
+
+
+@given(laws_of("fatigue"), hydrostatics)
+def test_a_cycle_without_shear_or_under_pressure_alone_damages_nothing(law, mean):
+    assert not np.any(law.per_cycle(Cycle(np.zeros(SHAPE), mean, -np.abs(mean))))

@@ -228,7 +228,7 @@ def test_a_state_of_an_older_schema_is_refused_with_both_numbers(scene):
     head = len(header).to_bytes(4, "little") + header
     for written in (head, bytes([4, 0, 0, 0]) + head):
         data = b"tribofmu" + zlib.crc32(written).to_bytes(4, "little") + written
-        with pytest.raises(StateError, match=r"has schema (4|5 or less) .*reads 10\. Give a file"):
+        with pytest.raises(StateError, match=r"has schema (4|5 or less) .*reads 11\. Give a file"):
             ContactState.from_bytes(data, scene)
 
 

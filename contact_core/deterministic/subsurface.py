@@ -1,0 +1,146 @@
+"""Stresses below the surfaces, by some instants of a pass, and the load cycles that they make.
+
+The tractions of the last instants stand for one pass of a surface point: those of dry blocks are spread over it, and a
+mixed block gives its share of them. After a change of inputs there are fewer at first; the newest then moves on with
+both bodies as if its pressure stayed where it is, which is exact for smooth bodies. Each point of a patch sees its own
+history, the unloaded state included.
+"""
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..film import Deterministic
+from ..film.shared import subsurface
+from ..kernels.load_cycle import Cycle, cycle_of
+from ..kernels.stress_measures import von_mises
+from ..scene import Case, Scene
+from ..scene.records import POISSON
+from ..state import ContactState
+from ..surfaces.patches import patch_nodes, track_rows
+from .instant import ContactFields
+
+Array = NDArray[np.float64]
+Places = tuple[int, int]
+
+OF_STRESS = ("von_mises_max", "von_mises_depth", "near_surface_share", "dang_van_ratio", "crossland_ratio")
+
+_UNIT = 1e9  # Pa
+_RISK = 31.0 / 3.0  # power of a stress in the risk that a volume fails: Lundberg & Palmgren 1947
+
+
+class Traction(NamedTuple):
+    """What presses and shears the surfaces in one instant. Arrays [ny, nx] on the grid of the contact."""
+
+    pressure: Array  # [Pa]
+    shear: Array  # on body 2 along +x [Pa]
+    places: Places  # of the patches of both bodies along +x [nodes]
+
+
+class Pass(NamedTuple):
+    """What a pass does below the surfaces. Pairs are of body 1 and 2."""
+
+    cycles: tuple[Cycle, Cycle]  # arrays [layers, rows, nx - 1]
+    von_mises: Array  # largest of each layer, mean over the instants [Pa], [layers]
+    scatter: float  # of the largest, mean over the instants: standard deviation over it
+
+
+def traction_of(scene: Scene, state: ContactState, fields: ContactFields) -> Traction:
+    """Return the tractions of an instant."""
+    first, second = state.bodies
+    shear = fields.fluid_shear + fields.solid_shear
+    return Traction(fields.pressure, shear, (patch_nodes(scene, first), patch_nodes(scene, second)))
+
+
+def of_a_pass(case: Case, state: ContactState, found: Sequence[Traction], *, same: bool) -> list[Traction]:
+    """Return the tractions that stand for the last pass, the oldest first.
+
+    `found` are those of a block; `same`: the operating point has not changed since the block before.
+    """
+    earlier = list(_kept(state)) if same else []
+    return [*earlier, *found][-case.scene.stress.instants :]
+
+
+def _kept(state: ContactState) -> Iterator[Traction]:
+    if state.below is None:
+        return
+    for k, (first, second) in enumerate(state.below.places):
+        rows = slice(k * state.rows, (k + 1) * state.rows)
+        yield Traction(state.below.pressure[rows], state.below.shear[rows], (int(first), int(second)))
+
+
+def share_of(case: Case, found: Sequence[Traction], *, dry: bool) -> list[Traction]:
+    """Return the tractions of a block's instants that count for a pass: of a mixed one's, a node apart, only some."""
+    if dry:
+        return list(found)
+    part = len(found) / (case.scene.film.points - 1)
+    count = max(1, round(case.scene.stress.instants * part))
+    return [found[round((k + 1) * len(found) / count) - 1] for k in range(min(count, len(found)))]
+
+
+def passed(case: Case, rows: int, tractions: Sequence[Traction]) -> Pass:
+    """Return the load cycles of both bodies under the tractions of a pass."""
+    scene, law = case.scene, case.scene.stress
+    assert isinstance(scene.film, Deterministic)
+    grid, depths = scene.grid(rows), tuple(scene.depths.tolist())
+    kernel = subsurface(grid.shape, grid.spacing, depths, POISSON, scene.film.fft, periodic=grid.periodic)
+    history, unloaded = list(_history(case, tractions)), law.residual_stress()
+    largest = np.empty((2, len(tractions), len(depths)))
+    cycles: list[Cycle] = []
+    for side in case.sides:
+        sign = 1.0 if side.body else -1.0
+        stresses = [kernel.layers(traction.pressure, sign * traction.shear) for traction in tractions]
+        layers: list[Cycle] = []
+        for k, fields in enumerate(zip(*stresses, strict=True)):
+            loaded = [field + unloaded[:, None, None] for field in fields]
+            largest[side.body, :, k] = [von_mises(field).max() for field in loaded]
+            seen = np.stack([_on_patch(loaded[which], places[side.body]) for which, places in history])
+            layers.append(cycle_of(seen, unloaded, law.dang_van_slope))
+        cycles.append(Cycle(*(np.stack(parts) for parts in zip(*layers, strict=True))))
+    worse = largest.max(axis=0)
+    peaks = worse.max(axis=1)
+    scatter = float(peaks.std() / (peaks.mean() * len(peaks) ** 0.5)) if peaks.any() else 0.0
+    return Pass((cycles[0], cycles[1]), worse.mean(axis=0), scatter)
+
+
+def _history(case: Case, tractions: Sequence[Traction]) -> Iterator[tuple[int, Places]]:
+    """Yield which tractions each instant of the pass has, and where the patches are in it."""
+    for k, traction in enumerate(tractions):
+        yield k, traction.places
+    columns, instants = case.scene.film.points - 1, case.scene.stress.instants
+    (first, second), newest = tractions[-1].places, len(tractions) - 1
+    ahead = [np.sign(speed) * columns / instants for speed in case.speeds]
+    for step in range(1, instants - newest):
+        yield newest, ((first + round(step * ahead[0])) % columns, (second + round(step * ahead[1])) % columns)
+
+
+def _on_patch(field: Array, place: int) -> Array:
+    return np.roll(field[..., :-1], -place, axis=-1)
+
+
+def outputs_of_stress(case: Case, rows: int, found: Pass) -> dict[str, float]:
+    """Return `OF_STRESS` of a pass."""
+    scene, law = case.scene, case.scene.stress
+    depths, track = scene.depths, track_rows(scene, rows)
+    deepest = int(found.von_mises.argmax())
+    limit = law.torsion_limit
+    risk = np.sum([_risk(cycle.shear[:, track], depths) for cycle in found.cycles], axis=0)
+    near, total = float(risk[depths <= law.near_surface * case.hertz.a].sum()), float(risk.sum())
+    crossland = (cycle.shear + law.crossland_slope * cycle.hydrostatic for cycle in found.cycles)
+    values = (
+        float(found.von_mises[deepest]),
+        float(depths[deepest]),
+        near / total if total > 0.0 else 0.0,
+        max(0.0, *(float(cycle.dang_van[:, track].max()) for cycle in found.cycles)) / limit,
+        max(0.0, *(float(each[:, track].max()) for each in crossland)) / limit,
+    )
+    return dict(zip(OF_STRESS, values, strict=True))
+
+
+def _risk(shear: Array, depths: Array) -> Array:
+    """Return the risk of failure of each layer, up to a factor, [layers]; a layer reaches halfway to its neighbours."""
+    bounds = np.concatenate([[0.0], 0.5 * (depths[1:] + depths[:-1]), depths[-1:]])
+    risk: Array = ((shear / _UNIT) ** _RISK).mean(axis=(1, 2)) * np.diff(bounds)
+    return risk

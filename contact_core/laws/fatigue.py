@@ -1,0 +1,151 @@
+"""Damage of the solids by load cycles: each takes its share of a life, and at a sum of 1 the material fails.
+
+The sum over cycles of unlike stress is Palmgren's and Miner's: Miner, J. Appl. Mech. 12 (1945) A159,
+doi:10.1115/1.4009458. A cycle takes at most all of a life: lines of lives end at one cycle.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..kernels.load_cycle import Cycle
+from ..quantities import parameter
+from .base import Fatigue
+from .equations import Equations
+
+Array = NDArray[np.float64]
+
+_MISES = 3.0**0.5  # von Mises stress over sqrt(J2)
+
+
+@dataclass(frozen=True)
+class NoFatigue:
+    """Load cycles leave the solids as they are."""
+
+    name: ClassVar[str] = "none"
+    source: ClassVar[str] = ""
+    equations: ClassVar[Equations] = Equations(
+        ("D = 0",),
+    )
+    damages: ClassVar[bool] = False
+
+    def per_cycle(self, cycle: Cycle) -> Array:
+        """Return 0: no cycle damages."""
+        return np.zeros_like(cycle.shear)
+
+
+@dataclass(frozen=True)
+class _Line:
+    """A line of lives, N = N_ref (S_ref / S)^m."""
+
+    damages: ClassVar[bool] = True
+
+    reference_stress: float = parameter(
+        "Pa", "S_ref, stress amplitude that fails after the reference cycles", above=1e5, most=1e11
+    )
+    life_exponent: float = parameter("", "m, exponent of the line of lives", least=1.0, most=50.0)
+    reference_cycles: float = parameter(
+        "", "N_ref, cycles to failure at the reference stress", least=1.0, most=1e15, default=1e7
+    )
+    endurance_limit: float = parameter(
+        "Pa", "stress amplitude up to which nothing counts", least=0.0, most=1e11, default=0.0
+    )
+
+    def _share(self, stress: Array) -> Array:
+        """Return the share of a life that a cycle of a stress amplitude [Pa] takes, at most 1."""
+        fails = self.reference_cycles ** (1.0 / self.life_exponent)  # at the first cycle, over the reference stress
+        ratio = np.clip(stress / self.reference_stress, 0.0, fails)
+        share = np.minimum(ratio**self.life_exponent / self.reference_cycles, 1.0)
+        return np.where(stress > self.endurance_limit, share, 0.0)
+
+
+@dataclass(frozen=True)
+class Basquin(_Line):
+    """A line of lives over the von Mises amplitude of the cycle, whatever its mean stress.
+
+    The amplitude is sqrt(3) times the radius of the smallest sphere around the deviators of the cycle, in alternating
+    tension the amplitude of the tension.
+    """
+
+    name: ClassVar[str] = "basquin"
+    source: ClassVar[str] = (
+        "Basquin, Proc. ASTM 10 (1910) 625; amplitude: Bernasconi, Int. J. Fatigue 24 (2002) 649, "
+        "doi:10.1016/S0142-1123(01)00181-5; sum: Miner 1945, doi:10.1115/1.4009458"
+    )
+    equations: ClassVar[Equations] = Equations(
+        ("D = Σ 1/N,   N = N_{ref} (S_{ref}/S)^m", "S = √3 √J_{2,a} > S_{limit}"),
+        "√J_{2,a} is the radius of the smallest sphere around the deviators of a cycle. Material fails at D = 1.",
+    )
+
+    def per_cycle(self, cycle: Cycle) -> Array:
+        """Return the damage by one cycle, 0 to 1."""
+        return self._share(_MISES * cycle.shear)
+
+
+@dataclass(frozen=True)
+class DangVan(_Line):
+    """A line of lives over Dang Van's stress, the largest shear in the cycle and the hydrostatic stress beside it.
+
+    Under pressure alone it is below zero, and nothing counts. The weight of the hydrostatic stress follows from the
+    limits of the table `stress`.
+    """
+
+    name: ClassVar[str] = "dang_van"
+    source: ClassVar[str] = (
+        "Dang Van, ASTM STP 1191 (1993) 120 (from memory); in rolling contacts: Desimone, Bernasconi & Beretta, Wear "
+        "260 (2006) 567; sum: Miner 1945, doi:10.1115/1.4009458; a line over Dang Van's stress: assumed"
+    )
+    equations: ClassVar[Equations] = Equations(
+        ("D = Σ 1/N,   N = N_{ref} (S_{ref}/S)^m", "S = max_t [τ(t) + α σ_h(t)] > S_{limit},   α = 3 t/b − 3/2"),
+        "τ is the largest shear of the deviator less the centre of the smallest sphere around the cycle's deviators, "
+        "σ_h the hydrostatic stress, tension positive, t and b the fatigue limits in alternating torsion and bending.",
+    )
+
+    def per_cycle(self, cycle: Cycle) -> Array:
+        """Return the damage by one cycle, 0 to 1."""
+        return self._share(cycle.dang_van)
+
+
+@dataclass(frozen=True)
+class Morrow:
+    """Plastic work per cycle, as on the cyclic stress-strain curve at the von Mises amplitude of the elastic stress.
+
+    At the exponent 1 the work up to failure is the same for all amplitudes. Asperities that the elastic stress takes
+    beyond the curve's range are damaged more than they would be: there is no relief by flow.
+    """
+
+    name: ClassVar[str] = "morrow"
+    source: ClassVar[str] = (
+        "Morrow, Cyclic plastic strain energy and fatigue of metals, ASTM STP 378 (1965) 45 (from memory); amplitude: "
+        "Bernasconi, Int. J. Fatigue 24 (2002) 649, doi:10.1016/S0142-1123(01)00181-5; sum: Miner 1945, "
+        "doi:10.1115/1.4009458"
+    )
+    equations: ClassVar[Equations] = Equations(
+        (
+            "D = Σ 1/N,   2 N = (W_f/ΔW)^e",
+            "ΔW = 4 (1 − n)/(1 + n) S (S/K)^{1/n},   S = √3 √J_{2,a}",
+        ),
+        "√J_{2,a} is the radius of the smallest sphere around the deviators of a cycle. With strain lives σ_f (2N)^b/E "
+        "+ ε_f (2N)^c: W_f = 4 σ_f ε_f (c − b)/(c + b) and e = −1/(b + c).",
+    )
+    damages: ClassVar[bool] = True
+
+    cyclic_strength: float = parameter("Pa", "K, stress amplitude at a plastic strain of 1", above=1e6, most=1e11)
+    cyclic_hardening: float = parameter("", "n, exponent of the cyclic stress-strain curve", least=0.02, most=0.9)
+    failure_work: float = parameter(
+        "J/m3", "W_f, plastic work per cycle that fails after half a cycle", above=1e3, most=1e12
+    )
+    work_exponent: float = parameter("", "e, exponent of lives over the work per cycle", least=0.5, most=5.0)
+
+    def per_cycle(self, cycle: Cycle) -> Array:
+        """Return the damage by one cycle, 0 to 1."""
+        n, stress = self.cyclic_hardening, _MISES * cycle.shear
+        with np.errstate(divide="ignore"):
+            strain = (np.log(stress) - np.log(self.cyclic_strength)) / n
+            work = np.log(4.0 * (1.0 - n) / (1.0 + n)) + np.log(stress) + strain
+        return np.exp(np.minimum(np.log(2.0) + self.work_exponent * (work - np.log(self.failure_work)), 0.0))
+
+
+LAWS: tuple[type[Fatigue], ...] = (NoFatigue, Basquin, DangVan, Morrow)

@@ -1,0 +1,134 @@
+"""Stresses below the surfaces: where and how often they are sampled, and the fatigue limits that they are held against.
+
+The stresses themselves are those of `kernels.subsurface`; the cycles that they make of `kernels.load_cycle`.
+"""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..quantities import parameter
+from .base import Stress
+from .equations import Equations
+
+Array = NDArray[np.float64]
+
+_FIRST = 0.5  # of the spacing: depth of the first layer; what is finer lies nearer to the surface
+_BOUNDS = (1.0, 2.0)  # of the limit in bending over that in torsion, between which Dang Van's slope is 0 or more
+
+
+@dataclass(frozen=True)
+class NoStress:
+    """Nothing is known of what lies below the surfaces."""
+
+    name: ClassVar[str] = "none"
+    source: ClassVar[str] = ""
+    equations: ClassVar[Equations] = Equations(
+        ("σ = ?",),
+    )
+    samples: ClassVar[bool] = False
+    error: ClassVar[str] = ""
+    instants: ClassVar[int] = 0
+    near_surface: ClassVar[float] = 0.0
+    torsion_limit: ClassVar[float] = 1.0  # of nothing
+    dang_van_slope: ClassVar[float] = 0.0
+    crossland_slope: ClassVar[float] = 0.0
+
+    def depths(self, spacing: float, half_width: float) -> Array:
+        """Return no depths."""
+        return np.empty(0)
+
+    def residual_stress(self) -> Array:
+        """Return no stress [Pa], [6]."""
+        return np.zeros(6)
+
+
+@dataclass(frozen=True)
+class HalfSpace:
+    """Stresses of an elastic half space under the pressure and shear of some instants of a pass.
+
+    Two ratios tell how near the largest cycle of a pass is to the fatigue limits t in alternating torsion and b in
+    alternating bending: Dang Van's largest tau + a_D p_h over t, a_D = 3 (t/b - 1/2), and Crossland's
+    sqrt(J_2,a) + a_C max p_h over t, a_C = 3 t/b - sqrt(3). p_h is the hydrostatic stress, tension positive.
+    """
+
+    name: ClassVar[str] = "half_space"
+    source: ClassVar[str] = (
+        "Dang Van, Biaxial/Multiaxial Fatigue, ASTM STP 1191 (1993) 120, doi:10.1520/STP24799S; Crossland, Proc. Int. "
+        "Conf. Fatigue of Metals, IMechE 1956, p. 138; limits: assumed, unless a set says more"
+    )
+    equations: ClassVar[Equations] = Equations(
+        (
+            "R_D = max_t[τ(t) + 3 (t_{-1}/b_{-1} − 1/2) p_h(t)]/t_{-1}",
+            "R_C = [√J_{2,a} + (3 t_{-1}/b_{-1} − √3) max_t p_h(t)]/t_{-1}",
+        ),
+        "p_h = tr σ/3, tension positive; τ is the largest shear stress about the middle of the cycle of the deviator, "
+        "√J_{2,a} the radius of the smallest sphere around that cycle. Unloaded, σ is the residual stress.",
+    )
+    samples: ClassVar[bool] = True
+
+    layers: int = parameter("", "depths at which stresses are sampled", least=2, most=64, default=8, shapes_arrays=True)
+    deepest: float = parameter(
+        "",
+        "deepest of them, over the half width along x of Hertz's contact at the scene's load; the first lies half a "
+        "node deep",
+        above=0.0,
+        most=10.0,
+        default=1.0,
+        shapes_arrays=True,
+    )
+    instants: int = parameter(
+        "", "instants that stand for a pass of a surface point", least=2, most=512, default=8, shapes_arrays=True
+    )
+    near_surface: float = parameter(
+        "", "depth over that half width down to which a stress is near the surface", above=0.0, most=1.0, default=0.1
+    )
+    torsion_limit: float = parameter(
+        "Pa", "fatigue limit in alternating torsion, amplitude", above=1e6, most=1e11, default=360e6, quantity="Stress"
+    )
+    bending_limit: float = parameter(
+        "Pa", "fatigue limit in alternating bending, amplitude", above=1e6, most=1e11, default=620e6, quantity="Stress"
+    )
+    residual: float = parameter(
+        "Pa",
+        "residual stress along the surface in every direction, tension positive",
+        least=-1e10,
+        most=1e10,
+        default=0.0,
+        quantity="Stress",
+    )
+
+    @property
+    def error(self) -> str:
+        """Sentence on limits that contradict each other, or an empty text."""
+        ratio = self.bending_limit / self.torsion_limit
+        if _BOUNDS[0] <= ratio <= _BOUNDS[1]:
+            return ""
+        return (
+            f"stress.bending_limit = {self.bending_limit:g} Pa is {ratio:.3g} times stress.torsion_limit = "
+            f"{self.torsion_limit:g} Pa; of metals it is {_BOUNDS[0]:g} to {_BOUNDS[1]:g} times that. Change one."
+        )
+
+    @property
+    def dang_van_slope(self) -> float:
+        """Weight of the hydrostatic stress in Dang Van's criterion."""
+        return 3.0 * (self.torsion_limit / self.bending_limit - 0.5)
+
+    @property
+    def crossland_slope(self) -> float:
+        """Weight of the hydrostatic stress in Crossland's criterion."""
+        return 3.0 * self.torsion_limit / self.bending_limit - 3.0**0.5
+
+    def depths(self, spacing: float, half_width: float) -> Array:
+        """Return the depths of the layers [m], graded, on a grid of a spacing [m] under a half width [m]."""
+        first = _FIRST * spacing
+        return np.geomspace(first, max(self.deepest * half_width, (1.0 + self.layers) * first), self.layers)
+
+    def residual_stress(self) -> Array:
+        """Return the residual stress [Pa], [6]: xx, yy, zz, yz, xz, xy."""
+        return np.array([self.residual, self.residual, 0.0, 0.0, 0.0, 0.0])
+
+
+LAWS: tuple[type[Stress], ...] = (NoStress, HalfSpace)
