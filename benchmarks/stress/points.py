@@ -17,8 +17,8 @@ from contact_core.scene import Case
 from contact_core.surfaces.patches import track_rows
 
 STORE = RESULTS / "stress" / "curves"
-COUNTS = {"mtm_zddp": (32, 12), "azam_case_a": (16, 8), "fzg_flank": (40, 14), "ball_209_inner": (0, 4)}  # fit, check
-LAMBDAS = (0.02, 4.0)
+COUNTS = {"mtm_zddp": (30, 12), "azam_case_a": (12, 8), "fzg_flank": (36, 14), "ball_209_inner": (0, 4)}  # fit, check
+LAMBDAS = (0.02, 2.0)
 LOADS = (0.4, 1.3)  # of the scene's
 SLIDES = (0.003, 1.0)  # slide-roll ratio, of either sign
 ROUGHNESS = {"mtm_zddp": (0.25, 1.5), "azam_case_a": (0.25, 1.5), "fzg_flank": (0.25, 1.25), "ball_209_inner": (1.0, 6.0)}

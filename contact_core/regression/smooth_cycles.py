@@ -71,7 +71,7 @@ def _lin(table: Array, places: Array, axis: int) -> Array:
     return found
 
 
-def smooth_cycles(ratio: float | None, slope: float, residual: float, library: str) -> SmoothCycles:
+def smooth_cycles(ratio: float | None, slope: float, residual: float) -> SmoothCycles:
     """Return the table of an ellipse of b / a = `ratio`, None: of a line; made at the first call.
 
     Parameters
@@ -83,16 +83,14 @@ def smooth_cycles(ratio: float | None, slope: float, residual: float, library: s
     residual
         Residual stress along the surface over Hertz's largest pressure. Von Mises' stress is that beside it; the cycles
         are without it: it adds 2/3 of itself to hydrostatic stresses.
-    library
-        Of Fourier transforms.
 
     """
     shape = None if ratio is None else round(math.log(ratio) / _ALIKE)
-    return _table(shape, slope, residual, library)
+    return _table(shape, slope, residual)
 
 
 @lru_cache(maxsize=16)
-def _table(shape: int | None, slope: float, residual: float, library: str) -> SmoothCycles:
+def _table(shape: int | None, slope: float, residual: float) -> SmoothCycles:
     ratio = None if shape is None else math.exp(shape * _ALIKE)
     if ratio is None:
         spacing, rows, across = 1.0 / _NODES, np.zeros(_ROWS.size, np.int64), np.zeros(1)
@@ -103,7 +101,7 @@ def _table(shape: int | None, slope: float, residual: float, library: str) -> Sm
         across = spacing * np.arange(-rows[-1], rows[-1] + 1) / ratio
     along = spacing * np.arange(-math.ceil(_WAY / spacing), math.ceil(_WAY / spacing) + 1)
     pressure = np.sqrt(np.maximum(1.0 - along[None, :] ** 2 - across[:, None] ** 2, 0.0))
-    kernel = Subsurface(pressure.shape, spacing, _DEPTHS, POISSON, library, periodic=ratio is None)
+    kernel = Subsurface(pressure.shape, spacing, _DEPTHS, POISSON, "scipy", periodic=ratio is None)
     unloaded = residual * np.array([1.0, 1.0, 0.0, 0.0, 0.0, 0.0])
     found, largest = np.empty((3, _FRICTION.size, _ROWS.size, _DEPTHS.size)), np.empty((_FRICTION.size, _DEPTHS.size))
     both = zip(kernel.layers(pressure), kernel.layers(np.zeros_like(pressure), pressure), strict=True)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ..laws.tribofilm import thickness
 from ..scene import Scene
 from ..state import Body, ContactState, Mean
+from .damage_classes import folded_damage
 from .patches import bare_heights, middle_rows, roughness_of, solid_of, track_rows
 from .roughness import rms_roughness
 
@@ -70,8 +71,8 @@ def folded(scene: Scene, state: ContactState) -> ContactState:
     """Return the state with its patches brought up to date: the change of the track means is added to them.
 
     Tribofilm is added where there is most and on the highest points without any. Wear cuts off the highest points as
-    far as the roughness has to fall, and takes the rest in proportion to the last pressure on each point. Unchanged
-    means change nothing.
+    far as the roughness has to fall, and takes the rest in proportion to the last pressure on each point. So are damage
+    and pits, by their classes. Unchanged means change nothing.
     """
     if state.means is None:
         return state
@@ -80,7 +81,8 @@ def folded(scene: Scene, state: ContactState) -> ContactState:
         body if now == then else _folded(scene, state.rows, i, body, then, now)
         for i, (body, then, now) in enumerate(zip(state.bodies, old, state.means, strict=True))
     )
-    return replace(state, bodies=(first, second), means=None, solved_for=None)
+    below, bodies = folded_damage(scene, state, (first, second))
+    return replace(state, bodies=bodies, below=below, means=None, classes=None, solved_for=None)
 
 
 def _folded(scene: Scene, rows: int, i: int, body: Body, then: Mean, now: Mean) -> Body:

@@ -1,0 +1,134 @@
+"""Fatigue below both tracks at the regression level: damage of classes of points, pits, and what they are on the track.
+
+A class is a share of the points of a row that the roughness loads alike; it keeps its place among them at every depth
+(assumed), so a point's worst depth is that of its class. Load cycles add damage, wear brings it up, at 1 it breaks out.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..kernels.damage import accumulated, pits_of, worn_away
+from ..kernels.load_cycle import Cycle
+from ..scene import Case, Scene
+from ..state.classes import WEIGHTS, Classes
+from .contact import MeanContact
+from .stress import Stressed, stressed
+from .surfaces import Means
+
+Array = NDArray[np.float64]
+
+_LAG = 0.01  # of the first layer's depth: wear below that waits
+_FEWEST = 1.0 / 64.0  # of a step: classes that fail within it do so together
+UNKNOWN = 1e3  # relative, of damage next to nothing of which is known
+
+
+class Harm(NamedTuple):
+    """What a contact does below both tracks."""
+
+    contact: MeanContact
+    stressed: Stressed
+    per_cycle: Array  # damage per load cycle, [2, layers, rows, classes]
+    more: Array  # likewise, under stresses larger by their half width
+
+
+def harm_by(case: Case, contact: MeanContact, last: Harm | None) -> Harm:
+    """Return what a contact does; the last harm if that is of the same contact."""
+    if last is not None and last.contact is contact:
+        return last
+    found, law = stressed(case, contact), case.scene.fatigue
+    more = Cycle(*((1.0 + found.half_width) * part for part in found.cycles))
+    return Harm(contact, found, law.per_cycle(found.cycles), law.per_cycle(more))
+
+
+def fatigued(scene: Scene, classes: Classes, harm: Harm, then: Means, now: Means) -> Classes:
+    """Return the classes after load cycles and wear that took the track means from `then` to `now`."""
+    damage, pits, lag = [], [], []
+    for i in (0, 1):
+        cycles, worn = now[i].cycles - then[i].cycles, now[i].wear - then[i].wear
+        parts = _fatigued(scene.depths, classes, i, harm.per_cycle[i], cycles, max(worn, 0.0))
+        for kept, part in zip((damage, pits, lag), parts, strict=True):
+            kept.append(part)
+    return Classes(damage[0], damage[1], pits[0], pits[1], np.array(lag))
+
+
+def _fatigued(
+    depths: Array, classes: Classes, i: int, per_cycle: Array, cycles: float, worn: float
+) -> tuple[Array, Array, float]:
+    """Return damage, pits and lag of a body; where classes fail one after the other, by steps from one to the next."""
+    flat = classes.damage[i].shape
+    damage, pits = classes.damage[i].reshape(per_cycle.shape), classes.pits[i].reshape(per_cycle.shape[1:])
+    lag, left = float(classes.lag[i]) + worn, 1.0  # share of the step
+    if lag > _LAG * depths[0]:
+        gained, removed = cycles * per_cycle, np.full(pits.shape, lag)
+        if float((damage + gained).max()) < 1.0:
+            return accumulated(damage, depths, gained, removed).reshape(flat), classes.pits[i], 0.0
+        damage, lag = worn_away(damage, depths, removed), 0.0
+    while left > 0.0:
+        after = damage + (left * cycles) * per_cycle
+        if float(after.max()) < 1.0:
+            return after.reshape(flat), pits.ravel(), lag
+        share = left if left <= _FEWEST else min(max(_first(damage, cycles * per_cycle), _FEWEST), left)
+        broken, damage = pits_of(damage + (share * cycles) * per_cycle, depths)
+        pits, left = pits + broken, left - share
+    return damage.reshape(flat), pits.ravel(), lag
+
+
+def _first(damage: Array, gained: Array) -> float:
+    """Return the share of a step after which the first class fails, a little later than that."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        left = np.where(gained > 0.0, (1.0 - damage) / gained, math.inf)
+    return float(left.min()) * (1.0 + 1e-12)
+
+
+def outputs_below(case: Case, harm: Harm, classes: Classes | None, means: Means) -> dict[str, float]:
+    """Return the outputs of what lies below both tracks, with the error of the damage that is done now.
+
+    Damage rises with a power of the stress, so its error is a factor: it may be 1 + the half width times as large, or
+    that part of what is stated.
+    """
+    found = harm.stressed.outputs | {"error_damage": 0.0}
+    for i, mean in enumerate(means):
+        worst, broken, area = 0.0, 0.0, 0.0
+        if classes is not None and case.scene.fatigue.damages:
+            rate = harm.per_cycle[i].max(axis=0)
+            damage = classes.damage[i].reshape(harm.per_cycle.shape[1:]).max(axis=0)
+            pits = classes.pits[i].reshape(damage.shape)
+            worst, broken, area = _mean(damage), _mean(pits), float(_pitted(damage, pits, rate).mean())
+            error = _relative(_mean(rate), _mean(harm.more[i].max(axis=0)))
+            found["error_damage"] = max(found["error_damage"], error)
+        found[f"damage_{i + 1}"] = worst
+        found[f"micropitted_area_{i + 1}"] = area
+        found[f"profile_loss_{i + 1}"] = mean.wear + broken
+    return found
+
+
+def _relative(now: float, more: float) -> float:
+    if now > 0.0:
+        return min(more / now - 1.0, UNKNOWN)
+    return UNKNOWN if more > 0.0 else 0.0
+
+
+def _mean(field: Array) -> float:
+    """Return the mean over a track of a field [rows, classes]."""
+    return float((field @ WEIGHTS).sum()) / field.shape[0]
+
+
+def _pitted(worst: Array, broken: Array, rate: Array) -> Array:
+    """Return the share of each row that has broken out.
+
+    Within a class that has not, the failed part is taken to grow from its upper end in proportion to its damage, from
+    what that was when the class above failed.
+    """
+    failed = broken > 0.0
+    share: Array = failed @ WEIGHTS
+    steep = np.empty_like(rate)  # damage of a class when the one above fails
+    steep[:, :-1] = np.divide(rate[:, :-1], rate[:, 1:], out=np.ones_like(rate[:, 1:]), where=rate[:, 1:] > 0.0)
+    steep[:, -1] = steep[:, -2]
+    for j, whole in enumerate(failed):
+        k = WEIGHTS.size - 1 - int(np.argmin(whole[::-1]))
+        if not whole[k] and steep[j, k] < 1.0:
+            share[j] += WEIGHTS[k] * min(max((worst[j, k] - steep[j, k]) / (1.0 - steep[j, k]), 0.0), 1.0)
+    return share

@@ -1,0 +1,135 @@
+"""Stresses below the bodies of a mean contact, and the load cycles of classes of points on both tracks."""
+
+import math
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+import scipy.special
+from numpy.typing import NDArray
+
+from ..kernels.damage import faces_of
+from ..kernels.load_cycle import Cycle
+from ..laws.load_sharing import rms_slope, sliding_ratio
+from ..scene import Case, Scene
+from ..state.classes import EDGES, WEIGHTS
+from ..surfaces.damage_classes import rows_of
+from .contact import MeanContact
+from .near_surface import CURVES, FITTED, HALF_WIDTH, Rough, meetings
+from .smooth_film import LIGHTEST
+from .smooth_cycles import SmoothCycles, smooth_cycles
+
+Array = NDArray[np.float64]
+
+OF_STRESS = ("von_mises_max", "von_mises_depth", "near_surface_share", "dang_van_ratio", "crossland_ratio")
+
+_SCORES = scipy.special.ndtri(EDGES - 0.5 * WEIGHTS)  # of the middle of each class
+_UNIT = 1e9  # Pa
+_RISK = 31.0 / 3.0  # power of a stress in the risk that a volume fails: Lundberg & Palmgren 1947
+_LEAST = 0.05  # local pressure over Hertz's largest, at least: beyond the contact there is none
+_BEYOND = 2.0  # half widths beyond the fit, over those within it
+
+
+class Stressed(NamedTuple):
+    """What a pass through a mean contact does below both tracks."""
+
+    cycles: Cycle  # of the classes [Pa], arrays [2, layers, rows, classes]
+    outputs: dict[str, float]  # `OF_STRESS`
+    half_width: float  # of the error of the cycles, relative
+
+
+def stressed(case: Case, contact: MeanContact) -> Stressed:
+    """Return the load cycles under a contact; without a load there are none."""
+    scene, law = case.scene, case.scene.stress
+    depths, rows = scene.depths, rows_of(scene)
+    if case.op.load < LIGHTEST:
+        none = np.zeros((2, depths.size, rows.size, WEIGHTS.size))
+        return Stressed(Cycle(none, none, none), dict.fromkeys(OF_STRESS, 0.0), 0.0)
+    hertz, (root, wide) = case.unit_hertz, case.unit_hertz.growth(case.op.load)
+    largest, half = root * hertz.pressure_max, root * hertz.a
+    friction = abs(contact.solid + contact.fluid) / case.op.load
+    table, line = _table(case), case.shape.along_face
+    places = rows * (scene.hertz(scene.operation.load).b / (wide * hertz.b))
+    smooth = table.at(friction, np.zeros(1) if line else places, depths / half)
+    chords = np.ones(1) if line else np.sqrt(np.maximum(1.0 - places * places, _LEAST**2))
+    rough = _rough(case, contact, largest, half, wide * hertz.b)
+    peak = table.largest(friction, depths / half)
+    residual = 2.0 / 3.0 * law.residual_stress()[0]
+    if rough.steepness == 0.0:
+        fields = [np.broadcast_to(part.T[None, :, :, None], _shape(smooth.shear)) for part in smooth]
+    else:
+        pressures = CURVES.pressures.at(rough, chords)
+        scores = np.append(_SCORES, _extreme(rough.spots / rows.size))
+        curves = CURVES.shear, CURVES.hydrostatic, CURVES.dang_van
+        fields = [
+            curve.quantiles(part.T, pressures, chords, rough, scores)
+            for curve, part in zip(curves, smooth, strict=True)
+        ]
+        over = math.sqrt(float(chords @ pressures**2) / float(chords.sum()))
+        peak = CURVES.largest.at(peak, over, rough)
+    shear, hydrostatic, dang_van = (largest * field for field in fields)
+    if residual != 0.0:
+        hydrostatic, dang_van = hydrostatic + residual, dang_van + law.dang_van_slope * residual
+    deepest = int(peak.argmax())
+    risk = ((shear[..., :-1] / _UNIT) ** _RISK @ WEIGHTS).sum(axis=(0, 2)) * np.diff(_risk_faces(depths))
+    total = float(risk.sum())
+    values = (
+        largest * float(peak[deepest]),
+        float(depths[deepest]),
+        float(risk[depths <= law.near_surface * half].sum()) / total if total > 0.0 else 0.0,
+        max(0.0, float(dang_van.max())) / law.torsion_limit,
+        max(0.0, float((shear + law.crossland_slope * hydrostatic).max())) / law.torsion_limit,
+    )
+    cycles = Cycle(shear[..., :-1], hydrostatic[..., :-1], dang_van[..., :-1])
+    within = rough.steepness == 0.0 or all(
+        low <= getattr(rough, name) <= high for name, (low, high) in FITTED.items() if name != "slip"
+    )
+    return Stressed(cycles, dict(zip(OF_STRESS, values, strict=True)), HALF_WIDTH * (1.0 if within else _BEYOND))
+
+
+def _shape(part: Array) -> tuple[int, int, int, int]:
+    rows, layers = part.shape
+    return 2, layers, rows, WEIGHTS.size + 1
+
+
+def _table(case: Case) -> SmoothCycles:
+    hertz, law = case.unit_hertz, case.scene.stress
+    return smooth_cycles(
+        None if case.shape.along_face else hertz.b / hertz.a, law.dang_van_slope, _relative_residual(case.scene)
+    )
+
+
+@lru_cache(maxsize=64)
+def _relative_residual(scene: Scene) -> float:
+    """Return the residual stress over Hertz's largest pressure at the scene's load."""
+    residual = float(scene.stress.residual_stress()[0])
+    return residual / scene.hertz(scene.operation.load).pressure_max if residual else 0.0
+
+
+def _rough(case: Case, contact: MeanContact, largest: float, half: float, side: float) -> Rough:
+    scene = case.scene
+    first, second = scene.surface_1, scene.surface_2
+    heights = [film.solid for film in contact.tribofilms]
+    slope = float(rms_slope(heights[0], first.length, heights[1], second.length))
+    length = case.sides[scene.rougher].surface.length
+    both = heights[0] ** 2 + heights[1] ** 2
+    shares = (heights[0] ** 2 / both, heights[1] ** 2 / both) if both > 0.0 else (0.5, 0.5)
+    return Rough(
+        0.5 * scene.solids.reduced_modulus * slope / largest,
+        contact.fit.clearance,
+        sliding_ratio(contact.slide, case.op.entrainment_speed),
+        contact.load_ratio,
+        meetings(case.speeds, 2.0 * half / length, shares),
+        scene.depths / length,
+        2.0 * half * min(2.0 * side, scene.rows * scene.film.spacing) / length**2,
+    )
+
+
+def _extreme(spots: float) -> float:
+    """Return the normal score of the largest of some spots."""
+    return float(scipy.special.ndtri(1.0 - 1.0 / (max(spots, 1.0) + 1.0)))
+
+
+def _risk_faces(depths: Array) -> Array:
+    """Return the depths between which the risk of a layer counts; the last one ends where it lies."""
+    return np.append(faces_of(depths)[:-1], depths[-1])
