@@ -3,6 +3,7 @@
 A benchmark writes the page docs/measured/<room>/<name>.md; long ones keep their runs in results/.
 
 film        one contact at one instant: films, dry contacts, their errors and cost
+stress      stress below the surface
 surfaces    surfaces over hours: tribofilm, wear, roughness, Stribeck curves
 friction    traction curves, cost of the laws
 regression  the regression level: fit, errors, cost

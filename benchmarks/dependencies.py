@@ -22,8 +22,11 @@ DEFAULTS = ("calls", "control")  # of which only these count: what follows from 
 GROUPS: dict[str, tuple[str, ...]] = {
     "film": (*(f"contact_core/{room}/*.py" for room in ("kernels", "laws", "shapes", "reference", "film")),
              "-contact_core/film/estimate.py", "-contact_core/film/refined.py", "-contact_core/film/grid_steps.py", "-contact_core/film/grid_error.py",
-             "-contact_core/film/regression.py", "-contact_core/kernels/cache.py", "-contact_core/laws/load_sharing.py"),
-    "calls": ("contact_core/calls/*.py",),
+             "-contact_core/film/regression.py", "-contact_core/kernels/cache.py", "-contact_core/laws/load_sharing.py",
+             "-contact_core/kernels/subsurface.py", "-contact_core/kernels/stress_measures.py", "-contact_core/reference/stresses.py"),
+    "calls": ("contact_core/calls/*.py", "-contact_core/calls/subsurface_stress.py"),
+    "stress": ("contact_core/kernels/subsurface.py", "contact_core/kernels/stress_measures.py", "contact_core/reference/stresses.py",
+               "contact_core/calls/subsurface_stress.py"),
     "control": ("contact_core/scene/records.py",),
     "estimate": ("contact_core/film/estimate.py", "contact_core/film/refined.py", "contact_core/film/grid_steps.py",
                  "contact_core/calls/refinement.py"),
@@ -100,6 +103,7 @@ PAGES: dict[str, Source] = {
         "film.grid_error", ("film", "evolution", "control", "uncertainty", "grid_error", *CIRCLES, "fzg_flank")
     ),
     "speed_error": Source("speed_error", (*LEVELS, "uncertainty", "grid_error", *SHAPES)),
+    "stress/field": Source("stress.field", ("film", "calls", "stress")),
     "surfaces/transition": Source("surfaces.transition", (*LEVELS, *SHAPES)),
     "surfaces/asperity_layer": Source("surfaces.asperity_layer", ("film",)),
     "surfaces/grids": Source("surfaces.grids", ("film", "evolution", "control", "data", "azam_case_a")),

@@ -16,6 +16,8 @@
     moving_source   temperature of surfaces that move through heat
     load_cycle      stresses of a load cycle at material points
     smallest_sphere  the sphere around the deviators of a cycle
+    damage          damage in layers below a surface that is worn, and what breaks out
+    moving_layers   what material carries through such layers
     anderson        acceleration of a fixed point
     grids           between a grid and that of half its nodes
     convergence     the record of how a solution went

@@ -5,8 +5,8 @@ Components of stress are xx, yy, zz, yz, xz, xy; tension is positive.
 Sources: amplitude by the smallest sphere around the deviators: Papadopoulos's definition, as in Bernasconi, Int. J.
 Fatigue 24 (2002) 649, doi:10.1016/S0142-1123(01)00181-5, and Bernasconi & Papadopoulos, Comput. Mater. Sci. 34 (2005)
 355; largest hydrostatic stress: Crossland, Int. Conf. Fatigue of Metals, London 1956 (from memory); largest shear of
-what is beyond the sphere's centre: Dang Van, ASTM STP 1191 (1993) 120 (from memory), on rolling contacts Desimone,
-Bernasconi & Beretta, Wear 260 (2006) 567.
+what is beyond the sphere's centre: Dang Van, ASTM STP 1191 (1993) 120, on rolling contacts Desimone, Bernasconi &
+Beretta, Wear 260 (2006) 567.
 """
 
 from typing import NamedTuple
@@ -53,10 +53,9 @@ def cycle_of(history: Array, unloaded: Array, slope: float) -> Cycle:
     """
     from .smallest_sphere import cycles  # the compiler: loaded where stresses are asked for
 
-    shape = history.shape[2:]
-    found = Cycle(*(np.empty(shape) for _ in range(3)))
+    if not (np.isfinite(history).all() and np.isfinite(unloaded).all()):
+        raise ContactError("A stress in the history of a load cycle is not finite: the contact's pressure cannot be.")
+    found = Cycle(*(np.empty(history.shape[2:]) for _ in range(3)))
     flat = np.ascontiguousarray(history, np.float64).reshape(*history.shape[:2], -1)
     cycles(flat, np.asarray(unloaded, np.float64), float(slope), *(field.reshape(-1) for field in found))
-    if not all(np.isfinite(field).all() for field in found):
-        raise ContactError("A stress in the history of a load cycle is not finite: the contact's pressure cannot be.")
     return found

@@ -44,8 +44,8 @@ class Subsurface:
         self.shape, self.poisson, self.periodic = shape, poisson, periodic
         self._ratios = np.asarray(depths, dtype=np.float64) / spacing
         ny, nx = shape
-        self._plane = ny if periodic else _fast_length(2 * ny - 1), _fast_length(2 * nx - 1)
-        self._fourier: _Fourier = (_WithFftw if library == "pyfftw" else _WithScipy)(ny, *self._plane)
+        self.plane = ny if periodic else _fast_length(2 * ny - 1), _fast_length(2 * nx - 1)
+        self._fourier: _Fourier = (_WithFftw if library == "pyfftw" else _WithScipy)(ny, *self.plane)
         self._kept: dict[tuple[int, int], Array] = {}
 
     def stress(self, pressure: Array, shear_x: Array | None = None, shear_y: Array | None = None) -> Array:
@@ -80,7 +80,7 @@ class Subsurface:
         Those of coefficients that are odd along one axis are imaginary, and stored without i.
         """
         if (layer, load) not in self._kept:
-            (ny, nx), (my, mx) = self.shape, self._plane
+            (ny, nx), (my, mx) = self.shape, self.plane
             made = periodic_coefficients if self.periodic else coefficients
             values = made(ny, nx, self._ratios[layer], self.poisson, load)
             factors = np.empty((6, mx // 2 + 1, my // 2 + 1))
@@ -201,8 +201,6 @@ def _transformed(half: Array, n: int, odd: bool) -> Array:
     full = np.zeros((half.shape[0], n))
     full[:, :known] = half
     full[:, n - known + 1 :] = (-1.0 if odd else 1.0) * half[:, :0:-1]
-    if odd and n == 2 * (known - 1):
-        full[:, known - 1] = 0.0
     spectrum = scipy.fft.rfft(full, axis=-1)
     return np.asarray(spectrum.imag if odd else spectrum.real)
 

@@ -37,32 +37,7 @@ class NoFatigue:
 
 
 @dataclass(frozen=True)
-class _Line:
-    """A line of lives, N = N_ref (S_ref / S)^m."""
-
-    damages: ClassVar[bool] = True
-
-    reference_stress: float = parameter(
-        "Pa", "S_ref, stress amplitude that fails after the reference cycles", above=1e5, most=1e11
-    )
-    life_exponent: float = parameter("", "m, exponent of the line of lives", least=1.0, most=50.0)
-    reference_cycles: float = parameter(
-        "", "N_ref, cycles to failure at the reference stress", least=1.0, most=1e15, default=1e7
-    )
-    endurance_limit: float = parameter(
-        "Pa", "stress amplitude up to which nothing counts", least=0.0, most=1e11, default=0.0
-    )
-
-    def _share(self, stress: Array) -> Array:
-        """Return the share of a life that a cycle of a stress amplitude [Pa] takes, at most 1."""
-        fails = self.reference_cycles ** (1.0 / self.life_exponent)  # at the first cycle, over the reference stress
-        ratio = np.clip(stress / self.reference_stress, 0.0, fails)
-        share = np.minimum(ratio**self.life_exponent / self.reference_cycles, 1.0)
-        return np.where(stress > self.endurance_limit, share, 0.0)
-
-
-@dataclass(frozen=True)
-class Basquin(_Line):
+class Basquin:
     """A line of lives over the von Mises amplitude of the cycle, whatever its mean stress.
 
     The amplitude is sqrt(3) times the radius of the smallest sphere around the deviators of the cycle, in alternating
@@ -78,34 +53,62 @@ class Basquin(_Line):
         ("D = Σ 1/N,   N = N_{ref} (S_{ref}/S)^m", "S = √3 √J_{2,a} > S_{limit}"),
         "√J_{2,a} is the radius of the smallest sphere around the deviators of a cycle. Material fails at D = 1.",
     )
+    damages: ClassVar[bool] = True
+
+    reference_stress: float = parameter(
+        "Pa", "S_ref, von Mises amplitude that fails after the reference cycles", above=1e5, most=1e11
+    )
+    life_exponent: float = parameter("", "m, exponent of the line of lives", least=1.0, most=50.0)
+    reference_cycles: float = parameter(
+        "", "N_ref, cycles to failure at the reference stress", least=1.0, most=1e15, default=1e7
+    )
+    endurance_limit: float = parameter(
+        "Pa", "S_limit, von Mises amplitude up to which nothing counts", least=0.0, most=1e11, default=0.0
+    )
 
     def per_cycle(self, cycle: Cycle) -> Array:
         """Return the damage by one cycle, 0 to 1."""
-        return self._share(_MISES * cycle.shear)
+        stress = _MISES * cycle.shear
+        fails = self.reference_cycles ** (1.0 / self.life_exponent)  # at the first cycle, over the reference stress
+        ratio = np.minimum(stress / self.reference_stress, fails)
+        share = np.minimum(ratio**self.life_exponent / self.reference_cycles, 1.0)
+        return np.where(stress > self.endurance_limit, share, 0.0)
 
 
 @dataclass(frozen=True)
-class DangVan(_Line):
-    """A line of lives over Dang Van's stress, the largest shear in the cycle and the hydrostatic stress beside it.
+class DangVan:
+    """Woehler's line over Dang Van's stress: the shear in the cycle and the hydrostatic stress beside it.
 
-    Under pressure alone it is below zero, and nothing counts. The weight of the hydrostatic stress follows from the
-    limits of the table `stress`.
+    The stress falls by the same amount for each factor e of the life. It is weighed by limits of the table `stress`;
+    under pressure alone it is below zero, and nothing counts.
     """
 
     name: ClassVar[str] = "dang_van"
     source: ClassVar[str] = (
-        "Dang Van, ASTM STP 1191 (1993) 120 (from memory); in rolling contacts: Desimone, Bernasconi & Beretta, Wear "
-        "260 (2006) 567; sum: Miner 1945, doi:10.1115/1.4009458; a line over Dang Van's stress: assumed"
+        "Morales-Espejel & Brizmer, Tribol. Trans. 54 (2011) 625, doi:10.1080/10402004.2011.587633, equations 9 to 11; "
+        "criterion: Dang Van, ASTM STP 1191 (1993) 120; sum: Miner 1945, doi:10.1115/1.4009458"
     )
     equations: ClassVar[Equations] = Equations(
-        ("D = Σ 1/N,   N = N_{ref} (S_{ref}/S)^m", "S = max_t [τ(t) + α σ_h(t)] > S_{limit},   α = 3 t/b − 3/2"),
+        ("D = Σ 1/N,   S = S_1 − B ln N", "S = max_t[τ(t) + 3 (t_{-1}/b_{-1} − 1/2) σ_h(t)] > S_{limit}"),
         "τ is the largest shear of the deviator less the centre of the smallest sphere around the cycle's deviators, "
-        "σ_h the hydrostatic stress, tension positive, t and b the fatigue limits in alternating torsion and bending.",
+        "σ_h the hydrostatic stress, tension positive. Material fails at D = 1.",
+    )
+    damages: ClassVar[bool] = True
+
+    single_strength: float = parameter(
+        "Pa", "S_1, amplitude in alternating torsion at which the line ends at one cycle", above=1e6, most=1e11
+    )
+    strength_drop: float = parameter(
+        "Pa", "B, by how much the amplitude falls for each factor e of the life", above=1e4, most=1e10
+    )
+    torsion_endurance: float = parameter(
+        "Pa", "S_limit, Dang Van's stress up to which nothing counts", least=0.0, most=1e11, default=0.0
     )
 
     def per_cycle(self, cycle: Cycle) -> Array:
         """Return the damage by one cycle, 0 to 1."""
-        return self._share(cycle.dang_van)
+        share = np.exp(np.minimum((cycle.dang_van - self.single_strength) / self.strength_drop, 0.0))
+        return np.where(cycle.dang_van > self.torsion_endurance, share, 0.0)
 
 
 @dataclass(frozen=True)

@@ -123,8 +123,9 @@ class HalfSpace:
 
     def depths(self, spacing: float, half_width: float) -> Array:
         """Return the depths of the layers [m], graded, on a grid of a spacing [m] under a half width [m]."""
-        first = _FIRST * spacing
-        return np.geomspace(first, max(self.deepest * half_width, (1.0 + self.layers) * first), self.layers)
+        from ..kernels.subsurface import graded  # loads the compiler
+
+        return graded(_FIRST * spacing, self.deepest * half_width, self.layers)
 
     def residual_stress(self) -> Array:
         """Return the residual stress [Pa], [6]: xx, yy, zz, yz, xz, xy."""

@@ -1,7 +1,7 @@
 """Closed forms and formulas, to test solvers against and to compare with.
 
     hertz         dry contact of smooth bodies: points, lines
-    stresses      stress below points and lines
+    stresses      stress below points and lines; taken from there
     point_films   film of smooth point contacts by formula
     line_films    film of smooth line contacts
     starvation    film of contacts that are short of oil
@@ -28,7 +28,6 @@ from .rolling import rolling_line, rolling_point, slipping_share
 from .sliders import ParabolicSlider
 from .squeeze import squeeze_line, squeeze_point, squeezed_line, squeezed_point
 from .starvation import film_behind_meniscus, supplied_film
-from .stresses import circle_stress, ellipse_axis_stress, line_stress
 
 __all__ = [
     "Hertz",
@@ -40,9 +39,7 @@ __all__ = [
     "bair_thinning_factor",
     "brewe_hamrock",
     "chittenden",
-    "circle_stress",
     "dowson_line",
-    "ellipse_axis_stress",
     "film_behind_meniscus",
     "ghanbarzadeh_thickness",
     "hamrock_dowson",
@@ -52,7 +49,6 @@ __all__ = [
     "jaeger_band",
     "jaeger_circle",
     "line_film",
-    "line_stress",
     "load_cycles",
     "logarithmic_drop",
     "lundberg_depth",

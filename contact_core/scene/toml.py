@@ -188,6 +188,8 @@ _SET_FILES = {
     "heat": "solids",
     "plasticity": "solids",
     "tribofilm": "tribofilms",
+    "stress": "fatigue",
+    "fatigue": "fatigue",
 }
 
 

@@ -85,6 +85,12 @@ PLAUSIBLE = {
     "reference_cycles": (1.0, 1e9),
     "life_exponent": (1.0, 50.0),
     "endurance_limit": (0.0, 1e9),
+    "single_strength": (1e8, 5e9),
+    "strength_drop": (1e6, 1e8),
+    "torsion_endurance": (0.0, 1e9),
+    "torsion_limit": (1e8, 1e9),
+    "bending_limit": (1e8, 1e9),
+    "residual": (-1e9, 1e9),
     "cyclic_strength": (5e8, 1e10),
     "cyclic_hardening": (0.02, 0.5),
     "failure_work": (1e6, 1e11),
@@ -99,6 +105,8 @@ def law_strategy(law: type) -> st.SearchStrategy[Any]:
             values[f.name] = laws_of(f.name)
         elif f.metadata["choices"]:
             values[f.name] = st.sampled_from(f.metadata["choices"])
+        elif get_type_hints(law)[f.name] is int:
+            values[f.name] = st.integers(f.metadata["least"], f.metadata["most"])
         else:
             assert get_type_hints(law)[f.name] is float
             values[f.name] = st.floats(

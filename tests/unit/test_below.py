@@ -1,0 +1,207 @@
+"""Stresses and damage below the surfaces in a scene, and what it costs one that does not ask for them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from cheap_scene import CHEAP, cheap
+from comparison import approx
+
+from contact_core import ContactState, SceneError, advance, initial_state
+from contact_core.deterministic import damage
+from contact_core.deterministic.subsurface import Traction, passed
+from contact_core.scene import Case
+from contact_core.surfaces.patches import heights_of, track_rows
+
+DRY = CHEAP | {"control.driver": "dry", "control.dry_instants": "3"}
+STRESSED = DRY | {"stress.model": "half_space", "stress.layers": "6"}
+TIRED = STRESSED | {
+    "fatigue.model": "basquin",
+    "fatigue.reference_stress": "800 MPa",
+    "fatigue.reference_cycles": "1e4",
+    "fatigue.life_exponent": "6",
+}
+SMOOTH = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "wear.model": "none", "tribofilm.model": "none"}
+OLD = ("friction_coefficient", "h_c", "wear_depth_1", "tribofilm_1", "iterations", "contact_load_ratio")
+OF_STRESS = ("von_mises_max", "von_mises_depth", "near_surface_share", "dang_van_ratio", "crossland_ratio")
+
+
+def run(changes, *steps, **more):
+    """The scene, and states and outputs after steps [s]."""
+    scene, state, op = cheap(changes, **more)
+    found = []
+    for step in steps:
+        state, outputs = advance(scene, op, state, step)
+        found.append((state, outputs))
+    return scene, op, found
+
+
+def test_a_scene_that_does_not_ask_keeps_every_bit_and_one_that_asks_changes_no_other_output():
+    _, _, plain = run(DRY, 20.0, 20.0)
+    _, _, asked = run(STRESSED, 20.0, 20.0)
+    for (state, bare), (_, seen) in zip(plain, asked, strict=True):
+        assert state.below is None
+        assert not any(getattr(bare, name) for name in (*OF_STRESS, "damage_1", "micropitted_area_1", "error_damage"))
+        assert [getattr(bare, name) for name in OLD] == [getattr(seen, name) for name in OLD]
+    assert all(getattr(asked[-1][1], name) > 0.0 for name in OF_STRESS)
+
+
+def test_smooth_bodies_have_hertz_s_stress():
+    """Von Mises .62 p0 at .48 a without friction, and Tresca's .31 p0: Johnson 1985, section 3.4, for nu = 0.3."""
+    changes = STRESSED | SMOOTH | {"film.points": "65", "stress.layers": "16", "film.tolerance": "1e-3"}
+    scene, op, _ = run(changes)
+    rolling = replace(op, speed_1=0.25, speed_2=0.25)
+    hertz = scene.hertz(op.load)
+    _, outputs = advance(scene, rolling, initial_state(scene), 1.0)
+    assert outputs.von_mises_max == approx(0.62 * hertz.pressure_max, rel=0.02)
+    assert outputs.von_mises_depth == approx(0.48 * hertz.a, rel=0.2)  # of the nearest layer
+    assert outputs.near_surface_share < 0.02
+
+
+def test_few_instants_of_smooth_bodies_stand_for_the_whole_pass():
+    """The newest instant moves on with the bodies, and nothing of a smooth contact depends on where they are."""
+    scene, op, _ = run(STRESSED | SMOOTH)
+    state, _ = advance(scene, op, initial_state(scene), 0.0)
+    below, case = state.below, Case.bind(scene, op)
+    rows = state.rows
+
+    def cycles(tractions):
+        return passed(case, rows, tractions).cycles[1]
+
+    columns, instants = scene.film.points - 1, scene.stress.instants
+    at = [round(k * columns / instants) for k in range(instants)]
+    whole = [Traction(below.pressure[:rows], below.shear[:rows], (k, k)) for k in at]
+    assert np.array_equal(cycles(whole[:1]).shear, cycles(whole).shear)
+
+
+def test_a_point_under_a_fixed_pressure_sees_it_pass():
+    """Of a pressure that stands still over a moving body each column of the patch has the same history."""
+    scene, op, _ = run(STRESSED | SMOOTH, stress__instants=32)
+    state, _ = advance(scene, op, initial_state(scene), 0.0)
+    case = Case.bind(scene, op)
+    below, rows = state.below, state.rows
+    found = passed(case, rows, [Traction(below.pressure[:rows], below.shear[:rows], (0, 0))])
+    shear = found.cycles[0].shear
+    assert np.ptp(shear, axis=2).max() < 1e-12 * shear.max()
+
+
+def test_damage_under_constant_cycles_is_their_number_times_that_of_one():
+    changes = TIRED | {"wear.model": "none", "control.longest": "1e6 s", "tribofilm.model": "none"}
+    scene, op, found = run(changes, 0.0, 3.0, 4.0, 5.0)
+    first, last = found[0][0], found[-1][0]
+    side = Case.bind(scene, op).sides[0]
+    assert first.below is not None
+    assert last.below.fresh == first.below.fresh  # one block
+    exact = damage.cycles_in(side, 12.0) * first.below.per_cycle_1
+    assert last.below.damage_1 == approx(exact, rel=1e-14)
+    assert last.outputs.load_cycles_1 == approx(damage.cycles_in(side, 12.0), rel=1e-14)
+
+
+def test_wear_takes_damage_away():
+    gone = [run(TIRED, 60.0, 60.0, wear__bare=bare)[2][-1] for bare in ("1e-9", "3e-4")]
+    (_, kept), (_, worn) = gone
+    assert worn.wear_depth_1 > 100.0 * kept.wear_depth_1
+    assert worn.damage_1 < 0.9 * kept.damage_1
+
+
+def test_what_fails_breaks_out_of_the_surface_with_its_tribofilm():
+    scene, _, found = run(TIRED, 30.0, 30.0, 60.0, fatigue__reference_cycles=60)
+    state, outputs = found[-1]
+    for i, body in enumerate(state.bodies):
+        pitted = body.pits > 0.0
+        track = track_rows(scene, state.rows)
+        assert outputs_of(outputs, "micropitted_area", i) == approx(float(pitted[track].mean()), rel=1e-12)
+        lost = (body.wear + body.pits)[track].mean()
+        assert outputs_of(outputs, "profile_loss", i) == approx(float(lost), rel=1e-12)
+        bare = np.zeros_like(body.wear)
+        assert np.array_equal(heights_of(bare, body), -body.wear - body.plastic - body.pits + body.tribofilm)
+    assert outputs.micropitted_area_1 > 0.0
+    assert state.below.damage_1.max() < 1.0
+    earlier = [out.micropitted_area_1 for _, out in found]
+    assert earlier == sorted(earlier)
+
+
+def outputs_of(outputs, name, i):
+    return getattr(outputs, f"{name}_{i + 1}")
+
+
+def test_a_block_ends_when_much_of_a_track_breaks_out():
+    scene, state, op = cheap(TIRED | {"control.change": "1 um", "control.longest": "1e6 s"})
+    state, _ = advance(scene, op, state, 0.0)
+    case = Case.bind(scene, op)
+    due = damage.pit_time(case, state)
+    assert 0.0 < state.hold <= due < np.inf
+    after, _ = damage.fatigued(case, state, state.bodies, due * (1.0 + 1e-9))
+    _, pitted = damage.fatigued(case, state, state.bodies, due * (1.0 + 1e-9))
+    shares = [float((body.pits[track_rows(scene, state.rows)] > 0.0).mean()) for body in pitted]
+    assert after is not None
+    assert max(shares) == approx(damage._BATCH, abs=0.003)
+
+
+def test_without_a_load_nothing_tires():
+    scene, state, op = cheap(TIRED)
+    state, _ = advance(scene, op, state, 5.0)
+    harmed = state.below.damage_1
+    state, outputs = advance(scene, replace(op, load=0.0), state, 50.0)
+    assert np.array_equal(state.below.damage_1, harmed)
+    assert outputs.von_mises_max == 0.0
+    state, outputs = advance(scene, op, state, 5.0)
+    assert outputs.von_mises_max > 0.0
+    assert state.below.damage_1.max() > harmed.max()
+
+
+def test_a_state_with_damage_is_stored_and_goes_on_bit_for_bit():
+    scene, op, found = run(TIRED, 10.0, 10.0)
+    state = found[-1][0]
+    back = ContactState.from_bytes(state.to_bytes(), scene)
+    assert back.to_bytes() == state.to_bytes()
+    one, other = (advance(scene, op, each, 20.0)[0] for each in (state, back))
+    assert one.to_bytes() == other.to_bytes()
+    again, _ = advance(scene, op, found[0][0], 10.0)  # rolled back
+    assert again.to_bytes() == state.to_bytes()
+
+
+def test_a_state_of_other_depths_is_refused():
+    scene, _, found = run(TIRED, 1.0)
+    other, _, _ = cheap(TIRED, stress__layers=7)
+    with pytest.raises(Exception, match="another contact"):
+        ContactState.from_bytes(found[0][0].to_bytes(), other)
+    assert scene.digest() != other.digest()
+
+
+def test_wider_patches_keep_their_damage_in_its_rows():
+    _, _, found = run(TIRED, 5.0)
+    state = found[0][0]
+    more = 8
+    wide = damage.widened(state.below, state.rows, more)
+    layers = state.below.damage_1.reshape(6, state.rows, -1)
+    wider = wide.damage_1.reshape(6, state.rows + 2 * more, -1)
+    assert np.array_equal(wider[:, more:-more], layers)
+    assert not wider[:, :more].any()
+
+
+def test_damage_stays_within_its_stated_error_when_blocks_are_half_as_long():
+    """The errors of both add up; a tenth of them would not cover the difference."""
+
+    def after(longest):
+        _, _, found = run(TIRED, 240.0, control__longest=f"{longest} s", control__change="1 um")
+        return found[-1][1]
+
+    long, short = after(40.0), after(20.0)
+    for i in (1, 2):
+        one, other = getattr(long, f"damage_{i}"), getattr(short, f"damage_{i}")
+        stated = np.hypot(one * long.error_damage, other * short.error_damage)
+        assert abs(one - other) < stated
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"fatigue.model": "basquin", "fatigue.reference_stress": "1 GPa", "fatigue.life_exponent": "9"}, "needs the"),
+        ({"stress.model": "half_space", "stress.bending_limit": "9 GPa"}, "1 to 2 times"),
+        ({"stress.model": "half_space", "stress.layers": "1"}, "at least 2"),
+    ],
+)
+def test_tables_that_cannot_be_are_refused_with_a_way_out(changes, said):
+    with pytest.raises(SceneError, match=said):
+        cheap(DRY | changes)
