@@ -104,6 +104,7 @@ PAGES: dict[str, Source] = {
     ),
     "speed_error": Source("speed_error", (*LEVELS, "uncertainty", "grid_error", *SHAPES)),
     "stress/field": Source("stress.field", ("film", "calls", "stress")),
+    "stress/curves": Source("stress.curves", (*LEVELS, "stress", *SHAPES)),
     "surfaces/transition": Source("surfaces.transition", (*LEVELS, *SHAPES)),
     "surfaces/asperity_layer": Source("surfaces.asperity_layer", ("film",)),
     "surfaces/grids": Source("surfaces.grids", ("film", "evolution", "control", "data", "azam_case_a")),

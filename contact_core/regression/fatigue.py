@@ -22,6 +22,7 @@ Array = NDArray[np.float64]
 
 _LAG = 0.01  # of the first layer's depth: wear below that waits
 _FEWEST = 1.0 / 64.0  # of a step: classes that fail within it do so together
+_ALL = 1.0 - 1e-9  # of a class
 UNKNOWN = 1e3  # relative, of damage next to nothing of which is known
 
 
@@ -38,9 +39,10 @@ def harm_by(case: Case, contact: MeanContact, last: Harm | None) -> Harm:
     """Return what a contact does; the last harm if that is of the same contact."""
     if last is not None and last.contact is contact:
         return last
-    found, law = stressed(case, contact), case.scene.fatigue
-    more = Cycle(*((1.0 + found.half_width) * part for part in found.cycles))
-    return Harm(contact, found, law.per_cycle(found.cycles), law.per_cycle(more))
+    found = stressed(case, contact)
+    both = np.array([1.0, 1.0 + found.half_width])[:, None, None, None, None]
+    per_cycle, more = case.scene.fatigue.per_cycle(Cycle(*(both * part for part in found.cycles)))
+    return Harm(contact, found, per_cycle, more)
 
 
 def fatigued(scene: Scene, classes: Classes, harm: Harm, then: Means, now: Means) -> Classes:
@@ -119,16 +121,14 @@ def _mean(field: Array) -> float:
 def _pitted(worst: Array, broken: Array, rate: Array) -> Array:
     """Return the share of each row that has broken out.
 
-    Within a class that has not, the failed part is taken to grow from its upper end in proportion to its damage, from
-    what that was when the class above failed.
+    Within the worst class that has not, the failed part is taken to grow from its upper end in proportion to its
+    damage, from what that was when the class above failed.
     """
     failed = broken > 0.0
     share: Array = failed @ WEIGHTS
-    steep = np.empty_like(rate)  # damage of a class when the one above fails
-    steep[:, :-1] = np.divide(rate[:, :-1], rate[:, 1:], out=np.ones_like(rate[:, 1:]), where=rate[:, 1:] > 0.0)
-    steep[:, -1] = steep[:, -2]
-    for j, whole in enumerate(failed):
-        k = WEIGHTS.size - 1 - int(np.argmin(whole[::-1]))
-        if not whole[k] and steep[j, k] < 1.0:
-            share[j] += WEIGHTS[k] * min(max((worst[j, k] - steep[j, k]) / (1.0 - steep[j, k]), 0.0), 1.0)
-    return share
+    k = WEIGHTS.size - 1 - np.argmin(failed[:, ::-1], axis=1)
+    j, above = np.arange(k.size), np.minimum(k + 1, WEIGHTS.size - 1)
+    here = rate[j, np.minimum(k, above - 1)]
+    first = np.minimum(np.divide(here, rate[j, above], out=np.ones_like(here), where=rate[j, above] > 0.0), _ALL)
+    part = np.minimum(np.maximum((worst[j, k] - first) / (1.0 - first), 0.0), 1.0)
+    return share + WEIGHTS[k] * np.where(failed[j, k], 0.0, part)

@@ -9,11 +9,14 @@ Constants: benchmarks/stress/curves.py.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from ..laws.elementary import Numbers
 
 Array = NDArray[np.float64]
 
@@ -78,34 +81,41 @@ class Added:
     skewness [skew + skew_rough p + skew_parted (1 - W_c)] exp(-x/skew_reach) / (1 + skew_meeting n).
     """
 
-    size: float
-    growth: float
-    reach: float
-    shape: float
-    mean: float
-    meeting: float
-    rough: float
-    relief: float
-    skew: float
-    skew_rough: float
-    skew_parted: float
-    skew_reach: float
-    skew_meeting: float
+    size: Numbers
+    growth: Numbers
+    reach: Numbers
+    shape: Numbers
+    mean: Numbers
+    meeting: Numbers
+    rough: Numbers
+    relief: Numbers
+    skew: Numbers
+    skew_rough: Numbers
+    skew_parted: Numbers
+    skew_reach: Numbers
+    skew_meeting: Numbers
 
     def quantiles(self, smooth: Array, pressures: Array, chords: Array, rough: Rough, scores: Array) -> Array:
-        """Return the stress [2, layers, rows, scores] of both bodies at quantiles of normal `scores`.
+        """Return the stress [2, ..., layers, rows, scores] of both bodies at quantiles of normal `scores`.
 
-        `smooth` [layers, rows] is that of smooth bodies, `pressures` are P and `chords` local pressures, [rows].
+        `smooth` [..., layers, rows] is that of smooth bodies, `pressures` are P and `chords` local pressures, [rows].
+        Constants are numbers, or arrays [..., 1, 1].
         """
         local = np.maximum(pressures / chords, _FAINT)
-        n = rough.meetings[:, None] * chords
-        spread = np.exp(-((rough.depths / self.reach) ** self.shape))[:, None] * (self.size * chords * local**self.growth)
+        z = rough.depths[:, None]
+        n = (rough.meetings[:, None] * chords).reshape(2, *(1,) * (smooth.ndim - 1), chords.size)
+        spread = (self.size * chords * local**self.growth) * np.exp(-((z / self.reach) ** self.shape))
         level = self.mean + self.meeting * np.log1p(n) + self.rough * np.log(local)
-        middle = smooth * (1.0 - self.relief * pressures) + spread * level[:, None]
-        skewed = (self.skew + self.skew_parted * (1.0 - rough.load_ratio)) + self.skew_rough * local
-        skew = np.exp(rough.depths / -self.skew_reach)[:, None] * (skewed / (1.0 + self.skew_meeting * n))[:, None]
+        middle = smooth * (1.0 - self.relief * pressures) + spread * level
+        skewed = self.skew + self.skew_parted * (1.0 - rough.load_ratio) + self.skew_rough * local
+        skew = np.exp(z / -self.skew_reach) * skewed / (1.0 + self.skew_meeting * n)
         found: Array = middle[..., None] + spread[..., None] * _pearson(skew[..., None], scores)
         return np.maximum(found, 0.0)
+
+    @staticmethod
+    def together(curves: "tuple[Added, ...]") -> "Added":
+        """Return several curves as one, for arrays of as many stresses."""
+        return Added(*(np.array([getattr(c, f.name) for c in curves])[:, None, None] for f in fields(Added)))
 
 
 def _pearson(skew: Array, scores: Array) -> Array:
@@ -145,6 +155,11 @@ class NearSurface:
     hydrostatic: Added = Added(0.2, 1.18, 1.14, 1.09, 0.63, 0.93, 0.38, 0.068, -0.4, 3.14, 1.23, 0.92, 1.24)
     dang_van: Added = Added(0.19, 1.19, 1.17, 1.1, 0.83, 0.66, 0.15, 0.047, 0.1, 2.34, 0.87, 1.25, 1.01)
     largest: Largest = Largest()
+
+    @cached_property
+    def cycle(self) -> Added:
+        """Curves of the three stresses of a `Cycle`."""
+        return Added.together((self.shear, self.hydrostatic, self.dang_van))
 
 
 CURVES = NearSurface()

@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..kernels.load_cycle import Cycle, cycle_of
+from ..kernels.load_cycle import cycle_of
 from ..kernels.stress_measures import von_mises
 from ..kernels.subsurface import Subsurface
 from ..scene.records import POISSON
@@ -32,43 +32,38 @@ _ALIKE = 0.02  # of the logarithm of the ratio of half widths: as far apart two 
 class SmoothCycles:
     """Stresses over Hertz's largest pressure by friction, place across the track and depth."""
 
-    cycles: Array  # of a `Cycle`, [3, friction, rows, depths]
+    cycles: Array  # of a `Cycle`, [3, friction, depths, rows]
     von_mises: Array  # largest of a depth, [friction, depths]
 
-    def at(self, friction: float, rows: Array, depths: Array) -> Cycle:
-        """Return the cycles at rows over b and depths over a, arrays [rows, depths].
+    def at(self, friction: float, rows: Array, depths: Array) -> tuple[Array, Array]:
+        """Return cycles at rows over b and depths over a, [3, depths, rows], and the largest von Mises stress [depths].
 
         Friction, depths and rows beyond the table count as its ends.
         """
-        slab = _between(self.cycles, friction / _FRICTION[1], 1)
-        return Cycle(*_lin(_lin(slab, rows / _ROWS[1], 1), _places(depths), 2))
-
-    def largest(self, friction: float, depths: Array) -> Array:
-        """Return the largest von Mises stress at depths over a."""
-        return _lin(_between(self.von_mises, friction / _FRICTION[1], 0), _places(depths), 0)
-
-
-def _places(depths: Array) -> Array:
-    places: Array = (np.log(depths) - _LOGS[0]) / (_LOGS[1] - _LOGS[0])
-    return places
-
-
-def _between(table: Array, place: float, axis: int) -> Array:
-    k = min(max(int(place), 0), table.shape[axis] - 2)
-    part = min(max(place - k, 0.0), 1.0)
-    low: Array = table.take(k, axis)
-    return low if part == 0.0 else low + part * (table.take(k + 1, axis) - low)
+        m, part = _place(friction / _FRICTION[1], _FRICTION.size)
+        cycles, largest = self.cycles[:, m], self.von_mises[m]
+        if part != 0.0:
+            cycles = cycles + part * (self.cycles[:, m + 1] - cycles)
+            largest = largest + part * (self.von_mises[m + 1] - largest)
+        k, share = _places((np.log(depths) - _LOGS[0]) / (_LOGS[1] - _LOGS[0]), _DEPTHS.size)
+        low = largest[k]
+        peak = low + share * (largest[k + 1] - low)
+        layers = cycles[:, k]
+        layers = layers + share[:, None] * (cycles[:, k + 1] - layers)
+        j, share = _places(rows / _ROWS[1], _ROWS.size)
+        low = layers[:, :, j]
+        return low + share * (layers[:, :, j + 1] - low), peak
 
 
-def _lin(table: Array, places: Array, axis: int) -> Array:
-    """Return a table at places between its entries along the last axis or the one before it."""
-    k = np.clip(places.astype(np.int64), 0, table.shape[axis] - 2)
-    part = np.clip(places - k, 0.0, 1.0)
-    if axis < table.ndim - 1:
-        part = part[:, None]
-    low = table.take(k, axis)
-    found: Array = low + part * (table.take(k + 1, axis) - low)
-    return found
+def _place(place: float, size: int) -> tuple[int, float]:
+    """Return the entry of a table before a place, and how far beyond it that is."""
+    k = min(max(int(place), 0), size - 2)
+    return k, min(max(place - k, 0.0), 1.0)
+
+
+def _places(places: Array, size: int) -> tuple[NDArray[np.int64], Array]:
+    k = np.minimum(np.maximum(places, 0.0).astype(np.int64), size - 2)
+    return k, np.minimum(np.maximum(places - k, 0.0), 1.0)
 
 
 def smooth_cycles(ratio: float | None, slope: float, residual: float) -> SmoothCycles:
@@ -103,14 +98,14 @@ def _table(shape: int | None, slope: float, residual: float) -> SmoothCycles:
     pressure = np.sqrt(np.maximum(1.0 - along[None, :] ** 2 - across[:, None] ** 2, 0.0))
     kernel = Subsurface(pressure.shape, spacing, _DEPTHS, POISSON, "scipy", periodic=ratio is None)
     unloaded = residual * np.array([1.0, 1.0, 0.0, 0.0, 0.0, 0.0])
-    found, largest = np.empty((3, _FRICTION.size, _ROWS.size, _DEPTHS.size)), np.empty((_FRICTION.size, _DEPTHS.size))
+    found, largest = np.empty((3, _FRICTION.size, _DEPTHS.size, _ROWS.size)), np.empty((_FRICTION.size, _DEPTHS.size))
     both = zip(kernel.layers(pressure), kernel.layers(np.zeros_like(pressure), pressure), strict=True)
     for z, (pressed_, sheared) in enumerate(both):
         for m, friction in enumerate(_FRICTION):
             stress = pressed_ + friction * sheared
             largest[m, z] = von_mises(stress + unloaded[:, None, None]).max()
             history = np.ascontiguousarray(np.moveaxis(stress[:, rows[-1] + rows], 2, 0))
-            found[:, m, :, z] = cycle_of(history, np.zeros(6), slope)
+            found[:, m, z] = cycle_of(history, np.zeros(6), slope)
     for table in (found, largest):
         table.setflags(write=False)
     return SmoothCycles(found, largest)

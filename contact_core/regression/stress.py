@@ -17,7 +17,7 @@ from ..surfaces.damage_classes import rows_of
 from .contact import MeanContact
 from .near_surface import CURVES, FITTED, HALF_WIDTH, Rough, meetings
 from .smooth_film import LIGHTEST
-from .smooth_cycles import SmoothCycles, smooth_cycles
+from .smooth_cycles import smooth_cycles
 
 Array = NDArray[np.float64]
 
@@ -46,32 +46,32 @@ def stressed(case: Case, contact: MeanContact) -> Stressed:
         none = np.zeros((2, depths.size, rows.size, WEIGHTS.size))
         return Stressed(Cycle(none, none, none), dict.fromkeys(OF_STRESS, 0.0), 0.0)
     hertz, (root, wide) = case.unit_hertz, case.unit_hertz.growth(case.op.load)
-    largest, half = root * hertz.pressure_max, root * hertz.a
+    largest, half, side = root * hertz.pressure_max, root * hertz.a, wide * hertz.b
     friction = abs(contact.solid + contact.fluid) / case.op.load
-    table, line = _table(case), case.shape.along_face
-    places = rows * (scene.hertz(scene.operation.load).b / (wide * hertz.b))
-    smooth = table.at(friction, np.zeros(1) if line else places, depths / half)
-    chords = np.ones(1) if line else np.sqrt(np.maximum(1.0 - places * places, _LEAST**2))
-    rough = _rough(case, contact, largest, half, wide * hertz.b)
-    peak = table.largest(friction, depths / half)
-    residual = 2.0 / 3.0 * law.residual_stress()[0]
+    residual = float(law.residual_stress()[0])
+    line, chords, places = case.shape.along_face, np.ones(1), np.zeros(1)
+    if not line:
+        places = rows * (_track(scene)[1] / side)
+        chords = np.sqrt(np.maximum(1.0 - places * places, _LEAST**2))
+    table = smooth_cycles(
+        None if line else hertz.b / hertz.a, law.dang_van_slope, residual and residual / _track(scene)[0]
+    )
+    smooth, peak = table.at(friction, places, depths / half)
+    rough = _rough(case, contact, largest, half, side)
     if rough.steepness == 0.0:
-        fields = [np.broadcast_to(part.T[None, :, :, None], _shape(smooth.shear)) for part in smooth]
+        found = np.broadcast_to(smooth[None, ..., None], (2, *smooth.shape, WEIGHTS.size + 1))
     else:
         pressures = CURVES.pressures.at(rough, chords)
         scores = np.append(_SCORES, _extreme(rough.spots / rows.size))
-        curves = CURVES.shear, CURVES.hydrostatic, CURVES.dang_van
-        fields = [
-            curve.quantiles(part.T, pressures, chords, rough, scores)
-            for curve, part in zip(curves, smooth, strict=True)
-        ]
+        found = CURVES.cycle.quantiles(smooth, pressures, chords, rough, scores)
         over = math.sqrt(float(chords @ pressures**2) / float(chords.sum()))
         peak = CURVES.largest.at(peak, over, rough)
-    shear, hydrostatic, dang_van = (largest * field for field in fields)
+    found = largest * found
     if residual != 0.0:
-        hydrostatic, dang_van = hydrostatic + residual, dang_van + law.dang_van_slope * residual
+        found = found + np.array([0.0, 1.0, law.dang_van_slope])[:, None, None, None] * (2.0 / 3.0 * residual)
+    shear, hydrostatic, dang_van = found[:, 0], found[:, 1], found[:, 2]
     deepest = int(peak.argmax())
-    risk = ((shear[..., :-1] / _UNIT) ** _RISK @ WEIGHTS).sum(axis=(0, 2)) * np.diff(_risk_faces(depths))
+    risk = ((shear[..., :-1] * (1.0 / _UNIT)) ** _RISK @ WEIGHTS).sum(axis=(0, 2)) * _thickness(depths.tobytes())
     total = float(risk.sum())
     values = (
         largest * float(peak[deepest]),
@@ -81,29 +81,23 @@ def stressed(case: Case, contact: MeanContact) -> Stressed:
         max(0.0, float((shear + law.crossland_slope * hydrostatic).max())) / law.torsion_limit,
     )
     cycles = Cycle(shear[..., :-1], hydrostatic[..., :-1], dang_van[..., :-1])
-    within = rough.steepness == 0.0 or all(
-        low <= getattr(rough, name) <= high for name, (low, high) in FITTED.items() if name != "slip"
-    )
-    return Stressed(cycles, dict(zip(OF_STRESS, values, strict=True)), HALF_WIDTH * (1.0 if within else _BEYOND))
+    return Stressed(cycles, dict(zip(OF_STRESS, values, strict=True)), HALF_WIDTH * (1.0 if _within(rough) else _BEYOND))
 
 
-def _shape(part: Array) -> tuple[int, int, int, int]:
-    rows, layers = part.shape
-    return 2, layers, rows, WEIGHTS.size + 1
-
-
-def _table(case: Case) -> SmoothCycles:
-    hertz, law = case.unit_hertz, case.scene.stress
-    return smooth_cycles(
-        None if case.shape.along_face else hertz.b / hertz.a, law.dang_van_slope, _relative_residual(case.scene)
+def _within(rough: Rough) -> bool:
+    """Return True within the fit; what rolls, or is smoother or better parted than there, counts as within."""
+    return (
+        rough.steepness <= FITTED["steepness"][1]
+        and rough.clearance >= FITTED["clearance"][0]
+        and rough.slip <= FITTED["slip"][1]
     )
 
 
-@lru_cache(maxsize=64)
-def _relative_residual(scene: Scene) -> float:
-    """Return the residual stress over Hertz's largest pressure at the scene's load."""
-    residual = float(scene.stress.residual_stress()[0])
-    return residual / scene.hertz(scene.operation.load).pressure_max if residual else 0.0
+def _track(scene: Scene) -> tuple[float, float]:
+    """Return Hertz's largest pressure [Pa] and half width along y [m] at the scene's load."""
+    hertz = scene.unit_hertz
+    root, wide = hertz.growth(scene.operation.load)
+    return root * hertz.pressure_max, wide * hertz.b
 
 
 def _rough(case: Case, contact: MeanContact, largest: float, half: float, side: float) -> Rough:
@@ -130,6 +124,8 @@ def _extreme(spots: float) -> float:
     return float(scipy.special.ndtri(1.0 - 1.0 / (max(spots, 1.0) + 1.0)))
 
 
-def _risk_faces(depths: Array) -> Array:
-    """Return the depths between which the risk of a layer counts; the last one ends where it lies."""
-    return np.append(faces_of(depths)[:-1], depths[-1])
+@lru_cache(maxsize=64)
+def _thickness(depths: bytes) -> Array:
+    """Return the thickness of the layers for which a risk counts; the last one ends where it lies."""
+    layers = np.frombuffer(depths)
+    return np.diff(np.append(faces_of(layers)[:-1], layers[-1]))

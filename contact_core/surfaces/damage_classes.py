@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,13 +18,13 @@ Indices = NDArray[np.int64]
 _PARTS = 4  # of |y| < b, of contacts whose pressure falls off along y
 
 
-@lru_cache(maxsize=64)
+_ROWS = (np.arange(_PARTS) + 0.5) / _PARTS
+_ROW = np.full(1, 0.5)
+
+
 def rows_of(scene: Scene) -> Array:
     """Return the places |y| / b of the classes, b at the scene's load; lines have one."""
-    parts = 1 if scene.shape().along_face else _PARTS
-    rows = (np.arange(parts) + 0.5) / parts
-    rows.setflags(write=False)
-    return rows
+    return _ROW if scene.shape().along_face else _ROWS
 
 
 def classes_of(scene: Scene, state: ContactState) -> Classes:
