@@ -124,6 +124,7 @@ PAGES: dict[str, Source] = {
     "regression/shapes": Source("regression.shapes page", (*LEVELS, "mtm_zddp", "fzg_flank", "ball_209_inner")),
     "regression/held_back": Source("regression.held_back", (*LEVELS, *SHAPES, "cam_tappet")),
     "regression/correlation": Source("regression.correlation", (*LEVELS, "correction", *SHAPES, "cam_tappet")),
+    "regression/contact_temperature": Source("regression.contact_temperature", (*LEVELS, *SHAPES)),
     "regression/cost": Source("regression.cost", ("film", "regression", *CIRCLES)),
     "friction/traction": Source("friction.traction", (*LEVELS, "azam_case_a", "mtm_zddp")),
     "friction/laws_cost": Source("friction.laws_cost", ("film", "evolution", "control", "data", "azam_case_a")),

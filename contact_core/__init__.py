@@ -15,7 +15,8 @@ A `Scene` (what the contact is) and an `OperatingPoint` (load, speeds, temperatu
     film/            fluid and solid pressure of one instant: table of algorithms, units, grids, error estimate
     shapes/          points, lines, rollers: gap, Hertz's contact, film by formula; one file each
     laws/            viscosity, density, rheology, supply of oil, double layers, plasticity, boundary friction, heat,
-                     bulk temperature, tribofilm, wear, oxide, fatigue, load sharing, profiles: one class per law
+                     bulk temperature, tribofilm, wear, oxide, stress, fatigue, scuffing, load sharing, profiles: one
+                     class per law
     kernels/         numba and FFT: arrays in, arrays out
     reference/       closed forms: Hertz and stress below, films of points and lines, starvation, heat, wear
     quantities       names, symbols, units, signs and ranges of every input and output

@@ -98,9 +98,9 @@ class _Corrector:
         found = self._conditioner.at(_OWN, np.array([self.place], np.float64))
         told = Conditioned(found.mean[0], found.left[0]).of(self.raw)
         self.told = self.raw | {name: float(value) for name, value in told.items()}
-        return self._amended(contact)
+        return self._amended(contact, max(case.op.bodies))
 
-    def _amended(self, contact: MeanContact) -> MeanContact:
+    def _amended(self, contact: MeanContact, bulk: float) -> MeanContact:
         raw, told = self.raw, self.told
         friction = told["friction_coefficient"] / raw["friction_coefficient"]
         share = told[ABSOLUTE] / raw[ABSOLUTE] if raw[ABSOLUTE] > 0.0 else 1.0
@@ -115,6 +115,7 @@ class _Corrector:
             power=friction * contact.power,
             into_1=friction * contact.into_1,
             spin_torque=friction * contact.spin_torque,
+            hottest=bulk + friction * (contact.hottest - bulk),
         )
 
     @property

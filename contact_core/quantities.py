@@ -149,6 +149,8 @@ OUTPUTS: tuple[Quantity, ...] = (
     *_pair("damage", "D", "1", "mean over the track |y| < b of the largest fatigue damage under a point; the material fails at 1", nominal=0.1, minimum=0.0, error="error_damage"),
     *_pair("micropitted_area", "A_p", "1", "share of the track |y| < b that fatigue has broken out", nominal=0.1, minimum=0.0, maximum=1.0),
     *_pair("profile_loss", "l_p", "m", "mean depth worn and broken out over the track |y| < b", nominal=1e-7, minimum=0.0, display="nm"),
+    Quantity("contact_temperature_max", "T_max", "K", "largest temperature of the surfaces: mean of the hottest 1 % of Hertz's area", nominal=350.0, minimum=0.0, display="degC", trend="level"),
+    Quantity("scuffing_ratio", "S", "1", "(contact_temperature_max - temperature of the oil) / (critical temperature - temperature of the oil), 0 to 1000; 0 without a law of scuffing", minimum=0.0, trend="level"),
     *_pair("temperature", "T", "K", "bulk temperature", nominal=350.0, minimum=0.0, display="degC"),
     Quantity("heat_flow_1", "Q_1", "W", "heat that the contact puts into the body, body 1", nominal=1.0, trend="level"),
     Quantity("heat_flow_2", "Q_2", "W", "heat that the contact puts into the body, body 2", nominal=1.0, trend="level"),

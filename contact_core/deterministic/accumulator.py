@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Case
-from ..state import ContactState, RangeFlag
+from ..state import ContactState, RangeFlag, flag_of_scuffing
 from ..surfaces.patches import on_patches
 from .friction import Film, derivatives
 from .instant import ContactFields
@@ -113,7 +113,7 @@ class Accumulator:
         self.mixed += fields.route == "mixed"
         self.unconverged += not fields.converged
         self.fallbacks += fields.route == "fallback"
-        self.flags |= instant_flags(case, fields)
+        self.flags |= instant_flags(case, fields) | flag_of_scuffing(seen["scuffing_ratio"])
 
     def oil_over_its_load(self, load: float) -> tuple[float, float]:
         """Return friction and rolling resistance of the oil over what it carries of the `load` [N]; 0 for nothing."""

@@ -33,7 +33,7 @@ _CREEP = 0.01  # of the other body's speed: of a slower body a block samples onl
 _SHARE_STEP = 0.05  # change of contact_load_ratio in one block, at most
 # flags of the mixed solutions that measured the share: they also hold for the dry blocks that use it
 _OF_FILM = RangeFlag.INLET_UNRESOLVED
-_SHORTEST = 0.05  # of control.longest: no block is shorter to keep wear stable; a flag says where it should be
+_SHORTEST = 0.05  # of control.longest: no block is shorter for wear or pits; a flag says where wear asks for it
 _LONGER = 2.0  # a block may be so much longer than the one before
 _EDGE = 3  # rows and columns at the edge that the scar must not reach
 _WIDEST = 4  # times the scene's rows
@@ -221,8 +221,8 @@ def _longest(case: Case, state: ContactState, before: float) -> float:
     control = case.scene.control
     limits = [control.longest]
     if case.loaded:
-        limits += [max(_stable_time(case, state.bodies), _SHORTEST * control.longest)]
-        limits += [damage.pit_time(case, state)]
+        soon = min(_stable_time(case, state.bodies), damage.pit_time(case, state))
+        limits += [max(soon, _SHORTEST * control.longest)]
         limits += [scar_time(case, *pair) for pair in zip(case.sides, state.bodies, strict=True)]
         if before > 0.0:
             step = abs(state.trends.slope_of("contact_load_ratio"))

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ..errors import OperatingPointError
 from ..scene import Case, OperatingPoint, Scene, Side
-from ..state import Body, ContactState
+from ..state import Body, ContactState, flag_of_scuffing
 from .accumulator import Accumulator
 from .growth_and_wear import area_of_node, film_removal, oxidation, solid_speed, steel_in, with_exposure
 from .instant import ContactFields
@@ -175,12 +175,13 @@ def run_cycle(
         _evolved(scene, *pair, repeats, times[-1] - times[0])
         for pair in zip(_placed(bodies, moments[-1].state), sums, strict=True)
     )
+    risk = flag_of_scuffing(max(moment.outputs["scuffing_ratio"] for moment in moments))
     state = replace(
         moments[-1].state,
         time=state.time + repeats * (times[-1] - times[0]),
         bodies=(after[0], after[1]),
         solved_for=None,
-        outputs=replace(state.outputs, **means),
+        outputs=replace(state.outputs, **means, range_flags=state.outputs.range_flags | int(risk)),
     )
     return state, moments
 

@@ -8,12 +8,14 @@ from ..state import RangeFlag
 from .instant import ContactFields
 
 LAMBDA_CAP = 1e3
+_HOTTEST = 0.01  # of Hertz's area: a single node's temperature depends on the grid
 
 
 def observed(case: Case, fields: ContactFields) -> dict[str, float]:
     """Return the outputs of one instant by their names."""
     scene, grid = case.scene, case.grid(fields.y.size)
     found, warm = fields.friction, fields.temperatures
+    hottest = warm.hottest(max(round(_HOTTEST * case.hertz.area / grid.cell), 1) if case.loaded else 1)
     seen = {
         "friction_force": found.force_solid + found.force_fluid,
         "friction_solid": found.force_solid,
@@ -21,6 +23,8 @@ def observed(case: Case, fields: ContactFields) -> dict[str, float]:
         "spin_torque": found.spin_torque,
         "power_loss": found.power,
         "flash_temperature_rise": warm.flash_rise,
+        "contact_temperature_max": hottest,
+        "scuffing_ratio": scene.scuffing.ratio(hottest, case.op.temperature),
         "heat_flow_1": warm.into_1 * grid.repeats,
         "heat_flow_2": warm.into_2 * grid.repeats,
     }

@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import Any
 
 from ..scene import Case, Scene, Side
-from ..state import Body, ContactState, Error, Outputs, RangeFlag, flag_of_errors, flags_of_tribofilm
+from ..state import Body, ContactState, Error, Outputs, RangeFlag, flag_of_errors, flag_of_scuffing, flags_of_tribofilm
 from ..state.bulk_temperature import power_loss
 from ..surfaces.patches import surface_now
 from ..surfaces.roughness import mean_roughness, rms_roughness
@@ -24,7 +24,7 @@ def outputs_of(case: Case, state: ContactState, suggested_step: float) -> Output
         values |= {f"{name}_{side.body + 1}": value for name, value in found.items()}
     out = with_heat(case, state)
     flags = RangeFlag(out.range_flags) & ~(RangeFlag.TRIBOFILM_TEMPERATURE | RangeFlag.BY_THE_CLOCK)
-    flags |= flags_of_tribofilm(case.scene.tribofilm, case.op.bodies)
+    flags |= flags_of_tribofilm(case.scene.tribofilm, case.op.bodies) | flag_of_scuffing(out.scuffing_ratio)
     errors = _error_outputs(case.scene, replace(state, outputs=replace(out, **values)), values)
     flags = flags & ~RangeFlag.UNSURE | flag_of_errors(errors, case.scene.control.accuracy)
     return replace(

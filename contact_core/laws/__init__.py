@@ -8,6 +8,7 @@
     oxide               oxide where no tribofilm covers the solids
     stress              stresses below the surfaces, and the fatigue limits beside them
     fatigue             damage of the solids by load cycles
+    scuffing            risk of scuffing: the hottest spot against a critical temperature
     load_sharing        load on solids and oil at the regression level
     profile             ends of rollers
     asperity_layer      roughness below the grid: not yet in a scene
@@ -33,6 +34,7 @@ from . import (
     plasticity,
     profile,
     rheology,
+    scuffing,
     stress,
     supply,
     tribofilm,
@@ -56,6 +58,7 @@ SLOTS: dict[str, tuple[type[Law], ...]] = {
     "oxide": oxide.LAWS,
     "stress": stress.LAWS,
     "fatigue": fatigue.LAWS,
+    "scuffing": scuffing.LAWS,
     "sharing": load_sharing.LAWS,
     "profile": profile.LAWS,
 }

@@ -224,10 +224,15 @@ class Heat(Law, Protocol):
         0 where the law has no spots.
         """
 
-    def conductances(self, radius: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
-        """Return the heat flux per mean rise [W/(m2 K)] into each body under an even source on a circle [m]."""
+    def conductances(self, radius: Array, speeds: tuple[Array, Array], *, hottest: bool = False) -> tuple[Array, Array]:
+        """Return the heat flux per mean rise [W/(m2 K)] into each body under an even source on a circle [m].
 
-    def strip_conductances(self, a: Array, b: float, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+        `hottest`: mean flux per largest rise, under a source spread like Hertz's pressure.
+        """
+
+    def strip_conductances(
+        self, a: Array, b: float, speeds: tuple[Array, Array], *, hottest: bool = False
+    ) -> tuple[Array, Array]:
         """Return the same for a strip of half width a and half length b [m]."""
 
 
@@ -394,6 +399,18 @@ class Fatigue(Law, Protocol):
 
     def per_cycle(self, cycle: Cycle) -> Array:
         """Return the damage by one load cycle, 0 to 1: it adds up, and at 1 the material fails."""
+
+
+class Scuffing(Law, Protocol):
+    """Risk of scuffing."""
+
+    judges: ClassVar[bool]  # a temperature is critical
+
+    def ratio(self, contact: float, oil: float) -> float:
+        """Return the risk at the largest temperature of the surfaces and that of the oil [K]: above 1 they scuff.
+
+        At least 0, and 0 where nothing is judged.
+        """
 
 
 class Profile(Law, Protocol):

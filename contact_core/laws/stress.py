@@ -57,7 +57,8 @@ class HalfSpace:
     name: ClassVar[str] = "half_space"
     source: ClassVar[str] = (
         "Dang Van, Biaxial/Multiaxial Fatigue, ASTM STP 1191 (1993) 120, doi:10.1520/STP24799S; Crossland, Proc. Int. "
-        "Conf. Fatigue of Metals, IMechE 1956, p. 138; limits: assumed, unless a set says more"
+        "Conf. Fatigue of Metals, IMechE 1956, p. 138 (from memory); limits by default: of hardened 52100, "
+        "Morales-Espejel & Brizmer 2011, doi:10.1080/10402004.2011.587633"
     )
     equations: ClassVar[Equations] = Equations(
         (
@@ -86,10 +87,20 @@ class HalfSpace:
         "", "depth over that half width down to which a stress is near the surface", above=0.0, most=1.0, default=0.1
     )
     torsion_limit: float = parameter(
-        "Pa", "fatigue limit in alternating torsion, amplitude", above=1e6, most=1e11, default=360e6, quantity="Stress"
+        "Pa",
+        "fatigue limit in alternating torsion, amplitude",
+        above=1e6,
+        most=1e11,
+        default=361.4e6,
+        quantity="Stress",
     )
     bending_limit: float = parameter(
-        "Pa", "fatigue limit in alternating bending, amplitude", above=1e6, most=1e11, default=620e6, quantity="Stress"
+        "Pa",
+        "fatigue limit in alternating bending, amplitude",
+        above=1e6,
+        most=1e11,
+        default=625.9e6,
+        quantity="Stress",
     )
     residual: float = parameter(
         "Pa",

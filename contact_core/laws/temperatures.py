@@ -41,3 +41,10 @@ class Temperatures:
     into_2: float
     flash_rise: float  # of the surfaces above the bulk, mean over the real contact and both bodies
     solved: bool
+
+    def hottest(self, nodes: int) -> float:
+        """Return the mean [K] of so many of the hottest nodes, each at the temperature of its warmer surface."""
+        warmer = np.maximum(self.surface_1, self.surface_2).ravel()
+        if warmer.size <= nodes:
+            return float(warmer.mean())
+        return float(np.partition(warmer, -nodes)[-nodes:].mean())

@@ -36,10 +36,15 @@ def _strip_nodes() -> Nodes:
 class Conductors(Protocol):
     """Two bodies that conduct the heat of a contact away, as `laws.heat`."""
 
-    def conductances(self, radius: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
-        """Return heat flux per mean rise [W/(m2 K)] into each body, even source on a circle of `radius` [m]."""
+    def conductances(self, radius: Array, speeds: tuple[Array, Array], *, hottest: bool = False) -> tuple[Array, Array]:
+        """Return heat flux per mean rise [W/(m2 K)] into each body, even source on a circle of `radius` [m].
 
-    def strip_conductances(self, a: Array, b: float, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+        `hottest`: mean flux per largest rise, under a source spread like Hertz's pressure.
+        """
+
+    def strip_conductances(
+        self, a: Array, b: float, speeds: tuple[Array, Array], *, hottest: bool = False
+    ) -> tuple[Array, Array]:
         """Return the same for a strip of half width a and half length b [m]."""
 
 
@@ -91,12 +96,18 @@ class Hertz:
         slim = (self.a / self.b) ** 2
         return 2.0 / (slim * float(scipy.special.elliprd(0.0, 1.0, slim)))
 
-    def conductances(self, bodies: Conductors, areas: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+    def conductances(
+        self, bodies: Conductors, areas: Array, speeds: tuple[Array, Array], *, hottest: bool = False
+    ) -> tuple[Array, Array]:
         """Return heat flux per mean rise [W/(m2 K)] into each of the bodies under an even source that holds still.
 
-        The source covers `areas` [m2]; speeds [m/s]. It stands on a circle as large as the ellipse.
+        The source covers `areas` [m2]; speeds [m/s]. It stands on a circle as large as the ellipse. `hottest`: mean
+        flux per largest rise, under a source spread like Hertz's pressure, which fast bodies pass along the ellipse's a.
         """
-        return bodies.conductances(np.sqrt(areas / math.pi), speeds)
+        if hottest:
+            shorter = math.sqrt(self.b / self.a)
+            speeds = (shorter * speeds[0], shorter * speeds[1])
+        return bodies.conductances(np.sqrt(areas / math.pi), speeds, hottest=hottest)
 
     def growth(self, times: float) -> tuple[float, float]:
         """Return the factors on a and the pressure, and on b, under `times` the load."""
@@ -145,9 +156,11 @@ class HertzLine(Hertz):
         """The ratio of a point, for a strip much longer than wide: the part within it slides with the others."""
         return 1.0
 
-    def conductances(self, bodies: Conductors, areas: Array, speeds: tuple[Array, Array]) -> tuple[Array, Array]:
+    def conductances(
+        self, bodies: Conductors, areas: Array, speeds: tuple[Array, Array], *, hottest: bool = False
+    ) -> tuple[Array, Array]:
         """Return the same as `Hertz.conductances` for a source on the strip."""
-        return bodies.strip_conductances(0.25 * areas / self.b, self.b, speeds)
+        return bodies.strip_conductances(0.25 * areas / self.b, self.b, speeds, hottest=hottest)
 
     def growth(self, times: float) -> tuple[float, float]:
         """Return the factors on a and the pressure, and on b, under `times` the load."""

@@ -47,6 +47,7 @@ class MeanContact(NamedTuple):
     spin_torque: float  # on body 1 [N m]
     rolling: float  # resistance of the oil [N]
     oil_slope: float  # d ln(its friction) / d ln(sliding speed)
+    hottest: float  # largest temperature of the surfaces [K]
 
 
 class _Point(NamedTuple):
@@ -73,7 +74,9 @@ def evaluate(case: Case, tribofilms: Tribofilms) -> MeanContact:
     if op.load < LIGHTEST:
         sigma, cover = composite_roughness(tribofilms), mean_cover(scene, tribofilms)
         gap = max(sigma, scene.film.floor)
-        return MeanContact(tribofilms, sigma, cover, UNFITTED, gap, *(0.0,) * 4, (0.0,) * 4, *(0.0,) * 10)
+        return MeanContact(
+            tribofilms, sigma, cover, UNFITTED, gap, *(0.0,) * 4, (0.0,) * 4, *(0.0,) * 10, max(op.bodies)
+        )
     sliding, surfaces = op.sliding_speed, surfaces_of(case, tribofilms)
     further = STEP * math.copysign(max(abs(sliding), scene.boundary_friction.slip_speed), sliding)
     smooth = smooth_film(case, further)
@@ -82,8 +85,10 @@ def evaluate(case: Case, tribofilms: Tribofilms) -> MeanContact:
     now, slide, pull = points[0], abs(points[0].rubbing), abs(points[0].solid + fluid[0])
     if heat is None:
         rise, into_1 = _flash_rise(case, abs(now.shear), slide), 0.5 * pull * slide
+        hottest = max(op.bodies) + rise
     else:
         rise, into_1 = heat.surface(pull * slide)
+        hottest = max(heat.hottest(pull * slide), *op.bodies)
     slope = _slope(points, fluid)
     solid = [point.solid * point.turned for point in points]
     oil = [force * _between(point, slope) for point, force in zip(points, fluid, strict=True)]
@@ -110,6 +115,7 @@ def evaluate(case: Case, tribofilms: Tribofilms) -> MeanContact:
         -turning / op.spin if op.spin != 0.0 else 0.0,
         smooth.rolling * (1.0 - now.shares.load),  # solids make no oil flow
         slope,
+        hottest,
     )
 
 

@@ -17,6 +17,8 @@ Pair = tuple[Array, Array]  # of body 1 and 2
 Law = Callable[..., Any]
 
 _ROUNDS = 100  # of the oil's temperature, at most
+# largest rise over that of smooth bodies: geometric mean of 25 contacts of the deterministic level, docs/physics.md
+_ROUGH = 1.28
 _SETTLED = 1e-8  # misfit that ends them, over the rise and 1 K
 
 
@@ -42,6 +44,7 @@ class MeanHeat(NamedTuple):
     body_2: Array
     areas: Array  # [m2]
     across: Array  # rise of the oil over the surfaces, per heat [m2 K/W]
+    at_peak: float  # conductance of both bodies by their largest rise, at the first point [W/(m2 K)]
 
     @staticmethod
     def of(
@@ -58,7 +61,9 @@ class MeanHeat(NamedTuple):
         The source lies on a circle of the ellipse's area, or on the strip.
         """
         first, second = hertz.conductances(law, areas, speeds)
-        return MeanHeat(first, second, *bodies, areas, gaps / (12.0 * oil_conductivity))
+        peak = hertz.conductances(law, areas[:1], (speeds[0][:1], speeds[1][:1]), hottest=True)
+        at_peak = float(peak[0][0] + peak[1][0])
+        return MeanHeat(first, second, *bodies, areas, gaps / (12.0 * oil_conductivity), at_peak)
 
     def _surfaces(self, power: Array) -> Array:
         """Return the temperature [K] of the surfaces under a power [W]."""
@@ -98,3 +103,8 @@ class MeanHeat(NamedTuple):
         warm = float(self._surfaces(np.full_like(self.areas, power))[0])
         into_1 = float(self.areas[0] * self.conductance_1[0]) * (warm - float(self.body_1[0]))
         return warm - 0.5 * float(self.body_1[0] + self.body_2[0]), into_1
+
+    def hottest(self, power: float) -> float:
+        """Return the largest temperature [K] of the surfaces at the first point, of heat spread as Hertz's pressure."""
+        unheated = float(self._surfaces(np.zeros_like(self.areas))[0])
+        return unheated + _ROUGH * power / (float(self.areas[0]) * self.at_peak)

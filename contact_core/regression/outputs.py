@@ -5,7 +5,16 @@ from typing import Any
 
 from ..laws.load_sharing import FittedSharing
 from ..scene import Case, Scene
-from ..state import ContactState, Error, Outputs, RangeFlag, changed, flag_of_errors, flags_of_tribofilm
+from ..state import (
+    ContactState,
+    Error,
+    Outputs,
+    RangeFlag,
+    changed,
+    flag_of_errors,
+    flag_of_scuffing,
+    flags_of_tribofilm,
+)
 from .contact import MeanContact
 from .surfaces import Means, Tribofilms, regression_film
 
@@ -38,6 +47,7 @@ def outputs_of(
     hot_1, hot_2 = case.op.bodies
     first, second = means
     longest, errors = _LONGEST * case.scene.operation.duration, half_widths(case, contact)
+    risk = case.scene.scuffing.ratio(contact.hottest, case.op.temperature)
     films = max(first.growth - first.removal, 0.0), max(second.growth - second.removal, 0.0)
     errors |= _of_history(before, films, means, errors)
     if below:
@@ -78,13 +88,17 @@ def outputs_of(
         contact_area_ratio=contact.area_ratio,
         contact_load_ratio=contact.load_ratio,
         flash_temperature_rise=contact.rise,
+        contact_temperature_max=contact.hottest,
+        scuffing_ratio=risk,
         temperature_1=hot_1,
         temperature_2=hot_2,
         heat_flow_1=contact.into_1,
         heat_flow_2=contact.power - contact.into_1,
         spin_torque=contact.spin_torque,
         approach=case.unit_hertz.approach_at(case.op.load) - contact.gap,
-        range_flags=_flags(case, contact) | int(flag_of_errors(errors, case.scene.control.accuracy)),
+        range_flags=_flags(case, contact)
+        | int(flag_of_errors(errors, case.scene.control.accuracy))
+        | int(flag_of_scuffing(risk)),
         suggested_step=min(case.scene.control.change / speed, longest) if speed > 0.0 else longest,
         load_cycles_1=first.cycles,
         load_cycles_2=second.cycles,

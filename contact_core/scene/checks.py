@@ -215,6 +215,11 @@ def warnings(scene: SceneFields) -> list[str]:
             f"film.model = '{scene.film.name}' leaves out lubricant.double_layer = '{layer.name}': it knows the mean "
             "film alone, and double layers act where the film is as thin as they are."
         )
+    if scene.scuffing.judges and not scene.heat.warms_film:
+        found.append(
+            f"heat.model = '{scene.heat.name}' knows no temperature of each node: scuffing_ratio leaves the hottest "
+            "spots out, or depends on the grid. Use heat.model = 'field'."
+        )
     left_out = [
         name
         for name, given in (

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 
 from ..film import Deterministic, Regression
 from ..film.instant import Grid
-from ..laws.base import BoundaryFriction, Fatigue, Heat, Oxide, Plasticity, Stress, Tribofilm, Wear
+from ..laws.base import BoundaryFriction, Fatigue, Heat, Oxide, Plasticity, Scuffing, Stress, Tribofilm, Wear
 from ..laws.fatigue import NoFatigue
 from ..laws.oxide import NoOxide
+from ..laws.scuffing import NoScuffing
 from ..laws.stress import NoStress
 from ..reference import Hertz
 from ..shapes import Geometry, Shape
@@ -49,6 +50,7 @@ class SceneFields:
     oxide: Oxide = field(default=NoOxide())
     stress: Stress = field(default=NoStress())
     fatigue: Fatigue = field(default=NoFatigue())
+    scuffing: Scuffing = field(default=NoScuffing())
 
     def to_dict(self) -> dict[str, Any]:
         """Return nested tables, from which `Scene.from_dict` makes an equal scene, bit for bit."""

@@ -190,6 +190,7 @@ _SET_FILES = {
     "tribofilm": "tribofilms",
     "stress": "fatigue",
     "fatigue": "fatigue",
+    "scuffing": "scuffing",
 }
 
 

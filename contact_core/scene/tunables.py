@@ -24,6 +24,7 @@ _PARTS = (
     "oxide",
     "stress",
     "fatigue",
+    "scuffing",
     "film",
     "control",
 )

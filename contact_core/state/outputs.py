@@ -42,6 +42,7 @@ class RangeFlag(IntFlag):
             "speeds and film are"
         ),
     )
+    SCUFFING = 8192, "risk of scuffing: the contact is, if only at an instant, hotter than the critical temperature"
 
 
 if TYPE_CHECKING:
@@ -70,6 +71,11 @@ def flags_of_tribofilm(law: Tribofilm, temperatures: tuple[float, float]) -> Ran
     flags = RangeFlag.BY_THE_CLOCK if DOSES[law.dose].whole_pass else RangeFlag(0)
     covered = all(law.covers(temperature) for temperature in temperatures)
     return flags if covered else flags | RangeFlag.TRIBOFILM_TEMPERATURE
+
+
+def flag_of_scuffing(ratio: float) -> RangeFlag:
+    """Return SCUFFING where a scuffing ratio is above 1."""
+    return RangeFlag.SCUFFING if ratio > 1.0 else RangeFlag(0)
 
 
 _ASKED = 0.5  # accuracy of a scene that asks for none

@@ -27,8 +27,17 @@ _COLUMNS = (
     ("A_c", "", "contact_area_ratio", 1.0, 3),
     ("W_c", "", "contact_load_ratio", 1.0, 3),
 )
+_BELOW = (  # of runs with stresses; those of damage where there is any
+    ("von Mises", "GPa", "von_mises_max", 1e-9, 3),
+    ("at depth", "um", "von_mises_depth", 1e6, 1),
+    ("damage 1", "", "damage_1", 1.0, 4),
+    ("damage 2", "", "damage_2", 1.0, 4),
+    ("pitted 1", "%", "micropitted_area_1", 100.0, 2),
+    ("pitted 2", "%", "micropitted_area_2", 100.0, 2),
+)
 _WITH_ERRORS = {  # in the table; of the others the result has them
-    "friction_coefficient", "h_c", "tribofilm_1", "tribofilm_2", "wear_depth_1", "wear_depth_2", "contact_load_ratio"
+    "friction_coefficient", "h_c", "tribofilm_1", "tribofilm_2", "wear_depth_1", "wear_depth_2", "contact_load_ratio",
+    "damage_1", "damage_2"
 }  # fmt: skip
 _SHARES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0)  # of the run: running-in is early
 _FEW_ROWS = 12
@@ -72,11 +81,16 @@ def table(dataset: xr.Dataset) -> str:
     columns = [["time", "min", *_apart(time[rows] / 60.0)]]
     columns += [
         [heading, unit, *_stated(dataset, name, rows, factor, digits)]
-        for heading, unit, name, factor, digits in _COLUMNS
+        for heading, unit, name, factor, digits in (*_COLUMNS, *_below(dataset))
     ]
     widths = [max(map(len, column)) for column in columns]
     padded = [[cell.rjust(width) for cell in column] for column, width in zip(columns, widths, strict=True)]
     return "\n".join("  ".join(line) for line in zip(*padded, strict=True))
+
+
+def _below(dataset: xr.Dataset) -> list[tuple[str, str, str, float, int]]:
+    """Return the columns of stress and damage that are not zero throughout."""
+    return [column for column in _BELOW if column[2] in dataset and dataset[column[2]].values.any()]
 
 
 def _stated(dataset: xr.Dataset, name: str, rows: list[int], factor: float, digits: int) -> list[str]:

@@ -42,6 +42,7 @@ PLAUSIBLE = {
     "viscosity_40": (2e-5, 1e-3),
     "viscosity_100": (2e-6, 1.5e-5),
     "density": (800.0, 1100.0),
+    "temperature": (300.0, 700.0),
     "full_thickness": (1e-9, 1e-6),
     "removal_thickness": (0.0, 1e-6),
     "rate_factor": (0.0, 1e-14),
@@ -569,3 +570,16 @@ def test_a_cycle_takes_a_share_of_a_life_that_no_greater_stress_makes_smaller(la
 @given(laws_of("fatigue"), hydrostatics)
 def test_a_cycle_without_shear_or_under_pressure_alone_damages_nothing(law, mean):
     assert not np.any(law.per_cycle(Cycle(np.zeros(SHAPE), mean, -np.abs(mean))))
+
+
+@given(laws_of("scuffing"), st.floats(230.0, 900.0), st.floats(0.0, 100.0), temperatures)
+def test_the_risk_of_scuffing_is_finite_grows_with_the_contact_and_passes_one_where_it_is_hotter_than_critical(
+    law, contact, hotter, oil
+):
+    risk, more = law.ratio(contact, oil), law.ratio(contact + hotter, oil)
+    assert 0.0 <= risk <= more < np.inf
+    if not law.judges:
+        assert more == 0.0
+        return
+    assert law.ratio(law.temperature, oil) == 1.0
+    assert (risk > 1.0) == (contact > law.temperature)

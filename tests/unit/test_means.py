@@ -412,7 +412,7 @@ def test_only_what_the_level_can_tell_is_told(grown):
     found = asdict(advance(scene, op, state, 1.0)[1])
     assert all(found[q.name] == 0 for q in OUTPUTS if scene.film.name not in q.levels)
     silent = {q.name for q in OUTPUTS if scene.film.name in q.levels and not found.get(q.name)}
-    assert silent == OF_CALLER | {"range_flags", "spin_torque", "oxide_1", "oxide_2"}
+    assert silent == OF_CALLER | {"range_flags", "spin_torque", "oxide_1", "oxide_2", "scuffing_ratio"}
 
 
 # levels

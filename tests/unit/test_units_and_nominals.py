@@ -35,7 +35,8 @@ DEFINED = {
     **dict.fromkeys(("roughness", "roughness_ra", "roughness_raw"), ("radius_x",)),
     **dict.fromkeys(("lambda_ratio", "lambda_conventional"), ("h_c roughness_1^-1",)),
     "pressure_max": ("load radius_x^-2",),
-    **dict.fromkeys(("temperature", "flash_temperature_rise"), ("temperature",)),
+    **dict.fromkeys(("temperature", "flash_temperature_rise", "contact_temperature_max"), ("temperature",)),
+    "scuffing_ratio": ("contact_temperature_max temperature^-1",),
     "heat_flow": ("power_loss", "friction_force speed_1"),
     "suggested_step": ("radius_x speed_1^-1",),
     "load_cycles": ("speed_1 suggested_step radius_x^-1",),
@@ -93,11 +94,21 @@ TIRED = COARSE | {  # a softer steel than any, so that it breaks out in so short
     "stress.model": "half_space",
     "fatigue.model": "basquin",
     "fatigue.reference_stress": "400 MPa",
-    "fatigue.reference_cycles": "30",
+    "stress.near_surface": "0.5",
+    "fatigue.reference_cycles": "2000",
     "fatigue.life_exponent": "9",
 }
 # in so short a run, or on so coarse a grid, or without the law
-NEVER = {"unconverged", "blocks_dry", "blocks_mixed", "blocks_fallback", "oxide_1", "oxide_2"}
+NEVER = {
+    "unconverged",
+    "blocks_dry",
+    "blocks_mixed",
+    "blocks_fallback",
+    "oxide_1",
+    "oxide_2",
+    "micropitted_area_2",
+    "scuffing_ratio",
+}
 
 
 def run(scene: Scene, steps: int = 2) -> Iterator[Outputs]:
