@@ -8,16 +8,20 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.special import ndtri
 
-from benchmarks.stress.points import PROBABILITIES, Seen
+from benchmarks.stress.points import EXPONENTS, PROBABILITIES, Seen
 from contact_core.laws.load_sharing import rms_slope
 from contact_core.regression.near_surface import Added, Largest, NearSurface, Pressures, Rough, meetings
 from contact_core.regression.smooth_cycles import smooth_cycles
+from contact_core.state.classes import EDGES
+from contact_core.state.classes import WEIGHTS as SHARES
 from contact_core.surfaces.damage_classes import rows_of
 
 SCORES = ndtri(PROBABILITIES)
 WEIGHTS = np.array([0.5, 0.7, 1.0, 1.0, 1.0, 1.0, 1.0])  # of the quantiles: the lowest do no damage
 FAR = 0.1  # residuals beyond which a point counts by its distance
-LEAST = 1e-3  # of a stress over Hertz's largest pressure
+LEAST = 0.02  # of a stress over Hertz's largest pressure: below that it does nothing
+OF_DAMAGE = 5.0  # weight of a stress that damages beside that of a quantile at one depth
+MIDDLES, OF_CLASSES = ndtri(EDGES - 0.5 * SHARES), SHARES
 Array = np.ndarray
 _WIDE = {  # bounds of constants
     "steep": (0.5, 50.0), "parted": (0.0, 10.0), "film": (0.1, 4.0), "film_steep": (0.0, 4.0), "sliding": (0.005, 10.0),
@@ -77,13 +81,25 @@ def pressure_off(known: Sequence[Known], curve: Pressures) -> Array:
 
 def quantiles_off(known: Sequence[Known], curves: NearSurface, which: int) -> list[Array]:
     """Logarithm of the quantiles by the curve over those solved, each [bodies, quantiles, rows, layers]."""
-    curve: Added = (curves.shear, curves.hydrostatic, curves.dang_van)[which]
+    curve: Added = (curves.shear, curves.dang_van)[which]
     found = []
     for each in known:
-        told = curve.quantiles(each.smooth[which], each.pressure(curves.pressures)[0], each.chords, each.rough, SCORES)
-        seen = each.seen.quantiles[:, :, :, which]
+        told = curve.quantiles(each.smooth[2 * which], each.pressure(curves.pressures)[0], each.chords, each.rough, SCORES)
+        seen = each.seen.quantiles[:, :, :, 2 * which]
         found.append(np.log(np.maximum(told.transpose(0, 3, 2, 1), LEAST) / np.maximum(seen, LEAST)))
     return found
+
+
+def equivalents_off(known: Sequence[Known], curves: NearSurface, which: int) -> Array:
+    """Logarithm of the stresses that damage by the curve over those solved, [contacts, bodies, exponents]."""
+    curve: Added = (curves.shear, curves.dang_van)[which]
+    found = []
+    for each in known:
+        rows = each.pressure(curves.pressures)[0]
+        worst = curve.quantiles(each.smooth[2 * which], rows, each.chords, each.rough, MIDDLES).max(axis=1)
+        told = [((worst**m) @ OF_CLASSES).mean(axis=1) ** (1.0 / m) for m in EXPONENTS]
+        found.append(np.log(np.stack(told, axis=1) / each.seen.equivalent[:, which]))
+    return np.array(found)
 
 
 def largest_off(known: Sequence[Known], curves: NearSurface) -> tuple[Array, list[Array]]:
@@ -101,14 +117,14 @@ def fitted(known: Sequence[Known], start: NearSurface) -> NearSurface:
         return pressure_off(known, curve)
 
     curves = replace(start, pressures=_fit(start.pressures, off))
-    for which, name in enumerate(("shear", "hydrostatic", "dang_van")):
+    for which, name in enumerate(("shear", "dang_van")):
 
         def of_cycle(curve: Added, which: int = which, name: str = name) -> Array:
             parts = quantiles_off(known, replace(curves, **{name: curve}), which)
             weights = [np.sqrt(each.chords) * (2.0 if each.chords.size == 1 else 1.0) for each in known]
-            return np.concatenate(
-                [(part * WEIGHTS[None, :, None, None] * w[:, None]).ravel() for part, w in zip(parts, weights, strict=True)]
-            )
+            off = [(part * WEIGHTS[None, :, None, None] * w[:, None]).ravel() for part, w in zip(parts, weights, strict=True)]
+            off.append(OF_DAMAGE * equivalents_off(known, replace(curves, **{name: curve}), which).ravel())
+            return np.concatenate(off)
 
         curves = replace(curves, **{name: _fit(getattr(curves, name), of_cycle)})
 

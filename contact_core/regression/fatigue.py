@@ -15,6 +15,7 @@ from ..kernels.load_cycle import Cycle
 from ..scene import Case, Scene
 from ..state.classes import WEIGHTS, Classes
 from .contact import MeanContact
+from .outputs import run_in
 from .stress import Stressed, stressed
 from .surfaces import Means
 
@@ -40,7 +41,7 @@ def harm_by(case: Case, contact: MeanContact, last: Harm | None) -> Harm:
     if last is not None and last.contact is contact:
         return last
     found = stressed(case, contact)
-    both = np.array([1.0, 1.0 + found.half_width])[:, None, None, None, None]
+    both = np.array([1.0, 1.0 + found.half_width * run_in(case, contact)])[:, None, None, None, None]
     per_cycle, more = case.scene.fatigue.per_cycle(Cycle(*(both * part for part in found.cycles)))
     return Harm(contact, found, per_cycle, more)
 

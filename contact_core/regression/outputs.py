@@ -152,7 +152,7 @@ def half_widths(case: Case, contact: MeanContact) -> dict[str, Any]:
     sharing = regression_film(case.scene).sharing
     widths, clearance = sharing.WIDTHS, contact.fit.clearance
     beyond = 1.0 if _fitted(case, contact) else _BEYOND
-    wider = _run_in(case, contact) * beyond
+    wider = run_in(case, contact) * beyond
     bare = contact.sigma > 0.0 and case.microroughness is None  # the curves know no solids that touch at a hard floor
     load = 1.0 if bare else wider * widths.of_load(share, clearance)
     oil = beyond * widths.of_oil(clearance, contact.oil_slope)  # rubbing changes what touches, not how oil shears
@@ -223,7 +223,7 @@ def errors_of(scene: Scene, state: ContactState) -> dict[str, Error]:
     return {name: Error(curves=half) for name, half in given.items()}
 
 
-def _run_in(case: Case, contact: MeanContact) -> float:
+def run_in(case: Case, contact: MeanContact) -> float:
     """Return the factor by which errors are wider for surfaces that rubbing has changed."""
     if contact.sigma == 0.0:
         return 1.0

@@ -39,7 +39,10 @@ class Stressed(NamedTuple):
 
 
 def stressed(case: Case, contact: MeanContact) -> Stressed:
-    """Return the load cycles under a contact; without a load there are none."""
+    """Return the load cycles under a contact; without a load there are none.
+
+    Hydrostatic stresses are those of smooth bodies: tension between asperities is left out.
+    """
     scene, law = case.scene, case.scene.stress
     depths, rows = scene.depths, rows_of(scene)
     if case.op.load < LIGHTEST:
@@ -58,18 +61,18 @@ def stressed(case: Case, contact: MeanContact) -> Stressed:
     )
     smooth, peak = table.at(friction, places, depths / half)
     rough = _rough(case, contact, largest, half, side)
-    if rough.steepness == 0.0:
-        found = np.broadcast_to(smooth[None, ..., None], (2, *smooth.shape, WEIGHTS.size + 1))
-    else:
+    shape = (2, depths.size, chords.size, WEIGHTS.size + 1)
+    shear, hydrostatic, dang_van = (np.broadcast_to(largest * part[None, ..., None], shape) for part in smooth)
+    if rough.steepness > 0.0:
         pressures = CURVES.pressures.at(rough, chords)
-        scores = np.append(_SCORES, _extreme(rough.spots / rows.size))
-        found = CURVES.cycle.quantiles(smooth, pressures, chords, rough, scores)
+        scores = np.append(_SCORES, _extreme(rough.spots / chords.size))
+        found = largest * CURVES.both.quantiles(smooth[::2], pressures, chords, rough, scores)
+        shear, dang_van = found[:, 0], found[:, 1]
         over = math.sqrt(float(chords @ pressures**2) / float(chords.sum()))
         peak = CURVES.largest.at(peak, over, rough)
-    found = largest * found
     if residual != 0.0:
-        found = found + np.array([0.0, 1.0, law.dang_van_slope])[:, None, None, None] * (2.0 / 3.0 * residual)
-    shear, hydrostatic, dang_van = found[:, 0], found[:, 1], found[:, 2]
+        everywhere = 2.0 / 3.0 * residual
+        hydrostatic, dang_van = hydrostatic + everywhere, dang_van + law.dang_van_slope * everywhere
     deepest = int(peak.argmax())
     risk = ((shear[..., :-1] * (1.0 / _UNIT)) ** _RISK @ WEIGHTS).sum(axis=(0, 2)) * _thickness(depths.tobytes())
     total = float(risk.sum())
