@@ -15,7 +15,18 @@ from matplotlib.figure import Figure
 
 from benchmarks.pages import Page
 from benchmarks.stress.fit import Known, fitted, largest_off, pressure_off, quantiles_off
-from benchmarks.stress.points import COUNTS, EXPONENTS, INSTANTS, LAMBDAS, LENGTH, NODES, PROBABILITIES, ROUGHNESS, Seen, solved
+from benchmarks.stress.points import (
+    COUNTS,
+    EXPONENTS,
+    INSTANTS,
+    LAMBDAS,
+    LENGTH,
+    NODES,
+    PROBABILITIES,
+    ROUGHNESS,
+    Seen,
+    solved,
+)
 from contact_core import Scene, advance, initial_state
 from contact_core.laws.stress import HalfSpace
 from contact_core.regression.contact import evaluate
@@ -77,8 +88,12 @@ def of_level(seen: Sequence[Seen]) -> dict[str, Array]:
         "von_mises_max": np.array([np.log(a.von_mises / b.von_mises.max()) for a, b in zip(told, seen, strict=True)]),
         **{f"shear that damages, m = {m:g}": off[:, :, 0, k].ravel() for k, m in enumerate(EXPONENTS)},
         **{f"Dang Van's that damages, m = {m:g}": off[:, :, 1, k].ravel() for k, m in enumerate(EXPONENTS)},
-        "dang_van_ratio": np.array([np.log(a.dang_van_ratio / b.dang_van_ratio) for a, b in zip(told, seen, strict=True)]),
-        "near_surface_share": np.array([a.near_surface_share - b.near_surface_share for a, b in zip(told, seen, strict=True)]),
+        "dang_van_ratio": np.array(
+            [np.log(a.dang_van_ratio / b.dang_van_ratio) for a, b in zip(told, seen, strict=True)]
+        ),
+        "near_surface_share": np.array(
+            [a.near_surface_share - b.near_surface_share for a, b in zip(told, seen, strict=True)]
+        ),
     }
 
 
@@ -120,7 +135,12 @@ def main() -> None:
 
 def _of_curves(page: Page, known: dict[str, tuple[list[Known], list[Known]]]) -> None:
     page.say("The curves alone, told what was solved of friction and W_c. Rms on the fit / on points held back:")
-    page.header("scene", "rms pressure", *(f"shear of the first layer, {100 * p:g} %" for p in PROBABILITIES[[2, 4, 6]]), "largest von Mises")
+    page.header(
+        "scene",
+        "rms pressure",
+        *(f"shear of the first layer, {100 * p:g} %" for p in PROBABILITIES[[2, 4, 6]]),
+        "largest von Mises",
+    )
     for name, parts in known.items():
         cells = [[], []]
         for cell, part in zip(cells, parts, strict=True):
@@ -149,7 +169,9 @@ def _of_the_level(page: Page, off: dict[str, dict[str, Array]]) -> None:
         page.row(name, *cells, f"{held(pooled[name]):.3f}", f"{np.exp(m * held(pooled[name])):.3g}" if m else "")
     needed = max(np.exp(held(pooled[name])) - 1.0 for name in names if "damages" in name)
     page.verdict(
-        f"95 % of the stresses that damage within the stated half width, {HALF_WIDTH:g}", f"{needed:.3f}", needed <= HALF_WIDTH
+        f"95 % of the stresses that damage within the stated half width, {HALF_WIDTH:g}",
+        f"{needed:.3f}",
+        needed <= HALF_WIDTH,
     )
     first = off["fzg_flank"]["von_mises_max"], off["mtm_zddp"]["von_mises_max"]
     page.verdict(
@@ -169,7 +191,9 @@ def _constants(page: Page, ours: NearSurface) -> None:
 
 
 def _cost(page: Page, took: dict[str, float]) -> None:
-    page.say(f"Time of a step of 10 ms at the regression level [us], the least of {STEPS}, and processor time of the first one's table:")
+    page.say(
+        f"Time of a step of 10 ms at the regression level [us], the least of {STEPS}, and processor time of the first one's table:"
+    )
     page.header("scene", "without stress", 'stress.model = "half_space"', "and damage", "table of smooth cycles [s]")
     for name in COUNTS:
         cells = []
@@ -199,7 +223,9 @@ def _picture(both: dict[str, list[Seen]], check: dict[str, list[Seen]]) -> Figur
                 [b.equivalent[i, which, 1] for b in seen for i in (0, 1)],
                 **style,
             )
-    for panel, text in zip(axes, ("largest von Mises stress", "shear that damages, m = 10", "Dang Van's stress, m = 10"), strict=True):
+    for panel, text in zip(
+        axes, ("largest von Mises stress", "shear that damages, m = 10", "Dang Van's stress, m = 10"), strict=True
+    ):
         low, high = panel.get_xlim()
         panel.plot([low, high], [low, high], "k-", lw=1)
         panel.set(xlabel=f"{text} / p_H, regression level", ylabel="solved")

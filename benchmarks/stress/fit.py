@@ -84,7 +84,9 @@ def quantiles_off(known: Sequence[Known], curves: NearSurface, which: int) -> li
     curve: Added = (curves.shear, curves.dang_van)[which]
     found = []
     for each in known:
-        told = curve.quantiles(each.smooth[2 * which], each.pressure(curves.pressures)[0], each.chords, each.rough, SCORES)
+        told = curve.quantiles(
+            each.smooth[2 * which], each.pressure(curves.pressures)[0], each.chords, each.rough, SCORES
+        )
         seen = each.seen.quantiles[:, :, :, 2 * which]
         found.append(np.log(np.maximum(told.transpose(0, 3, 2, 1), LEAST) / np.maximum(seen, LEAST)))
     return found
@@ -119,10 +121,13 @@ def fitted(known: Sequence[Known], start: NearSurface) -> NearSurface:
     curves = replace(start, pressures=_fit(start.pressures, off))
     for which, name in enumerate(("shear", "dang_van")):
 
-        def of_cycle(curve: Added, which: int = which, name: str = name) -> Array:
+        def of_cycle(curve: Added, which: int = which, name: str = name, curves: NearSurface = curves) -> Array:
             parts = quantiles_off(known, replace(curves, **{name: curve}), which)
             weights = [np.sqrt(each.chords) * (2.0 if each.chords.size == 1 else 1.0) for each in known]
-            off = [(part * WEIGHTS[None, :, None, None] * w[:, None]).ravel() for part, w in zip(parts, weights, strict=True)]
+            off = [
+                (part * WEIGHTS[None, :, None, None] * w[:, None]).ravel()
+                for part, w in zip(parts, weights, strict=True)
+            ]
             off.append(OF_DAMAGE * equivalents_off(known, replace(curves, **{name: curve}), which).ravel())
             return np.concatenate(off)
 

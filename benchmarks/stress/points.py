@@ -21,7 +21,12 @@ COUNTS = {"mtm_zddp": (30, 12), "azam_case_a": (12, 8), "fzg_flank": (36, 14), "
 LAMBDAS = (0.02, 2.0)
 LOADS = (0.4, 1.3)  # of the scene's
 SLIDES = (0.003, 1.0)  # slide-roll ratio, of either sign
-ROUGHNESS = {"mtm_zddp": (0.25, 1.5), "azam_case_a": (0.25, 1.5), "fzg_flank": (0.25, 1.25), "ball_209_inner": (1.0, 6.0)}
+ROUGHNESS = {
+    "mtm_zddp": (0.25, 1.5),
+    "azam_case_a": (0.25, 1.5),
+    "fzg_flank": (0.25, 1.25),
+    "ball_209_inner": (1.0, 6.0),
+}
 SMOOTHER = (1.0, 6.0)  # roughness of the smoother body over the scene's
 LENGTH = {"mtm_zddp": (1.5, 4.0), "azam_case_a": (1.5, 4.0), "fzg_flank": (0.7, 2.0), "ball_209_inner": (0.7, 2.0)}
 SOLIDS = (0.05, 0.2)  # coefficient of boundary friction
@@ -83,7 +88,9 @@ class Seen:
     friction: float  # shear over pressure
     pressure: float  # rms deviation from Hertz's within his contact
     quantiles: np.ndarray  # of cycles at `PROBABILITIES`: [bodies, quantiles, rows, stresses of a cycle, layers]
-    equivalent: np.ndarray  # stresses that do the damage of a track by `EXPONENTS`: [bodies, shear or Dang Van's, exponents]
+    equivalent: (
+        np.ndarray
+    )  # stresses that do the damage of a track by `EXPONENTS`: [bodies, shear or Dang Van's, exponents]
     von_mises: np.ndarray  # largest of each layer, mean over the instants
     dang_van_ratio: float
     near_surface_share: float
@@ -125,7 +132,9 @@ def solved(name: str, *, check: bool) -> list[Seen]:
             stored = _solve(point)
             STORE.mkdir(parents=True, exist_ok=True)
             np.savez_compressed(file, point=repr(asdict(point)), **stored)
-            print(file.name, {key: f"{stored[key]:.3g}" for key in ("load_ratio", "seconds") if key in stored}, flush=True)
+            print(
+                file.name, {key: f"{stored[key]:.3g}" for key in ("load_ratio", "seconds") if key in stored}, flush=True
+            )
         if stored:
             single = {key: float(value) for key, value in stored.items() if value.ndim == 0}
             found.append(Seen(point, **(stored | single)))
@@ -176,13 +185,20 @@ def _seen(case: Case, rows: int, tractions: list[Traction]) -> dict[str, Any]:
         [[(body[which].max(axis=0) ** m).mean() ** (1.0 / m) for m in EXPONENTS] for which in (0, 2)] for body in cycles
     ]
     grid, hertz = scene.grid(rows), case.hertz
-    smooth = largest * np.sqrt(
-        np.maximum(
-            1.0 - (grid.x[None, :] / hertz.a) ** 2 - (0.0 if parts == 1 else (grid.y[:, None] / hertz.b) ** 2), 0.0
+    smooth = (
+        largest
+        * np.sqrt(
+            np.maximum(
+                1.0 - (grid.x[None, :] / hertz.a) ** 2 - (0.0 if parts == 1 else (grid.y[:, None] / hertz.b) ** 2), 0.0
+            )
         )
-    ) * np.ones((rows, 1))
+        * np.ones((rows, 1))
+    )
     off = np.mean([((traction.pressure - smooth)[smooth > 0.0] ** 2).mean() for traction in tractions])
-    shear, pressure = (sum(float(part.sum()) for part in parts) for parts in zip(*((t.shear, t.pressure) for t in tractions), strict=True))
+    shear, pressure = (
+        sum(float(part.sum()) for part in parts)
+        for parts in zip(*((t.shear, t.pressure) for t in tractions), strict=True)
+    )
     outputs = outputs_of_stress(case, rows, found)
     return {
         "friction": abs(shear) / pressure,

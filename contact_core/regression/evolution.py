@@ -107,11 +107,11 @@ def _stepped(case: Case, state: ContactState, dt: float, amend: Amend) -> tuple[
             f"Friction or film at load = {op.load:g} N, speeds {op.speed_1:g} and {op.speed_2:g} m/s is not finite: "
             "the laws of the oil do not reach that far. Lower load or sliding speed."
         )
-    below = outputs_below(case, harm_by(case, contact, harm), classes, means) if case.scene.stress.samples else {}
+    below = {}
+    if case.scene.stress.samples:
+        below = outputs_below(case, state.outputs, harm_by(case, contact, harm), classes, means)
     outputs = outputs_of(case, state.outputs, contact, means, films, rates, speed, below)
-    return changed(
-        state, time=state.time + dt, means=means, classes=classes, outputs=outputs, solved_for=None
-    ), outputs
+    return changed(state, time=state.time + dt, means=means, classes=classes, outputs=outputs, solved_for=None), outputs
 
 
 def _classes(case: Case, state: ContactState) -> Classes | None:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..kernels.damage import accumulated, pits_of, worn_away
 from ..kernels.load_cycle import Cycle
 from ..scene import Case, Scene
+from ..state import Outputs
 from ..state.classes import WEIGHTS, Classes
 from .contact import MeanContact
 from .outputs import run_in
@@ -48,13 +49,18 @@ def harm_by(case: Case, contact: MeanContact, last: Harm | None) -> Harm:
 
 def fatigued(scene: Scene, classes: Classes, harm: Harm, then: Means, now: Means) -> Classes:
     """Return the classes after load cycles and wear that took the track means from `then` to `now`."""
-    damage, pits, lag = [], [], []
-    for i in (0, 1):
-        cycles, worn = now[i].cycles - then[i].cycles, now[i].wear - then[i].wear
-        parts = _fatigued(scene.depths, classes, i, harm.per_cycle[i], cycles, max(worn, 0.0))
-        for kept, part in zip((damage, pits, lag), parts, strict=True):
-            kept.append(part)
-    return Classes(damage[0], damage[1], pits[0], pits[1], np.array(lag))
+    first, second = (
+        _fatigued(
+            scene.depths,
+            classes,
+            i,
+            harm.per_cycle[i],
+            now[i].cycles - then[i].cycles,
+            max(now[i].wear - then[i].wear, 0.0),
+        )
+        for i in (0, 1)
+    )
+    return Classes(first[0], second[0], first[1], second[1], np.array([first[2], second[2]]))
 
 
 def _fatigued(
@@ -86,12 +92,13 @@ def _first(damage: Array, gained: Array) -> float:
     return float(left.min()) * (1.0 + 1e-12)
 
 
-def outputs_below(case: Case, harm: Harm, classes: Classes | None, means: Means) -> dict[str, float]:
+def outputs_below(case: Case, before: Outputs, harm: Harm, classes: Classes | None, means: Means) -> dict[str, float]:
     """Return the outputs of what lies below both tracks, with the error of the damage that is done now.
 
     Damage rises with a power of the stress, so its error is a factor: it may be 1 + the half width times as large, or
-    that part of what is stated.
+    that part of what is stated. What has broken out stays so, whatever rates tell of a class now.
     """
+    areas = before.micropitted_area_1, before.micropitted_area_2
     found = harm.stressed.outputs | {"error_damage": 0.0}
     for i, mean in enumerate(means):
         worst, broken, area = 0.0, 0.0, 0.0
@@ -99,7 +106,8 @@ def outputs_below(case: Case, harm: Harm, classes: Classes | None, means: Means)
             rate = harm.per_cycle[i].max(axis=0)
             damage = classes.damage[i].reshape(harm.per_cycle.shape[1:]).max(axis=0)
             pits = classes.pits[i].reshape(damage.shape)
-            worst, broken, area = _mean(damage), _mean(pits), float(_pitted(damage, pits, rate).mean())
+            worst, broken = _mean(damage), _mean(pits)
+            area = max(float(_pitted(damage, pits, rate).mean()), areas[i])
             error = _relative(_mean(rate), _mean(harm.more[i].max(axis=0)))
             found["error_damage"] = max(found["error_damage"], error)
         found[f"damage_{i + 1}"] = worst
@@ -125,8 +133,8 @@ def _pitted(worst: Array, broken: Array, rate: Array) -> Array:
     Within the worst class that has not, the failed part is taken to grow from its upper end in proportion to its
     damage, from what that was when the class above failed.
     """
-    failed = broken > 0.0
-    share: Array = failed @ WEIGHTS
+    failed: NDArray[np.bool_] = broken > 0.0
+    share = np.asarray(failed @ WEIGHTS, np.float64)
     k = WEIGHTS.size - 1 - np.argmin(failed[:, ::-1], axis=1)
     j, above = np.arange(k.size), np.minimum(k + 1, WEIGHTS.size - 1)
     here = rate[j, np.minimum(k, above - 1)]

@@ -67,7 +67,8 @@ class Pressures:
     def at(self, rough: Rough, chords: Array) -> Array:
         """Return P over Hertz's largest pressure where the local pressure is `chords` of that, [rows]."""
         q = rough.steepness / chords
-        film: Array = q**self.film_steep * (self.parted * rough.clearance**self.film / (1.0 + rough.slip / self.sliding))
+        parted = self.parted * rough.clearance**self.film / (1.0 + rough.slip / self.sliding)
+        film: Array = q**self.film_steep * parted
         found: Array = 0.5 * rough.steepness / ((1.0 + q / self.steep) * (1.0 + film))
         return found
 

@@ -16,8 +16,8 @@ from ..state.classes import EDGES, WEIGHTS
 from ..surfaces.damage_classes import rows_of
 from .contact import MeanContact
 from .near_surface import CURVES, FITTED, HALF_WIDTH, Rough, meetings
-from .smooth_film import LIGHTEST
 from .smooth_cycles import smooth_cycles
+from .smooth_film import LIGHTEST
 
 Array = NDArray[np.float64]
 
@@ -84,7 +84,8 @@ def stressed(case: Case, contact: MeanContact) -> Stressed:
         max(0.0, float((shear + law.crossland_slope * hydrostatic).max())) / law.torsion_limit,
     )
     cycles = Cycle(shear[..., :-1], hydrostatic[..., :-1], dang_van[..., :-1])
-    return Stressed(cycles, dict(zip(OF_STRESS, values, strict=True)), HALF_WIDTH * (1.0 if _within(rough) else _BEYOND))
+    half_width = HALF_WIDTH if _within(rough) else _BEYOND * HALF_WIDTH
+    return Stressed(cycles, dict(zip(OF_STRESS, values, strict=True)), half_width)
 
 
 def _within(rough: Rough) -> bool:

@@ -14,7 +14,7 @@ WEIGHTS = np.diff(EDGES, prepend=0.0)
 
 @dataclass(frozen=True)
 class Classes:
-    """Damage by layer and class, [layers, rows * classes]: the classes of one place across the track after those of another.
+    """Damage by layer and class, [layers, rows * classes]: the classes of one row after those of the one before.
 
     Rows lie in the middle of equal parts of |y| < b; lines have one.
     """

@@ -15,6 +15,7 @@ from .patches import bare_heights, solid_of, track_rows
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
+_WHOLE = np.nextafter(1.0, 0.0)  # damage of what has not yet failed, at most
 _PARTS = 4  # of |y| < b, of contacts whose pressure falls off along y
 
 
@@ -78,7 +79,9 @@ def _ordered(scene: Scene, state: ContactState, i: int) -> Iterator[tuple[Indice
         yield nodes, np.searchsorted(EDGES, shares)
 
 
-def folded_damage(scene: Scene, state: ContactState, bodies: tuple[Body, Body]) -> tuple[Below | None, tuple[Body, Body]]:
+def folded_damage(
+    scene: Scene, state: ContactState, bodies: tuple[Body, Body]
+) -> tuple[Below | None, tuple[Body, Body]]:
     """Return what lies below, and the bodies with their pits, after the change of the classes; unchanged, nothing is.
 
     Each point takes the change of its class. `bodies` are those of the state, with tribofilm and wear as they are now.
@@ -105,6 +108,3 @@ def folded_damage(scene: Scene, state: ContactState, bodies: tuple[Body, Body]) 
         damages.append(damage.reshape(below.damage[i].shape))
         after.append(replace(body, pits=pits))
     return replace(below, damage_1=damages[0], damage_2=damages[1]), (after[0], after[1])
-
-
-_WHOLE = np.nextafter(1.0, 0.0)  # damage of what has not yet failed, at most

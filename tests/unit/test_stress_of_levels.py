@@ -17,6 +17,7 @@ from contact_core.scene import Case
 from contact_core.state import Classes, changed
 from contact_core.state.classes import WEIGHTS, unharmed_classes
 from contact_core.surfaces.track_means import folded, means_of
+from tests.comparison import approx
 
 FAST = {"film.model": "regression", "stress.model": "half_space"}
 BASQUIN = {"fatigue.model": "basquin", "fatigue.reference_stress": "900 MPa", "fatigue.life_exponent": "8"}
@@ -58,23 +59,24 @@ def test_smooth_cycles_of_a_line_are_those_of_its_closed_form() -> None:
             exact = line_stress(x, np.full_like(x, depth), 1.0, 1.0, 0.3, friction)
             mean = exact[:3].mean(axis=0)
             root_j2 = np.sqrt(0.5 * ((exact[:3] - mean) ** 2).sum(axis=0) + (exact[3:] ** 2).sum(axis=0))
-            assert peak[k] == pytest.approx(np.sqrt(3.0) * root_j2.max(), rel=0.01)
+            assert peak[k] == approx(np.sqrt(3.0) * root_j2.max(), rel=0.01)
             assert 0.5 * root_j2.max() <= shear[k, 0] * 1.01  # a sphere holds the way from zero to the largest
             assert shear[k, 0] <= root_j2.max()
 
 
 def test_smooth_bodies_have_the_stress_of_hertz_and_scale_with_his_pressure() -> None:
-    """The largest von Mises stress of a line is .557 p_H deep below it; near a film's friction that is next to the same."""
+    """The largest von Mises stress of a line is .557 p_H deep below it; a film's friction changes next to nothing."""
     scene = line(SMOOTH, stress__layers="24")
     pressure = scene.hertz(scene.operation.load).pressure_max
     found = stressed(scene)
-    assert found.outputs["von_mises_max"] == pytest.approx(0.557 * pressure, rel=0.02)
+    assert found.outputs["von_mises_max"] == approx(0.557 * pressure, rel=0.02)
     assert found.outputs["near_surface_share"] < 0.05
     shear = found.cycles.shear
     assert np.all(shear == shear[:1, :, :, :1])  # of both bodies, of all classes
     deep = replace(scene, operation=replace(scene.operation, load=4.0 * scene.operation.load))
-    at = np.interp(2.0 * scene.depths[4:], deep.depths, stressed(deep).cycles.shear[0, :, 0, 0])  # as deep in half widths
-    assert at == pytest.approx(2.0 * shear[0, 4:, 0, 0], rel=0.03)
+    deeper = 2.0 * scene.depths[4:]  # as deep in half widths
+    at = np.interp(deeper, deep.depths, stressed(deep).cycles.shear[0, :, 0, 0])
+    assert at == approx(2.0 * shear[0, 4:, 0, 0], rel=0.03)
 
 
 def test_fainter_roughness_ends_at_the_smooth_bodies() -> None:
@@ -83,8 +85,8 @@ def test_fainter_roughness_ends_at_the_smooth_bodies() -> None:
     none = {f"surface_{i}.rq": "0 m" for i in (1, 2)}
     one, other = stressed(line(faint)), stressed(line(none))
     for rough, smooth in zip(one.cycles, other.cycles, strict=True):
-        assert rough == pytest.approx(np.broadcast_to(smooth, rough.shape), rel=2e-3)
-    assert one.outputs["von_mises_max"] == pytest.approx(other.outputs["von_mises_max"], rel=2e-3)
+        assert rough == approx(np.broadcast_to(smooth, rough.shape), rel=2e-3)
+    assert one.outputs["von_mises_max"] == approx(other.outputs["von_mises_max"], rel=2e-3)
 
 
 def test_rough_classes_rise_in_order_and_fade_with_depth() -> None:
@@ -94,7 +96,7 @@ def test_rough_classes_rise_in_order_and_fade_with_depth() -> None:
     apart = shear[:, :, 0, -1] / shear[:, :, 0, 0]
     assert apart[0, 0] > 3.0 * apart[0, -1]
     flat = CURVES.pressures.at(_rough(steepness=0.01), np.ones(1))[0]
-    assert flat == pytest.approx(0.5 * 0.01, rel=0.05)  # what presses steep waves flat, Persson's
+    assert flat == approx(0.5 * 0.01, rel=0.05)  # what presses steep waves flat, Persson's
 
 
 def _rough(**changes: Any) -> Any:
@@ -117,8 +119,8 @@ def test_constant_cycles_add_up_whatever_the_steps() -> None:
         return classes
 
     once, often = after(1), after(7)
-    assert once.damage_1.max() == pytest.approx(0.9, rel=1e-12) or once.damage_2.max() == pytest.approx(0.9, rel=1e-12)
-    assert often.damage_1 == pytest.approx(once.damage_1, rel=1e-12)
+    assert once.damage_1.max() == approx(0.9, rel=1e-12) or once.damage_2.max() == approx(0.9, rel=1e-12)
+    assert often.damage_1 == approx(once.damage_1, rel=1e-12)
     assert not once.pits_1.any()
 
 
@@ -191,9 +193,9 @@ def test_the_change_of_level_keeps_damage_and_pits() -> None:
     assert after.below is not None
     layers = after.below.damage_1.reshape(quick.depths.size, -1)
     told = later.classes.damage_1.reshape(quick.depths.size, 1, -1) @ WEIGHTS
-    assert layers.mean(axis=1) == pytest.approx(told[:, 0], rel=0.05)
+    assert layers.mean(axis=1) == approx(told[:, 0], rel=0.05)
     pits = float(after.bodies[0].pits.mean())
-    assert pits == pytest.approx(outputs.profile_loss_1 - outputs.wear_depth_1, rel=0.1, abs=1e-12)
+    assert pits == approx(outputs.profile_loss_1 - outputs.wear_depth_1, rel=0.1, abs=1e-12)
     assert advance(deep, deep.operation.point, after, 1.0)[1].damage_1 > 0.0
 
 
@@ -204,4 +206,4 @@ def test_damage_of_a_new_contact_comes_to_the_patches_by_height() -> None:
     after = folded(scene, state)
     assert after.below is not None
     assert isinstance(state.classes, Classes)
-    assert after.below.damage_1.max() == pytest.approx(min(state.classes.damage_1.max(), 1.0), rel=1e-9)
+    assert after.below.damage_1.max() == approx(min(state.classes.damage_1.max(), 1.0), rel=1e-9)
