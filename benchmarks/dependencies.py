@@ -124,15 +124,17 @@ PAGES: dict[str, Source] = {
     "regression/shapes": Source("regression.shapes page", (*LEVELS, "mtm_zddp", "fzg_flank", "ball_209_inner")),
     "regression/held_back": Source("regression.held_back", (*LEVELS, *SHAPES, "cam_tappet")),
     "regression/correlation": Source("regression.correlation", (*LEVELS, "correction", *SHAPES, "cam_tappet")),
-    "regression/contact_temperature": Source("regression.contact_temperature", (*LEVELS, *SHAPES)),
+    "regression/hottest": Source("regression.hottest", (*LEVELS, *SHAPES)),
     "regression/cost": Source("regression.cost", ("film", "regression", *CIRCLES)),
     "friction/traction": Source("friction.traction", (*LEVELS, "azam_case_a", "mtm_zddp")),
     "friction/laws_cost": Source("friction.laws_cost", ("film", "evolution", "control", "data", "azam_case_a")),
     "machines/bearing_loads": Source("machines.bearing_loads", RIGS),
     "machines/bearing_torque": Source("machines.bearing_torque", RIGS),
     "machines/bearing_memory": Source("machines.bearing_memory", RIGS),
+    "machines/bearing_life": Source("machines.bearing_life", (*RIGS, "evolution", "control")),
     "machines/gear_path": Source("machines.gear_path", RIGS),
     "machines/gear_friction": Source("machines.gear_friction", (*RIGS, "evolution", "control")),
+    "machines/gear_ratings": Source("machines.gear_ratings", RIGS),
     "machines/corrected": Source(
         "machines.corrected page", (*RIGS, "evolution", "control", "correction", "cam_tappet")
     ),

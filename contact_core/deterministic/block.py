@@ -85,7 +85,7 @@ def _sampled(case: Case, state: ContactState, same: bool) -> tuple[ContactState,
         sums = sums.restarted(state, _OF_FILM)
     else:  # the flags of the mixed solutions that measured the share still hold
         sums.flags, sums.before_dry = RangeFlag(state.outputs.range_flags) & _OF_FILM, state.outputs.unconverged
-    return sample_dry(case, state, sums), sums
+    return sample_dry(case, state, sums, same), sums
 
 
 def _wide_enough(case: Case, state: ContactState) -> ContactState:
@@ -171,7 +171,8 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
 def _below(case: Case, state: ContactState, sums: Accumulator) -> tuple[Below | None, dict[str, float]]:
     """Return what lies below the surfaces after a block, and the outputs of stress that are new.
 
-    A pass counts once its instants are new; at first as soon as twice as many are known as before.
+    A pass counts once it is over; the first one of an operating point as soon as twice as many instants are known as
+    before.
     """
     below, scene = state.below, case.scene
     if not scene.stress.samples:
@@ -180,9 +181,9 @@ def _below(case: Case, state: ContactState, sums: Accumulator) -> tuple[Below | 
         return damage.at_rest(below) if below is not None else None, dict.fromkeys(OF_STRESS, 0.0)
     same = state.solved_for is not None and not case.differs_from(state.solved_for)
     found = share_of(case, sums.tractions, dry=sums.driver == "dry")
-    tractions = of_a_pass(case, state, found, same=same)
-    below = damage.with_tractions(below or damage.unharmed(scene, state.rows), tractions, len(found))
-    if same and below.fresh < below.used:
+    tractions = of_a_pass(case, state, found, same)
+    below = damage.with_tractions(below or damage.unharmed(scene, state.rows), tractions)
+    if same and len(tractions) < min(2 * below.used, scene.stress.instants):
         return below, {}
     seen = passed(case, state.rows, tractions)
     return damage.with_cycles(case, below, seen), outputs_of_stress(case, state.rows, seen)

@@ -23,6 +23,7 @@ Array = NDArray[np.float64]
 
 _OF_ROWS = ("pressure", "shear", "damage_1", "damage_2", "per_cycle_1", "per_cycle_2")
 _SCALED = 1.01  # of stresses, to see how steeply damage rises with them
+_LEARN = 0.25  # share of the last two passes in the scatter from pass to pass
 _BATCH = 0.005  # of the track that may break out in one block
 
 
@@ -31,41 +32,45 @@ def unharmed(scene: Scene, rows: int) -> Below:
     return nothing_below(scene.depths.size, rows, scene.film.points - 1)
 
 
-def with_tractions(below: Below, tractions: Sequence[Traction], fresh: int) -> Below:
-    """Return what lies below with the tractions of the last pass, of which `fresh` more are new."""
+def with_tractions(below: Below, tractions: Sequence[Traction]) -> Below:
+    """Return what lies below with the tractions of the pass in progress."""
     return replace(
         below,
         pressure=np.concatenate([each.pressure for each in tractions]),
         shear=np.concatenate([each.shear for each in tractions]),
         places=np.array([each.places for each in tractions], np.float64),
-        fresh=below.fresh + fresh,
     )
 
 
 def with_cycles(case: Case, below: Below, found: Pass) -> Below:
     """Return what lies below after a pass."""
-    below = replace(below, used=len(below.places), fresh=0)
+    below = replace(below, used=len(below.places))
     law = case.scene.fatigue
     if not law.damages:
         return below
     harm = [law.per_cycle(cycle) for cycle in found.cycles]
-    rate = np.array([_rate(case, side, harm[side.body]) for side in case.sides])
-    spread = np.array([_spread(case, side, found, rate[side.body]) for side in case.sides])
+    rate, halved = (
+        np.array([_rate(case, side, each[side.body]) for side in case.sides])
+        for each in (harm, [law.per_cycle(cycle) for cycle in found.halved])
+    )
     first, second = (each.reshape(below.damage_1.shape) for each in harm)
-    return _at_rate(replace(below, per_cycle_1=first, per_cycle_2=second), rate, spread)
+    after = _at_rate(replace(below, per_cycle_1=first, per_cycle_2=second, short=rate - halved), rate)
+    if below.rate.all():  # two passes differ by the scatter of both
+        return replace(after, spread=np.sqrt((1.0 - _LEARN) * below.spread**2 + 0.5 * _LEARN * after.step**2))
+    return replace(after, spread=np.array([_spread(case, side, found, rate[side.body]) for side in case.sides]))
 
 
 def at_rest(below: Below) -> Below:
     """Return what lies below bodies that nothing presses together."""
     none = np.zeros_like(below.damage_1)
-    return _at_rate(replace(below, per_cycle_1=none, per_cycle_2=none), np.zeros(2), np.zeros(2))
+    after = _at_rate(replace(below, per_cycle_1=none, per_cycle_2=none), np.zeros(2))
+    return replace(after, spread=np.zeros(2), step=np.zeros(2), short=np.zeros(2))
 
 
-def _at_rate(below: Below, rate: Array, spread: Array) -> Below:
+def _at_rate(below: Below, rate: Array) -> Below:
     """Return what lies below with new rates: the last ones were, in their time, late by half of the change."""
-    step = rate - below.rate if below.rate.any() else np.zeros(2)
-    late = below.late + 0.5 * step * below.held
-    return replace(below, rate=rate, spread=spread, step=step, late=late, held=0.0)
+    step = np.where(below.rate > 0.0, rate - below.rate, 0.0)
+    return replace(below, rate=rate, step=step, late=below.late + 0.5 * step * below.held, held=0.0)
 
 
 def cycles_in(side: Side, step: float) -> float:
@@ -132,6 +137,7 @@ def fatigued(
         damage_1=damages[0],
         damage_2=damages[1],
         held=held,
+        few=below.few + below.short * step,
         variance=below.variance + below.spread**2 * (held**2 - below.held**2),
     )
     return below, (after[0], after[1])

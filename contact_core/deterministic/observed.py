@@ -14,8 +14,9 @@ _HOTTEST = 0.01  # of Hertz's area: a single node's temperature depends on the g
 def observed(case: Case, fields: ContactFields) -> dict[str, float]:
     """Return the outputs of one instant by their names."""
     scene, grid = case.scene, case.grid(fields.y.size)
+    nodes = max(round(_HOTTEST * case.hertz.area / grid.cell), 1) if case.loaded else 1
+    hottest = fields.temperatures.hottest(nodes)
     found, warm = fields.friction, fields.temperatures
-    hottest = warm.hottest(max(round(_HOTTEST * case.hertz.area / grid.cell), 1) if case.loaded else 1)
     seen = {
         "friction_force": found.force_solid + found.force_fluid,
         "friction_solid": found.force_solid,

@@ -3,7 +3,8 @@
 Mixed lubrication has a memory, so its instants are a march, a node apart, that continues from block to block. In near
 rolling the bodies would keep the same asperities in contact throughout, so the smoother one jumps under the march (an
 additive golden-ratio sequence, of low discrepancy); the oil, which follows the rougher one, stays where it is. Dry
-contact has no memory: a few instants at offsets of both bodies, again of low discrepancy, sample it.
+contact has no memory: a few instants at offsets of both bodies, again of low discrepancy, sample it. Where stresses are
+asked for, both bodies move as they do, one pass long, before one of them jumps: a point's history is that of one pass.
 """
 
 import math
@@ -16,6 +17,7 @@ from ..scene import Case, Scene
 from ..state import ContactState
 from .accumulator import Accumulator
 from .instant import Transient, solve_instant
+from .subsurface import pass_goes_on, steps_of_a_pass
 from .transient import dry_instant, next_instant, rolled
 
 # way of the oil after a new start before the march is sampled, in halves of the contact's length: in near rolling; in
@@ -31,11 +33,14 @@ _SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under
 _CALMING = 24  # transient steps after a jump of a rougher one, or from a dry contact of the right share
 
 
-def sample_dry(case: Case, state: ContactState, sums: Accumulator) -> ContactState:
-    """Add the instants of a dry block to `sums`; return the state after them."""
-    jumps = _dry_jumps(case)
-    for _ in range(case.scene.control.dry_instants):
-        state, fields = dry_instant(case, state, jumps)
+def sample_dry(case: Case, state: ContactState, sums: Accumulator, same: bool) -> ContactState:
+    """Add the instants of a dry block to `sums`; return the state after them. `same`: as for `sample_mixed`."""
+    jumps = first = _dry_jumps(case)
+    if case.scene.stress.samples:
+        jumps = steps_of_a_pass(case)
+        first = jumps if pass_goes_on(case, state, same) else first
+    for k in range(case.scene.control.dry_instants):
+        state, fields = dry_instant(case, state, jumps if k else first)
         sums.add(case, state, fields, (1.0 / _DRY_PASS, 1.0 / _DRY_PASS))
     return state
 
@@ -66,12 +71,12 @@ def sample_mixed(
     steps = [speed * dt for speed in case.speeds]
     passes = (abs(steps[0]) / scene.film.domain, abs(steps[1]) / scene.film.domain)
     smoother = 1 - scene.rougher
-    jumps = jumps_of(case, smoother) if jumping else [0.0, 0.0]
+    jumps = jumps_of(case, smoother) if jumping and not scene.stress.samples else [0.0, 0.0]
     unsampled = settling_instants(case)
     if state.film is None:
         state = replace(state, film=first_film(case, state))
         unsampled = unsampled if state.share == 1.0 else _CALMING
-    elif same and (any(jumps) or not (jumping and case.sides[smoother].moves)):
+    elif same and (any(jumps) or pass_goes_on(case, state, same) or not (jumping and case.sides[smoother].moves)):
         unsampled = 0
     elif same:
         state, unsampled = rolled(scene, state, jumps_of(case, smoother, 1.0)), _CALMING

@@ -1,9 +1,10 @@
 """Stresses below the surfaces, by some instants of a pass, and the load cycles that they make.
 
-The tractions of the last instants stand for one pass of a surface point: those of dry blocks are spread over it, and a
-mixed block gives its share of them. After a change of inputs there are fewer at first; the newest then moves on with
-both bodies as if its pressure stayed where it is, which is exact for smooth bodies. Each point of a patch sees its own
-history, the unloaded state included.
+The tractions of some instants stand for one pass of a surface point, in which both bodies move as they do: in near
+rolling a point meets one and the same asperity. Dry blocks are spread over the pass, a mixed block is a piece of it.
+The first pass of an operating point is known little by little; the newest traction then moves on with both bodies as if
+its pressure stayed where it is, which is exact for smooth bodies. Each point of a patch has its own history, the
+unloaded state included.
 """
 
 from collections.abc import Iterator, Sequence
@@ -43,6 +44,7 @@ class Pass(NamedTuple):
     """What a pass does below the surfaces. Pairs are of body 1 and 2."""
 
     cycles: tuple[Cycle, Cycle]  # arrays [layers, rows, nx - 1]
+    halved: tuple[Cycle, Cycle]  # by every other instant alone
     von_mises: Array  # largest of each layer, mean over the instants [Pa], [layers]
     scatter: float  # of the largest, mean over the instants: standard deviation over it
 
@@ -54,13 +56,21 @@ def traction_of(scene: Scene, state: ContactState, fields: ContactFields) -> Tra
     return Traction(fields.pressure, shear, (patch_nodes(scene, first), patch_nodes(scene, second)))
 
 
-def of_a_pass(case: Case, state: ContactState, found: Sequence[Traction], *, same: bool) -> list[Traction]:
-    """Return the tractions that stand for the last pass, the oldest first.
+def pass_goes_on(case: Case, state: ContactState, same: bool) -> bool:
+    """Return True if the next block continues a pass; `same`: the operating point has not changed since the last."""
+    return same and state.below is not None and 0 < len(state.below.places) < case.scene.stress.instants
 
-    `found` are those of a block; `same`: the operating point has not changed since the block before.
-    """
-    earlier = list(_kept(state)) if same else []
-    return [*earlier, *found][-case.scene.stress.instants :]
+
+def steps_of_a_pass(case: Case) -> list[float]:
+    """Return how far [m] both bodies move along +x from instant to instant of a pass of the faster one."""
+    step = case.scene.film.domain / case.scene.stress.instants
+    return [step * speed / case.fastest if case.fastest > 0.0 else 0.0 for speed in case.speeds]
+
+
+def of_a_pass(case: Case, state: ContactState, found: Sequence[Traction], same: bool) -> list[Traction]:
+    """Return the tractions of the pass in progress, the oldest first; `found` are those of the last block."""
+    earlier = list(_kept(state)) if pass_goes_on(case, state, same) else []
+    return [*earlier, *found][: case.scene.stress.instants]
 
 
 def _kept(state: ContactState) -> Iterator[Traction]:
@@ -89,20 +99,23 @@ def passed(case: Case, rows: int, tractions: Sequence[Traction]) -> Pass:
     history, unloaded = list(_history(case, tractions)), law.residual_stress()
     largest = np.empty((2, len(tractions), len(depths)))
     cycles: list[Cycle] = []
+    halved: list[Cycle] = []
     for side in case.sides:
         sign = 1.0 if side.body else -1.0
         stresses = [kernel.layers(traction.pressure, sign * traction.shear) for traction in tractions]
-        layers: list[Cycle] = []
+        layers: list[tuple[Cycle, Cycle]] = []
         for k, fields in enumerate(zip(*stresses, strict=True)):
             loaded = [field + unloaded[:, None, None] for field in fields]
             largest[side.body, :, k] = [von_mises(field).max() for field in loaded]
             seen = np.stack([_on_patch(loaded[which], places[side.body]) for which, places in history])
-            layers.append(cycle_of(seen, unloaded, law.dang_van_slope))
-        cycles.append(Cycle(*(np.stack(parts) for parts in zip(*layers, strict=True))))
+            whole, half = (cycle_of(part, unloaded, law.dang_van_slope) for part in (seen, seen[::2]))
+            layers.append((whole, half))
+        for kept, found in zip((cycles, halved), zip(*layers, strict=True), strict=True):
+            kept.append(Cycle(*(np.stack(parts) for parts in zip(*found, strict=True))))
     worse = largest.max(axis=0)
     peaks = worse.max(axis=1)
     scatter = float(peaks.std() / (peaks.mean() * len(peaks) ** 0.5)) if peaks.any() else 0.0
-    return Pass((cycles[0], cycles[1]), worse.mean(axis=0), scatter)
+    return Pass((cycles[0], cycles[1]), (halved[0], halved[1]), worse.mean(axis=0), scatter)
 
 
 def _history(case: Case, tractions: Sequence[Traction]) -> Iterator[tuple[int, Places]]:
@@ -111,7 +124,7 @@ def _history(case: Case, tractions: Sequence[Traction]) -> Iterator[tuple[int, P
         yield k, traction.places
     columns, instants = case.scene.film.points - 1, case.scene.stress.instants
     (first, second), newest = tractions[-1].places, len(tractions) - 1
-    ahead = [np.sign(speed) * columns / instants for speed in case.speeds]
+    ahead = [step / case.scene.film.spacing for step in steps_of_a_pass(case)]
     for step in range(1, instants - newest):
         yield newest, ((first + round(step * ahead[0])) % columns, (second + round(step * ahead[1])) % columns)
 

@@ -32,14 +32,14 @@ class CriticalTemperature:
 
     The ratio is the inverse of the safety of ISO/TR 13989-1:2000, equation (100), by the contact temperature of the
     scene's law of heat. Where the oil itself is as hot as critical, it is 1000 for a hotter contact and 0 for a cooler
-    one. Oils with additives that react keep to no constant: their critical temperature rises where the contact lasts a
-    few microseconds, and falls where there is no time to react.
+    one. Oils with additives that react keep to no constant: by the standard theirs is higher where the contact lasts a
+    few microseconds.
     """
 
     name: ClassVar[str] = "critical_temperature"
     source: ClassVar[str] = (
-        "Blok 1937, General Discussion on Lubrication, Inst. Mech. Engrs 2, 222 (from memory); Blok, Wear 6 (1963) 483; "
-        "ratio: inverse of the safety of ISO/TR 13989-1:2000, equation (100)"
+        "Blok 1937, General Discussion on Lubrication, Inst. Mech. Engrs 2, 222 (from memory); Blok, Wear 6 (1963) "
+        "483; ratio: inverse of the safety of ISO/TR 13989-1:2000, equation (100)"
     )
     equations: ClassVar[Equations] = Equations(
         ("S = (T_{max} − T_{oil})/(T_{crit} − T_{oil}),   0 ≤ S ≤ 1000",),

@@ -102,7 +102,7 @@ class Hertz:
         """Return heat flux per mean rise [W/(m2 K)] into each of the bodies under an even source that holds still.
 
         The source covers `areas` [m2]; speeds [m/s]. It stands on a circle as large as the ellipse. `hottest`: mean
-        flux per largest rise, under a source spread like Hertz's pressure, which fast bodies pass along the ellipse's a.
+        flux per largest rise, under a source spread like Hertz's pressure; fast bodies pass it along the ellipse's a.
         """
         if hottest:
             shorter = math.sqrt(self.b / self.a)

@@ -10,26 +10,27 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Below:
-    """Tractions of the instants of a pass, and the damage they do. Fields of a body are [layers * rows, nx - 1].
+    """Tractions of the pass in progress, and the damage they do. Fields of a body are [layers * rows, nx - 1].
 
     They lie on its patch at fixed depths below its present surface, layer under layer.
     """
 
-    pressure: Array  # on the surfaces at the instants [Pa], [instants * rows, nx], the oldest first
+    pressure: Array  # on the surfaces at the instants so far [Pa], [instants * rows, nx], the oldest first
     shear: Array  # on body 2 along +x [Pa], likewise
     places: Array  # of the patches of both bodies along +x [nodes], [instants, 2]
     used: int  # instants that `per_cycle` is of
-    fresh: int  # instants since then
-    held: float  # time since then [s]
+    held: float  # time since it was found [s]
     damage_1: Array  # 1 where the material fails
     damage_2: Array
     per_cycle_1: Array  # damage per load cycle
     per_cycle_2: Array
     rate: Array  # at which the mean damages of both tracks rise [1/s], [2]
-    spread: Array  # its standard deviation, by the instants [1/s], [2]
+    spread: Array  # its standard deviation from pass to pass [1/s], [2]
+    short: Array  # by how much half of the instants find less [1/s], [2]
     step: Array  # by which the rate has changed when it was found [1/s], [2]
     late: Array  # error of the mean damages by rates that are late, [2]
-    variance: Array  # of the mean damages by the instants, [2]
+    few: Array  # the same by few instants, [2]
+    variance: Array  # of the mean damages by the passes, [2]
 
     def __post_init__(self) -> None:
         for array in vars(self).values():
@@ -47,13 +48,13 @@ class Below:
         return self.per_cycle_1, self.per_cycle_2
 
     def errors(self, body: int) -> tuple[float, float]:
-        """Return the half widths of the error of a track's mean damage, by late rates and by the instants."""
+        """Return the half widths of the error of a track's mean damage, by late rates and by few instants."""
         late = abs(float(self.late[body])) + 0.5 * abs(float(self.step[body])) * self.held
-        return late, 2.0 * float(self.variance[body]) ** 0.5
+        return late, abs(float(self.few[body])) + 2.0 * float(self.variance[body]) ** 0.5
 
 
 def nothing_below(layers: int, rows: int, columns: int) -> Below:
     """Return what lies below new surfaces, before the first instant."""
     fresh = np.zeros((layers * rows, columns))
     nothing, none = np.zeros(2), np.empty((0, 0))
-    return Below(none, none, none, 0, 0, 0.0, *(fresh,) * 4, *(nothing,) * 5)
+    return Below(none, none, none, 0, 0.0, *(fresh,) * 4, *(nothing,) * 7)

@@ -11,7 +11,7 @@ from ..laws.tribofilm import thickness
 from ..scene import Scene
 from ..state import Body, ContactState, Mean
 from .damage_classes import folded_damage
-from .patches import bare_heights, middle_rows, roughness_of, solid_of, track_rows
+from .patches import bare_heights, middle_rows, roughness_of, track_rows
 from .roughness import rms_roughness
 
 Array = NDArray[np.float64]
@@ -30,7 +30,7 @@ def _mean_of(scene: Scene, state: ContactState, i: int) -> Mean:
     body, rows = state.bodies[i], state.rows
     track = track_rows(scene, rows)
     bare = bare_heights(scene, rows)[i]
-    solid = roughness_of(bare, solid_of(bare, body))
+    solid = roughness_of(bare, _between_pits(bare, body))
     roughness = rms_roughness(solid, middle_rows(scene, rows))
     return Mean(
         growth=float(body.growth[track].mean()),
@@ -43,6 +43,11 @@ def _mean_of(scene: Scene, state: ContactState, i: int) -> Mean:
         formed=float(body.formed[track].mean()),
         oxide=float(body.oxide[track].mean()),
     )
+
+
+def _between_pits(bare: Array, body: Body) -> Array:
+    """Return the heights [m] of a body's solid without its pits: the roughness of what carries the load."""
+    return bare - body.wear - body.plastic
 
 
 def _sampled(scene: Scene, bare: Array, i: int) -> float:
@@ -89,7 +94,7 @@ def _folded(scene: Scene, rows: int, i: int, body: Body, then: Mean, now: Mean) 
     """Return a body whose track has changed from one mean to another."""
     track = track_rows(scene, rows)
     bare = bare_heights(scene, rows)[i]
-    heights = solid_of(bare, body)[track]
+    heights = _between_pits(bare, body)[track]
     pressure = body.pressure[track]
     share = pressure / pressure.mean() if pressure.any() else np.ones_like(pressure)
     covered = _covered(heights, body.growth[track], now.coverage)

@@ -58,6 +58,7 @@ class Assembly:
     parameters: Mapping[str, Value]
     schedule: Schedule
     settings: Mapping[str, Any]
+    reported: Mapping[str, Any] = field(default_factory=dict)  # what only the report reads, by table of the file
 
     def outputs(self) -> list[str]:
         """Return the recorded variables: all outputs of parts, those of contacts in `RECORDED`, connected inputs."""

@@ -1,7 +1,7 @@
 """The contract of a kind of machine."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +22,7 @@ class Design:
     contacts: Mapping[str, Contact]
     connections: tuple[tuple[Any, ...], ...]
     schedule: Schedule
+    reported: Mapping[str, Any] = field(default_factory=dict)  # records of tables that only the report reads, by table
 
 
 @dataclass(frozen=True)

@@ -95,6 +95,7 @@ def assemble(machine: Machine) -> Assembly:
         parameters={},
         schedule=design.schedule,
         settings=_simulation(table, duty.end),
+        reported=design.reported,
     )
 
 

@@ -10,11 +10,13 @@ import xarray as xr
 from comparison import approx
 from matplotlib.image import imread
 
+from contact_core.errors import SceneError
 from contact_core.reference import nijenbanning_venner_moes
 from system_models.machines import reading, timeline
 from system_models.machines.assembly import Assembly
 from system_models.machines.ball_bearing import report as ball_bearing_report
 from system_models.machines.ball_bearing.geometry import BEARING_209, BEARING_218, RaceName
+from system_models.machines.ball_bearing.lives import RatedRun
 from system_models.machines.ball_bearing.record import BearingRun
 from system_models.machines.ball_bearing.textbook import CATALOGUE_209, CATALOGUE_218, catalogue_of
 from system_models.master import simulate
@@ -256,3 +258,64 @@ def test_the_tracks_are_those_at_the_row_of_the_duty_with_the_largest_force_and_
     assert contacts(lighter_row, heaviest, lighter_row) == contacts(heaviest, lighter_row) == alone
     for other in (lighter_row, heaviest | {"moment": "0 N m"}, heaviest | {"axial_load": "0 kN"}):
         assert contacts(other) != alone
+
+
+def test_a_constant_load_and_speed_give_the_life_of_iso_281(warm: Result) -> None:
+    rated = RatedRun(BearingRun(*warm))
+    row, c = rated.run.last, rated.dynamic_rating
+    hours = 1e6 * (c / 2000.0) ** 3 / (rated.run.speed[row] * 60.0 * 30.0 / math.pi)
+    assert rated.hours(rated.basic, row) == approx(hours, rel=1e-12)
+    # of 3 min the shaft stands for 1 s and gets to 3000 rpm in another 3 s
+    assert hours < rated.hours_of_duty(rated.basic) < 1.03 * hours
+    assert rated.consumed(rated.basic) == approx(180.0 / 3600.0 / rated.hours_of_duty(rated.basic), rel=1e-12)
+
+
+def test_at_double_the_speed_the_hours_are_half(warm: Result) -> None:
+    assembly, dataset = warm
+    faster = dataset.copy()
+    faster["shaft.speed"] = 2.0 * dataset["shaft.speed"]
+    one, two = RatedRun(BearingRun(assembly, dataset)), RatedRun(BearingRun(assembly, faster))
+    assert two.hours(two.reference, -1) == approx(0.5 * one.hours(one.reference, -1), rel=1e-12)
+    assert two.hours_of_duty(two.reference) == approx(0.5 * one.hours_of_duty(one.reference), rel=1e-12)
+
+
+def test_lives_by_load_distribution_friction_and_film_are_ordered(warm: Result) -> None:
+    rated = RatedRun(BearingRun(*warm))
+    row = rated.run.last
+    assert rated.reference[row] < rated.basic[row]  # clearance: fewer balls carry
+    assert 0.9 * rated.reference[row] < rated.stressed[row] < rated.reference[row]  # friction
+    for kappa in (rated.kappa_of_viscosity, rated.kappa_of_film):
+        assert rated.modified(kappa)[row] == approx(rated.life_factor(kappa)[row] * rated.reference[row])
+    assert np.nanmax(rated.kappa_of_viscosity) > 1.5 * rated.kappa_of_viscosity[row]  # cold oil
+
+
+def test_rows_without_load_take_no_life(warm: Result) -> None:
+    assembly, dataset = warm
+    idle = dataset.copy(deep=True)
+    for name in [str(name) for name in idle.data_vars if "load_ball" in str(name)]:
+        idle[name].values[: idle.sizes["time"] // 2] = 0.0
+    one, two = RatedRun(BearingRun(assembly, dataset)), RatedRun(BearingRun(assembly, idle))
+    for kappa in (one.kappa_of_viscosity, one.kappa_of_film):
+        assert 0.0 < two.consumed(two.modified(kappa)) < one.consumed(one.modified(kappa))
+
+
+def test_a_catalogue_rating_and_dirt_change_the_reported_life(warm: Result) -> None:
+    _, dataset = warm
+    changes = {"bearing.levels": "2", "rating.dynamic_rating": "35.1 kN", "rating.contamination": "0"}
+    assembly = reading.assemble(reading.read("bearing_209", changes))
+    rated, own = RatedRun(BearingRun(assembly, dataset)), RatedRun(BearingRun(*warm))
+    assert rated.basic[-1] / own.basic[-1] == approx((35.1e3 / own.dynamic_rating) ** 3, rel=1e-9)
+    assert rated.modified(rated.kappa_of_viscosity)[-1] == approx(0.1 * rated.reference[-1], rel=1e-9)
+    text = "\n".join(ball_bearing_report.lines(assembly, dataset))
+    assert "C_r = 35.1 kN of the file (by ISO 281 32.7 kN)" in text
+
+
+def test_the_report_has_the_lives_of_both_standards(warm: Result) -> None:
+    text = "\n".join(ball_bearing_report.lines(*warm))
+    for name in ("L10 of ISO 281", "L10r of ISO 16281", "kappa by viscosity", "kappa = lambda^1.3", "stress integral"):
+        assert name in text
+
+
+def test_a_contamination_factor_above_one_is_refused_with_its_range() -> None:
+    with pytest.raises(SceneError, match=r"rating\.contamination = 1\.5 .* at least 0 and at most 1"):
+        reading.assemble(reading.read("bearing_209", {"rating.contamination": "1.5"}))

@@ -1,5 +1,6 @@
 """A gear pair as a machine: what its contacts say adds up, flanks wear where they slide, duties and reports."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,9 @@ from system_models.machines.assembly import Assembly
 from system_models.machines.gear_pair import pictures as gear_pair_pictures
 from system_models.machines.gear_pair import report as gear_pair_report
 from system_models.machines.gear_pair.mesh import GearMesh
+from system_models.machines.gear_pair.rating import Rating
 from system_models.machines.gear_pair.record import Record
+from system_models.machines.gear_pair.safety import Safeties
 from system_models.machines.gear_pair.textbook import ohlendorf
 from system_models.master import simulate
 
@@ -125,13 +128,54 @@ def test_pressures_at_the_pitch_point_are_those_of_the_load_stages(record: Recor
     assert found == approx([1108.0, 1474.0], rel=1e-3)
 
 
-def test_the_report_has_a_row_for_each_stage_and_three_pictures(record: Record, tmp_path: Path) -> None:
+def test_the_report_has_a_row_for_each_stage_and_four_pictures(record: Record, tmp_path: Path) -> None:
     lines = gear_pair_report.lines(record.assembly, record.dataset)
     table = lines[2 : lines.index("")]
     assert [line.split()[0] for line in table] == ["1", "2"]
     written = gear_pair_report.write(record.assembly, record.dataset, tmp_path)
-    assert [path.name for path in written] == ["overview.png", "path.png", "time.png"]
+    assert [path.name for path in written] == ["overview.png", "path.png", "time.png", "safety.png"]
     assert all(path.stat().st_size > 20_000 for path in written)
+
+
+def test_the_run_and_the_standard_have_safety_factors_of_their_own(record: Record) -> None:
+    """By the run: film over Ra of the flanks as they are, and the hottest contact."""
+    found, row = Safeties(record), record.stages[-1].last
+    ra = np.sqrt(2.0 / np.pi) * 0.5 * (record.along("roughness_1")[row] + record.along("roughness_2")[row])
+    pits = found.micropitting(row)
+    assert pits.own == approx((record.along("h_c")[row] / ra).min())
+    assert pits.own_safety == approx(pits.own / (1.4 * found.own_failing))
+    assert pits.safety == approx(found.films(row).ratio.min() / (1.4 * found.failing))
+    scuffs = found.scuffing(row)
+    assert scuffs.own == approx(max(record.of(f"mesh.contact_temperature[{k}]")[row] for k in range(1, 1 + STATIONS)))
+    oil = record.of("gearbox.temperature_oil")[row]
+    assert scuffs.own_safety == approx((scuffs.flash.limit - oil) / (scuffs.own - oil))
+    assert found.classes() is None  # 135.3 N m is no load stage of the micropitting test
+
+
+def test_oils_that_fail_the_micropitting_test_late_bear_thinner_films_by_both(record: Record) -> None:
+    limits = []
+    for stage in (6, 8, 10):
+        oil = replace(record.assembly, reported={"rating": Rating(micropitting_stage=stage)})
+        found = Safeties(Record(oil, record.dataset))
+        limits.append((found.failing, found.own_failing))
+    assert limits == sorted(limits, reverse=True)
+    assert all(0.02 < standard < own < 3.0 for standard, own in limits)
+
+
+def test_the_report_says_what_is_assumed_where_the_file_has_no_rating(record: Record) -> None:
+    said = "\n".join(gear_pair_report.lines(record.assembly, record.dataset))
+    assert "load stage 8 of FVA 54/7" in said
+    assert "ASSUMED" not in said
+    bare = replace(record.assembly, reported={})
+    said = "\n".join(gear_pair_report.lines(bare, record.dataset))
+    assert "ASSUMED, as the file has no table [rating]: micropitting_stage = 8, scuffing_stage = 10" in said
+
+
+def test_the_report_gives_a_run_of_the_micropitting_test_its_class(tmp_path: Path) -> None:
+    duty = {**CONSTANT, "torque": "28.79 N m", "duration": "40 s", "steps": [{"time": "20 s", "torque": "265 N m"}]}
+    assembly = assembled(duty)
+    said = "\n".join(gear_pair_report.lines(assembly, run(assembly, tmp_path)))
+    assert "Class of FVA 54/7 with these flanks: high by the standard" in said  # Ra of 0.32 um, not 0.5
 
 
 def test_starts_and_stops_wear_the_flanks_anew_each_time(tmp_path: Path) -> None:

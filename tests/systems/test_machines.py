@@ -147,6 +147,11 @@ def test_any_contact_can_be_deterministic(rig: list[str], capsys: pytest.Capture
         ("mtm_rig", ["ball.radius=-1 mm"], "radius"),
         ("mtm_rig", ["kind=rig"], "is not one of ball_on_disc, ball_bearing, gear_pair"),
         ("gear_fzg_c", ["mesh.pair=fzg_b"], "mesh.pair = 'fzg_b' is not known. Did you mean"),
+        ("gear_fzg_c", ["rating.micropitting_stage=12"], "must be at least 5 and at most 11"),
+        ("gear_fzg_c", ["rating.scuffing_stage=9.5"], "rating.scuffing_stage = 9.5 must be a whole number"),
+        ("gear_fzg_c", ["rating.pitting_stage=9"], "[rating] has no key 'pitting_stage'. Did you mean"),
+        ("gear_fzg_c", ["rating=high"], "rating = 'high' must be a table"),
+        ("mtm_rig", ["rating={}"], "has no 'rating'"),
         ("bearing_209", ["duty.torque=3 N m"], "[duty] has no 'torque'."),
     ],
 )

@@ -22,7 +22,7 @@ TIRED = STRESSED | {
     "fatigue.life_exponent": "6",
 }
 SMOOTH = {"surface_1.rq": "0 nm", "surface_2.rq": "0 nm", "wear.model": "none", "tribofilm.model": "none"}
-OLD = ("friction_coefficient", "h_c", "wear_depth_1", "tribofilm_1", "iterations", "contact_load_ratio")
+OLD = ("friction_coefficient", "h_c", "wear_depth_1", "tribofilm_1", "contact_load_ratio")
 OF_STRESS = ("von_mises_max", "von_mises_depth", "near_surface_share", "dang_van_ratio", "crossland_ratio")
 
 
@@ -36,13 +36,13 @@ def run(changes, *steps, **more):
     return scene, op, found
 
 
-def test_a_scene_that_does_not_ask_keeps_every_bit_and_one_that_asks_changes_no_other_output():
+def test_a_scene_that_does_not_ask_has_nothing_below_and_one_that_asks_samples_other_places_of_the_same_contact():
     _, _, plain = run(DRY, 20.0, 20.0)
     _, _, asked = run(STRESSED, 20.0, 20.0)
     for (state, bare), (_, seen) in zip(plain, asked, strict=True):
         assert state.below is None
         assert not any(getattr(bare, name) for name in (*OF_STRESS, "damage_1", "micropitted_area_1", "error_damage"))
-        assert [getattr(bare, name) for name in OLD] == [getattr(seen, name) for name in OLD]
+        assert [getattr(bare, name) for name in OLD] == approx([getattr(seen, name) for name in OLD], rel=0.25)
     assert all(getattr(asked[-1][1], name) > 0.0 for name in OF_STRESS)
 
 
@@ -77,12 +77,13 @@ def test_few_instants_of_smooth_bodies_stand_for_the_whole_pass():
 def test_a_point_under_a_fixed_pressure_sees_it_pass():
     """Of a pressure that stands still over a moving body each column of the patch has the same history."""
     scene, op, _ = run(STRESSED | SMOOTH, stress__instants=32)
+    op = replace(op, speed_1=0.25, speed_2=0.25)
     state, _ = advance(scene, op, initial_state(scene), 0.0)
     case = Case.bind(scene, op)
     below, rows = state.below, state.rows
     found = passed(case, rows, [Traction(below.pressure[:rows], below.shear[:rows], (0, 0))])
     shear = found.cycles[0].shear
-    assert np.ptp(shear, axis=2).max() < 1e-12 * shear.max()
+    assert np.ptp(shear, axis=2).max() < 1e-9 * shear.max()
 
 
 def test_damage_under_constant_cycles_is_their_number_times_that_of_one():
@@ -91,7 +92,7 @@ def test_damage_under_constant_cycles_is_their_number_times_that_of_one():
     first, last = found[0][0], found[-1][0]
     side = Case.bind(scene, op).sides[0]
     assert first.below is not None
-    assert last.below.fresh == first.below.fresh  # one block
+    assert len(last.below.places) == len(first.below.places)  # one block
     exact = damage.cycles_in(side, 12.0) * first.below.per_cycle_1
     assert last.below.damage_1 == approx(exact, rel=1e-14)
     assert last.outputs.load_cycles_1 == approx(damage.cycles_in(side, 12.0), rel=1e-14)
@@ -123,6 +124,17 @@ def test_what_fails_breaks_out_of_the_surface_with_its_tribofilm():
 
 def outputs_of(outputs, name, i):
     return getattr(outputs, f"{name}_{i + 1}")
+
+
+def test_in_near_rolling_a_pass_keeps_the_same_asperities_facing_until_it_is_over():
+    scene, op, found = run(STRESSED, 0.0, control__longest="1 s", control__change="1 um")
+    state, slips = found[0][0], []
+    columns = scene.film.points - 1
+    for _ in range(8):
+        state, _ = advance(scene, op, state, 1.0)
+        slips.append({round(a - b) % columns for a, b in state.below.places})
+    assert all(max(slip) - min(slip) <= 1 for slip in slips)
+    assert len(set().union(*slips)) > 2
 
 
 def test_a_block_ends_when_much_of_a_track_breaks_out():
@@ -181,8 +193,6 @@ def test_wider_patches_keep_their_damage_in_its_rows():
 
 
 def test_damage_stays_within_its_stated_error_when_blocks_are_half_as_long():
-    """The errors of both add up; a tenth of them would not cover the difference."""
-
     def after(longest):
         _, _, found = run(TIRED, 240.0, control__longest=f"{longest} s", control__change="1 um")
         return found[-1][1]
@@ -192,6 +202,19 @@ def test_damage_stays_within_its_stated_error_when_blocks_are_half_as_long():
         one, other = getattr(long, f"damage_{i}"), getattr(short, f"damage_{i}")
         stated = np.hypot(one * long.error_damage, other * short.error_damage)
         assert abs(one - other) < stated
+
+
+def test_the_error_by_few_instants_covers_what_many_find_and_a_tenth_of_it_would_not():
+    def after(instants):
+        given = {"stress__instants": instants, "control__dry_instants": instants, "control__longest": "20 s"}
+        _, _, found = run(TIRED, 40.0, **given)
+        return found[-1]
+
+    (state, few), (_, many) = after(8), after(32)
+    for i in (0, 1):
+        missed = abs(outputs_of(few, "damage", i) - outputs_of(many, "damage", i))
+        stated = np.hypot(*state.below.errors(i))
+        assert 0.1 * stated < missed < stated
 
 
 @pytest.mark.parametrize(

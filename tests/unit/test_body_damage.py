@@ -55,6 +55,18 @@ def test_wear_makes_no_new_extreme(depths):
         assert np.all((found >= damage.min(axis=0)) & (found <= damage.max(axis=0)))
 
 
+def test_what_comes_into_a_layer_is_between_the_means_of_those_it_comes_from_and_their_neighbours():
+    rng = np.random.default_rng(7)
+    damage, faces, last = rng.random((16, 20, 20)) ** 4, faces_of(GRADED), GRADED.size - 1
+    for depth in 10.0 ** rng.uniform(-5.0, 0.0, 30):
+        found = worn_away(damage, GRADED, np.full((20, 20), depth))
+        for i in range(GRADED.size):
+            first, final = np.searchsorted(faces, (faces[i] + depth, faces[i + 1] + depth)) - 1
+            reached = damage[max(first - 1, 0) : min(final + 1, last) + 1]
+            assert np.all(found[i] >= reached.min(axis=0) - 1e-12)
+            assert np.all(found[i] <= reached.max(axis=0) + 1e-12)
+
+
 def test_what_layers_gain_is_in_them_or_has_been_worn_off():
     """A uniform gain in a uniform body stays uniform, and what a lone layer has moves up with the material."""
     even = accumulated(column(np.full(12, 0.3)), EVEN, column(np.full(12, 0.2)), worn_by(0.037))

@@ -8,6 +8,9 @@
     kinematics    speeds, spin and differential sliding in the contacts
     load_classes  balls in load classes, one contact for all balls of about one load
     textbook      friction torque after SKF and Palmgren, load integrals after Sjovall
+    rating        rating life by ISO 281 and ISO 16281
+    stress_life   life of a contact by the integral of the stress below it
+    lives         rating lives over a run, row by row
     record        the results of a run by class and ball
     report        the printed report; pictures: its pictures
     shipped/      the files of bearings that come with the package

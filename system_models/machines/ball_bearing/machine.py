@@ -5,6 +5,7 @@
     [bearing]          part.BallBearing
     [housing]          parts.thermal.ThermalNetwork with the nodes balls, inner, outer and oil (heat_flows = 1)
     [contact]          a scene with a point contact and heat.bulk = "inputs"; radii and tracks are the class's
+    [rating]           rating.Rating, for the report of rating lives; may be left out
 
 Signals of the duty: speed (of the shaft), load (radial), axial_load, moment (about the axis across both) and ambient.
 The tracks of the contacts are those at the duty's largest loads.
@@ -27,6 +28,7 @@ from ..timeline import Timeline
 from . import report
 from .equilibrium import RingLoads
 from .part import RECEIVED, SENT, BallBearing, LoadClass
+from .rating import Rating
 
 SIGNALS = {
     "speed": Quantity("speed", "w", "rad/s", "speed of the shaft", "input", display="rpm", minimum=-1e4, maximum=1e4),
@@ -71,6 +73,7 @@ def design(table: Mapping[str, Any], duty: Timeline) -> Design:
         {each.name: _contact(table, each) for each in classes},
         (*_SHAFT, *(link for each in classes for link in _links(each))),
         schedule,
+        {"rating": record(Rating, {"rating": {}, **table}, "rating")},
     )
 
 
@@ -107,7 +110,7 @@ def _links(design: LoadClass) -> list[tuple[Any, ...]]:
 
 BALL_BEARING = Kind(
     name="ball_bearing",
-    tables=("drive", "shaft", "bearing", "housing"),
+    tables=("drive", "shaft", "bearing", "housing", "rating"),
     signals=SIGNALS,
     needed=("speed",),
     design=design,

@@ -8,7 +8,9 @@ import xarray as xr
 from ...run.cosim_report import aligned
 from ..assembly import Assembly
 from . import pictures as ball_bearing_pictures
-from .record import CAPPED, FEWEST, BearingRun
+from . import rating
+from .lives import RatedRun
+from .record import CAPPED, FEWEST, Array, BearingRun
 
 _RPM = 30.0 / math.pi
 _CELSIUS = 273.15
@@ -37,6 +39,8 @@ def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
         *_heat(run, row),
         *_motion(run, row),
         *_starts(run),
+        "",
+        *_lives(RatedRun(run), row),
     ]
 
 
@@ -129,3 +133,47 @@ def _starts(run: BearingRun) -> list[str]:
         f"{len(peaks)} starts: largest friction torque while the shaft turns {_NMM * peaks[1]:.3g} N mm in the second"
         f"{last}. The first is not compared: the motor may be at its speed from the beginning."
     ]
+
+
+def _lives(rated: RatedRun, row: int) -> list[str]:
+    """Return lives at a row and of the duty, by both standards and by the stress."""
+    if not rated.run.runs[row]:
+        return ["The shaft does not turn: there is no rating life."]
+    listed: list[tuple[str, Array, Array | None, Array]] = [
+        ("L10 of ISO 281", rated.equivalent_load, None, rated.basic),
+        ("L10r of ISO 16281", rated.reference_load, None, rated.reference),
+    ]
+    for name, kappa in (("by viscosity", rated.kappa_of_viscosity), ("= lambda^1.3", rated.kappa_of_film)):
+        listed.append((f"L10mr, kappa {name}", rated.reference_load, kappa, rated.modified(kappa)))
+    listed.append(("stress integral, friction", rated.reference_load, None, rated.stressed))
+    rows = [["life, 90 % survive", "P", "kappa", "a_ISO", "now", "duty repeated"], ["", "N", "", "", "h", "h"]]
+    for name, load, ratio, lives in listed:
+        factors = ["-", "-"] if ratio is None else [f"{ratio[row]:.3g}", f"{rated.life_factor(ratio)[row]:.3g}"]
+        hours = rated.hours(lives, row), rated.hours_of_duty(lives)
+        rows.append([name, _figure(load[row], ".0f"), *factors, *(_figure(each, ".4g") for each in hours)])
+    return [*aligned(rows, 1), *_rated_by(rated, row)]
+
+
+def _figure(value: float, digits: str) -> str:
+    return format(value, digits) if math.isfinite(value) else "-"
+
+
+def _rated_by(rated: RatedRun, row: int) -> list[str]:
+    geometry = rated.run.bearing.dimensions
+    own = rating.dynamic_rating(geometry)
+    given = f"{1e-3 * rated.dynamic_rating:.1f} kN of the file (by ISO 281 {1e-3 * own:.1f} kN)"
+    rated_with = given if rated.given.dynamic_rating else f"{1e-3 * own:.1f} kN by ISO 281 from the dimensions"
+    found = [
+        f"C_r = {rated_with}, C_u = {1e-3 * rated.fatigue_load_limit:.2f} kN, contamination e_C = "
+        f"{rated.given.contamination:g}. lambda = {rated.film_ratio[row]:.3g}: our h_c over the undeformed roughness "
+        "of the loaded class that has least. Stress integral: L10r of smooth contacts with our friction, no a_ISO. "
+        f"The run takes {rated.consumed(rated.reference):.2g} of L10r.",
+    ]
+    for kappa, name in ((rated.kappa_of_viscosity, "by viscosity"), (rated.kappa_of_film, "by lambda")):
+        below = (kappa < rating.LEAST_KAPPA) & rated.run.runs
+        if below.any():
+            found.append(
+                f"kappa {name} is below {rating.LEAST_KAPPA:g}, where ISO 281 has no a_ISO, in {below.mean():.1%} of "
+                f"the rows, down to {kappa[below].min():.2g}: taken as {rating.LEAST_KAPPA:g}."
+            )
+    return found

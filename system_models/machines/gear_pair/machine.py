@@ -5,6 +5,7 @@
     [shafts]           shafts.GearShafts; `pair` is that of the mesh, `stiffness` by default the mean of its teeth
     [mesh]             mesh.GearMesh; pair = "fzg_c", "fzg_a" or the numbers of another one
     [gearbox]          parts.thermal.ThermalNetwork with the nodes pinion, wheel and oil (heat_flows = 1)
+    [rating]           rating.Rating, for the standards in the report; optional
     [contact]          a scene with a line contact and heat.bulk = "inputs"; radius, width and tracks are the station's
 
 Signals of the duty: speed and torque (of the pinion; the brake's torque follows), temperature (that a thermostat holds
@@ -23,13 +24,15 @@ from ...parts.brake import Brake
 from ...parts.part import Part, indexed
 from ...parts.speed_source import SpeedSource
 from ...parts.thermal import ThermalNetwork
-from ..assembly import Contact, Schedule
+from ..assembly import Schedule
 from ..kind import Design, Kind
 from ..tables import record, scene_of
 from ..timeline import Timeline
 from . import report
-from .geometry import FZG_A, FZG_C, SpurGearPair
-from .mesh import RECEIVED, SENT, GearMesh, Station, flank
+from .flanks import contact_at
+from .geometry import FZG_A, FZG_C
+from .mesh import RECEIVED, SENT, GearMesh, flank
+from .rating import Rating
 from .shafts import GearShafts
 from .sharing import mean_stiffness
 
@@ -48,6 +51,7 @@ def design(table: Mapping[str, Any], duty: Timeline) -> Design:
     mesh: GearMesh = record(GearMesh, table, "mesh")
     shafts = {"stiffness": f"{mean_stiffness(mesh.pair) * mesh.pair.face_width!r} N/m", **table.get("shafts", {})}
     table["shafts"] = {"pair": table["mesh"]["pair"], **shafts}
+    scene = scene_of(table)
     drive: SpeedSource = record(SpeedSource, table, "drive")
     parts: dict[str, Part] = {
         "drive": drive,
@@ -61,9 +65,10 @@ def design(table: Mapping[str, Any], duty: Timeline) -> Design:
     schedule["brake.torque_setpoint"] = [(time, mesh.pair.ratio * value) for time, value in duty.course("torque")]
     return Design(
         parts,
-        {flank(k): _contact(table, mesh.pair, station) for k, station in enumerate(mesh.contacts, 1)},
+        {flank(k): contact_at(scene, mesh.pair, station) for k, station in enumerate(mesh.contacts, 1)},
         (*_SHAFTS, *(link for k in range(1, mesh.stations + 1) for link in _links(k))),
         schedule,
+        {"rating": record(Rating, table, "rating")} if "rating" in table else {},
     )
 
 
@@ -117,23 +122,9 @@ def _with_pair(table: Mapping[str, Any]) -> dict[str, Any]:
     return {**table, "pair": unbuild(PAIRS[pair])}
 
 
-def _contact(table: Mapping[str, Any], pair: SpurGearPair, station: Station) -> Contact:
-    """Return the contact at a station: values of its FMU beside load, speeds and temperatures."""
-    return Contact(
-        scene_of(table),
-        {
-            "solids.reduced_modulus": pair.reduced_modulus,
-            "radius_x": station.radius_x,
-            "geometry.face_width": station.face_width,
-            "geometry.track_length_1": station.track_length_1,
-            "geometry.track_length_2": station.track_length_2,
-        },
-    )
-
-
 GEAR_PAIR = Kind(
     name="gear_pair",
-    tables=("drive", "brake", "shafts", "mesh", "gearbox"),
+    tables=("drive", "brake", "shafts", "mesh", "gearbox", "rating"),
     signals=SIGNALS,
     needed=("speed", "torque"),
     design=design,

@@ -7,6 +7,7 @@ import numpy as np
 
 from .path import Array, named_points
 from .record import Record, Stage
+from .safety import Safeties
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -63,7 +64,25 @@ def time(record: Record) -> "Figure":
     return figure
 
 
-FIGURES: dict[str, Callable[[Record], "Figure"]] = {"overview": overview, "path": path, "time": time}
+def safety(record: Record) -> "Figure":
+    """Draw ratios of film to roughness and temperatures along the path, and safety factors by stages: both ways."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(10.0, 9.5), layout="constrained")
+    axes = figure.subplots(3, 2)
+    found = Safeties(record)
+    for axis, (label, values) in zip(axes[:2].flat, _rated(record, found), strict=True):
+        _path(axis, record, label, values)
+    _share_top(axes[1])
+    _stage_legend(figure, record)
+    _micropitting(axes[2, 0], record, found)
+    _scuffing(axes[2, 1], record, found)
+    return figure
+
+
+FIGURES: dict[str, Callable[[Record], "Figure"]] = {
+    "overview": overview, "path": path, "time": time, "safety": safety,
+}  # fmt: skip
 
 
 # along the path of contact
@@ -145,6 +164,61 @@ def _share_top(axes: "np.ndarray") -> None:
     top = max(axis.get_ylim()[1] for axis in axes)
     for axis in axes:
         axis.set_ylim(0.0, top)
+
+
+# safety factors
+
+
+def _rated(record: Record, found: Safeties) -> list[tuple[str, _Curve]]:
+    """Return labels and values of ratios and contact temperatures, by the standards and by the run."""
+
+    def films(stage: Stage) -> Array:
+        return np.interp(record.positions, found.working(stage.last).places, found.films(stage.last).ratio)
+
+    def hot(stage: Stage) -> Array:
+        places = found.working(stage.last).places
+        return np.interp(record.positions, places, found.scuffing(stage.last).flash.temperature) - 273.15
+
+    return [
+        (r"$\lambda_{GF}$ by ISO/TS 6336-22", films),
+        (r"$h_c$ / Ra by the run", lambda stage: found.own_ratio(stage.last)),
+        ("contact temperature\nby ISO/TS 6336-20 [degC]", hot),
+        ("contact temperature\nby the run [degC]", lambda stage: found.own_temperature(stage.last) - 273.15),
+    ]
+
+
+def _micropitting(axis: "Axes", record: Record, found: Safeties) -> None:
+    rows = [(stage.number, found.micropitting(stage.last)) for stage in record.shown(_MOST_MARKS)]
+    _by_stage(
+        axis, "safety against micropitting", [number for number, _ in rows],
+        ("ISO/TS 6336-22", [its.safety for _, its in rows], _RED),
+        ("run", [its.own_safety for _, its in rows], _BLACK),
+    )  # fmt: skip
+
+
+def _scuffing(axis: "Axes", record: Record, found: Safeties) -> None:
+    rows = [(stage.number, found.scuffing(stage.last)) for stage in record.shown(_MOST_MARKS)]
+    _by_stage(
+        axis, "safety against scuffing", [number for number, _ in rows],
+        ("ISO/TS 6336-20, flash", [its.flash.safety for _, its in rows], _RED),
+        ("ISO/TS 6336-21, integral", [its.integral.safety if its.integral else np.nan for _, its in rows], _BLUE),
+        ("run", [its.own_safety for _, its in rows], _BLACK),
+    )  # fmt: skip
+
+
+def _by_stage(axis: "Axes", label: str, numbers: list[int], *curves: tuple[str, list[float], str]) -> None:
+    """Draw safety factors from a half to twenty: beyond, nobody asks."""
+    for name, values, colour in curves:
+        axis.plot(numbers, values, "o-", color=colour, linewidth=1.3, markersize=3.5, label=name)
+    axis.axhline(1.0, color="0.6", linewidth=0.8, zorder=0)
+    ticks = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0]
+    axis.set(xlabel="stage", ylabel=label, yscale="log", ylim=(0.4, 40.0))
+    axis.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+    axis.minorticks_off()
+    if len(numbers) <= _MOST_CURVES:
+        axis.set_xticks(numbers)
+    axis.legend(frameon=False, fontsize="small", loc="upper right")
+    axis.spines[["top", "right"]].set_visible(False)
 
 
 # against time

@@ -21,7 +21,7 @@ from .mesh import GearMesh, flank
 from .path import Array, steps
 from .textbook import iso_14179_1, load_intensity, ohlendorf, schlenk
 
-_RA_OF_RQ = math.sqrt(2.0 / math.pi)  # of Gaussian heights
+RA_OF_RQ = math.sqrt(2.0 / math.pi)  # of Gaussian heights
 _TURNS, _LOADED = 1.0, 1e-3  # rad/s and N m: less is standing still or idling
 
 
@@ -138,7 +138,7 @@ class Record:
     @property
     def roughness(self) -> float:
         """Ra of the new flanks, averaged over both [m]."""
-        return _RA_OF_RQ * 0.5 * (self.scene.surface_1.rms + self.scene.surface_2.rms)
+        return RA_OF_RQ * 0.5 * (self.scene.surface_1.rms + self.scene.surface_2.rms)
 
     def textbook(self, row: int) -> Textbook:
         """Return the formulas for torque, speed and oil temperature at a row in which the gears work."""

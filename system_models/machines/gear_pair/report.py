@@ -1,5 +1,6 @@
-"""The report of a gear pair's run: load stages beside the textbook, wear along the flanks, balance of heat."""
+"""The report of a gear pair's run: load stages beside the textbook, safety factors, wear along the flanks, heat."""
 
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,9 @@ from ..assembly import Assembly
 from ..report import heat_stored
 from . import pictures as gear_pair_pictures
 from .path import Array
+from .rating import Rating
 from .record import Record, Stage
+from .safety import Safeties
 from .textbook import ohlendorf
 
 _MOST_ROWS = 16
@@ -19,6 +22,12 @@ _HEADS = (
     ("mu_mz", ""), ("Schlenk", ""), ("ISO/TR-1", ""), ("loss", "W"), ("oil", "degC"), ("pinion", "degC"),
     ("wheel", "degC"), ("flash", "K"), ("wear 1", "nm"), ("wear 2", "nm"),
 )  # fmt: skip
+_SAFETY_HEADS = (
+    ("stage", ""), ("T1", "N m"), ("lambda_GF", ""), ("S_lambda", ""), ("h_c/Ra", "run"), ("S_lambda", "run"),
+    ("bulk", "degC"), ("theta_B", "degC"), ("S_B", ""), ("theta_int", "degC"), ("S_intS", ""), ("hottest", "degC, run"),
+    ("S_B", "run"),
+)  # fmt: skip
+_PROFILE = 7.5e-6  # m, mean deviation of the profile with which an oil fails the test of FVA 54/7
 
 
 def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
@@ -26,7 +35,7 @@ def lines(assembly: Assembly, dataset: xr.Dataset) -> list[str]:
     record = Record(assembly, dataset)
     if not record.stages:
         return ["The duty has no stretch in which the gears turn under load.", *_heat(record)]
-    return [*_table(record), "", *_notes(record), *_wear(record), *_heat(record)]
+    return [*_table(record), "", *_notes(record), *_wear(record), *_heat(record), "", *_safety(record)]
 
 
 def write(assembly: Assembly, dataset: xr.Dataset, folder: Path) -> list[Path]:
@@ -78,6 +87,76 @@ def _notes(record: Record) -> list[str]:
         f"Schlenk: Ra = {1e6 * record.roughness:.2f} um, X_L = 1. ISO/TR 14179-1 in brackets: beyond its range.",
         f"Loss factor H_V: {record.of('mesh.loss_factor')[row]:.4f} under the loads as they are, "
         f"{ohlendorf(record.pair):.4f} by Ohlendorf.",
+    ]
+
+
+def _safety(record: Record) -> list[str]:
+    """Return a table of safety factors, by the standards and by the run, and what they start from."""
+    found = Safeties(record)
+    rows = [[name for name, _ in _SAFETY_HEADS], [unit for _, unit in _SAFETY_HEADS]]
+    rows += [_safety_row(record, found, stage) for stage in record.shown(_MOST_ROWS)]
+    rating, some = found.rating, found.scuffing(record.stages[-1].last)
+    return [
+        "Safety factors at the end of each stage",
+        "",
+        *aligned(rows, 0),
+        "",
+        f"Micropitting by ISO/TS 6336-22: least h_Y / Ra over 1.4 W_W {found.failing:.3f}, with which the oil fails "
+        f"load stage {rating.micropitting_stage} of FVA 54/7. By the run: least h_c / Ra of the flanks as they are "
+        f"over 1.4 W_W {found.own_failing:.3f}, that of such contacts in the same test with new flanks.",
+        f"Scuffing at {some.flash.limit - 273.15:.0f} degC of flash temperature (ISO/TS 6336-20)"
+        + (f", {some.integral.limit - 273.15:.0f} degC of integral temperature (-21)" if some.integral else "")
+        + f", as the oil fails load stage {rating.scuffing_stage} of A/8.3/90. By the run: bulk and flash of the "
+        "hottest contact, against the former. Loads of the standards: as the machine shares them, K factors 1.",
+        *_assumed(record),
+        *_classes(record, found),
+    ]
+
+
+def _safety_row(record: Record, found: Safeties, stage: Stage) -> list[str]:
+    pits, seizes = found.micropitting(stage.last), found.scuffing(stage.last)
+    integral = seizes.integral
+    return [
+        str(stage.number),
+        f"{record.of('shafts.mesh_torque')[stage.last]:.1f}",
+        f"{pits.standard:.3f}",
+        _factor(pits.safety),
+        f"{pits.own:.2f}",
+        _factor(pits.own_safety),
+        f"{found.films(stage.last).bulk - 273.15:.0f}",
+        f"{seizes.flash.temperature.max() - 273.15:.0f}",
+        _factor(seizes.flash.safety),
+        f"{integral.temperature - 273.15:.0f}" if integral else "-",
+        _factor(integral.safety) if integral else "-",
+        f"{seizes.own - 273.15:.0f}",
+        _factor(seizes.own_safety),
+    ]
+
+
+def _factor(value: float) -> str:
+    return f"{value:.2f}" if value < 100.0 else ">100"
+
+
+def _assumed(record: Record) -> list[str]:
+    """Return a sentence on what the standards need and the machine's file does not say."""
+    if "rating" in record.assembly.reported:
+        return []
+    values = ", ".join(f"{key} = {value:g}" for key, value in asdict(Rating()).items())
+    return [f"ASSUMED, as the file has no table [rating]: {values}."]
+
+
+def _classes(record: Record, found: Safeties) -> list[str]:
+    """Return a sentence on the class of FVA 54/7, if the run is such a test."""
+    both = found.classes()
+    if both is None:
+        return []
+    worn = max(float(record.along(f"wear_depth_{body}")[-1].max()) for body in (1, 2))
+    return [
+        f"Class of FVA 54/7 with these flanks: {both[0]} by the standard, {both[1]} by the run (low: fails up to load "
+        "stage 7, medium: 8 or 9, high: later). It fails once the ratio is nearer to that of the load stage at which "
+        "the oil fails its test than to that of the one before.",
+        f"Profile: {1e6 * worn:.2f} um of mild wear, of the {1e6 * _PROFILE:g} um that the test allows; micropits are "
+        "not in it.",
     ]
 
 

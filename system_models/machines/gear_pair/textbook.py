@@ -46,8 +46,26 @@ def schlenk(
     Source: Schlenk, Diss. TU Muenchen 1994; Fernandes, Marques, Martins & Seabra, Tribol. Int. 88 (2015) 306, find X_L
     of 0.846 for a mineral oil, 0.650 for a polyalphaolefin and an ester, 0.585 for a polyglycol.
     """
-    intensity = 1e-3 * force / pair.face_width / (_sum_speed(pair, speed_1) * 1e3 * _radius_at_pitch(pair))
-    return 0.048 * intensity**0.2 * (1e3 * viscosity) ** -0.05 * (1e6 * ra) ** 0.25 * oil_factor
+    return (
+        0.048 * _intensity(pair, force, speed_1) ** 0.2 * (1e3 * viscosity) ** -0.05 * (1e6 * ra) ** 0.25 * oil_factor
+    )
+
+
+def michaelis(
+    pair: SpurGearPair, force: float, speed_1: float, viscosity: float, ra: float, oil_factor: float = 1.0
+) -> float:
+    """Return the mean coefficient of friction of a mesh, 0.045 [(F / b) / (v_sum rho)]^0.2 eta^-0.05 X_R X_L.
+
+    X_R = 2.2 (Ra / rho)^0.25; arguments and units as of `schlenk`, Ra in um over rho in mm.
+    Source: Michaelis, Diss. TU Muenchen 1987, as in ISO/TS 6336-22 and ISO/TS 6336-21; from memory.
+    """
+    return (
+        0.045
+        * _intensity(pair, force, speed_1) ** 0.2
+        * (1e3 * viscosity) ** -0.05
+        * oil_factor
+        * (2.2 * (1e3 * ra / _radius_at_pitch(pair)) ** 0.25)
+    )
 
 
 def iso_14179_1(pair: SpurGearPair, torque: float, speed_1: float, kinematic_viscosity: float) -> float:
@@ -79,6 +97,11 @@ def blok_line(
     """
     rubbing = friction * load / length * abs(math.sqrt(abs(speed_1)) - math.sqrt(abs(speed_2)))
     return 1.11 * rubbing / (effusivity * math.sqrt(2.0 * half_width))
+
+
+def _intensity(pair: SpurGearPair, force: float, speed_1: float) -> float:
+    """Return force per width over speed and radius at C, in N/mm, m/s and mm."""
+    return 1e-3 * force / pair.face_width / (_sum_speed(pair, speed_1) * 1e3 * _radius_at_pitch(pair))
 
 
 def _sum_speed(pair: SpurGearPair, speed_1: float) -> float:
