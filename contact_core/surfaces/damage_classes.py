@@ -85,6 +85,7 @@ def folded_damage(
     """Return what lies below, and the bodies with their pits, after the change of the classes; unchanged, nothing is.
 
     Each point takes the change of its class. `bodies` are those of the state, with tribofilm and wear as they are now.
+    What the curves may be wrong by stays with what they have added.
     """
     now = state.classes
     if now is None:
@@ -94,17 +95,21 @@ def folded_damage(
         return state.below, bodies
     below = state.below or nothing_below(scene.depths.size, state.rows, scene.film.points - 1)
     track, layers = track_rows(scene, state.rows), scene.depths.size
-    damages, after = [], []
+    damages, after, gained = [], [], []
     for i, body in enumerate(bodies):
         damage = below.damage[i].reshape(layers, state.rows, -1).copy()
         inside, pits = damage[:, track].reshape(layers, -1), body.pits.copy()
+        before = float(inside.max(axis=0).mean())
         broken = pits[track].ravel()
         for j, (nodes, which) in enumerate(_ordered(scene, state, i)):
             at = j * WEIGHTS.size + which
             inside[:, nodes] += (now.damage[i] - then.damage[i])[:, at]
             broken[nodes] += (now.pits[i] - then.pits[i])[at]
-        damage[:, track] = np.clip(inside, 0.0, _WHOLE).reshape(layers, -1, damage.shape[2])
+        inside = np.clip(inside, 0.0, _WHOLE)
+        gained.append(max(float(inside.max(axis=0).mean()) - before, 0.0))
+        damage[:, track] = inside.reshape(layers, -1, damage.shape[2])
         pits[track] = broken.reshape(-1, pits.shape[1])
         damages.append(damage.reshape(below.damage[i].shape))
         after.append(replace(body, pits=pits))
-    return replace(below, damage_1=damages[0], damage_2=damages[1]), (after[0], after[1])
+    late = below.late + state.outputs.error_damage * np.array(gained)
+    return replace(below, damage_1=damages[0], damage_2=damages[1], late=late), (after[0], after[1])
