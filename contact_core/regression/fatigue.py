@@ -98,21 +98,21 @@ def outputs_below(case: Case, before: Outputs, harm: Harm, classes: Classes | No
     Damage rises with a power of the stress, so its error is a factor: it may be 1 + the half width times as large, or
     that part of what is stated. What has broken out stays so, whatever rates tell of a class now.
     """
-    areas = before.micropitted_area_1, before.micropitted_area_2
     found = harm.stressed.outputs | {"error_damage": 0.0}
+    worst, broken, areas = (0.0, 0.0), (0.0, 0.0), (0.0, 0.0)
+    if classes is not None and case.scene.fatigue.damages:
+        rate, more = harm.per_cycle.max(axis=1), harm.more.max(axis=1)  # [2, rows, classes]
+        damage = np.array(classes.damage).max(axis=1).reshape(rate.shape)
+        pits = np.array(classes.pits).reshape(rate.shape)
+        worst, broken, now, higher = (np.array([damage, pits, rate, more]) @ WEIGHTS).mean(axis=2).tolist()
+        found["error_damage"] = max(map(_relative, now, higher))
+        flat = (-1, WEIGHTS.size)
+        areas = _pitted(damage.reshape(flat), pits.reshape(flat), rate.reshape(flat)).reshape(2, -1).mean(axis=1)
+    was = before.micropitted_area_1, before.micropitted_area_2
     for i, mean in enumerate(means):
-        worst, broken, area = 0.0, 0.0, 0.0
-        if classes is not None and case.scene.fatigue.damages:
-            rate = harm.per_cycle[i].max(axis=0)
-            damage = classes.damage[i].reshape(harm.per_cycle.shape[1:]).max(axis=0)
-            pits = classes.pits[i].reshape(damage.shape)
-            worst, broken = _mean(damage), _mean(pits)
-            area = max(float(_pitted(damage, pits, rate).mean()), areas[i])
-            error = _relative(_mean(rate), _mean(harm.more[i].max(axis=0)))
-            found["error_damage"] = max(found["error_damage"], error)
-        found[f"damage_{i + 1}"] = worst
-        found[f"micropitted_area_{i + 1}"] = area
-        found[f"profile_loss_{i + 1}"] = mean.wear + broken
+        found[f"damage_{i + 1}"] = worst[i]
+        found[f"micropitted_area_{i + 1}"] = max(float(areas[i]), was[i])
+        found[f"profile_loss_{i + 1}"] = mean.wear + broken[i]
     return found
 
 
@@ -120,11 +120,6 @@ def _relative(now: float, more: float) -> float:
     if now > 0.0:
         return min(more / now - 1.0, UNKNOWN)
     return UNKNOWN if more > 0.0 else 0.0
-
-
-def _mean(field: Array) -> float:
-    """Return the mean over a track of a field [rows, classes]."""
-    return float((field @ WEIGHTS).sum()) / field.shape[0]
 
 
 def _pitted(worst: Array, broken: Array, rate: Array) -> Array:

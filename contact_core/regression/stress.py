@@ -62,8 +62,10 @@ def stressed(case: Case, contact: MeanContact) -> Stressed:
     smooth, peak = table.at(friction, places, depths / half)
     rough = _rough(case, contact, largest, half, side)
     shape = (2, depths.size, chords.size, WEIGHTS.size + 1)
-    shear, hydrostatic, dang_van = (np.broadcast_to(largest * part[None, ..., None], shape) for part in smooth)
-    if rough.steepness > 0.0:
+    hydrostatic = np.broadcast_to(largest * smooth[1, ..., None], shape)
+    if rough.steepness == 0.0:
+        shear, dang_van = (np.broadcast_to(largest * smooth[k, ..., None], shape) for k in (0, 2))
+    else:
         pressures = CURVES.pressures.at(rough, chords)
         scores = np.append(_SCORES, _extreme(rough.spots / chords.size))
         found = largest * CURVES.both.quantiles(smooth[::2], pressures, chords, rough, scores)
