@@ -32,6 +32,7 @@ _BODY = {
     "tribofilm": "tribofilm thickness on",
     "wear": "depth worn off",
     "plastic": "permanent depth pressed into",
+    "pits": "depth that fatigue has broken out of",
 }
 _MAP = np.dtype(np.float32)
 _DEFLATED: dict[str, Any] = {"zlib": True, "complevel": 4, "shuffle": True}
@@ -41,7 +42,12 @@ _BODIES = (1, 2)
 def size_of(scene: Scene) -> int:
     """Return the bytes that the maps of one time take up uncompressed."""
     points = scene.film.points
-    return scene.rows * (len(_CONTACT) * points + 2 * len(_BODY) * (points - 1)) * _MAP.itemsize
+    return scene.rows * (len(_CONTACT) * points + 2 * len(_kept(scene)) * (points - 1)) * _MAP.itemsize
+
+
+def _kept(scene: Scene) -> list[str]:
+    """Return the names of the maps of a body: pits where a law of fatigue makes some."""
+    return [name for name in _BODY if name != "pits" or scene.fatigue.damages]
 
 
 def taken(scene: Scene, op: OperatingPoint, state: ContactState | None, time: float) -> bytes:
@@ -63,8 +69,8 @@ def taken(scene: Scene, op: OperatingPoint, state: ContactState | None, time: fl
         route, converged = fields.route, fields.converged
     for body in _BODIES:
         track = track_of(scene, shown, body)
-        found |= {f"{name}_map_{body}": getattr(track, name) for name in _BODY}
-        found |= {f"{name}_profile_{body}": getattr(track, name).mean(axis=1) for name in ("heights", *_BODY)}
+        found |= {f"{name}_map_{body}": getattr(track, name) for name in _kept(scene)}
+        found |= {f"{name}_profile_{body}": getattr(track, name).mean(axis=1) for name in ("heights", *_kept(scene))}
         found[f"offset_{body}"] = places.bodies[body - 1].offset
     maps = {name: np.asarray(field, _MAP) for name, field in found.items() if np.ndim(field) == 2}
     stream = io.BytesIO()

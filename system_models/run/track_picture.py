@@ -99,10 +99,8 @@ def _rows_of_maps(maps: xr.Dataset) -> list[list[_Map]]:
         titles = [f"tribofilm of body {body}, {_told(maps, k)}" for k in shown]
         pads.append([_Map(title, film, patch, *look) for title, film in zip(titles, films, strict=True)])
     last, end = maps.isel({TIME: -1}), _told(maps, -1)
-    worn = [
-        _Map(f"wear of body {body}, {end}", last[f"wear_map_{body}"].values, patch, "nm", 1e9, "magma")
-        for body in (1, 2)
-    ]
+    what = "wear and pits" if "pits_map_1" in maps else "wear"
+    worn = [_Map(f"{what} of body {body}, {end}", _lost(last, body), patch, "nm", 1e9, "magma") for body in (1, 2)]
     pressure, solid = (
         _Map(f"{text}, {end}", last[name].values, x, "GPa", 1e-9, "inferno", body=False)
         for name, text in (("pressure", "pressure"), ("solid_pressure", "pressure of the solids"))
@@ -114,6 +112,12 @@ def _rows_of_maps(maps: xr.Dataset) -> list[list[_Map]]:
     if len(shown) == 2:
         return [[*pads[0], *pads[1]], [*worn, pressure, gap]]
     return [*pads, [*worn, pressure, gap]]
+
+
+def _lost(maps: xr.Dataset, body: int) -> NDArray[np.float64]:
+    """Return the map of what is worn off a body or has broken out of it."""
+    lost: NDArray[np.float64] = maps[f"wear_map_{body}"].values
+    return lost + maps[f"pits_map_{body}"].values if f"pits_map_{body}" in maps else lost
 
 
 def _chosen(times: NDArray[np.float64]) -> list[int]:
@@ -273,7 +277,7 @@ def _draw_surface(axis: "Axes", maps: xr.Dataset, body: int) -> None:
     """Draw the cross-section in the middle of a body's patch as new and as it is at the end."""
     last = maps.isel({TIME: -1, ALONG: maps.sizes[ALONG] // 2})
     new, y = last[f"new_heights_{body}"].values, maps["y"].values
-    worn = new - last[f"wear_map_{body}"] - last[f"plastic_map_{body}"]
+    worn = new - _lost(last, body) - last[f"plastic_map_{body}"].values
     factor, unit = _length(np.ptp(y))
     axis.set_title(f"surface of body {body}: a cross-section", fontsize="medium")
     covered, colour = worn + last[f"tribofilm_map_{body}"], _COLOURS[body - 1]
