@@ -124,6 +124,26 @@ def test_constant_cycles_add_up_whatever_the_steps() -> None:
     assert not once.pits_1.any()
 
 
+def test_wear_in_small_steps_brings_damage_up_and_off() -> None:
+    """Damage at one depth comes to the surface as the body wears, and is gone once that depth is."""
+    scene = line(BASQUIN)
+    case, start = Case.bind(scene, scene.operation.point), means_of(scene, initial_state(scene))
+    harm, depths = fatigue.harm_by(case, evaluate(case, tribofilms_of(start)), None), scene.depths
+    fresh = unharmed_classes(depths.size, 1)
+    buried = fresh.damage_1.copy()
+    buried[4] = 0.5
+    classes, then = replace(fresh, damage_1=buried), start
+    tops = []
+    for _ in range(6000):
+        now = tuple(changed(mean, wear=mean.wear + 5e-4 * depths[4]) for mean in then)
+        classes, then = fatigue.fatigued(scene, classes, harm, then, now), now  # type: ignore[arg-type]
+        tops.append(classes.damage_1[0, 0])
+    assert tops[0] == 0.0
+    assert max(tops) > 0.15
+    assert tops[-1] < 0.03
+    assert classes.damage_1.max() < 0.15
+
+
 def test_pits_grow_without_jumps_and_less_where_wear_is_faster() -> None:
     """Wear takes away what is damaged before it breaks out."""
     areas = {}
@@ -193,7 +213,7 @@ def test_the_change_of_level_keeps_damage_and_pits() -> None:
     assert after.below is not None
     layers = after.below.damage_1.reshape(quick.depths.size, -1)
     told = later.classes.damage_1.reshape(quick.depths.size, 1, -1) @ WEIGHTS
-    assert layers.mean(axis=1) == approx(told[:, 0], rel=0.05)
+    assert layers.mean(axis=1) == approx(told[:, 0], rel=0.1)  # classes of whole nodes
     pits = float(after.bodies[0].pits.mean())
     assert pits == approx(outputs.profile_loss_1 - outputs.wear_depth_1, rel=0.1, abs=1e-12)
     assert advance(deep, deep.operation.point, after, 1.0)[1].damage_1 > 0.0
