@@ -107,7 +107,7 @@ def outputs_of(
         blocks_dry=before.blocks_dry,
         blocks_mixed=before.blocks_mixed,
         blocks_fallback=before.blocks_fallback,
-        **{**below, **errors},
+        **({"profile_loss_1": first.wear, "profile_loss_2": second.wear} | below | errors),
     )
 
 

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from ..kernels.load_cycle import cycle_of
 from ..kernels.stress_measures import von_mises
-from ..kernels.subsurface import Subsurface
 from ..scene.records import POISSON
 
 Array = NDArray[np.float64]
@@ -86,6 +85,8 @@ def smooth_cycles(ratio: float | None, slope: float, residual: float) -> SmoothC
 
 @lru_cache(maxsize=16)
 def _table(shape: int | None, slope: float, residual: float) -> SmoothCycles:
+    from ..kernels.subsurface import Subsurface  # the compiler: loaded where stresses are asked for
+
     ratio = None if shape is None else math.exp(shape * _ALIKE)
     if ratio is None:
         spacing, rows, across = 1.0 / _NODES, np.zeros(_ROWS.size, np.int64), np.zeros(1)

@@ -2,10 +2,10 @@
 
 import math
 from functools import lru_cache
+from statistics import NormalDist
 from typing import NamedTuple
 
 import numpy as np
-import scipy.special
 from numpy.typing import NDArray
 
 from ..kernels.damage import faces_of
@@ -23,7 +23,8 @@ Array = NDArray[np.float64]
 
 OF_STRESS = ("von_mises_max", "von_mises_depth", "near_surface_share", "dang_van_ratio", "crossland_ratio")
 
-_SCORES = scipy.special.ndtri(EDGES - 0.5 * WEIGHTS)  # of the middle of each class
+_NORMAL = NormalDist()
+_SCORES = np.array([_NORMAL.inv_cdf(share) for share in EDGES - 0.5 * WEIGHTS])  # of the middle of each class
 _UNIT = 1e9  # Pa
 _RISK = 31.0 / 3.0  # power of a stress in the risk that a volume fails: Lundberg & Palmgren 1947
 _LEAST = 0.05  # local pressure over Hertz's largest, at least: beyond the contact there is none
@@ -127,7 +128,7 @@ def _rough(case: Case, contact: MeanContact, largest: float, half: float, side: 
 
 def _extreme(spots: float) -> float:
     """Return the normal score of the largest of some spots."""
-    return float(scipy.special.ndtri(1.0 - 1.0 / (max(spots, 1.0) + 1.0)))
+    return _NORMAL.inv_cdf(1.0 - 1.0 / (max(spots, 1.0) + 1.0))
 
 
 @lru_cache(maxsize=64)

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from comparison import approx
 
 from contact_core import ContactState, Outputs, Scene, advance, initial_state
 from contact_core.reference.stresses import line_stress
@@ -17,7 +18,6 @@ from contact_core.scene import Case
 from contact_core.state import Classes, changed
 from contact_core.state.classes import WEIGHTS, unharmed_classes
 from contact_core.surfaces.track_means import folded, means_of
-from tests.comparison import approx
 
 FAST = {"film.model": "regression", "stress.model": "half_space"}
 BASQUIN = {"fatigue.model": "basquin", "fatigue.reference_stress": "900 MPa", "fatigue.life_exponent": "8"}
