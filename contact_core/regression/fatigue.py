@@ -1,7 +1,8 @@
 """Fatigue below both tracks at the regression level: damage of classes of points, pits, and what they are on the track.
 
 A class is a share of the points of a row that the roughness loads alike; it keeps its place among them at every depth
-(assumed), so a point's worst depth is that of its class. Load cycles add damage, wear brings it up, at 1 it breaks out.
+(assumed), so a point's worst depth is that of its class. Load cycles add damage, wear brings it up, at 1 it breaks out,
+and what then lies in a pit carries nothing any more.
 """
 
 import math
@@ -70,18 +71,20 @@ def _fatigued(
     flat = classes.damage[i].shape
     damage, pits = classes.damage[i].reshape(per_cycle.shape), classes.pits[i].reshape(per_cycle.shape[1:])
     lag, left = float(classes.lag[i]) + worn, 1.0  # share of the step
+    gaining = per_cycle * (pits == 0.0)  # what lies in a pit carries nothing
     if lag > _LAG * depths[0]:
-        gained, removed = cycles * per_cycle, np.full(pits.shape, lag)
+        gained, removed = cycles * gaining, np.full(pits.shape, lag)
         if float((damage + gained).max()) < 1.0:
             return accumulated(damage, depths, gained, removed).reshape(flat), classes.pits[i], 0.0
         damage, lag = worn_away(damage, depths, removed), 0.0
     while left > 0.0:
-        after = damage + (left * cycles) * per_cycle
+        after = damage + (left * cycles) * gaining
         if float(after.max()) < 1.0:
             return after.reshape(flat), pits.ravel(), lag
-        share = left if left <= _FEWEST else min(max(_first(damage, cycles * per_cycle), _FEWEST), left)
-        broken, damage = pits_of(damage + (share * cycles) * per_cycle, depths)
+        share = left if left <= _FEWEST else min(max(_first(damage, cycles * gaining), _FEWEST), left)
+        broken, damage = pits_of(damage + (share * cycles) * gaining, depths)
         pits, left = pits + broken, left - share
+        gaining = per_cycle * (pits == 0.0)
     return damage.reshape(flat), pits.ravel(), lag
 
 
@@ -104,7 +107,10 @@ def outputs_below(case: Case, before: Outputs, harm: Harm, classes: Classes | No
         rate, more = harm.per_cycle.max(axis=1), harm.more.max(axis=1)  # [2, rows, classes]
         damage = np.array(classes.damage).max(axis=1).reshape(rate.shape)
         pits = np.array(classes.pits).reshape(rate.shape)
-        worst, broken, now, higher = (np.array([damage, pits, rate, more]) @ WEIGHTS).mean(axis=2).tolist()
+        whole = pits == 0.0
+        worst, broken, now, higher = (
+            (np.array([damage, pits, rate * whole, more * whole]) @ WEIGHTS).mean(axis=2).tolist()
+        )
         found["error_damage"] = max(map(_relative, now, higher))
         flat = (-1, WEIGHTS.size)
         areas = _pitted(damage.reshape(flat), pits.reshape(flat), rate.reshape(flat)).reshape(2, -1).mean(axis=1)

@@ -16,6 +16,7 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 _WHOLE = np.nextafter(1.0, 0.0)  # damage of what has not yet failed, at most
+_BROKEN = 0.5  # share of its points from which on a class has broken out
 _PARTS = 4  # of |y| < b, of contacts whose pressure falls off along y
 
 
@@ -45,7 +46,8 @@ def _classes_of(scene: Scene, state: ContactState, i: int) -> tuple[Array, Array
             if not mine.size:  # too few nodes for a class: the nearest one
                 mine = nodes[[min(int((EDGES[k] - 0.5 * WEIGHTS[k]) * nodes.size), nodes.size - 1)]]
             damage.append(layers[:, mine].mean(axis=1))
-            depth.append(pits.ravel()[mine].mean())
+            broken = pits.ravel()[mine]
+            depth.append(broken.mean() if (broken > 0.0).mean() >= _BROKEN else 0.0)
     return np.stack(damage, axis=1), np.array(depth)
 
 

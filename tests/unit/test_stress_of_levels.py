@@ -162,6 +162,16 @@ def test_pits_grow_without_jumps_and_less_where_wear_is_faster() -> None:
     assert areas["1e-3"] < 0.7 * areas["0"]
 
 
+def test_a_class_breaks_out_once() -> None:
+    """What lies in a pit carries nothing, however long the run: no pit is deeper than the layers are."""
+    scene = line(BASQUIN, NO_WEAR, {"fatigue.reference_stress": "300 MPa"})
+    state, outputs = run(scene, 4, 3600.0)
+    assert state.classes is not None
+    assert outputs.micropitted_area_1 > 0.3
+    assert 0.0 < max(state.classes.pits_1.max(), state.classes.pits_2.max()) <= 1.5 * scene.depths[-1]
+    assert outputs.profile_loss_1 < scene.depths[-1]
+
+
 def test_a_step_taken_back_leaves_no_trace() -> None:
     """The same step from a state, or from its bytes, gives the same bytes."""
     scene = line(BASQUIN)
