@@ -15,6 +15,7 @@ from ..kernels.damage import accumulated, pits_of
 from ..kernels.load_cycle import Cycle
 from ..scene import Case, Scene, Side
 from ..state import Below, Body, ContactState
+from ..state.below import nothing_below
 from ..surfaces.patches import track_rows
 from .subsurface import Pass, Traction
 
@@ -28,9 +29,7 @@ _BATCH = 0.005  # of the track that may break out in one block
 
 def unharmed(scene: Scene, rows: int) -> Below:
     """Return what lies below new surfaces, before the first instant."""
-    fresh = np.zeros((scene.depths.size * rows, scene.film.points - 1))
-    nothing, none = np.zeros(2), np.empty((0, 0))
-    return Below(none, none, none, 0, 0.0, *(fresh,) * 4, *(nothing,) * 7)
+    return nothing_below(scene.depths.size, rows, scene.film.points - 1)
 
 
 def with_tractions(below: Below, tractions: Sequence[Traction]) -> Below:

@@ -6,7 +6,11 @@
     load_sharing   how solids and oil share the load
     contact        film, friction, heat and derivatives of an operating point
     exposure       exposure, abrasion and wear of a track
+    smooth_cycles  table of load cycles below smooth bodies
+    near_surface   curves of what roughness adds to them
+    stress         stresses and load cycles below a mean contact
     outputs        outputs and their errors
+    fatigue        damage, pits and what they are on the track
     evolution      `advance`: the track means over time
     warming        loads packages before the first step of a process
 

@@ -13,11 +13,13 @@ import numpy as np
 
 from ..errors import ConvergenceError, OperatingPointError
 from ..scene import Case, Side
-from ..state import ContactState, Mean, Outputs, changed
+from ..state import Classes, ContactState, Mean, Outputs, changed
 from ..state.bulk_temperature import NO_TIME, cool_time, temperatures_after
+from ..surfaces.damage_classes import classes_of
 from ..surfaces.track_means import means_of
 from .contact import MeanContact, evaluate
 from .exposure import abrasion, doses, oxidised, solid_rate, track_area, wear_rate
+from .fatigue import Harm, fatigued, harm_by, outputs_below
 from .outputs import outputs_of
 from .surfaces import Means, Tribofilms, added_friction, composite_roughness, mean_cover, regression_film, tribofilms_of
 
@@ -76,10 +78,12 @@ def _stepped(case: Case, state: ContactState, dt: float, amend: Amend) -> tuple[
     """Return the state and outputs after `dt` [s] at held bulk temperatures."""
     before = state.means or means_of(case.scene, state)
     means, films, left = before, tribofilms_of(before), dt
+    classes: Classes | None = _classes(case, state)
+    harm: Harm | None = None
     contact = amend(case, evaluate(case, films))
     speed = 0.0  # at which the surfaces change [m/s]
     while left > 0.0:
-        start = means
+        start, used = means, contact
         step, means, films, speed = _substep(case, contact, start, left)
         left -= step
         if _has_changed(case, contact, films):
@@ -88,6 +92,9 @@ def _stepped(case: Case, state: ContactState, dt: float, amend: Amend) -> tuple[
             if settled is not means:
                 means, films = settled, tribofilms_of(settled)
                 contact = amend(case, evaluate(case, films))
+        if classes is not None:
+            harm = harm_by(case, used, harm)
+            classes = fatigued(case.scene, classes, harm, start, means)
     if dt > 0.0:
         rates = [(now.worn - then.worn) / dt for now, then in zip(means, before, strict=True)]
     else:
@@ -100,8 +107,19 @@ def _stepped(case: Case, state: ContactState, dt: float, amend: Amend) -> tuple[
             f"Friction or film at load = {op.load:g} N, speeds {op.speed_1:g} and {op.speed_2:g} m/s is not finite: "
             "the laws of the oil do not reach that far. Lower load or sliding speed."
         )
-    outputs = outputs_of(case, state.outputs, contact, means, films, rates, speed)
-    return changed(state, time=state.time + dt, means=means, outputs=outputs, solved_for=None), outputs
+    below = {}
+    if case.scene.stress.samples:
+        below = outputs_below(case, state.outputs, harm_by(case, contact, harm), classes, means)
+    outputs = outputs_of(case, state.outputs, contact, means, films, rates, speed, below)
+    return changed(state, time=state.time + dt, means=means, classes=classes, outputs=outputs, solved_for=None), outputs
+
+
+def _classes(case: Case, state: ContactState) -> Classes | None:
+    """Return the damage of a state by classes; None where nothing damages."""
+    scene = case.scene
+    if not (scene.stress.samples and scene.fatigue.damages):
+        return state.classes
+    return state.classes or classes_of(scene, state)
 
 
 def _substep(case: Case, contact: MeanContact, means: Means, left: float) -> tuple[float, Means, Tribofilms, float]:

@@ -37,8 +37,12 @@ def outputs_of(
     tribofilms: Tribofilms,
     rates: list[float],
     speed: float,
+    below: dict[str, float],
 ) -> Outputs:
-    """Return the outputs of this level; the others stay zero. Counters of solved blocks continue."""
+    """Return the outputs of this level; the others stay zero. Counters of solved blocks continue.
+
+    `below` are those of what lies below the surfaces, with the error of what is damaged now.
+    """
     force = contact.solid + contact.fluid
     hot_1, hot_2 = case.op.bodies
     first, second = means
@@ -46,6 +50,8 @@ def outputs_of(
     risk = case.scene.scuffing.ratio(contact.hottest, case.op.temperature)
     films = max(first.growth - first.removal, 0.0), max(second.growth - second.removal, 0.0)
     errors |= _of_history(before, films, means, errors)
+    if below:
+        errors["error_damage"] = _of_damage(before, below)
     return changed(
         _BLANK,
         friction_force=force,
@@ -101,7 +107,7 @@ def outputs_of(
         blocks_dry=before.blocks_dry,
         blocks_mixed=before.blocks_mixed,
         blocks_fallback=before.blocks_fallback,
-        **errors,
+        **({"profile_loss_1": first.wear, "profile_loss_2": second.wear} | below | errors),
     )
 
 
@@ -146,7 +152,7 @@ def half_widths(case: Case, contact: MeanContact) -> dict[str, Any]:
     sharing = regression_film(case.scene).sharing
     widths, clearance = sharing.WIDTHS, contact.fit.clearance
     beyond = 1.0 if _fitted(case, contact) else _BEYOND
-    wider = _run_in(case, contact) * beyond
+    wider = run_in(case, contact) * beyond
     bare = contact.sigma > 0.0 and case.microroughness is None  # the curves know no solids that touch at a hard floor
     load = 1.0 if bare else wider * widths.of_load(share, clearance)
     oil = beyond * widths.of_oil(clearance, contact.oil_slope)  # rubbing changes what touches, not how oil shears
@@ -182,6 +188,15 @@ def _of_history(before: Outputs, films: tuple[float, float], means: Means, now: 
     }
 
 
+def _of_damage(before: Outputs, below: dict[str, float]) -> float:
+    """Return the error of the damages, the larger one: of what was there and of what came, by their amounts."""
+    was = before.damage_1, before.damage_2
+    return max(
+        _mean_error(before.error_damage, held, below["error_damage"], abs(below[f"damage_{i}"] - held))
+        for i, held in enumerate(was, 1)
+    )
+
+
 def _mean_error(before: float, held: float, now: float, made: float) -> float:
     return (before * held + now * made) / (held + made) if held + made > 0.0 else now
 
@@ -202,12 +217,13 @@ def errors_of(scene: Scene, state: ContactState) -> dict[str, Error]:
             for name, error in (
                 ("tribofilm", getattr(out, f"error_tribofilm_{body}")),
                 ("wear_depth", out.error_wear),
+                ("damage", out.error_damage),
             )
         }
     return {name: Error(curves=half) for name, half in given.items()}
 
 
-def _run_in(case: Case, contact: MeanContact) -> float:
+def run_in(case: Case, contact: MeanContact) -> float:
     """Return the factor by which errors are wider for surfaces that rubbing has changed."""
     if contact.sigma == 0.0:
         return 1.0

@@ -6,6 +6,7 @@
     trends             outputs without their noise, errors of time steps and of sampling
     solved             deterministic solutions that correct the regression level
     below              tractions, load cycles and damage below the surfaces
+    classes            damage by classes of points, at the regression level
     storage            records of numbers and arrays as bytes and back
     bulk_temperature   temperatures of the bodies from the heat of the contact, for both levels
 
@@ -13,6 +14,7 @@ Records are frozen: a step returns new ones.
 """
 
 from .below import Below
+from .classes import Classes
 from .error import Error
 from .outputs import Outputs, RangeFlag, flag_of_errors, flag_of_pits, flag_of_scuffing, flags_of_tribofilm
 from .solved import Solved
@@ -21,6 +23,7 @@ from .state import Body, ContactState, Mean, changed, initial_state
 __all__ = [
     "Below",
     "Body",
+    "Classes",
     "ContactState",
     "Error",
     "Mean",

@@ -51,3 +51,10 @@ class Below:
         """Return the half widths of the error of a track's mean damage, by late rates and by few instants."""
         late = abs(float(self.late[body])) + 0.5 * abs(float(self.step[body])) * self.held
         return late, abs(float(self.few[body])) + 2.0 * float(self.variance[body]) ** 0.5
+
+
+def nothing_below(layers: int, rows: int, columns: int) -> Below:
+    """Return what lies below new surfaces, before the first instant."""
+    fresh = np.zeros((layers * rows, columns))
+    nothing, none = np.zeros(2), np.empty((0, 0))
+    return Below(none, none, none, 0, 0.0, *(fresh,) * 4, *(nothing,) * 7)

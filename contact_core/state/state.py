@@ -19,6 +19,7 @@ from ..film.instant import FilmState
 from ..laws.tribofilm import thickness
 from ..scene import OperatingPoint, Scene
 from .below import Below
+from .classes import Classes
 from .outputs import Outputs
 from .solved import Solved
 from .storage import Reader, numbers, stored
@@ -31,8 +32,8 @@ _FEWEST = 100  # bytes that a header of schema 5 or before has at least
 _CHECKSUM, _SIGNED = struct.Struct("<I"), struct.Struct("<II")
 _LAYOUT = struct.Struct("<I")
 _TEXTS = struct.Struct(
-    "<6?II"
-)  # what is there of film, solved_for, means, temperatures, solved, below; lengths of digest, law
+    "<7?II"
+)  # what is there of film, solved_for, means, temperatures, solved, below, classes; lengths of digest, law
 _PAIR = struct.Struct("<2d")
 
 
@@ -124,6 +125,7 @@ class ContactState:
     oil_friction: float = 0.0
     oil_rolling: float = 0.0  # resistance
     below: Below | None = None  # stresses and damage below the surfaces; None: none sampled yet
+    classes: Classes | None = None  # damage at the regression level; None: that of `below`
 
     @property
     def rows(self) -> int:
@@ -145,10 +147,10 @@ class ContactState:
         since an earlier state is the same object in both (`obj` of its part): at the regression level all of them,
         between two solutions of the deterministic level all but tribofilm and wear.
         """
-        some = self.film, self.solved, self.below
+        some = self.film, self.solved, self.below, self.classes
         kept = [stored(record) for record in (*self.bodies, self.trends, *some) if record is not None]
         texts = self.digest.encode(), self.law.encode()
-        maybe = self.film, self.solved_for, self.means, self.temperatures, self.solved, self.below
+        maybe = self.film, self.solved_for, self.means, self.temperatures, self.solved, self.below, self.classes
         given = [record is not None for record in maybe]
         single = [r for r in (self, self.outputs, self.solved_for, *(self.means or ())) if r is not None]
         head = b"".join(
@@ -204,7 +206,7 @@ def _read(data: bytes) -> ContactState:
 @cache
 def _layout() -> int:
     """Return the fingerprint of the numbers and trends in a stored state, by their names and order."""
-    records = (ContactState, Outputs, OperatingPoint, Mean, Body, Trends, FilmState, Solved, Below)
+    records = (ContactState, Outputs, OperatingPoint, Mean, Body, Trends, FilmState, Solved, Below, Classes)
     names = [f.name for record in records for f in fields(record)]
     return zlib.crc32(" ".join([*names, *NAMES]).encode())
 
@@ -216,7 +218,7 @@ def _unpacked(reader: Reader) -> ContactState:
             "The stored state was written by a version with other inputs or outputs. Give a file that a run of this "
             "version has written."
         )
-    film, solved_for, means, temperatures, solved, below, digest, law = reader.values(_TEXTS)
+    film, solved_for, means, temperatures, solved, below, classes, digest, law = reader.values(_TEXTS)
     texts: dict[str, Any] = {"digest": reader.text(digest), "law": reader.text(law)}
     own = reader.numbers(ContactState)
     outputs = Outputs(**reader.numbers(Outputs))
@@ -235,6 +237,7 @@ def _unpacked(reader: Reader) -> ContactState:
         film=reader.record(FilmState) if film else None,
         solved=reader.record(Solved) if solved else None,
         below=reader.record(Below) if below else None,
+        classes=reader.record(Classes) if classes else None,
     )
 
 

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from ..laws.tribofilm import thickness
 from ..scene import Scene
 from ..state import Body, ContactState, Mean
-from .patches import bare_heights, middle_rows, roughness_of, solid_of, track_rows
+from .damage_classes import folded_damage
+from .patches import bare_heights, middle_rows, roughness_of, track_rows
 from .roughness import rms_roughness
 
 Array = NDArray[np.float64]
@@ -29,7 +30,7 @@ def _mean_of(scene: Scene, state: ContactState, i: int) -> Mean:
     body, rows = state.bodies[i], state.rows
     track = track_rows(scene, rows)
     bare = bare_heights(scene, rows)[i]
-    solid = roughness_of(bare, solid_of(bare, body))
+    solid = roughness_of(bare, _between_pits(bare, body))
     roughness = rms_roughness(solid, middle_rows(scene, rows))
     return Mean(
         growth=float(body.growth[track].mean()),
@@ -42,6 +43,11 @@ def _mean_of(scene: Scene, state: ContactState, i: int) -> Mean:
         formed=float(body.formed[track].mean()),
         oxide=float(body.oxide[track].mean()),
     )
+
+
+def _between_pits(bare: Array, body: Body) -> Array:
+    """Return the heights [m] of a body's solid without its pits: the roughness of what carries the load."""
+    return bare - body.wear - body.plastic
 
 
 def _sampled(scene: Scene, bare: Array, i: int) -> float:
@@ -70,8 +76,8 @@ def folded(scene: Scene, state: ContactState) -> ContactState:
     """Return the state with its patches brought up to date: the change of the track means is added to them.
 
     Tribofilm is added where there is most and on the highest points without any. Wear cuts off the highest points as
-    far as the roughness has to fall, and takes the rest in proportion to the last pressure on each point. Unchanged
-    means change nothing.
+    far as the roughness has to fall, and takes the rest in proportion to the last pressure on each point. So are damage
+    and pits, by their classes. Unchanged means change nothing.
     """
     if state.means is None:
         return state
@@ -80,14 +86,15 @@ def folded(scene: Scene, state: ContactState) -> ContactState:
         body if now == then else _folded(scene, state.rows, i, body, then, now)
         for i, (body, then, now) in enumerate(zip(state.bodies, old, state.means, strict=True))
     )
-    return replace(state, bodies=(first, second), means=None, solved_for=None)
+    below, bodies = folded_damage(scene, state, (first, second))
+    return replace(state, bodies=bodies, below=below, means=None, classes=None, solved_for=None)
 
 
 def _folded(scene: Scene, rows: int, i: int, body: Body, then: Mean, now: Mean) -> Body:
     """Return a body whose track has changed from one mean to another."""
     track = track_rows(scene, rows)
     bare = bare_heights(scene, rows)[i]
-    heights = solid_of(bare, body)[track]
+    heights = _between_pits(bare, body)[track]
     pressure = body.pressure[track]
     share = pressure / pressure.mean() if pressure.any() else np.ones_like(pressure)
     covered = _covered(heights, body.growth[track], now.coverage)
