@@ -20,7 +20,7 @@ OWED = {
     *("film/hard_cases", "film/measured", "film/moving", "film/peers", "film/tolerance", "film/two_hours"),
     *("fmu/endurance", "fmu/overhead", "friction/laws_cost", "friction/traction", "machines/tolerance"),
     *("regression/cost", "regression/curves", "regression/held_back", "regression/shapes", "speed_error"),
-    *("surfaces/evolution", "surfaces/stribeck", "thesis/validation"),
+    *("surfaces/evolution", "surfaces/stribeck", "surfaces/tribofilm", "thesis/validation"),
 }
 
 
