@@ -12,6 +12,7 @@ from ..state import (
     RangeFlag,
     changed,
     flag_of_errors,
+    flag_of_pits,
     flag_of_scuffing,
     flags_of_tribofilm,
 )
@@ -98,7 +99,10 @@ def outputs_of(
         approach=case.unit_hertz.approach_at(case.op.load) - contact.gap,
         range_flags=_flags(case, contact)
         | int(flag_of_errors(errors, case.scene.control.accuracy))
-        | int(flag_of_scuffing(risk)),
+        | int(flag_of_scuffing(risk))
+        | int(
+            flag_of_pits(*(below.get(f"profile_loss_{i}", mean.wear) - mean.wear for i, mean in enumerate(means, 1)))
+        ),
         suggested_step=min(case.scene.control.change / speed, longest) if speed > 0.0 else longest,
         load_cycles_1=first.cycles,
         load_cycles_2=second.cycles,

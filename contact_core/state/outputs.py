@@ -85,9 +85,9 @@ def flag_of_scuffing(ratio: float) -> RangeFlag:
     return RangeFlag.SCUFFING if ratio > 1.0 else RangeFlag(0)
 
 
-def flag_of_pits(*areas: float) -> RangeFlag:
-    """Return PITTED where any of the micropitted areas is above 0."""
-    return RangeFlag.PITTED if any(area > 0.0 for area in areas) else RangeFlag(0)
+def flag_of_pits(*broken: float) -> RangeFlag:
+    """Return PITTED where anything has broken out of a body, by area or depth."""
+    return RangeFlag.PITTED if any(each > 0.0 for each in broken) else RangeFlag(0)
 
 
 _ASKED = 0.5  # accuracy of a scene that asks for none
