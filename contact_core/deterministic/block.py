@@ -21,8 +21,8 @@ from .accumulator import Accumulator
 from .growth_and_wear import followed, stable_time, with_exposure
 from .instant import solve_instant
 from .resting import conformed, scar_time
-from .sampling import blocks_per_pass, jumps_of, sample_dry, sample_mixed
-from .subsurface import OF_STRESS, of_a_pass, outputs_of_stress, passed, share_of
+from .sampling import blocks_per_pass, jumps_of, rest_of_a_pass, sample_dry, sample_mixed
+from .subsurface import OF_STRESS, is_whole, of_a_pass, outputs_of_stress, passed
 
 _DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block
@@ -75,7 +75,7 @@ def _sampled(case: Case, state: ContactState, same: bool) -> tuple[ContactState,
         state = sample_mixed(case, state, sums, same)
         found = sums.means()["contact_load_ratio"]
         if driver == "mixed" or found <= case.scene.control.dry_above or sums.fallbacks:
-            return replace(state, share=1.0), sums
+            return rest_of_a_pass(case, replace(state, share=1.0), sums, same), sums
         friction, rolling = sums.oil_over_its_load(case.op.load)
         if state.share < 1.0:  # one measurement scatters
             found = 0.5 * (found + state.share)
@@ -171,8 +171,7 @@ def finished(case: Case, state: ContactState, sums: Accumulator, blocks: int = 1
 def _below(case: Case, state: ContactState, sums: Accumulator) -> tuple[Below | None, dict[str, float]]:
     """Return what lies below the surfaces after a block, and the outputs of stress that are new.
 
-    A pass counts once it is over; the first one of an operating point as soon as twice as many instants are known as
-    before.
+    A pass counts once it is over.
     """
     below, scene = state.below, case.scene
     if not scene.stress.samples:
@@ -180,10 +179,9 @@ def _below(case: Case, state: ContactState, sums: Accumulator) -> tuple[Below | 
     if not case.loaded:
         return damage.at_rest(below) if below is not None else None, dict.fromkeys(OF_STRESS, 0.0)
     same = state.solved_for is not None and not case.differs_from(state.solved_for)
-    found = share_of(case, sums.tractions, dry=sums.driver == "dry")
-    tractions = of_a_pass(case, state, found, same)
+    tractions = of_a_pass(case, state, sums.tractions, same)
     below = damage.with_tractions(below or damage.unharmed(scene, state.rows), tractions)
-    if same and len(tractions) < min(2 * below.used, scene.stress.instants):
+    if not is_whole(case, tractions):
         return below, {}
     seen = passed(case, state.rows, tractions)
     return damage.with_cycles(case, below, seen), outputs_of_stress(case, state.rows, seen)

@@ -44,7 +44,6 @@ def with_tractions(below: Below, tractions: Sequence[Traction]) -> Below:
 
 def with_cycles(case: Case, below: Below, found: Pass) -> Below:
     """Return what lies below after a pass."""
-    below = replace(below, used=len(below.places))
     law = case.scene.fatigue
     if not law.damages:
         return below

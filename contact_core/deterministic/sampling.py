@@ -17,7 +17,7 @@ from ..scene import Case, Scene
 from ..state import ContactState
 from .accumulator import Accumulator
 from .instant import Transient, solve_instant
-from .subsurface import pass_goes_on, steps_of_a_pass
+from .subsurface import begins_anew, is_whole, of_a_pass, pass_goes_on, steps_of_a_pass
 from .transient import dry_instant, next_instant, rolled
 
 # way of the oil after a new start before the march is sampled, in halves of the contact's length: in near rolling; in
@@ -39,7 +39,10 @@ def sample_dry(case: Case, state: ContactState, sums: Accumulator, same: bool = 
     if case.scene.stress.samples:
         jumps = steps_of_a_pass(case)
         first = jumps if pass_goes_on(case, state, same) else first
-    for k in range(case.scene.control.dry_instants):
+    count = case.scene.control.dry_instants
+    if begins_anew(case, state, same):
+        count = max(count, case.scene.stress.instants)
+    for k in range(count):
         state, fields = dry_instant(case, state, jumps if k else first)
         sums.add(case, state, fields, (1.0 / _DRY_PASS, 1.0 / _DRY_PASS))
     return state
@@ -89,6 +92,14 @@ def sample_mixed(
         state, fields = next_instant(case, state, moves, Transient(dt, 0, _ITERATIONS, heated=settled))
         if settled:
             sums.add(case, state, fields, passes, sampled=k >= 0)
+    return state
+
+
+def rest_of_a_pass(case: Case, state: ContactState, sums: Accumulator, same: bool) -> ContactState:
+    """Add instants to those of a mixed block that begins anew, until they are a pass; return the state after them."""
+    if begins_anew(case, state, same):
+        while not is_whole(case, of_a_pass(case, state, sums.tractions, False)):
+            state = sample_mixed(case, state, sums, True, jumping=False)
     return state
 
 

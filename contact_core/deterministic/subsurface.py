@@ -1,10 +1,8 @@
 """Stresses below the surfaces, by some instants of a pass, and the load cycles that they make.
 
 The tractions of some instants stand for one pass of a surface point, in which both bodies move as they do: in near
-rolling a point meets one and the same asperity. Dry blocks are spread over the pass, a mixed block is a piece of it.
-The first pass of an operating point is known little by little; the newest traction then moves on with both bodies as if
-its pressure stayed where it is, which is exact for smooth bodies. Each point of a patch has its own history, the
-unloaded state included.
+rolling a point meets one and the same asperity. The first block of an operating point is a whole pass; others are
+pieces of one, and count once it is over. Each point of a patch has its own history, the unloaded state included.
 """
 
 from collections.abc import Iterator, Sequence
@@ -61,16 +59,35 @@ def pass_goes_on(case: Case, state: ContactState, same: bool) -> bool:
     return same and state.below is not None and 0 < len(state.below.places) < case.scene.stress.instants
 
 
+def begins_anew(case: Case, state: ContactState, same: bool) -> bool:
+    """Return True if stresses are asked for and no pass of the operating point is known."""
+    return case.scene.stress.samples and not (same and state.below is not None and len(state.below.places) > 0)
+
+
 def steps_of_a_pass(case: Case) -> list[float]:
     """Return how far [m] both bodies move along +x from instant to instant of a pass of the faster one."""
     step = case.scene.film.domain / case.scene.stress.instants
     return [step * speed / case.fastest if case.fastest > 0.0 else 0.0 for speed in case.speeds]
 
 
+def is_whole(case: Case, tractions: Sequence[Traction]) -> bool:
+    """Return True if a pass is over."""
+    return len(tractions) >= case.scene.stress.instants
+
+
 def of_a_pass(case: Case, state: ContactState, found: Sequence[Traction], same: bool) -> list[Traction]:
-    """Return the tractions of the pass in progress, the oldest first; `found` are those of the last block."""
-    earlier = list(_kept(state)) if pass_goes_on(case, state, same) else []
-    return [*earlier, *found][: case.scene.stress.instants]
+    """Return the tractions of the pass in progress, the oldest first; `found` are those of the last block.
+
+    Of instants that lie closer together than those of a pass only some count.
+    """
+    tractions = list(_kept(state)) if pass_goes_on(case, state, same) else []
+    columns, fast = case.scene.film.points - 1, int(abs(case.op.speed_2) > abs(case.op.speed_1))
+    apart, ahead = columns // case.scene.stress.instants, 1 if case.speeds[fast] > 0.0 else -1
+    for traction in found:
+        moved = (traction.places[fast] - tractions[-1].places[fast]) * ahead % columns if tractions else columns
+        if moved >= apart or case.fastest == 0.0:
+            tractions.append(traction)
+    return tractions[: case.scene.stress.instants]
 
 
 def _kept(state: ContactState) -> Iterator[Traction]:
@@ -81,22 +98,13 @@ def _kept(state: ContactState) -> Iterator[Traction]:
         yield Traction(state.below.pressure[rows], state.below.shear[rows], (int(first), int(second)))
 
 
-def share_of(case: Case, found: Sequence[Traction], *, dry: bool) -> list[Traction]:
-    """Return the tractions of a block's instants that count for a pass: of a mixed one's, a node apart, only some."""
-    if dry:
-        return list(found)
-    part = len(found) / (case.scene.film.points - 1)
-    count = max(1, round(case.scene.stress.instants * part))
-    return [found[round((k + 1) * len(found) / count) - 1] for k in range(min(count, len(found)))]
-
-
 def passed(case: Case, rows: int, tractions: Sequence[Traction]) -> Pass:
     """Return the load cycles of both bodies under the tractions of a pass."""
     scene, law = case.scene, case.scene.stress
     assert isinstance(scene.film, Deterministic)
     grid, depths = scene.grid(rows), tuple(scene.depths.tolist())
     kernel = subsurface(grid.shape, grid.spacing, depths, POISSON, scene.film.fft, periodic=grid.periodic)
-    history, unloaded = list(_history(case, tractions)), law.residual_stress()
+    unloaded = law.residual_stress()
     largest = np.empty((2, len(tractions), len(depths)))
     cycles: list[Cycle] = []
     halved: list[Cycle] = []
@@ -107,7 +115,8 @@ def passed(case: Case, rows: int, tractions: Sequence[Traction]) -> Pass:
         for k, fields in enumerate(zip(*stresses, strict=True)):
             loaded = [field + unloaded[:, None, None] for field in fields]
             largest[side.body, :, k] = [von_mises(field).max() for field in loaded]
-            seen = np.stack([_on_patch(loaded[which], places[side.body]) for which, places in history])
+            places = [traction.places[side.body] for traction in tractions]
+            seen = np.stack([_on_patch(*pair) for pair in zip(loaded, places, strict=True)])
             whole, half = (cycle_of(part, unloaded, law.dang_van_slope) for part in (seen, seen[::2]))
             layers.append((whole, half))
         for kept, found in zip((cycles, halved), zip(*layers, strict=True), strict=True):
@@ -116,17 +125,6 @@ def passed(case: Case, rows: int, tractions: Sequence[Traction]) -> Pass:
     peaks = worse.max(axis=1)
     scatter = float(peaks.std() / (peaks.mean() * len(peaks) ** 0.5)) if peaks.any() else 0.0
     return Pass((cycles[0], cycles[1]), (halved[0], halved[1]), worse.mean(axis=0), scatter)
-
-
-def _history(case: Case, tractions: Sequence[Traction]) -> Iterator[tuple[int, Places]]:
-    """Yield which tractions each instant of the pass has, and where the patches are in it."""
-    for k, traction in enumerate(tractions):
-        yield k, traction.places
-    columns, instants = case.scene.film.points - 1, case.scene.stress.instants
-    (first, second), newest = tractions[-1].places, len(tractions) - 1
-    ahead = [step / case.scene.film.spacing for step in steps_of_a_pass(case)]
-    for step in range(1, instants - newest):
-        yield newest, ((first + round(step * ahead[0])) % columns, (second + round(step * ahead[1])) % columns)
 
 
 def _on_patch(field: Array, place: int) -> Array:

@@ -18,8 +18,7 @@ class Below:
     pressure: Array  # on the surfaces at the instants so far [Pa], [instants * rows, nx], the oldest first
     shear: Array  # on body 2 along +x [Pa], likewise
     places: Array  # of the patches of both bodies along +x [nodes], [instants, 2]
-    used: int  # instants that `per_cycle` is of
-    held: float  # time since it was found [s]
+    held: float  # time since the last whole pass [s]
     damage_1: Array  # 1 where the material fails
     damage_2: Array
     per_cycle_1: Array  # damage per load cycle
@@ -57,4 +56,4 @@ def nothing_below(layers: int, rows: int, columns: int) -> Below:
     """Return what lies below new surfaces, before the first instant."""
     fresh = np.zeros((layers * rows, columns))
     nothing, none = np.zeros(2), np.empty((0, 0))
-    return Below(none, none, none, 0, 0.0, *(fresh,) * 4, *(nothing,) * 7)
+    return Below(none, none, none, 0.0, *(fresh,) * 4, *(nothing,) * 7)
