@@ -47,8 +47,16 @@ def test_times_that_two_digits_cannot_tell_apart_have_more(long_run: xr.Dataset)
 def test_the_table_converts_to_the_units_of_its_heading(long_run: xr.Dataset) -> None:
     heading, units, *_ = (line.split() for line in report.table(long_run).splitlines())
     assert heading[:3] == ["time", "friction", "h_c"]
-    assert units == ["min", *["nm"] * 5]
+    assert units == ["min", *["nm"] * 5, "GPa", "um", "%", "%"]
     assert rows_of(report.table(long_run))[-1][:4] == [120.0, 0.1228, 37.2, 0.25]
+
+
+def test_the_table_has_columns_of_stress_and_damage_where_there_are_any(long_run: xr.Dataset) -> None:
+    names = ("von_mises_max", "von_mises_depth", "damage_1", "damage_2", "micropitted_area_1", "micropitted_area_2")
+    bare = long_run.assign({name: 0.0 * long_run[name] for name in names})
+    assert "Mises" not in report.table(bare)
+    assert "pitted 2" in report.table(long_run)
+    assert "damage 1" not in report.table(long_run.assign({name: 0.0 * long_run[name] for name in names[2:]}))
 
 
 def test_a_value_is_printed_with_the_half_width_of_its_error_to_the_first_digit_of_that(long_run: xr.Dataset) -> None:
