@@ -103,7 +103,7 @@ def _layers(scene: Scene, field: Array) -> Array:
 
 def pit_time(case: Case, state: ContactState) -> float:
     """Return the time [s] in which so much of a track breaks out that the contact has to be solved again."""
-    if state.below is None or not case.scene.fatigue.damages:
+    if state.below is None or not (case.scene.fatigue.damages and case.scene.stress.opens_pits):
         return math.inf
     return min(_pit_time(case, side, state.below) for side in case.sides)
 
@@ -148,18 +148,22 @@ def fatigued(
 def _fatigued(case: Case, side: Side, below: Below, body: Body, worn: Array, step: float) -> tuple[Array, Array, Body]:
     """Return damage, damage per load cycle and body after `step` [s] of them, in which `worn` [m] was rubbed off.
 
-    Nothing presses on the ground of a new pit; what does is up to the next solution.
+    Nothing presses on the ground of a new, open pit; what does is up to the next solution. A pit that is only counted
+    is as deep as what has failed under a point.
     """
     scene, count = case.scene, cycles_in(side, step)
     damage, per_cycle = (_layers(scene, field[side.body]) for field in (below.damage, below.per_cycle))
-    broken, damage = pits_of(accumulated(damage, scene.depths, count * per_cycle, worn), scene.depths)
-    if broken.any():
+    damage = accumulated(damage, scene.depths, count * per_cycle, worn)
+    broken, after = pits_of(damage, scene.depths)
+    if not scene.stress.opens_pits:
+        damage, body = np.minimum(damage, 1.0), replace(body, pits=np.maximum(body.pits, broken))
+    elif broken.any():
         bare = broken > 0.0
         films: dict[str, Any] = {
             name: np.where(bare, 0.0, getattr(body, name)) for name in ("growth", "removal", "oxide")
         }
-        body = replace(body, pits=body.pits + broken, **films)
-        per_cycle = np.where(bare, 0.0, per_cycle)
+        body = replace(body, pits=body.pits + broken, opened=body.opened + broken, **films)
+        damage, per_cycle = after, np.where(bare, 0.0, per_cycle)
     shape = below.damage[0].shape
     return damage.reshape(shape), per_cycle.reshape(shape), body
 

@@ -374,6 +374,10 @@ class Stress(Law, Protocol):
         """Depth over Hertz's half width down to which a stress is near the surface."""
 
     @property
+    def opens_pits(self) -> bool:
+        """True if what breaks out changes the surface."""
+
+    @property
     def torsion_limit(self) -> float:
         """Fatigue limit in alternating torsion [Pa]."""
 

@@ -32,6 +32,7 @@ class NoStress:
     error: ClassVar[str] = ""
     instants: ClassVar[int] = 0
     near_surface: ClassVar[float] = 0.0
+    opens_pits: ClassVar[bool] = False
     torsion_limit: ClassVar[float] = 1.0  # of nothing
     dang_van_slope: ClassVar[float] = 0.0
     crossland_slope: ClassVar[float] = 0.0
@@ -86,6 +87,13 @@ class HalfSpace:
     near_surface: float = parameter(
         "", "depth over that half width down to which a stress is near the surface", above=0.0, most=1.0, default=0.1
     )
+    pits: str = parameter(
+        "",
+        "micropits: counted, with their depth, while the surface stays as it is; open, holes in the surface, beside "
+        "which more presses",
+        choices=("counted", "open"),
+        default="counted",
+    )
     torsion_limit: float = parameter(
         "Pa",
         "fatigue limit in alternating torsion, amplitude",
@@ -121,6 +129,11 @@ class HalfSpace:
             f"stress.bending_limit = {self.bending_limit:g} Pa is {ratio:.3g} times stress.torsion_limit = "
             f"{self.torsion_limit:g} Pa; of metals it is {_BOUNDS[0]:g} to {_BOUNDS[1]:g} times that. Change one."
         )
+
+    @property
+    def opens_pits(self) -> bool:
+        """True if what breaks out changes the surface."""
+        return self.pits == "open"
 
     @property
     def dang_van_slope(self) -> float:

@@ -48,6 +48,7 @@ class Body:
     wear: Array  # depth worn [m]
     plastic: Array  # permanent depth pressed in [m]
     pits: Array  # depth broken out by fatigue [m]; zero without a law of it
+    opened: Array  # part of it that the surface has lost [m]; zero unless stress.pits = "open"
     pressure: Array  # of the solids on a point, mean over its track [Pa], of the last solution: for wear
     exposure: Array  # per test time, of the last solution: for the tribofilm law
     abrasion: Array  # rate [1/s], per test time, at which rubbing removes the tribofilm; zero for laws without it
@@ -66,6 +67,7 @@ class Body:
         "wear",
         "plastic",
         "pits",
+        "opened",
         "pressure",
         "exposure",
         "abrasion",

@@ -112,6 +112,6 @@ def folded_damage(
         damage[:, track] = inside.reshape(layers, -1, damage.shape[2])
         pits[track] = broken.reshape(-1, pits.shape[1])
         damages.append(damage.reshape(below.damage[i].shape))
-        after.append(replace(body, pits=pits))
+        after.append(replace(body, pits=pits, opened=pits if scene.stress.opens_pits else body.opened))
     late = below.late + state.outputs.error_damage * np.array(gained)
     return replace(below, damage_1=damages[0], damage_2=damages[1], late=late), (after[0], after[1])

@@ -173,8 +173,8 @@ def heights_of(bare: Array, body: Body) -> Array:
 
 
 def solid_of(bare: Array, body: Body) -> Array:
-    """Return the heights of a body's solid as it is now: new surface - wear - plastic depth - pits."""
-    return bare - body.wear - body.plastic - body.pits
+    """Return the heights of a body's solid as it is now: new surface - wear - plastic depth - open pits."""
+    return bare - body.wear - body.plastic - body.opened
 
 
 def roughness_of(bare: Array, heights: Array) -> Array:

@@ -24,7 +24,7 @@ class Track:
     x: Array
     y: Array
     new: Array  # heights before the first pass
-    heights: Array  # as they are: new - wear - plastic - pits + tribofilm
+    heights: Array  # as they are: new - wear - plastic - open pits + tribofilm
     wear: Array
     plastic: Array
     pits: Array

@@ -16,6 +16,7 @@ from contact_core.surfaces.patches import heights_of, track_rows
 DRY = CHEAP | {"control.driver": "dry", "control.dry_instants": "3"}
 STRESSED = DRY | {"stress.model": "half_space", "stress.layers": "6"}
 TIRED = STRESSED | {
+    "stress.pits": "open",
     "fatigue.model": "basquin",
     "fatigue.reference_stress": "800 MPa",
     "fatigue.reference_cycles": "1e4",
@@ -114,7 +115,7 @@ def test_what_fails_breaks_out_of_the_surface_with_its_tribofilm():
         lost = (body.wear + body.pits)[track].mean()
         assert outputs_of(outputs, "profile_loss", i) == approx(float(lost), rel=1e-12)
         bare = np.zeros_like(body.wear)
-        assert np.array_equal(heights_of(bare, body), -body.wear - body.plastic - body.pits + body.tribofilm)
+        assert np.array_equal(heights_of(bare, body), -body.wear - body.plastic - body.opened + body.tribofilm)
     assert outputs.micropitted_area_1 > 0.0
     flagged = [RangeFlag.PITTED in RangeFlag(out.range_flags) for _, out in found]
     assert flagged == [out.micropitted_area_1 + out.micropitted_area_2 > 0.0 for _, out in found]
@@ -125,6 +126,22 @@ def test_what_fails_breaks_out_of_the_surface_with_its_tribofilm():
 
 def outputs_of(outputs, name, i):
     return getattr(outputs, f"{name}_{i + 1}")
+
+
+def test_pits_that_are_only_counted_change_nothing_but_their_outputs():
+    """The contact is that of a scene without fatigue, bit for bit; the area is that of what has failed."""
+    tired = TIRED | {"stress.pits": "counted", "fatigue.reference_cycles": "60"}
+    scene, _, counted = run(tired, 30.0, 60.0)
+    _, _, none = run(STRESSED, 30.0, 60.0)
+    state, outputs = counted[-1]
+    for name in (*OLD, *OF_STRESS, "roughness_1", "h_min"):
+        assert getattr(outputs, name) == getattr(none[-1][1], name)
+    failed = state.below.damage_1.reshape(6, state.rows, -1).max(axis=0) >= 1.0
+    track = track_rows(scene, state.rows)
+    assert 0.0 < failed[track].mean() <= outputs.micropitted_area_1  # wear has taken some that failed
+    assert outputs.profile_loss_1 > outputs.wear_depth_1
+    assert state.below.damage_1.max() == 1.0
+    assert not state.bodies[0].opened.any()
 
 
 def test_in_near_rolling_a_pass_keeps_the_same_asperities_facing_until_it_is_over():
