@@ -171,6 +171,7 @@ def scene_of(setting: Setting) -> Scene:
     table["operation"] |= {f"speed_{k + 1}": f"{setting.speeds[k]!r} m/s" for k in (0, 1)}
     table["wear"] |= {"bare": setting.wear, "film": setting.wear}
     table["stress"]["instants"] = table["control"]["dry_instants"] = setting.instants
+    table["stress"]["pits"] = "open"
     table["control"]["longest"] = f"{setting.longest} s"
     if setting.strength:
         table["fatigue"]["single_strength"] = f"{setting.strength!r} MPa"

@@ -47,7 +47,7 @@ class RangeFlag(IntFlag):
         16384,
         (
             "micropits have broken out: when they begin is surer than how they grow, as elastic stress overstates what "
-            "their rims bear"
+            "asperities bear"
         ),
     )
 

@@ -36,8 +36,7 @@ _BELOW = (  # of runs with stresses; those of damage where there is any
     ("pitted 2", "%", "micropitted_area_2", 100.0, 2),
 )
 _WITH_ERRORS = {  # in the table; of the others the result has them
-    "friction_coefficient", "h_c", "tribofilm_1", "tribofilm_2", "wear_depth_1", "wear_depth_2", "contact_load_ratio",
-    "damage_1", "damage_2"
+    "friction_coefficient", "h_c", "tribofilm_1", "tribofilm_2", "wear_depth_1", "wear_depth_2", "contact_load_ratio"
 }  # fmt: skip
 _SHARES = (0.0, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0)  # of the run: running-in is early
 _FEW_ROWS = 12

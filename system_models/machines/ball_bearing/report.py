@@ -66,9 +66,23 @@ def _contacts(run: BearingRun, row: int) -> list[str]:
         rows.append([which.contact, f"{balls:.2f}", f"{load:.0f}", *shown, *map(_nanometres, layers)])
     return [
         *aligned(rows, 1),
+        *_damage(run, row),
         "balls: how many a class stands for; solids: load on asperities; tribofilm, wear: mean thickness and mean "
         "wear depth on ball (b) and ring (r).",
     ]
+
+
+def _damage(run: BearingRun, row: int) -> list[str]:
+    """Return the largest damage by load cycles, if the contacts have a law of fatigue."""
+    found = {
+        (which.contact, body): float(run.solved(which, f"damage_{i}")[row])
+        for which in run.classes
+        for i, body in enumerate(("ball", "ring"), 1)
+    }
+    (contact, body), most = max(found.items(), key=lambda item: item[1])
+    if most == 0.0:
+        return []
+    return [f"Damage by load cycles: most in the {body} of {contact}, {most:.3g} of a life so far."]
 
 
 def _nanometres(length: float) -> str:

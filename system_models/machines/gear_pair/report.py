@@ -170,7 +170,20 @@ def _wear(record: Record) -> list[str]:
             f"Wear of the {gear}: most at {1e3 * most:.2f} mm from T1 ({1e9 * depth.max():.3g} nm), least at "
             f"{1e3 * least:.2f} mm ({1e9 * depth.min():.3g} nm); C is at {1e3 * pitch:.2f} mm."
         )
+        found += _pitted(record, body, gear)
     return found
+
+
+def _pitted(record: Record, body: int, gear: str) -> list[str]:
+    """Return where most of a gear has broken out, if the contacts have a law of fatigue."""
+    area, damage = (record.along(f"{name}_{body}")[-1] for name in ("micropitted_area", "damage"))
+    if not damage.any():
+        return []
+    most, factor = float(record.positions[area.argmax()]), 1.0 + record.along("error_damage")[-1].max()
+    return [
+        f"Micropits of the {gear}: most at {1e3 * most:.2f} mm from T1 ({area.max():.2%} of the flank there), "
+        f"{area.mean():.2%} on average; error of damage: a factor of {factor:.3g} either way at most."
+    ]
 
 
 def _heat(record: Record) -> list[str]:
