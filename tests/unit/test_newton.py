@@ -10,11 +10,18 @@ from scipy.ndimage import gaussian_filter
 
 from contact_core.kernels.far_field import far_field
 from contact_core.kernels.half_space import HalfSpace
+from contact_core.kernels.mixed.linear_solver import gmres
 from contact_core.kernels.mixed.newton import solve_newton
 from contact_core.kernels.mixed.problem import Iterate, Problem
 from contact_core.reference import moes_film
 
 KAPITZA = 35.03  # film times load squared, in Moes' units, of the rigid, isoviscous ball
+
+
+def test_a_linear_system_that_is_not_a_number_has_no_solution_and_raises_nothing():
+    found = gmres(lambda x: np.nan * x, lambda b: b, np.ones(4))
+    assert np.isnan(found).all()
+    assert gmres(lambda x: 2.0 * x, lambda b: b, np.ones(4)) == approx(0.5 * np.ones(4), rel=1e-12)
 
 
 @dataclass

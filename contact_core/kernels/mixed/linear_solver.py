@@ -49,7 +49,10 @@ def elimination_order(ny: int, nx: int, wrapped: bool) -> Indices:
 
 
 def gmres(operator: Callable[[Array], Array], invert: Callable[[Array], Array], right: Array) -> Array:
-    """Solve a linear system by right-preconditioned GMRES from zero (Saad & Schultz, doi:10.1137/0907058)."""
+    """Solve a linear system by right-preconditioned GMRES from zero (Saad & Schultz, doi:10.1137/0907058).
+
+    The solution is not a number where the operator or its inverse is not.
+    """
     size = np.linalg.norm(right)
     if size == 0.0:
         return np.zeros_like(right)
@@ -67,6 +70,8 @@ def gmres(operator: Callable[[Array], Array], invert: Callable[[Array], Array], 
             v -= hessenberg[n, k] * u
         hessenberg[k + 1, k] = np.linalg.norm(v)
         used = hessenberg[: k + 2, : k + 1]
+        if not np.isfinite(used).all():
+            return np.full_like(right, np.nan)
         weights = np.asarray(np.linalg.lstsq(used, target[: k + 2], rcond=None)[0], np.float64)
         short = np.linalg.norm(used @ weights - target[: k + 2])
         if not np.isfinite(short) or short < _LINEAR_TOLERANCE * size or hessenberg[k + 1, k] == 0.0:
