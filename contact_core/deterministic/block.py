@@ -14,6 +14,7 @@ import numpy as np
 from ..laws.tribofilm import DOSES
 from ..scene import Case, Scene
 from ..state import Below, Body, ContactState, RangeFlag
+from ..state.below import nothing_below
 from ..state.trends import RATES_FOLLOWED
 from ..surfaces.patches import on_grid, patch_nodes, widened
 from . import damage
@@ -180,7 +181,8 @@ def _below(case: Case, state: ContactState, sums: Accumulator) -> tuple[Below | 
         return damage.at_rest(below) if below is not None else None, dict.fromkeys(OF_STRESS, 0.0)
     same = state.solved_for is not None and not case.differs_from(state.solved_for)
     tractions = of_a_pass(case, state, sums.tractions, same)
-    below = damage.with_tractions(below or damage.unharmed(scene, state.rows), tractions)
+    below = below or nothing_below(scene.depths.size, state.rows, scene.film.points - 1)
+    below = damage.with_tractions(below, tractions)
     if not is_whole(case, tractions):
         return below, {}
     seen = passed(case, state.rows, tractions)

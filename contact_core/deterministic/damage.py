@@ -15,7 +15,6 @@ from ..kernels.damage import accumulated, pits_of
 from ..kernels.load_cycle import Cycle
 from ..scene import Case, Scene, Side
 from ..state import Below, Body, ContactState
-from ..state.below import nothing_below
 from ..surfaces.patches import track_rows
 from .subsurface import Pass, Traction
 
@@ -25,11 +24,6 @@ _OF_ROWS = ("pressure", "shear", "damage_1", "damage_2", "per_cycle_1", "per_cyc
 _SCALED = 1.01  # of stresses, to see how steeply damage rises with them
 _LEARN = 0.25  # share of the last two passes in the scatter from pass to pass
 _BATCH = 0.005  # of the track that may break out in one block
-
-
-def unharmed(scene: Scene, rows: int) -> Below:
-    """Return what lies below new surfaces, before the first instant."""
-    return nothing_below(scene.depths.size, rows, scene.film.points - 1)
 
 
 def with_tractions(below: Below, tractions: Sequence[Traction]) -> Below:

@@ -33,7 +33,7 @@ _SMOOTHER = 0.25  # up to this share of the other's roughness a body jumps under
 _CALMING = 24  # transient steps after a jump of a rougher one, or from a dry contact of the right share
 
 
-def sample_dry(case: Case, state: ContactState, sums: Accumulator, same: bool = True) -> ContactState:
+def sample_dry(case: Case, state: ContactState, sums: Accumulator, same: bool) -> ContactState:
     """Add the instants of a dry block to `sums`; return the state after them. `same`: as for `sample_mixed`."""
     jumps = first = _dry_jumps(case)
     if case.scene.stress.samples:

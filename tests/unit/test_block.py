@@ -22,7 +22,7 @@ def test_dry_instants_let_every_two_points_meet_once_before_any_meet_again(point
     scene, state, op = cheap(film__points=points, surface_1__rq="0 nm", surface_2__rq="0 nm", control__dry_instants=1)
     met, first = [], []
     for _ in range(points - 1):
-        state = sample_dry(Case(scene, op), state, Accumulator.before(state))
+        state = sample_dry(Case(scene, op), state, Accumulator.before(state), same=True)
         one, two = (patch_nodes(scene, body) for body in state.bodies)
         met.append((one - two) % (points - 1))
         first.append(one)
@@ -74,8 +74,8 @@ def test_dry_contact_under_oil_touches_and_rubs_like_the_mixed_one_and_not_like_
     means = mixed.means()
     assert 0.8 < means["contact_load_ratio"] < 0.95
     dry, oiled = Accumulator.before(state), Accumulator.before(state)
-    sample_dry(Case(scene, slow), replace(state, share=1.0), dry)
-    sample_dry(Case(scene, slow), replace(state, share=means["contact_load_ratio"]), oiled)
+    sample_dry(Case(scene, slow), replace(state, share=1.0), dry, same=True)
+    sample_dry(Case(scene, slow), replace(state, share=means["contact_load_ratio"]), oiled, same=True)
     for name in ("contact_area_ratio", "friction_force"):
         assert abs(oiled.means()[name] - means[name]) < 0.4 * abs(dry.means()[name] - means[name]), name
     assert oiled.means()["h_c"] == approx(means["h_c"], rel=0.2)
