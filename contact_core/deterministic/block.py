@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..laws.stress import OF_STRESS
 from ..laws.tribofilm import DOSES
 from ..scene import Case, Scene
 from ..state import Below, Body, ContactState, RangeFlag
@@ -23,7 +24,7 @@ from .growth_and_wear import followed, stable_time, with_exposure
 from .instant import solve_instant
 from .resting import conformed, scar_time
 from .sampling import blocks_per_pass, jumps_of, rest_of_a_pass, sample_dry, sample_mixed
-from .subsurface import OF_STRESS, is_whole, of_a_pass, outputs_of_stress, passed
+from .subsurface import is_whole, of_a_pass, outputs_of_stress, passed
 
 _DRY_BLOCKS = 5  # driven dry before the share of the solids is measured again
 _MEMORY = {"dry": 0.5, "mixed": 0.75}  # of the filter of outputs, per block

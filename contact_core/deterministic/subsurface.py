@@ -15,6 +15,7 @@ from ..film import Deterministic
 from ..film.shared import subsurface
 from ..kernels.load_cycle import Cycle, cycle_of
 from ..kernels.stress_measures import von_mises
+from ..laws.stress import OF_STRESS, ratios, risk, share_down_to
 from ..scene import Case, Scene
 from ..scene.records import POISSON
 from ..state import ContactState
@@ -23,11 +24,6 @@ from .instant import ContactFields
 
 Array = NDArray[np.float64]
 Places = tuple[int, int]
-
-OF_STRESS = ("von_mises_max", "von_mises_depth", "near_surface_share", "dang_van_ratio", "crossland_ratio")
-
-_UNIT = 1e9  # Pa
-_RISK = 31.0 / 3.0  # power of a stress in the risk that a volume fails: Lundberg & Palmgren 1947
 
 
 class Traction(NamedTuple):
@@ -136,22 +132,14 @@ def outputs_of_stress(case: Case, rows: int, found: Pass) -> dict[str, float]:
     scene, law = case.scene, case.scene.stress
     depths, track = scene.depths, track_rows(scene, rows)
     deepest = int(found.von_mises.argmax())
-    limit = law.torsion_limit
-    risk = np.sum([_risk(cycle.shear[:, track], depths) for cycle in found.cycles], axis=0)
-    near, total = float(risk[depths <= law.near_surface * case.hertz.a].sum()), float(risk.sum())
-    crossland = (cycle.shear + law.crossland_slope * cycle.hydrostatic for cycle in found.cycles)
+    tracks = [Cycle(*(part[:, track] for part in cycle)) for cycle in found.cycles]
+    risks = np.sum([risk(cycle.shear).mean(axis=(1, 2)) for cycle in tracks], axis=0)
+    dang_van, crossland = np.max([ratios(law, cycle) for cycle in tracks], axis=0).tolist()
     values = (
         float(found.von_mises[deepest]),
         float(depths[deepest]),
-        near / total if total > 0.0 else 0.0,
-        max(0.0, *(float(cycle.dang_van[:, track].max()) for cycle in found.cycles)) / limit,
-        max(0.0, *(float(each[:, track].max()) for each in crossland)) / limit,
+        share_down_to(law.near_surface * case.hertz.a, risks, depths),
+        dang_van,
+        crossland,
     )
     return dict(zip(OF_STRESS, values, strict=True))
-
-
-def _risk(shear: Array, depths: Array) -> Array:
-    """Return the risk of failure of each layer, up to a factor, [layers]; a layer reaches halfway to its neighbours."""
-    bounds = np.concatenate([[0.0], 0.5 * (depths[1:] + depths[:-1]), depths[-1:]])
-    risk: Array = ((shear / _UNIT) ** _RISK).mean(axis=(1, 2)) * np.diff(bounds)
-    return risk

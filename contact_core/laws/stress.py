@@ -9,12 +9,18 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ..kernels.damage import faces_of
+from ..kernels.load_cycle import Cycle
 from ..quantities import parameter
 from .base import Stress
 from .equations import Equations
 
 Array = NDArray[np.float64]
 
+OF_STRESS = ("von_mises_max", "von_mises_depth", "near_surface_share", "dang_van_ratio", "crossland_ratio")
+
+_UNIT = 1e9  # Pa
+_RISK = 31.0 / 3.0  # power of a stress in the risk that a volume fails: Lundberg & Palmgren 1947
 _FIRST = 0.5  # of the spacing: depth of the first layer; what is finer lies nearer to the surface
 _BOUNDS = (1.0, 2.0)  # of the limit in bending over that in torsion, between which Dang Van's slope is 0 or more
 
@@ -154,6 +160,29 @@ class HalfSpace:
     def residual_stress(self) -> Array:
         """Return the residual stress [Pa], [6]: xx, yy, zz, yz, xz, xy."""
         return np.array([self.residual, self.residual, 0.0, 0.0, 0.0, 0.0])
+
+
+def risk(shear: Array) -> Array:
+    """Return the risk that a volume fails at an amplitude of shear [Pa], up to a factor."""
+    found: Array = (shear * (1.0 / _UNIT)) ** _RISK
+    return found
+
+
+def share_down_to(depth: float, risks: Array, depths: Array) -> float:
+    """Return the share of a risk down to a depth [m], of the mean `risks` of the layers at `depths` [m].
+
+    A layer reaches halfway to its neighbours; the last one ends where it lies.
+    """
+    by_layer = risks * np.diff(np.append(faces_of(depths)[:-1], depths[-1]))
+    total = float(by_layer.sum())
+    return float(by_layer[depths <= depth].sum()) / total if total > 0.0 else 0.0
+
+
+def ratios(law: Stress, cycle: Cycle) -> tuple[float, float]:
+    """Return Dang Van's and Crossland's largest stress of load cycles over the fatigue limit in torsion, at least 0."""
+    crossland = cycle.shear + law.crossland_slope * cycle.hydrostatic
+    first, second = (max(0.0, float(stress.max())) / law.torsion_limit for stress in (cycle.dang_van, crossland))
+    return first, second
 
 
 LAWS: tuple[type[Stress], ...] = (NoStress, HalfSpace)

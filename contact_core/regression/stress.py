@@ -1,16 +1,15 @@
 """Stresses below the bodies of a mean contact, and the load cycles of classes of points on both tracks."""
 
 import math
-from functools import lru_cache
 from statistics import NormalDist
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..kernels.damage import faces_of
 from ..kernels.load_cycle import Cycle
 from ..laws.load_sharing import rms_slope, sliding_ratio
+from ..laws.stress import OF_STRESS, ratios, risk, share_down_to
 from ..scene import Case, Scene
 from ..state.classes import EDGES, WEIGHTS
 from ..surfaces.damage_classes import rows_of
@@ -21,12 +20,8 @@ from .smooth_film import LIGHTEST
 
 Array = NDArray[np.float64]
 
-OF_STRESS = ("von_mises_max", "von_mises_depth", "near_surface_share", "dang_van_ratio", "crossland_ratio")
-
 _NORMAL = NormalDist()
 _SCORES = np.array([_NORMAL.inv_cdf(share) for share in EDGES - 0.5 * WEIGHTS])  # of the middle of each class
-_UNIT = 1e9  # Pa
-_RISK = 31.0 / 3.0  # power of a stress in the risk that a volume fails: Lundberg & Palmgren 1947
 _LEAST = 0.05  # local pressure over Hertz's largest, at least: beyond the contact there is none
 _BEYOND = 2.0  # half widths beyond the fit, over those within it
 
@@ -77,14 +72,12 @@ def stressed(case: Case, contact: MeanContact) -> Stressed:
         everywhere = 2.0 / 3.0 * residual
         hydrostatic, dang_van = hydrostatic + everywhere, dang_van + law.dang_van_slope * everywhere
     deepest = int(peak.argmax())
-    risk = ((shear[..., :-1] * (1.0 / _UNIT)) ** _RISK @ WEIGHTS).sum(axis=(0, 2)) * _thickness(depths.tobytes())
-    total = float(risk.sum())
+    risks = (risk(shear[..., :-1]) @ WEIGHTS).sum(axis=(0, 2))
     values = (
         largest * float(peak[deepest]),
         float(depths[deepest]),
-        float(risk[depths <= law.near_surface * half].sum()) / total if total > 0.0 else 0.0,
-        max(0.0, float(dang_van.max())) / law.torsion_limit,
-        max(0.0, float((shear + law.crossland_slope * hydrostatic).max())) / law.torsion_limit,
+        share_down_to(law.near_surface * half, risks, depths),
+        *ratios(law, Cycle(shear, hydrostatic, dang_van)),
     )
     cycles = Cycle(shear[..., :-1], hydrostatic[..., :-1], dang_van[..., :-1])
     half_width = HALF_WIDTH if _within(rough) else _BEYOND * HALF_WIDTH
@@ -129,10 +122,3 @@ def _rough(case: Case, contact: MeanContact, largest: float, half: float, side: 
 def _extreme(spots: float) -> float:
     """Return the normal score of the largest of some spots."""
     return _NORMAL.inv_cdf(1.0 - 1.0 / (max(spots, 1.0) + 1.0))
-
-
-@lru_cache(maxsize=64)
-def _thickness(depths: bytes) -> Array:
-    """Return the thickness of the layers for which a risk counts; the last one ends where it lies."""
-    layers = np.frombuffer(depths)
-    return np.diff(np.append(faces_of(layers)[:-1], layers[-1]))
