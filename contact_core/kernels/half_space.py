@@ -126,7 +126,7 @@ class HalfSpace:
 
     def plane(self, ny: int, nx: int) -> tuple[int, int]:
         """Return the sides of a periodic plane of at least ny rows and nx columns, fast to transform."""
-        return _even_fast_length(ny), _even_fast_length(nx)
+        return even_fast_length(ny), even_fast_length(nx)
 
     def spectrum(self, plane: tuple[int, int]) -> Array:
         """Return the transform [my, mx // 2 + 1] of the even kernel up to half the sides of a plane; it is real."""
@@ -201,7 +201,7 @@ class PeriodicHalfSpace(HalfSpace):
 
     def plane(self, ny: int, nx: int) -> tuple[int, int]:
         """Return the sides of a periodic plane of at least nx columns; its rows are the period."""
-        return self.shape[0], _even_fast_length(nx)
+        return self.shape[0], even_fast_length(nx)
 
     def deform_padded(self, pressure: Array) -> Array:
         """Return the deformation in the first nx columns of scratch, which the next call overwrites."""
@@ -225,7 +225,8 @@ class PeriodicHalfSpace(HalfSpace):
         return near
 
 
-def _even_fast_length(least: int) -> int:
+def even_fast_length(least: int) -> int:
+    """Return an even length from `least` on that is fast to transform."""
     return 2 * scipy.fft.next_fast_len(max((least + 1) // 2, 1), real=False)
 
 

@@ -13,6 +13,7 @@ import scipy
 from numpy.typing import NDArray
 
 from .compiled import jit
+from .half_space import even_fast_length
 
 Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]
@@ -44,7 +45,7 @@ class Subsurface:
         self.shape, self.poisson, self.periodic = shape, poisson, periodic
         self._ratios = np.asarray(depths, dtype=np.float64) / spacing
         ny, nx = shape
-        self.plane = ny if periodic else _fast_length(2 * ny - 1), _fast_length(2 * nx - 1)
+        self.plane = ny if periodic else even_fast_length(2 * ny - 1), even_fast_length(2 * nx - 1)
         self._fourier: _Fourier = (_WithFftw if library == "pyfftw" else _WithScipy)(ny, *self.plane)
         self._kept: dict[tuple[int, int], Array] = {}
 
@@ -203,10 +204,6 @@ def _transformed(half: Array, n: int, odd: bool) -> Array:
     full[:, n - known + 1 :] = (-1.0 if odd else 1.0) * half[:, :0:-1]
     spectrum = scipy.fft.rfft(full, axis=-1)
     return np.asarray(spectrum.imag if odd else spectrum.real)
-
-
-def _fast_length(least: int) -> int:
-    return 2 * scipy.fft.next_fast_len((least + 1) // 2, real=False)
 
 
 @jit
