@@ -61,6 +61,11 @@ class Case:
         refusal = scene.refusal(op)
         if refusal:
             raise OperatingPointError(refusal)
+        return Case.at(scene, op, stored)
+
+    @staticmethod
+    def at(scene: Scene, op: OperatingPoint, stored: Pair | None = None) -> "Case":
+        """Bind a scene to an operating point that has been checked; otherwise as `bind`."""
         return Case(scene, _with_bulk_temperatures(scene, op, stored))
 
     def check_tribofilm(self) -> None:

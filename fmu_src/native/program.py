@@ -1,30 +1,257 @@
-"""contact.c and contact.h: the regression level of one scene in C99, written from its Python."""
+"""contact.c and contact.h: the regression level of one scene in C99, written from its Python.
+
+`step`, `derivatives` and `first_state` are the program: Python that runs as it stands, and that `translate` writes as C
+for one scene. All equations are those of `contact_core`.
+"""
 
 import dataclasses
+from collections.abc import Iterator, Sequence
 from typing import Any
 
+from contact_core import initial_state
 from contact_core.errors import OperatingPointError
+from contact_core.quantities import OF_CALLER, OF_CORE
 from contact_core.regression import evolution
-from contact_core.regression.contact import evaluate
-from contact_core.regression.surfaces import tribofilms_of
+from contact_core.regression.contact import MeanContact, evaluate
+from contact_core.regression.surfaces import Tribofilms, tribofilms_of
 from contact_core.scene import Case, OperatingPoint, Scene
-from contact_core.scene.case import _with_bulk_temperatures
-from contact_core.state import ContactState, Outputs
+from contact_core.state import ContactState, Mean, Outputs, changed
+from contact_core.surfaces.track_means import means_of
 
-from .translate import Num, Translator
+from ..variables import Variable, variables
+from .translate import Num, Translator, leaves, literal
+
+Found = tuple[ContactState, Outputs]
+
+# what a contact of every scene has, in the order of `OperatingPoint`; others where a scene asks for them
+_ALWAYS = ("load", "speed_1", "speed_2", "temperature")
 
 
-def _case(scene: Scene, point: OperatingPoint, state: ContactState) -> Case:
-    """Return the scene at an operating point, with what every part of a step asks for."""
-    case = Case(scene, _with_bulk_temperatures(scene, point, state.temperatures))
+def bound(scene: Scene, point: OperatingPoint, state: ContactState) -> Case:
+    """Return a scene at an operating point. Raises OperatingPointError where it cannot be used."""
+    case = Case.at(scene, point, state.temperatures)
+    law, bulk, inlet = scene.tribofilm, scene.heat.bulk, scene.lubricant.supply.inlet
+    for temperature in point.bodies if bulk.from_inputs else (point.temperature,):
+        if law.refusal(_COLD) and not law.covers(temperature):
+            raise OperatingPointError(
+                f"temperature = {temperature:g} K is outside the range where the tribofilm's constants hold. Use a set "
+                "fitted at that temperature, or build the FMU anew with tribofilm.beyond_fit = 'extrapolate'."
+            )
+    if inlet is not None and point.load > 0.0:
+        half_width = case.unit_hertz.a * case.unit_hertz.growth(point.load)[0]
+        if inlet <= half_width:
+            raise OperatingPointError(
+                f"lubricant.supply.distance = {inlet:g} m must be more than the half width of Hertz's contact, "
+                f"{half_width:.3g} m at {point.load:g} N: no oil would be before it. Lower the load."
+            )
     return case
 
 
-def step(
-    scene: Scene, point: OperatingPoint, state: ContactState, dt: float
-) -> tuple[ContactState, Outputs]:
+_COLD = 0.0  # K: no law covers it
+
+
+def step(scene: Scene, point: OperatingPoint, state: ContactState, dt: float) -> Found:
     """Return the state and the outputs after a step of `dt` [s]."""
-    case = _case(scene, point, state)
-    case.unit_hertz  # noqa: B018
-    case.sides  # noqa: B018
-    return evolution.advance(case, state, dt)
+    return evolution.advance(bound(scene, point, state), state, dt, _contact)
+
+
+def derivatives(scene: Scene, point: OperatingPoint, state: ContactState) -> tuple[float, float, float, float]:
+    """Return the derivatives of friction_force by speed_1, speed_2, load and temperature."""
+    case = bound(scene, point, state).warmed(state.temperatures)
+    assert state.means is not None
+    return evaluate(case, tribofilms_of(state.means)).derivatives
+
+
+def _contact(case: Case, tribofilms: Tribofilms) -> MeanContact:
+    return evaluate(case, tribofilms, derivatives=False)
+
+
+def first_state(scene: Scene) -> ContactState:
+    """Return the state of fresh surfaces, with their track means."""
+    state = initial_state(scene)
+    return changed(state, means=state.means or means_of(scene, state))
+
+
+def inputs_of(scene: Scene) -> tuple[str, ...]:
+    """Return the names of the inputs that change anything."""
+    return tuple(v.name for v in variables(scene) if v.causality == "input")
+
+
+def _point(scene: Scene) -> OperatingPoint:
+    """Return the operating point at run time."""
+    used = set(_ALWAYS)
+    if scene.heat.bulk.from_inputs:
+        used |= {"body_temperature_1", "body_temperature_2"}
+    if "radius_y" in scene.geometry.lacks:  # of ellipses the integrals are computed when the FMU is built
+        used |= {"radius_x"}
+    if scene.geometry.lacks.isdisjoint({"spin"}) and scene.operation.spin != 0.0:
+        used |= {"spin"}
+    return OperatingPoint(**{name: Num(name) for name in inputs_of(scene) if name in used})  # type: ignore[arg-type]
+
+
+def _state(scene: Scene) -> ContactState:
+    """Return the state at run time."""
+    given = first_state(scene)
+    names = [field.name for field in dataclasses.fields(Mean)]
+    means = tuple(Mean(**{name: Num(f"{name}_{body}") for name in names}) for body in (1, 2))  # type: ignore[arg-type]
+    before = changed(given.outputs, **{q.name: Num(f"last_{q.name}") for q in OF_CORE if q.kind == "Real"})
+    warm = (Num("warm_1"), Num("warm_2")) if scene.heat.bulk.stores_heat else None
+    return changed(given, time=Num("time"), means=means, outputs=before, temperatures=warm)
+
+
+def _paths(value: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
+    """Yield the numbers of state and outputs with the way to them."""
+    from .translate.values import is_number, parts
+
+    if is_number(value):
+        yield path, value
+    else:
+        for name, item in parts(value) or ():
+            yield from _paths(item, (*path, name))
+
+
+@dataclasses.dataclass(frozen=True)
+class Program:
+    """The C sources of a scene."""
+
+    header: str
+    source: str
+
+
+def written(scene: Scene) -> Program:
+    """Return contact.h and contact.c of a scene.
+
+    Raises SceneError for a scene that the native FMU cannot have.
+    """
+    translator, point, state = Translator(), _point(scene), _state(scene)
+    stepped = translator.program("step", step, [scene, point, state, Num("dt")])
+    slopes = translator.program("derivatives", derivatives, [scene, point, state])
+    outputs = [v.name for v in variables(scene) if v.causality == "output" and v.name not in OF_CALLER]
+    names = dict(_paths(state))
+    new_state, new_outputs = stepped.result
+    after = dict(_paths(new_state))
+    needed = {number.text for number in (*stepped.takes, *slopes.takes)}
+    held = [(path, number) for path, number in names.items() if isinstance(number, Num) and number.text in needed]
+    fields = [number.text for _, number in held]
+    inputs = inputs_of(scene)
+    first = dict(_paths(first_state(scene)))
+    lines = [
+        *_HEAD.splitlines(),
+        "",
+        *(line for text in translator.texts([stepped, slopes]) for line in (*text.splitlines(), "")),
+        *_initialise(scene, [(number.text, first.get(path)) for path, number in held]),
+        "",
+        "int contact_step(const contact_inputs *in, double dt, contact_state *state, contact_outputs *out, "
+        "contact_message *why)",
+        "{",
+        "    why->text[0] = '\\0';",
+        f"    const struct {stepped.name} new = {stepped.called(inputs)};",
+        "    if (why->text[0] != '\\0') {",
+        "        return 1;",
+        "    }",
+        *(f"    state->{number.text} = {_text(after[path], 'new')};" for path, number in held),
+        *(f"    out->{name} = {_text(getattr(new_outputs, name), 'new')};" for name in outputs if name not in _SLOPES),
+        "    return 0;",
+        "}",
+        "",
+        "int contact_derivatives(const contact_inputs *in, const contact_state *state, contact_outputs *out, "
+        "contact_message *why)",
+        "{",
+        "    why->text[0] = '\\0';",
+        f"    const struct {slopes.name} found = {slopes.called(inputs)};",
+        "    if (why->text[0] != '\\0') {",
+        "        return 1;",
+        "    }",
+        *(f"    out->{name} = {_text(each, 'found')};" for name, each in zip(_SLOPES, slopes.result, strict=True)),
+        "    return 0;",
+        "}",
+        "",
+    ]
+    return Program(_header(scene, inputs, fields, outputs), "\n".join(lines))
+
+
+_SLOPES = ("dfriction_dspeed_1", "dfriction_dspeed_2", "dfriction_dload", "dfriction_dtemperature")
+
+
+def _text(value: Any, struct: str) -> str:
+    """Return a member of what a function returned, or a constant, as double."""
+    if isinstance(value, Num):
+        return f"{struct}.{value.text}"
+    return literal(value).text
+
+
+def _initialise(scene: Scene, values: Sequence[tuple[str, Any]]) -> list[str]:
+    oil = "in->temperature"
+    return [
+        "int contact_initialise(const contact_inputs *in, contact_state *state, contact_outputs *out, "
+        "contact_message *why)",
+        "{",
+        *(f"    state->{name} = {oil if value is None else literal(value).text};" for name, value in values),
+        "    return contact_step(in, 0.0, state, out, why);",
+        "}",
+    ]
+
+
+def _struct(name: str, members: Sequence[str], about: dict[str, Variable]) -> list[str]:
+    def line(member: str) -> str:
+        if member not in about:
+            return f"    double {member};"
+        return f"    double {member}; /* {about[member].text} [{about[member].unit or '1'}] */"
+
+    return ["typedef struct {", *map(line, members or ["none"]), f"}} {name};", ""]
+
+
+def _header(scene: Scene, inputs: Sequence[str], fields: Sequence[str], outputs: Sequence[str]) -> str:
+    about = {v.name: v for v in variables(scene)}
+    return "\n".join(
+        [
+            f"/* One contact, '{scene.name}', at the regression level; written from contact_core. SI units. */",
+            "",
+            "#ifndef CONTACT_H",
+            "#define CONTACT_H",
+            "",
+            *_struct("contact_inputs", inputs, about),
+            "/* The slow state: plain numbers, to be copied as they are. */",
+            *_struct("contact_state", fields, {}),
+            *_struct("contact_outputs", outputs, about),
+            "/* Why a step was refused; empty if it was not. */",
+            "typedef struct {",
+            "    char text[512];",
+            "} contact_message;",
+            "",
+            "/* Each returns 0, or 1 with a message: then state and outputs stand as they were. */",
+            "",
+            "/* Fresh surfaces, and the outputs of the contact as it is. */",
+            "int contact_initialise(const contact_inputs *in, contact_state *state, contact_outputs *out, "
+            "contact_message *why);",
+            "",
+            "/* A step of dt [s] under held inputs; dt = 0 evaluates the contact. */",
+            "int contact_step(const contact_inputs *in, double dt, contact_state *state, contact_outputs *out, "
+            "contact_message *why);",
+            "",
+            "/* The outputs dfriction_d*, which the others do without: they cost as much as several steps. */",
+            "int contact_derivatives(const contact_inputs *in, const contact_state *state, contact_outputs *out, "
+            "contact_message *why);",
+            "",
+            "#endif",
+            "",
+        ]
+    )
+
+
+_HEAD = """\
+/* Written from contact_core; each function names the Python that it was written from. Do not edit. */
+
+#include "contact.h"
+#include "elementary.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+static void refuse(contact_message *why, const char *format, ...)
+{
+    va_list operands;
+    va_start(operands, format);
+    vsnprintf(why->text, sizeof why->text, format, operands);
+    va_end(operands);
+}"""

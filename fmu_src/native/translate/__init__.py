@@ -9,6 +9,6 @@
 """
 
 from .functions import Translator
-from .values import Num, Untranslatable, leaves, replaced
+from .values import Num, Untranslatable, leaves, literal, replaced
 
-__all__ = ["Num", "Translator", "Untranslatable", "leaves", "replaced"]
+__all__ = ["Num", "Translator", "Untranslatable", "leaves", "literal", "replaced"]

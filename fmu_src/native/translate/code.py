@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-_NAMES = re.compile(r"[A-Za-z_]\w*")
+_NAMES = re.compile(r'"(?:[^"\\]|\\.)*"|(?<![\w.])([A-Za-z_]\w*)')  # outside quotation marks, and no members
 _CTYPES = {"d": "double", "i": "int", "b": "int"}
 _WIDTH = 116
 
@@ -60,8 +60,8 @@ Block: TypeAlias = list[Statement]
 
 
 def names_in(text: str | None) -> set[str]:
-    """Return the names in a piece of C, and those before a point: r in r.gap."""
-    return set(_NAMES.findall(text)) if text else set()
+    """Return the names in a piece of C, of r.gap r alone."""
+    return set(_NAMES.findall(text)) - {""} if text else set()
 
 
 def used(block: Block) -> set[str]:

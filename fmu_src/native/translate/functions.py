@@ -5,7 +5,7 @@ import functools
 import inspect
 import textwrap
 import types
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,9 +14,10 @@ import numpy as np
 from . import code
 from .interpreter import Scope, Text
 from .units import Poison, Unit, matched, template_of, unified, unique
-from .values import Closure, Method, Num, Untranslatable, is_dynamic, leaves, replaced, signature
+from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, leaves, replaced, signature
 
 _MOST_ROUNDS = 1000  # of a loop whose end is known at run time only: the time of a step is bounded
+_ELEMENTWISE = "contact_core.laws"  # laws say of each element of an array what they say of a number
 _TOO_LONG = f"The step changes the surfaces so much that it needs more than {_MOST_ROUNDS} parts. Take shorter steps."
 
 
@@ -29,6 +30,32 @@ class CFunction:
     template: Any  # what it returns; numbers at run time have no text
     fields: list[str]  # members of the struct that it returns; one or none: no struct
     may_fail: bool
+    forward: list[int | str] | None = None  # a function that only hands on: places of its numbers, or constants
+
+
+@dataclass
+class Entry:
+    """A C function to be called from outside."""
+
+    name: str
+    takes: list[Num]
+    result: Any  # its numbers at run time are members of the struct that it returns
+    may_fail: bool
+
+    def called(self, inputs: Sequence[str]) -> str:
+        """Return the call, with inputs and state from structs `in` and `state`."""
+        given = [
+            number.text if number.text == "dt" else f"{'in' if number.text in inputs else 'state'}->{number.text}"
+            for number in self.takes
+        ]
+        return f"{self.name}({', '.join([*given, *(['why'] if self.may_fail else [])])})"
+
+
+class _Whole:
+    """A value that stands as one in an array of objects."""
+
+    def __init__(self, value: Any) -> None:
+        self.value = value
 
 
 @functools.cache
@@ -64,11 +91,31 @@ class Translator:
     """Writes the C functions of a program."""
 
     def __init__(self) -> None:
-        self.functions: list[str] = []  # texts, each after those that it calls
+        self.functions: list[tuple[str, str]] = []  # names and texts, each after those that it calls
         self._cache: dict[Any, CFunction] = {}
         self._names: set[str] = set()
         self._units: list[Unit] = []
         self._kept: list[Any] = []
+
+    def program(self, name: str, function: types.FunctionType, operands: list[Any]) -> "Entry":
+        """Write a function that C code calls, with all it needs; `operands` have numbers at run time by name."""
+        closure = _closure_of(function)
+        bound = self._bound(closure, function, operands, {})
+        found = self._function(closure, bound)
+        given = [number for _, number in leaves((bound, closure))]
+        takes = [number for number, used in zip(given, found.used, strict=True) if used]
+        members = iter(found.fields)
+        result = replaced(found.template, lambda hole: Num(next(members), hole.kind))
+        return Entry(found.name, takes, result, found.may_fail)
+
+    def texts(self, entries: Sequence["Entry"]) -> list[str]:
+        """Return the C functions and structs that entries need, each after those that it uses."""
+        needed, kept = {entry.name for entry in entries}, []
+        for name, text in reversed(self.functions):
+            if name in needed:
+                needed |= code.names_in(text)
+                kept.append(text)
+        return kept[::-1]
 
     # what a scope asks for
 
@@ -102,6 +149,9 @@ class Translator:
             if not is_dynamic(operands) and not is_dynamic(named):
                 return function(*operands, **named)
             closure = _closure_of(function)
+            arrays = [x for x in (*operands, *named.values()) if isinstance(x, np.ndarray) and is_dynamic(x)]
+            if arrays and function.__module__.startswith(_ELEMENTWISE):
+                return self._on_arrays(unit, function, operands, named)
         bound = self._bound(closure, function, operands, named)
         expression = _expression(closure.node)
         if expression is not None:
@@ -109,6 +159,21 @@ class Translator:
             return Scope(self, unit, names, closure).value(expression)
         found = self._function(closure, bound)
         return self._called(unit, found, [number for _, number in leaves((bound, closure))])
+
+    def _on_arrays(self, unit: Unit, function: Any, operands: list[Any], named: dict[str, Any]) -> Any:
+        """Return what a law gives for each element of arrays."""
+        own, names = len(operands), list(named)
+
+        def one(*each: Any) -> Any:
+            return self.call(unit, function, list(each[:own]), dict(zip(names, each[own:], strict=True)))
+
+        whole = [x if isinstance(x, np.ndarray | Num | float | int) else _Whole(x) for x in (*operands, *named.values())]
+        arrays = np.broadcast_arrays(*[np.asarray(x, object) for x in whole])
+        found = np.empty(arrays[0].shape, object)
+        for place in np.ndindex(found.shape):
+            each = [x[place].value if isinstance(x[place], _Whole) else x[place] for x in arrays]
+            found[place] = unit.named("element", one(*each))
+        return found
 
     def _bound(self, closure: Closure, function: Any, operands: list[Any], named: dict[str, Any]) -> dict[str, Any]:
         """Return the parameters by name."""
@@ -120,6 +185,9 @@ class Translator:
         return dict(zip(names, operands, strict=False)) | named
 
     def _called(self, unit: Unit, found: CFunction, given: list[Num]) -> Any:
+        if found.forward is not None:
+            handed = iter([literal_or(given, each) for each in found.forward])
+            return replaced(found.template, lambda _: next(handed))
         texts = [number.text for number, used in zip(given, found.used, strict=True) if used]
         if found.may_fail:
             texts.append("why")
@@ -313,6 +381,10 @@ class Translator:
         fields = _fields(holder)
         if not holes and not unit.may_fail:
             return CFunction(name, [False] * len(parameters), template, [], False)
+        if not unit.may_fail and not unit.blocks[0][:-1]:
+            forward = _forwarded(unit, holder, parameters)
+            if forward is not None:
+                return CFunction(name, [False] * len(parameters), template, fields, False, forward)
         block = code.pruned(unit.blocks[0], set())
         if not holes and block and isinstance(block[-1], code.Do) and block[-1].text == "return;":
             block.pop()
@@ -328,11 +400,30 @@ class Translator:
         else:
             result = f"struct {name}"
             members = [f"    {code.c_type(h.kind)} {f};" for f, h in zip(fields, holes, strict=True)]
-            self.functions.append("\n".join([f"struct {name} {{", *members, "};"]))
+            self.functions.append((name, "\n".join([f"struct {name} {{", *members, "};"])))
         head = code._wrapped(f"static {result} {name}({', '.join(given) or 'void'})", 0)
         lines = [f"/* {_about(closure)} */", *head, "{", *code.printed(block), "}"]
-        self.functions.append("\n".join(lines))
+        self.functions.append((name, "\n".join(lines)))
         return CFunction(name, used, template, fields, unit.may_fail)
+
+
+def _forwarded(unit: Unit, template: Any, parameters: list[Num]) -> list[int | str] | None:
+    """Return where the numbers that a function returns come from if it computes none of them, else None."""
+    places = {parameter.text: place for place, parameter in enumerate(parameters)}
+    found: list[int | str] = []
+    for number in matched(unit.returned[-1], template):
+        if number.text in places:
+            found.append(places[number.text])
+        elif number.binds >= UNARY and not code.names_in(number.text):
+            found.append(number.text)
+        else:
+            return None
+    return found
+
+
+def literal_or(given: list[Num], each: int | str) -> Num:
+    """Return a parameter by its place, or a constant."""
+    return given[each] if isinstance(each, int) else Num(each, binds=UNARY)
 
 
 def _k(value: Any) -> str:

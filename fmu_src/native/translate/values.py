@@ -324,7 +324,7 @@ def leaves(value: Any, name: str = "") -> Iterator[tuple[str, Num]]:
         yield name, value
     elif is_dynamic(value):
         for part, item in parts(value) or ():
-            yield from leaves(item, part if not part.isdigit() or not name else f"{name}_{part}")
+            yield from leaves(item, part if not part[:1].isdigit() or not name else f"{name}_{part}")
 
 
 def replaced(value: Any, by: Callable[[Num], Any]) -> Any:
