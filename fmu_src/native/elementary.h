@@ -34,8 +34,8 @@ static inline double exp_of(double high, double low)
     if (!(high < 709.7)) {
         return high >= 709.7 ? INFINITY : high; /* or not a number */
     }
-    if (high < -708.3) {
-        return 0.0; /* below the smallest normal number */
+    if (high < -708.3) { /* below the smallest normal number */
+        return high < -746.0 ? 0.0 : exp_of(high + 64.0, low) * 0x1.969d47321e4ccp-93; /* e^-64 */
     }
     const double rounded = high * 0x1.71547652b82fep+0 + 0x1.8p52; /* n in its last bits */
     const double n = rounded - 0x1.8p52;

@@ -45,6 +45,10 @@ _SIGNS: dict[type[ast.cmpop], tuple[str, Callable[[Any, Any], Any]]] = {
 _LONG = 16  # rounds from which on a loop over a range stays a loop
 
 
+def _is_test(value: Any) -> bool:
+    return isinstance(value, Num) and value.kind == "b"
+
+
 class Text:
     """A message with numbers that are known at run time: a format of C and its operands."""
 
@@ -317,30 +321,27 @@ class Scope:
         return compare(sign, one, other)
 
     def _of_BoolOp(self, node: ast.BoolOp) -> Any:
-        every = isinstance(node.op, ast.And)
-        found: Any = None
-        for operand in node.values:
-            value, block = self.unit.branch(lambda operand=operand: self.value(operand))  # type: ignore[misc]
-            test = self.truth(value)
-            if block and isinstance(found, Num):  # what it computes may need what was asked before
-                then: code.Block = block if every else []
-                otherwise: code.Block = [] if every else block
-                pair = (test, False) if every else (True, test)
-                joined = self.unit.joined("test", *pair, then, otherwise)
-                self.unit.emit(code.If(found.text, then, otherwise))
-                found = joined
-                continue
-            for statement in block:
-                self.unit.emit(statement)
-            if not isinstance(test, Num):
-                if test != every:
-                    return value if found is None else test
-                last = value
-                found = found if found is not None else None
-                if operand is node.values[-1] and found is None:
-                    return last
-            else:
-                found = test if found is None else (both if every else either)(found, test)
+        return self._joined_by(isinstance(node.op, ast.And), node.values)
+
+    def _joined_by(self, every: bool, nodes: list[ast.expr]) -> Any:
+        """Return `one and other and ...`, or with or: as Python, later ones are looked at if earlier ones ask for it."""
+        first = self.value(nodes[0])
+        test = self.truth(first)
+        if len(nodes) == 1:
+            return first
+        if not isinstance(test, Num):
+            return self._joined_by(every, nodes[1:]) if bool(test) == every else first
+        rest, block = self.unit.branch(lambda: self._joined_by(every, nodes[1:]))
+        logical = isinstance(first, Num) and first.kind == "b" and (isinstance(rest, bool) or _is_test(rest))
+        if logical and not block:
+            return both(first, rest) if every else either(first, rest)
+        then: code.Block = block if every else []
+        otherwise: code.Block = [] if every else block
+        pair = (rest, first) if every else (first, rest)
+        if not block and is_number(first) and is_number(rest):
+            return chosen(test, *pair)
+        found = self.unit.joined("chosen", *pair, then, otherwise)
+        self.unit.emit(code.If(test.text, then, otherwise))
         return found
 
     def _of_IfExp(self, node: ast.IfExp) -> Any:

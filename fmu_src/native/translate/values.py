@@ -172,13 +172,13 @@ def _is(value: Any, number: float) -> bool:
 def _sum(one: Any, other: Any) -> Any:
     if _is(one, 0.0):
         return other
-    return one if _is(other, 0.0) else binary("+", one, other, ADD, ADD)
+    return one if _is(other, 0.0) else binary("+", one, other, ADD, ADD + 1)
 
 
 def _product(one: Any, other: Any) -> Any:
     if _is(one, 1.0):
         return other
-    return one if _is(other, 1.0) else binary("*", one, other, MULTIPLY, MULTIPLY)
+    return one if _is(other, 1.0) else binary("*", one, other, MULTIPLY, MULTIPLY + 1)
 
 
 def _bits(sign: str, one: Any, other: Any) -> Any:
@@ -193,11 +193,15 @@ def _bits(sign: str, one: Any, other: Any) -> Any:
 
 def both(one: Any, other: Any) -> Num:
     """Return `one && other`."""
+    if isinstance(other, bool):
+        return one if other else False  # type: ignore[return-value]
     return Num(f"{literal(one, 'b').at_least(AND)} && {literal(other, 'b').at_least(AND)}", "b", AND)
 
 
 def either(one: Any, other: Any) -> Num:
     """Return `one || other`; && in it is put in parentheses, as compilers ask for."""
+    if isinstance(other, bool):
+        return True if other else one  # type: ignore[return-value]
     return Num(f"{_clear(one)} || {_clear(other)}", "b", OR)
 
 
