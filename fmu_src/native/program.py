@@ -123,9 +123,17 @@ def written(scene: Scene) -> Program:
 
     Raises SceneError for a scene that the native FMU cannot have.
     """
-    translator, point, state = Translator(), _point(scene), _state(scene)
-    stepped = translator.program("step", step, [scene, point, state, Num("dt")])
-    slopes = translator.program("derivatives", derivatives, [scene, point, state])
+    point, state = _point(scene), _state(scene)
+    reads: dict[str, set[str]] = {}
+    while True:  # members of results that nothing reads are left out, and then what was computed for them
+        translator = Translator(reads)
+        stepped = translator.program("step", step, [scene, point, state, Num("dt")])
+        slopes = translator.program("derivatives", derivatives, [scene, point, state])
+        texts = translator.texts([stepped, slopes])
+        found = reads | translator.wanted(texts, [stepped, slopes])
+        if found == reads:
+            break
+        reads = found
     outputs = [v.name for v in variables(scene) if v.causality == "output" and v.name not in OF_CALLER]
     names = dict(_paths(state))
     new_state, new_outputs = stepped.result
@@ -138,7 +146,7 @@ def written(scene: Scene) -> Program:
     lines = [
         *_HEAD.splitlines(),
         "",
-        *(line for text in translator.texts([stepped, slopes]) for line in (*text.splitlines(), "")),
+        *(line for text in texts for line in (*text.splitlines(), "")),
         *_initialise(scene, [(number.text, first.get(path)) for path, number in held]),
         "",
         "int contact_step(const contact_inputs *in, double dt, contact_state *state, contact_outputs *out, "

@@ -3,9 +3,10 @@
 import ast
 import functools
 import inspect
+import re
 import textwrap
 import types
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,6 +19,7 @@ from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, lea
 
 _MOST_ROUNDS = 1000  # of a loop whose end is known at run time only: the time of a step is bounded
 _ELEMENTWISE = "contact_core.laws"  # laws say of each element of an array what they say of a number
+_UNREAD = "unread"  # stands for a number that nothing reads in the end
 _TOO_LONG = f"The step changes the surfaces so much that it needs more than {_MOST_ROUNDS} parts. Take shorter steps."
 
 
@@ -90,7 +92,9 @@ def _name_of(function: types.FunctionType) -> str:
 class Translator:
     """Writes the C functions of a program."""
 
-    def __init__(self) -> None:
+    def __init__(self, reads: Mapping[str, set[str]] | None = None) -> None:
+        """Begin a program; `reads`: members that are read of the structs of functions, where that is known."""
+        self._reads = reads or {}
         self.functions: list[tuple[str, str]] = []  # names and texts, each after those that it calls
         self._cache: dict[Any, CFunction] = {}
         self._names: set[str] = set()
@@ -104,9 +108,8 @@ class Translator:
         found = self._function(closure, bound)
         given = [number for _, number in leaves((bound, closure))]
         takes = [number for number, used in zip(given, found.used, strict=True) if used]
-        members = iter(found.fields)
-        result = replaced(found.template, lambda hole: Num(next(members), hole.kind))
-        return Entry(found.name, takes, result, found.may_fail)
+        members = [Num(field, hole.kind) for field, hole in zip(found.fields, _holes(found.template), strict=True)]
+        return Entry(found.name, takes, _filled(found.template, members), found.may_fail)
 
     def texts(self, entries: Sequence["Entry"]) -> list[str]:
         """Return the C functions and structs that entries need, each after those that it uses."""
@@ -116,6 +119,23 @@ class Translator:
                 needed |= code.names_in(text)
                 kept.append(text)
         return kept[::-1]
+
+    def wanted(self, texts: Sequence[str], entries: Sequence["Entry"]) -> dict[str, set[str]]:
+        """Return the members that anything reads of the structs of functions; of entries all."""
+        found: dict[str, set[str]] = {}
+        for text in texts:
+            for struct, name in re.findall(r"const struct (\w+) (\w+) =", text):
+                found.setdefault(struct, set()).update(re.findall(rf"\b{name}\.(\w+)", text))
+        for entry in entries:
+            found.pop(entry.name, None)
+        return found
+
+    def _wanted(self, name: str, template: Any) -> Any:
+        """Return the form of a result in which members that nobody reads are marked."""
+        if name not in self._reads:
+            return template
+        fields = iter(_fields(template))
+        return replaced(template, lambda hole: Num("" if next(fields) in self._reads[name] else _UNREAD, hole.kind))
 
     # what a scope asks for
 
@@ -186,18 +206,16 @@ class Translator:
 
     def _called(self, unit: Unit, found: CFunction, given: list[Num]) -> Any:
         if found.forward is not None:
-            handed = iter([literal_or(given, each) for each in found.forward])
-            return replaced(found.template, lambda _: next(handed))
+            return _filled(found.template, [literal_or(given, each) for each in found.forward])
         texts = [number.text for number, used in zip(given, found.used, strict=True) if used]
         if found.may_fail:
             texts.append("why")
         call = f"{found.name}({', '.join(texts)})"
-        holes = [number for _, number in leaves(found.template)]
-        if not holes and not found.may_fail:
-            return found.template
+        holes = _holes(found.template)
         if not holes:
-            unit.emit(code.Do(f"{call};"))
-            self._checked(unit)
+            if found.may_fail:
+                unit.emit(code.Do(f"{call};"))
+                self._checked(unit)
             return found.template
         if len(holes) == 1:
             result = Num(call, holes[0].kind)
@@ -206,13 +224,13 @@ class Translator:
                 unit.emit(code.Let(code.c_type(result.kind), name, call))
                 result = Num(name, result.kind)
                 self._checked(unit)
-            return replaced(found.template, lambda _: result)
+            return _filled(found.template, [result])
         name = unit.fresh(f"of_{found.name}")
         unit.emit(code.Let(f"struct {found.name}", name, call))
         if found.may_fail:
             self._checked(unit)
-        members = iter(Num(f"{name}.{field}", hole.kind) for field, hole in zip(found.fields, holes, strict=True))
-        return replaced(found.template, lambda _: next(members))
+        members = [Num(f"{name}.{field}", hole.kind) for field, hole in zip(found.fields, holes, strict=True)]
+        return _filled(found.template, members)
 
     def _checked(self, unit: Unit) -> None:
         """Leave the function if the one called has refused."""
@@ -220,7 +238,7 @@ class Translator:
         unit.emit(code.If("why->text[0] != '\\0'", [code.Do(self._nothing(unit))]))
 
     def _nothing(self, unit: Unit) -> str:
-        holes = list(leaves(unit.template)) if unit.template is not None else []
+        holes = _holes(unit.template)
         if not holes:
             return "return;"
         return "return 0;" if len(holes) == 1 else f"return (struct {unit.name}){{0}};"
@@ -230,13 +248,14 @@ class Translator:
         unit.returned.append(value)
         if unit.scratch:
             return
-        numbers = matched(value, unit.template)
+        wanted = [not number.text for _, number in leaves(unit.template)]
+        numbers = [each for each, want in zip(matched(value, unit.template), wanted, strict=True) if want]
         if not numbers:
             unit.emit(code.Do("return;"))
         elif len(numbers) == 1:
             unit.emit(code.Do(f"return {numbers[0].text};"))
         else:
-            fields = _fields(unit.template)
+            fields = _wanted_fields(unit.template)
             given = ", ".join(f".{field} = {number.text}" for field, number in zip(fields, numbers, strict=True))
             unit.emit(code.Do(f"return (struct {unit.name}){{{given}}};"))
 
@@ -375,10 +394,10 @@ class Translator:
 
     def _finished(self, name: str, closure: Closure, bound: dict[str, Any], template: Any) -> CFunction:
         parameters: list[Num] = []
+        template = self._wanted(name, template)
         holder = template if template is not None else ()
         unit = self._written(name, closure, bound, holder, parameters)
-        holes = [number for _, number in leaves(holder)]
-        fields = _fields(holder)
+        holes, fields = _holes(holder), _wanted_fields(holder)
         if not holes and not unit.may_fail:
             return CFunction(name, [False] * len(parameters), template, [], False)
         if not unit.may_fail and not unit.blocks[0][:-1]:
@@ -411,7 +430,10 @@ def _forwarded(unit: Unit, template: Any, parameters: list[Num]) -> list[int | s
     """Return where the numbers that a function returns come from if it computes none of them, else None."""
     places = {parameter.text: place for place, parameter in enumerate(parameters)}
     found: list[int | str] = []
-    for number in matched(unit.returned[-1], template):
+    wanted = [not number.text for _, number in leaves(template)]
+    for number, want in zip(matched(unit.returned[-1], template), wanted, strict=True):
+        if not want:
+            continue
         if number.text in places:
             found.append(places[number.text])
         elif number.binds >= UNARY and not code.names_in(number.text):
@@ -454,6 +476,22 @@ def _fields(template: Any) -> list[str]:
         own = name if name and not name[0].isdigit() else f"part_{name}"
         found.append(unique(own, set(found)))
     return found
+
+
+def _holes(template: Any) -> list[Num]:
+    """Return the numbers that a function returns."""
+    return [] if template is None else [number for _, number in leaves(template) if not number.text]
+
+
+def _wanted_fields(template: Any) -> list[str]:
+    """Return their names."""
+    return [field for field, (_, each) in zip(_fields(template), leaves(template), strict=True) if not each.text]
+
+
+def _filled(template: Any, numbers: list[Num]) -> Any:
+    """Return a result with these numbers in it."""
+    given = iter(numbers)
+    return replaced(template, lambda hole: hole if hole.text else next(given))
 
 
 def _assigned(body: list[ast.stmt]) -> list[str]:
