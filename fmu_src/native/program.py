@@ -19,7 +19,7 @@ from contact_core.state import ContactState, Mean, Outputs, changed
 from contact_core.surfaces.track_means import means_of
 
 from ..variables import Variable, variables
-from .translate import Num, Translator, leaves, literal
+from .translate import Entry, Num, Translator, literal
 
 Found = tuple[ContactState, Outputs]
 
@@ -110,92 +110,91 @@ def _paths(value: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, 
             yield from _paths(item, (*path, name))
 
 
-@dataclasses.dataclass(frozen=True)
-class Program:
-    """The C sources of a scene."""
-
-    header: str
-    source: str
-
-
-def written(scene: Scene) -> Program:
-    """Return contact.h and contact.c of a scene.
+def written(scene: Scene) -> dict[str, str]:
+    """Return the C sources of a scene by the names of their files.
 
     Raises SceneError for a scene that the native FMU cannot have.
     """
     point, state = _point(scene), _state(scene)
+    stepped, step_texts = _translated("step", step, [scene, point, state, Num("dt")])
+    slopes, slope_texts = _translated("derivatives", derivatives, [scene, point, state])
+    outputs = [v.name for v in variables(scene) if v.causality == "output" and v.name not in OF_CALLER]
+    new_state, new_outputs = stepped.result
+    after, first = dict(_paths(new_state)), dict(_paths(first_state(scene)))
+    needed = {number.text for number in (*stepped.takes, *slopes.takes)}
+    held = [(path, number) for path, number in _paths(state) if isinstance(number, Num) and number.text in needed]
+    inputs = inputs_of(scene)
+    stepping = [
+        *_initialise([(number.text, first.get(path)) for path, number in held]),
+        "",
+        *_calling(
+            "contact_step(const contact_inputs *in, double dt, contact_state *state, contact_outputs *out,",
+            stepped,
+            inputs,
+            [
+                *((f"state->{number.text}", after[path]) for path, number in held),
+                *((f"out->{name}", getattr(new_outputs, name)) for name in outputs if name not in SLOPES),
+            ],
+        ),
+    ]
+    sloping = _calling(
+        "contact_derivatives(const contact_inputs *in, const contact_state *state, contact_outputs *out,",
+        slopes,
+        inputs,
+        [(f"out->{name}", each) for name, each in zip(SLOPES, slopes.result, strict=True)],
+    )
+    return {
+        "contact.h": _header(scene, inputs, [number.text for _, number in held], outputs),
+        "contact.c": "\n\n".join([_HEAD, *step_texts, "\n".join(stepping)]) + "\n",
+        "derivatives.c": "\n\n".join([_HEAD, *slope_texts, "\n".join(sloping)]) + "\n",
+    }
+
+
+def _translated(name: str, function: Any, operands: list[Any]) -> tuple[Entry, list[str]]:
+    """Return a function to be called from C, and it and all that it needs as C."""
     reads: dict[str, set[str]] = {}
     while True:  # members of results that nothing reads are left out, and then what was computed for them
         translator = Translator(reads)
-        stepped = translator.program("step", step, [scene, point, state, Num("dt")])
-        slopes = translator.program("derivatives", derivatives, [scene, point, state])
-        texts = translator.texts([stepped, slopes])
-        found = reads | translator.wanted(texts, [stepped, slopes])
+        entry = translator.program(name, function, operands)
+        texts = translator.texts([entry])
+        found = reads | translator.wanted(texts, [entry])
         if found == reads:
-            break
+            return entry, texts
         reads = found
-    outputs = [v.name for v in variables(scene) if v.causality == "output" and v.name not in OF_CALLER]
-    names = dict(_paths(state))
-    new_state, new_outputs = stepped.result
-    after = dict(_paths(new_state))
-    needed = {number.text for number in (*stepped.takes, *slopes.takes)}
-    held = [(path, number) for path, number in names.items() if isinstance(number, Num) and number.text in needed]
-    fields = [number.text for _, number in held]
-    inputs = inputs_of(scene)
-    first = dict(_paths(first_state(scene)))
-    lines = [
-        *_HEAD.splitlines(),
-        "",
-        *(line for text in texts for line in (*text.splitlines(), "")),
-        *_initialise(scene, [(number.text, first.get(path)) for path, number in held]),
-        "",
-        "int contact_step(const contact_inputs *in, double dt, contact_state *state, contact_outputs *out, "
-        "contact_message *why)",
-        "{",
-        "    why->text[0] = '\\0';",
-        f"    const struct {stepped.name} new = {stepped.called(inputs)};",
-        "    if (why->text[0] != '\\0') {",
-        "        return 1;",
-        "    }",
-        *(f"    state->{number.text} = {_text(after[path], 'new')};" for path, number in held),
-        *(f"    out->{name} = {_text(getattr(new_outputs, name), 'new')};" for name in outputs if name not in _SLOPES),
-        "    return 0;",
-        "}",
-        "",
-        "int contact_derivatives(const contact_inputs *in, const contact_state *state, contact_outputs *out, "
-        "contact_message *why)",
-        "{",
-        "    why->text[0] = '\\0';",
-        f"    const struct {slopes.name} found = {slopes.called(inputs)};",
-        "    if (why->text[0] != '\\0') {",
-        "        return 1;",
-        "    }",
-        *(f"    out->{name} = {_text(each, 'found')};" for name, each in zip(_SLOPES, slopes.result, strict=True)),
-        "    return 0;",
-        "}",
-        "",
-    ]
-    return Program(_header(scene, inputs, fields, outputs), "\n".join(lines))
 
 
-_SLOPES = ("dfriction_dspeed_1", "dfriction_dspeed_2", "dfriction_dload", "dfriction_dtemperature")
+SLOPES = ("dfriction_dspeed_1", "dfriction_dspeed_2", "dfriction_dload", "dfriction_dtemperature")
 
 
-def _text(value: Any, struct: str) -> str:
-    """Return a member of what a function returned, or a constant, as double."""
-    if isinstance(value, Num):
-        return f"{struct}.{value.text}"
-    return literal(value).text
-
-
-def _initialise(scene: Scene, values: Sequence[tuple[str, Any]]) -> list[str]:
+def _initialise(values: Sequence[tuple[str, Any]]) -> list[str]:
     oil = "in->temperature"
     return [
-        "int contact_initialise(const contact_inputs *in, contact_state *state, contact_outputs *out, "
-        "contact_message *why)",
+        "int contact_initialise(const contact_inputs *in, contact_state *state, contact_outputs *out,",
+        "    contact_message *why)",
         "{",
         *(f"    state->{name} = {oil if value is None else literal(value).text};" for name, value in values),
         "    return contact_step(in, 0.0, state, out, why);",
+        "}",
+    ]
+
+
+def _calling(head: str, entry: Entry, inputs: Sequence[str], sets: Sequence[tuple[str, Any]]) -> list[str]:
+    """Return a function that calls an entry and sets members to numbers of what that returns."""
+
+    def text(value: Any) -> str:
+        return f"found.{value.text}" if isinstance(value, Num) else literal(value).text
+
+    return [
+        f"int {head}",
+        "    contact_message *why)",
+        "{",
+        "    why->text[0] = '\\0';",
+        f"    const struct {entry.name} found = {entry.called(inputs)};",
+        "    if (why->text[0] != '\\0') {",
+        "        return 1;",
+        "    }",
+        *(f"    {target} = {text(value)};" for target, value in sets),
+        "    return 0;",
         "}",
     ]
 

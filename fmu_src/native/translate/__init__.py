@@ -8,7 +8,7 @@
     functions     calls, loops, C functions
 """
 
-from .functions import Translator
+from .functions import Entry, Translator
 from .values import Num, Untranslatable, leaves, literal, replaced
 
-__all__ = ["Num", "Translator", "Untranslatable", "leaves", "literal", "replaced"]
+__all__ = ["Entry", "Num", "Translator", "Untranslatable", "leaves", "literal", "replaced"]
