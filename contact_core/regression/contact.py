@@ -141,7 +141,7 @@ def _between(point: _Point, slope: float) -> float:
 def _points(case: Case, surfaces: Surfaces, film: float, further: float) -> list[_Point]:
     """Return the operating point, and those with more sliding (by `further` [m/s]), film, load, temperature, speed."""
     hertz, slide, speed = case.unit_hertz, case.op.sliding_speed, case.op.entrainment_speed
-    (root, wide), (longer, wider) = hertz.growth(case.op.load), hertz.growth(1.0 + STEP)
+    (root, wide), (longer, wider) = case.growth, hertz.growth(1.0 + STEP)
     grown, more = (root, wide), (root * longer, wide * wider)
     now = _point(case, surfaces, film, grown, slide, speed)
     return [

@@ -63,7 +63,7 @@ def advance(
 def _check_pressure(case: Case) -> None:
     """Raise OperatingPointError if smooth bodies would yield: no curve was fitted to such a contact."""
     hertz, hardness = case.unit_hertz, case.scene.plasticity.hardness
-    pressure = hertz.pressure_max * hertz.growth(case.op.load)[0]
+    pressure = hertz.pressure_max * case.growth[0]
     if pressure > hardness:
         raise OperatingPointError(
             f"load = {case.op.load:g} N presses smooth bodies together with {pressure:.3g} Pa, above "

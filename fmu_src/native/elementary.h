@@ -7,6 +7,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "tables.h"
+
 static inline double smaller(double x, double y) { return y < x ? y : x; }
 static inline double larger(double x, double y) { return y > x ? y : x; }
 static inline double squared(double x) { return x * x; }
@@ -25,33 +27,41 @@ static inline uint64_t bits_of(double x)
     return bits;
 }
 
-#define LN2_HIGH 0x1.62e42feep-1 /* with zeros at its end: n times it is exact */
-#define LN2_LOW 0x1.a39ef35793c76p-33
-
-/* e^(high + low) for |low| far below one unit in the last place of high */
-static inline double exp_of(double high, double low)
+/* e^(high + low) as a scale and what is to be added to it: for |low| far below one unit in the last place of high */
+static inline double exp_parts(double high, double low, double *added)
 {
-    if (!(high < 709.7)) {
-        return high >= 709.7 ? INFINITY : high; /* or not a number */
-    }
-    if (high < -708.3) { /* below the smallest normal number */
-        return high < -746.0 ? 0.0 : exp_of(high + 64.0, low) * 0x1.969d47321e4ccp-93; /* e^-64 */
-    }
-    const double rounded = high * 0x1.71547652b82fep+0 + 0x1.8p52; /* n in its last bits */
+    const double rounded = high * PARTS_PER_LN2 + 0x1.8p52; /* n in its last bits */
     const double n = rounded - 0x1.8p52;
-    const double r = (high - n * LN2_HIGH) - (n * LN2_LOW - low); /* at most ln(2) / 2 */
-    /* Taylor's series up to r^13, the remainder is 2e-17 */
+    const double r = (high - n * PART_UPPER) - (n * PART_LOWER - low); /* at most ln(2) / 128: Taylor's series */
     const double r2 = r * r;
-    const double r4 = r2 * r2;
-    const double first = (1.0 / 6.0 + r * (1.0 / 24.0)) + r2 * (1.0 / 120.0 + r * (1.0 / 720.0));
-    const double second = (1.0 / 5040.0 + r * (1.0 / 40320.0)) + r2 * (1.0 / 362880.0 + r * (1.0 / 3628800.0));
-    const double third = (1.0 / 39916800.0 + r * (1.0 / 479001600.0)) + r2 * (1.0 / 6227020800.0);
-    const double tail = r2 * (0.5 + r * (first + r4 * (second + r4 * third)));
-    return (1.0 + (r + tail)) * from_bits((uint64_t)(1023 + (int64_t)n) << 52);
+    const double end = (1.0 / 24.0 + r * (1.0 / 120.0)) + r2 * (1.0 / 720.0);
+    const double series = r + r2 * ((0.5 + r * (1.0 / 6.0)) + r2 * end);
+    const int64_t whole = (int64_t)n;
+    const double *part = power_of_two[whole & 63];
+    const double scale = from_bits((uint64_t)(1023 + (whole >> 6)) << 52);
+    *added = scale * (part[1] + part[0] * series);
+    return scale * part[0];
 }
 
-/* ln(x) of x > 0 as a sum: a large part and what is missing in it */
-static inline double log_of(double x, double *low)
+static inline double exp_of(double high, double low)
+{
+    if (!(fabs(high) < 708.0)) {
+        if (high > 709.7) {
+            return INFINITY;
+        }
+        if (high > -746.0) { /* near the largest number, or below the smallest normal one */
+            const double half = high > 0.0 ? 64.0 : -64.0;
+            return exp_of(high - half, low) * (high > 0.0 ? 0x1.425982cf597cdp+92 : 0x1.969d47321e4ccp-93);
+        }
+        return high != high ? high : 0.0;
+    }
+    double added;
+    const double scale = exp_parts(high, low, &added);
+    return scale + added;
+}
+
+/* ln(x + extra) of a finite x > 0 and an extra below its last place as a sum: a large part and what is missing in it */
+static inline double log_of(double x, double extra, double *low)
 {
     int64_t exponent = 0;
     if (x < 0x1p-1022) { /* not normal */
@@ -59,30 +69,20 @@ static inline double log_of(double x, double *low)
         exponent = -54;
     }
     uint64_t bits = bits_of(x);
-    exponent += (int64_t)(bits >> 52) - 1023;
-    bits = (bits & 0x000fffffffffffffu) | 0x3ff0000000000000u;
-    double m = from_bits(bits);
-    if (m > 0x1.6a09e667f3bcdp+0) { /* the square root of 2 */
-        m *= 0.5;
-        exponent += 1;
-    }
-    const double n = (double)exponent;
-    const double f = m - 1.0; /* exact */
-    const double s = f / (2.0 + f);
-    const double z = s * s;
-    /* ln(1 + f) = 2 artanh(s) = f - f^2/2 + s (f^2/2 + R), R = 2/3 z + 2/5 z^2 + ... up to z^10 */
-    const double z2 = z * z;
-    const double z4 = z2 * z2;
-    const double near = (2.0 / 3.0 + z * (2.0 / 5.0)) + z2 * (2.0 / 7.0 + z * (2.0 / 9.0));
-    const double far = (2.0 / 11.0 + z * (2.0 / 13.0)) + z2 * (2.0 / 15.0 + z * (2.0 / 17.0));
-    const double last = (2.0 / 19.0 + z * (2.0 / 21.0)) + z2 * (2.0 / 23.0);
-    const double rest = z * (near + z4 * (far + z4 * last));
-    const double half = 0.5 * f * f;
-    const double small = s * (half + rest) + n * LN2_LOW;
-    const double large = n * LN2_HIGH;
-    const double tail = half - small;
-    const double high = large + (f - tail);
-    *low = ((large - high) + f) - tail;
+    const int64_t above = (bits & 0x000fffffffffffffu) > 0x6a09e667f3bcdu; /* the square root of 2 */
+    const int64_t power = (int64_t)(bits >> 52) - 1023 + above;
+    bits = (bits & 0x000fffffffffffffu) | (uint64_t)(1023 - above) << 52;
+    const double m = from_bits(bits);
+    const int k = (int)(m * 128.0 + 0.5);
+    const double *near = centre[k - FIRST_CENTRE];
+    const double n = (double)(exponent + power);
+    const double shift = extra == 0.0 ? 0.0 : extra * from_bits((uint64_t)(1023 - power) << 52);
+    const double r = ((m - k * 0x1p-7) + shift) * near[0]; /* at most 1/180: Taylor's series */
+    const double r2 = r * r;
+    const double series = r2 * ((r * (1.0 / 3.0) - 0.5) + r2 * ((r * (1.0 / 5.0) - 0.25) + r2 * (r * (1.0 / 7.0) - 1.0 / 6.0)));
+    const double large = n * LN2_UPPER + near[1]; /* exact */
+    const double high = large + r;
+    *low = ((large - high) + r) + (series + (near[2] + n * LN2_LOWER));
     return high;
 }
 
@@ -97,7 +97,7 @@ static inline double own_log(double x)
         return x;
     }
     double low;
-    const double high = log_of(x, &low);
+    const double high = log_of(x, 0.0, &low);
     return high + low;
 }
 
@@ -106,23 +106,22 @@ static inline double own_log10(double x) { return own_log(x) * 0x1.bcb7b1526e50e
 static inline double own_log1p(double x)
 {
     const double u = 1.0 + x;
-    if (!(u > 0.0) || u > 0x1.fffffffffffffp+1023) {
+    if (!(u > 0.0) || u > 0x1p52) {
         return own_log(u);
     }
-    const double lost = u > 2.0 ? 1.0 - (u - x) : x - (u - 1.0); /* in the rounding of u */
-    return own_log(u) + lost / u;
+    double low;
+    const double high = log_of(u, u > 2.0 ? 1.0 - (u - x) : x - (u - 1.0), &low); /* lost in the rounding of u */
+    return high + low;
 }
 
 static inline double own_expm1(double x)
 {
-    if (!(fabs(x) < 0.35)) {
+    if (!(fabs(x) < 40.0)) {
         return own_exp(x) - 1.0;
     }
-    double sum = 0.0;
-    for (int k = 16; k > 0; --k) {
-        sum = (1.0 + sum) * x / k; /* Taylor's series */
-    }
-    return sum;
+    double added;
+    const double scale = exp_parts(x, 0.0, &added);
+    return (scale - 1.0) + added;
 }
 
 /* x^y of x >= 0 */
@@ -138,7 +137,7 @@ static inline double own_pow(double x, double y)
         return y > 0.0 ? INFINITY : 0.0;
     }
     double low;
-    const double high = log_of(x, &low);
+    const double high = log_of(x, 0.0, &low);
     const double product = high * y;
     if (!(fabs(product) < 750.0)) {
         return product != product ? NAN : product > 0.0 ? INFINITY : 0.0;

@@ -38,12 +38,13 @@ def bound(scene: Scene, point: OperatingPoint, state: ContactState) -> Case:
                 "fitted at that temperature, or build the FMU anew with tribofilm.beyond_fit = 'extrapolate'."
             )
     if inlet is not None and point.load > 0.0:
-        half_width = case.unit_hertz.a * case.unit_hertz.growth(point.load)[0]
+        half_width = case.unit_hertz.a * case.growth[0]
         if inlet <= half_width:
             raise OperatingPointError(
                 f"lubricant.supply.distance = {inlet:g} m must be more than the half width of Hertz's contact, "
                 f"{half_width:.3g} m at {point.load:g} N: no oil would be before it. Lower the load."
             )
+    _ = case.unit_hertz, case.growth, case.sides  # once, for all parts of a step
     return case
 
 

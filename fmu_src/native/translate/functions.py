@@ -106,7 +106,7 @@ class Translator:
         closure = _closure_of(function)
         bound = self._bound(closure, function, operands, {})
         found = self._function(closure, bound)
-        given = [number for _, number in leaves((bound, closure))]
+        given = _distinct((bound, closure))
         takes = [number for number, used in zip(given, found.used, strict=True) if used]
         members = [Num(field, hole.kind) for field, hole in zip(found.fields, _holes(found.template), strict=True)]
         return Entry(found.name, takes, _filled(found.template, members), found.may_fail)
@@ -178,14 +178,24 @@ class Translator:
             names = {name: unit.named(name, value) for name, value in bound.items()}
             return Scope(self, unit, names, closure).value(expression)
         found = self._function(closure, bound)
-        return self._called(unit, found, [number for _, number in leaves((bound, closure))])
+        return self._called(unit, found, _distinct((bound, closure)))
 
     def _on_arrays(self, unit: Unit, function: Any, operands: list[Any], named: dict[str, Any]) -> Any:
         """Return what a law gives for each element of arrays."""
         own, names = len(operands), list(named)
 
+        closure = _closure_of(function)
+        straight = _is_straight(closure.node)
+
         def one(*each: Any) -> Any:
-            return self.call(unit, function, list(each[:own]), dict(zip(names, each[own:], strict=True)))
+            operands, named = list(each[:own]), dict(zip(names, each[own:], strict=True))
+            if not straight:
+                return self.call(unit, function, operands, named)
+            scope = Scope(self, unit, self._bound(closure, function, operands, named), closure)
+            *before, last = _statements(closure.node)
+            scope.run(before)
+            assert isinstance(last, ast.Return) and last.value is not None
+            return scope.value(last.value)
 
         whole = [x if isinstance(x, np.ndarray | Num | float | int) else _Whole(x) for x in (*operands, *named.values())]
         arrays = np.broadcast_arrays(*[np.asarray(x, object) for x in whole])
@@ -225,10 +235,13 @@ class Translator:
                 result = Num(name, result.kind)
                 self._checked(unit)
             return _filled(found.template, [result])
-        name = unit.fresh(f"of_{found.name}")
-        unit.emit(code.Let(f"struct {found.name}", name, call))
-        if found.may_fail:
-            self._checked(unit)
+        name = unit.known(call)
+        if name is None:
+            name = unit.fresh(f"of_{found.name}")
+            unit.keep(call, name)
+            unit.emit(code.Let(f"struct {found.name}", name, call))
+            if found.may_fail:
+                self._checked(unit)
         members = [Num(f"{name}.{field}", hole.kind) for field, hole in zip(found.fields, holes, strict=True)]
         return _filled(found.template, members)
 
@@ -355,7 +368,7 @@ class Translator:
     def _function(self, closure: Closure, bound: dict[str, Any]) -> CFunction:
         """Return the C function for parameters like these."""
         key = (ast.dump(closure.node) if isinstance(closure.node, ast.Lambda) else id(closure.node), closure.path)
-        key = (*key, signature(bound), signature(closure))
+        key = (*key, signature(bound), signature(closure), _alike([number.text for _, number in leaves((bound, closure))]))
         if key not in self._cache:
             self._kept.append((closure, bound))
             name = self._new_name(closure.name)
@@ -380,10 +393,14 @@ class Translator:
         self._units.append(unit)
         made: list[Num] = [] if parameters is None else parameters
         names = iter([leaf for leaf, _ in leaves((bound, closure))])
+        known: dict[str, Num] = {}
 
         def parameter(number: Num) -> Num:
-            made.append(Num(unit.fresh(next(names)), number.kind))
-            return made[-1]
+            name = next(names)
+            if number.text not in known:  # what is given twice is one parameter
+                known[number.text] = Num(unit.fresh(name), number.kind)
+                made.append(known[number.text])
+            return known[number.text]
 
         own, seen = replaced((bound, closure), parameter)
         scope = Scope(self, unit, dict(own), seen)
@@ -461,11 +478,22 @@ def _about(closure: Closure) -> str:
     return f"{first}[{closure.path}]".replace("*/", "* /")
 
 
+def _statements(node: Any) -> list[ast.stmt]:
+    """Return the statements of a function but its text."""
+    return [each for each in node.body if not (isinstance(each, ast.Expr) and isinstance(each.value, ast.Constant))]
+
+
+def _is_straight(node: Any) -> bool:
+    """Return True for a function without choices and loops: each element of an array has a copy of it."""
+    *before, last = _statements(node)
+    return isinstance(last, ast.Return) and all(isinstance(each, ast.Assign) for each in before)
+
+
 def _expression(node: Any) -> ast.expr | None:
     """Return the expression of a function that is nothing else."""
     if isinstance(node, ast.Lambda):
         return node.body
-    body = [each for each in node.body if not (isinstance(each, ast.Expr) and isinstance(each.value, ast.Constant))]
+    body = _statements(node)
     return body[0].value if len(body) == 1 and isinstance(body[0], ast.Return) else None
 
 
@@ -476,6 +504,16 @@ def _fields(template: Any) -> list[str]:
         own = name if name and not name[0].isdigit() else f"part_{name}"
         found.append(unique(own, set(found)))
     return found
+
+
+def _alike(texts: list[str]) -> tuple[int, ...]:
+    """Return which of some expressions are the same."""
+    return tuple(map(texts.index, texts))
+
+
+def _distinct(value: Any) -> list[Num]:
+    """Return the numbers at run time of a value, each once."""
+    return list({number.text: number for _, number in leaves(value)}.values())
 
 
 def _holes(template: Any) -> list[Num]:

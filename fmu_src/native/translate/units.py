@@ -39,6 +39,7 @@ class Unit:
         self.may_fail = False
         self.cached: list[tuple[Any, str]] = []  # properties kept in the present block
         self.loops: list[Any] = []
+        self._known: list[dict[str, str]] = [{}]  # expressions that have a name, for each block
 
     def emit(self, statement: code.Statement) -> None:
         """Add a statement to the present block."""
@@ -54,9 +55,20 @@ class Unit:
         """Return a name for a value; names and constants stay as they are."""
         if _WHOLE.fullmatch(value.text):
             return value
-        found = self.fresh(name)
-        self.emit(code.Let(code.c_type(value.kind), found, value.text))
+        found = self.known(value.text)
+        if found is None:
+            found = self.fresh(name)
+            self.keep(value.text, found)
+            self.emit(code.Let(code.c_type(value.kind), found, value.text))
         return Num(found, value.kind)
+
+    def known(self, text: str) -> str | None:
+        """Return the name that an expression has already."""
+        return next((names[text] for names in self._known if text in names), None)
+
+    def keep(self, text: str, name: str) -> None:
+        """Keep the name of an expression to the end of the present block."""
+        self._known[-1][text] = name
 
     def variable(self, name: str, kind: str) -> Num:
         """Return a variable that is set later."""
@@ -76,10 +88,12 @@ class Unit:
         """Return what some work gives, and the statements that it makes; properties it computes are forgotten."""
         kept, self.cached = self.cached, []
         self.blocks.append([])
+        self._known.append({})
         try:
             found = work()
         finally:
             block = self.blocks.pop()
+            self._known.pop()
             for owner, name in self.cached:
                 vars(owner).pop(name, None)
             self.cached = kept
