@@ -120,7 +120,9 @@ def binaries(
         return dict(_library(folder, PLATFORMS[fmi][platform], platform, model, compiler) for platform in wanted)
 
 
-def _library(folder: Path, targets: tuple[str, ...], platform: str, model: str, compiler: Compiler) -> tuple[str, bytes]:
+def _library(
+    folder: Path, targets: tuple[str, ...], platform: str, model: str, compiler: Compiler
+) -> tuple[str, bytes]:
     parts = [compiled(folder, target, compiler) for target in targets]
     content = parts[0] if len(parts) == 1 else universal(parts)
     return f"binaries/{platform}/{model}{TARGETS[targets[0]].suffix}", content

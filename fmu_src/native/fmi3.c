@@ -98,7 +98,7 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance c, fmi3Boolean toleranceDefi
     INSTANCE(c);
     (void)toleranceDefined, (void)tolerance;
     Status status = instance_set_up(instance, startTime, stopTimeDefined ? stopTime : (double)NAN);
-    return (fmi3Status)(status == OK ? instance_enter(instance) : status);
+    return (fmi3Status)(status == OK ? instance_enter(instance) : ERROR);
 }
 
 /* variables: either all of a call are set or none */

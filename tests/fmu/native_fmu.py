@@ -4,6 +4,8 @@ import zipfile
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
+from fmu_host import SMALL
+
 from contact_core import Scene
 from fmu_src.native.build import Compiler, Fmi, binaries, runtime
 from fmu_src.native.model import model_c
@@ -27,8 +29,8 @@ int contact_derivatives(const contact_inputs *in, const contact_state *state, co
 
 
 def table() -> tuple[Variable, ...]:
-    """Variables of a scene at the regression level."""
-    return variables(Scene.from_toml("mtm_zddp").at_level("regression"))
+    """Variables of the scene of `quick` in conftest.py."""
+    return variables(Scene.from_toml("mtm_zddp", SMALL).at_level("regression"))
 
 
 def sources(fmi: Fmi) -> dict[str, bytes]:
@@ -41,6 +43,11 @@ def sources(fmi: Fmi) -> dict[str, bytes]:
         "contact.c": CONTACT.read_bytes(),
         "model.c": model_c(listed, TOKEN).encode(),
     }
+
+
+def all_sources() -> dict[str, bytes]:
+    """The sources of both versions of FMI."""
+    return sources(2) | sources(3)
 
 
 def write(folder: Path, files: dict[str, bytes]) -> Path:
