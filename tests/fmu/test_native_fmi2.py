@@ -108,7 +108,7 @@ def test_mistakes_are_answered_as_by_an_isolated_fmu(
     assert notes[0] == notes[1]
     texts = [[entry[2] for entry in entries(instance) if ") must be" in entry[2]] for instance in (native, isolated)]
     assert texts[0] == texts[1]
-    assert len(texts[0]) == 3
+    assert len(texts[0]) == 4
 
 
 def test_exactly_the_functions_of_fmi_are_exported(native_folder: Path) -> None:
