@@ -8,8 +8,9 @@
     phases      phases in the life of an instance
     flavours    names of the flavours
 
-Imports run one way: package -> native -> runtime, isolated -> variables, phases, flavours. The FMU is thin: it carries its scene;
-the physics comes from the installed contact_core of the same version.
+Imports run one way: package -> native -> runtime, isolated -> variables, phases, flavours. The FMU is thin: it carries
+its scene; the physics comes from the installed contact_core of the same version. A native FMU alone carries the physics
+itself, as C sources.
 """
 
 

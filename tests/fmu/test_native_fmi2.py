@@ -69,6 +69,7 @@ def mistakes(instance: Instance) -> list[object]:
     ask("step", 3.0, 1.0)  # not where the last one ended
     ask("step", 2.0, 200.0)  # beyond the stop time
     ask("step", 2.0, -1.0)
+    ask("step", 2.0, -1e-12)  # a host's rounding
     ask("step", 2.0, math.nan)
     ask("step", math.nan, 1.0)
     ask("setr", at["temperature"], 1000.0)
@@ -86,6 +87,9 @@ def mistakes(instance: Instance) -> list[object]:
     ask("step", 4.0, 1.0)
     ask("restore", 0)
     ask("step", 4.0, 1.0)
+    ask("step", 5.0, 95.01)
+    ask("step", 5.0 + 1e-8, 95.0005)  # likewise
+    ask("step", 100.0005, 1e-4)
     ask("terminate")
     ask("step", 5.0, 1.0)
     ask("terminate")
@@ -96,6 +100,9 @@ def mistakes(instance: Instance) -> list[object]:
     ask("enter")
     ask("reset")
     ask("enter")
+    ask("exit")
+    ask("step", 5.0, 1.0)  # anywhere, as no start time was given
+    ask("step", 0.0, 1.0)
     return found
 
 
@@ -163,6 +170,24 @@ def test_a_contact_that_could_not_be_initialised_starts_with_the_first_usable_in
     assert fresh.get("fidelity_used") == [1]
     (film,) = fresh.get("tribofilm_1")
     assert film == approx(0.05)  # one step from fresh surfaces
+
+
+def test_steps_go_on_being_refused_until_the_contact_can_be_initialised(fresh: Instance) -> None:
+    assert fresh.initialise(load=0.0) == [OK, OK, OK, WARNING]
+    assert fresh.step(1.0) == WARNING  # the stand-in refuses this load at the start only
+    assert fresh.get("fidelity_used") == [0]
+    assert fresh.step(1.0, load=50.0) == OK
+    assert fresh.step(1.0, load=0.0) == OK
+
+
+def test_inputs_that_fail_after_others_in_initialisation_mode_leave_no_state_of_those(fresh: Instance) -> None:
+    assert [fresh.ask(*words).status for words in (("setup", 0.0), ("enter",))] == [OK, OK]
+    fresh.set(load=600.0)
+    assert fresh.get("load_cycles_1") == [1.0]
+    fresh.set(load=-1.0)
+    assert fresh.ask("exit").status == WARNING
+    assert fresh.step(1.0, load=50.0, speed_1=0.1) == OK
+    assert fresh.get("load_cycles_1") == [approx(1.0)]  # of the step alone
 
 
 def test_range_flags_are_logged_when_they_appear(ready: Instance) -> None:

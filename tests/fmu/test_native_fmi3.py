@@ -38,10 +38,10 @@ class Host3:
         self.seen: list[tuple[float, ...]] = []
         self.return_at: float | None = None  # share of the step of 1 s
 
-    def instantiate(self, early: bool = True, update: bool = True, **options: bool) -> None:
+    def instantiate(self, early: bool = True, update: bool = True, logging: bool = True, **options: bool) -> None:
         self.fmu.instantiate(
             logMessage=self._logged,
-            loggingOn=True,
+            loggingOn=logging,
             earlyReturnAllowed=early,
             intermediateUpdate=self._update if update else None,
             **options,
@@ -151,6 +151,29 @@ def test_messages_name_the_functions_of_fmi_3_and_are_no_formats(loaded: Host3) 
         "the value, or build another flavour, whose parameters can be set.",
         "fmi3EnterInitializationMode is not allowed after initialisation. Nothing was done.",
     ]
+
+
+def test_the_host_chooses_what_is_logged(loaded: Host3) -> None:
+    def heard() -> list[str]:
+        """Categories of a flag that appears, a step that is refused and a wrong call."""
+        loaded.log.clear()
+        for load in (50.0, 2000.0, -1.0):
+            loaded.fmu.setFloat64([AT["load"]], [load])
+            loaded.fmu.doStep(loaded.get("time"), 1.0)
+        assert refused(loaded.fmu.enterInitializationMode)
+        return [category for _, category, _ in loaded.log]
+
+    loaded.instantiate(logging=False)
+    loaded.initialise()
+    assert heard() == ["logValidity", "logStatusError"]  # warnings and errors
+    loaded.fmu.setDebugLogging(True, [])
+    assert heard() == ["logSolver", "logValidity", "logValidity", "logStatusError"]
+    loaded.fmu.setDebugLogging(True, ["logSolver", "unknown"])
+    assert heard() == ["logSolver", "logStatusError"]
+    loaded.fmu.setDebugLogging(True, ["logAll"])
+    assert heard() == ["logSolver", "logValidity", "logValidity", "logStatusError"]
+    loaded.fmu.setDebugLogging(False, [])
+    assert heard() == ["logStatusError"]
 
 
 def test_a_start_time_that_is_no_number_is_an_error(loaded: Host3) -> None:

@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 static const double HOTTEST = 450.0, ODD_SPEED = 99.0; /* K, m/s: refused; not a number comes out */
+static const double BEDDING = 500.0;                   /* N: the fresh state depends on the load */
 
 static int refuse(const contact_inputs *in, contact_message *why)
 {
@@ -36,7 +37,11 @@ static void evaluate(const contact_inputs *in, const contact_state *state, conta
 
 int contact_initialise(const contact_inputs *in, contact_state *state, contact_outputs *out, contact_message *why)
 {
-    const contact_state fresh = {0.0, 0.0, 0.0};
+    const contact_state fresh = {0.0, 0.0, in->load > BEDDING ? 1.0 : 0.0};
+    if (in->load == 0.0) {
+        snprintf(why->text, sizeof why->text, "load = 0 N must be above 0 N at the start. Choose a higher one.");
+        return 1;
+    }
     if (refuse(in, why)) return 1;
     *state = fresh;
     evaluate(in, state, out);
