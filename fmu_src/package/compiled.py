@@ -5,8 +5,8 @@ from xml.etree import ElementTree as ET
 
 from contact_core.scene import Scene
 
-from .. import native
 from ..flavours import Version
+from ..native import files as native
 from ..runtime.resources import MODEL
 from .describe import document
 from .fmi3 import VERSION
@@ -23,7 +23,7 @@ def files(scene: Scene, fmi: Version) -> dict[str, bytes]:
     found = {f"{SOURCES}{name}": data for name, data in sources.items()}
     if fmi == 3:
         found[f"{SOURCES}buildDescription.xml"] = build_description(sources)
-    return found | {f"binaries/{name}": data for name, data in native.binaries(sources, fmi).items()}
+    return found | native.binaries(sources, fmi)
 
 
 def to_compile(names: Iterable[str]) -> list[str]:

@@ -51,7 +51,7 @@ def description(model: Model, table: Sequence[Variable], flavour: Flavour) -> by
     describe.add_experiment(root, model)
     listed = ET.SubElement(root, "ModelVariables")
     for reference, variable in enumerate(table):
-        listed.append(_variable(reference, variable))
+        listed.append(_variable(reference, variable, capabilities.get("providesIntermediateUpdate", False)))
     _structure(root, table)
     return describe.document(root)
 
@@ -63,8 +63,11 @@ def _types(root: ET.Element, table: Iterable[Variable]) -> None:
         ET.SubElement(definitions, "Float64Type", {"name": name, **attributes})
 
 
-def _variable(reference: int, variable: Variable) -> ET.Element:
+def _variable(reference: int, variable: Variable, updates: bool) -> ET.Element:
+    """Return the element of a variable; `updates`: outputs can be read in intermediate updates."""
     attributes = describe.role(reference, variable) | describe.numeric(variable)
+    if updates and variable.causality == "output":
+        attributes["intermediateUpdate"] = "true"
     element = ET.Element(_TYPES[variable.kind], attributes)
     if variable.has_start and variable.kind == "String":
         ET.SubElement(element, "Start", {"value": str(variable.start)})

@@ -11,14 +11,15 @@ from lxml import etree
 from test_parts_fmu import EXAMPLES
 
 from contact_core import Scene, SceneError
-from fmu_src import native
 from fmu_src.flavours import VERSIONS, WITH_PYTHON
+from fmu_src.native import files as native_files
 from fmu_src.package import compiled, fmi2, fmi3, terminals
 from fmu_src.package.build import build
 from fmu_src.package.command import main
 from fmu_src.package.describe import Model
 from fmu_src.package.document.page import documentation
 from fmu_src.variables import variables
+from system_models.parts.build import build as build_part
 from system_models.parts.variables import variables as variables_of
 
 pytestmark = pytest.mark.fmu
@@ -37,8 +38,10 @@ def fmu(scene: Scene, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def generator(monkeypatch: pytest.MonkeyPatch) -> None:
     """A stand-in for the generator of C and its compilers."""
     folder = {2: "linux64", 3: "x86_64-linux"}
-    monkeypatch.setattr(native, "sources", lambda scene, fmi: SOURCES)
-    monkeypatch.setattr(native, "binaries", lambda sources, fmi: {f"{folder[fmi]}/MixedContact.so": b"library"})
+    monkeypatch.setattr(native_files, "sources", lambda scene, fmi: SOURCES)
+    monkeypatch.setattr(
+        native_files, "binaries", lambda sources, fmi: {f"binaries/{folder[fmi]}/MixedContact.so": b"library"}
+    )
 
 
 def content(fmu: Path) -> dict[str, bytes]:
@@ -175,6 +178,8 @@ def test_native_fmus_give_derivatives_and_those_of_fmi_3_may_return_early(
     for name in ("DirectionalDerivatives", "IntermediateUpdate"):
         assert three.find("CoSimulation").get(f"provides{name}") == "true"
     assert three.find("CoSimulation").get("canReturnEarlyAfterIntermediateUpdate") == "true"
+    readable = {v.get("causality") for v in three.find("ModelVariables") if v.get("intermediateUpdate") == "true"}
+    assert readable == {"output"}
 
 
 def test_the_page_of_a_native_fmu_tells_how_to_change_a_parameter_and_how_to_compile(quick: Scene) -> None:
@@ -204,3 +209,10 @@ def test_python_is_chosen_for_isolated_fmus_only(tmp_path: Path, capsys: pytest.
 
 def test_flavours_in_python_are_all_but_the_native_one() -> None:
     assert set(WITH_PYTHON) == VERSIONS.keys() - {"native"}
+
+
+def test_a_component_in_c_is_refused(tmp_path: Path) -> None:
+    part = next(iter(EXAMPLES.values()))[0]
+    with pytest.raises(SceneError, match="components are models in Python: take isolated or embedded"):
+        build_part(part, tmp_path / "part.fmu", "native")
+    assert list(tmp_path.iterdir()) == []
