@@ -230,4 +230,6 @@ def test_a_freed_instance_is_an_error(folder: Path) -> None:
         for call in (library.fmi3Terminate, library.fmi3Reset, library.fmi3EnterEventMode):
             with pytest.raises(FMICallException, match="error"):
                 call(component)
+        with pytest.raises(FMICallException, match="error"):  # which would succeed by itself
+            library.fmi3SetDebugLogging(component, False, 0, None)
         assert host.step(1.0)["valid"]
