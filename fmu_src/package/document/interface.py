@@ -176,8 +176,8 @@ def _compilation() -> Iterator[str]:
             "sources/ has everything for any other platform: contact.c, the equations of the contact; model.c, its "
             "variables; the rest is the same for every contact. Compile without contraction of products and sums "
             "(-ffp-contract=off), and the results agree bit for bit on all platforms.",
-            "CFLAGS=-ffp-contract=off fmpy compile FILE.fmu adds the library of the platform on which it runs; it needs "
-            "CMake and a C compiler.",
+            "CFLAGS=-ffp-contract=off fmpy compile FILE.fmu adds the library of the platform on which it runs; it "
+            "needs CMake and a C compiler.",
         )
     )
 
