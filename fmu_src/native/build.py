@@ -35,15 +35,17 @@ class Target:
 
     triple: str  # zig's name
     suffix: str
-    libraries: tuple[str, ...] = ()
+    linker: tuple[str, ...] = ()
 
+
+_NAMED = ("-Wl,-install_name,@rpath/library.dylib",)  # else the library contains the folder it was built in
 
 TARGETS = {  # by FMI 3's names
     "x86_64-linux": Target("x86_64-linux-gnu.2.17", ".so", ("-lm",)),  # any glibc since 2012
     "aarch64-linux": Target("aarch64-linux-gnu.2.17", ".so", ("-lm",)),
     "x86_64-windows": Target("x86_64-windows-gnu", ".dll"),
-    "x86_64-darwin": Target("x86_64-macos", ".dylib"),
-    "aarch64-darwin": Target("aarch64-macos", ".dylib"),
+    "x86_64-darwin": Target("x86_64-macos", ".dylib", _NAMED),
+    "aarch64-darwin": Target("aarch64-macos", ".dylib", _NAMED),
 }
 # FMI 2's names; a library for macOS serves both of its processors
 _FMI2 = {
@@ -135,7 +137,7 @@ def command(folder: Path, target: str, compiler: Compiler, library: Path) -> lis
     call = zig if compiler == "zig" else [compiler]
     files = sorted(path.name for path in folder.glob("*.c"))
     include = ("-isystem", str(headers()))
-    return [*call, *WARNINGS, *FLAGS, *include, "-o", str(library), *files, *TARGETS[target].libraries]
+    return [*call, *WARNINGS, *FLAGS, *include, "-o", str(library), *files, *TARGETS[target].linker]
 
 
 def compiled(folder: Path, target: str, compiler: Compiler) -> bytes:
