@@ -14,9 +14,10 @@ from pathlib import Path
 from shutil import which
 from typing import Literal
 
+from ..flavours import Version
 from ..isolated.native.build import headers
 
-Fmi = Literal[2, 3]
+Fmi = Version
 Compiler = Literal["zig", "gcc", "cc"]
 
 FOLDER = Path(__file__).parent
