@@ -147,7 +147,7 @@ def written(scene: Scene) -> dict[str, str]:
     return {
         "contact.h": _header(scene, inputs, [number.text for _, number in held], outputs),
         "contact.c": "\n\n".join([_HEAD, *step_texts, "\n".join(stepping)]) + "\n",
-        "derivatives.c": "\n\n".join([_HEAD, *slope_texts, "\n".join(sloping)]) + "\n",
+        "slopes.c": "\n\n".join([_HEAD, *slope_texts, "\n".join(sloping)]) + "\n",
     }
 
 
