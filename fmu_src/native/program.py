@@ -23,13 +23,9 @@ from .translate import Entry, Num, Translator, literal
 
 Found = tuple[ContactState, Outputs]
 
-# what a contact of every scene has, in the order of `OperatingPoint`; others where a scene asks for them
-_ALWAYS = ("load", "speed_1", "speed_2", "temperature")
-
-
 def bound(scene: Scene, point: OperatingPoint, state: ContactState) -> Case:
     """Return a scene at an operating point. Raises OperatingPointError where it cannot be used."""
-    case = Case.at(scene, point, state.temperatures)
+    case = Case.at(scene, _with_own_radii(scene, point), state.temperatures)
     law, bulk, inlet = scene.tribofilm, scene.heat.bulk, scene.lubricant.supply.inlet
     for temperature in point.bodies if bulk.from_inputs else (point.temperature,):
         if law.refusal(_COLD) and not law.covers(temperature):
@@ -49,6 +45,26 @@ def bound(scene: Scene, point: OperatingPoint, state: ContactState) -> Case:
 
 
 _COLD = 0.0  # K: no law covers it
+_SAME_RADIUS = 1e-9  # relative: a host may convert units
+
+
+def _with_own_radii(scene: Scene, point: OperatingPoint) -> OperatingPoint:
+    """Return an operating point with the radii of the scene where those are a point's.
+
+    Its elliptic integrals are computed when the FMU is built. Raises OperatingPointError for other radii.
+    """
+    if "radius_y" in scene.geometry.lacks:
+        return point
+    own = {name: getattr(scene.operation, name) or getattr(scene.geometry, name) for name in ("radius_x", "radius_y")}
+    for name, radius in own.items():
+        given = getattr(point, name)
+        if given is not None and abs(given - radius) > _SAME_RADIUS * radius:
+            raise OperatingPointError(
+                f"{name} = {given:g} m: this FMU holds Hertz's contact of {name} = {radius:g} m. Keep that, or build "
+                f"the FMU anew with geometry.{name} set."
+            )
+    others = scene.operation.radius_x or scene.operation.radius_y
+    return dataclasses.replace(point, **(own if others else dict.fromkeys(own)))
 
 
 def step(scene: Scene, point: OperatingPoint, state: ContactState, dt: float) -> Found:
@@ -74,20 +90,14 @@ def first_state(scene: Scene) -> ContactState:
 
 
 def inputs_of(scene: Scene) -> tuple[str, ...]:
-    """Return the names of the inputs that change anything."""
+    """Return the names of the inputs."""
     return tuple(v.name for v in variables(scene) if v.causality == "input")
 
 
 def _point(scene: Scene) -> OperatingPoint:
     """Return the operating point at run time."""
-    used = set(_ALWAYS)
-    if scene.heat.bulk.from_inputs:
-        used |= {"body_temperature_1", "body_temperature_2"}
-    if "radius_y" in scene.geometry.lacks:  # of ellipses the integrals are computed when the FMU is built
-        used |= {"radius_x"}
-    if scene.geometry.lacks.isdisjoint({"spin"}) and scene.operation.spin != 0.0:
-        used |= {"spin"}
-    return OperatingPoint(**{name: Num(name) for name in inputs_of(scene) if name in used})  # type: ignore[arg-type]
+    unused = () if scene.heat.bulk.from_inputs else ("body_temperature_1", "body_temperature_2")
+    return OperatingPoint(**{name: Num(name) for name in inputs_of(scene) if name not in unused})  # type: ignore[arg-type]
 
 
 def _state(scene: Scene) -> ContactState:

@@ -6,16 +6,16 @@ import inspect
 import re
 import textwrap
 import types
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from . import code
-from .interpreter import Scope, Text
+from .interpreter import Scope, Super, Text
 from .units import Poison, Unit, matched, template_of, unified, unique
-from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, leaves, replaced, signature
+from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, leaves, rebuilt, replaced, signature
 
 _MOST_ROUNDS = 1000  # of a loop whose end is known at run time only: the time of a step is bounded
 _ELEMENTWISE = "contact_core.laws"  # laws say of each element of an array what they say of a number
@@ -51,13 +51,6 @@ class Entry:
             for number in self.takes
         ]
         return f"{self.name}({', '.join([*given, *(['why'] if self.may_fail else [])])})"
-
-
-class _Whole:
-    """A value that stands as one in an array of objects."""
-
-    def __init__(self, value: Any) -> None:
-        self.value = value
 
 
 @functools.cache
@@ -143,6 +136,8 @@ class Translator:
         """Return a member of a value; properties are computed."""
         if isinstance(owner, Num):
             raise Untranslatable(f"'{owner.text}'.{name}: a number has no members here")
+        if isinstance(owner, Super):
+            return types.MethodType(_after(owner.cls, type(owner.owner), name), owner.owner)
         if not is_dynamic(owner) or isinstance(owner, dict | list | np.ndarray):
             return getattr(owner, name)
         found = inspect.getattr_static(type(owner), name, None)
@@ -169,8 +164,7 @@ class Translator:
             if not is_dynamic(operands) and not is_dynamic(named):
                 return function(*operands, **named)
             closure = _closure_of(function)
-            arrays = [x for x in (*operands, *named.values()) if isinstance(x, np.ndarray) and is_dynamic(x)]
-            if arrays and function.__module__.startswith(_ELEMENTWISE):
+            if any(map(is_dynamic, _arrays([*operands, *named.values()]))) and function.__module__.startswith(_ELEMENTWISE):
                 return self._on_arrays(unit, function, operands, named)
         bound = self._bound(closure, function, operands, named)
         expression = _expression(closure.node)
@@ -197,13 +191,12 @@ class Translator:
             assert isinstance(last, ast.Return) and last.value is not None
             return scope.value(last.value)
 
-        whole = [x if isinstance(x, np.ndarray | Num | float | int) else _Whole(x) for x in (*operands, *named.values())]
-        arrays = np.broadcast_arrays(*[np.asarray(x, object) for x in whole])
-        found = np.empty(arrays[0].shape, object)
-        for place in np.ndindex(found.shape):
-            each = [x[place].value if isinstance(x[place], _Whole) else x[place] for x in arrays]
-            found[place] = unit.named("element", one(*each))
-        return found
+        given = [*operands, *named.values()]
+        shape = np.broadcast_shapes(*(array.shape for array in _arrays(given)))
+        found = [one(*_at(given, place, shape)) for place in np.ndindex(shape)]
+        if found and isinstance(found[0], tuple):  # a law that gives several numbers gives several arrays
+            return tuple(_shaped(unit, list(each), shape) for each in zip(*found, strict=True))
+        return _shaped(unit, found, shape)
 
     def _bound(self, closure: Closure, function: Any, operands: list[Any], named: dict[str, Any]) -> dict[str, Any]:
         """Return the parameters by name."""
@@ -457,6 +450,41 @@ def _forwarded(unit: Unit, template: Any, parameters: list[Num]) -> list[int | s
             found.append(number.text)
         else:
             return None
+    return found
+
+
+def _after(cls: type, kind: type, name: str) -> Any:
+    """Return a method of the first class after `cls` among the ancestors of a class."""
+    ancestors = kind.__mro__
+    return next(vars(each)[name] for each in ancestors[ancestors.index(cls) + 1 :] if name in vars(each))
+
+
+def _arrays(values: Iterable[Any]) -> Iterator[Any]:
+    """Yield the arrays among values and in tuples of them."""
+    for value in values:
+        if isinstance(value, np.ndarray):
+            yield value
+        elif isinstance(value, tuple):
+            yield from _arrays(value)
+
+
+def _at(values: Iterable[Any], place: tuple[int, ...], shape: tuple[int, ...]) -> list[Any]:
+    """Return values with an element in the place of each array; arrays are broadcast to a shape."""
+    return [
+        np.broadcast_to(value, shape)[place]
+        if isinstance(value, np.ndarray)
+        else rebuilt(value, _at(value, place, shape))
+        if isinstance(value, tuple) and any(True for _ in _arrays(value))
+        else value
+        for value in values
+    ]
+
+
+def _shaped(unit: Unit, elements: list[Any], shape: tuple[int, ...]) -> Any:
+    """Return an array of numbers, each with a name."""
+    found = np.empty(shape, object)
+    for place, element in zip(np.ndindex(shape), elements, strict=True):
+        found[place] = unit.named("element", element)
     return found
 
 

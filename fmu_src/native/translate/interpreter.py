@@ -56,6 +56,13 @@ class Text:
         self.form, self.operands = form, operands
 
 
+class Super:
+    """What `super()` gives: a record, seen as one of the classes after `cls`."""
+
+    def __init__(self, cls: type, owner: Any) -> None:
+        self.cls, self.owner = cls, owner
+
+
 class Scope:
     """One scope of Python: its names, and the C function that its statements go to."""
 
@@ -221,6 +228,10 @@ class Scope:
 
     def _of_Name(self, node: ast.Name) -> Any:
         return self._lookup(node.id)
+
+    def _of_NamedExpr(self, node: ast.NamedExpr) -> Any:
+        self._bind(node.target, self.value(node.value))
+        return self._lookup(node.target.id)
 
     def _of_Constant(self, node: ast.Constant) -> Any:
         return node.value
@@ -409,6 +420,8 @@ class Scope:
         return dict(self._comprehended(node, lambda: (self.value(node.key), self.value(node.value))))
 
     def _of_Call(self, node: ast.Call) -> Any:
+        if isinstance(node.func, ast.Name) and node.func.id == "super":
+            return Super(self._lookup("__class__"), self._lookup(self.closure.node.args.args[0].arg))
         operands, named = self._items(node.args), {}
         for keyword in node.keywords:
             value = self.value(keyword.value)
