@@ -23,6 +23,7 @@ from .translate import Entry, Num, Translator, literal
 
 Found = tuple[ContactState, Outputs]
 
+
 def bound(scene: Scene, point: OperatingPoint, state: ContactState) -> Case:
     """Return a scene at an operating point. Raises OperatingPointError where it cannot be used."""
     case = Case.at(scene, _with_own_radii(scene, point), state.temperatures)

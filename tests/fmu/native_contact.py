@@ -27,7 +27,16 @@ class NativeContact:
         write(folder, files.contact(scene))
         library = folder / "contact.so"
         units = [str(folder / name) for name in self.sources if name.endswith(".c")]
-        command = [*(compiler or ("gcc", "-O1")), *FLAGS, f"-I{FOLDER}", f"-I{folder}", *units, "-o", str(library), "-lm"]
+        command = [
+            *(compiler or ("gcc", "-O1")),
+            *FLAGS,
+            f"-I{FOLDER}",
+            f"-I{folder}",
+            *units,
+            "-o",
+            str(library),
+            "-lm",
+        ]
         subprocess.run(command, check=True, capture_output=True, text=True)
         self._library = ctypes.CDLL(str(library))
         structs = re.findall(r"typedef struct \{(.*?)\} contact_(\w+);", self.sources["contact.h"], re.DOTALL)

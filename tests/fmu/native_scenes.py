@@ -17,7 +17,11 @@ def _of(slot: str, model: str, **values: str) -> Change:
     return _slot(slot, model=model, **values)
 
 
-_STEEL = {f"{name}_{i}": value for name, value in (("conductivity", "46 W/(m K)"), ("diffusivity", "1.25e-5 m2/s")) for i in (1, 2)}
+_STEEL = {
+    f"{name}_{i}": value
+    for name, value in (("conductivity", "46 W/(m K)"), ("diffusivity", "1.25e-5 m2/s"))
+    for i in (1, 2)
+}
 _LUMPED = {f"heat_capacity_{i}": "20 J/K" for i in (1, 2)} | {f"conductance_{i}": "0.5 W/K" for i in (1, 2)}
 _ACTIVATED = "zhang_spikes_80c_octyl"
 
@@ -28,7 +32,8 @@ CHOICES: dict[str, list[Change]] = {
         {"geometry.radius_y": "30 mm", "film.width": "1 mm"},
         {"geometry.radius_y": "5 mm"},
         {"geometry.model": "line", "geometry.face_width": "1 mm", "film.width": "0.1 mm"},
-        _of("geometry", "roller", face_width="1 mm", **{"profile.model": "logarithmic", "profile.depth": "1 um"}) | {"operation.spin": "10 rad/s"},
+        _of("geometry", "roller", face_width="1 mm", **{"profile.model": "logarithmic", "profile.depth": "1 um"})
+        | {"operation.spin": "10 rad/s"},
         {"operation.spin": "-20 rad/s"},
     ],
     "surfaces": [
@@ -60,7 +65,14 @@ CHOICES: dict[str, list[Change]] = {
     ],
     "double_layer": [
         {},
-        _of("lubricant.double_layer", "electroviscous", zeta_energy="4e-21 J", debye_length="10 nm", relative_permittivity="3", ion_radius="0.5 nm"),
+        _of(
+            "lubricant.double_layer",
+            "electroviscous",
+            zeta_energy="4e-21 J",
+            debye_length="10 nm",
+            relative_permittivity="3",
+            ion_radius="0.5 nm",
+        ),
     ],
     "plasticity": [{}, _slot("plasticity", indentation="total"), _slot("plasticity", film_hardness="6 GPa")],
     "boundary_friction": [{}, _slot("boundary_friction", bare="0.1", film="0.1", slip_speed="1 mm/s")],

@@ -2,7 +2,7 @@
 
 import dataclasses
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Any
 
 import numpy as np
@@ -13,10 +13,12 @@ from .values import Num, Untranslatable, is_dynamic, is_number, kind_of, literal
 Leaf = Callable[[str, Any, Any], Any]
 
 _WHOLE = re.compile(r"[A-Za-z_]\w*(\.\w+)?|-?[\d.]+(e[-+]?\d+)?|-?INFINITY|NAN")
-_TAKEN = set(
+KEYWORDS = frozenset(
     "double int long short float const if else for while return struct auto register signed static switch volatile "
-    "goto default case char do enum extern sizeof typedef union unsigned void inline restrict why "
-    "exp log pow sqrt fabs floor ceil round gamma time index j0 j1 y0 y1 jn yn tanh sinh remainder signal squared "
+    "goto default case char do enum extern sizeof typedef union unsigned void inline restrict".split()
+)
+_TAKEN = KEYWORDS.union(  # and what headers of C and elementary.h have
+    "why exp log pow sqrt fabs floor ceil round gamma time index j0 j1 y0 y1 jn yn tanh sinh remainder signal squared "
     "smaller larger".split()
 )
 
@@ -31,8 +33,9 @@ class Poison:
 class Unit:
     """One C function under construction."""
 
-    def __init__(self, name: str, template: Any = None, *, scratch: bool) -> None:
+    def __init__(self, name: str, template: Any, names: list[str], *, scratch: bool) -> None:
         self.name, self.template, self.scratch = name, template, scratch
+        self.part_names = names  # of what it returns
         self.blocks: list[code.Block] = [[]]
         self.names: set[str] = set()
         self.returned: list[Any] = []
@@ -112,7 +115,7 @@ class Unit:
         return unified(one, other, leaf, name)
 
 
-def unique(name: str, taken: set[str]) -> str:
+def unique(name: str, taken: Collection[str]) -> str:
     """Return a name that is not taken, with a number if need be."""
     found, count = name, 1
     while found in taken:

@@ -345,7 +345,9 @@ def signature(value: Any) -> Any:
     if isinstance(value, Num):
         return "#" + value.kind
     if is_dynamic(value):
-        own = (id(value.node),) if isinstance(value, Closure) else (value.function,) if isinstance(value, Method) else ()
+        own = (
+            (id(value.node),) if isinstance(value, Closure) else (value.function,) if isinstance(value, Method) else ()
+        )
         shape = value.shape if isinstance(value, np.ndarray) else ()
         return type(value), own, shape, tuple((name, signature(item)) for name, item in parts(value) or ())
     if isinstance(value, Closure):
