@@ -74,6 +74,7 @@ class Expressions:
         return found(node)
 
     def bind(self, target: ast.expr, value: Any) -> None:
+        """Bind names to a value."""
         if isinstance(target, ast.Name):
             self.names[target.id] = self.unit.named(target.id, value)
         elif isinstance(target, ast.Tuple):
@@ -113,11 +114,13 @@ class Expressions:
             return both(first, rest) if every else either(first, rest)
         then: code.Block = block if every else []
         otherwise: code.Block = [] if every else block
-        found = self.unit.joined("holds", *((rest, False) if every else (True, rest)), then, otherwise)
+        one, other = (rest, False) if every else (True, rest)
+        found = self.unit.joined("holds", one, other, then, otherwise)
         self.unit.emit(code.If(first.text, then, otherwise))
         return found
 
     def lookup(self, name: str) -> Any:
+        """Return what a name stands for."""
         for names in (self.names, self.closure.names, self.closure.module):
             if name in names:
                 if isinstance(names[name], Poison):
@@ -176,13 +179,18 @@ class Expressions:
         value = self.value(node.operand)
         if isinstance(node.op, ast.Invert) and isinstance(value, np.ndarray) and is_dynamic(value):
             return elementwise(operator.invert)(value)
-        return {ast.USub: operator.neg, ast.UAdd: operator.pos, ast.Invert: operator.invert}[type(node.op)](value)
+        if isinstance(node.op, ast.Invert):
+            return ~value
+        return -value if isinstance(node.op, ast.USub) else +value
 
     def _of_BinOp(self, node: ast.BinOp) -> Any:
         return self.operated(node.op, self.value(node.left), self.value(node.right))
 
     def operated(self, op: ast.operator, one: Any, other: Any) -> Any:
-        function = _OPERATORS[type(op)]
+        """Return one value, an operator and another."""
+        function = _OPERATORS.get(type(op))
+        if function is None:
+            raise Untranslatable(f"no operator {type(op).__name__} here")
         if isinstance(op, ast.BitOr | ast.BitAnd | ast.Pow) and isinstance(one, np.ndarray | Num):
             function = elementwise(function)
         return function(one, other)
@@ -235,7 +243,7 @@ class Expressions:
         return self._joined_by(isinstance(node.op, ast.And), node.values)
 
     def _joined_by(self, every: bool, nodes: list[ast.expr]) -> Any:
-        """Return `one and other and ...`, or with or: as Python, later ones are looked at if earlier ones ask for it."""
+        """Return `one and other and ...`, or with or: later ones are looked at where earlier ones ask for it."""
         first = self.value(nodes[0])
         test = self.truth(first)
         if len(nodes) == 1:
@@ -311,10 +319,11 @@ class Expressions:
         self.names = outer
         return found
 
-    def _of_ListComp(self, node: ast.ListComp) -> Any:
+    def _of_ListComp(self, node: ast.ListComp | ast.GeneratorExp) -> Any:
         return self._comprehended(node, lambda: self.value(node.elt))
 
-    _of_GeneratorExp = _of_ListComp
+    def _of_GeneratorExp(self, node: ast.GeneratorExp) -> Any:
+        return self._of_ListComp(node)
 
     def _of_DictComp(self, node: ast.DictComp) -> Any:
         return dict(self._comprehended(node, lambda: (self.value(node.key), self.value(node.value))))
@@ -322,7 +331,8 @@ class Expressions:
     def _of_Call(self, node: ast.Call) -> Any:
         if isinstance(node.func, ast.Name) and node.func.id == "super":
             return Super(self.lookup("__class__"), self.lookup(self.closure.node.args.args[0].arg))
-        operands, named = self._items(node.args), {}
+        operands = self._items(node.args)
+        named: dict[str, Any] = {}
         for keyword in node.keywords:
             value = self.value(keyword.value)
             named |= value if keyword.arg is None else {keyword.arg: value}
@@ -349,7 +359,7 @@ class Expressions:
         if isinstance(function, types.MethodType) and not is_dynamic(function.__self__):
             if function.__name__ == "_replace":
                 return function(*operands, **named)
-            return self.translator.call(self.unit, function.__func__, [function.__self__, *operands], named)
+            return self.translator.call(self.unit, function.__func__, [function.__self__, *operands], named)  # type: ignore[arg-type]
         if hasattr(function, "__wrapped__"):
             function = inspect.unwrap(function)
         if isinstance(function, types.FunctionType):
@@ -358,7 +368,7 @@ class Expressions:
             return function(*operands, **named)
         if isinstance(function, types.MethodType | types.BuiltinMethodType | type) or function is range:
             return function(*operands, **named)
-        own = getattr(type(function), "__call__", None)
+        own = inspect.getattr_static(type(function), "__call__", None)
         if isinstance(own, types.FunctionType):
             return self.translator.call(self.unit, own, [function, *operands], named)
         raise Untranslatable(f"a call of {function!r}: it has no counterpart in C so far")

@@ -196,14 +196,14 @@ class Translator:
                 result = Num(name, result.kind)
                 self._checked(unit)
             return filled(found.template, [result])
-        name = unit.known(call)
-        if name is None:
-            name = unit.fresh(f"of_{found.name}")
-            unit.keep(call, name)
-            unit.emit(code.Let(f"struct {found.name}", name, call))
+        struct = unit.known(call)
+        if struct is None:
+            struct = unit.fresh(f"of_{found.name}")
+            unit.keep(call, struct)
+            unit.emit(code.Let(f"struct {found.name}", struct, call))
             if found.may_fail:
                 self._checked(unit)
-        members = [Num(f"{name}.{field}", hole.kind) for field, hole in zip(found.fields, holes, strict=True)]
+        members = [Num(f"{struct}.{field}", hole.kind) for field, hole in zip(found.fields, holes, strict=True)]
         return filled(found.template, members)
 
     def _checked(self, unit: Unit) -> None:
@@ -245,9 +245,9 @@ class Translator:
 
     def _function(self, closure: Closure, bound: dict[str, Any]) -> CFunction:
         """Return the C function for parameters like these."""
-        key = (ast.dump(closure.node) if isinstance(closure.node, ast.Lambda) else id(closure.node), closure.path)
         key = (
-            *key,
+            ast.dump(closure.node) if isinstance(closure.node, ast.Lambda) else id(closure.node),
+            closure.path,
             signature(bound),
             signature(closure),
             _alike([number.text for _, number in leaves((bound, closure))]),
@@ -327,7 +327,7 @@ class Translator:
 
 
 def _is_elementwise(function: types.FunctionType) -> bool:
-    """Return True for functions of laws, own ones too: of each element of an array they say what they say of a number."""
+    """Return True for functions of laws, also a user's own: what they say of a number they say of each of an array."""
     return function.__module__.startswith(_LAWS) or not function.__module__.startswith(_CORE)
 
 

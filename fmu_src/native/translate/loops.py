@@ -45,7 +45,7 @@ def repeated(scope: "Scope", node: ast.While) -> bool:
 
 
 def _loop(scope: "Scope", head: str, body: list[ast.stmt], begun: Callable[[], bool]) -> bool:
-    """Write a loop; return True if it has an end. `begun` writes what every round begins with, and says if that ends it.
+    """Write a loop; return True if it has an end. `begun` writes how every round begins, and says if that may end it.
 
     What changes from number to number, or from a constant to a number, is known once a round has been written.
     """
@@ -128,10 +128,12 @@ def _put_back(unit: Unit, carried: dict[str, Any], now: dict[str, Any]) -> None:
             if value.text != target.text:
                 pairs.append((target.text, value))
     targets = {target for target, _ in pairs}
-    for place, (target, value) in enumerate(pairs):
-        if code.names_in(value.text) & targets:  # would have changed by then
-            held = unit.fresh(f"next_{target}")
-            unit.emit(code.Let(code.c_type(value.kind), held, value.text))
-            pairs[place] = target, Num(held, value.kind)
-    for target, value in pairs:
-        unit.emit(code.Put(target, value.text))
+    puts: list[code.Put] = []
+    for name, value in pairs:
+        text = value.text
+        if code.names_in(text) & targets:  # would have changed by then
+            text = unit.fresh(f"next_{name}")
+            unit.emit(code.Let(code.c_type(value.kind), text, value.text))
+        puts.append(code.Put(name, text))
+    for put in puts:
+        unit.emit(put)

@@ -24,6 +24,7 @@ def _tree(function: types.FunctionType) -> Any:
 
 
 def closure_of(function: types.FunctionType) -> Closure:
+    """Return a function with its tree."""
     cells = function.__closure__ or ()
     names = dict(zip(function.__code__.co_freevars, (cell.cell_contents for cell in cells), strict=True))
     path = f"{function.__module__}.{function.__qualname__}"

@@ -14,12 +14,18 @@ Leaf = Callable[[str, Any, Any], Any]
 
 _WHOLE = re.compile(r"[A-Za-z_]\w*(\.\w+)?|-?[\d.]+(e[-+]?\d+)?|-?INFINITY|NAN")
 KEYWORDS = frozenset(
-    "double int long short float const if else for while return struct auto register signed static switch volatile "
-    "goto default case char do enum extern sizeof typedef union unsigned void inline restrict".split()
+    re.findall(
+        r"\w+",
+        "double int long short float const if else for while return struct auto register signed static switch volatile "
+        "goto default case char do enum extern sizeof typedef union unsigned void inline restrict break continue",
+    )
 )
 _TAKEN = KEYWORDS.union(  # and what headers of C and elementary.h have
-    "why exp log pow sqrt fabs floor ceil round gamma time index j0 j1 y0 y1 jn yn tanh sinh remainder signal squared "
-    "smaller larger".split()
+    re.findall(
+        r"\w+",
+        "why exp log pow sqrt fabs floor ceil round gamma time index j0 j1 y0 y1 jn yn tanh sinh remainder signal "
+        "squared smaller larger centre from_bits bits_of exp_parts exp_of log_of power_of_two refuse",
+    )
 )
 
 

@@ -13,7 +13,7 @@ import numpy as np
 ATOM, UNARY, MULTIPLY, ADD, COMPARE, BIT, AND, OR, CHOICE = range(9, 0, -1)
 
 
-class Untranslatable(Exception):
+class Untranslatable(Exception):  # noqa: N818  # what it is, not that it failed
     """Python that has no counterpart here; names the place and what to write instead."""
 
 
@@ -133,15 +133,14 @@ def literal(value: Any, kind: str = "d") -> Num:
     if not isinstance(value, bool | int | float):
         raise Untranslatable(f"{value!r} is no number")
     if kind != "d":
-        number = int(value)
-        return Num(str(number), kind, ATOM if number >= 0 else UNARY)
+        return Num(str(int(value)), kind, ATOM if value >= 0 else UNARY)
     number = float(value)
     if math.isnan(number):
         return Num("NAN")
     text = "INFINITY" if math.isinf(number) else repr(abs(number))
     if "." not in text and "e" not in text and "I" not in text:
         text += ".0"
-    return Num(f"-{text}", binds=UNARY) if number < 0.0 else Num(text)
+    return Num(f"-{text}", binds=UNARY) if math.copysign(1.0, number) < 0.0 else Num(text)
 
 
 def is_number(value: Any) -> bool:
@@ -363,6 +362,6 @@ def signature(value: Any) -> Any:
     if id(value) not in _signatures:
         _static[id(value)] = value
         fields = dataclasses.fields(value) if dataclasses.is_dataclass(value) and not isinstance(value, type) else None
-        own = id(value) if fields is None else tuple(signature(getattr(value, field.name)) for field in fields)
-        _signatures[id(value)] = hash((type(value), own))
+        members = [id(value)] if fields is None else [signature(getattr(value, field.name)) for field in fields]
+        _signatures[id(value)] = hash((type(value), *members))
     return _signatures[id(value)]
