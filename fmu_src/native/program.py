@@ -26,6 +26,7 @@ Found = tuple[ContactState, Outputs]
 
 def bound(scene: Scene, point: OperatingPoint, state: ContactState) -> Case:
     """Return a scene at an operating point. Raises OperatingPointError where it cannot be used."""
+    _check_radii(scene, point)
     case = Case.at(scene, _with_own_radii(scene, point), state.temperatures)
     law, bulk, inlet = scene.tribofilm, scene.heat.bulk, scene.lubricant.supply.inlet
     for temperature in point.bodies if bulk.from_inputs else (point.temperature,):
@@ -49,23 +50,30 @@ _COLD = 0.0  # K: no law covers it
 _SAME_RADIUS = 1e-9  # relative: a host may convert units
 
 
-def _with_own_radii(scene: Scene, point: OperatingPoint) -> OperatingPoint:
-    """Return an operating point with the radii of the scene where those are a point's.
+def _check_radii(scene: Scene, point: OperatingPoint) -> None:
+    """Raise OperatingPointError if a point contact has other radii than the scene.
 
-    Its elliptic integrals are computed when the FMU is built. Raises OperatingPointError for other radii.
+    The elliptic integrals of its shape are computed when the FMU is built.
     """
-    if "radius_y" in scene.geometry.lacks:
-        return point
-    own = {name: getattr(scene.operation, name) or getattr(scene.geometry, name) for name in ("radius_x", "radius_y")}
-    for name, radius in own.items():
+    for name, radius in _own_radii(scene).items():
         given = getattr(point, name)
         if given is not None and abs(given - radius) > _SAME_RADIUS * radius:
             raise OperatingPointError(
                 f"{name} = {given:g} m: this FMU holds Hertz's contact of {name} = {radius:g} m. Keep that, or build "
                 f"the FMU anew with geometry.{name} set."
             )
-    others = scene.operation.radius_x or scene.operation.radius_y
-    return dataclasses.replace(point, **(own if others else dict.fromkeys(own)))
+
+
+def _own_radii(scene: Scene) -> dict[str, float]:
+    """Return the radii that the FMU of a scene holds: those of a point."""
+    names = () if "radius_y" in scene.geometry.lacks else ("radius_x", "radius_y")
+    return {name: getattr(scene.operation, name) or getattr(scene.geometry, name) for name in names}
+
+
+def _with_own_radii(scene: Scene, point: OperatingPoint) -> OperatingPoint:
+    """Return an operating point with those radii as constants; None where they are those of the geometry."""
+    own = {name: getattr(scene.operation, name) and radius for name, radius in _own_radii(scene).items()}
+    return dataclasses.replace(point, **own)
 
 
 def step(scene: Scene, point: OperatingPoint, state: ContactState, dt: float) -> Found:
@@ -128,8 +136,8 @@ def written(scene: Scene) -> dict[str, str]:
     Raises SceneError for a scene that the native FMU cannot have.
     """
     point, state = _point(scene), _state(scene)
-    stepped, step_texts = _translated("step", step, [scene, point, state, Num("dt")])
-    slopes, slope_texts = _translated("derivatives", derivatives, [scene, point, state])
+    stepped, step_texts = _translated(step, [scene, point, state, Num("dt")])
+    slopes, slope_texts = _translated(derivatives, [scene, point, state])
     outputs = [v.name for v in variables(scene) if v.causality == "output" and v.name not in OF_CALLER]
     new_state, new_outputs = stepped.result
     after, first = dict(_paths(new_state)), dict(_paths(first_state(scene)))
@@ -157,17 +165,17 @@ def written(scene: Scene) -> dict[str, str]:
     )
     return {
         "contact.h": _header(scene, inputs, [number.text for _, number in held], outputs),
-        "contact.c": "\n\n".join([_HEAD, *step_texts, "\n".join(stepping)]) + "\n",
-        "slopes.c": "\n\n".join([_HEAD, *slope_texts, "\n".join(sloping)]) + "\n",
+        "contact.c": "\n\n".join([HEAD, *step_texts, "\n".join(stepping)]) + "\n",
+        "slopes.c": "\n\n".join([HEAD, *slope_texts, "\n".join(sloping)]) + "\n",
     }
 
 
-def _translated(name: str, function: Any, operands: list[Any]) -> tuple[Entry, list[str]]:
+def _translated(function: Any, operands: list[Any]) -> tuple[Entry, list[str]]:
     """Return a function to be called from C, and it and all that it needs as C."""
     reads: dict[str, set[str]] = {}
     while True:  # members of results that nothing reads are left out, and then what was computed for them
         translator = Translator(reads)
-        entry = translator.program(name, function, operands)
+        entry = translator.program(function, operands)
         texts = translator.texts([entry])
         found = reads | translator.wanted(texts, [entry])
         if found == reads:
@@ -258,7 +266,7 @@ def _header(scene: Scene, inputs: Sequence[str], fields: Sequence[str], outputs:
     )
 
 
-_HEAD = """\
+HEAD = """\
 /* Written from contact_core; each function names the Python that it was written from. Do not edit. */
 
 #include "contact.h"

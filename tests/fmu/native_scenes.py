@@ -22,7 +22,7 @@ _STEEL = {
     for name, value in (("conductivity", "46 W/(m K)"), ("diffusivity", "1.25e-5 m2/s"))
     for i in (1, 2)
 }
-_LUMPED = {f"heat_capacity_{i}": "20 J/K" for i in (1, 2)} | {f"conductance_{i}": "0.5 W/K" for i in (1, 2)}
+_LUMPED = {f"heat_capacity_{i}": "2000 J/K" for i in (1, 2)} | {f"conductance_{i}": "50 W/K" for i in (1, 2)}
 _ACTIVATED = "zhang_spikes_80c_octyl"
 
 # by slot: every law, with every choice that the regression level reads

@@ -157,6 +157,12 @@ def printed(block: Block, depth: int = 1) -> list[str]:
     return lines
 
 
+def quoted(text: str) -> str:
+    """Return a text as C, in pieces that fit in a line."""
+    pieces = textwrap.wrap(text, _WIDTH - 30, drop_whitespace=False, break_on_hyphens=False) or [""]
+    return " ".join('"' + piece.replace("\\", "\\\\").replace('"', '\\"') + '"' for piece in pieces)
+
+
 def comment(lines: Sequence[str]) -> list[str]:
     """Return lines as a comment."""
     cut = [part for line in lines for part in textwrap.wrap(line, _WIDTH - 6, break_on_hyphens=False)]

@@ -66,7 +66,7 @@ class Translator:
         self._units: list[Unit] = []
         self._kept: list[Any] = []
 
-    def program(self, name: str, function: types.FunctionType, operands: list[Any]) -> "Entry":
+    def program(self, function: types.FunctionType, operands: list[Any]) -> "Entry":
         """Write a function that C code calls, with all it needs; `operands` have numbers at run time by name."""
         closure = closure_of(function)
         bound = self._bound(closure, function, operands, {})
@@ -237,8 +237,7 @@ class Translator:
         """Leave the function of a unit with a message."""
         unit.may_fail = True
         operands = "".join(f", {number.text}" for number in text.operands)
-        quoted = text.form.replace("\\", "\\\\").replace('"', '\\"')
-        unit.emit(code.Do(f'refuse(why, "{quoted}"{operands});'))
+        unit.emit(code.Do(f"refuse(why, {code.quoted(text.form)}{operands});"))
         unit.emit(code.Do(self._nothing(unit)))
 
     # C functions

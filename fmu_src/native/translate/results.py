@@ -1,6 +1,7 @@
 """What C functions return: a number, or a struct with a member for each number that is known at run time only."""
 
 import ast
+import functools
 from typing import Any
 
 from . import code
@@ -10,6 +11,7 @@ from .values import UNARY, Num, leaves, replaced
 _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
 
 
+@functools.cache
 def part_names(node: ast.AST) -> list[str]:
     """Return names for the parts of a tuple that a function returns: its own names for them, else ordinals."""
     found = [

@@ -3,7 +3,7 @@
 import dataclasses
 import enum
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from types import FunctionType
 from typing import Any, ClassVar
 
@@ -261,6 +261,7 @@ class Method:
 
 _static: dict[int, Any] = {}  # objects without a number at run time, kept alive so that their ids stay theirs
 _signatures: dict[int, int] = {}  # of these objects
+_WHOLE = frozenset({float, int, bool, str, type(None), np.float64, FunctionType, type, np.ufunc})  # have no members
 
 
 def parts(value: Any) -> list[tuple[str, Any]] | None:
@@ -309,34 +310,49 @@ def is_dynamic(value: Any) -> bool:
     """Return True if any number in a value is known at run time only."""
     if isinstance(value, Num):
         return True
-    if id(value) in _static:
+    if type(value) in _WHOLE or id(value) in _static:
         return False
-    members = parts(value)
-    if members is None:
-        return False
-    if any(is_dynamic(item) for _, item in members):
+    if any(is_dynamic(item) for _, item in parts(value) or ()):
         return True
-    if dataclasses.is_dataclass(value):
-        _static[id(value)] = value
+    _remember(value)
     return False
 
 
-def leaves(value: Any, name: str = "") -> Iterator[tuple[str, Num]]:
-    """Yield names and numbers at run time of a value, in a fixed order."""
+def leaves(value: Any, name: str = "") -> list[tuple[str, Num]]:
+    """Return names and numbers at run time of a value, in a fixed order."""
+    found: list[tuple[str, Num]] = []
+    _collect(value, name, found)
+    return found
+
+
+def _collect(value: Any, name: str, found: list[tuple[str, Num]]) -> None:
     if isinstance(value, Num):
-        yield name, value
-    elif is_dynamic(value):
+        found.append((name, value))
+    elif not (type(value) in _WHOLE or id(value) in _static):
+        before = len(found)
         for part, item in parts(value) or ():
-            yield from leaves(item, part if not part[:1].isdigit() or not name else f"{name}_{part}")
+            _collect(item, part if not part[:1].isdigit() or not name else f"{name}_{part}", found)
+        if len(found) == before:
+            _remember(value)
 
 
 def replaced(value: Any, by: Callable[[Num], Any]) -> Any:
     """Return a value with every number at run time replaced, in the order of `leaves`."""
     if isinstance(value, Num):
         return by(value)
-    if not is_dynamic(value):
+    if type(value) in _WHOLE or id(value) in _static:
         return value
-    return rebuilt(value, [replaced(item, by) for _, item in parts(value) or ()])
+    members = [item for _, item in parts(value) or ()]
+    others = [replaced(item, by) for item in members]
+    if any(one is not other for one, other in zip(members, others, strict=True)):
+        return rebuilt(value, others)
+    return value
+
+
+def _remember(value: Any) -> None:
+    """Keep in mind that a record has no number at run time."""
+    if dataclasses.is_dataclass(value):
+        _static[id(value)] = value
 
 
 def signature(value: Any) -> Any:
