@@ -9,7 +9,7 @@ from typing import Any
 from fmu_src.native.build import FOLDER, WARNINGS
 from fmu_src.native.program import HEAD
 from fmu_src.native.tables import tables_h
-from fmu_src.native.translate import Num, Translator, leaves
+from fmu_src.native.translate import Num, Translator, leaves, replaced
 
 _HEADER = "typedef struct { char text[512]; } contact_message;\n"
 
@@ -17,7 +17,7 @@ _HEADER = "typedef struct { char text[512]; } contact_message;\n"
 def translated(folder: Path, function: Callable[..., Any], operands: list[Any]) -> Callable[..., Any]:
     """Return what calls a function in C, of the numbers that `operands` have as Num x0, x1 and so on, in that order.
 
-    It gives the numbers at run time of the result in their order, or the message with which it refuses.
+    It gives the result in the form of Python's, or the message with which it refuses.
     """
     translator = Translator()
     entry = translator.program(function, operands)
@@ -56,11 +56,12 @@ def translated(folder: Path, function: Callable[..., Any], operands: list[Any]) 
     subprocess.run(command, check=True)
     run = ctypes.CDLL(str(library)).run
 
-    def called(*values: float) -> list[float] | str:
+    def called(*values: float) -> Any:
         given, out = (ctypes.c_double * count)(*values), (ctypes.c_double * max(len(numbers), 1))()
         why = ctypes.create_string_buffer(512)
         run(given, out, why)
-        return why.value.decode() or list(out)[: len(numbers)]
+        found = iter(out)
+        return why.value.decode() or replaced(entry.result, lambda _: next(found))  # type: ignore[return-value]
 
     called.text = "\n\n".join(texts)  # type: ignore[attr-defined]
     return called

@@ -30,6 +30,8 @@ _OPERATORS: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Pow: operator.pow,
     ast.BitOr: operator.or_,
     ast.BitAnd: operator.and_,
+    ast.LShift: operator.lshift,
+    ast.RShift: operator.rshift,
     ast.MatMult: operator.matmul,
 }
 _SIGNS: dict[type[ast.cmpop], tuple[str, Callable[[Any, Any], Any]]] = {
@@ -299,6 +301,9 @@ class Expressions:
         seen = self.closure.names | self.names
         uses = {each.id for each in ast.walk(node) if isinstance(each, ast.Name)}
         kept = {each: seen[each] for each in sorted(uses) if each in seen}
+        given, named = node.args, zip(node.args.kwonlyargs, node.args.kw_defaults, strict=True)
+        usual = [*zip(given.args[len(given.args) - len(given.defaults) :], given.defaults, strict=True), *named]
+        kept |= {each.arg: self.value(value) for each, value in usual if value is not None}
         return Closure(node, name, kept, self.closure.module, f"{self.closure.path}.{name}")
 
     def _comprehended(self, node: Any, give: Callable[[], Any]) -> list[Any]:

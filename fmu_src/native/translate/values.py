@@ -187,7 +187,8 @@ def _bits(sign: str, one: Any, other: Any) -> Any:
             unknown = other if isinstance(one, bool) else one
             return (True if known else unknown) if sign == "|" else (unknown if known else False)
         return both(one, other) if sign == "&" else either(one, other)
-    return Num(f"{literal(one, 'i').at_least(BIT + 1)} {sign} {literal(other, 'i').at_least(BIT + 1)}", "i", BIT)
+    first, second = (literal(each, "i").at_least(COMPARE + 1) for each in (one, other))  # as compilers ask for
+    return Num(f"{first} {sign} {second}", "i", BIT)
 
 
 def both(one: Any, other: Any) -> Num:
