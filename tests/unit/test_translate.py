@@ -213,7 +213,7 @@ def test_a_construct_is_the_same_in_c(function, tmp_path):
 
 def refusing(x, y):
     if x > y:
-        raise ValueError(f"load = {x:.3g} N (100 %) is above {y:g} N at {1.5:g} m. Use \"less\".")
+        raise ValueError(f'load = {x:.3g} N (100 %) is above {y:g} N at {1.5:g} m. Use "less".')
     if y < 0.0:
         raise ValueError("50 % of \\ it")
     return x + y

@@ -41,7 +41,7 @@ def translated(folder: Path, function: Callable[..., Any], operands: list[Any]) 
                     "void run(const double *in, double *out, contact_message *why)",
                     "{",
                     *(f"const double x{i} = in[{i}]; (void)x{i};" for i in range(count)),
-                    "(void)out; why->text[0] = 0; if (0) refuse(why, \" \");",
+                    '(void)out; why->text[0] = 0; if (0) refuse(why, " ");',
                     *lines,
                     "}",
                 ]
