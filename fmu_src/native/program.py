@@ -46,7 +46,7 @@ def bound(scene: Scene, point: OperatingPoint, state: ContactState) -> Case:
     return case
 
 
-_COLD = 0.0  # K: no law covers it
+_COLD = 0.0  # K: no law covers it; as the temperature of a body: none yet
 _SAME_RADIUS = 1e-9  # relative: a host may convert units
 
 
@@ -78,14 +78,27 @@ def _with_own_radii(scene: Scene, point: OperatingPoint) -> OperatingPoint:
 
 def step(scene: Scene, point: OperatingPoint, state: ContactState, dt: float) -> Found:
     """Return the state and the outputs after a step of `dt` [s]."""
-    return evolution.advance(bound(scene, point, state), state, dt, _contact)
+    begun = _begun(point, state)
+    after, outputs = evolution.advance(bound(scene, point, begun), begun, dt, _contact)
+    if scene.heat.bulk.stores_heat and dt == 0.0:  # bodies begin at the temperature of the oil of the first step
+        after = changed(after, temperatures=state.temperatures)
+    return after, outputs
 
 
 def derivatives(scene: Scene, point: OperatingPoint, state: ContactState) -> tuple[float, float, float, float]:
     """Return the derivatives of friction_force by speed_1, speed_2, load and temperature."""
-    case = bound(scene, point, state).warmed(state.temperatures)
+    begun = _begun(point, state)
+    case = bound(scene, point, begun).warmed(begun.temperatures)
     assert state.means is not None
     return evaluate(case, tribofilms_of(state.means)).derivatives
+
+
+def _begun(point: OperatingPoint, state: ContactState) -> ContactState:
+    """Return a state whose bodies have temperatures: where none are stored yet, that of the oil."""
+    if state.temperatures is None:
+        return state
+    one, two = (stored if stored > _COLD else point.temperature for stored in state.temperatures)
+    return changed(state, temperatures=(one, two))
 
 
 def _contact(case: Case, tribofilms: Tribofilms) -> MeanContact:
@@ -187,12 +200,11 @@ SLOPES = ("dfriction_dspeed_1", "dfriction_dspeed_2", "dfriction_dload", "dfrict
 
 
 def _initialise(values: Sequence[tuple[str, Any]]) -> list[str]:
-    oil = "in->temperature"
     return [
         "int contact_initialise(const contact_inputs *in, contact_state *state, contact_outputs *out,",
         "    contact_message *why)",
         "{",
-        *(f"    state->{name} = {oil if value is None else literal(value).text};" for name, value in values),
+        *(f"    state->{name} = {literal(_COLD if value is None else value).text};" for name, value in values),
         "    return contact_step(in, 0.0, state, out, why);",
         "}",
     ]
