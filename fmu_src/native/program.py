@@ -9,7 +9,8 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from contact_core import initial_state
-from contact_core.errors import OperatingPointError
+from contact_core.errors import OperatingPointError, SceneError
+from contact_core.film import Regression
 from contact_core.quantities import OF_CALLER, OF_CORE
 from contact_core.regression import evolution
 from contact_core.regression.contact import MeanContact, evaluate
@@ -19,7 +20,7 @@ from contact_core.state import ContactState, Mean, Outputs, changed
 from contact_core.surfaces.track_means import means_of
 
 from ..variables import Variable, variables
-from .translate import Entry, Num, Translator, literal
+from .translate import Entry, Num, Translator, Untranslatable, is_number, literal, parts
 
 Found = tuple[ContactState, Outputs]
 
@@ -134,8 +135,6 @@ def _state(scene: Scene) -> ContactState:
 
 def _paths(value: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
     """Yield the numbers of state and outputs with the way to them."""
-    from .translate.values import is_number, parts
-
     if is_number(value):
         yield path, value
     else:
@@ -148,9 +147,16 @@ def written(scene: Scene) -> dict[str, str]:
 
     Raises SceneError for a scene that the native FMU cannot have.
     """
+    _check(scene)
     point, state = _point(scene), _state(scene)
-    stepped, step_texts = _translated(step, [scene, point, state, Num("dt")])
-    slopes, slope_texts = _translated(derivatives, [scene, point, state])
+    try:
+        stepped, step_texts = _translated(step, [scene, point, state, Num("dt")])
+        slopes, slope_texts = _translated(derivatives, [scene, point, state])
+    except Untranslatable as error:
+        raise SceneError(
+            f"The equations of '{scene.name}' cannot be written as C: {error}\ndocs/how-to/native_fmu.md says what "
+            "can. Write that line so, or build with --flavour isolated."
+        ) from error
     outputs = [v.name for v in variables(scene) if v.causality == "output" and v.name not in OF_CALLER]
     new_state, new_outputs = stepped.result
     after, first = dict(_paths(new_state)), dict(_paths(first_state(scene)))
@@ -181,6 +187,20 @@ def written(scene: Scene) -> dict[str, str]:
         "contact.c": "\n\n".join([HEAD, *step_texts, "\n".join(stepping)]) + "\n",
         "slopes.c": "\n\n".join([HEAD, *slope_texts, "\n".join(sloping)]) + "\n",
     }
+
+
+def _check(scene: Scene) -> None:
+    """Raise SceneError for a scene that no native FMU can have."""
+    if not isinstance(scene.film, Regression):
+        raise SceneError(
+            f"film.model = '{scene.film.name}' solves contacts, and a native FMU has no solver. Set film.model = "
+            "'regression', or build with --flavour isolated."
+        )
+    if scene.stress.samples:
+        raise SceneError(
+            f"stress.model = '{scene.stress.name}' has stresses by depth and place, and a native FMU has numbers only. "
+            "Set stress.model = 'none' and fatigue.model = 'none', or build with --flavour isolated."
+        )
 
 
 def _translated(function: Any, operands: list[Any]) -> tuple[Entry, list[str]]:

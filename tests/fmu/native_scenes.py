@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 from contact_core import Scene
 from contact_core.errors import SceneError
+from fmu_src.variables import variables
 
 Change = dict[str, str]
 
@@ -122,6 +123,11 @@ CHOICES: dict[str, list[Change]] = {
 
 def scene_of(changes: Change) -> Scene:
     return Scene.from_toml("mtm_zddp", changes | {"film.model": "regression"})
+
+
+def inputs_of(scene: Scene) -> dict[str, float]:
+    """The start values of the inputs."""
+    return {v.name: v.start for v in variables(scene) if v.causality == "input"}
 
 
 def merged(numbers: dict[str, int]) -> Change:

@@ -14,6 +14,6 @@ functions     calls, and C functions: one for each way in which a Python functio
 """
 
 from .functions import Entry, Translator
-from .values import Num, Untranslatable, leaves, literal, replaced
+from .values import Num, Untranslatable, is_number, leaves, literal, parts, replaced
 
-__all__ = ["Entry", "Num", "Translator", "Untranslatable", "leaves", "literal", "replaced"]
+__all__ = ["Entry", "Num", "Translator", "Untranslatable", "is_number", "leaves", "literal", "parts", "replaced"]

@@ -8,17 +8,14 @@ import inspect
 import operator
 import types
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from . import code
 from .library import ALWAYS, ARRAY_METHODS, HANDLERS, chosen, elementwise
-from .units import Poison, Unit
+from .units import Poison, Text, Unit, Writer
 from .values import Closure, Method, Num, Untranslatable, both, compare, either, is_dynamic, is_number, literal
-
-if TYPE_CHECKING:
-    from .functions import Translator
 
 _OPERATORS: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
@@ -48,13 +45,6 @@ def _is_test(value: Any) -> bool:
     return isinstance(value, Num) and value.kind == "b"
 
 
-class Text:
-    """A message with numbers that are known at run time: a format of C and its operands."""
-
-    def __init__(self, form: str, operands: list[Num]) -> None:
-        self.form, self.operands = form, operands
-
-
 class Super:
     """What `super()` gives: a record, seen as one of the classes after `cls`."""
 
@@ -65,7 +55,7 @@ class Super:
 class Expressions:
     """The names of a scope of Python, and the values of expressions in it."""
 
-    def __init__(self, translator: "Translator", unit: Unit, names: dict[str, Any], closure: Closure) -> None:
+    def __init__(self, translator: Writer, unit: Unit, names: dict[str, Any], closure: Closure) -> None:
         self.translator, self.unit, self.names, self.closure = translator, unit, names, closure
 
     def value(self, node: ast.expr) -> Any:

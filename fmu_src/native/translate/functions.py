@@ -13,11 +13,11 @@ import numpy as np
 
 from . import code
 from .arrays import arrays_in, on_arrays
-from .expressions import Super, Text
+from .expressions import Super
 from .interpreter import Scope
 from .results import distinct, fields_of, filled, forwarded, holes_in, part_names, wanted_fields
 from .sources import about, closure_of, expression_of, is_straight, method_after, statements_of
-from .units import Unit, matched, template_of, unique
+from .units import Text, Unit, matched, template_of, unique
 from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, leaves, replaced, signature
 
 _CORE, _LAWS = "contact_core.", "contact_core.laws."

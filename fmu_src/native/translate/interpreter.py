@@ -4,9 +4,9 @@ import ast
 from typing import Any
 
 from . import code
-from .expressions import Expressions, Text
+from .expressions import Expressions
 from .loops import counted, repeated
-from .units import Poison
+from .units import Poison, Text
 from .values import Num, Untranslatable
 
 _LONG = 16  # rounds from which on a loop over a range stays a loop
@@ -35,6 +35,9 @@ class Scope(Expressions):
                     return False
             except Untranslatable as error:
                 raise self._placed(error, statement) from error
+            except (TypeError, ValueError, AttributeError, LookupError) as error:  # of Python with numbers it knows not
+                said = Untranslatable(f"{type(error).__name__}: {error}")
+                raise self._placed(said, statement) from error
         return True
 
     def refuse(self, message: str | Text) -> None:

@@ -2,20 +2,17 @@
 
 import ast
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from . import code
-from .units import Poison, Unit, common_kind, matched, unified
+from .units import Names, Poison, Unit, common_kind, matched, unified
 from .values import Num, leaves, literal, replaced, signature
-
-if TYPE_CHECKING:
-    from .interpreter import Scope
 
 MOST_ROUNDS = 10_000  # of a loop whose end is known at run time only: the time of a step is bounded
 _TOO_LONG = f"The step needs more than {MOST_ROUNDS} parts: the surfaces change too much in it. Take shorter steps."
 
 
-def counted(scope: "Scope", node: ast.For, items: range) -> None:
+def counted(scope: Names, node: ast.For, items: range) -> None:
     """Write a loop over a range."""
     assert isinstance(node.target, ast.Name)
     name = scope.unit.fresh(node.target.id)
@@ -25,7 +22,7 @@ def counted(scope: "Scope", node: ast.For, items: range) -> None:
     scope.names.pop(node.target.id, None)
 
 
-def repeated(scope: "Scope", node: ast.While) -> bool:
+def repeated(scope: Names, node: ast.While) -> bool:
     """Write a loop whose end is known at run time only; return True if what follows it is reached.
 
     It refuses the step after MOST_ROUNDS.
@@ -44,7 +41,7 @@ def repeated(scope: "Scope", node: ast.While) -> bool:
     return _loop(scope, f"for (int {rounds} = 0;; ++{rounds})", node.body, begun)
 
 
-def _loop(scope: "Scope", head: str, body: list[ast.stmt], begun: Callable[[], bool]) -> bool:
+def _loop(scope: Names, head: str, body: list[ast.stmt], begun: Callable[[], bool]) -> bool:
     """Write a loop; return True if it has an end. `begun` writes how every round begins, and says if that may end it.
 
     What changes from number to number, or from a constant to a number, is known once a round has been written.
@@ -76,7 +73,7 @@ def _loop(scope: "Scope", head: str, body: list[ast.stmt], begun: Callable[[], b
 
 
 def _round(
-    scope: "Scope",
+    scope: Names,
     body: list[ast.stmt],
     begun: Callable[[], bool],
     carried: dict[str, Any],
@@ -85,7 +82,7 @@ def _round(
     """Write one round of a loop; return True if the loop has an end."""
     unit, has_end = scope.unit, begun()
 
-    def put_back(inner: "Scope", leaves_loop: bool) -> None:
+    def put_back(inner: Names, leaves_loop: bool) -> None:
         nonlocal has_end
         has_end |= leaves_loop
         ends.append({name: inner.names[name] for name in carried})

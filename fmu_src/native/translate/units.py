@@ -1,14 +1,28 @@
 """C functions under construction, and how values that come from several branches become one."""
 
+import ast
 import dataclasses
 import re
 from collections.abc import Callable, Collection
-from typing import Any
+from types import FunctionType
+from typing import Any, Protocol
 
 import numpy as np
 
 from . import code
-from .values import Num, Untranslatable, is_dynamic, is_number, kind_of, literal, parts, rebuilt, replaced, signature
+from .values import (
+    Closure,
+    Num,
+    Untranslatable,
+    is_dynamic,
+    is_number,
+    kind_of,
+    literal,
+    parts,
+    rebuilt,
+    replaced,
+    signature,
+)
 
 Leaf = Callable[[str, Any, Any], Any]
 
@@ -27,6 +41,13 @@ _TAKEN = KEYWORDS.union(  # and what headers of C and elementary.h have
         "squared smaller larger centre from_bits bits_of exp_parts exp_of log_of power_of_two refuse",
     )
 )
+
+
+class Text:
+    """A message with numbers that are known at run time: a format of C and its operands."""
+
+    def __init__(self, form: str, operands: list[Num]) -> None:
+        self.form, self.operands = form, operands
 
 
 class Poison:
@@ -119,6 +140,41 @@ class Unit:
             return made
 
         return unified(one, other, leaf, name)
+
+
+class Writer(Protocol):
+    """What a scope asks of the translator."""
+
+    def attribute(self, unit: Unit, owner: Any, name: str) -> Any:
+        """Return a member of a value."""
+
+    def call(self, unit: Unit, function: FunctionType | Closure, operands: list[Any], named: dict[str, Any]) -> Any:
+        """Return what a call gives."""
+
+    def gives(self, unit: Unit, value: Any) -> None:
+        """Return a value from the function of a unit."""
+
+    def refuses(self, unit: Unit, text: Text) -> None:
+        """Leave the function of a unit with a message."""
+
+
+class Names(Protocol):
+    """What a loop asks of a scope."""
+
+    names: dict[str, Any]
+
+    @property
+    def unit(self) -> Unit:
+        """The function under construction."""
+
+    def run(self, statements: list[ast.stmt]) -> bool:
+        """Run statements; return True if what follows them is reached."""
+
+    def test(self, node: ast.expr) -> Any:
+        """Return the truth of an expression."""
+
+    def refuse(self, message: str | Text) -> None:
+        """Leave the function with a message."""
 
 
 def unique(name: str, taken: Collection[str]) -> str:
