@@ -9,6 +9,7 @@ from typing import Any
 
 from ..errors import SceneError
 from ..film import Mapped
+from ..film.mapped import MAP_SUFFIX
 from ..scene import Scene
 
 Numbers = tuple[float, ...]
@@ -26,7 +27,6 @@ COORDINATES = (  # of a contact by the regression level, in the order of `query.
 )
 _FORMAT = 1
 _APART = ("name", "description", "operation", "control")  # parts of a scene that no map depends on
-_SUFFIX = ".json"
 
 
 @dataclass(frozen=True)
@@ -119,9 +119,9 @@ def checked(scene: Scene, found: Map, source: str) -> Map:
 
 def read(name: str) -> Map:
     """Return a map from a file, or a shipped one by name. Raises SceneError if there is none."""
-    shipped = files("contact_core") / "data" / "maps" / f"{name}{_SUFFIX}"
+    shipped = files("contact_core") / "data" / "maps" / f"{name}{MAP_SUFFIX}"
     try:
-        if name.endswith(_SUFFIX):
+        if name.endswith(MAP_SUFFIX):
             text = Path(name).read_text("utf-8")
         elif "/" not in name and shipped.is_file():
             text = shipped.read_text("utf-8")
@@ -141,4 +141,4 @@ def shipped_maps() -> list[str]:
     """Return the names of the shipped maps."""
     folder = files("contact_core") / "data" / "maps"
     names = (entry.name for entry in folder.iterdir()) if folder.is_dir() else iter(())
-    return sorted(name.removesuffix(_SUFFIX) for name in names if name.endswith(_SUFFIX))
+    return sorted(name.removesuffix(MAP_SUFFIX) for name in names if name.endswith(MAP_SUFFIX))
