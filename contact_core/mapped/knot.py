@@ -1,7 +1,8 @@
 """A solved contact: where it lies, and what the deterministic level says of it."""
 
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from .. import deterministic, regression
 from ..correction import CORRECTED
 from ..errors import ContactError
 from ..regression.contact import MeanContact, evaluate
-from ..regression.surfaces import tribofilms_of
+from ..regression.surfaces import Means, tribofilms_of
 from ..scene import Case, OperatingPoint, Scene
 from ..state import ContactState, Mean, RangeFlag, initial_state
 from .fitting import Samples
@@ -18,7 +19,7 @@ from .query import coordinates
 
 UNSURE = RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK | RangeFlag.DOMAIN_EDGE  # of blocks that judge nothing
 Three = tuple[float, float, float]
-_FORCE = "friction_force"
+_LEAST = 1e-6  # half width: a smaller one tells nothing
 
 
 @dataclass(frozen=True)
@@ -27,10 +28,11 @@ class Knot:
 
     number: int
     point: OperatingPoint
-    means: tuple[Mean, Mean] | None = None  # of the surfaces
+    means: Means | None = None  # of the surfaces
     found: Three = (0.0, 0.0, 0.0)  # friction_coefficient, h_c [m], contact_load_ratio
     errors: Three = (0.0, 0.0, 0.0)  # half widths (95 %) that the block states: relative, of W_c absolute
     shared: Three = (0.0, 0.0, 0.0)  # parts of them that all blocks share: grid and iteration
+    scatter: Three = (0.0, 0.0, 0.0)  # part that each block has for itself: the few instants at which it is solved
     flags: int = 0
     refused: str = ""  # why there is no block
 
@@ -47,7 +49,7 @@ class Knot:
     def from_dict(table: dict[str, Any]) -> "Knot":
         """Return the knot that `to_dict` wrote."""
         means = table["means"] and tuple(Mean(**mean) for mean in table["means"])
-        threes = {name: tuple(table[name]) for name in ("found", "errors", "shared")}
+        threes = {name: tuple(table[name]) for name in ("found", "errors", "shared", "scatter")}
         return Knot(**table | threes | {"point": OperatingPoint(**table["point"]), "means": means})
 
 
@@ -62,26 +64,32 @@ def solve(scene: Scene, number: int, point: OperatingPoint, before: OperatingPoi
         after, _ = deterministic.advance(Case.bind(deep, point), state, 0.0)
     except ContactError as error:
         return Knot(number, point, refused=str(error))
-    return replace(of_block(deep, after), number=number, point=point, means=state.means)
+    assert state.means is not None
+    return _solved(number, point, state.means, deep, after)
 
 
-def of_block(deep: Scene, after: ContactState) -> Knot:
-    """Return what the block of a state says."""
+def _solved(number: int, point: OperatingPoint, means: Means, deep: Scene, after: ContactState) -> Knot:
+    """Return the knot of a state that a block has just made."""
     out, causes = after.outputs, deterministic.errors_of(deep, after)
-    sizes = (abs(out.friction_force), out.h_c, 1.0)
-    names = (_FORCE, "h_c", "contact_load_ratio")
-    shared = [
-        np.hypot(causes[name].grid, causes[name].iteration) / size if size > 0.0 else 0.0
-        for name, size in zip(names, sizes, strict=True)
-    ]
-    found = [float(getattr(out, name)) for name in CORRECTED]
-    errors = [float(getattr(out, name)) for name in CORRECTED.values()]
+    force, film, load = (causes[name] for name in ("friction_force", "h_c", "contact_load_ratio"))
+    relative = (
+        force.scaled(1.0 / abs(out.friction_force) if out.friction_force != 0.0 else 0.0),
+        film.scaled(1.0 / out.h_c),
+        load,
+    )
     return Knot(
-        0, OperatingPoint(0.0, 0.0, 0.0, 300.0), None, _three(found), _three(errors), _three(shared), out.range_flags
+        number,
+        point,
+        means,
+        found=_three(getattr(out, name) for name in CORRECTED),
+        errors=_three(getattr(out, name) for name in CORRECTED.values()),
+        shared=_three(math.hypot(error.grid, error.iteration) for error in relative),
+        scatter=_three(error.sampling for error in relative),
+        flags=out.range_flags,
     )
 
 
-def _three(values: Sequence[float]) -> Three:
+def _three(values: Iterable[float]) -> Three:
     first, second, third = map(float, values)
     return first, second, third
 
@@ -110,7 +118,8 @@ def samples_of(scene: Scene, knots: Sequence[Knot]) -> Samples:
                     knot.found[2] - contact.load_ratio,
                 ),
                 contact.load_ratio,
-                np.maximum(knot.shared, 1e-6),
+                np.maximum(knot.shared, _LEAST),
+                knot.scatter,
             )
         )
     return Samples(*(np.array(part, dtype=np.float64) for part in zip(*rows, strict=True)))
