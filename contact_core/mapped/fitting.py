@@ -23,7 +23,9 @@ COVERED = 0.95  # of the contacts left out, by half widths
 FEWEST = 30  # contacts that a map is made of, at least
 _DEGREE, _TERMS, _SHARE = 3, 40, 4  # largest degree and number of terms; contacts for each term, at least
 _PATIENCE = 6  # terms that are tried after the best
-_RIDGE = 1e-2  # squares that each weight adds to the sum of squares, over those of one contact
+_RIDGE = 1.0  # squares that each weight adds to the sum of squares, over those of one contact
+_EVEN = 30.0  # likewise, of half widths, which are known from few large deviations
+_NARROWEST = 0.005  # half width that counts as none
 _PARTS = 10  # of the contacts, each left out in turn
 _NARROW = 1e-9  # range of a coordinate that does not change
 _UNLIKE = 1e-6  # of a term's square, that must be left of it beside the others
@@ -73,7 +75,16 @@ def fitted(samples: Samples, name: str, digest: str, ranges: tuple[tuple[str, fl
     chart = _without_half_widths(samples, name, digest, ranges, rule)
     off, wide = left_out(samples, name, digest, ranges, rule)
     needed = np.sqrt(np.maximum(off**2 - samples.scatter**2, 0.0)) / wide[:, None]
-    return replace(chart, left=_tuple(np.quantile(needed, COVERED, axis=0)))
+    linear = scaled_at(chart, samples.places)
+    uneven = _smoothed(linear, np.log(np.hypot(needed, _NARROWEST)))
+    uneven[:, 0] += np.log(np.quantile(needed / np.exp(linear @ uneven.T), COVERED, axis=0))
+    return replace(chart, uneven=tuple(map(_tuple, uneven)))
+
+
+def _smoothed(linear: Array, values: Array) -> Array:
+    """Return the weights of 1 and each coordinate, [outputs, 1 + coordinates], of values [contacts, outputs]."""
+    squares = linear.T @ linear + _EVEN * np.diag([0.0] + [1.0] * (linear.shape[1] - 1))
+    return np.asarray(np.linalg.solve(squares, linear.T @ values).T)
 
 
 def left_out(
@@ -107,13 +118,20 @@ def spread_at(chart: Map, places: Array) -> Array:
     return np.asarray(np.sqrt(1.0 + np.sum((terms @ triangle.T) ** 2, axis=1)))
 
 
+def widths_at(chart: Map, places: Array) -> Array:
+    """Return the half widths (95 %) of a map alone within its ranges, [places, outputs]."""
+    return np.asarray(spread_at(chart, places)[:, None] * np.exp(scaled_at(chart, places) @ np.array(chart.uneven).T))
+
+
+def scaled_at(chart: Map, places: Array) -> Array:
+    """Return 1 and the coordinates from -1 to 1, [places, 1 + coordinates], as `query.scaled_to` has them."""
+    scaled = np.clip((places[:, chart.picked] - chart.centres) / chart.halves, -1.0, 1.0)
+    return np.column_stack([np.ones(len(places)), scaled])
+
+
 def design(chart: Map, places: Array) -> Array:
     """Return the terms of places, [places, terms], as `query.terms` has them one by one."""
-    scaled = np.clip((places[:, chart.picked] - chart.centres) / chart.halves, -1.0, 1.0)
-    found = [np.ones(len(places))]
-    for term, coordinate in zip(chart.term, chart.coordinate, strict=True):
-        found.append(found[term] * scaled[:, coordinate])
-    return np.array(found).T
+    return _columns(scaled_at(chart, places)[:, 1:], list(zip(chart.term, chart.coordinate, strict=True)))
 
 
 def _without_half_widths(
@@ -130,7 +148,7 @@ def _without_half_widths(
     squares = terms.T @ terms + rule.ridge * np.diag([0.0] + [1.0] * len(made))
     root = np.linalg.cholesky(squares)
     weights = np.linalg.solve(squares, terms.T @ deviations).T
-    own = np.linalg.solve(squares, terms.T @ np.log(samples.own)).T
+    own = _smoothed(np.column_stack([np.ones(len(scaled)), scaled]), np.log(samples.own))
     triangle = np.linalg.inv(root)
     return Map(
         scene=name,
@@ -145,7 +163,7 @@ def _without_half_widths(
         coordinate=tuple(coordinate for _, coordinate in made),
         weights=tuple(map(_tuple, weights)),
         spread=tuple(_tuple(row[: k + 1]) for k, row in enumerate(triangle)),
-        left=(0.0,) * len(OUTPUTS),
+        uneven=((0.0,) * (1 + len(picked)),) * len(OUTPUTS),
         own=tuple(map(_tuple, own)),
     )
 

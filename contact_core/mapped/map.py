@@ -13,7 +13,7 @@ from ..film.mapped import MAP_SUFFIX
 from ..scene import Scene
 
 Numbers = tuple[float, ...]
-OUTPUTS = ("friction_coefficient", "h_c", "contact_load_ratio")  # in the order of `weights`, `left` and `own`
+OUTPUTS = ("friction_coefficient", "h_c", "contact_load_ratio")  # in the order of `weights`, `uneven` and `own`
 COORDINATES = (  # of a contact by the regression level, in the order of `query.coordinates`
     "clearance",  # ln of h_c over composite roughness
     "slip",  # ln of (sliding over entrainment speed + 0.1)
@@ -24,6 +24,8 @@ COORDINATES = (  # of a contact by the regression level, in the order of `query.
     "roughness",  # ln of composite roughness over that of new surfaces
     "speed",  # ln of the entrainment speed in m/s
     "temperature",  # of the oil that is drawn in [K]
+    "raised_1",  # by which the tribofilm of body 1 makes it rougher, over composite roughness of new surfaces
+    "raised_2",  # likewise of body 2
 )
 _FORMAT = 1
 _APART = ("name", "description", "operation", "control")  # parts of a scene that no map depends on
@@ -49,14 +51,14 @@ class Map:
     coordinate: tuple[int, ...]  # and the coordinate that it is multiplied by
     weights: tuple[Numbers, ...]  # of ln friction factor, ln film factor, change of W_c over W_c (1 - W_c)
     spread: tuple[Numbers, ...]  # triangle: the squares of these sums of terms add up to the variance by few knots
-    left: Numbers  # half width (95 %) of a solution about the polynomial, in its unit
-    own: tuple[Numbers, ...]  # weights of ln half width of what all solutions share: grid and iteration
+    uneven: tuple[Numbers, ...]  # weights of ln half width (95 %) about a polynomial: of 1 and of each coordinate
+    own: tuple[Numbers, ...]  # likewise of the half width of what all solutions share: grid and iteration
 
     @property
     def cost(self) -> int:
         """Multiplications and additions of one query, as pairs."""
         rows = sum(len(row) for row in self.spread)
-        return len(self.term) + rows + len(self.spread) + sum(map(len, (*self.weights, *self.own)))
+        return len(self.term) + rows + len(self.spread) + sum(map(len, (*self.weights, *self.own, *self.uneven)))
 
     def to_text(self) -> str:
         """Return the map as JSON; equal maps give equal text."""

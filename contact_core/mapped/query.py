@@ -46,6 +46,8 @@ def coordinates(case: Case, contact: MeanContact) -> tuple[float, ...]:
         math.log(contact.sigma / new),
         math.log(mean),
         op.inlet_temperature,
+        contact.tribofilms[0].raised / new,
+        contact.tribofilms[1].raised / new,
     )
 
 
@@ -60,14 +62,19 @@ def trusted(chart: Map, place: tuple[float, ...], slip: float) -> float:
     return max(1.0 - beyond / _MARGIN, 0.0) * min(slip / chart.least_slip, 1.0)
 
 
-def terms(chart: Map, place: tuple[float, ...]) -> list[float]:
-    """Return the terms of the polynomials; outside the ranges those of the nearest point on their border."""
-    scaled = []
+def scaled_to(chart: Map, place: tuple[float, ...]) -> list[float]:
+    """Return 1 and the coordinates from -1 to 1; outside the ranges those of the nearest point on their border."""
+    found = [1.0]
     for value, centre, half in zip(place, chart.centres, chart.halves, strict=True):
-        scaled.append(min(max((value - centre) / half, -1.0), 1.0))
+        found.append(min(max((value - centre) / half, -1.0), 1.0))
+    return found
+
+
+def terms(chart: Map, scaled: list[float]) -> list[float]:
+    """Return the terms of the polynomials from 1 and the scaled coordinates."""
     found = [1.0]
     for term, coordinate in zip(chart.term, chart.coordinate, strict=True):
-        found.append(found[term] * scaled[coordinate])
+        found.append(found[term] * scaled[1 + coordinate])
     return found
 
 
@@ -99,15 +106,16 @@ def told(chart: Map, case: Case, contact: MeanContact, stated: tuple[float, floa
     place = tuple(everything[k] for k in chart.picked)
     slip = abs(case.op.speed_1 - case.op.speed_2) / max(0.5 * abs(case.op.speed_1 + case.op.speed_2), _NONE)
     trust = trusted(chart, place, slip)
-    found = terms(chart, place)
+    scaled = scaled_to(chart, place)
+    found = terms(chart, scaled)
     wide = math.sqrt(1.0 + leverage(chart, found))
     friction = trust * bounded(total(chart.weights[0], found))
     film = trust * bounded(total(chart.weights[1], found))
     share, solids = contact.load_ratio, contact.load_ratio * (1.0 - contact.load_ratio)
     load = share + trust * solids * bounded(total(chart.weights[2], found))
     half = []
-    for left, own, regression in zip(chart.left, chart.own, stated, strict=True):
-        known = math.hypot(left * wide, math.exp(total(own, found)))
+    for uneven, own, regression in zip(chart.uneven, chart.own, stated, strict=True):
+        known = math.hypot(wide * math.exp(total(uneven, scaled)), math.exp(total(own, scaled)))
         half.append(trust * known + (1.0 - trust) * regression)
     return Told(math.exp(friction), math.exp(film), load, trust, half[0], half[1], half[2])
 

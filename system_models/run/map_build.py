@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from contact_core.errors import ContactError
-from contact_core.mapped.fitting import FEWEST, Rule, Samples, fitted, predicted, spread_at
+from contact_core.mapped.fitting import FEWEST, Rule, Samples, fitted, predicted, widths_at
 from contact_core.mapped.knot import Knot, samples_of, solve
 from contact_core.mapped.map import Map, digest_of
 from contact_core.scene import Scene
@@ -150,15 +150,10 @@ def mapped(order: Order, knots: tuple[Knot, ...]) -> Map:
     return fitted(samples, order.scene.name, digest_of(order.scene), order.ranges.rows, Rule())
 
 
-def widths_at(chart: Map, samples: Samples) -> Array:
-    """Return the half widths of a map alone, [places, outputs]."""
-    return np.asarray(spread_at(chart, samples.places)[:, None] * np.array(chart.left))
-
-
 def half_widths(order: Order, chart: Map, knots: tuple[Knot, ...]) -> tuple[float, ...]:
     """Return the median half widths of a map alone over its knots."""
     samples = samples_of(scene_of_knots(order.scene), fit_knots(knots))
-    return tuple(map(float, np.median(widths_at(chart, samples), axis=0)))
+    return tuple(map(float, np.median(widths_at(chart, samples.places), axis=0)))
 
 
 def judged(order: Order, chart: Map, knots: tuple[Knot, ...]) -> Judged | None:
@@ -168,7 +163,9 @@ def judged(order: Order, chart: Map, knots: tuple[Knot, ...]) -> Judged | None:
         return None
     samples = samples_of(scene_of_knots(order.scene), held)
     blocks = np.array([knot.errors for knot in held])
-    return Judged(samples, samples.off, samples.off - predicted(chart, samples), widths_at(chart, samples), blocks)
+    return Judged(
+        samples, samples.off, samples.off - predicted(chart, samples), widths_at(chart, samples.places), blocks
+    )
 
 
 def _head(order: Order) -> dict[str, object]:

@@ -12,10 +12,10 @@ from mapped_scene import chart, drawn, knots, mapped_scene, scene_of
 
 from contact_core import OperatingPoint, Outputs, RangeFlag, Scene, advance, initial_state, uncertainty
 from contact_core.errors import SceneError
-from contact_core.mapped.fitting import design, predicted, spread_at
+from contact_core.mapped.fitting import design, predicted, spread_at, widths_at
 from contact_core.mapped.knot import contact_of, samples_of
 from contact_core.mapped.map import Map, digest_of
-from contact_core.mapped.query import coordinates, leverage, terms, told, total
+from contact_core.mapped.query import coordinates, leverage, scaled_to, terms, told, total
 
 STATED = (0.3, 0.4, 0.2)  # half widths of the regression level
 NAMES = ("friction_coefficient", "h_c", "contact_load_ratio")
@@ -30,11 +30,12 @@ def test_a_query_is_the_polynomials_that_were_fitted() -> None:
     scene, found = scene_of(), knots(40)
     samples = samples_of(scene, found)
     columns, wide = design(chart(), samples.places), spread_at(chart(), samples.places)
-    off = predicted(chart(), samples)
+    off, alone = predicted(chart(), samples), widths_at(chart(), samples.places)
     for k, knot in enumerate(found):
         case, contact = contact_of(scene, knot)
         place = tuple(coordinates(case, contact)[i] for i in chart().picked)
-        here = terms(chart(), place)
+        scaled = scaled_to(chart(), place)
+        here = terms(chart(), scaled)
         assert here == approx(columns[k].tolist(), rel=1e-12, abs=1e-15)
         assert math.sqrt(1.0 + leverage(chart(), here)) == approx(wide[k], rel=1e-9)
         answer = told(chart(), case, contact, STATED)
@@ -42,8 +43,8 @@ def test_a_query_is_the_polynomials_that_were_fitted() -> None:
             assert math.log(answer.friction) == approx(off[k, 0], rel=1e-9, abs=1e-12)
             assert math.log(answer.film) == approx(off[k, 1], rel=1e-9, abs=1e-12)
             assert answer.load_ratio - contact.load_ratio == approx(off[k, 2], rel=1e-9, abs=1e-12)
-            own = [math.exp(total(weights, here)) for weights in chart().own]
-            assert answer.error_film == approx(math.hypot(chart().left[1] * wide[k], own[1]), rel=1e-9)
+            own = math.exp(total(chart().own[1], scaled))
+            assert answer.error_film == approx(math.hypot(alone[k, 1], own), rel=1e-9)
 
 
 def test_the_variance_is_that_of_least_squares_by_its_textbook_formula() -> None:
