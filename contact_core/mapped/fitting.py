@@ -72,7 +72,7 @@ def fitted(samples: Samples, name: str, digest: str, ranges: tuple[tuple[str, fl
         raise ContactError(
             f"{len(samples.shares)} solved contacts are too few for a map: it takes {FEWEST}. Give more --time."
         )
-    chart = _without_half_widths(samples, name, digest, ranges, rule)
+    chart = polynomials(samples, name, digest, ranges, rule)
     off, wide = left_out(samples, name, digest, ranges, rule)
     needed = np.sqrt(np.maximum(off**2 - samples.scatter**2, 0.0)) / wide[:, None]
     linear = scaled_at(chart, samples.places)
@@ -95,7 +95,7 @@ def left_out(
     off, wide = np.empty((count, len(OUTPUTS))), np.empty(count)
     for part in range(_PARTS):
         out = np.arange(count) % _PARTS == part
-        chart = _without_half_widths(samples.some(~out), name, digest, ranges, rule)
+        chart = polynomials(samples.some(~out), name, digest, ranges, rule)
         rest = samples.some(out)
         off[out] = rest.off - predicted(chart, rest)
         wide[out] = spread_at(chart, rest.places)
@@ -134,9 +134,10 @@ def design(chart: Map, places: Array) -> Array:
     return _columns(scaled_at(chart, places)[:, 1:], list(zip(chart.term, chart.coordinate, strict=True)))
 
 
-def _without_half_widths(
+def polynomials(
     samples: Samples, name: str, digest: str, ranges: tuple[tuple[str, float, float], ...], rule: Rule
 ) -> Map:
+    """Return a map of samples without half widths."""
     low, high = samples.places.min(0), samples.places.max(0)
     picked = tuple(k for k in range(len(COORDINATES)) if high[k] - low[k] > _NARROW)
     centres, halves = 0.5 * (high + low)[list(picked)], 0.5 * (high - low)[list(picked)]
