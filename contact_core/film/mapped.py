@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from ..quantities import parameter
 from .regression import Regression
@@ -20,10 +20,17 @@ class Mapped(Regression):
         "", "the map: a file, or the name of a shipped one; empty: the shipped one of the scene's name", default=""
     )
 
-    def found_in(self, folders: tuple[Path, ...]) -> "Mapped":
-        """Return the record with the path of its file as found in one of the folders, if it is in any."""
-        if self.file.endswith(MAP_SUFFIX):
-            for folder in folders:
-                if (folder / self.file).is_file():
-                    return replace(self, file=str((folder / self.file).resolve()))
-        return self
+
+def map_file(film: Any) -> str | None:
+    """Return the map that a record names, empty for the shipped one of the scene's name; None for other levels."""
+    return film.file if isinstance(film, Mapped) else None
+
+
+def with_map_found(film: Any, folders: tuple[Path, ...]) -> Any:
+    """Return a record with the path of the file of its map as found in one of the folders, if there is any."""
+    file = map_file(film)
+    if file is not None and file.endswith(MAP_SUFFIX):
+        for folder in folders:
+            if (folder / file).is_file():
+                return replace(film, file=str((folder / file).resolve()))
+    return film

@@ -9,7 +9,8 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from ..errors import SceneError
-from ..film import FILMS, Mapped
+from ..film import FILMS
+from ..film.mapped import with_map_found
 from . import checks
 from .accuracy import planned, provisional
 from .fields import SceneFields
@@ -54,7 +55,7 @@ class Scene(SceneFields):
         first, second = (
             getattr(scene, name).with_file(name, folders or (Path(),)) for name in ("surface_1", "surface_2")
         )
-        film = scene.film.found_in(folders or (Path(),)) if isinstance(scene.film, Mapped) else scene.film
+        film = with_map_found(scene.film, folders or (Path(),))
         return checked(planned(replace(scene, surface_1=first, surface_2=second, film=film), open_fields))
 
     def with_heights(

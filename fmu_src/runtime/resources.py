@@ -20,8 +20,7 @@ import pythonfmu
 
 import contact_core
 from contact_core.errors import SceneError
-from contact_core.film import Mapped
-from contact_core.film.mapped import MAP_SUFFIX
+from contact_core.film.mapped import MAP_SUFFIX, map_file
 from contact_core.mapped.map import map_of
 from contact_core.scene import Scene
 
@@ -85,28 +84,29 @@ def _packed(scene: Scene) -> Scene:
 def _packed_film(scene: Scene) -> Any:
     """Return the record of the film with a map from a file under the name that it has in an FMU."""
     film: Any = scene.film
-    text = _map_file(scene)
-    return film if text is None else replace(film, file=f"map_{zlib.crc32(text):08x}.json")
+    text = _map_text(scene)
+    return film if text is None else replace(film, file=f"map_{zlib.crc32(text):08x}{MAP_SUFFIX}")
 
 
-def _map_file(scene: Scene) -> bytes | None:
+def _map_text(scene: Scene) -> bytes | None:
     """Return the map of the scene if it is one from a file; shipped ones come with the package.
 
     Raises SceneError if a scene at the level of maps has none.
     """
-    if not isinstance(scene.film, Mapped):
+    file = map_file(scene.film)
+    if file is None:
         return None
     chart = map_of(scene)
-    return chart.to_text().encode() if scene.film.file.endswith(MAP_SUFFIX) else None
+    return chart.to_text().encode() if file.endswith(MAP_SUFFIX) else None
 
 
 def files(scene: Scene) -> dict[str, bytes]:
     """Return name and content of every file in `resources/` that both flavours have."""
-    module, chart, scene = module_name(scene), _map_file(scene), _packed(scene)
+    module, chart, scene = module_name(scene), _map_text(scene), _packed(scene)
     given = (surface.heights for surface in (scene.surface_1, scene.surface_2))
     return {
         **{heights.file: heights.npy() for heights in given if heights is not None},
-        **({scene.film.file: chart} if chart is not None and isinstance(scene.film, Mapped) else {}),
+        **({str(map_file(scene.film)): chart} if chart is not None else {}),
         "scene.json": (json.dumps(scene.to_dict(), indent=1) + "\n").encode(),
         "versions.json": (json.dumps(VERSIONS, indent=1) + "\n").encode(),
         "slavemodule.txt": module.encode(),
