@@ -83,6 +83,7 @@ def chart() -> Map:
 
 def mapped_scene(folder: Path, **changes: str) -> Scene:
     """Return the scene at the level of its map, which is written into a folder."""
+    folder.mkdir(exist_ok=True)
     file = folder / "map.json"
     file.write_text(chart().to_text(), "utf-8")
     fast = scene_of(**changes)

@@ -13,7 +13,7 @@ from ..scene import Case
 from .map import Map
 
 _SLIP, _OIL, _THIN, _NONE = 0.1, 1e-4, 1e-3, 1e-9  # least numbers: no logarithm of 0
-_MARGIN = 0.2  # of half the range of a coordinate, over which a map fades out beyond it
+_MARGIN = 1.0  # of half the range of a coordinate, over which a map fades out: films still grow with the speed there
 _STEEPEST = 0.7  # largest logarithm of a factor
 
 
