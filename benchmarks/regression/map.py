@@ -1,6 +1,6 @@
 """Methods for the maps of `film.model = "map"`, on knots solved for them: held-back deviations, half widths, cost.
 
-    tribofmu map mtm_zddp --out results/regression/map/full --accuracy '1 %' --time 10h
+    tribofmu map mtm_zddp_thesis --out results/regression/map/mtm_zddp_thesis --accuracy '1 %' --time 30min
     tribofmu map mtm_zddp --out results/regression/map/coarse --accuracy '1 %' --time 15min \\
         --set film.points=33 surface_1.correlation_length='32 um' surface_2.correlation_length='32 um'
     python -m benchmarks.regression.map  # minutes: docs/measured/regression/map.md
@@ -31,8 +31,11 @@ from system_models.run.map_ranges import Ranges
 
 STORE = RESULTS / "regression" / "map"
 COARSE = {"film.points": "33", "surface_1.correlation_length": "32 um", "surface_2.correlation_length": "32 um"}
-SETS = {"full": {}, "coarse": COARSE}
-WORDS = {"full": "mtm_zddp on its own grid", "coarse": "mtm_zddp on 33 nodes, correlation lengths of 32 um"}
+SETS: dict[str, tuple[str, dict[str, str], str]] = {  # scene, changes, words
+    "mtm_zddp_thesis": ("mtm_zddp_thesis", {}, "mtm_zddp_thesis as shipped, 65 nodes"),
+    "coarse": ("mtm_zddp", COARSE, "mtm_zddp on 33 nodes, correlation lengths of 32 um"),
+}
+JUDGED = "mtm_zddp_thesis"
 NAMES = ("friction", "h_c", "W_c")
 PARTS = 10  # of the knots, each left out in turn, for half widths
 WIDE = 1.96  # standard deviations in a half width
@@ -64,7 +67,7 @@ class Method(NamedTuple):
 
 def data(name: str) -> Data | None:
     """Return the knots that are kept under a name."""
-    scene = Scene.from_toml("mtm_zddp", SETS[name])
+    scene = Scene.from_toml(*SETS[name][:2])
     order, file = Order(scene, Ranges.of(scene, {}), 0.01, 0.0), STORE / name / "knots.jsonl"
     if not file.exists():
         return None
@@ -272,7 +275,7 @@ def map_of(page: Page, name: str, found: Data) -> Judged:
             output, f"{100.0 * np.sqrt(np.mean(judge.raw[:, k] ** 2)):.1f} %", f"{100.0 * np.sqrt(np.mean(off**2)):.1f} %",
             f"{100.0 * medians[k]:.1f} %", f"{np.mean(off <= alone):.0%}", f"{np.mean(off <= both):.0%}", f"{np.max(off / both):.2f}", f"{np.mean(off <= 0.1 * both):.0%}",
         )  # fmt: skip
-    if name == "full":
+    if name == JUDGED:
         page.verdict(
             "held-back knots within the stated error",
             f"{np.min(np.mean(np.abs(judge.off) <= judge.stated, axis=0)):.0%}, at least 95 %",
@@ -308,7 +311,7 @@ def main() -> None:
             continue
         refused = sum(not knot.counts for knot in found.knots)
         page.say(
-            f"**{WORDS[name]}**: {len(found.samples.shares)} knots, {len(found.held.shares)} held back, {refused} that did not converge left out. "
+            f"**{SETS[name][2]}**: {len(found.samples.shares)} knots, {len(found.held.shares)} held back, {refused} that did not converge left out. "
             f"The blocks state errors of {', '.join(f'{100 * x:.0f} %' for x in np.median(found.errors, axis=0))} (median)."
         )
         compared(page, found)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ContactError
-from .map import COORDINATES, OUTPUTS, Map
+from .map import COORDINATES, OUTPUTS, STEEPEST, Map
 
 Array = NDArray[np.float64]
 
@@ -29,7 +29,7 @@ _NARROWEST = 0.005  # half width that counts as none
 _PARTS = 10  # of the contacts, each left out in turn
 _NARROW = 1e-9  # range of a coordinate that does not change
 _UNLIKE = 1e-6  # of a term's square, that must be left of it beside the others
-_SMALL = 0.05  # W_c (1 - W_c): its smaller deviations are fitted to no better than this
+_EDGE = 0.01  # W_c: smaller ones, and larger ones than 1 less that, count as it
 
 
 class Samples(NamedTuple):
@@ -45,12 +45,6 @@ class Samples(NamedTuple):
     def some(self, which: NDArray[np.bool_]) -> "Samples":
         """Return some of the contacts."""
         return Samples(*(part[which] for part in self))
-
-    @property
-    def solids(self) -> Array:
-        """W_c (1 - W_c), in which the deviation of W_c is counted."""
-        found: Array = self.shares * (1.0 - self.shares)
-        return found
 
 
 @dataclass(frozen=True)
@@ -104,8 +98,9 @@ def left_out(
 
 def predicted(chart: Map, samples: Samples) -> Array:
     """Return the deviations that a map has for contacts within its ranges, as in `Samples.off`."""
-    told = design(chart, samples.places) @ np.array(chart.weights).T
-    told[:, 2] *= samples.solids
+    told = np.clip(design(chart, samples.places) @ np.array(chart.weights).T, -STEEPEST, STEEPEST)
+    odds = np.exp(told[:, 2])
+    told[:, 2] = odds * samples.shares / (1.0 + (odds - 1.0) * samples.shares) - samples.shares
     return np.asarray(told)
 
 
@@ -143,7 +138,7 @@ def polynomials(
     centres, halves = 0.5 * (high + low)[list(picked)], 0.5 * (high - low)[list(picked)]
     scaled = (samples.places[:, picked] - centres) / halves
     deviations = samples.off.copy()
-    deviations[:, 2] /= np.maximum(samples.solids, _SMALL)
+    deviations[:, 2] = _logit(samples.shares + samples.off[:, 2]) - _logit(samples.shares)
     made = _sparse(scaled, deviations, rule) if rule.sparse else _all(scaled, rule)
     terms = _columns(scaled, made)
     squares = terms.T @ terms + rule.ridge * np.diag([0.0] + [1.0] * len(made))
@@ -167,6 +162,11 @@ def polynomials(
         uneven=((0.0,) * (1 + len(picked)),) * len(OUTPUTS),
         own=tuple(map(_tuple, own)),
     )
+
+
+def _logit(shares: Array) -> Array:
+    bounded = np.clip(shares, _EDGE, 1.0 - _EDGE)
+    return np.asarray(np.log(bounded / (1.0 - bounded)))
 
 
 def _tuple(values: Array) -> tuple[float, ...]:

@@ -27,6 +27,7 @@ COORDINATES = (  # of a contact by the regression level, in the order of `query.
     "raised_1",  # by which the tribofilm of body 1 makes it rougher, over composite roughness of new surfaces
     "raised_2",  # likewise of body 2
 )
+STEEPEST = 3.0  # largest logarithm of a factor
 _FORMAT = 1
 _APART = ("name", "description", "operation", "control")  # parts of a scene that no map depends on
 
@@ -49,7 +50,7 @@ class Map:
     least_slip: float  # smallest sliding over entrainment speed of the knots
     term: tuple[int, ...]  # of each term but the first: the earlier term
     coordinate: tuple[int, ...]  # and the coordinate that it is multiplied by
-    weights: tuple[Numbers, ...]  # of ln friction factor, ln film factor, change of W_c over W_c (1 - W_c)
+    weights: tuple[Numbers, ...]  # of ln of the factors of friction, h_c, and W_c / (1 - W_c)
     spread: tuple[Numbers, ...]  # triangle: the squares of these sums of terms add up to the variance by few knots
     uneven: tuple[Numbers, ...]  # weights of ln half width (95 %) about a polynomial: of 1 and of each coordinate
     own: tuple[Numbers, ...]  # likewise of the half width of what all solutions share: grid and iteration

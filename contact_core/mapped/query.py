@@ -10,11 +10,10 @@ from typing import NamedTuple
 from ..amended import amended, kept
 from ..regression.contact import MeanContact
 from ..scene import Case
-from .map import Map
+from .map import STEEPEST, Map
 
 _SLIP, _OIL, _THIN, _NONE = 0.1, 1e-4, 1e-3, 1e-9  # least numbers: no logarithm of 0
 _MARGIN = 1.0  # of half the range of a coordinate, over which a map fades out: films still grow with the speed there
-_STEEPEST = 0.7  # largest logarithm of a factor
 
 
 class Told(NamedTuple):
@@ -111,8 +110,8 @@ def told(chart: Map, case: Case, contact: MeanContact, stated: tuple[float, floa
     wide = math.sqrt(1.0 + leverage(chart, found))
     friction = trust * bounded(total(chart.weights[0], found))
     film = trust * bounded(total(chart.weights[1], found))
-    share, solids = contact.load_ratio, contact.load_ratio * (1.0 - contact.load_ratio)
-    load = share + trust * solids * bounded(total(chart.weights[2], found))
+    odds = math.exp(trust * bounded(total(chart.weights[2], found)))
+    load = odds * contact.load_ratio / (1.0 + (odds - 1.0) * contact.load_ratio)
     half = []
     for uneven, own, regression in zip(chart.uneven, chart.own, stated, strict=True):
         known = math.hypot(wide * math.exp(total(uneven, scaled)), math.exp(total(own, scaled)))
@@ -121,8 +120,8 @@ def told(chart: Map, case: Case, contact: MeanContact, stated: tuple[float, floa
 
 
 def bounded(value: float) -> float:
-    """Return a polynomial's value within what a factor may be: W_c stays between 0 and 1 by that, too."""
-    return min(max(value, -_STEEPEST), _STEEPEST)
+    """Return a polynomial's value within what the logarithm of a factor may be."""
+    return min(max(value, -STEEPEST), STEEPEST)
 
 
 def corrected(chart: Map, case: Case, contact: MeanContact) -> MeanContact:
