@@ -127,7 +127,7 @@ PAGES: dict[str, Source] = {
     "regression/shapes": Source("regression.shapes page", (*LEVELS, "mtm_zddp", "fzg_flank", "ball_209_inner")),
     "regression/held_back": Source("regression.held_back", (*LEVELS, *SHAPES, "cam_tappet")),
     "regression/correlation": Source("regression.correlation", (*LEVELS, "correction", *SHAPES, "cam_tappet")),
-    "regression/map": Source("regression.map", (*LEVELS, "correction", "map", "mtm_zddp", "thesis")),
+    "regression/map": Source("regression.map", (*LEVELS, "correction", "map", "mtm_zddp")),
     "regression/hottest": Source("regression.hottest", (*LEVELS, *SHAPES)),
     "regression/cost": Source("regression.cost", ("film", "regression", *CIRCLES)),
     "friction/traction": Source("friction.traction", (*LEVELS, "azam_case_a", "mtm_zddp")),

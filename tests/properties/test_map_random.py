@@ -11,6 +11,7 @@ from mapped_scene import mapped_scene
 
 from contact_core import OperatingPoint, Outputs, Scene, advance, initial_state
 from contact_core.mapped.map import STEEPEST
+from contact_core.quantities import TABLE, value_out_of_range
 
 ERRORS = ("error_friction", "error_film", "error_load_ratio")
 
@@ -35,6 +36,8 @@ def test_outputs_stay_physical_and_between_what_the_map_may_say(
     for name in ("h_c", "friction_coefficient"):
         assert abs(math.log(getattr(out, name) / getattr(quick, name))) <= STEEPEST
     assert out.friction_coefficient > 0.0
+    for name, value in vars(out).items():
+        assert list(value_out_of_range(TABLE[name], value)) == []
     for error in ERRORS:
         assert 0.0 <= getattr(out, error) < math.inf
 
