@@ -27,6 +27,7 @@ _RIDGE = 1.0  # squares that each weight adds to the sum of squares, over those 
 _EVEN = 30.0  # likewise, of half widths, which are known from few large deviations
 _NARROWEST = 0.005  # half width that counts as none
 _PARTS = 10  # of the contacts, each left out in turn
+_ROOM = 1e-9  # of the ranges, so that no rounding puts a knot beyond them
 _NARROW = 1e-9  # range of a coordinate that does not change
 _UNLIKE = 1e-6  # of a term's square, that must be left of it beside the others
 _EDGE = 0.01  # W_c: smaller ones, and larger ones than 1 less that, count as it
@@ -135,7 +136,7 @@ def polynomials(
     """Return a map of samples without half widths."""
     low, high = samples.places.min(0), samples.places.max(0)
     picked = tuple(k for k in range(len(COORDINATES)) if high[k] - low[k] > _NARROW)
-    centres, halves = 0.5 * (high + low)[list(picked)], 0.5 * (high - low)[list(picked)]
+    centres, halves = 0.5 * (high + low)[list(picked)], (0.5 + _ROOM) * (high - low)[list(picked)]
     scaled = (samples.places[:, picked] - centres) / halves
     deviations = samples.off.copy()
     deviations[:, 2] = _logit(samples.shares + samples.off[:, 2]) - _logit(samples.shares)
@@ -154,7 +155,7 @@ def polynomials(
         picked=picked,
         centres=_tuple(centres),
         halves=_tuple(halves),
-        least_slip=float(samples.slips.min()),
+        least_slip=float(samples.slips.min()) * (1.0 - _ROOM),
         term=tuple(term for term, _ in made),
         coordinate=tuple(coordinate for _, coordinate in made),
         weights=tuple(map(_tuple, weights)),

@@ -8,7 +8,7 @@ from ..regression.outputs import half_widths
 from ..scene import Case, Scene
 from ..state import ContactState, Error, Outputs, RangeFlag, changed, flag_of_errors
 from .map import Map, map_of
-from .query import corrected, told
+from .query import corrected, half_widths_of, here, told
 
 _FRICTION, _FILM, _LOAD = CORRECTED.values()  # outputs that state errors
 
@@ -38,15 +38,12 @@ def stated(chart: Map, case: Case, contact: MeanContact, outputs: Outputs) -> Ou
     if kept(case, contact):
         return outputs
     raw = half_widths(case, contact)
-    found = told(chart, case, contact, (raw[_FRICTION], raw[_FILM], raw[_LOAD]))
-    wear = wear_error(outputs.error_wear, raw[_LOAD], contact.load_ratio, found.error_load_ratio, found.load_ratio)
-    errors = {
-        _FRICTION: found.error_friction,
-        _FILM: found.error_film,
-        _LOAD: found.error_load_ratio,
-        "error_wear": wear,
-    }
-    outside = RangeFlag.OUTSIDE_FIT if found.trust < 1.0 else RangeFlag(0)
+    place = here(chart, case, contact)
+    friction, film, load = half_widths_of(chart, place, (raw[_FRICTION], raw[_FILM], raw[_LOAD]))
+    ratio = told(chart, place, contact.load_ratio).load_ratio
+    wear = wear_error(outputs.error_wear, raw[_LOAD], contact.load_ratio, load, ratio)
+    errors = {_FRICTION: friction, _FILM: film, _LOAD: load, "error_wear": wear}
+    outside = RangeFlag.OUTSIDE_FIT if place.trust < 1.0 else RangeFlag(0)
     unsure = flag_of_errors(errors, case.scene.control.accuracy)
     flags = outputs.range_flags & ~int(RangeFlag.UNSURE) | int(outside) | int(unsure)
     return changed(outputs, **errors, range_flags=flags)

@@ -12,8 +12,18 @@ from ..regression.contact import MeanContact
 from ..scene import Case
 from .map import STEEPEST, Map
 
+Three = tuple[float, float, float]
+
 _SLIP, _OIL, _THIN, _NONE = 0.1, 1e-4, 1e-3, 1e-9  # least numbers: no logarithm of 0
 _MARGIN = 1.0  # of half the range of a coordinate, over which a map fades out: films still grow with the speed there
+
+
+class Here(NamedTuple):
+    """A contact as a map sees it."""
+
+    trust: float  # 1 within the ranges of the map, 0 where the regression level stands as it is
+    scaled: list[float]  # 1, and its coordinates from -1 to 1
+    terms: list[float]  # of the polynomials
 
 
 class Told(NamedTuple):
@@ -22,10 +32,6 @@ class Told(NamedTuple):
     friction: float  # factor on friction
     film: float  # factor on h_c
     load_ratio: float  # contact_load_ratio
-    trust: float  # 1 within the ranges of the map, 0 where the regression level stands as it is
-    error_friction: float  # half widths (95 %): relative
-    error_film: float  # relative
-    error_load_ratio: float  # absolute
 
 
 def coordinates(case: Case, contact: MeanContact) -> tuple[float, ...]:
@@ -96,27 +102,20 @@ def leverage(chart: Map, found: list[float]) -> float:
     return value
 
 
-def told(chart: Map, case: Case, contact: MeanContact, stated: tuple[float, float, float]) -> Told:
-    """Return what a map says of a contact with friction.
-
-    `stated` are the half widths of the regression level: of friction and h_c, relative, of contact_load_ratio.
-    """
+def here(chart: Map, case: Case, contact: MeanContact) -> Here:
+    """Return a contact with friction as a map sees it."""
+    op = case.op
     everything = coordinates(case, contact)
     place = tuple(everything[k] for k in chart.picked)
-    slip = abs(case.op.speed_1 - case.op.speed_2) / max(0.5 * abs(case.op.speed_1 + case.op.speed_2), _NONE)
-    trust = trusted(chart, place, slip)
+    slip = abs(op.speed_1 - op.speed_2) / max(0.5 * abs(op.speed_1 + op.speed_2), _NONE)
     scaled = scaled_to(chart, place)
-    found = terms(chart, scaled)
-    wide = math.sqrt(1.0 + leverage(chart, found))
-    friction = trust * bounded(total(chart.weights[0], found))
-    film = trust * bounded(total(chart.weights[1], found))
-    odds = math.exp(trust * bounded(total(chart.weights[2], found)))
-    load = odds * contact.load_ratio / (1.0 + (odds - 1.0) * contact.load_ratio)
-    half = []
-    for uneven, own, regression in zip(chart.uneven, chart.own, stated, strict=True):
-        known = math.hypot(wide * math.exp(total(uneven, scaled)), math.exp(total(own, scaled)))
-        half.append(trust * known + (1.0 - trust) * regression)
-    return Told(math.exp(friction), math.exp(film), load, trust, half[0], half[1], half[2])
+    return Here(trusted(chart, place, slip), scaled, terms(chart, scaled))
+
+
+def told(chart: Map, place: Here, load_ratio: float) -> Told:
+    """Return what a map says of a contact of a contact_load_ratio by the regression level."""
+    friction, film, odds = (math.exp(place.trust * bounded(total(weights, place.terms))) for weights in chart.weights)
+    return Told(friction, film, odds * load_ratio / (1.0 + (odds - 1.0) * load_ratio))
 
 
 def bounded(value: float) -> float:
@@ -124,11 +123,26 @@ def bounded(value: float) -> float:
     return min(max(value, -STEEPEST), STEEPEST)
 
 
+def half_widths_of(chart: Map, place: Here, stated: Three) -> Three:
+    """Return the half widths (95 %) of friction and h_c, relative, and of contact_load_ratio.
+
+    `stated` are those of the regression level, which hold as far as the map is not trusted.
+    """
+    wide = math.sqrt(1.0 + leverage(chart, place.terms))
+    friction, film, load = (
+        place.trust * math.hypot(wide * math.exp(total(uneven, place.scaled)), math.exp(total(own, place.scaled)))
+        + (1.0 - place.trust) * regression
+        for uneven, own, regression in zip(chart.uneven, chart.own, stated, strict=True)
+    )
+    return friction, film, load
+
+
 def corrected(chart: Map, case: Case, contact: MeanContact) -> MeanContact:
     """Return a contact of the regression level, corrected; the same one where that is exact or the map says nothing."""
     if kept(case, contact):
         return contact
-    found = told(chart, case, contact, (0.0, 0.0, 0.0))
-    if found.trust == 0.0:
+    place = here(chart, case, contact)
+    if place.trust == 0.0:
         return contact
+    found = told(chart, place, contact.load_ratio)
     return amended(contact, found.friction, found.film * contact.gap, found.load_ratio, max(case.op.bodies))

@@ -15,7 +15,7 @@ from contact_core.errors import SceneError
 from contact_core.mapped.fitting import Rule, design, predicted, spread_at, widths_at
 from contact_core.mapped.knot import contact_of, samples_of
 from contact_core.mapped.map import Map, digest_of
-from contact_core.mapped.query import coordinates, leverage, scaled_to, terms, told, total
+from contact_core.mapped.query import half_widths_of, here, leverage, told, total
 
 STATED = (0.3, 0.4, 0.2)  # half widths of the regression level
 NAMES = ("friction_coefficient", "h_c", "contact_load_ratio")
@@ -33,18 +33,16 @@ def test_a_query_is_the_polynomials_that_were_fitted() -> None:
     off, alone = predicted(chart(), samples), widths_at(chart(), samples.places)
     for k, knot in enumerate(found):
         case, contact = contact_of(scene, knot)
-        place = tuple(coordinates(case, contact)[i] for i in chart().picked)
-        scaled = scaled_to(chart(), place)
-        here = terms(chart(), scaled)
-        assert here == approx(columns[k].tolist(), rel=1e-12, abs=1e-15)
-        assert math.sqrt(1.0 + leverage(chart(), here)) == approx(wide[k], rel=1e-9)
-        answer = told(chart(), case, contact, STATED)
-        if answer.trust == 1.0:
-            assert math.log(answer.friction) == approx(off[k, 0], rel=1e-9, abs=1e-12)
-            assert math.log(answer.film) == approx(off[k, 1], rel=1e-9, abs=1e-12)
-            assert answer.load_ratio - contact.load_ratio == approx(off[k, 2], rel=1e-9, abs=1e-12)
-            own = math.exp(total(chart().own[1], scaled))
-            assert answer.error_film == approx(math.hypot(alone[k, 1], own), rel=1e-9)
+        place = here(chart(), case, contact)
+        assert place.terms == approx(columns[k].tolist(), rel=1e-12, abs=1e-15)
+        assert math.sqrt(1.0 + leverage(chart(), place.terms)) == approx(wide[k], rel=1e-9)
+        assert place.trust == 1.0
+        answer = told(chart(), place, contact.load_ratio)
+        assert math.log(answer.friction) == approx(off[k, 0], rel=1e-9, abs=1e-12)
+        assert math.log(answer.film) == approx(off[k, 1], rel=1e-9, abs=1e-12)
+        assert answer.load_ratio - contact.load_ratio == approx(off[k, 2], rel=1e-9, abs=1e-12)
+        own = [math.exp(total(weights, place.scaled)) for weights in chart().own]
+        assert half_widths_of(chart(), place, STATED) == approx(tuple(np.hypot(alone[k], own)), rel=1e-9)
 
 
 def test_the_variance_is_that_of_least_squares_by_its_textbook_formula() -> None:
