@@ -15,7 +15,7 @@ from .map import STEEPEST, Map
 Three = tuple[float, float, float]
 
 _SLIP, _OIL, _THIN, _NONE = 0.1, 1e-4, 1e-3, 1e-9  # least numbers: no logarithm of 0
-_MARGIN = 1.0  # of half the range of a coordinate, over which a map fades out: films still grow with the speed there
+_MARGIN = 1.0  # of half the range of a coordinate, over which a map fades out beyond it
 
 
 class Here(NamedTuple):
@@ -109,7 +109,8 @@ def here(chart: Map, case: Case, contact: MeanContact) -> Here:
     place = tuple(everything[k] for k in chart.picked)
     slip = abs(op.speed_1 - op.speed_2) / max(0.5 * abs(op.speed_1 + op.speed_2), _NONE)
     scaled = scaled_to(chart, place)
-    return Here(trusted(chart, place, slip), scaled, terms(chart, scaled))
+    known = op.spin == 0.0 and case.shape.radii == case.scene.shape().radii  # no knot has others
+    return Here(trusted(chart, place, slip) if known else 0.0, scaled, terms(chart, scaled))
 
 
 def told(chart: Map, place: Here, load_ratio: float) -> Told:

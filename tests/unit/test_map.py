@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from comparison import approx
-from mapped_scene import chart, drawn, knots, mapped_scene, scene_of
+from mapped_scene import NOISE, chart, drawn, knots, mapped_scene, scene_of
 
 from contact_core import OperatingPoint, Outputs, RangeFlag, Scene, advance, initial_state, uncertainty
 from contact_core.errors import SceneError
-from contact_core.mapped.fitting import Rule, design, predicted, spread_at, widths_at
+from contact_core.mapped.fitting import Rule, design, left_out, predicted, spread_at, widths_at
 from contact_core.mapped.knot import contact_of, samples_of
 from contact_core.mapped.map import Map, digest_of
 from contact_core.mapped.query import half_widths_of, here, leverage, told, total
@@ -135,6 +135,15 @@ def test_outside_its_ranges_it_is_the_regression_level_with_that_one_s_half_widt
     assert RangeFlag.OUTSIDE_FIT not in RangeFlag(at(scene, scene.operation.point).range_flags)
 
 
+@pytest.mark.parametrize("change", [{"spin": 5.0}, {"radius_x": 9.0e-3}])
+def test_inputs_that_no_knot_has_are_outside(tmp_path: Path, change: dict[str, float]) -> None:
+    scene = mapped_scene(tmp_path)
+    point = replace(scene.operation.point, **change)
+    out, quick = at(scene, point), at(scene.at_level("regression"), point)
+    assert out.h_c == quick.h_c
+    assert RangeFlag.OUTSIDE_FIT in RangeFlag(out.range_flags)
+
+
 def test_a_text_gives_the_same_map_again() -> None:
     assert Map.from_text(chart().to_text(), "map") == chart()
     assert len(chart().to_text()) < 2_000_000
@@ -196,3 +205,9 @@ def test_knots_are_drawn_by_their_number_alone() -> None:
     assert drawn(5) == drawn(5)
     assert drawn(5) != drawn(6)
     assert drawn(5) != drawn(5, seed=2)
+
+
+def test_half_widths_are_found_without_the_contacts_that_they_are_of() -> None:
+    samples = samples_of(scene_of(), knots(40))
+    off, _ = left_out(samples, "", "", (), Rule(degree=2, sparse=False, ridge=1e-6))  # as many terms as contacts
+    assert np.sqrt(np.mean(off[:, 0] ** 2)) > 1.5 * NOISE
