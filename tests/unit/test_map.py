@@ -14,7 +14,7 @@ from contact_core import OperatingPoint, Outputs, RangeFlag, Scene, advance, ini
 from contact_core.errors import SceneError
 from contact_core.mapped.fitting import Rule, design, left_out, predicted, spread_at, widths_at
 from contact_core.mapped.knot import contact_of, samples_of
-from contact_core.mapped.map import Map, digest_of
+from contact_core.mapped.map import Map, digest_of, read, shipped_maps
 from contact_core.mapped.query import half_widths_of, here, leverage, told, total
 
 STATED = (0.3, 0.4, 0.2)  # half widths of the regression level
@@ -211,3 +211,23 @@ def test_half_widths_are_found_without_the_contacts_that_they_are_of() -> None:
     samples = samples_of(scene_of(), knots(40))
     off, _ = left_out(samples, "", "", (), Rule(degree=2, sparse=False, ridge=1e-6))  # as many terms as contacts
     assert np.sqrt(np.mean(off[:, 0] ** 2)) > 1.5 * NOISE
+
+
+def test_shipped_maps_are_small_and_cheap_and_of_the_shipped_scenes() -> None:
+    for name in shipped_maps():
+        found, scene = read(name), Scene.from_toml(name).at_level("map")
+        assert found.digest == digest_of(scene)
+        assert found.cost <= 1500
+        assert len(found.to_text()) < 2_000_000
+        speeds = np.geomspace(*next(ends for key, *ends in found.ranges if key == "entrainment"), 60)
+        point, slip = (
+            scene.operation.point,
+            abs(scene.operation.point.sliding_speed / scene.operation.point.entrainment_speed),
+        )
+        outs = [
+            at(scene, replace(point, speed_1=u * (1 + 0.5 * slip), speed_2=u * (1 - 0.5 * slip)))
+            for u in map(float, speeds)
+        ]
+        inside = [out for out in outs if not out.range_flags & RangeFlag.OUTSIDE_FIT]
+        assert len(inside) > 30
+        assert (np.diff([out.h_c for out in inside]) > 0.0).all()
