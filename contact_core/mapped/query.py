@@ -56,7 +56,7 @@ def coordinates(case: Case, contact: MeanContact) -> tuple[float, ...]:
     )
 
 
-def trusted(chart: Map, place: tuple[float, ...], slip: float) -> float:
+def trusted(chart: Map, place: list[float], slip: float) -> float:
     """Return how far a map is trusted: 1 within the ranges of its coordinates, 0 well outside and without sliding.
 
     `slip` is sliding over entrainment speed.
@@ -67,7 +67,7 @@ def trusted(chart: Map, place: tuple[float, ...], slip: float) -> float:
     return max(1.0 - beyond / _MARGIN, 0.0) * min(slip / chart.least_slip, 1.0)
 
 
-def scaled_to(chart: Map, place: tuple[float, ...]) -> list[float]:
+def scaled_to(chart: Map, place: list[float]) -> list[float]:
     """Return 1 and the coordinates from -1 to 1; outside the ranges those of the nearest point on their border."""
     found = [1.0]
     for value, centre, half in zip(place, chart.centres, chart.halves, strict=True):
@@ -106,7 +106,7 @@ def here(chart: Map, case: Case, contact: MeanContact) -> Here:
     """Return a contact with friction as a map sees it."""
     op = case.op
     everything = coordinates(case, contact)
-    place = tuple(everything[k] for k in chart.picked)
+    place = [everything[k] for k in chart.picked]
     slip = abs(op.speed_1 - op.speed_2) / max(0.5 * abs(op.speed_1 + op.speed_2), _NONE)
     scaled = scaled_to(chart, place)
     known = op.spin == 0.0 and case.shape.radii == case.scene.shape().radii  # no knot has others
@@ -115,7 +115,9 @@ def here(chart: Map, case: Case, contact: MeanContact) -> Here:
 
 def told(chart: Map, place: Here, load_ratio: float) -> Told:
     """Return what a map says of a contact of a contact_load_ratio by the regression level."""
-    friction, film, odds = (math.exp(place.trust * bounded(total(weights, place.terms))) for weights in chart.weights)
+    friction = math.exp(place.trust * bounded(total(chart.weights[0], place.terms)))
+    film = math.exp(place.trust * bounded(total(chart.weights[1], place.terms)))
+    odds = math.exp(place.trust * bounded(total(chart.weights[2], place.terms)))
     return Told(friction, film, odds * load_ratio / (1.0 + (odds - 1.0) * load_ratio))
 
 
@@ -130,12 +132,17 @@ def half_widths_of(chart: Map, place: Here, stated: Three) -> Three:
     `stated` are those of the regression level, which hold as far as the map is not trusted.
     """
     wide = math.sqrt(1.0 + leverage(chart, place.terms))
-    friction, film, load = (
-        place.trust * math.hypot(wide * math.exp(total(uneven, place.scaled)), math.exp(total(own, place.scaled)))
-        + (1.0 - place.trust) * regression
-        for uneven, own, regression in zip(chart.uneven, chart.own, stated, strict=True)
+    return (
+        _half_width(chart, 0, place, wide, stated[0]),
+        _half_width(chart, 1, place, wide, stated[1]),
+        _half_width(chart, 2, place, wide, stated[2]),
     )
-    return friction, film, load
+
+
+def _half_width(chart: Map, output: int, place: Here, wide: float, stated: float) -> float:
+    alone = wide * math.exp(total(chart.uneven[output], place.scaled))
+    shared = math.exp(total(chart.own[output], place.scaled))
+    return place.trust * math.hypot(alone, shared) + (1.0 - place.trust) * stated
 
 
 def corrected(chart: Map, case: Case, contact: MeanContact) -> MeanContact:
