@@ -88,8 +88,8 @@ def _page(built: Built, picture: str) -> str:
             "",
             *_markdown(given),
             "",
-            "Half widths (95 %) of the map are of one block about it, by knots left out. Held-back knots took no part "
-            "in the map; blocks state errors of their own.",
+            "Half widths (95 %) of the map are by knots left out, beyond the scatter that each block states for itself. "
+            "Held-back knots took no part in the map.",
             "",
             *_markdown(rows(built)),
             *(["", f"![held-back knots]({picture})"] if picture else []),
