@@ -88,7 +88,7 @@ def _page(built: Built, picture: str) -> str:
             "",
             *_markdown(given),
             "",
-            "Half widths (95 %) of the map are by knots left out, beyond the scatter that each block states for itself. "
+            "Half widths (95 %) of the map are by knots left out, beyond the scatter that a block states for itself. "
             "Held-back knots took no part in the map.",
             "",
             *_markdown(rows(built)),
