@@ -5,7 +5,8 @@
     model_rules  rules on the model description; unit_rules: on its units; binaries: on the libraries
     deep         rules that run the FMU, each in processes of its own, watched for crashes and hangs, within a budget
     stages       the entry of such a process
-    answers      rules on the answers of the FMU; reference: on the results that it carries; derivatives: on those it gives
+    answers      rules on the answers of the FMU; derivatives: on those that it gives itself
+    reference    rules on the results that it carries
     calls        rules on calls that a host should not make
     hosts        rules on the effects of the FMU on its host; confine: the folders that it may write to
     instance     one instance of the FMU, its calls written down; library: its library, whatever the version of FMI
