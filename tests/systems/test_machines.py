@@ -17,7 +17,7 @@ from test_cosim_command import result
 from test_resume import KILLED, bits
 from test_ssp import SPACES, imported, structure
 
-from fmu_src.flavours import FLAVOURS
+from fmu_src.flavours import WITH_PYTHON
 from system_models.cli.main import main
 from system_models.machines import reading
 from system_models.machines.assembly import Assembly
@@ -170,7 +170,7 @@ def test_isolated_fmus_run_the_rig_to_the_same_rows(tmp_path: Path, monkeypatch:
     monkeypatch.setenv("TRIBOFMU_PYTHON", sys.executable)
     assembly = reading.assemble(reading.read("mtm_rig"))
     settings = {**assembly.settings, "stop_time": 5.0, "outputs": assembly.outputs()}
-    runs = [simulate(assembly.system(tmp_path / flavour, flavour), **settings) for flavour in FLAVOURS]
+    runs = [simulate(assembly.system(tmp_path / flavour, flavour), **settings) for flavour in WITH_PYTHON]
     first, second = (bits(run[assembly.outputs()]) for run in runs)
     assert first == second
     assert runs[0].sizes["time"] > 5

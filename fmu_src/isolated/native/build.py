@@ -36,13 +36,31 @@ PLATFORMS = {
     "linux64": Platform(
         "x86_64-linux-gnu.2.17",  # any glibc since 2012
         ("-D_GNU_SOURCE", "-pthread"),
-        ("fmi2.c", "instance.c", "state.c", "resources.c", "python_linux.c", "channel_linux.c"),
+        (
+            "fmi2.c",
+            "fmi3.c",
+            "fmi3_unsupported.c",
+            "instance.c",
+            "state.c",
+            "resources.c",
+            "python_linux.c",
+            "channel_linux.c",
+        ),
         "tribofmu.so",
     ),
     "win64": Platform(
         "x86_64-windows-gnu",
         (),
-        ("fmi2.c", "instance.c", "state.c", "resources.c", "python_windows.c", "channel_windows.c"),
+        (
+            "fmi2.c",
+            "fmi3.c",
+            "fmi3_unsupported.c",
+            "instance.c",
+            "state.c",
+            "resources.c",
+            "python_windows.c",
+            "channel_windows.c",
+        ),
         "tribofmu.dll",
     ),
 }
