@@ -56,6 +56,7 @@ def test_a_dependency_that_is_not_declared_fails_its_rule(tmp_path: Path) -> Non
     found = answers(edited(built("gain", tmp_path), tmp_path / "silent.fmu", independent))
     assert verdicts(found, Verdict.FAIL) == {"feedthrough"}
     assert "moves y without a step" in found["feedthrough"].evidence
+    assert found["derivatives"].evidence == "1 derivatives agree with differences, while it is initialised."
 
 
 @pytest.mark.parametrize(("fmi", "library"), [(2, FMU2Checked), (3, FMU3Checked)])
