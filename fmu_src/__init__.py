@@ -3,13 +3,14 @@
     package     build time: description, documentation, licences, the file
     runtime     inside the FMU: the slave of a contact, its resources and its state
     isolated    the isolated flavour: library in C, supervisor and worker processes
+    native      the native flavour: an FMU in C99 for one scene, without Python
     variables   the FMU's variables, one per value reference, from the quantity table and the scene
     phases      phases in the life of an instance
-    native      the native flavour: C generated for one scene
     flavours    names of the flavours, and versions of FMI
 
-Imports run one way: package -> native -> runtime, isolated -> variables, phases, flavours. But for a native one, the
-FMU is thin: it carries its scene; the physics comes from the installed contact_core of the same version.
+Imports run one way: package -> native -> runtime, isolated -> variables, phases, flavours. The FMU is thin: it carries
+its scene; the physics comes from the installed contact_core of the same version. A native FMU alone carries the physics
+itself, as C sources.
 """
 
 

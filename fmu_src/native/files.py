@@ -6,11 +6,21 @@ from contact_core.errors import SceneError
 from contact_core.scene import Scene
 
 from ..flavours import Version
+from ..runtime.resources import MODEL, guid
+from ..variables import variables
+from . import build
+from .model import model_c
 
 
 def sources(scene: Scene, fmi: Version) -> dict[str, bytes]:
     """Return name and content of the sources. Raises SceneError if none can be generated for the scene."""
-    raise SceneError(f"The native flavour cannot be built yet, for FMI {fmi} and scene {scene.name}: choose isolated.")
+    model = model_c(variables(scene), guid(scene, "native", fmi))
+    return {**build.runtime(fmi), **contact(scene), "model.c": model.encode()}
+
+
+def contact(scene: Scene) -> dict[str, bytes]:
+    """Return contact.c and contact.h, the equations of a scene. Raises SceneError if it has none without a solver."""
+    raise SceneError(f"The equations of {scene.name} cannot be written as C yet. Choose the flavour isolated.")
 
 
 def binaries(sources: Mapping[str, bytes], fmi: Version) -> dict[str, bytes]:
@@ -18,4 +28,9 @@ def binaries(sources: Mapping[str, bytes], fmi: Version) -> dict[str, bytes]:
 
     Raises FileNotFoundError if there is no compiler.
     """
-    raise FileNotFoundError(f"There is no compiler for {len(sources)} sources of FMI {fmi}.")
+    return build.binaries(sources, fmi, MODEL)
+
+
+def missing(fmi: Version) -> list[str]:
+    """Return the platforms for which the installed compiler builds no library. Raises FileNotFoundError without any."""
+    return sorted({*build.platforms(fmi, "zig")} - {*build.platforms(fmi, build.default_compiler())})

@@ -81,10 +81,25 @@ def run(arguments: argparse.Namespace) -> int:
     try:
         recorded = _recorded(arguments.python)
         print(build(scene, out, arguments.flavour, fmi=arguments.fmi, python=recorded, reference=True))
+        _tell_missing(arguments)
     except OSError as error:
         print(f"The FMU cannot be written: {error}.", file=sys.stderr)
         return 2
     return 0
+
+
+def _tell_missing(arguments: argparse.Namespace) -> None:
+    """Print the platforms for which a native FMU has no library, if any."""
+    if arguments.flavour != "native":
+        return
+    from ..native.files import missing
+
+    if names := missing(arguments.fmi):
+        print(
+            f"Note: The FMU has no library for {', '.join(names)}. Build it with zig (pip install tribofmu[native]), "
+            "or compile its sources there (fmpy compile).",
+            file=sys.stderr,
+        )
 
 
 def _recorded(python: str | None) -> str | None:

@@ -21,6 +21,7 @@ _FURTHER: dict[Flavour, dict[str, bool]] = {  # the attributes of FMI 3.0 are fa
     "isolated": {},
     "native": {
         "providesDirectionalDerivatives": True,
+        "providesAdjointDerivatives": True,
         "providesIntermediateUpdate": True,
         "canReturnEarlyAfterIntermediateUpdate": True,
     },

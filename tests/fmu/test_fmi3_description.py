@@ -12,6 +12,7 @@ from test_parts_fmu import EXAMPLES
 
 from contact_core import Scene, SceneError
 from fmu_src.flavours import VERSIONS, WITH_PYTHON
+from fmu_src.native import build as native_build
 from fmu_src.native import files as native_files
 from fmu_src.package import compiled, fmi2, fmi3, terminals
 from fmu_src.package.build import build
@@ -175,7 +176,7 @@ def test_native_fmus_give_derivatives_and_those_of_fmi_3_may_return_early(
         for fmi in (2, 3)
     )
     assert two.find("CoSimulation").get("providesDirectionalDerivative") == "true"
-    for name in ("DirectionalDerivatives", "IntermediateUpdate"):
+    for name in ("DirectionalDerivatives", "AdjointDerivatives", "IntermediateUpdate"):
         assert three.find("CoSimulation").get(f"provides{name}") == "true"
     assert three.find("CoSimulation").get("canReturnEarlyAfterIntermediateUpdate") == "true"
     readable = {v.get("causality") for v in three.find("ModelVariables") if v.get("intermediateUpdate") == "true"}
@@ -190,6 +191,17 @@ def test_the_page_of_a_native_fmu_tells_how_to_change_a_parameter_and_how_to_com
         assert f"fmi{fmi}Warning" in page
         assert f"fmi{other}" not in page
         assert "Python process" not in page
+
+
+@pytest.mark.parametrize(("compiler", "named"), [("gcc", "no library for darwin64, win64."), ("zig", None)])
+def test_the_command_line_names_platforms_without_a_library(
+    compiler: str, named: str | None, tmp_path: Path, generator: None, monkeypatch: pytest.MonkeyPatch, capsys
+) -> None:
+    monkeypatch.setattr(native_build, "default_compiler", lambda: compiler)
+    arguments = ["--flavour", "native", "--set", "film.model=regression", "--out", str(tmp_path / "x.fmu")]
+    assert main(["mtm_zddp", *arguments]) == 0
+    said = capsys.readouterr().err
+    assert named in said if named else "no library" not in said
 
 
 def test_the_build_description_lists_what_is_compiled() -> None:

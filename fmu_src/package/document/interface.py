@@ -14,7 +14,7 @@ from .. import evidence, licences
 from .markup import bullets, paragraph, table
 
 _KINDS = (("Inputs", "input"), ("Outputs", "output"), ("Parameters", "parameter"), ("Time", "independent"))
-_OK, _WARNING, _ERROR = "OK", "Warning", "Error"
+_OK, _WARNING, _DISCARD, _ERROR = "OK", "Warning", "Discard", "Error"
 _UNUSABLE: dict[Flavour, str] = {"isolated": _WARNING, "embedded": _OK, "native": _WARNING}
 _REFUSED: dict[Flavour, str] = {"isolated": _ERROR, "embedded": _OK, "native": _ERROR}
 _PARAMETER: dict[Flavour, tuple[str, str, str]] = {
@@ -30,6 +30,11 @@ _PARAMETER: dict[Flavour, tuple[str, str, str]] = {
     ),
 }
 _PARAMETER["embedded"] = (_PARAMETER["isolated"][0], _OK, _PARAMETER["isolated"][2])
+_AFTER_STATE: dict[Flavour, str] = {
+    "isolated": "valid is false; nothing else changes",
+    "embedded": "valid is false; nothing else changes",
+    "native": "nothing changes",
+}
 _FAILURES: dict[Flavour, tuple[tuple[str, str, str], ...]] = {
     "isolated": (
         (
@@ -50,7 +55,13 @@ _FAILURES: dict[Flavour, tuple[tuple[str, str, str], ...]] = {
             "valid is false; state and outputs do not change; the log has its traceback",
         ),
     ),
-    "native": (),
+    "native": (
+        (
+            "a directional derivative that cannot be computed at these inputs",
+            _DISCARD,
+            "nothing changes, the log gives the reason",
+        ),
+    ),
 }
 _LOGGING: dict[Flavour, str] = {
     "isolated": (
@@ -102,7 +113,7 @@ def _events(flavour: Flavour) -> tuple[tuple[str, str, str], ...]:
         (
             "a state that cannot be used",
             _REFUSED[flavour],
-            "valid is false; nothing else changes, the log gives the reason",
+            f"{_AFTER_STATE[flavour]}, the log gives the reason",
         ),
         *_FAILURES[flavour],
     )
@@ -129,16 +140,17 @@ def _row(v: Variable) -> tuple[str, ...]:
 def state(flavour: Flavour, fmi: Version) -> Iterator[str]:
     """Yield the section on FMU states."""
     run_in = (
-        "The run starts from fresh surfaces, or from the state that was current when the FMU was built."
+        "The first run, and every run after a reset, starts from fresh surfaces."
         if flavour == "native"
         else f"{INITIAL_STATE} names a file with the bytes of contact_core's ContactState.to_bytes(), to start from "
         "run-in surfaces; empty: fresh surfaces."
     )
+    refused = "and changes nothing." if flavour == "native" else "when it is set: valid is false, nothing changes."
     yield from bullets(
         (
             "FMU states can be got, set, serialised and deserialised at any time. A replay agrees bit for bit, also in "
             "another instance and in another process. A state includes parameters and inputs.",
-            "A damaged state, or a state of another FMU, is refused when it is set: valid is false, nothing changes.",
+            f"A damaged state, or a state of another FMU, is refused {refused}",
             run_in,
             f"fmi{fmi}Reset restores the start values; the next run repeats the first one.",
         )
@@ -176,7 +188,8 @@ def _compilation() -> Iterator[str]:
             "sources/ has everything for any other platform: contact.c, the equations of the contact; model.c, its "
             "variables; the rest is the same for every contact. Compile without contraction of products and sums "
             "(-ffp-contract=off), and the results agree bit for bit on all platforms.",
-            "fmpy compile FILE.fmu adds the library of the platform on which it runs; it needs CMake and a C compiler.",
+            "CFLAGS=-ffp-contract=off fmpy compile FILE.fmu adds the library of the platform on which it runs; it "
+            "needs CMake and a C compiler.",
         )
     )
 
