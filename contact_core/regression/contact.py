@@ -22,6 +22,7 @@ from .surfaces import Tribofilms, composite_roughness, mean_cover, regression_fi
 Array = NDArray[np.float64]
 
 _WARMER = np.array([0.0, 0.0, 0.0, 0.0, KELVIN, 0.0])
+_TO_KNOW = 2  # points that all but the derivatives need
 
 
 class MeanContact(NamedTuple):
@@ -68,8 +69,11 @@ class _Point(NamedTuple):
     grip: float  # share of the limiting stress
 
 
-def evaluate(case: Case, tribofilms: Tribofilms) -> MeanContact:
-    """Return the contact of an operating point and its derivatives; without load the bodies just touch."""
+def evaluate(case: Case, tribofilms: Tribofilms, derivatives: bool = True) -> MeanContact:
+    """Return the contact of an operating point and its derivatives; without load the bodies just touch.
+
+    Without `derivatives` those are zero, at a third of the cost.
+    """
     scene, op = case.scene, case.op
     if op.load < LIGHTEST:
         sigma, cover = composite_roughness(tribofilms), mean_cover(scene, tribofilms)
@@ -80,7 +84,7 @@ def evaluate(case: Case, tribofilms: Tribofilms) -> MeanContact:
     sliding, surfaces = op.sliding_speed, surfaces_of(case, tribofilms)
     further = STEP * math.copysign(max(abs(sliding), scene.boundary_friction.slip_speed), sliding)
     smooth = smooth_film(case, further)
-    points = _points(case, surfaces, smooth.film, further)
+    points = _points(case, surfaces, smooth.film, further)[: None if derivatives else _TO_KNOW]
     fluid, heat = _oil_friction(case, points, further)
     now, slide, pull = points[0], abs(points[0].rubbing), abs(points[0].solid + fluid[0])
     if heat is None:
@@ -104,7 +108,7 @@ def evaluate(case: Case, tribofilms: Tribofilms) -> MeanContact:
         now.touching,
         -solid[0],
         -oil[0],
-        _derivatives(case, smooth, forces, further),
+        _derivatives(case, smooth, forces, further) if derivatives else (0.0,) * 4,
         now.pressure,
         abs(now.shear),
         abs(fluid[0]) / now.oily if now.oily > 0.0 else 0.0,
@@ -137,7 +141,7 @@ def _between(point: _Point, slope: float) -> float:
 def _points(case: Case, surfaces: Surfaces, film: float, further: float) -> list[_Point]:
     """Return the operating point, and those with more sliding (by `further` [m/s]), film, load, temperature, speed."""
     hertz, slide, speed = case.unit_hertz, case.op.sliding_speed, case.op.entrainment_speed
-    (root, wide), (longer, wider) = hertz.growth(case.op.load), hertz.growth(1.0 + STEP)
+    (root, wide), (longer, wider) = case.growth, hertz.growth(1.0 + STEP)
     grown, more = (root, wide), (root * longer, wide * wider)
     now = _point(case, surfaces, film, grown, slide, speed)
     return [
@@ -196,7 +200,8 @@ def _oil_friction(case: Case, points: list[_Point], further: float) -> tuple[lis
     """Return the friction of the oil [N] at the points, and the heat where it warms the film."""
     scene, op, hertz = case.scene, case.op, case.unit_hertz
     oily, pressures, rates, grips = np.array([(p.oily, p.oil_pressure, p.oil_rate, p.grip) for p in points]).T
-    start = op.inlet_temperature + _WARMER
+    warmer, count = _WARMER[: len(points)], len(points)
+    start = op.inlet_temperature + warmer
     kept = oily * regression_film(scene).sharing.oil_kept
 
     def friction(warm: Array) -> Array:
@@ -205,11 +210,11 @@ def _oil_friction(case: Case, points: list[_Point], further: float) -> tuple[lis
     if not scene.heat.warms_film:
         return friction(start).tolist(), None
     solid, rubbing, areas, gaps = np.array([(p.solid, p.rubbing, p.area, p.shares.gap) for p in points]).T
-    first, second = np.full(6, op.speed_1, np.float64), np.full(6, op.speed_2, np.float64)
-    first[1], second[1] = op.speed_1 + 0.5 * further, op.speed_2 - 0.5 * further
-    first[5], second[5] = op.speed_1 + _faster(case), op.speed_2 + _faster(case)
+    one, two, more, faster = op.speed_1, op.speed_2, 0.5 * further, _faster(case)
+    first = np.array([one, one + more, one, one, one, one + faster][:count])
+    second = np.array([two, two - more, two, two, two, two + faster][:count])
     one, two = op.bodies
-    bodies = (one + _WARMER, two + _WARMER)
+    bodies = (one + warmer, two + warmer)
     heat = MeanHeat.of(scene.heat, hertz, (first, second), bodies, areas, gaps, scene.lubricant.conductivity)
     warm = heat.film(start, lambda film: np.abs((solid + friction(film)) * rubbing))
     return friction(warm).tolist(), heat

@@ -2,14 +2,14 @@
 
 from collections.abc import Mapping
 
-from contact_core.errors import SceneError
 from contact_core.scene import Scene
 
 from ..flavours import Version
 from ..runtime.resources import MODEL, guid
 from ..variables import variables
-from . import build
+from . import build, program
 from .model import model_c
+from .tables import tables_h
 
 
 def sources(scene: Scene, fmi: Version) -> dict[str, bytes]:
@@ -19,8 +19,9 @@ def sources(scene: Scene, fmi: Version) -> dict[str, bytes]:
 
 
 def contact(scene: Scene) -> dict[str, bytes]:
-    """Return contact.c and contact.h, the equations of a scene. Raises SceneError if it has none without a solver."""
-    raise SceneError(f"The equations of {scene.name} cannot be written as C yet. Choose the flavour isolated.")
+    """Return the equations of a scene. Raises SceneError if it has none without a solver."""
+    texts = {**program.written(scene), "tables.h": tables_h()}
+    return {name: text.encode() for name, text in texts.items()}
 
 
 def binaries(sources: Mapping[str, bytes], fmi: Version) -> dict[str, bytes]:
