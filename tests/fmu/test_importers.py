@@ -13,16 +13,10 @@ from importers import IMPORTERS, PRINTED_DIGITS, STEP, STIMULI, UNUSABLE
 from test_run import direct
 
 from benchmarks.hosts.native_host import OK, NativeHost, plain_environment
-from contact_core.errors import SceneError
 from fmu_src.flavours import VERSIONS
 from fmu_src.package.build import build
 
-UNBUILT = pytest.mark.xfail(strict=True, raises=SceneError, reason="the C of a scene cannot be generated yet")
-KINDS = [
-    pytest.param((flavour, fmi), id=f"{flavour}-{fmi}", marks=[UNBUILT] if flavour == "native" else [])
-    for flavour, versions in VERSIONS.items()
-    for fmi in versions
-]
+KINDS = [(flavour, fmi) for flavour, versions in VERSIONS.items() for fmi in versions]
 REFUSED = {  # by importer, and flavour or version of FMI
     ("fmuloader", "embedded"): "fmuloader asks for the functions of model exchange, which pythonfmu's binary lacks",
     ("pyfmi", "embedded"): "PyFMI refuses FMUs with needsExecutionTool=true",
@@ -37,7 +31,7 @@ NAMED_BY = {
 }
 
 
-@pytest.fixture(scope="module", params=KINDS)
+@pytest.fixture(scope="module", params=KINDS, ids=lambda kind: f"{kind[0]}-{kind[1]}")
 def kind(request):
     """Flavour and version of FMI."""
     return request.param

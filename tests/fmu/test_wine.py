@@ -17,7 +17,6 @@ from benchmarks.hosts import native_host
 from benchmarks.hosts.native_host import ERROR, NONE, OK, Instance, NativeHost, plain_environment
 from benchmarks.hosts.processes import soon
 from contact_core import Scene
-from contact_core.errors import SceneError
 from fmu_src.flavours import Version
 from fmu_src.package.build import build
 
@@ -119,7 +118,6 @@ def test_windows_gives_the_bits_of_linux_by_fmi_3(hosts: Hosts, scene: Scene, tm
     agree(hosts, unpacked(fmu, tmp_path / "a ü#+ b"), tmp_path, surface_1__seed=3)
 
 
-@pytest.mark.xfail(strict=True, raises=SceneError, reason="the C of a scene cannot be generated yet")
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_a_native_fmu_for_windows_gives_the_bits_of_linux(
     hosts: Hosts, quick: Scene, relay: Relay, tmp_path: Path, fmi: Version
