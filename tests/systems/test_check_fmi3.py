@@ -1,5 +1,6 @@
 """The command `check` on FMUs of FMI 3.0: every rule asks them, and each defect is told by the rule concerned."""
 
+import sys
 import zipfile
 from pathlib import Path
 
@@ -7,6 +8,9 @@ import pytest
 from checking import LAX, ROUGH, XML, answers, deep_findings, edited, replaced, static_findings, verdicts
 
 from benchmarks import models
+from contact_core import Scene
+from fmu_src.flavours import Flavour
+from fmu_src.package.build import build
 from system_models.check.library import FMU2Checked, FMU3Checked
 from system_models.check.verdict import Verdict
 
@@ -18,6 +22,19 @@ def built(name: str, tmp_path: Path, **variant: object) -> Path:
 def test_an_fmu_that_minds_its_calls_and_its_host_gets_no_note(tmp_path: Path) -> None:
     found = deep_findings(built("echo", tmp_path), *(LAX - {"stop time"}), *ROUGH)
     assert verdicts(found, Verdict.PASS) == {"run", *LAX, *ROUGH} - {"stop time"}
+
+
+@pytest.mark.parametrize("flavour", ["native", "isolated"])
+def test_our_own_fmu_fails_no_rule(
+    scene: Scene, tmp_path: Path, flavour: Flavour, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("TRIBOFMU_PYTHON", sys.executable)
+    fmu = build(scene.at_level("regression"), tmp_path / "contact.fmu", flavour, fmi=3, reference=True)
+    assert verdicts(static_findings(fmu), Verdict.FAIL) == set()
+    found = answers(fmu)
+    assert verdicts(found, Verdict.FAIL) == set()
+    assert verdicts(found, Verdict.NOTE) <= {"step splitting", "derivatives"}
+    assert found["stop time"].verdict == Verdict.PASS
 
 
 def test_a_good_fmu_fails_no_rule(tmp_path: Path) -> None:
