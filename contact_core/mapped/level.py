@@ -3,8 +3,9 @@
 from .. import regression
 from ..amended import kept, wear_error
 from ..correction import CORRECTED
-from ..regression.contact import MeanContact
+from ..regression.contact import MeanContact, evaluate
 from ..regression.outputs import half_widths
+from ..regression.surfaces import Tribofilms
 from ..scene import Case, Scene
 from ..state import ContactState, Error, Outputs, RangeFlag, changed, flag_of_errors
 from .map import Map, map_of
@@ -17,11 +18,11 @@ def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, O
     """Return the state and outputs after `dt` [s]. Raises SceneError if the scene has no map, or another one's."""
     chart, contacts = map_of(case.scene), _Last()
 
-    def amend(now: Case, contact: MeanContact) -> MeanContact:
-        contacts.case, contacts.contact = now, contact
-        return corrected(chart, now, contact)
+    def contact_of(now: Case, tribofilms: Tribofilms) -> MeanContact:
+        contacts.case, contacts.contact = now, evaluate(now, tribofilms)
+        return corrected(chart, now, contacts.contact)
 
-    after, outputs = regression.advance(case, state, dt, amend)
+    after, outputs = regression.advance(case, state, dt, contact_of)
     outputs = stated(chart, contacts.case, contacts.contact, outputs)
     return changed(after, outputs=outputs), outputs
 
