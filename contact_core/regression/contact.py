@@ -49,6 +49,16 @@ class MeanContact(NamedTuple):
     rolling: float  # resistance of the oil [N]
     oil_slope: float  # d ln(its friction) / d ln(sliding speed)
     hottest: float  # largest temperature of the surfaces [K]
+    stated: "Stated | None" = None  # errors where another level knows them better than the curves
+
+
+class Stated(NamedTuple):
+    """Half widths (95 %) of a corrected contact."""
+
+    friction: float  # relative
+    film: float  # relative, of the gap
+    load: float  # absolute, of load_ratio
+    trust: float  # 1 where the correction holds, 0 where there is none
 
 
 class _Point(NamedTuple):
