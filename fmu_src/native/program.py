@@ -168,7 +168,7 @@ def written(scene: Scene) -> dict[str, str]:
 
 def _translated(name: str, function: Any, operands: list[Any]) -> tuple[Entry, list[str]]:
     """Return a function to be called from C, and it and all that it needs as C."""
-    reads: dict[str, set[str]] = {}
+    reads: dict[Any, set[str]] = {}
     while True:  # members of results that nothing reads are left out, and then what was computed for them
         translator = Translator(reads)
         entry = translator.program(name, function, operands)

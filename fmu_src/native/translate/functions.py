@@ -92,12 +92,13 @@ def _name_of(function: types.FunctionType) -> str:
 class Translator:
     """Writes the C functions of a program."""
 
-    def __init__(self, reads: Mapping[str, set[str]] | None = None) -> None:
+    def __init__(self, reads: Mapping[Any, set[str]] | None = None) -> None:
         """Begin a program; `reads`: members that are read of the structs of functions, where that is known."""
         self._reads = reads or {}
         self.functions: list[tuple[str, str]] = []  # names and texts, each after those that it calls
         self._cache: dict[Any, CFunction] = {}
         self._names: set[str] = set()
+        self._keys: dict[str, Any] = {}  # what the functions are made from, by their names
         self._units: list[Unit] = []
         self._kept: list[Any] = []
 
@@ -120,22 +121,22 @@ class Translator:
                 kept.append(text)
         return kept[::-1]
 
-    def wanted(self, texts: Sequence[str], entries: Sequence["Entry"]) -> dict[str, set[str]]:
-        """Return the members that anything reads of the structs of functions; of entries all."""
-        found: dict[str, set[str]] = {}
+    def wanted(self, texts: Sequence[str], entries: Sequence["Entry"]) -> dict[Any, set[str]]:
+        """Return the members that anything reads of the structs of functions, by what they are made from; of entries all."""
+        found: dict[Any, set[str]] = {}
         for text in texts:
-            for struct, name in re.findall(r"const struct (\w+) (\w+) =", text):
-                found.setdefault(struct, set()).update(re.findall(rf"\b{name}\.(\w+)", text))
+            for struct, name in re.findall(r"const struct (\w+)\s+(\w+)\s+=", text):
+                found.setdefault(self._keys[struct], set()).update(re.findall(rf"\b{name}\.(\w+)", text))
         for entry in entries:
-            found.pop(entry.name, None)
+            found.pop(self._keys[entry.name], None)
         return found
 
     def _wanted(self, name: str, template: Any) -> Any:
         """Return the form of a result in which members that nobody reads are marked."""
-        if name not in self._reads:
+        if self._keys[name] not in self._reads:
             return template
         fields = iter(_fields(template))
-        return replaced(template, lambda hole: Num("" if next(fields) in self._reads[name] else _UNREAD, hole.kind))
+        return replaced(template, lambda hole: Num("" if next(fields) in self._reads[self._keys[name]] else _UNREAD, hole.kind))
 
     # what a scope asks for
 
@@ -372,6 +373,7 @@ class Translator:
         if key not in self._cache:
             self._kept.append((closure, bound))
             name = self._new_name(closure.name)
+            self._keys[name] = key
             first = self._written(name, closure, bound, None)
             if not first.returned:
                 raise Untranslatable(f"{closure.path} always refuses")
