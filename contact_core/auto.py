@@ -27,8 +27,9 @@ from .correction import (
     place,
 )
 from .errors import ContactError
-from .regression.contact import MeanContact
+from .regression.contact import MeanContact, evaluate
 from .regression.outputs import half_widths
+from .regression.surfaces import Tribofilms
 from .scene import Case, Scene
 from .state import ContactState, Error, Outputs, RangeFlag, Solved, changed, flag_of_errors
 
@@ -44,12 +45,12 @@ _NOWHERE = np.empty((0, _PLACE + 2 * len(CORRECTED)))
 def advance(case: Case, state: ContactState, dt: float) -> tuple[ContactState, Outputs]:
     """Return the state and outputs after `dt` [s], with one deterministic block at most."""
     corrector = _Corrector(case, state.solved)
-    after, outputs = regression.advance(case, state, dt, corrector.corrected)
+    after, outputs = regression.advance(case, state, dt, corrector.contact)
     if corrector.asks:
         solved, counted = _block(case, after, corrector)
         state = changed(state, solved=solved, outputs=changed(state.outputs, **counted))
         corrector = _Corrector(case, solved)
-        after, outputs = regression.advance(case, state, dt, corrector.corrected)
+        after, outputs = regression.advance(case, state, dt, corrector.contact)
     outputs = corrector.stated(outputs)
     return changed(after, outputs=outputs), outputs
 
@@ -78,7 +79,11 @@ class _Corrector:
         self._accuracy = ACCURACY if control.accuracy is None else control.accuracy
         self._flagged = _ASKED if control.accuracy is None else tuple(CORRECTED.values())
 
-    def corrected(self, case: Case, contact: MeanContact) -> MeanContact:
+    def contact(self, case: Case, tribofilms: Tribofilms) -> MeanContact:
+        """Return the contact of a case under tribofilms, corrected."""
+        return self._corrected(case, evaluate(case, tribofilms))
+
+    def _corrected(self, case: Case, contact: MeanContact) -> MeanContact:
         """Return a contact of the regression level, corrected; the same one if nothing is known."""
         errors, force = half_widths(case, contact), contact.solid + contact.fluid
         self.raw = {}

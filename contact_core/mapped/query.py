@@ -8,7 +8,8 @@ import math
 from typing import NamedTuple
 
 from ..amended import amended, kept
-from ..regression.contact import MeanContact
+from ..regression.contact import MeanContact, Stated
+from ..regression.outputs import half_widths
 from ..scene import Case
 from .map import STEEPEST, Map
 
@@ -147,11 +148,15 @@ def _half_width(chart: Map, output: int, place: Here, wide: float, stated: float
 
 
 def corrected(chart: Map, case: Case, contact: MeanContact) -> MeanContact:
-    """Return a contact of the regression level, corrected; the same one where that is exact or the map says nothing."""
+    """Return a contact of the regression level, corrected, with the errors that are left.
+
+    Where that level is exact, or the map says nothing, it stands as it is.
+    """
+    raw = half_widths(case, contact)
+    own = (raw["error_friction"], raw["error_film"], raw["error_load_ratio"])
     if kept(case, contact):
-        return contact
+        return contact._replace(stated=Stated(*own, 1.0))
     place = here(chart, case, contact)
-    if place.trust == 0.0:
-        return contact
     found = told(chart, place, contact.load_ratio)
-    return amended(contact, found.friction, found.film * contact.gap, found.load_ratio, max(case.op.bodies))
+    better = amended(contact, found.friction, found.film * contact.gap, found.load_ratio, max(case.op.bodies))
+    return better._replace(stated=Stated(*half_widths_of(chart, place, own), place.trust))

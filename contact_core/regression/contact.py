@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..laws.load_sharing import sliding_ratio
 from ..scene import Case
-from .load_sharing import UNFITTED, Fit, Shares, Surfaces, shared, surfaces_of
+from .load_sharing import UNFITTED, Fit, Parted, Shares, Surfaces, parted, shared, surfaces_of
 from .oil import Law, MeanHeat, oil_shear
 from .smooth_film import KELVIN, LIGHTEST, SLOWEST, STEP, SmoothFilm, smooth_film
 from .surfaces import Tribofilms, composite_roughness, mean_cover, regression_film
@@ -22,6 +22,7 @@ from .surfaces import Tribofilms, composite_roughness, mean_cover, regression_fi
 Array = NDArray[np.float64]
 
 _WARMER = np.array([0.0, 0.0, 0.0, 0.0, KELVIN, 0.0])
+_TO_KNOW = 2  # points that all but the derivatives need
 
 
 class MeanContact(NamedTuple):
@@ -48,6 +49,16 @@ class MeanContact(NamedTuple):
     rolling: float  # resistance of the oil [N]
     oil_slope: float  # d ln(its friction) / d ln(sliding speed)
     hottest: float  # largest temperature of the surfaces [K]
+    stated: "Stated | None" = None  # errors where another level knows them better than the curves
+
+
+class Stated(NamedTuple):
+    """Half widths (95 %) of a corrected contact."""
+
+    friction: float  # relative
+    film: float  # relative, of the gap
+    load: float  # absolute, of load_ratio
+    trust: float  # 1 where the correction holds, 0 where there is none
 
 
 class _Point(NamedTuple):
@@ -68,8 +79,11 @@ class _Point(NamedTuple):
     grip: float  # share of the limiting stress
 
 
-def evaluate(case: Case, tribofilms: Tribofilms) -> MeanContact:
-    """Return the contact of an operating point and its derivatives; without load the bodies just touch."""
+def evaluate(case: Case, tribofilms: Tribofilms, derivatives: bool = True) -> MeanContact:
+    """Return the contact of an operating point and its derivatives; without load the bodies just touch.
+
+    Without `derivatives` those are zero, at a third of the cost.
+    """
     scene, op = case.scene, case.op
     if op.load < LIGHTEST:
         sigma, cover = composite_roughness(tribofilms), mean_cover(scene, tribofilms)
@@ -80,7 +94,7 @@ def evaluate(case: Case, tribofilms: Tribofilms) -> MeanContact:
     sliding, surfaces = op.sliding_speed, surfaces_of(case, tribofilms)
     further = STEP * math.copysign(max(abs(sliding), scene.boundary_friction.slip_speed), sliding)
     smooth = smooth_film(case, further)
-    points = _points(case, surfaces, smooth.film, further)
+    points = _points(case, surfaces, smooth.film, further)[: None if derivatives else _TO_KNOW]
     fluid, heat = _oil_friction(case, points, further)
     now, slide, pull = points[0], abs(points[0].rubbing), abs(points[0].solid + fluid[0])
     if heat is None:
@@ -104,7 +118,7 @@ def evaluate(case: Case, tribofilms: Tribofilms) -> MeanContact:
         now.touching,
         -solid[0],
         -oil[0],
-        _derivatives(case, smooth, forces, further),
+        _derivatives(case, smooth, forces, further) if derivatives else (0.0,) * 4,
         now.pressure,
         abs(now.shear),
         abs(fluid[0]) / now.oily if now.oily > 0.0 else 0.0,
@@ -137,23 +151,24 @@ def _between(point: _Point, slope: float) -> float:
 def _points(case: Case, surfaces: Surfaces, film: float, further: float) -> list[_Point]:
     """Return the operating point, and those with more sliding (by `further` [m/s]), film, load, temperature, speed."""
     hertz, slide, speed = case.unit_hertz, case.op.sliding_speed, case.op.entrainment_speed
-    (root, wide), (longer, wider) = hertz.growth(case.op.load), hertz.growth(1.0 + STEP)
+    (root, wide), (longer, wider) = case.growth, hertz.growth(1.0 + STEP)
     grown, more = (root, wide), (root * longer, wide * wider)
-    now = _point(case, surfaces, film, grown, slide, speed)
+    here = parted(case, surfaces, film, grown)
+    now = _point(case, surfaces, here, grown, slide, speed)
     return [
         now,
-        _point(case, surfaces, film, grown, slide + further, speed),
-        _point(case, surfaces, film * (1.0 + STEP), grown, slide, speed),
-        _point(case, surfaces, film, more, slide, speed),
+        _point(case, surfaces, here, grown, slide + further, speed),
+        _point(case, surfaces, parted(case, surfaces, film * (1.0 + STEP), grown), grown, slide, speed),
+        _point(case, surfaces, parted(case, surfaces, film, more), more, slide, speed),
         now,
-        _point(case, surfaces, film, grown, slide, speed + _faster(case)),
+        _point(case, surfaces, here, grown, slide, speed + _faster(case)),
     ]
 
 
 def _point(
-    case: Case, surfaces: Surfaces, film: float, grown: tuple[float, float], slide: float, speed: float
+    case: Case, surfaces: Surfaces, parted: Parted, grown: tuple[float, float], slide: float, speed: float
 ) -> _Point:
-    """Return the solids for a film of smooth bodies [m], at a sliding and an entrainment speed [m/s].
+    """Return the solids of bodies that are parted, at a sliding and an entrainment speed [m/s].
 
     The load is that at which the contact at 1 N has `grown` by factors.
     """
@@ -165,7 +180,7 @@ def _point(
         rubbing = math.hypot(slide, hertz.lever_share * edge)
         along = slide / max(rubbing, SLOWEST)
         turned = slide / max(math.hypot(slide, hertz.turn_share * edge), SLOWEST)
-    shares = shared(case, surfaces, film, grown, sliding_ratio(rubbing, speed))
+    shares = shared(case, parted, sliding_ratio(rubbing, speed))
     largest, area = hertz.pressure_max * root, hertz.area * root * wide
     carried = hertz.mean_share * shares.load * largest  # mean over the Hertz area
     touching = max(shares.area, carried / surfaces.hardness)  # the hardness allows no smaller contact
@@ -196,7 +211,8 @@ def _oil_friction(case: Case, points: list[_Point], further: float) -> tuple[lis
     """Return the friction of the oil [N] at the points, and the heat where it warms the film."""
     scene, op, hertz = case.scene, case.op, case.unit_hertz
     oily, pressures, rates, grips = np.array([(p.oily, p.oil_pressure, p.oil_rate, p.grip) for p in points]).T
-    start = op.inlet_temperature + _WARMER
+    warmer, count = _WARMER[: len(points)], len(points)
+    start = op.inlet_temperature + warmer
     kept = oily * regression_film(scene).sharing.oil_kept
 
     def friction(warm: Array) -> Array:
@@ -205,11 +221,11 @@ def _oil_friction(case: Case, points: list[_Point], further: float) -> tuple[lis
     if not scene.heat.warms_film:
         return friction(start).tolist(), None
     solid, rubbing, areas, gaps = np.array([(p.solid, p.rubbing, p.area, p.shares.gap) for p in points]).T
-    first, second = np.full(6, op.speed_1, np.float64), np.full(6, op.speed_2, np.float64)
-    first[1], second[1] = op.speed_1 + 0.5 * further, op.speed_2 - 0.5 * further
-    first[5], second[5] = op.speed_1 + _faster(case), op.speed_2 + _faster(case)
+    one, two, more, faster = op.speed_1, op.speed_2, 0.5 * further, _faster(case)
+    first = np.array([one, one + more, one, one, one, one + faster][:count])
+    second = np.array([two, two - more, two, two, two, two + faster][:count])
     one, two = op.bodies
-    bodies = (one + _WARMER, two + _WARMER)
+    bodies = (one + warmer, two + warmer)
     heat = MeanHeat.of(scene.heat, hertz, (first, second), bodies, areas, gaps, scene.lubricant.conductivity)
     warm = heat.film(start, lambda film: np.abs((solid + friction(film)) * rubbing))
     return friction(warm).tolist(), heat

@@ -28,30 +28,30 @@ _AGREED = 0.05  # of control.change: contacts before and after a step may differ
 _TRIAL = 1.0  # s: step from which the speed of the surfaces' change is taken
 
 
-Amend = Callable[[Case, MeanContact], MeanContact]
+ContactOf = Callable[[Case, Tribofilms], MeanContact]  # of a case and of both tribofilms
 
 
-def _as_it_is(case: Case, contact: MeanContact) -> MeanContact:
-    return contact
-
-
-def advance(case: Case, state: ContactState, dt: float, amend: Amend = _as_it_is) -> tuple[ContactState, Outputs]:
+def advance(
+    case: Case, state: ContactState, dt: float, contact_of: ContactOf = evaluate
+) -> tuple[ContactState, Outputs]:
     """Return the state and outputs after `dt` [s] at the regression level.
 
-    Where the bodies warm up, it takes steps in which neither oil nor surfaces change much. `amend` gets each contact,
-    the one of the outputs last, and returns the one to go on with.
+    Where the bodies warm up, it takes steps in which neither oil nor surfaces change much. `contact_of` evaluates
+    each contact, the one of the outputs last.
     """
     scene = case.scene
     _check_pressure(case)
-    if not scene.heat.bulk.stores_heat or dt == 0.0:
-        return _stepped(case.warmed(state.temperatures), state, dt, amend)
+    if not scene.heat.bulk.stores_heat:
+        return _stepped(case, state, dt, contact_of)
+    if dt == 0.0:
+        return _stepped(case.warmed(state.temperatures), state, dt, contact_of)
     before, left = [state.outputs.wear_volume_1, state.outputs.wear_volume_2], dt
     while left > 0.0:
         now, step = case.warmed(state.temperatures), left
-        after, outputs = _stepped(now, state, step, amend)
+        after, outputs = _stepped(now, state, step, contact_of)
         while step > (longest := min(outputs.suggested_step, cool_time(now, after.outputs, step))) > NO_TIME:
             step = longest
-            after, outputs = _stepped(now, state, step, amend)
+            after, outputs = _stepped(now, state, step, contact_of)
         warm = temperatures_after(now, after.outputs, step)
         state, left = changed(after, temperatures=warm), left - step
     rates = [(out - old) / dt for out, old in zip((outputs.wear_volume_1, outputs.wear_volume_2), before, strict=True)]
@@ -65,7 +65,7 @@ def advance(case: Case, state: ContactState, dt: float, amend: Amend = _as_it_is
 def _check_pressure(case: Case) -> None:
     """Raise OperatingPointError if smooth bodies would yield: no curve was fitted to such a contact."""
     hertz, hardness = case.unit_hertz, case.scene.plasticity.hardness
-    pressure = hertz.pressure_max * hertz.growth(case.op.load)[0]
+    pressure = hertz.pressure_max * case.growth[0]
     if pressure > hardness:
         raise OperatingPointError(
             f"load = {case.op.load:g} N presses smooth bodies together with {pressure:.3g} Pa, above "
@@ -74,24 +74,24 @@ def _check_pressure(case: Case) -> None:
         )
 
 
-def _stepped(case: Case, state: ContactState, dt: float, amend: Amend) -> tuple[ContactState, Outputs]:
+def _stepped(case: Case, state: ContactState, dt: float, contact_of: ContactOf) -> tuple[ContactState, Outputs]:
     """Return the state and outputs after `dt` [s] at held bulk temperatures."""
     before = state.means or means_of(case.scene, state)
     means, films, left = before, tribofilms_of(before), dt
     classes: Classes | None = _classes(case, state)
     harm: Harm | None = None
-    contact = amend(case, evaluate(case, films))
+    contact = contact_of(case, films)
     speed = 0.0  # at which the surfaces change [m/s]
     while left > 0.0:
         start, used = means, contact
         step, means, films, speed = _substep(case, contact, start, left)
         left -= step
         if _has_changed(case, contact, films):
-            contact = amend(case, evaluate(case, films))
+            contact = contact_of(case, films)
             settled = _settled(case, start, means, _evolved(case, contact, start, step))
             if settled is not means:
                 means, films = settled, tribofilms_of(settled)
-                contact = amend(case, evaluate(case, films))
+                contact = contact_of(case, films)
         if classes is not None:
             harm = harm_by(case, used, harm)
             classes = fatigued(case.scene, classes, harm, start, means)

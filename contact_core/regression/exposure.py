@@ -122,13 +122,13 @@ def _residence(case: Case, side: Side) -> float:
     """Return the share of its time that a point of the track |y| < b is in Hertz's contact."""
     length = side.track_length if side.moves else case.scene.film.domain
     hertz = case.unit_hertz
-    return 2.0 * hertz.chord_share * hertz.a * hertz.growth(case.op.load)[0] * _width(case) / length
+    return 2.0 * hertz.chord_share * hertz.a * case.growth[0] * _width(case) / length
 
 
 def _width(case: Case) -> float:
     """Return the share of the track's width, Hertz's at the reference load, that passes through the contact."""
     now, track = case.unit_hertz, case.scene.unit_hertz
-    width = now.growth(case.op.load)[1] * now.b
+    width = case.growth[1] * now.b
     return min(width / (track.growth(case.scene.operation.load)[1] * track.b), 1.0)
 
 

@@ -44,7 +44,7 @@ def stressed(case: Case, contact: MeanContact) -> Stressed:
     if case.op.load < LIGHTEST:
         none = np.zeros((2, depths.size, rows.size, WEIGHTS.size))
         return Stressed(Cycle(none, none, none), dict.fromkeys(OF_STRESS, 0.0), 0.0)
-    hertz, (root, wide) = case.unit_hertz, case.unit_hertz.growth(case.op.load)
+    hertz, (root, wide) = case.unit_hertz, case.growth
     largest, half, side = root * hertz.pressure_max, root * hertz.a, wide * hertz.b
     friction = abs(contact.solid + contact.fluid) / case.op.load
     residual = float(law.residual_stress()[0])

@@ -61,6 +61,11 @@ class Case:
         refusal = scene.refusal(op)
         if refusal:
             raise OperatingPointError(refusal)
+        return Case.at(scene, op, stored)
+
+    @staticmethod
+    def at(scene: Scene, op: OperatingPoint, stored: Pair | None = None) -> "Case":
+        """Bind a scene to an operating point that has been checked; otherwise as `bind`."""
         return Case(scene, _with_bulk_temperatures(scene, op, stored))
 
     def check_tribofilm(self) -> None:
@@ -117,11 +122,15 @@ class Case:
         """Hertz's contact at 1 N and the radii of the operating point."""
         return self.scene.unit_hertz_at(self.op)
 
+    @cached_property
+    def growth(self) -> Pair:
+        """Factors on Hertz's half width along x and pressure, and on the half width along y, from 1 N to the load."""
+        return self.unit_hertz.growth(self.op.load)
+
     @property
     def pressed(self) -> float:
         """Hertz's largest pressure over the hardness of the bodies."""
-        hertz = self.unit_hertz
-        return hertz.pressure_max * hertz.growth(self.op.load)[0] / self.scene.plasticity.hardness
+        return self.unit_hertz.pressure_max * self.growth[0] / self.scene.plasticity.hardness
 
     @cached_property
     def sides(self) -> tuple[Side, Side]:
@@ -150,7 +159,7 @@ class Case:
         grip = abs(float(boundary.grip(sliding_speed)))
         if not self.loaded or grip == 0.0 or entrainment == 0.0:
             return grip
-        half_width = hertz.a * hertz.growth(self.op.load)[0]
+        half_width = hertz.a * self.growth[0]
         return grip * slipping_share(sliding_speed / entrainment, boundary.bare, half_width, self.shape.radius_x)
 
     @property

@@ -9,7 +9,12 @@ from shutil import which
 from contact_core.errors import SceneError
 from contact_core.scene import Scene
 
-from ..flavours import FLAVOURS
+from ..flavours import FLAVOURS, VERSIONS, Flavour
+
+_NO_PYTHON: dict[Flavour, str] = {
+    "embedded": "an embedded FMU runs in its host's Python",
+    "native": "a native FMU needs none",
+}
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -31,8 +36,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--flavour",
         choices=FLAVOURS,
         default="isolated",
-        help="isolated: for any host, the model in a process of its own; embedded: for hosts in Python "
-        "(default: %(default)s)",
+        help="isolated: for any host, the model in a process of its own; embedded: for hosts in Python; native: for "
+        "any host, C generated for the scene, without Python (default: %(default)s)",
+    )
+    parser.add_argument(
+        "--fmi",
+        type=int,
+        choices=sorted({version for versions in VERSIONS.values() for version in versions}),
+        default=2,
+        help="version of FMI: 2 for FMI 2.0, 3 for FMI 3.0, which the embedded flavour lacks (default: %(default)s)",
     )
     parser.add_argument(
         "--python",
@@ -58,8 +70,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     Raises SceneError if the arguments cannot be used.
     """
-    if arguments.python and arguments.flavour == "embedded":
-        raise SceneError("--python is for isolated FMUs: an embedded FMU runs in its host's Python. Leave it out.")
+    if arguments.python and arguments.flavour != "isolated":
+        raise SceneError(f"--python is for isolated FMUs: {_NO_PYTHON[arguments.flavour]}. Leave it out.")
     scene = Scene.from_toml(arguments.scene, _overrides(arguments.overrides))
     for warning in scene.warnings():
         print(f"Note: {warning}", file=sys.stderr)
@@ -67,11 +79,27 @@ def run(arguments: argparse.Namespace) -> int:
     from .build import build
 
     try:
-        print(build(scene, out, arguments.flavour, python=_recorded(arguments.python), reference=True))
+        recorded = _recorded(arguments.python)
+        print(build(scene, out, arguments.flavour, fmi=arguments.fmi, python=recorded, reference=True))
+        _tell_missing(arguments)
     except OSError as error:
         print(f"The FMU cannot be written: {error}.", file=sys.stderr)
         return 2
     return 0
+
+
+def _tell_missing(arguments: argparse.Namespace) -> None:
+    """Print the platforms for which a native FMU has no library, if any."""
+    if arguments.flavour != "native":
+        return
+    from ..native.files import missing
+
+    if names := missing(arguments.fmi):
+        print(
+            f"Note: The FMU has no library for {', '.join(names)}. Build it with zig (pip install tribofmu[native]), "
+            "or compile its sources there (fmpy compile).",
+            file=sys.stderr,
+        )
 
 
 def _recorded(python: str | None) -> str | None:

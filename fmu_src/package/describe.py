@@ -1,4 +1,4 @@
-"""modelDescription.xml: variables, units, structure and capabilities."""
+"""What model descriptions of FMI 2.0 and 3.0 share: contents, units, types, attributes, dependencies."""
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -11,20 +11,12 @@ import contact_core
 from contact_core.quantities import measured
 from contact_core.scene import Scene, units
 
-from ..flavours import Flavour
+from ..flavours import Flavour, Version
 from ..runtime.guarded import LOG_CATEGORIES
 from ..runtime.resources import MODEL, guid
 from ..variables import Value, Variable
 
-_CAPABILITIES = {
-    "canHandleVariableCommunicationStepSize": True,
-    "canInterpolateInputs": False,
-    "canBeInstantiatedOnlyOncePerProcess": False,
-    "canNotUseMemoryManagementFunctions": True,
-    "canGetAndSetFMUstate": True,
-    "canSerializeFMUstate": True,
-}
-_INITIAL = {"parameter": "exact", "output": "calculated"}  # other causalities have one kind, which is left out
+INITIAL = {"parameter": "exact", "output": "calculated"}  # other causalities have one kind, which is left out
 
 
 @dataclass(frozen=True)
@@ -37,62 +29,48 @@ class Model:
     experiment: Mapping[str, float]  # startTime, stopTime, stepSize, tolerance
 
 
-def described(scene: Scene, flavour: Flavour) -> Model:
-    """Return the contents for the FMU of a scene."""
+@dataclass(frozen=True)
+class Unknown:
+    """One output and the variables on which it depends, all as positions in the table; None: on every known."""
+
+    position: int
+    depends: tuple[int, ...] | None
+
+
+def described(scene: Scene, flavour: Flavour, version: Version = 2) -> Model:
+    """Return the contents for the FMU of a scene; `version` is FMI's."""
     experiment = {"startTime": 0.0, "stopTime": scene.operation.duration, "stepSize": scene.operation.interval}
     if scene.film.tolerance is not None:
         experiment["tolerance"] = scene.film.tolerance
-    return Model(MODEL, guid(scene, flavour), scene.description, experiment)
+    return Model(MODEL, guid(scene, flavour, version), scene.description, experiment)
 
 
-def xml(model: Model, table: Sequence[Variable], flavour: Flavour) -> bytes:
-    """Return the model description; variables are in order of value references. Equal arguments give equal bytes."""
-    root = ET.Element(
-        "fmiModelDescription",
-        {
-            "fmiVersion": "2.0",
-            "modelName": model.name,
-            "guid": model.guid,
-            "description": model.text,
-            "version": contact_core.__version__,
-            "generationTool": f"tribofmu {contact_core.__version__} with pythonfmu {pythonfmu.__version__}",
-            "variableNamingConvention": "structured",
-        },
-    )
-    ET.SubElement(
-        root,
-        "CoSimulation",
-        {
-            "modelIdentifier": model.name,
-            # An isolated FMU starts the process it needs by itself. An embedded one needs a host in Python.
-            "needsExecutionTool": _text(flavour == "embedded"),
-            **{name: _text(value) for name, value in _CAPABILITIES.items()},
-        },
-    )
-    _units(root, table)
-    _types(root, table)
-    categories = ET.SubElement(root, "LogCategories")
-    for name, text in LOG_CATEGORIES.items():
-        ET.SubElement(categories, "Category", {"name": name, "description": text})
-    ET.SubElement(root, "DefaultExperiment", {name: _text(value) for name, value in model.experiment.items()})
-    listed = ET.SubElement(root, "ModelVariables")
-    for reference, variable in enumerate(table):
-        listed.append(_scalar_variable(reference, variable))
-    _structure(root, table)
-    ET.indent(root)
-    return ET.tostring(root, encoding="UTF-8", xml_declaration=True) + b"\n"
-
-
-def _text(value: Value) -> str:
+def value_text(value: Value) -> str:
     """Return the text of a value that reads back to the same bits."""
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def _unit_name(variable: Variable) -> str:
-    return variable.unit or "1"
+def document(root: ET.Element) -> bytes:
+    """Return the XML file of an element and all below it."""
+    ET.indent(root)
+    return ET.tostring(root, encoding="UTF-8", xml_declaration=True) + b"\n"
 
 
-def _units(root: ET.Element, table: Iterable[Variable]) -> None:
+# the root element
+
+
+def origin(model: Model, flavour: Flavour) -> dict[str, str]:
+    """Return the root's attributes that tell what the FMU is and where it comes from."""
+    tool = f"tribofmu {contact_core.__version__}"
+    return {
+        "description": model.text,
+        "version": contact_core.__version__,
+        "generationTool": tool if flavour == "native" else f"{tool} with pythonfmu {pythonfmu.__version__}",
+        "variableNamingConvention": "structured",
+    }
+
+
+def add_units(root: ET.Element, table: Iterable[Variable]) -> None:
     """Add every unit in use, as exponents of the SI base units, with its display units."""
     displays: dict[str, set[str]] = {}
     for variable in table:
@@ -105,21 +83,44 @@ def _units(root: ET.Element, table: Iterable[Variable]) -> None:
         unit = ET.SubElement(definitions, "Unit", {"name": name})
         base = ET.SubElement(unit, "BaseUnit", {key: str(n) for key, n in exponents.items() if n})
         if factor != 1.0:
-            base.set("factor", _text(factor))
+            base.set("factor", value_text(factor))
         for display in sorted(displays[name]):
             ET.SubElement(unit, "DisplayUnit", {"name": display, **_conversion(display)})
 
 
-def _types(root: ET.Element, table: Iterable[Variable]) -> None:
-    """Add every kind of physical quantity in use."""
+def add_log_categories(root: ET.Element) -> None:
+    """Add the categories of log messages."""
+    categories = ET.SubElement(root, "LogCategories")
+    for name, text in LOG_CATEGORIES.items():
+        ET.SubElement(categories, "Category", {"name": name, "description": text})
+
+
+def add_experiment(root: ET.Element, model: Model) -> None:
+    """Add the default experiment."""
+    ET.SubElement(root, "DefaultExperiment", {name: value_text(value) for name, value in model.experiment.items()})
+
+
+def _unit_name(variable: Variable) -> str:
+    return variable.unit or "1"
+
+
+def _conversion(display: str) -> dict[str, str]:
+    """Return the attributes of display value = factor * SI value + offset."""
+    if display == "degC":
+        return {"offset": "-273.15"}
+    return {"factor": f"{1.0 / units.unit(display)[0]:.15g}"}
+
+
+# types and variables
+
+
+def quantities(table: Iterable[Variable]) -> dict[str, dict[str, str]]:
+    """Return name and attributes of every kind of physical quantity in use, sorted by name."""
     alike: dict[str, list[Variable]] = {}
     for variable in table:
         if variable.quantity:
             alike.setdefault(variable.quantity, []).append(variable)
-    definitions = ET.SubElement(root, "TypeDefinitions")
-    for name in sorted(alike):
-        simple = ET.SubElement(definitions, "SimpleType", {"name": name})
-        ET.SubElement(simple, "Real", _of_quantity(name, alike[name]))
+    return {name: _of_quantity(name, alike[name]) for name in sorted(alike)}
 
 
 def _of_quantity(name: str, alike: Sequence[Variable]) -> dict[str, str]:
@@ -133,14 +134,8 @@ def _of_quantity(name: str, alike: Sequence[Variable]) -> dict[str, str]:
     return common | ({"relativeQuantity": "true"} if relative else {})
 
 
-def _conversion(display: str) -> dict[str, str]:
-    """Return the attributes of display value = factor * SI value + offset."""
-    if display == "degC":
-        return {"offset": "-273.15"}
-    return {"factor": f"{1.0 / units.unit(display)[0]:.15g}"}
-
-
-def _scalar_variable(reference: int, variable: Variable) -> ET.Element:
+def role(reference: int, variable: Variable) -> dict[str, str]:
+    """Return the attributes that variables of every kind have."""
     attributes = {
         "name": variable.name,
         "valueReference": str(reference),
@@ -148,45 +143,59 @@ def _scalar_variable(reference: int, variable: Variable) -> ET.Element:
         "causality": variable.causality,
         "variability": variable.variability,
     }
-    if initial := _INITIAL.get(variable.causality):
+    if initial := INITIAL.get(variable.causality):
         attributes["initial"] = initial
-    element = ET.Element("ScalarVariable", attributes)
-    typed = ET.SubElement(element, variable.kind)
+    return attributes
+
+
+def numeric(variable: Variable) -> dict[str, str]:
+    """Return the attributes on quantity, unit, range and nominal."""
+    found: dict[str, str] = {}
     if variable.quantity:
-        typed.set("declaredType", variable.quantity)
+        found["declaredType"] = variable.quantity
     if variable.kind == "Real":
-        typed.set("unit", _unit_name(variable))
+        found["unit"] = _unit_name(variable)
         if variable.display:
-            typed.set("displayUnit", variable.display)
+            found["displayUnit"] = variable.display
         if variable.relative:
-            typed.set("relativeQuantity", "true")
+            found["relativeQuantity"] = "true"
     for name, bound in (("min", variable.minimum), ("max", variable.maximum)):
         if math.isfinite(bound) and variable.kind in ("Real", "Integer"):
-            typed.set(name, str(int(bound)) if variable.kind == "Integer" else _text(float(bound)))
+            found[name] = str(int(bound)) if variable.kind == "Integer" else value_text(float(bound))
     if variable.nominal is not None:
-        typed.set("nominal", _text(variable.nominal))
-    if variable.has_start:
-        typed.set("start", _text(variable.start))
-    return element
+        found["nominal"] = value_text(variable.nominal)
+    return found
 
 
-def _structure(root: ET.Element, table: Sequence[Variable]) -> None:
-    """Add the dependencies of outputs.
+# dependencies
 
-    Between steps an output depends on the state and on the inputs it names; at the start on everything that can be set,
-    for which FMI needs no list, or on part of it.
-    """
-    index = {v.name: i for i, v in enumerate(table, 1)}
-    outputs = [v for v in table if v.causality == "output"]
-    every = [v.name for v in table if v.has_start]
-    structure = ET.SubElement(root, "ModelStructure")
-    for name in ("Outputs", "InitialUnknowns"):
-        listed = ET.SubElement(structure, name)
-        for v in outputs:
-            depends = v.direct if name == "Outputs" else _at_start(v, table)
-            unknown = ET.SubElement(listed, "Unknown", {"index": str(index[v.name])})
-            if name == "Outputs" or depends != every:
-                unknown.attrib |= _dependencies(sorted({index[known] for known in depends}))
+
+def outputs(table: Sequence[Variable]) -> list[Unknown]:
+    """Return on what outputs depend between steps: on the state and on the inputs that each names."""
+    place = _places(table)
+    return [Unknown(place[v.name], _sorted(place[known] for known in v.direct)) for v in _outputs(table)]
+
+
+def initial_unknowns(table: Sequence[Variable]) -> list[Unknown]:
+    """Return on what outputs depend at the start: on all that can be set, for which FMI needs no list, or on part."""
+    place, every = _places(table), [v.name for v in table if v.has_start]
+    known = {v.name: _at_start(v, table) for v in _outputs(table)}
+    return [
+        Unknown(place[name], None if names == every else _sorted(place[known] for known in names))
+        for name, names in known.items()
+    ]
+
+
+def _places(table: Sequence[Variable]) -> dict[str, int]:
+    return {v.name: place for place, v in enumerate(table)}
+
+
+def _outputs(table: Sequence[Variable]) -> list[Variable]:
+    return [v for v in table if v.causality == "output"]
+
+
+def _sorted(places: Iterable[int]) -> tuple[int, ...]:
+    return tuple(sorted({*places}))
 
 
 def _at_start(output: Variable, table: Sequence[Variable]) -> list[str]:
@@ -199,6 +208,9 @@ def _at_start(output: Variable, table: Sequence[Variable]) -> list[str]:
     ]
 
 
-def _dependencies(indices: Iterable[int]) -> dict[str, str]:
-    known = list(map(str, indices))
+def dependencies(depends: tuple[int, ...] | None, first: int) -> dict[str, str]:
+    """Return the attributes of an unknown; the table's first variable has the number `first`."""
+    if depends is None:
+        return {}
+    known = [str(first + place) for place in depends]
     return {"dependencies": " ".join(known), "dependenciesKind": " ".join(["dependent"] * len(known))}

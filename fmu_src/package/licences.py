@@ -4,21 +4,24 @@ from importlib.metadata import PackageNotFoundError, distribution
 
 from contact_core import __version__
 
-from ..flavours import Flavour
+from ..flavours import Flavour, Version
 from ..runtime.resources import VERSIONS
 
 PACKAGE = "tribofmu"
-_HEADER = "fmi2TypesPlatform.h"  # one of the headers that our library is compiled with; all have the same licence
+_HEADERS: dict[Version, str] = {  # of those that a library is compiled with; all of a version have the same licence
+    2: "fmi2TypesPlatform.h",
+    3: "fmi3PlatformTypes.h",
+}
 
 
-def licences(flavour: Flavour) -> dict[str, bytes]:
+def licences(flavour: Flavour, fmi: Version = 2) -> dict[str, bytes]:
     """Return name and text of the licences of the FMU and of third-party parts of its library.
 
     Raises FileNotFoundError if a package is not installed with its licence.
     """
     if flavour == "embedded":
         return {"license.txt": _file(PACKAGE, "LICENSE"), "pythonfmu.txt": _file("pythonfmu", "LICENSE")}
-    comment = _file("fmpy", _HEADER).partition(b"/*")[2].partition(b"*/")[0]
+    comment = _file("fmpy", _HEADERS[fmi]).partition(b"/*")[2].partition(b"*/")[0]
     return {"license.txt": _file(PACKAGE, "LICENSE"), "fmi.txt": comment.strip() + b"\n"}
 
 
@@ -61,11 +64,14 @@ VARIABLES: dict[Flavour, dict[str, str]] = {
         "LD_PRELOAD": "Linux, host without Python: path of libpython3.x.so",
         "PYTHONPATH": "host without Python: folder of the packages",
     },
+    "native": {},
 }
 
 
 def external_dependencies(flavour: Flavour) -> bytes:
     """Return documentation/externalDependencies.txt."""
+    if flavour == "native":
+        return b"This FMU needs nothing that is not part of it but the C library of its platform.\n"
     lines = [
         "Requirements of this FMU that are not part of it.",
         "",

@@ -24,7 +24,7 @@ from contact_core.film.mapped import MAP_SUFFIX, map_file
 from contact_core.mapped.map import map_of
 from contact_core.scene import Scene
 
-from ..flavours import Flavour
+from ..flavours import Flavour, Version
 
 MODEL = "MixedContact"
 VERSIONS = {"contact_core": contact_core.__version__, "pythonfmu": pythonfmu.__version__}
@@ -53,14 +53,15 @@ def script(model: str, slave: str, text: str) -> bytes:
     return _SCRIPT.format(model=model, package=package, module=module, name=name, text=text).encode()
 
 
-def guid(scene: Scene, flavour: Flavour) -> str:
-    """Return the UUID of the FMU of a scene; it depends on scene, versions and flavour."""
-    return identity(_fingerprint(scene), flavour)
+def guid(scene: Scene, flavour: Flavour, version: Version = 2) -> str:
+    """Return the UUID of the FMU of a scene; it depends on scene, versions, flavour and FMI's version."""
+    return identity(_fingerprint(scene), flavour, version)
 
 
-def identity(fingerprint: str, flavour: Flavour) -> str:
+def identity(fingerprint: str, flavour: Flavour, version: Version = 2) -> str:
     """Return the UUID of an FMU from the fingerprint of its source."""
-    return str(uuid.uuid5(uuid.UUID(hex=fingerprint[:32]), flavour))
+    kind = flavour if version == 2 else f"{flavour} FMI {version}"
+    return str(uuid.uuid5(uuid.UUID(hex=fingerprint[:32]), kind))
 
 
 def module_name(scene: Scene) -> str:

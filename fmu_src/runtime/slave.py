@@ -32,7 +32,7 @@ from . import resources
 from .guarded import GuardedSlave
 from .snapshot import Layout, Scenes, Snapshot, check_owner
 
-_OF_SOLVER = RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK
+OF_SOLVER = RangeFlag.NOT_CONVERGED | RangeFlag.FALLBACK
 _NOWHERE = OperatingPoint(load=0.0, speed_1=0.0, speed_2=0.0, temperature=0.0)
 _OTHER_LEVEL = int(RangeFlag.OTHER_LEVEL)
 
@@ -172,7 +172,7 @@ class ContactSlave(GuardedSlave):
 
     def _log_flags(self, appeared: RangeFlag) -> None:
         for flag in appeared:
-            category = "logSolver" if flag in _OF_SOLVER else "logValidity"
+            category = "logSolver" if flag in OF_SOLVER else "logValidity"
             self._message(f"range_flags: {flag.text}.", Fmi2Status.ok, category)
 
     def _get_fmu_state(self) -> Snapshot:

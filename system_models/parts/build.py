@@ -4,7 +4,8 @@ import inspect
 from collections.abc import Iterator
 from pathlib import Path
 
-from fmu_src.flavours import Flavour
+from contact_core.errors import SceneError
+from fmu_src.flavours import WITH_PYTHON, Flavour
 from fmu_src.package.build import pack
 from fmu_src.package.describe import Model
 from fmu_src.package.document.markup import paragraph, plain, table
@@ -27,9 +28,13 @@ def build(
     """Write the FMU of a component to `out` and return it. The same arguments and versions give the same bytes.
 
     `flavour` and `python`: as for a contact, see `fmu_src.package.build`. `duration` and `step_size` [s] are
-    proposals to its host. Raises SceneError if the component's numbers cannot be used, OSError if the file cannot be
-    written.
+    proposals to its host. Raises SceneError if the component's numbers cannot be used or the flavour is native, OSError
+    if the file cannot be written.
     """
+    if flavour not in WITH_PYTHON:
+        raise SceneError(
+            f"flavour = '{flavour}' is for contacts; components are models in Python: take {' or '.join(WITH_PYTHON)}."
+        )
     resources.check(part)
     experiment = {"startTime": 0.0, "stopTime": duration, "stepSize": step_size}
     own = {

@@ -11,7 +11,7 @@ from isolated import FAULTS, SCRIPT, UNSAVED
 
 from benchmarks.hosts.native_host import compiled, embedding_environment, plain_environment
 from contact_core import Scene
-from fmu_src.flavours import FLAVOURS, Flavour
+from fmu_src.flavours import WITH_PYTHON, Flavour
 from fmu_src.package.build import build
 from fmu_src.runtime.resources import module_name
 
@@ -100,7 +100,7 @@ def faulty_folder(quick: Scene, isolated_folder: Path, tmp_path_factory: pytest.
     return folder
 
 
-@pytest.fixture(scope="session", params=FLAVOURS)
+@pytest.fixture(scope="session", params=WITH_PYTHON)
 def flavour(request: pytest.FixtureRequest) -> Flavour:
     return request.param
 

@@ -128,7 +128,7 @@ def laws(record) -> list[object]:
     return [part for part in parts if hasattr(part, "source")] + [law for part in parts for law in laws(part)]
 
 
-@pytest.mark.parametrize("flavour", ["embedded", "isolated"])
+@pytest.mark.parametrize("flavour", ["embedded", "isolated", "native"])
 @pytest.mark.parametrize("changes", [{}, OTHERS], ids=["as shipped", "other laws"])
 @pytest.mark.parametrize("level", ["deterministic", "regression", "map"])
 def test_the_page_is_well_nested_and_stands_alone(level, changes, flavour):

@@ -15,7 +15,7 @@ from test_parts_fmu import EXAMPLES, STEPS, SYSTEMS, at_rest
 
 from benchmarks.hosts.native_host import ERROR, NONE, OK, WARNING, Fmu, Instance, NativeHost, plain_environment
 from benchmarks.hosts.processes import children
-from fmu_src.flavours import FLAVOURS
+from fmu_src.flavours import WITH_PYTHON
 from system_models.check import deep
 from system_models.cli.main import main
 from system_models.parts.build import build
@@ -52,7 +52,7 @@ def life(host: Host, part: Part, inputs: dict[str, float]) -> dict[str, list[obj
 def test_both_flavours_give_the_same_bits(kind: str, tmp_path: Path) -> None:
     part, given = (EXAMPLES | SYSTEMS)[kind]
     lives = []
-    for flavour in FLAVOURS:
+    for flavour in WITH_PYTHON:
         folder = unpacked(build(part, tmp_path / f"{flavour}.fmu", flavour), tmp_path / flavour)
         with hosted(folder) as host:
             lives.append(life(host, part, at_rest(part) | given))

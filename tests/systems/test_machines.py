@@ -17,7 +17,7 @@ from test_cosim_command import result
 from test_resume import KILLED, bits
 from test_ssp import SPACES, imported, structure
 
-from fmu_src.flavours import FLAVOURS
+from fmu_src.flavours import WITH_PYTHON
 from system_models.cli.main import main
 from system_models.machines import reading
 from system_models.machines.assembly import Assembly
@@ -170,7 +170,7 @@ def test_isolated_fmus_run_the_rig_to_the_same_rows(tmp_path: Path, monkeypatch:
     monkeypatch.setenv("TRIBOFMU_PYTHON", sys.executable)
     assembly = reading.assemble(reading.read("mtm_rig"))
     settings = {**assembly.settings, "stop_time": 5.0, "outputs": assembly.outputs()}
-    runs = [simulate(assembly.system(tmp_path / flavour, flavour), **settings) for flavour in FLAVOURS]
+    runs = [simulate(assembly.system(tmp_path / flavour, flavour), **settings) for flavour in WITH_PYTHON]
     first, second = (bits(run[assembly.outputs()]) for run in runs)
     assert first == second
     assert runs[0].sizes["time"] > 5
@@ -204,12 +204,17 @@ FEWER: dict[str, dict[str, str]] = {
 }  # contacts; each is a process
 
 
-@pytest.fixture(scope="module", params=COMPARED)
+@pytest.fixture(
+    scope="module",
+    params=[("bearing_209", "isolated"), ("mtm_rig", "isolated"), ("mtm_rig", "native")],
+    ids=lambda case: "-".join(case),
+)
 def compared(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Compared:
     """A machine's file, and what the master says of it after steps that bring it up to speed."""
-    folder, names = tmp_path_factory.mktemp(request.param), COMPARED[request.param]
-    assembly = exported(request.param, FEWER[request.param])
-    file = export_ssp(assembly.system(folder / "isolated", "isolated"), folder / "machine.ssp")
+    machine, flavour = request.param
+    folder, names = tmp_path_factory.mktemp(machine), COMPARED[machine]
+    assembly = exported(machine, FEWER[machine])
+    file = export_ssp(assembly.system(folder / flavour, flavour), folder / "machine.ssp")
     ours = marched(assembly.system(folder / "embedded"), names, 0.125, 64)  # the same bits, in less time
     return Compared(file, {name: float(ours[name].values[-1]) for name in names})
 
@@ -275,3 +280,8 @@ def test_each_machine_exports_as_ssp_that_others_read(machine: str, tmp_path: Pa
             assert float(values[name, key]) == value
     for target, value in assembly.parameters.items():
         assert float(values[tuple(target.split(".", 1))]) == value
+
+
+def test_a_flavour_is_for_an_exported_machine(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", "mtm_rig", "--flavour", "native"]) == 2
+    assert "add --ssp FILE.ssp" in capsys.readouterr().err

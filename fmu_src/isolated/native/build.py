@@ -36,13 +36,31 @@ PLATFORMS = {
     "linux64": Platform(
         "x86_64-linux-gnu.2.17",  # any glibc since 2012
         ("-D_GNU_SOURCE", "-pthread"),
-        ("fmi2.c", "instance.c", "state.c", "resources.c", "python_linux.c", "channel_linux.c"),
+        (
+            "fmi2.c",
+            "fmi3.c",
+            "fmi3_unsupported.c",
+            "instance.c",
+            "state.c",
+            "resources.c",
+            "python_linux.c",
+            "channel_linux.c",
+        ),
         "tribofmu.so",
     ),
     "win64": Platform(
         "x86_64-windows-gnu",
         (),
-        ("fmi2.c", "instance.c", "state.c", "resources.c", "python_windows.c", "channel_windows.c"),
+        (
+            "fmi2.c",
+            "fmi3.c",
+            "fmi3_unsupported.c",
+            "instance.c",
+            "state.c",
+            "resources.c",
+            "python_windows.c",
+            "channel_windows.c",
+        ),
         "tribofmu.dll",
     ),
 }
@@ -56,7 +74,7 @@ def command(platform: str, compiler: str, library: Path) -> list[str]:
     """Return the call of `compiler`, in the folder of the sources, that builds the library of `platform`."""
     chosen = PLATFORMS[platform]
     call = [sys.executable, "-m", "ziglang", "cc", "-target", chosen.target] if compiler == "zig" else ["gcc"]
-    return [*call, *FLAGS, *chosen.flags, "-isystem", str(_headers()), "-o", str(library), *chosen.sources]
+    return [*call, *FLAGS, *chosen.flags, "-isystem", str(headers()), "-o", str(library), *chosen.sources]
 
 
 def fingerprint(platform: str) -> str:
@@ -67,7 +85,7 @@ def fingerprint(platform: str) -> str:
     return hashlib.sha256(b"\0".join(parts)).hexdigest()
 
 
-def _headers() -> Path:
+def headers() -> Path:
     """Return the folder of FMI's headers, in the wheel of fmpy."""
     spec = find_spec("fmpy")
     if spec is None or spec.origin is None:

@@ -21,9 +21,9 @@ typedef struct {
     char text[8192];
 } Reason;
 
-/* Folder of the FMU's resources, to be freed by the caller: beside this library, else what `uri` says; NULL and a
-   reason if there is none. */
-char *channel_resources(const char *uri, Reason *why);
+/* Folder of the FMU's resources, to be freed by the caller: beside this library, else at `place`, a URI (FMI 2.0)
+   or a path (FMI 3.0); NULL and a reason if there is none. */
+char *channel_resources(const char *place, Reason *why);
 
 /* Start a worker for the FMU with these resources, give it the first message in `message` and wait for its answer
    as channel_call does. NULL and a reason if there is no worker or no answer. */

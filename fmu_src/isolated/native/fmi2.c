@@ -15,6 +15,13 @@ static fmi2Status unsupported(fmi2Component component, const char *what) {
     return instance_fail(instance, "%s is not supported: see the capabilities in modelDescription.xml.", what);
 }
 
+static const char *const KINDS[] = {"Real", "Integer", "Boolean", "String"};
+
+static void log_entry(const Host *host, const char *name, fmi2Status status, const char *category,
+                      const char *message) {
+    ((fmi2CallbackLogger)host->logger)(host->environment, name, status, category, message);
+}
+
 const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
 
 const char *fmi2GetVersion(void) { return fmi2Version; }
@@ -37,7 +44,9 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
                               "This FMU is for co-simulation; model exchange is not supported.");
         return NULL;
     }
-    return instance_new(instanceName, fmuGUID, fmuResourceLocation, functions, loggingOn);
+    const Host host = {functions->logger ? log_entry : NULL, functions->componentEnvironment,
+                       (void (*)(void))functions->logger, KINDS};
+    return instance_new(instanceName, fmuGUID, fmuResourceLocation, &host, loggingOn);
 }
 
 void fmi2FreeInstance(fmi2Component c) {

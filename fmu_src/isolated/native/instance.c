@@ -21,7 +21,7 @@ struct Instance {
     struct Instance *next;
     void *library; /* kept loaded */
     char *name, *guid, *resources;
-    fmi2CallbackFunctions host;
+    Host host;
     enum { QUIET, USUAL, LOUD } logging; /* errors; warnings, too; all in `categories` */
     char **categories;                   /* NULL-terminated; NULL: all */
     Channel *worker;
@@ -64,8 +64,8 @@ static int heard(const Instance *instance, fmi2Status status, const char *catego
 
 /* `message` is a format without conversions: percent signs are doubled. */
 static void tell(const Instance *instance, fmi2Status status, const char *category, const char *message) {
-    if (instance->host.logger && heard(instance, status, category))
-        instance->host.logger(instance->host.componentEnvironment, instance->name, status, category, message);
+    if (instance->host.log && heard(instance, status, category))
+        instance->host.log(&instance->host, instance->name, status, category, message);
 }
 
 /* Log a text that is not yet a format. */
@@ -101,7 +101,7 @@ static void drop_categories(Instance *instance) {
     instance->categories = NULL;
 }
 
-void instance_hear(Instance *instance, fmi2Boolean logging, size_t count, const char *const categories[]) {
+void instance_hear(Instance *instance, int logging, size_t count, const char *const categories[]) {
     drop_categories(instance);
     instance->logging = logging ? LOUD : QUIET;
     if (!logging || !count || !(instance->categories = calloc(count + 1, sizeof *instance->categories))) return;
@@ -364,8 +364,7 @@ static int read_limits(Limits *limits, Reason *why) {
                       why);
 }
 
-Instance *instance_new(const char *name, const char *guid, const char *uri, const fmi2CallbackFunctions *host,
-                       fmi2Boolean logging) {
+Instance *instance_new(const char *name, const char *guid, const char *place, const Host *host, int logging) {
     Instance *instance = calloc(1, sizeof *instance);
     if (!instance) return NULL;
     instance->host = *host;
@@ -374,7 +373,7 @@ Instance *instance_new(const char *name, const char *guid, const char *uri, cons
     instance->guid = strdup(guid ? guid : "");
     instance->stale = 1;
     if (instance->name && instance->guid) {
-        instance->resources = channel_resources(uri, &instance->why);
+        instance->resources = channel_resources(place, &instance->why);
         if (!instance->resources || !read_limits(&instance->limits, &instance->why))
             instance_fail(instance, "%s", instance->why.text);
         else if (done(open_worker(instance))) {
@@ -428,12 +427,10 @@ void *instance_free(Instance *instance) {
 
 /* variables */
 
-static const char *const KIND[] = {"Real", "Integer", "Boolean", "String"};
-
 static Variable *variable_of(Instance *instance, enum kind kind, uint32_t reference) {
     if (reference < instance->count && instance->variables[reference].kind == kind)
         return &instance->variables[reference];
-    instance_fail(instance, "There is no %s variable with value reference %u.", KIND[kind], reference);
+    instance_fail(instance, "There is no %s variable with value reference %u.", instance->host.kinds[kind], reference);
     return NULL;
 }
 
@@ -458,13 +455,13 @@ fmi2Status instance_get(Instance *instance, enum kind kind, const uint32_t refer
 
 static int settable(Instance *instance, const Variable *variable, enum kind kind, uint32_t reference) {
     if (variable->causality == OUTPUT)
-        instance_fail(instance, "The %s variable with value reference %u is an output and cannot be set.", KIND[kind],
-                      reference);
+        instance_fail(instance, "The %s variable with value reference %u is an output and cannot be set.",
+                      instance->host.kinds[kind], reference);
     else if (variable->causality == FIXED && instance->phase == STEPPING)
         instance_fail(instance,
                       "The %s variable with value reference %u is a fixed parameter: set it before initialisation "
                       "ends, or reset the FMU first.",
-                      KIND[kind], reference);
+                      instance->host.kinds[kind], reference);
     else
         return 1;
     return 0;

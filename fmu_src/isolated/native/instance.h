@@ -13,9 +13,20 @@
 
 typedef struct Instance Instance;
 
-/* NULL if there is no worker that can run the model; the host's log says why. */
-Instance *instance_new(const char *name, const char *guid, const char *uri, const fmi2CallbackFunctions *host,
-                       fmi2Boolean logging);
+/* The host, in the version of FMI in which it calls. A status is FMI 2.0's: those of FMI 3.0 have the same values. */
+typedef struct Host {
+    /* NULL if the host hears nothing. `message` is a format without conversions (percent signs are doubled) and has the
+       names that calls have in FMI 2.0. */
+    void (*log)(const struct Host *host, const char *name, fmi2Status status, const char *category,
+                const char *message);
+    void *environment;
+    void (*logger)(void); /* the host's own function, which `log` calls */
+    const char *const *kinds; /* names of the types of variables */
+} Host;
+
+/* NULL if there is no worker that can run the model; the host's log says why. `place`: URI or path of the resources. */
+Instance *instance_new(const char *name, const char *guid, const char *place, const Host *host,
+                       int logging);
 /* True if `component` is an instance that has not been freed. */
 int instance_known(const void *component);
 /* Returns the argument for library_release at the end of the call. */
@@ -23,7 +34,7 @@ void *instance_free(Instance *instance);
 
 /* Choose the entries sent to the host: all, those of the given categories, or none. Errors are always sent, warnings
    until the host has asked for none. */
-void instance_hear(Instance *instance, fmi2Boolean logging, size_t count, const char *const categories[]);
+void instance_hear(Instance *instance, int logging, size_t count, const char *const categories[]);
 /* Log an error to the host, and return fmi2Error. */
 fmi2Status instance_fail(Instance *instance, const char *format, ...);
 

@@ -25,16 +25,17 @@ static char *beside_library(void) {
     return folder;
 }
 
-char *channel_resources(const char *uri, Reason *why) {
+char *channel_resources(const char *place, Reason *why) {
+    const char *given = place ? place : "";
     char *folder = beside_library();
     if (folder && holds_start(folder)) return folder;
     free(folder);
-    folder = path_of_uri(uri ? uri : "");
+    folder = strncmp(given, "file:", 5) ? strdup(given) : path_of_uri(given);
     if (folder && holds_start(folder)) return folder;
     free(folder);
     snprintf(why->text, sizeof why->text,
              "The FMU's resources are neither beside its library nor at '%s'. Unpack the whole FMU and keep its "
              "folders together.",
-             uri ? uri : "");
+             given);
     return NULL;
 }

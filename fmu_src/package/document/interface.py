@@ -7,93 +7,126 @@ import contact_core
 from contact_core.scene import Scene
 from contact_core.state import RangeFlag
 
-from ...flavours import Flavour
+from ...flavours import Flavour, Version
 from ...runtime.guarded import LOG_CATEGORIES
 from ...variables import FIDELITY, INITIAL_STATE, Variable, variables
 from .. import evidence, licences
 from .markup import bullets, paragraph, table
 
 _KINDS = (("Inputs", "input"), ("Outputs", "output"), ("Parameters", "parameter"), ("Time", "independent"))
-_WARNING: dict[Flavour, str] = {"isolated": "fmi2Warning", "embedded": "fmi2OK"}
-_ERROR: dict[Flavour, str] = {"isolated": "fmi2Error", "embedded": "fmi2OK"}
+_OK, _WARNING, _DISCARD, _ERROR = "OK", "Warning", "Discard", "Error"
+_UNUSABLE: dict[Flavour, str] = {"isolated": _WARNING, "embedded": _OK, "native": _WARNING}
+_REFUSED: dict[Flavour, str] = {"isolated": _ERROR, "embedded": _OK, "native": _ERROR}
+_PARAMETER: dict[Flavour, tuple[str, str, str]] = {
+    "isolated": (
+        f"an unusable parameter or {INITIAL_STATE}",
+        _WARNING,
+        "the same at every step until a reset; the FMU never runs with other values than the given ones",
+    ),
+    "native": (
+        f"a parameter, {INITIAL_STATE} included, set to another value than its start value",
+        _ERROR,
+        "nothing changes; parameters are part of the C code: build the FMU anew from a scene with that value",
+    ),
+}
+_PARAMETER["embedded"] = (_PARAMETER["isolated"][0], _OK, _PARAMETER["isolated"][2])
+_AFTER_STATE: dict[Flavour, str] = {
+    "isolated": "valid is false; nothing else changes",
+    "embedded": "valid is false; nothing else changes",
+    "native": "nothing changes",
+}
 _FAILURES: dict[Flavour, tuple[tuple[str, str, str], ...]] = {
     "isolated": (
         (
             "unexpected error in the model",
-            "fmi2Error",
+            _ERROR,
             "valid is false; state and outputs do not change; the log has its traceback; the host continues",
         ),
         (
             "the process of the model ends, or does not answer within TRIBOFMU_TIMEOUT",
-            "fmi2Error",
+            _ERROR,
             "the host continues; restore a state, or reset, to continue in a new process",
         ),
     ),
     "embedded": (
         (
             "unexpected error in the model",
-            "fmi2OK",
+            _OK,
             "valid is false; state and outputs do not change; the log has its traceback",
+        ),
+    ),
+    "native": (
+        (
+            "a directional derivative that cannot be computed at these inputs",
+            _DISCARD,
+            "nothing changes, the log gives the reason",
         ),
     ),
 }
 _LOGGING: dict[Flavour, str] = {
     "isolated": (
-        "The FMU always reports errors. It reports warnings until the host switches logging off by fmi2SetDebugLogging "
-        "or selects other categories, and notes (status fmi2OK) if the host has switched logging on."
+        "The FMU always reports errors. It reports warnings until the host switches logging off by "
+        "{fmi}SetDebugLogging or selects other categories, and notes (status {fmi}OK) if the host has switched "
+        "logging on."
     ),
     "embedded": "The FMU sends messages if the host has switched logging on, and warnings and errors only as messages.",
 }
+_LOGGING["native"] = _LOGGING["isolated"]
 _PROCESS: dict[Flavour, str] = {
     "isolated": "The FMU starts a Python process of its own for the model; the host needs no Python.",
     "embedded": "The model runs in the Python of the host.",
 }
 
+_SETTABLE = f"Set them before initialisation ends; afterwards all but {FIDELITY} are fixed until a reset."
+_OF_PARAMETERS: dict[Flavour, str] = {
+    "isolated": _SETTABLE,
+    "embedded": _SETTABLE,
+    "native": "They are part of the C code, for information: no other values than these can be set.",
+}
 
-def status(flavour: Flavour) -> Iterator[str]:
+
+def status(flavour: Flavour, fmi: Version) -> Iterator[str]:
     """Yield the section on status, valid and range_flags."""
     yield table(
-        ("event", "status", "result"),
-        (
-            ("a usable step or value", "fmi2OK", "valid is true"),
-            (
-                "an unusable input or step size, a contact that cannot be solved",
-                _WARNING[flavour],
-                "valid is false; time advances, state and outputs do not change, the log gives the reason. The next "
-                "step that can be computed sets valid to true again",
-            ),
-            (
-                f"an unusable parameter or {INITIAL_STATE}",
-                _WARNING[flavour],
-                "the same at every step until a reset; the FMU never runs with other values than the given ones",
-            ),
-            (
-                "a step that does not begin at the end of the last one, or that ends beyond the stop time",
-                _ERROR[flavour],
-                "valid is false; nothing changes, the log gives the reason",
-            ),
-            (
-                "a state that cannot be used",
-                _ERROR[flavour],
-                "valid is false; nothing else changes, the log gives the reason",
-            ),
-            *_FAILURES[flavour],
-        ),
+        ("event", "status", "result"), ((what, f"fmi{fmi}{name}", then) for what, name, then in _events(flavour))
     )
     yield paragraph("Check valid after every step. range_flags is the sum of:")
     yield table(("value", "name", "meaning"), ((flag.value, flag.name, flag.text) for flag in RangeFlag))
 
 
-def variable_tables(scene: Scene) -> Iterator[str]:
+def _events(flavour: Flavour) -> tuple[tuple[str, str, str], ...]:
+    """Return event, status and result of every row."""
+    return (
+        ("a usable step or value", _OK, "valid is true"),
+        (
+            "an unusable input or step size, a contact that cannot be solved",
+            _UNUSABLE[flavour],
+            "valid is false; time advances, state and outputs do not change, the log gives the reason. The next "
+            "step that can be computed sets valid to true again",
+        ),
+        _PARAMETER[flavour],
+        (
+            "a step that does not begin at the end of the last one, or that ends beyond the stop time",
+            _REFUSED[flavour],
+            "valid is false; nothing changes, the log gives the reason",
+        ),
+        (
+            "a state that cannot be used",
+            _REFUSED[flavour],
+            f"{_AFTER_STATE[flavour]}, the log gives the reason",
+        ),
+        *_FAILURES[flavour],
+    )
+
+
+def variable_tables(scene: Scene, flavour: Flavour) -> Iterator[str]:
     """Yield the section of all variables."""
     yield paragraph("All values are in SI units. Bounds are those of modelDescription.xml.")
     listed = variables(scene)
     for title, causality in _KINDS:
         yield f"<h3>{title}</h3>"
         if causality == "parameter":
-            yield paragraph(
-                f"Set them before initialisation ends; afterwards all but {FIDELITY} are fixed until a reset."
-            )
+            yield paragraph(_OF_PARAMETERS[flavour])
         rows = (_row(v) for v in listed if v.causality == causality)
         yield table(("name", "unit", "minimum", "maximum", "start", "meaning"), rows)
 
@@ -104,34 +137,61 @@ def _row(v: Variable) -> tuple[str, ...]:
     return v.name, v.unit, low, high, start if v.has_start else "", v.text
 
 
-def state() -> Iterator[str]:
+def state(flavour: Flavour, fmi: Version) -> Iterator[str]:
     """Yield the section on FMU states."""
+    run_in = (
+        "The first run, and every run after a reset, starts from fresh surfaces."
+        if flavour == "native"
+        else f"{INITIAL_STATE} names a file with the bytes of contact_core's ContactState.to_bytes(), to start from "
+        "run-in surfaces; empty: fresh surfaces."
+    )
+    refused = "and changes nothing." if flavour == "native" else "when it is set: valid is false, nothing changes."
     yield from bullets(
         (
             "FMU states can be got, set, serialised and deserialised at any time. A replay agrees bit for bit, also in "
             "another instance and in another process. A state includes parameters and inputs.",
-            "A damaged state, or a state of another FMU, is refused when it is set: valid is false, nothing changes.",
-            f"{INITIAL_STATE} names a file with the bytes of contact_core's ContactState.to_bytes(), to start from "
-            "run-in surfaces; empty: fresh surfaces.",
-            "fmi2Reset restores the start values; the next run repeats the first one.",
+            f"A damaged state, or a state of another FMU, is refused {refused}",
+            run_in,
+            f"fmi{fmi}Reset restores the start values; the next run repeats the first one.",
         )
     )
 
 
-def log(flavour: Flavour) -> Iterator[str]:
+def log(flavour: Flavour, fmi: Version) -> Iterator[str]:
     """Yield the section on log messages."""
-    yield paragraph(f"{_LOGGING[flavour]} Categories:")
+    yield paragraph(f"{_LOGGING[flavour].format(fmi=f'fmi{fmi}')} Categories:")
     yield table(("category", "messages"), LOG_CATEGORIES.items())
 
 
 def requirements(flavour: Flavour) -> Iterator[str]:
     """Yield the section on required packages and environment variables."""
+    if flavour == "native":
+        yield from _compilation()
+        return
     exact = " and ".join(f"{name} {version}" for name, version in licences.exact().items())
     yield paragraph(
         f"{_PROCESS[flavour]} It needs Python {licences.python()} with exactly {exact} and the packages that pip "
         f"installs with them: {', '.join(licences.dependencies())}. externalDependencies.txt lists the same."
     )
     yield table(("environment variable", "meaning"), licences.VARIABLES[flavour].items())
+
+
+def _compilation() -> Iterator[str]:
+    """Yield what a native FMU contains, and how to compile it."""
+    yield paragraph(
+        "This FMU is C99, generated for this contact alone: it needs neither Python nor other programs, files or "
+        "processes, takes no memory after its instantiation, and answers each step in bounded time."
+    )
+    yield from bullets(
+        (
+            "binaries/ has the libraries of the platforms for which it was built.",
+            "sources/ has everything for any other platform: contact.c, the equations of the contact; model.c, its "
+            "variables; the rest is the same for every contact. Compile without contraction of products and sums "
+            "(-ffp-contract=off), and the results agree bit for bit on all platforms.",
+            "CFLAGS=-ffp-contract=off fmpy compile FILE.fmu adds the library of the platform on which it runs; it "
+            "needs CMake and a C compiler.",
+        )
+    )
 
 
 def check(reference: bool) -> Iterator[str]:
@@ -148,9 +208,9 @@ def check(reference: bool) -> Iterator[str]:
     yield paragraph("tribofmu check FILE.fmu --deep replays it, among other checks.")
 
 
-def licence(flavour: Flavour) -> Iterator[str]:
+def licence(flavour: Flavour, fmi: Version) -> Iterator[str]:
     """Yield the section on licences."""
-    names = licences.licences(flavour)
+    names = licences.licences(flavour, fmi)
     links = ", ".join(f'<a href="licenses/{name}">{name}</a>' for name in names)
     yield (
         f"<p>{licences.PACKAGE} {contact_core.__version__} is under the BSD 3-clause licence. Licences of the parts of "

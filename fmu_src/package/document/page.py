@@ -4,7 +4,7 @@ from html import escape
 
 from contact_core.scene import Scene
 
-from ...flavours import Flavour
+from ...flavours import Flavour, Version
 from ...runtime.resources import MODEL
 from . import contact, formulas, interface
 
@@ -39,7 +39,7 @@ _PAGE = """<!DOCTYPE html>
 """
 
 
-def documentation(scene: Scene, flavour: Flavour, reference: bool) -> bytes:
+def documentation(scene: Scene, flavour: Flavour, reference: bool, fmi: Version = 2) -> bytes:
     """Return the page of a scene's FMU, UTF-8; `reference`: the FMU carries reference data."""
     sections = {
         "contact": ("The contact", contact.data(scene)),
@@ -48,13 +48,13 @@ def documentation(scene: Scene, flavour: Flavour, reference: bool) -> bytes:
         "validity": ("Range of validity", contact.validity(scene)),
         "errors": ("Errors of the outputs", contact.errors(scene)),
         "steps": ("Steps", contact.steps(scene)),
-        "status": ("Status, <code>valid</code> and <code>range_flags</code>", interface.status(flavour)),
-        "variables": ("Variables", interface.variable_tables(scene)),
-        "state": ("State", interface.state()),
-        "log": ("Log", interface.log(flavour)),
+        "status": ("Status, <code>valid</code> and <code>range_flags</code>", interface.status(flavour, fmi)),
+        "variables": ("Variables", interface.variable_tables(scene, flavour)),
+        "state": ("State", interface.state(flavour, fmi)),
+        "log": ("Log", interface.log(flavour, fmi)),
         "needs": ("Requirements", interface.requirements(flavour)),
         "check": ("Check", interface.check(reference)),
-        "licence": ("Licence", interface.licence(flavour)),
+        "licence": ("Licence", interface.licence(flavour, fmi)),
     }
     body = [part for name, (title, parts) in sections.items() for part in (f'<h2 id="{name}">{title}</h2>', *parts)]
     page = _PAGE.format(

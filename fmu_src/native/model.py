@@ -1,0 +1,136 @@
+"""Writes model.c: what the C sources of a native FMU know of their scene's variables."""
+
+import math
+from collections.abc import Iterable, Sequence
+
+from contact_core.state import RangeFlag
+
+from ..runtime.guarded import LOG_CATEGORIES
+from ..runtime.slave import OF_SOLVER
+from ..variables import FIDELITY, Variable
+
+_KINDS = {"Real": "REAL", "Integer": "INTEGER", "Boolean": "BOOLEAN", "String": "STRING"}
+_CATEGORIES = {  # members of Category in model.h, in their order
+    "OF_WARNINGS": "logStatusWarning",
+    "OF_ERRORS": "logStatusError",
+    "OF_VALIDITY": "logValidity",
+    "OF_SOLVER": "logSolver",
+}
+_OF_RUNTIME = {"valid": "VALID", "fidelity_used": "FIDELITY_USED"}  # outputs that are not the contact's
+_FRICTION, _FLAGS, _DERIVATIVE = "friction_force", "range_flags", "dfriction_d"
+_LONGEST_TOKEN = 39  # characters
+
+_FILE = """/* Written by tribofmu for one scene; see model.h. */
+
+#include "model.h"
+
+const char MODEL_TOKEN[TOKEN] = {token};
+
+const double MODEL_FIDELITY = {fidelity};
+
+/* in order of value references */
+const Variable MODEL_VARIABLES[] = {{
+{variables}
+}};
+const size_t MODEL_VARIABLES_COUNT = sizeof MODEL_VARIABLES / sizeof *MODEL_VARIABLES;
+
+const Input MODEL_INPUTS[INPUTS] = {{
+{inputs}
+}};
+
+const Derivative MODEL_DERIVATIVES[] = {{
+{derivatives}
+}};
+const size_t MODEL_DERIVATIVES_COUNT = sizeof MODEL_DERIVATIVES / sizeof *MODEL_DERIVATIVES;
+
+const size_t MODEL_FRICTION_FORCE = PLACE_OF_OUTPUT({friction}), MODEL_RANGE_FLAGS = PLACE_OF_OUTPUT({flag_output});
+
+const Flag MODEL_FLAGS[] = {{
+{flags}
+}};
+const size_t MODEL_FLAGS_COUNT = sizeof MODEL_FLAGS / sizeof *MODEL_FLAGS;
+
+const char *const MODEL_CATEGORIES[CATEGORIES] = {{
+{categories}
+}};
+"""
+
+
+def model_c(table: Sequence[Variable], token: str) -> str:
+    """Return the text of model.c for an FMU's variables, in order of value references, and its guid or token.
+
+    Raises ValueError for what the sources in C cannot hold: a long token, an input without a range, a text that is not
+    empty at the start.
+    """
+    if len(token) > _LONGEST_TOKEN:
+        raise ValueError(f"The token {token} is longer than {_LONGEST_TOKEN} characters. Give a UUID.")
+    inputs = [v for v in table if v.causality == "input"]
+    derivatives = [v.name for v in table if v.name.startswith(_DERIVATIVE)]
+    (fidelity,) = (v.start for v in table if v.name == FIDELITY)
+    return _FILE.format(
+        token=c_text(token),
+        fidelity=_number(fidelity),
+        variables=_rows(_variable(v) for v in table),
+        inputs=_rows(_input(v) for v in inputs),
+        derivatives=_rows(
+            f"PLACE_OF_OUTPUT({name}), PLACE_OF_INPUT({name.removeprefix(_DERIVATIVE)})" for name in derivatives
+        ),
+        friction=_FRICTION,
+        flag_output=_FLAGS,
+        flags=_rows(
+            f"{int(flag)}u, {'OF_SOLVER' if flag in OF_SOLVER else 'OF_VALIDITY'}, {c_text(flag.text)}"
+            for flag in RangeFlag
+        ),
+        categories=",\n".join(f"    [{place}] = {c_text(_known(name))}" for place, name in _CATEGORIES.items()),
+    )
+
+
+def c_text(text: str) -> str:
+    """Return a text as a literal of C: ASCII, with other bytes of its UTF-8 as octal numbers."""
+    plain = (chr(byte) if 32 <= byte < 127 and chr(byte) not in '"\\?' else f"\\{byte:03o}" for byte in text.encode())
+    return f'"{"".join(plain)}"'
+
+
+def _rows(rows: Iterable[str]) -> str:
+    return ",\n".join(f"    {{{row}}}" for row in rows)
+
+
+def _known(category: str) -> str:
+    if category not in LOG_CATEGORIES:
+        raise ValueError(f"{category} is no log category of the FMU: they are {', '.join(LOG_CATEGORIES)}.")
+    return category
+
+
+def _number(value: object) -> str:
+    """Return a number as a literal of C that reads back to the same bits."""
+    return repr(float(value))  # type: ignore[arg-type]
+
+
+def _variable(v: Variable) -> str:
+    role, place, start = _role(v), "0", "0.0"
+    if role == "INPUT":
+        place = f"PLACE_OF_INPUT({v.name})"
+    elif role in ("OUTPUT", "DERIVATIVE"):
+        place = f"PLACE_OF_OUTPUT({v.name})"
+    if v.kind == "String" and v.start:
+        raise ValueError(f"{v.name} starts as {v.start!r}: a text of a native FMU must start empty.")
+    if v.has_start and v.kind != "String":
+        start = _number(v.start)
+    return f"{c_text(v.name)}, {_KINDS[v.kind]}, {role}, {place}, {start}"
+
+
+def _role(v: Variable) -> str:
+    if v.causality == "input":
+        return "INPUT"
+    if v.causality == "parameter":
+        return "TUNABLE" if v.variability == "tunable" else "FIXED"
+    if v.causality == "independent":
+        return "TIME"
+    return _OF_RUNTIME.get(v.name, "DERIVATIVE" if v.name.startswith(_DERIVATIVE) else "OUTPUT")
+
+
+def _input(v: Variable) -> str:
+    if not (math.isfinite(v.minimum) and math.isfinite(v.maximum) and v.nominal and v.kind == "Real"):
+        raise ValueError(f"The input {v.name} must be a Real with minimum, maximum and nominal value.")
+    numbers = ", ".join(map(_number, (v.minimum, v.maximum, v.nominal)))
+    return f"{c_text(v.name)}, {c_text(v.text)}, {c_text(v.unit)}, PLACE_OF_INPUT({v.name}), {numbers}"

@@ -1,0 +1,280 @@
+"""contact.c and contact.h: the regression level of one scene in C99, written from its Python.
+
+`step`, `derivatives` and `first_state` are the program: Python that runs as it stands, and that `translate` writes as C
+for one scene. All equations are those of `contact_core`.
+"""
+
+import dataclasses
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from contact_core import initial_state
+from contact_core.errors import OperatingPointError
+from contact_core.film import Mapped
+from contact_core.mapped.map import map_of
+from contact_core.mapped.query import corrected
+from contact_core.quantities import OF_CALLER, OF_CORE
+from contact_core.regression import evolution
+from contact_core.regression.contact import MeanContact, evaluate
+from contact_core.regression.surfaces import Tribofilms, tribofilms_of
+from contact_core.scene import Case, OperatingPoint, Scene
+from contact_core.state import ContactState, Mean, Outputs, changed
+from contact_core.surfaces.track_means import means_of
+
+from ..variables import Variable, variables
+from .translate import Entry, Num, Translator, literal
+
+Found = tuple[ContactState, Outputs]
+
+# what a contact of every scene has, in the order of `OperatingPoint`; others where a scene asks for them
+_ALWAYS = ("load", "speed_1", "speed_2", "temperature")
+
+
+def bound(scene: Scene, point: OperatingPoint, state: ContactState) -> Case:
+    """Return a scene at an operating point. Raises OperatingPointError where it cannot be used."""
+    case = Case.at(scene, point, state.temperatures)
+    law, bulk, inlet = scene.tribofilm, scene.heat.bulk, scene.lubricant.supply.inlet
+    for temperature in point.bodies if bulk.from_inputs else (point.temperature,):
+        if law.refusal(_COLD) and not law.covers(temperature):
+            raise OperatingPointError(
+                f"temperature = {temperature:g} K is outside the range where the tribofilm's constants hold. Use a set "
+                "fitted at that temperature, or build the FMU anew with tribofilm.beyond_fit = 'extrapolate'."
+            )
+    if inlet is not None and point.load > 0.0:
+        half_width = case.unit_hertz.a * case.growth[0]
+        if inlet <= half_width:
+            raise OperatingPointError(
+                f"lubricant.supply.distance = {inlet:g} m must be more than the half width of Hertz's contact, "
+                f"{half_width:.3g} m at {point.load:g} N: no oil would be before it. Lower the load."
+            )
+    _ = case.unit_hertz, case.growth, case.sides  # once, for all parts of a step
+    return case
+
+
+_COLD = 0.0  # K: no law covers it
+
+
+def step(scene: Scene, point: OperatingPoint, state: ContactState, dt: float) -> Found:
+    """Return the state and the outputs after a step of `dt` [s]."""
+    return evolution.advance(bound(scene, point, state), state, dt, _contacts(scene, derivatives=False))
+
+
+def derivatives(scene: Scene, point: OperatingPoint, state: ContactState) -> tuple[float, float, float, float]:
+    """Return the derivatives of friction_force by speed_1, speed_2, load and temperature."""
+    case = bound(scene, point, state).warmed(state.temperatures)
+    assert state.means is not None
+    return _contacts(scene, derivatives=True)(case, tribofilms_of(state.means)).derivatives
+
+
+def _contacts(scene: Scene, *, derivatives: bool) -> evolution.ContactOf:
+    """Return the function that evaluates contacts, with the map of the scene if it has one."""
+    if not isinstance(scene.film, Mapped):
+
+        def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
+            return evaluate(case, tribofilms, derivatives)
+
+        return contact_of
+    chart = map_of(scene)
+
+    def mapped_contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
+        return corrected(chart, case, evaluate(case, tribofilms, derivatives))
+
+    return mapped_contact_of
+
+
+def first_state(scene: Scene) -> ContactState:
+    """Return the state of fresh surfaces, with their track means."""
+    state = initial_state(scene)
+    return changed(state, means=state.means or means_of(scene, state))
+
+
+def inputs_of(scene: Scene) -> tuple[str, ...]:
+    """Return the names of the inputs that change anything."""
+    return tuple(v.name for v in variables(scene) if v.causality == "input")
+
+
+def _point(scene: Scene) -> OperatingPoint:
+    """Return the operating point at run time."""
+    used = set(_ALWAYS)
+    if scene.heat.bulk.from_inputs:
+        used |= {"body_temperature_1", "body_temperature_2"}
+    if "radius_y" in scene.geometry.lacks:  # of ellipses the integrals are computed when the FMU is built
+        used |= {"radius_x"}
+    if scene.geometry.lacks.isdisjoint({"spin"}) and scene.operation.spin != 0.0:
+        used |= {"spin"}
+    return OperatingPoint(**{name: Num(name) for name in inputs_of(scene) if name in used})  # type: ignore[arg-type]
+
+
+def _state(scene: Scene) -> ContactState:
+    """Return the state at run time."""
+    given = first_state(scene)
+    names = [field.name for field in dataclasses.fields(Mean)]
+    means = tuple(Mean(**{name: Num(f"{name}_{body}") for name in names}) for body in (1, 2))  # type: ignore[arg-type]
+    before = changed(given.outputs, **{q.name: Num(f"last_{q.name}") for q in OF_CORE if q.kind == "Real"})
+    warm = (Num("warm_1"), Num("warm_2")) if scene.heat.bulk.stores_heat else None
+    return changed(given, time=Num("time"), means=means, outputs=before, temperatures=warm)
+
+
+def _paths(value: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
+    """Yield the numbers of state and outputs with the way to them."""
+    from .translate.values import is_number, parts
+
+    if is_number(value):
+        yield path, value
+    else:
+        for name, item in parts(value) or ():
+            yield from _paths(item, (*path, name))
+
+
+def written(scene: Scene) -> dict[str, str]:
+    """Return the C sources of a scene by the names of their files.
+
+    Raises SceneError for a scene that the native FMU cannot have.
+    """
+    point, state = _point(scene), _state(scene)
+    stepped, step_texts = _translated("step", step, [scene, point, state, Num("dt")])
+    slopes, slope_texts = _translated("derivatives", derivatives, [scene, point, state])
+    outputs = [v.name for v in variables(scene) if v.causality == "output" and v.name not in OF_CALLER]
+    new_state, new_outputs = stepped.result
+    after, first = dict(_paths(new_state)), dict(_paths(first_state(scene)))
+    needed = {number.text for number in (*stepped.takes, *slopes.takes)}
+    held = [(path, number) for path, number in _paths(state) if isinstance(number, Num) and number.text in needed]
+    inputs = inputs_of(scene)
+    stepping = [
+        *_initialise([(number.text, first.get(path)) for path, number in held]),
+        "",
+        *_calling(
+            "contact_step(const contact_inputs *in, double dt, contact_state *state, contact_outputs *out,",
+            stepped,
+            inputs,
+            [
+                *((f"state->{number.text}", after[path]) for path, number in held),
+                *((f"out->{name}", getattr(new_outputs, name)) for name in outputs if name not in SLOPES),
+            ],
+        ),
+    ]
+    sloping = _calling(
+        "contact_derivatives(const contact_inputs *in, const contact_state *state, contact_outputs *out,",
+        slopes,
+        inputs,
+        [(f"out->{name}", each) for name, each in zip(SLOPES, slopes.result, strict=True)],
+    )
+    return {
+        "contact.h": _header(scene, inputs, [number.text for _, number in held], outputs),
+        "contact.c": "\n\n".join([_HEAD, *step_texts, "\n".join(stepping)]) + "\n",
+        "slopes.c": "\n\n".join([_HEAD, *slope_texts, "\n".join(sloping)]) + "\n",
+    }
+
+
+def _translated(name: str, function: Any, operands: list[Any]) -> tuple[Entry, list[str]]:
+    """Return a function to be called from C, and it and all that it needs as C."""
+    reads: dict[Any, set[str]] = {}
+    while True:  # members of results that nothing reads are left out, and then what was computed for them
+        translator = Translator(reads)
+        entry = translator.program(name, function, operands)
+        texts = translator.texts([entry])
+        found = reads | translator.wanted(texts, [entry])
+        if found == reads:
+            return entry, texts
+        reads = found
+
+
+SLOPES = ("dfriction_dspeed_1", "dfriction_dspeed_2", "dfriction_dload", "dfriction_dtemperature")
+
+
+def _initialise(values: Sequence[tuple[str, Any]]) -> list[str]:
+    oil = "in->temperature"
+    return [
+        "int contact_initialise(const contact_inputs *in, contact_state *state, contact_outputs *out,",
+        "    contact_message *why)",
+        "{",
+        *(f"    state->{name} = {oil if value is None else literal(value).text};" for name, value in values),
+        "    return contact_step(in, 0.0, state, out, why);",
+        "}",
+    ]
+
+
+def _calling(head: str, entry: Entry, inputs: Sequence[str], sets: Sequence[tuple[str, Any]]) -> list[str]:
+    """Return a function that calls an entry and sets members to numbers of what that returns."""
+
+    def text(value: Any) -> str:
+        return f"found.{value.text}" if isinstance(value, Num) else literal(value).text
+
+    return [
+        f"int {head}",
+        "    contact_message *why)",
+        "{",
+        "    why->text[0] = '\\0';",
+        f"    const struct {entry.name} found = {entry.called(inputs)};",
+        "    if (why->text[0] != '\\0') {",
+        "        return 1;",
+        "    }",
+        *(f"    {target} = {text(value)};" for target, value in sets),
+        "    return 0;",
+        "}",
+    ]
+
+
+def _struct(name: str, members: Sequence[str], about: dict[str, Variable]) -> list[str]:
+    def line(member: str) -> str:
+        if member not in about:
+            return f"    double {member};"
+        return f"    double {member}; /* {about[member].text} [{about[member].unit or '1'}] */"
+
+    return ["typedef struct {", *map(line, members or ["none"]), f"}} {name};", ""]
+
+
+def _header(scene: Scene, inputs: Sequence[str], fields: Sequence[str], outputs: Sequence[str]) -> str:
+    about = {v.name: v for v in variables(scene)}
+    return "\n".join(
+        [
+            f"/* One contact, '{scene.name}', at the regression level; written from contact_core. SI units. */",
+            "",
+            "#ifndef CONTACT_H",
+            "#define CONTACT_H",
+            "",
+            *_struct("contact_inputs", inputs, about),
+            "/* The slow state: plain numbers, to be copied as they are. */",
+            *_struct("contact_state", fields, {}),
+            *_struct("contact_outputs", outputs, about),
+            "/* Why a step was refused; empty if it was not. */",
+            "typedef struct {",
+            "    char text[512];",
+            "} contact_message;",
+            "",
+            "/* Each returns 0, or 1 with a message: then state and outputs stand as they were. */",
+            "",
+            "/* Fresh surfaces, and the outputs of the contact as it is. */",
+            "int contact_initialise(const contact_inputs *in, contact_state *state, contact_outputs *out, "
+            "contact_message *why);",
+            "",
+            "/* A step of dt [s] under held inputs; dt = 0 evaluates the contact. */",
+            "int contact_step(const contact_inputs *in, double dt, contact_state *state, contact_outputs *out, "
+            "contact_message *why);",
+            "",
+            "/* The outputs dfriction_d*, which the others do without: they cost as much as several steps. */",
+            "int contact_derivatives(const contact_inputs *in, const contact_state *state, contact_outputs *out, "
+            "contact_message *why);",
+            "",
+            "#endif",
+            "",
+        ]
+    )
+
+
+_HEAD = """\
+/* Written from contact_core; each function names the Python that it was written from. Do not edit. */
+
+#include "contact.h"
+#include "elementary.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+static void refuse(contact_message *why, const char *format, ...)
+{
+    va_list operands;
+    va_start(operands, format);
+    vsnprintf(why->text, sizeof why->text, format, operands);
+    va_end(operands);
+}"""

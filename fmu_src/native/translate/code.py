@@ -1,0 +1,158 @@
+"""C statements: what is never used is left out, and the rest printed."""
+
+import re
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+_NAMES = re.compile(r'"(?:[^"\\]|\\.)*"|(?<![\w.])([A-Za-z_]\w*)')  # outside quotation marks, and no members
+_CTYPES = {"d": "double", "i": "int", "b": "int"}
+_WIDTH = 116
+
+
+def c_type(kind: str) -> str:
+    """Return the C type of a kind of number."""
+    return _CTYPES[kind]
+
+
+@dataclass
+class Let:
+    """A name for a value, or without one a variable that is set later."""
+
+    ctype: str
+    name: str
+    value: str | None
+
+
+@dataclass
+class Put:
+    """A new value of a variable."""
+
+    name: str
+    value: str
+
+
+@dataclass
+class If:
+    """A choice."""
+
+    test: str
+    then: "Block" = field(default_factory=list)
+    otherwise: "Block" = field(default_factory=list)
+
+
+@dataclass
+class Loop:
+    """Statements that are repeated."""
+
+    head: str
+    body: "Block" = field(default_factory=list)
+
+
+@dataclass
+class Do:
+    """A statement that is always kept."""
+
+    text: str
+
+
+Statement: TypeAlias = Let | Put | If | Loop | Do
+Block: TypeAlias = list[Statement]
+
+
+def names_in(text: str | None) -> set[str]:
+    """Return the names in a piece of C, of r.gap r alone."""
+    return set(_NAMES.findall(text)) - {""} if text else set()
+
+
+def used(block: Block) -> set[str]:
+    """Return all names that a block reads."""
+    found: set[str] = set()
+    for statement in block:
+        if isinstance(statement, If):
+            found |= names_in(statement.test) | used(statement.then) | used(statement.otherwise)
+        elif isinstance(statement, Loop):
+            found |= names_in(statement.head) | used(statement.body)
+        elif isinstance(statement, Do):
+            found |= names_in(statement.text)
+        else:
+            found |= names_in(statement.value)
+    return found
+
+
+def pruned(block: Block, live: set[str]) -> Block:
+    """Return a block without what is never used; `live` are the names used after it, and grows by those used in it."""
+    kept: Block = []
+    for statement in reversed(block):
+        if isinstance(statement, Let | Put):
+            if statement.name not in live:
+                continue
+            live |= names_in(statement.value)
+            kept.append(statement)
+        elif isinstance(statement, If):
+            before, after = set(live), set(live)
+            then, otherwise = pruned(statement.then, before), pruned(statement.otherwise, after)
+            if then or otherwise:
+                live |= before | after | names_in(statement.test)
+                kept.append(If(statement.test, then, otherwise))
+        elif isinstance(statement, Loop):
+            live |= _needed(statement.body, live)
+            body = pruned(statement.body, live)
+            live |= names_in(statement.head)
+            kept.append(Loop(statement.head, body))
+        else:
+            live |= names_in(statement.text)
+            kept.append(statement)
+    return kept[::-1]
+
+
+def _needed(body: Block, live: set[str]) -> set[str]:
+    """Return the names that a repeated body needs from one time to the next."""
+    needed = set(live)
+    while True:
+        more = set(needed)
+        pruned(body, more)
+        if more == needed:
+            return needed
+        needed = more
+
+
+def printed(block: Block, depth: int = 1) -> list[str]:
+    """Return the lines of a block."""
+    lines: list[str] = []
+    for statement in block:
+        if isinstance(statement, Let):
+            value = "" if statement.value is None else f" = {statement.value}"
+            const = "" if statement.value is None else "const "
+            lines += _wrapped(f"{const}{statement.ctype} {statement.name}{value};", depth)
+        elif isinstance(statement, Put):
+            lines += _wrapped(f"{statement.name} = {statement.value};", depth)
+        elif isinstance(statement, If):
+            lines += _choice(statement, depth)
+        elif isinstance(statement, Loop):
+            lines += [*_wrapped(f"{statement.head} {{", depth), *printed(statement.body, depth + 1), "    " * depth + "}"]
+        else:
+            lines += _wrapped(statement.text, depth)
+    return lines
+
+
+def _choice(choice: If, depth: int) -> list[str]:
+    indent = "    " * depth
+    if not choice.then:
+        choice = If(f"!({choice.test})", choice.otherwise, [])
+    lines = [*_wrapped(f"if ({choice.test}) {{", depth), *printed(choice.then, depth + 1)]
+    if choice.otherwise:
+        lines += [indent + "} else {", *printed(choice.otherwise, depth + 1)]
+    return [*lines, indent + "}"]
+
+
+def _wrapped(text: str, depth: int) -> list[str]:
+    """Return a statement in lines of limited width, cut at spaces outside quotation marks."""
+    indent, lines = "    " * depth, []
+    line = indent
+    for word in re.findall(r'(?:"(?:[^"\\]|\\.)*"|\S)+', text):
+        longer = line + word if line.strip() == "" else f"{line} {word}"
+        if len(longer) > _WIDTH and line.strip():
+            lines.append(line)
+            longer = indent + "    " + word
+        line = longer
+    return [*lines, line]
