@@ -35,8 +35,8 @@ def smooth_film(case: Case, further: float) -> SmoothFilm:
     speed = abs(entrainment)
     oil, warm = _oil(scene.lubricant.viscosity, inlet)
     largest, modulus, supply = hertz.pressure_max, scene.solids.reduced_modulus, scene.lubricant.supply
-    thins = speed > 0.0 and (scene.heat.inlet_shear != "none" or scene.lubricant.flow == "local")
-    starves = supply.starves
+    sheared = scene.heat.inlet_shear != "none" or scene.lubricant.flow == "local"
+    thins, starves = sheared and speed > 0.0, supply.starves
 
     def film(speed: float, load: float, slide: float, oil: tuple[float, float], temperature: float) -> float:
         newtonian = shape.film(max(load, LIGHTEST), max(speed, SLOWEST), *oil, modulus)
@@ -58,7 +58,7 @@ def smooth_film(case: Case, further: float) -> SmoothFilm:
         by_speed / math.copysign(STEP * max(speed, SLOWEST), entrainment),
         by_load / (STEP * load),
         by_temperature / KELVIN,
-        _rolling(case, oil, now if thins or starves else None),
+        _rolling(case, oil, now if sheared or starves else None),
     )
 
 

@@ -21,7 +21,17 @@ Fmi = Version
 Compiler = Literal["zig", "gcc", "cc"]
 
 FOLDER = Path(__file__).parent
-_SHARED = ("derivatives.c", "instance.c", "log.c", "states.c", "values.c", "instance.h", "log.h", "model.h", "elementary.h")
+_SHARED = (
+    "derivatives.c",
+    "instance.c",
+    "log.c",
+    "states.c",
+    "values.c",
+    "instance.h",
+    "log.h",
+    "model.h",
+    "elementary.h",
+)
 RUNTIME: dict[Fmi, tuple[str, ...]] = {2: ("fmi2.c", *_SHARED), 3: ("fmi3.c", "fmi3_absent.c", *_SHARED)}
 
 WARNINGS = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror")

@@ -5,12 +5,12 @@ for one scene. All equations are those of `contact_core`.
 """
 
 import dataclasses
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from contact_core import initial_state
-from contact_core.errors import OperatingPointError
-from contact_core.film import Mapped
+from contact_core.errors import OperatingPointError, SceneError
+from contact_core.film import Mapped, Regression
 from contact_core.mapped.map import map_of
 from contact_core.mapped.query import corrected
 from contact_core.quantities import OF_CALLER, OF_CORE
@@ -22,17 +22,16 @@ from contact_core.state import ContactState, Mean, Outputs, changed
 from contact_core.surfaces.track_means import means_of
 
 from ..variables import Variable, variables
-from .translate import Entry, Num, Translator, literal
+from .translate import Entry, Num, Translator, Untranslatable, is_number, literal, parts
 
 Found = tuple[ContactState, Outputs]
 
-# what a contact of every scene has, in the order of `OperatingPoint`; others where a scene asks for them
-_ALWAYS = ("load", "speed_1", "speed_2", "temperature")
 
-
-def bound(scene: Scene, point: OperatingPoint, state: ContactState) -> Case:
-    """Return a scene at an operating point. Raises OperatingPointError where it cannot be used."""
-    case = Case.at(scene, point, state.temperatures)
+def bound(given: Case, state: ContactState) -> Case:
+    """Return a case with the temperatures of a state. Raises OperatingPointError where it cannot be used."""
+    scene, point = given.scene, given.op
+    _check_radii(given)
+    case = Case.at(scene, _with_own_radii(given), state.temperatures)
     law, bulk, inlet = scene.tribofilm, scene.heat.bulk, scene.lubricant.supply.inlet
     for temperature in point.bodies if bulk.from_inputs else (point.temperature,):
         if law.refusal(_COLD) and not law.covers(temperature):
@@ -51,35 +50,88 @@ def bound(scene: Scene, point: OperatingPoint, state: ContactState) -> Case:
     return case
 
 
-_COLD = 0.0  # K: no law covers it
+_COLD = 0.0  # K: no law covers it; as the temperature of a body: none yet
+_SAME_RADIUS = 1e-9  # relative: a host may convert units
 
 
-def step(scene: Scene, point: OperatingPoint, state: ContactState, dt: float) -> Found:
+def _check_radii(case: Case) -> None:
+    """Raise OperatingPointError if a point contact has other radii than the scene.
+
+    The elliptic integrals of its shape are computed when the FMU is built.
+    """
+    for name, radius in _own_radii(case.scene).items():
+        given = getattr(case.op, name)
+        if given is not None and abs(given - radius) > _SAME_RADIUS * radius:
+            raise OperatingPointError(
+                f"{name} = {given:g} m: this FMU holds Hertz's contact of {name} = {radius:g} m. Keep that, or build "
+                f"the FMU anew with geometry.{name} set."
+            )
+
+
+def _own_radii(scene: Scene) -> dict[str, float]:
+    """Return the radii that the FMU of a scene holds: those of a point."""
+    names = () if "radius_y" in scene.geometry.lacks else ("radius_x", "radius_y")
+    return {name: getattr(scene.operation, name) or getattr(scene.geometry, name) for name in names}
+
+
+def _with_own_radii(case: Case) -> OperatingPoint:
+    """Return an operating point with those radii as constants; None where they are those of the geometry."""
+    operation = case.scene.operation
+    own = {name: getattr(operation, name) and radius for name, radius in _own_radii(case.scene).items()}
+    return dataclasses.replace(case.op, **own)
+
+
+def step(case: Case, state: ContactState, dt: float) -> Found:
     """Return the state and the outputs after a step of `dt` [s]."""
-    return evolution.advance(bound(scene, point, state), state, dt, _contacts(scene, derivatives=False))
+    begun = _begun(case.op, state)
+    contacts = _contacts(case.scene, derivatives=False)
+    after, outputs = evolution.advance(bound(case, begun), begun, dt, contacts)
+    if case.scene.heat.bulk.stores_heat and dt == 0.0:  # bodies begin at the temperature of the oil of the first step
+        after = changed(after, temperatures=state.temperatures)
+    return after, outputs
 
 
-def derivatives(scene: Scene, point: OperatingPoint, state: ContactState) -> tuple[float, float, float, float]:
+def derivatives(case: Case, state: ContactState) -> tuple[float, float, float, float]:
     """Return the derivatives of friction_force by speed_1, speed_2, load and temperature."""
-    case = bound(scene, point, state).warmed(state.temperatures)
+    begun = _begun(case.op, state)
+    now = bound(case, begun).warmed(begun.temperatures)
     assert state.means is not None
-    return _contacts(scene, derivatives=True)(case, tribofilms_of(state.means)).derivatives
+    return _contacts(case.scene, derivatives=True)(now, tribofilms_of(state.means)).derivatives
 
 
 def _contacts(scene: Scene, *, derivatives: bool) -> evolution.ContactOf:
-    """Return the function that evaluates contacts, with the map of the scene if it has one."""
-    if not isinstance(scene.film, Mapped):
+    """Return the function that evaluates contacts of a scene at its level."""
+    return _LEVELS[scene.film.name](scene, derivatives)
 
-        def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
-            return evaluate(case, tribofilms, derivatives)
 
-        return contact_of
+def _of_curves(scene: Scene, derivatives: bool) -> evolution.ContactOf:
+    def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
+        return evaluate(case, tribofilms, derivatives)
+
+    return contact_of
+
+
+def _of_map(scene: Scene, derivatives: bool) -> evolution.ContactOf:
     chart = map_of(scene)
 
-    def mapped_contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
+    def contact_of(case: Case, tribofilms: Tribofilms) -> MeanContact:
         return corrected(chart, case, evaluate(case, tribofilms, derivatives))
 
-    return mapped_contact_of
+    return contact_of
+
+
+_LEVELS: dict[str, Callable[[Scene, bool], evolution.ContactOf]] = {
+    Regression.name: _of_curves,
+    Mapped.name: _of_map,
+}
+
+
+def _begun(point: OperatingPoint, state: ContactState) -> ContactState:
+    """Return a state whose bodies have temperatures: where none are stored yet, that of the oil."""
+    if state.temperatures is None:
+        return state
+    one, two = (stored if stored > _COLD else point.temperature for stored in state.temperatures)
+    return changed(state, temperatures=(one, two))
 
 
 def first_state(scene: Scene) -> ContactState:
@@ -89,20 +141,14 @@ def first_state(scene: Scene) -> ContactState:
 
 
 def inputs_of(scene: Scene) -> tuple[str, ...]:
-    """Return the names of the inputs that change anything."""
+    """Return the names of the inputs."""
     return tuple(v.name for v in variables(scene) if v.causality == "input")
 
 
 def _point(scene: Scene) -> OperatingPoint:
     """Return the operating point at run time."""
-    used = set(_ALWAYS)
-    if scene.heat.bulk.from_inputs:
-        used |= {"body_temperature_1", "body_temperature_2"}
-    if "radius_y" in scene.geometry.lacks:  # of ellipses the integrals are computed when the FMU is built
-        used |= {"radius_x"}
-    if scene.geometry.lacks.isdisjoint({"spin"}) and scene.operation.spin != 0.0:
-        used |= {"spin"}
-    return OperatingPoint(**{name: Num(name) for name in inputs_of(scene) if name in used})  # type: ignore[arg-type]
+    unused = () if scene.heat.bulk.from_inputs else ("body_temperature_1", "body_temperature_2")
+    return OperatingPoint(**{name: Num(name) for name in inputs_of(scene) if name not in unused})  # type: ignore[arg-type]
 
 
 def _state(scene: Scene) -> ContactState:
@@ -117,8 +163,6 @@ def _state(scene: Scene) -> ContactState:
 
 def _paths(value: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
     """Yield the numbers of state and outputs with the way to them."""
-    from .translate.values import is_number, parts
-
     if is_number(value):
         yield path, value
     else:
@@ -131,9 +175,16 @@ def written(scene: Scene) -> dict[str, str]:
 
     Raises SceneError for a scene that the native FMU cannot have.
     """
-    point, state = _point(scene), _state(scene)
-    stepped, step_texts = _translated("step", step, [scene, point, state, Num("dt")])
-    slopes, slope_texts = _translated("derivatives", derivatives, [scene, point, state])
+    _check(scene)
+    case, state = Case(scene, _point(scene)), _state(scene)
+    try:
+        stepped, step_texts = _translated(step, [case, state, Num("dt")])
+        slopes, slope_texts = _translated(derivatives, [case, state])
+    except Untranslatable as error:
+        raise SceneError(
+            f"The equations of '{scene.name}' cannot be written as C: {error}\ndocs/how-to/native_fmu.md says what "
+            "can. Write that line so, or build with --flavour isolated."
+        ) from error
     outputs = [v.name for v in variables(scene) if v.causality == "output" and v.name not in OF_CALLER]
     new_state, new_outputs = stepped.result
     after, first = dict(_paths(new_state)), dict(_paths(first_state(scene)))
@@ -161,19 +212,38 @@ def written(scene: Scene) -> dict[str, str]:
     )
     return {
         "contact.h": _header(scene, inputs, [number.text for _, number in held], outputs),
-        "contact.c": "\n\n".join([_HEAD, *step_texts, "\n".join(stepping)]) + "\n",
-        "slopes.c": "\n\n".join([_HEAD, *slope_texts, "\n".join(sloping)]) + "\n",
+        "contact.c": "\n\n".join([HEAD, *step_texts, "\n".join(stepping)]) + "\n",
+        "slopes.c": "\n\n".join([HEAD, *slope_texts, "\n".join(sloping)]) + "\n",
     }
 
 
-def _translated(name: str, function: Any, operands: list[Any]) -> tuple[Entry, list[str]]:
+def _check(scene: Scene) -> None:
+    """Raise SceneError for a scene that no native FMU can have."""
+    if scene.film.name not in _LEVELS:
+        raise SceneError(
+            f"film.model = '{scene.film.name}' solves contacts, and a native FMU has no solver. Set film.model = "
+            f"{' or '.join(repr(name) for name in _LEVELS)}, or build with --flavour isolated."
+        )
+    if scene.stress.samples:
+        raise SceneError(
+            f"stress.model = '{scene.stress.name}' has stresses by depth and place, and a native FMU has numbers only. "
+            "Set stress.model = 'none' and fatigue.model = 'none', or build with --flavour isolated."
+        )
+
+
+def _translated(function: Any, operands: list[Any]) -> tuple[Entry, list[str]]:
     """Return a function to be called from C, and it and all that it needs as C."""
     reads: dict[Any, set[str]] = {}
+    needed: dict[Any, set[str]] = {}  # members that were left out, but are read
     while True:  # members of results that nothing reads are left out, and then what was computed for them
         translator = Translator(reads)
-        entry = translator.program(name, function, operands)
+        entry = translator.program(function, operands)
         texts = translator.texts([entry])
-        found = reads | translator.wanted(texts, [entry])
+        for key, member in translator.missed(texts):
+            needed.setdefault(key, set()).add(member)
+        found = dict(reads)
+        for key, members in translator.wanted(texts, [entry]).items():
+            found[key] = members & reads.get(key, members) | needed.get(key, set())
         if found == reads:
             return entry, texts
         reads = found
@@ -183,12 +253,11 @@ SLOPES = ("dfriction_dspeed_1", "dfriction_dspeed_2", "dfriction_dload", "dfrict
 
 
 def _initialise(values: Sequence[tuple[str, Any]]) -> list[str]:
-    oil = "in->temperature"
     return [
         "int contact_initialise(const contact_inputs *in, contact_state *state, contact_outputs *out,",
         "    contact_message *why)",
         "{",
-        *(f"    state->{name} = {oil if value is None else literal(value).text};" for name, value in values),
+        *(f"    state->{name} = {literal(_COLD if value is None else value).text};" for name, value in values),
         "    return contact_step(in, 0.0, state, out, why);",
         "}",
     ]
@@ -262,7 +331,7 @@ def _header(scene: Scene, inputs: Sequence[str], fields: Sequence[str], outputs:
     )
 
 
-_HEAD = """\
+HEAD = """\
 /* Written from contact_core; each function names the Python that it was written from. Do not edit. */
 
 #include "contact.h"
