@@ -10,6 +10,8 @@ from .console import note, output_folder, refuse_empty
 if TYPE_CHECKING:
     import xarray as xr
 
+    from fmu_src.flavours import Flavour
+
     from ..machines.assembly import Assembly
     from ..master import System
 
@@ -23,7 +25,7 @@ def run(arguments: argparse.Namespace) -> int:
         machine.table["duty"] = timeline.with_file(machine.table.get("duty", {}), Path(arguments.duty).absolute())
     assembly = reading.assemble(machine)
     if arguments.ssp:
-        return _export(assembly, arguments.ssp)
+        return _export(assembly, arguments.ssp, arguments.flavour or "isolated")
     folder = output_folder(arguments.out, machine.name)
     return _run_in(folder, assembly, machine.kind, arguments.resume, arguments.unchecked)
 
@@ -40,14 +42,14 @@ def _changes(arguments: argparse.Namespace) -> dict[str, str]:
     return changes
 
 
-def _export(assembly: "Assembly", path: str) -> int:
+def _export(assembly: "Assembly", path: str, flavour: "Flavour") -> int:
     import tempfile
 
     from ..machines.export import with_timetable
     from ..master import export_ssp
 
     with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder:
-        system = with_timetable(assembly).system(Path(folder), "isolated")
+        system = with_timetable(assembly).system(Path(folder), flavour)
         print(f"Written: {export_ssp(system, path, assembly.settings['stop_time'], assembly.settings['step_size'])}")
     return 0
 

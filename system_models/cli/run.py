@@ -9,6 +9,8 @@ from ..machines import files
 from . import contact, machine
 from .scenes import add_scene
 
+_FOR_ANY_HOST = "isolated", "native"  # flavours
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the arguments of the command."""
@@ -43,10 +45,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="leave out the checks of a machine's result: a simulation with double steps, and states solved again",
     )
     parser.add_argument("--ssp", metavar="FILE.ssp", help="export a machine as SSP 1.0, do not run it")
+    parser.add_argument(
+        "--flavour",
+        choices=_FOR_ANY_HOST,
+        help="with --ssp: of the contacts' FMUs, as in `tribofmu build` (default: isolated); components are isolated",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Run what the command line names and return the exit code."""
+    if arguments.flavour is not None and arguments.ssp is None:
+        raise ContactError("--flavour is that of the FMUs in an .ssp file: add --ssp FILE.ssp, or leave it out.")
     if files.is_machine(arguments.scene):
         if arguments.fields is not None:
             raise ContactError(

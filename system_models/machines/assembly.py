@@ -9,7 +9,7 @@ from typing import Any
 
 from contact_core.quantities import TABLE
 from contact_core.scene import Scene
-from fmu_src.flavours import Flavour
+from fmu_src.flavours import WITH_PYTHON, Flavour
 from fmu_src.package.build import build as build_contact
 
 from ..master import System
@@ -77,11 +77,13 @@ class Assembly:
     def system(self, folder: Path, flavour: Flavour = "embedded") -> System:
         """Build the FMUs into a folder and couple them; contacts of one scene share a file.
 
-        Raises ContactError for parts that do not fit together.
+        Components are models in Python: with native contacts they are isolated. Raises ContactError for parts that do
+        not fit together, and for a contact that the flavour cannot have.
         """
+        of_parts: Flavour = flavour if flavour in WITH_PYTHON else "isolated"
         proposed = {"duration": self.settings["stop_time"], "step_size": self.settings["step_size"]}
         files = {
-            name: build_part(part, folder / f"{name}.fmu", flavour, **proposed) for name, part in self.parts.items()
+            name: build_part(part, folder / f"{name}.fmu", of_parts, **proposed) for name, part in self.parts.items()
         }
         scenes: dict[str, Path] = {}
         for name, contact in self.contacts.items():
