@@ -15,13 +15,14 @@ from . import code
 from .arrays import arrays_in, on_arrays
 from .expressions import Super
 from .interpreter import Scope
-from .results import distinct, fields_of, filled, forwarded, holes_in, part_names, wanted_fields
+from .results import distinct, fields_of, filled, forwarded, handed_on, holes_in, part_names, wanted_fields
 from .sources import about, closure_of, expression_of, is_straight, method_after, statements_of
 from .units import Text, Unit, matched, template_of, unique
 from .values import UNARY, Closure, Method, Num, Untranslatable, is_dynamic, leaves, replaced, signature
 
 _CORE, _LAWS = "contact_core.", "contact_core.laws."
 _UNREAD = "unread_"  # stands, with a number, for a member that nothing reads in the end
+_GIVEN = "given_"  # stands, with its place, for a member that is always the same one of those that a function takes
 
 
 @dataclass
@@ -72,7 +73,7 @@ class Translator:
         """Write a function that C code calls, with all it needs; `operands` have numbers at run time by name."""
         closure = closure_of(function)
         bound = self._bound(closure, function, operands, {})
-        found = self._function(closure, bound)
+        found = self._function(closure, bound, hands_on=False)
         given = distinct((bound, closure))
         takes = [number for number, used in zip(given, found.used, strict=True) if used]
         members = [Num(field, hole.kind) for field, hole in zip(found.fields, holes_in(found.template), strict=True)]
@@ -109,7 +110,7 @@ class Translator:
 
         def marked(hole: Num) -> Num:
             field = next(fields)
-            if field in self._reads[key]:
+            if hole.text or field in self._reads[key]:
                 return hole
             self._unread.append((key, field))
             return Num(f"{_UNREAD}{len(self._unread) - 1}", hole.kind)
@@ -187,21 +188,27 @@ class Translator:
         return dict(zip(names, operands, strict=False)) | named
 
     def _called(self, unit: Unit, found: CFunction, given: list[Num]) -> Any:
+        given = list(given)
+        for name, hole in leaves(found.template):
+            if hole.text.startswith(_GIVEN):  # used again after the call
+                place = int(hole.text.removeprefix(_GIVEN))
+                given[place] = unit.let(name or "given", given[place])
+        template = replaced(found.template, lambda hole: _own(hole, given))
         if found.forward is not None:
             return filled(
-                found.template,
+                template,
                 [given[each] if isinstance(each, int) else Num(each, binds=UNARY) for each in found.forward],
             )
         texts = [number.text for number, used in zip(given, found.used, strict=True) if used]
         if found.may_fail:
             texts.append("why")
         call = f"{found.name}({', '.join(texts)})"
-        holes = holes_in(found.template)
+        holes = holes_in(template)
         if not holes:
             if found.may_fail:
                 unit.emit(code.Do(f"{call};"))
                 self._checked(unit)
-            return found.template
+            return template
         if len(holes) == 1:
             result = Num(call, holes[0].kind)
             if found.may_fail:
@@ -209,7 +216,7 @@ class Translator:
                 unit.emit(code.Let(code.c_type(result.kind), name, call))
                 result = Num(name, result.kind)
                 self._checked(unit)
-            return filled(found.template, [result])
+            return filled(template, [result])
         struct = unit.known(call)
         if struct is None:
             struct = unit.fresh(f"of_{found.name}")
@@ -218,7 +225,7 @@ class Translator:
             if found.may_fail:
                 self._checked(unit)
         members = [Num(f"{struct}.{field}", hole.kind) for field, hole in zip(found.fields, holes, strict=True)]
-        return filled(found.template, members)
+        return filled(template, members)
 
     def _checked(self, unit: Unit) -> None:
         """Leave the function if the one called has refused."""
@@ -256,8 +263,8 @@ class Translator:
 
     # C functions
 
-    def _function(self, closure: Closure, bound: dict[str, Any]) -> CFunction:
-        """Return the C function for parameters like these."""
+    def _function(self, closure: Closure, bound: dict[str, Any], *, hands_on: bool = True) -> CFunction:
+        """Return the C function for parameters like these; with `hands_on` it does not return what it is given."""
         key = (
             ast.dump(closure.node) if isinstance(closure.node, ast.Lambda) else id(closure.node),
             closure.path,
@@ -269,10 +276,14 @@ class Translator:
             self._kept.append((closure, bound))
             name = self._new_name(closure.name)
             self._keys[name] = key
-            first = self._written(name, closure, bound, None)
+            parameters: list[Num] = []
+            first = self._written(name, closure, bound, None, parameters)
             if not first.returned:
                 raise Untranslatable(f"{closure.path} always refuses")
-            self._cache[key] = self._finished(name, closure, bound, template_of(first.returned))
+            template = template_of(first.returned)
+            if hands_on:
+                template = handed_on(template, first.returned, parameters, _GIVEN)
+            self._cache[key] = self._finished(name, closure, bound, template)
         return self._cache[key]
 
     def _new_name(self, name: str) -> str:
@@ -338,6 +349,11 @@ class Translator:
         lines = [*code.comment(about(closure)), *head, "{", *code.printed(block), "}"]
         self.functions.append((name, "\n".join(lines)))
         return CFunction(name, used, template, fields, unit.may_fail)
+
+
+def _own(hole: Num, given: list[Num]) -> Num:
+    """Return what a caller gave where a function hands that on."""
+    return given[int(hole.text.removeprefix(_GIVEN))] if hole.text.startswith(_GIVEN) else hole
 
 
 def _is_elementwise(function: types.FunctionType) -> bool:

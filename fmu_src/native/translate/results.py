@@ -76,3 +76,16 @@ def forwarded(unit: Unit, template: Any, parameters: list[Num]) -> list[int | st
         else:
             return None
     return found
+
+
+def handed_on(template: Any, returned: list[Any], parameters: list[Num], mark: str) -> Any:
+    """Return a result with a mark and a place for each member that is the same parameter wherever it returns."""
+    places = {parameter.text: place for place, parameter in enumerate(parameters)}
+    columns = zip(*(matched(value, template) for value in returned), strict=True)
+    texts = iter([{number.text for number in column} for column in columns])
+
+    def marked(hole: Num) -> Num:
+        text, *others = next(texts)
+        return hole if others or text not in places else Num(f"{mark}{places[text]}", hole.kind)
+
+    return replaced(template, marked)
