@@ -6,6 +6,7 @@ import sys
 
 import native_scenes
 import pytest
+from mapped_scene import mapped_scene
 from native_contact import NativeContact, bits, differences, tolerance
 
 from contact_core import Scene
@@ -23,6 +24,12 @@ ZIG = (sys.executable, "-m", "ziglang", "cc", "-O2")
 def test_c_does_what_python_does(changes, tmp_path):
     scene = native_scenes.scene_of(changes)
     found = differences(scene, NativeContact(scene, tmp_path), RUNS, STEPS)
+    assert {name: wrong for name, wrong in found.items() if not wrong <= tolerance(name)} == {}
+
+
+def test_c_does_what_python_does_by_a_map(tmp_path):
+    scene = mapped_scene(tmp_path)
+    found = differences(scene, NativeContact(scene, tmp_path), 2, STEPS)
     assert {name: wrong for name, wrong in found.items() if not wrong <= tolerance(name)} == {}
 
 
