@@ -133,8 +133,8 @@ def test_the_law_is_in_the_c_of_a_native_fmu(tree: Tree) -> None:
         f"""
 import sys
 from pathlib import Path
-sys.path.insert(0, {str(ROOT / "tests" / "fmu")!r})
-from native_contact import NativeContact, differences
+sys.path.append({str(ROOT)!r})
+from benchmarks.fmu.native_contact import NativeContact, differences
 scene = scene_of(tribofilm__set="quinn_80c").at_level("regression")
 contact = NativeContact(scene, Path.cwd())
 print(json.dumps(["quinn_evolve" in contact.sources["contact.c"], differences(scene, contact, 2, 5)]))

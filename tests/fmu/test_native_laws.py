@@ -4,11 +4,11 @@ import re
 import shutil
 import sys
 
-import native_scenes
 import pytest
 from mapped_scene import mapped_scene
-from native_contact import NativeContact, bits, differences, tolerance
 
+from benchmarks.fmu import native_scenes
+from benchmarks.fmu.native_contact import NativeContact, bits, differences, tolerance
 from contact_core import Scene
 from contact_core.errors import SceneError
 from fmu_src.native import files

@@ -24,6 +24,7 @@ class Let:
     ctype: str
     name: str
     value: str | None
+    may_refuse: bool = False  # a call that has to be made even if nothing reads its result
 
 
 @dataclass
@@ -101,6 +102,9 @@ def pruned(block: Block, live: set[str]) -> Block:
     for statement in reversed(block):
         if isinstance(statement, Let | Put):
             if statement.name not in live:
+                if isinstance(statement, Let) and statement.may_refuse:
+                    live |= names_in(statement.value)
+                    kept.append(Do(f"{statement.value};"))
                 continue
             live |= names_in(statement.value)
             kept.append(statement)

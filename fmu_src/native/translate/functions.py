@@ -92,6 +92,9 @@ class Translator:
         """Return the members that anything reads of the structs of functions, by what these are; of entries all."""
         found: dict[Any, set[str]] = {}
         for text in texts:
+            for name in re.findall(r"(?<=[;{}])\n +(\w+)\(", text):  # calls whose results nothing reads
+                if name in self._keys:
+                    found.setdefault(self._keys[name], set())
             for struct, name in re.findall(r"const struct (\w+)\s+(\w+)\s+=", text):
                 found.setdefault(self._keys[struct], set()).update(re.findall(rf"\b{name}\.(\w+)", text))
         for entry in entries:
@@ -213,7 +216,7 @@ class Translator:
             result = Num(call, holes[0].kind)
             if found.may_fail:
                 name = unit.fresh(found.name)
-                unit.emit(code.Let(code.c_type(result.kind), name, call))
+                unit.emit(code.Let(code.c_type(result.kind), name, call, may_refuse=True))
                 result = Num(name, result.kind)
                 self._checked(unit)
             return filled(template, [result])
@@ -221,7 +224,7 @@ class Translator:
         if struct is None:
             struct = unit.fresh(f"of_{found.name}")
             unit.keep(call, struct)
-            unit.emit(code.Let(f"struct {found.name}", struct, call))
+            unit.emit(code.Let(f"struct {found.name}", struct, call, found.may_fail))
             if found.may_fail:
                 self._checked(unit)
         members = [Num(f"{struct}.{field}", hole.kind) for field, hole in zip(found.fields, holes, strict=True)]
