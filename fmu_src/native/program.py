@@ -22,7 +22,7 @@ from contact_core.state import ContactState, Mean, Outputs, changed
 from contact_core.surfaces.track_means import means_of
 
 from ..variables import Variable, variables
-from .translate import Entry, Num, Translator, Untranslatable, is_number, literal, parts
+from .translate import Entry, Num, Translator, Untranslatable, is_number, literal, parts, wrapped
 
 Found = tuple[ContactState, Outputs]
 
@@ -274,7 +274,7 @@ def _calling(head: str, entry: Entry, inputs: Sequence[str], sets: Sequence[tupl
         "    contact_message *why)",
         "{",
         "    why->text[0] = '\\0';",
-        f"    const struct {entry.name} found = {entry.called(inputs)};",
+        *wrapped(f"const struct {entry.name} found = {entry.called(inputs)};", 1),
         "    if (why->text[0] != '\\0') {",
         "        return 1;",
         "    }",

@@ -58,6 +58,15 @@ def test_inputs_that_the_contact_cannot_have_are_refused(ball, changed, said):
     assert not contact.step(inputs, 1.0)
 
 
+@pytest.mark.parametrize("changed", [{"radius_x": 9.6e-3}, {"temperature": 300.0}])
+def test_derivatives_are_refused_as_steps_are(ball, changed):
+    scene, contact = ball
+    inputs = native_scenes.inputs_of(scene)
+    assert not contact.initialise(inputs)
+    assert not contact.derivatives(inputs)
+    assert next(iter(changed)) in contact.derivatives(inputs | changed)
+
+
 def test_radii_may_be_rounded_in_other_units(ball):
     scene, contact = ball
     inputs = native_scenes.inputs_of(scene)

@@ -13,7 +13,19 @@ interpreter   statements of Python
 functions     calls, and C functions: one for each way in which a Python function is used
 """
 
+from .code import wrapped
 from .functions import Entry, Translator
 from .values import Num, Untranslatable, is_number, leaves, literal, parts, replaced
 
-__all__ = ["Entry", "Num", "Translator", "Untranslatable", "is_number", "leaves", "literal", "parts", "replaced"]
+__all__ = [
+    "Entry",
+    "Num",
+    "Translator",
+    "Untranslatable",
+    "is_number",
+    "leaves",
+    "literal",
+    "parts",
+    "replaced",
+    "wrapped",
+]
