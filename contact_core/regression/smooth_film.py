@@ -58,20 +58,20 @@ def smooth_film(case: Case, further: float) -> SmoothFilm:
         by_speed / math.copysign(STEP * max(speed, SLOWEST), entrainment),
         by_load / (STEP * load),
         by_temperature / KELVIN,
-        _rolling(case, oil, now if thins or starves else None),
+        _rolling(case, oil, now, thins or starves),
     )
 
 
-def _rolling(case: Case, oil: tuple[float, float], film: float | None) -> float:
+def _rolling(case: Case, oil: tuple[float, float], film: float, falls: bool) -> float:
     """Return the rolling resistance [N] of the smooth bodies.
 
-    The force is taken to fall as the film [m] falls below that of flooded, cold oil; None: it does not.
+    falls: the force is taken to fall as the film [m] falls below that of flooded, cold oil.
     """
     speed = case.op.entrainment_speed
     if abs(speed) < SLOWEST:
         return 0.0
     shape, modulus, load = case.shape, case.scene.solids.reduced_modulus, max(case.op.load, LIGHTEST)
-    left = 1.0 if film is None else film / shape.film(load, abs(speed), *oil, modulus)
+    left = film / shape.film(load, abs(speed), *oil, modulus) if falls else 1.0
     return math.copysign(left * shape.rolling(load, abs(speed), oil[0], modulus), speed)
 
 

@@ -4,7 +4,9 @@
 for one scene. All equations are those of `contact_core`.
 """
 
+import copy
 import dataclasses
+import json
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -80,6 +82,11 @@ def inputs_of(scene: Scene) -> tuple[str, ...]:
 
 def _point(scene: Scene) -> OperatingPoint:
     """Return the operating point at run time."""
+    return OperatingPoint(**{name: Num(name) for name in _point_names(scene)})  # type: ignore[arg-type]
+
+
+def _point_names(scene: Scene) -> list[str]:
+    """Return the inputs that the equations look at."""
     used = set(_ALWAYS)
     if scene.heat.bulk.from_inputs:
         used |= {"body_temperature_1", "body_temperature_2"}
@@ -87,7 +94,7 @@ def _point(scene: Scene) -> OperatingPoint:
         used |= {"radius_x"}
     if scene.geometry.lacks.isdisjoint({"spin"}) and scene.operation.spin != 0.0:
         used |= {"spin"}
-    return OperatingPoint(**{name: Num(name) for name in inputs_of(scene) if name in used})  # type: ignore[arg-type]
+    return [name for name in inputs_of(scene) if name in used]
 
 
 def _state(scene: Scene) -> ContactState:
@@ -111,14 +118,53 @@ def _paths(value: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, 
             yield from _paths(item, (*path, name))
 
 
+TRACKS = {"track_length_1": "TRACK_LENGTH_1", "track_length_2": "TRACK_LENGTH_2"}  # numbers in tracks.c
+
+
 def written(scene: Scene) -> dict[str, str]:
     """Return the C sources of a scene by the names of their files.
 
+    Contacts that differ in track lengths only, such as the stations of a gear mesh, have all files but tracks.c alike.
     Raises SceneError for a scene that the native FMU cannot have.
     """
-    point, state = _point(scene), _state(scene)
-    stepped, step_texts = _translated("step", step, [scene, point, state, Num("dt")])
-    slopes, slope_texts = _translated("derivatives", derivatives, [scene, point, state])
+    geometry = scene.geometry
+    key = _key(scene)
+    if key not in _written:
+        _written[key] = _equations(scene)
+    return {**_written[key], "tracks.c": _tracks(geometry.track_length_1, geometry.track_length_2)}
+
+
+_written: dict[str, dict[str, str]] = {}  # by scene, without what is known at run time only
+
+
+def _key(scene: Scene) -> str:
+    """Return all of a scene that its equations in C depend on."""
+    table = scene.to_dict()
+    for name in TRACKS:
+        table["geometry"].pop(name)
+    for name in _point_names(scene):
+        table["operation"].pop(name, None)
+    return json.dumps(table, sort_keys=True)
+
+
+def _tracks(*lengths: float) -> str:
+    values = (f"const double {name} = {literal(value).text};" for name, value in zip(TRACKS.values(), lengths, strict=True))
+    return "\n".join(['#include "contact.h"', "", *values, ""])
+
+
+def _at_run_time(scene: Scene) -> Scene:
+    """Return a scene whose track lengths are numbers at run time."""
+    geometry, loose = copy.copy(scene.geometry), object.__new__(type(scene))
+    geometry.__dict__.update({name: Num(number) for name, number in TRACKS.items()})
+    fields = {field.name: getattr(scene, field.name) for field in dataclasses.fields(scene)}  # no cached properties
+    loose.__dict__.update(fields | {"geometry": geometry})
+    return loose
+
+
+def _equations(scene: Scene) -> dict[str, str]:
+    point, state, loose = _point(scene), _state(scene), _at_run_time(scene)
+    stepped, step_texts = _translated("step", step, [loose, point, state, Num("dt")])
+    slopes, slope_texts = _translated("derivatives", derivatives, [loose, point, state])
     outputs = [v.name for v in variables(scene) if v.causality == "output" and v.name not in OF_CALLER]
     new_state, new_outputs = stepped.result
     after, first = dict(_paths(new_state)), dict(_paths(first_state(scene)))
@@ -190,7 +236,7 @@ def _calling(head: str, entry: Entry, inputs: Sequence[str], sets: Sequence[tupl
         "    contact_message *why)",
         "{",
         "    why->text[0] = '\\0';",
-        f"    const struct {entry.name} found = {entry.called(inputs)};",
+        f"    const struct {entry.name} found = {entry.called(inputs, TRACKS.values())};",
         "    if (why->text[0] != '\\0') {",
         "        return 1;",
         "    }",
@@ -240,6 +286,9 @@ def _header(scene: Scene, inputs: Sequence[str], fields: Sequence[str], outputs:
             "/* The outputs dfriction_d*, which the others do without: they cost as much as several steps. */",
             "int contact_derivatives(const contact_inputs *in, const contact_state *state, contact_outputs *out, "
             "contact_message *why);",
+            "",
+            "/* Travel of a point of a body between two passes [m]. */",
+            f"extern const double {', '.join(TRACKS.values())};",
             "",
             "#endif",
             "",

@@ -24,6 +24,7 @@ def build(
     python: str | None = None,
     duration: float = 1.0,
     step_size: float = 1e-2,
+    here: bool = False,
 ) -> Path:
     """Write the FMU of a component to `out` and return it. The same arguments and versions give the same bytes.
 

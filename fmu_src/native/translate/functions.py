@@ -6,7 +6,7 @@ import inspect
 import re
 import textwrap
 import types
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -44,10 +44,11 @@ class Entry:
     result: Any  # its numbers at run time are members of the struct that it returns
     may_fail: bool
 
-    def called(self, inputs: Sequence[str]) -> str:
+    def called(self, inputs: Sequence[str], constants: Collection[str] = ()) -> str:
         """Return the call, with inputs and state from structs `in` and `state`."""
+        whole = {"dt", *constants}
         given = [
-            number.text if number.text == "dt" else f"{'in' if number.text in inputs else 'state'}->{number.text}"
+            number.text if number.text in whole else f"{'in' if number.text in inputs else 'state'}->{number.text}"
             for number in self.takes
         ]
         return f"{self.name}({', '.join([*given, *(['why'] if self.may_fail else [])])})"
@@ -170,7 +171,7 @@ class Translator:
                 return function(*operands, **named)
             closure = _closure_of(function)
             arrays = [x for x in (*operands, *named.values()) if isinstance(x, np.ndarray) and is_dynamic(x)]
-            if arrays and function.__module__.startswith(_ELEMENTWISE):
+            if arrays and function.__module__.startswith(_ELEMENTWISE) and not any(map(_has_arrays, operands)):
                 return self._on_arrays(unit, function, operands, named)
         bound = self._bound(closure, function, operands, named)
         expression = _expression(closure.node)
@@ -487,6 +488,11 @@ def _is_straight(node: Any) -> bool:
     """Return True for a function without choices and loops: each element of an array has a copy of it."""
     *before, last = _statements(node)
     return isinstance(last, ast.Return) and all(isinstance(each, ast.Assign) for each in before)
+
+
+def _has_arrays(value: Any) -> bool:
+    """Return True for a tuple of arrays: a law takes it as it is."""
+    return isinstance(value, tuple) and any(isinstance(item, np.ndarray) for item in value)
 
 
 def _expression(node: Any) -> ast.expr | None:
