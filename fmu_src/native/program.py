@@ -7,7 +7,8 @@ for one scene. All equations are those of `contact_core`.
 import copy
 import dataclasses
 import json
-from collections.abc import Iterator, Sequence
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from contact_core import initial_state
@@ -21,6 +22,7 @@ from contact_core.state import ContactState, Mean, Outputs, changed
 from contact_core.surfaces.track_means import means_of
 
 from ..variables import Variable, variables
+from .model import c_name
 from .translate import Entry, Num, Translator, literal
 
 Found = tuple[ContactState, Outputs]
@@ -107,7 +109,7 @@ def _state(scene: Scene) -> ContactState:
     return changed(given, time=Num("time"), means=means, outputs=before, temperatures=warm)
 
 
-def _paths(value: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
+def paths(value: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
     """Yield the numbers of state and outputs with the way to them."""
     from .translate.values import is_number, parts
 
@@ -115,7 +117,7 @@ def _paths(value: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, 
         yield path, value
     else:
         for name, item in parts(value) or ():
-            yield from _paths(item, (*path, name))
+            yield from paths(item, (*path, name))
 
 
 TRACKS = {"track_length_1": "TRACK_LENGTH_1", "track_length_2": "TRACK_LENGTH_2"}  # numbers in tracks.c
@@ -163,18 +165,18 @@ def _at_run_time(scene: Scene) -> Scene:
 
 def _equations(scene: Scene) -> dict[str, str]:
     point, state, loose = _point(scene), _state(scene), _at_run_time(scene)
-    stepped, step_texts = _translated("step", step, [loose, point, state, Num("dt")])
-    slopes, slope_texts = _translated("derivatives", derivatives, [loose, point, state])
+    stepped, step_texts = translated("step", step, [loose, point, state, Num("dt")])
+    slopes, slope_texts = translated("derivatives", derivatives, [loose, point, state])
     outputs = [v.name for v in variables(scene) if v.causality == "output" and v.name not in OF_CALLER]
     new_state, new_outputs = stepped.result
-    after, first = dict(_paths(new_state)), dict(_paths(first_state(scene)))
+    after, first = dict(paths(new_state)), dict(paths(first_state(scene)))
     needed = {number.text for number in (*stepped.takes, *slopes.takes)}
-    held = [(path, number) for path, number in _paths(state) if isinstance(number, Num) and number.text in needed]
+    held = [(path, number) for path, number in paths(state) if isinstance(number, Num) and number.text in needed]
     inputs = inputs_of(scene)
     stepping = [
         *_initialise([(number.text, first.get(path)) for path, number in held]),
         "",
-        *_calling(
+        *calling(
             "contact_step(const contact_inputs *in, double dt, contact_state *state, contact_outputs *out,",
             stepped,
             inputs,
@@ -184,24 +186,32 @@ def _equations(scene: Scene) -> dict[str, str]:
             ],
         ),
     ]
-    sloping = _calling(
+    sloping = calling(
         "contact_derivatives(const contact_inputs *in, const contact_state *state, contact_outputs *out,",
         slopes,
         inputs,
         [(f"out->{name}", each) for name, each in zip(SLOPES, slopes.result, strict=True)],
     )
     return {
-        "contact.h": _header(scene, inputs, [number.text for _, number in held], outputs),
-        "contact.c": "\n\n".join([_HEAD, *step_texts, "\n".join(stepping)]) + "\n",
-        "slopes.c": "\n\n".join([_HEAD, *slope_texts, "\n".join(sloping)]) + "\n",
+        "contact.h": header(
+            f"One contact, '{scene.name}', at the regression level; written from contact_core.",
+            variables(scene),
+            [number.text for _, number in held],
+            outputs,
+            ["/* Travel of a point of a body between two passes [m]. */", f"extern const double {', '.join(TRACKS.values())};", ""],
+        ),
+        "contact.c": source([*step_texts, "\n".join(stepping)]),
+        "slopes.c": source([*slope_texts, "\n".join(sloping)]),
     }
 
 
-def _translated(name: str, function: Any, operands: list[Any]) -> tuple[Entry, list[str]]:
+def translated(
+    name: str, function: Any, operands: list[Any], instead: Mapping[Any, Any] | None = None
+) -> tuple[Entry, list[str]]:
     """Return a function to be called from C, and it and all that it needs as C."""
     reads: dict[str, set[str]] = {}
     while True:  # members of results that nothing reads are left out, and then what was computed for them
-        translator = Translator(reads)
+        translator = Translator(reads, instead)
         entry = translator.program(name, function, operands)
         texts = translator.texts([entry])
         found = reads | translator.wanted(texts, [entry])
@@ -225,49 +235,70 @@ def _initialise(values: Sequence[tuple[str, Any]]) -> list[str]:
     ]
 
 
-def _calling(head: str, entry: Entry, inputs: Sequence[str], sets: Sequence[tuple[str, Any]]) -> list[str]:
+def calling(head: str, entry: Entry, inputs: Sequence[str], sets: Sequence[tuple[str, Any]]) -> list[str]:
     """Return a function that calls an entry and sets members to numbers of what that returns."""
 
     def text(value: Any) -> str:
-        return f"found.{value.text}" if isinstance(value, Num) else literal(value).text
+        if not isinstance(value, Num):
+            return literal(value).text
+        if not entry.name:
+            return entry.place(value, inputs, TRACKS.values()) if value.text.isidentifier() else value.text
+        return f"found.{value.text}" if entry.returns > 1 else "found"
 
+    called = entry.called(inputs, TRACKS.values()) if entry.name else ""
+    calls = [f"    const {f'struct {entry.name}' if entry.returns > 1 else 'double'} found = {called};"]
+    refuses = ["    if (why->text[0] != '\\0') {", "        return 1;", "    }"] if entry.may_fail else []
+    body = f"{called} {' '.join(text(value) for _, value in sets)}"
+    given = re.findall(r"(\w+)[,)]", f"{head})")
+    unread = [name for name in given if name not in ("out", "state") and f"{name}->" not in body and name not in re.findall(r"\w+", body)]
+    if not any(target.startswith("state") for target, _ in sets) and "state->" not in body and "state" in given:
+        unread.append("state")
     return [
         f"int {head}",
         "    contact_message *why)",
         "{",
+        *(f"    (void){name};" for name in unread),
         "    why->text[0] = '\\0';",
-        f"    const struct {entry.name} found = {entry.called(inputs, TRACKS.values())};",
-        "    if (why->text[0] != '\\0') {",
-        "        return 1;",
-        "    }",
+        *(calls if entry.returns else []),
+        *refuses,
         *(f"    {target} = {text(value)};" for target, value in sets),
         "    return 0;",
         "}",
     ]
 
 
-def _struct(name: str, members: Sequence[str], about: dict[str, Variable]) -> list[str]:
+def source(texts: Sequence[str]) -> str:
+    """Return a C file of functions."""
+    refuses = [_REFUSE] if any("refuse(" in text for text in texts) else []
+    return "\n\n".join([_HEAD, *refuses, *texts]) + "\n"
+
+
+def struct(name: str, members: Sequence[str], about: dict[str, Variable]) -> list[str]:
     def line(member: str) -> str:
         if member not in about:
             return f"    double {member};"
-        return f"    double {member}; /* {about[member].text} [{about[member].unit or '1'}] */"
+        return f"    double {c_name(member)}; /* {about[member].text} [{about[member].unit or '1'}] */"
 
     return ["typedef struct {", *map(line, members or ["none"]), f"}} {name};", ""]
 
 
-def _header(scene: Scene, inputs: Sequence[str], fields: Sequence[str], outputs: Sequence[str]) -> str:
-    about = {v.name: v for v in variables(scene)}
+def header(
+    about: str, table: Sequence[Variable], fields: Sequence[str], outputs: Sequence[str], also: Sequence[str] = ()
+) -> str:
+    """Return contact.h for a table of variables, members of the state, outputs of the equations, and more lines."""
+    inputs = [v.name for v in table if v.causality == "input"]
+    known = {v.name: v for v in table}
     return "\n".join(
         [
-            f"/* One contact, '{scene.name}', at the regression level; written from contact_core. SI units. */",
+            f"/* {about} SI units. */",
             "",
             "#ifndef CONTACT_H",
             "#define CONTACT_H",
             "",
-            *_struct("contact_inputs", inputs, about),
+            *struct("contact_inputs", inputs, known),
             "/* The slow state: plain numbers, to be copied as they are. */",
-            *_struct("contact_state", fields, {}),
-            *_struct("contact_outputs", outputs, about),
+            *struct("contact_state", fields, {}),
+            *struct("contact_outputs", outputs, known),
             "/* Why a step was refused; empty if it was not. */",
             "typedef struct {",
             "    char text[512];",
@@ -287,9 +318,7 @@ def _header(scene: Scene, inputs: Sequence[str], fields: Sequence[str], outputs:
             "int contact_derivatives(const contact_inputs *in, const contact_state *state, contact_outputs *out, "
             "contact_message *why);",
             "",
-            "/* Travel of a point of a body between two passes [m]. */",
-            f"extern const double {', '.join(TRACKS.values())};",
-            "",
+            *also,
             "#endif",
             "",
         ]
@@ -303,8 +332,9 @@ _HEAD = """\
 #include "elementary.h"
 
 #include <stdarg.h>
-#include <stdio.h>
+#include <stdio.h>"""
 
+_REFUSE = """\
 static void refuse(contact_message *why, const char *format, ...)
 {
     va_list operands;

@@ -39,19 +39,28 @@ class CFunction:
 class Entry:
     """A C function to be called from outside."""
 
-    name: str
+    name: str  # empty: there is nothing to compute
     takes: list[Num]
-    result: Any  # its numbers at run time are members of the struct that it returns
+    result: Any  # its numbers at run time are members of the struct that it returns; without a name, what it takes
     may_fail: bool
+
+    @property
+    def returns(self) -> int:
+        """How many numbers it returns; one is no struct."""
+        return len(list(leaves(self.result))) if self.name else 0
 
     def called(self, inputs: Sequence[str], constants: Collection[str] = ()) -> str:
         """Return the call, with inputs and state from structs `in` and `state`."""
-        whole = {"dt", *constants}
-        given = [
-            number.text if number.text in whole else f"{'in' if number.text in inputs else 'state'}->{number.text}"
-            for number in self.takes
-        ]
+        given = [self.place(number, inputs, constants) for number in self.takes]
         return f"{self.name}({', '.join([*given, *(['why'] if self.may_fail else [])])})"
+
+
+    @staticmethod
+    def place(number: Num, inputs: Sequence[str], constants: Collection[str] = ()) -> str:
+        """Return a number that it takes."""
+        if number.text == "dt" or number.text in constants:
+            return number.text
+        return f"{'in' if number.text in inputs else 'state'}->{number.text}"
 
 
 class _Whole:
@@ -93,9 +102,16 @@ def _name_of(function: types.FunctionType) -> str:
 class Translator:
     """Writes the C functions of a program."""
 
-    def __init__(self, reads: Mapping[str, set[str]] | None = None) -> None:
-        """Begin a program; `reads`: members that are read of the structs of functions, where that is known."""
+    def __init__(
+        self, reads: Mapping[str, set[str]] | None = None, instead: Mapping[Any, types.FunctionType] | None = None
+    ) -> None:
+        """Begin a program.
+
+        reads: members that are read of the structs of functions, where that is known. instead: functions of scalars
+        that stand for others, of arrays.
+        """
         self._reads = reads or {}
+        self._instead = instead or {}
         self.functions: list[tuple[str, str]] = []  # names and texts, each after those that it calls
         self._cache: dict[Any, CFunction] = {}
         self._names: set[str] = set()
@@ -109,6 +125,9 @@ class Translator:
         found = self._function(closure, bound)
         given = _distinct((bound, closure))
         takes = [number for number, used in zip(given, found.used, strict=True) if used]
+        if found.forward is not None:
+            members = [literal_or(given, each) for each in found.forward]
+            return Entry("", [], _filled(found.template, members), False)
         members = [Num(field, hole.kind) for field, hole in zip(found.fields, _holes(found.template), strict=True)]
         return Entry(found.name, takes, _filled(found.template, members), found.may_fail)
 
@@ -167,6 +186,7 @@ class Translator:
         if isinstance(function, Closure):
             closure = function
         else:
+            function = self._instead.get(function, function)
             if not is_dynamic(operands) and not is_dynamic(named):
                 return function(*operands, **named)
             closure = _closure_of(function)
@@ -285,7 +305,8 @@ class Translator:
         """Write a loop over a range."""
         assert isinstance(node.target, ast.Name)
         name = scope.unit.fresh(node.target.id)
-        head = f"for (int {name} = {items.start}; {name} < {items.stop}; {name} += {items.step})"
+        before = "<" if items.step > 0 else ">"
+        head = f"for (int {name} = {items.start}; {name} {before} {items.stop}; {name} += {items.step})"
         scope.names[node.target.id] = Num(name, "i")
         self._loop(scope, head, node.body, None)  # what follows is reached
         scope.names.pop(node.target.id, None)
@@ -508,7 +529,7 @@ def _fields(template: Any) -> list[str]:
     found: list[str] = []
     for name, _ in leaves(template):
         own = name if name and not name[0].isdigit() else f"part_{name}"
-        found.append(unique(own, set(found)))
+        found.append(unique(re.sub(r"\W+", "_", own).strip("_"), set(found)))
     return found
 
 

@@ -112,6 +112,9 @@ class Scope:
         self._bind(node.target, self._operated(node.op, now, self.value(node.value)))
         return True
 
+    def _is_entry(self, target: ast.Subscript) -> bool:
+        return isinstance(self.value(target.value), dict) and not is_dynamic(self.value(target.slice))
+
     def _bind(self, target: ast.expr, value: Any) -> None:
         if isinstance(target, ast.Name):
             self.names[target.id] = self.unit.named(target.id, value)
@@ -123,6 +126,9 @@ class Scope:
                 items = [*items[:at], items[at : len(items) - rest], *items[len(items) - rest :]]
             for each, item in zip(target.elts, items, strict=True):
                 self._bind(each.value if isinstance(each, ast.Starred) else each, item)
+        elif isinstance(target, ast.Subscript) and isinstance(target.value, ast.Name) and self._is_entry(target):
+            owner, key = target.value.id, self.value(target.slice)
+            self.names[owner] = {**self._lookup(owner), key: self.unit.named(str(key), value)}
         else:
             raise Untranslatable(f"an assignment to {ast.unparse(target)}: bind a name instead")
 
@@ -417,7 +423,7 @@ class Scope:
             owner = self.value(node.func.value)
             method = ARRAY_METHODS.get(node.func.attr)
             if method and (isinstance(owner, np.ndarray) and is_dynamic(owner)):
-                return method(owner)
+                return method(owner, *operands, **named)
             function = self.translator.attribute(self.unit, owner, node.func.attr)
         else:
             function = self.value(node.func)

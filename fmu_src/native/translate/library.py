@@ -233,10 +233,27 @@ HANDLERS: dict[Any, Handler] = {
 # of numbers that are known, too: lists in place of iterators that end, numbers in place of arrays without a shape
 ALWAYS = {builtins.zip, builtins.enumerate, np.zeros_like, np.ones_like, np.full_like}
 
+
+def _along(function: Handler) -> Handler:
+    """Return a function of the items of an array: of all, or with axis = -1 of those along the last axis."""
+
+    def reduced(array: Any, axis: int | None = None) -> Any:
+        if axis is None:
+            return function(list(array.flat))
+        if axis != -1:
+            raise Untranslatable(f"axis = {axis}: only the last one is needed so far")
+        found = np.empty(array.shape[:-1], object)
+        for place in np.ndindex(found.shape):
+            found[place] = function(list(array[place]))
+        return found
+
+    return reduced
+
+
 ARRAY_METHODS: dict[str, Handler] = {
-    "max": lambda array: _of_many(maximum)(list(array.flat)),
-    "min": lambda array: _of_many(minimum)(list(array.flat)),
-    "sum": lambda array: _sum(list(array.flat)),
+    "max": _along(_of_many(maximum)),
+    "min": _along(_of_many(minimum)),
+    "sum": _along(_sum),
     "any": _any,
     "all": _all,
     "tolist": lambda array: array.tolist(),
