@@ -10,6 +10,8 @@ from .console import note, output_folder, refuse_empty
 if TYPE_CHECKING:
     import xarray as xr
 
+    from fmu_src.flavours import Flavour
+
     from ..machines.assembly import Assembly
     from ..master import System
 
@@ -23,9 +25,9 @@ def run(arguments: argparse.Namespace) -> int:
         machine.table["duty"] = timeline.with_file(machine.table.get("duty", {}), Path(arguments.duty).absolute())
     assembly = reading.assemble(machine)
     if arguments.ssp:
-        return _export(assembly, arguments.ssp)
+        return _export(assembly, arguments.ssp, arguments.flavour or "isolated")
     folder = output_folder(arguments.out, machine.name)
-    return _run_in(folder, assembly, machine.kind, arguments.resume, arguments.unchecked)
+    return _run_in(folder, assembly, machine.kind, arguments)
 
 
 def _changes(arguments: argparse.Namespace) -> dict[str, str]:
@@ -40,33 +42,34 @@ def _changes(arguments: argparse.Namespace) -> dict[str, str]:
     return changes
 
 
-def _export(assembly: "Assembly", path: str) -> int:
+def _export(assembly: "Assembly", path: str, flavour: "Flavour") -> int:
     import tempfile
 
     from ..machines.export import with_timetable
     from ..master import export_ssp
 
     with tempfile.TemporaryDirectory(prefix="tribofmu-") as folder:
-        system = with_timetable(assembly).system(Path(folder), "isolated")
+        system = with_timetable(assembly).system(Path(folder), flavour)
         print(f"Written: {export_ssp(system, path, assembly.settings['stop_time'], assembly.settings['step_size'])}")
     return 0
 
 
-def _run_in(folder: Path, assembly: "Assembly", kind: str, resume: bool, unchecked: bool) -> int:
+def _run_in(folder: Path, assembly: "Assembly", kind: str, arguments: argparse.Namespace) -> int:
     import tempfile
 
     from .simulation import carry_out
 
+    unchecked, flavour = arguments.unchecked, arguments.flavour or "embedded"
     settings = {**assembly.settings, "outputs": assembly.outputs()}
     attributes = {"title": assembly.description, "checks": "left out" if unchecked else "error_coupling, resolved.nc"}
     with tempfile.TemporaryDirectory(prefix="tribofmu-") as files:
-        system = assembly.system(Path(files))
+        system = assembly.system(Path(files), flavour, here=True)
 
         def report(dataset: "xr.Dataset", folder: Path) -> int:
             code = _report(dataset, folder, assembly, kind)
             return code if unchecked else _check(dataset, folder, assembly, system, code)
 
-        return carry_out(system, settings, assembly.name, folder, resume, report, **attributes)
+        return carry_out(system, settings, assembly.name, folder, arguments.resume, report, **attributes)
 
 
 def _report(dataset: "xr.Dataset", folder: Path, assembly: "Assembly", kind: str) -> int:

@@ -4,6 +4,7 @@ import argparse
 
 from contact_core.errors import ContactError
 from contact_core.scene.toml import did_you_mean, shipped_scenes
+from fmu_src.flavours import FLAVOURS
 
 from ..machines import files
 from . import contact, machine
@@ -42,6 +43,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="leave out the checks of a machine's result: a simulation with double steps, and states solved again",
     )
+    parser.add_argument(
+        "--flavour",
+        choices=FLAVOURS,
+        help="FMUs of a machine: 'native' ones are C, built when it starts, and fast, for contacts at the regression "
+        "level; default: 'embedded', in an exported file 'isolated'",
+    )
     parser.add_argument("--ssp", metavar="FILE.ssp", help="export a machine as SSP 1.0, do not run it")
 
 
@@ -55,6 +62,11 @@ def run(arguments: argparse.Namespace) -> int:
             )
         return machine.run(arguments)
     _check_name(arguments.scene)
+    if arguments.flavour is not None:
+        raise ContactError(
+            f"--flavour is that of the FMUs of a machine, and '{arguments.scene}' is a scene, which runs without one. "
+            "Leave it out, or build its FMU with `tribofmu build`."
+        )
     if arguments.ssp is not None:
         raise ContactError(f"'{arguments.scene}' is one contact, not a machine. Export it with `tribofmu build`.")
     return contact.run(arguments)
