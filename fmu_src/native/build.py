@@ -23,7 +23,17 @@ Fmi = Version
 Compiler = Literal["zig", "gcc", "cc"]
 
 FOLDER = Path(__file__).parent
-_SHARED = ("derivatives.c", "instance.c", "log.c", "states.c", "values.c", "instance.h", "log.h", "model.h", "elementary.h")
+_SHARED = (
+    "derivatives.c",
+    "instance.c",
+    "log.c",
+    "states.c",
+    "values.c",
+    "instance.h",
+    "log.h",
+    "model.h",
+    "elementary.h",
+)
 RUNTIME: dict[Fmi, tuple[str, ...]] = {2: ("fmi2.c", *_SHARED), 3: ("fmi3.c", "fmi3_absent.c", *_SHARED)}
 
 WARNINGS = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror")
@@ -149,7 +159,16 @@ def command(folder: Path, target: str, compiler: Compiler, library: Path) -> lis
     """Return the call that builds the library of all C files in a folder."""
     files = sorted(path.name for path in folder.glob("*.c"))
     include = ("-isystem", str(headers()))
-    return [*_caller(target, compiler), *WARNINGS, *FLAGS, *include, "-o", str(library), *files, *TARGETS[target].linker]
+    return [
+        *_caller(target, compiler),
+        *WARNINGS,
+        *FLAGS,
+        *include,
+        "-o",
+        str(library),
+        *files,
+        *TARGETS[target].linker,
+    ]
 
 
 def compiled(folder: Path, target: str, compiler: Compiler) -> bytes:
@@ -169,7 +188,9 @@ def compiled(folder: Path, target: str, compiler: Compiler) -> bytes:
 
 
 @lru_cache(maxsize=512)
-def _object(name: str, source: bytes, included: tuple[tuple[str, bytes], ...], target: str, compiler: Compiler) -> bytes:
+def _object(
+    name: str, source: bytes, included: tuple[tuple[str, bytes], ...], target: str, compiler: Compiler
+) -> bytes:
     """Return one C file compiled."""
     with tempfile.TemporaryDirectory() as scratch:
         for file, data in (*included, (name, source)):

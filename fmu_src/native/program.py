@@ -150,7 +150,9 @@ def _key(scene: Scene) -> str:
 
 
 def _tracks(*lengths: float) -> str:
-    values = (f"const double {name} = {literal(value).text};" for name, value in zip(TRACKS.values(), lengths, strict=True))
+    values = (
+        f"const double {name} = {literal(value).text};" for name, value in zip(TRACKS.values(), lengths, strict=True)
+    )
     return "\n".join(['#include "contact.h"', "", *values, ""])
 
 
@@ -198,7 +200,11 @@ def _equations(scene: Scene) -> dict[str, str]:
             variables(scene),
             [number.text for _, number in held],
             outputs,
-            ["/* Travel of a point of a body between two passes [m]. */", f"extern const double {', '.join(TRACKS.values())};", ""],
+            [
+                "/* Travel of a point of a body between two passes [m]. */",
+                f"extern const double {', '.join(TRACKS.values())};",
+                "",
+            ],
         ),
         "contact.c": source([*step_texts, "\n".join(stepping)]),
         "slopes.c": source([*slope_texts, "\n".join(sloping)]),
@@ -250,7 +256,11 @@ def calling(head: str, entry: Entry, inputs: Sequence[str], sets: Sequence[tuple
     refuses = ["    if (why->text[0] != '\\0') {", "        return 1;", "    }"] if entry.may_fail else []
     body = f"{called} {' '.join(text(value) for _, value in sets)}"
     given = re.findall(r"(\w+)[,)]", f"{head})")
-    unread = [name for name in given if name not in ("out", "state") and f"{name}->" not in body and name not in re.findall(r"\w+", body)]
+    unread = [
+        name
+        for name in given
+        if name not in ("out", "state") and f"{name}->" not in body and name not in re.findall(r"\w+", body)
+    ]
     if not any(target.startswith("state") for target, _ in sets) and "state->" not in body and "state" in given:
         unread.append("state")
     return [

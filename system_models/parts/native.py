@@ -56,10 +56,14 @@ def _written(part: Part) -> dict[str, str]:
     def calls(head: str, entry: Any) -> str:
         after, given = entry.result
         sets = [(f"state->held_{k}", value) for k, value in enumerate(after)]
-        return "\n".join(calling(head, entry, known, [*sets, *((f"out->{names[name]}", x) for name, x in given.items())]))
+        return "\n".join(
+            calling(head, entry, known, [*sets, *((f"out->{names[name]}", x) for name, x in given.items())])
+        )
 
     begins = calls("contact_initialise(const contact_inputs *in, contact_state *state, contact_outputs *out,", begun)
-    steps = calls("contact_step(const contact_inputs *in, double dt, contact_state *state, contact_outputs *out,", stepped)
+    steps = calls(
+        "contact_step(const contact_inputs *in, double dt, contact_state *state, contact_outputs *out,", stepped
+    )
     table = variables(part)
     outputs = [q.name for q in part.responses]
     return {

@@ -113,7 +113,11 @@ def _in_regimes(
     left: float,
     changes: int,
 ) -> tuple[float, Regimes, Numbers, Numbers]:
-    modes, ambient, heat = thermal._modes(network, regimes), inputs["temperature_ambient"], _heat(network, regimes, inputs)
+    modes, ambient, heat = (
+        thermal._modes(network, regimes),
+        inputs["temperature_ambient"],
+        _heat(network, regimes, inputs),
+    )
     start, growth = _product(modes.inverse, [t - ambient for t in temperatures]), _product(modes.entry, heat)
     time, following = left, regimes
     if changes < _MOST_CHANGES:
